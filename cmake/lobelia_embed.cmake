@@ -1,0 +1,27 @@
+# lobelia_embed(TARGET FILE NAME): the text of FILE as `extern const std::string_view lobelia::embedded::NAME`.
+# The program then needs no data folder at run time and cannot be separated from its scripts.
+function(lobelia_embed target file name)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded_${name}.cpp)
+  set(source ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+  file(READ ${source} text)
+  # In pieces, because compilers need not accept a literal of more than 64 KiB.
+  set(literal "")
+  string(LENGTH "${text}" length)
+  set(at 0)
+  while(at LESS length)
+    string(SUBSTRING "${text}" ${at} 8000 piece)
+    string(APPEND literal "R\"lobelia(${piece})lobelia\"\n")
+    math(EXPR at "${at} + 8000")
+  endwhile()
+  file(CONFIGURE OUTPUT ${out} @ONLY NEWLINE_STYLE UNIX CONTENT
+"// Made from ${file} by cmake/lobelia_embed.cmake.
+#include <string_view>
+namespace lobelia::embedded {
+extern const std::string_view ${name};
+const std::string_view ${name} =
+${literal};
+}
+")
+  target_sources(${target} PRIVATE ${out})
+endfunction()

@@ -1,0 +1,27 @@
+# What every target of ours is compiled with. An interface target, so that nothing global is set and
+# the user's own CMAKE_CXX_FLAGS stay as they are.
+add_library(lobelia_options INTERFACE)
+target_include_directories(lobelia_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
+target_compile_options(lobelia_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # A compiler that fuses a*b+c on some processors only would make the picture depend on them.
+  -ffp-contract=off)
+if(LOBELIA_WERROR)
+  target_compile_options(lobelia_options INTERFACE -Werror)
+endif()
+if(LOBELIA_SANITIZE)
+  target_compile_options(lobelia_options INTERFACE
+    -fsanitize=${LOBELIA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(lobelia_options INTERFACE -fsanitize=${LOBELIA_SANITIZE})
+endif()
+
+# One library per room: lobelia_room(core SOURCES a.cpp b.cpp LINK fmt::fmt).
+function(lobelia_room name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  add_library(lobelia_${name} STATIC ${ARG_SOURCES})
+  add_library(lobelia::${name} ALIAS lobelia_${name})
+  set_target_properties(lobelia_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(lobelia_${name} PUBLIC lobelia_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+endfunction()

@@ -1,0 +1,18 @@
+// From scene-linear light to a display, by OpenColorIO.
+#pragma once
+
+#include "core/image.hpp"
+
+namespace lobelia {
+
+/// What a person sees on an sRGB display: values times 2^exposure_stops, clipped to [0, 1], encoded
+/// by the sRGB display of core/lobelia.ocio, rounded to 8 bits. Non-finite pixels become magenta.
+DisplayImage to_display(const Image& image, double exposure_stops);
+
+/// Decodes sRGB-encoded values in place to scene-linear, by the same configuration.
+void decode_srgb(Image& image);
+
+/// The exposure, in stops, that brings `peak` to display white; 0 if peak is not a positive number.
+double exposure_for_peak(double peak);
+
+}  // namespace lobelia

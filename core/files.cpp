@@ -1,0 +1,126 @@
+#include "core/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+/// Closes on every way out; close() errors are looked at where they matter.
+struct FileDescriptor {
+  int fd = -1;
+  ~FileDescriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+[[noreturn]] void output_error(const fs::path& path, int error) {
+  throw Error(ExitCode::kOutput, fmt::format("{}: cannot write: {}", path.string(),
+                                             std::strerror(error)));
+}
+
+fs::path temporary_name(const fs::path& path) {
+  static std::atomic<unsigned> counter{0};
+  return path.parent_path() /
+         fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), counter++);
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
+  const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  struct stat status {};
+  if (file.fd < 0 || ::fstat(file.fd, &status) != 0)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+  if (!S_ISREG(status.st_mode))
+    throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
+  if (std::uint64_t(status.st_size) > max_bytes)
+    throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read", path.string(),
+                                              std::uint64_t(status.st_size), max_bytes));
+  std::string text(std::size_t(status.st_size), '\0');
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t n = ::read(file.fd, text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0)
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+    if (n == 0) break;
+    done += std::size_t(n);
+  }
+  text.resize(done);
+  return text;
+}
+
+void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  if (fs::is_directory(path)) output_error(path, EISDIR);
+  const fs::path part = temporary_name(path);
+  FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
+  if (file.fd < 0) output_error(path, errno);
+  const auto fail = [&](int error) {
+    ::unlink(part.c_str());
+    output_error(path, error);
+  };
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = ::write(file.fd, bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(errno);
+    done += std::size_t(n);
+  }
+  // Without it a full disk may be noticed only after the rename.
+  if (::fsync(file.fd) != 0 && errno != EINVAL) fail(errno);
+  const int closed = ::close(std::exchange(file.fd, -1));
+  if (closed != 0) fail(errno);
+  if (::rename(part.c_str(), path.c_str()) != 0) fail(errno);
+}
+
+void write_file(const fs::path& path, std::string_view text) {
+  write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+void require_writable(const fs::path& path) {
+  if (path.filename().empty() || fs::is_directory(path)) output_error(path, EISDIR);
+  const fs::path part = temporary_name(path);
+  const FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
+  if (file.fd < 0) output_error(path, errno);
+  ::unlink(part.c_str());
+}
+
+void make_directories(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (!error && !fs::is_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
+  if (error)
+    throw Error(ExitCode::kOutput,
+                fmt::format("{}: cannot make the directory: {}", path.string(), error.message()));
+}
+
+TemporaryDirectory::TemporaryDirectory() {
+  std::string name = (fs::temp_directory_path() / "lobelia-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
+  path_ = name;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+bool is_temporary_name(std::string_view file_name) {
+  return file_name.starts_with('.') && file_name.ends_with(".part");
+}
+
+}  // namespace lobelia

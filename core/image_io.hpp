@@ -1,0 +1,28 @@
+// Reading and writing pictures, by OpenImageIO.
+//
+// OpenImageIO brings some 260 shared libraries and 0.2 s to every process that links it, so it lives
+// in a module of its own (image_io_module.cpp) that is loaded at the first picture.
+#pragma once
+
+#include <filesystem>
+
+#include "core/image.hpp"
+
+namespace lobelia {
+
+/// Reads RGB (or grey, repeated) of any format that OpenImageIO knows into scene-linear float;
+/// display-encoded (sRGB) files are decoded. Alpha and further channels are dropped.
+/// Throws Error(kInput): missing, not a picture, truncated, over kMaxImageSide or kMaxImagePixels.
+Image read_image(const std::filesystem::path& path);
+
+/// Writes a float32 OpenEXR with ZIP compression. The bytes depend on the arguments alone.
+/// Throws Error(kOutput); never leaves a partial file under `path`.
+void write_exr(const std::filesystem::path& path, const Image& image, const ImageMetadata& metadata);
+
+/// Writes an 8-bit sRGB PNG. Errors as write_exr.
+void write_png(const std::filesystem::path& path, const DisplayImage& image);
+
+/// "2.4.7": the version of OpenImageIO in use.
+std::string image_library_version();
+
+}  // namespace lobelia

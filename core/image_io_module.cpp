@@ -1,0 +1,91 @@
+// The only file that knows OpenImageIO; built as a module of its own, see image_io.hpp.
+#include "core/image_io_module.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "core/colour.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+[[noreturn]] void unreadable(const std::filesystem::path& path, std::string_view why) {
+  throw Error(ExitCode::kInput,
+              fmt::format("{}: not a readable picture: {}", path.string(), printable(why, 300)));
+}
+
+void check_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
+    unreadable(path, "it has no pixels");
+  if (spec.width > kMaxImageSide || spec.height > kMaxImageSide ||
+      std::int64_t{spec.width} * spec.height > kMaxImagePixels || spec.nchannels > 1024)
+    unreadable(path, fmt::format("{} x {} pixels, {} channels; at most {} a side and {} in all are read",
+                                 spec.width, spec.height, spec.nchannels, kMaxImageSide,
+                                 kMaxImagePixels));
+}
+
+Image read(const std::filesystem::path& path) {
+  std::error_code status;
+  if (!std::filesystem::exists(path, status)) unreadable(path, "no such file");
+  if (!std::filesystem::is_regular_file(path, status)) unreadable(path, "not a regular file");
+  const auto input = OIIO::ImageInput::open(path.string());
+  if (!input) unreadable(path, OIIO::geterror());
+  const OIIO::ImageSpec spec = input->spec();
+  check_size(path, spec);
+  Image image(spec.width, spec.height);
+  const int channels = spec.nchannels >= 3 ? 3 : 1;
+  std::vector<float> grey;
+  float* target = image.values().data();
+  if (channels == 1) {
+    grey.resize(image.pixel_count());
+    target = grey.data();
+  }
+  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, target))
+    unreadable(path, input->geterror());
+  for (std::size_t i = 0; i < grey.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) image.values()[3 * i + c] = grey[i];
+  // Integer formats hold display-encoded values unless they say otherwise; float formats light.
+  const bool integer = spec.format.is_floating_point() == false;
+  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  if (space == "sRGB" || (space.empty() && integer)) decode_srgb(image);
+  return image;
+}
+
+std::vector<std::uint8_t> encode(const char* extension, OIIO::ImageSpec spec,
+                                 OIIO::TypeDesc type, const void* pixels) {
+  std::vector<std::uint8_t> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create(extension);
+  if (!output)
+    throw Error(ExitCode::kInternal, fmt::format("no writer for {}: {}", extension, OIIO::geterror()));
+  if (!output->set_ioproxy(&memory) || !output->open(std::string("memory.") + extension, spec) ||
+      !output->write_image(type, pixels) || !output->close())
+    throw Error(ExitCode::kOutput, fmt::format("cannot encode {}: {}", extension, output->geterror()));
+  return bytes;
+}
+
+std::vector<std::uint8_t> encode_exr(const Image& image, const ImageMetadata& metadata) {
+  OIIO::ImageSpec spec(image.width(), image.height(), 3, OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  for (const auto& [name, value] : metadata) spec.attribute(name, value);
+  return encode("exr", spec, OIIO::TypeDesc::FLOAT, image.values().data());
+}
+
+std::vector<std::uint8_t> encode_png(const DisplayImage& image) {
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  return encode("png", spec, OIIO::TypeDesc::UINT8, image.rgb.data());
+}
+
+std::string version() { return OIIO_VERSION_STRING; }
+
+}  // namespace
+}  // namespace lobelia
+
+extern "C" __attribute__((visibility("default"))) const lobelia::ImageIoTable lobelia_image_io_table;
+const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::encode_exr,
+                                                      lobelia::encode_png, lobelia::version};

@@ -1,0 +1,19 @@
+// What the image module offers to its loader; nobody else includes this.
+#pragma once
+
+#include "core/image_io.hpp"
+
+namespace lobelia {
+
+/// The functions of image_io.hpp, found by name in the module.
+struct ImageIoTable {
+  Image (*read_image)(const std::filesystem::path&);
+  std::vector<std::uint8_t> (*encode_exr)(const Image&, const ImageMetadata&);
+  std::vector<std::uint8_t> (*encode_png)(const DisplayImage&);
+  std::string (*version)();
+};
+
+inline constexpr char kImageIoModuleFile[] = "lobelia_image_io.so";
+inline constexpr char kImageIoTableSymbol[] = "lobelia_image_io_table";
+
+}  // namespace lobelia

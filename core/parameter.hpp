@@ -1,0 +1,35 @@
+// Parameter tables: each parameter of a scene element is declared once, as data. The scene reader
+// checks against it, and the documentation of the scene format is printed from it.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+namespace lobelia {
+
+enum class ParameterType { kFloat, kInteger, kString, kPoint, kVector, kRgb };
+
+/// XML tag of a parameter of that type, as in Mitsuba: "float", "integer", "string", "point", ...
+constexpr std::string_view parameter_tag(ParameterType type) {
+  switch (type) {
+    case ParameterType::kFloat: return "float";
+    case ParameterType::kInteger: return "integer";
+    case ParameterType::kString: return "string";
+    case ParameterType::kPoint: return "point";
+    case ParameterType::kVector: return "vector";
+    case ParameterType::kRgb: return "rgb";
+  }
+  return "";
+}
+
+struct Parameter {
+  std::string_view name;
+  ParameterType type;
+  std::string_view default_value;  ///< as it would stand in the file; empty: required
+  double min = -std::numeric_limits<double>::infinity();  ///< inclusive, of every component
+  double max = std::numeric_limits<double>::infinity();
+  std::string_view unit;
+  std::string_view meaning;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,173 @@
+#include "core/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/interrupt.hpp"
+#include "core/text.hpp"
+
+extern char** environ;
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::size_t kTailBytes = 4096;
+constexpr std::size_t kMaxLineBytes = 65536;  // a program that never ends its line is cut there
+
+class SpawnActions {
+ public:
+  SpawnActions() {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawnattr_init(&attributes_);
+  }
+  ~SpawnActions() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  SpawnActions(const SpawnActions&) = delete;
+  SpawnActions& operator=(const SpawnActions&) = delete;
+  posix_spawn_file_actions_t* actions() { return &actions_; }
+  posix_spawnattr_t* attributes() { return &attributes_; }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+/// Starts the program in a process group of its own, so that a time-out reaches its children too
+/// and the terminal's Ctrl-C is ours to pass on.
+pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& options, int output) {
+  SpawnActions spawn;
+  posix_spawn_file_actions_addopen(spawn.actions(), 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(spawn.actions(), output, 1);
+  posix_spawn_file_actions_adddup2(spawn.actions(), output, 2);
+  if (!options.working_directory.empty())
+    posix_spawn_file_actions_addchdir_np(spawn.actions(), options.working_directory.c_str());
+  posix_spawnattr_setflags(spawn.attributes(), POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(spawn.attributes(), 0);
+  std::vector<char*> argv;
+  for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  pid_t pid = 0;
+  const int error =
+      posix_spawn(&pid, argv[0], spawn.actions(), spawn.attributes(), argv.data(), environ);
+  if (error != 0)
+    throw Error(ExitCode::kEngine,
+                fmt::format("{}: cannot be started: {}", arguments.front(), std::strerror(error)));
+  return pid;
+}
+
+/// Takes output in pieces of any size and hands on lines.
+class OutputSink {
+ public:
+  explicit OutputSink(const ProcessOptions& options) : options_(options) {
+    if (!options.log.empty()) log_.open(options.log, std::ios::binary | std::ios::app);
+  }
+  void take(std::string_view piece) {
+    if (log_.is_open()) log_.write(piece.data(), std::streamsize(piece.size()));
+    tail_.append(piece);
+    if (tail_.size() > kTailBytes) tail_.erase(0, tail_.size() - kTailBytes);
+    if (!options_.on_line) return;
+    for (const char c : piece) {
+      if (c != '\n' && line_.size() < kMaxLineBytes)
+        line_ += c;
+      else
+        flush_line();
+    }
+  }
+  void flush_line() {
+    if (options_.on_line && !line_.empty()) options_.on_line(line_);
+    line_.clear();
+  }
+  std::string tail() const { return tail_; }
+
+ private:
+  const ProcessOptions& options_;
+  std::ofstream log_;
+  std::string tail_, line_;
+};
+
+}  // namespace
+
+ProcessResult run_process(const std::vector<std::string>& arguments, const ProcessOptions& options) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+    throw Error(ExitCode::kEngine, fmt::format("no pipe: {}", std::strerror(errno)));
+  const auto started = Clock::now();
+  OutputSink sink(options);
+  pid_t pid = 0;
+  try {
+    pid = start(arguments, options, ends[1]);
+  } catch (...) {
+    ::close(ends[0]);
+    ::close(ends[1]);
+    throw;
+  }
+  ::close(ends[1]);
+
+  ProcessResult result;
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started); };
+  const auto stop = [&](bool& flag) {
+    flag = true;
+    ::kill(-pid, SIGKILL);
+  };
+  int status = 0;
+  bool ended = false, open = true;
+  char buffer[16384];
+  // Until the program has ended; what a grandchild still holds open is not waited for.
+  while (!ended || open) {
+    pollfd wait{ends[0], POLLIN, 0};
+    const int ready = open ? ::poll(&wait, 1, ended ? 0 : 50) : (::usleep(10000), 0);
+    if (ready > 0) {
+      const ssize_t n = ::read(ends[0], buffer, sizeof buffer);
+      if (n > 0)
+        sink.take({buffer, std::size_t(n)});
+      else if (n == 0 || errno != EINTR)
+        open = false;
+    } else if (ended) {
+      break;
+    }
+    if (!ended) ended = ::waitpid(pid, &status, WNOHANG) == pid;
+    if (!ended && !result.timed_out && !result.interrupted) {
+      if (interrupted())
+        stop(result.interrupted);
+      else if (seconds() > options.timeout)
+        stop(result.timed_out);
+    }
+  }
+  ::close(ends[0]);
+  ::kill(-pid, SIGKILL);  // whatever it left behind in its group
+  sink.flush_line();
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.seconds = seconds().count();
+  result.output_tail = sink.tail();
+  return result;
+}
+
+fs::path find_program(const std::string& name) {
+  const auto executable = [](const fs::path& path) {
+    return fs::is_regular_file(path) && ::access(path.c_str(), X_OK) == 0;
+  };
+  if (name.find('/') != name.npos) return executable(name) ? fs::absolute(name) : fs::path();
+  const char* path = std::getenv("PATH");
+  for (const auto& directory : split(path ? path : "", ":"))
+    if (const fs::path candidate = fs::path(directory) / name; executable(candidate))
+      return candidate;
+  return {};
+}
+
+}  // namespace lobelia

@@ -1,0 +1,69 @@
+#include "core/record.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/version.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::uint64_t kMaxRecordBytes = 64u << 20;
+
+/// nlohmann-json writes NaN and infinity as null.
+void name_non_finite(Json& value) {
+  if (value.is_number_float())
+    value = number_or_name(value.get<double>());
+  else if (value.is_structured())
+    for (auto& item : value) name_non_finite(item);
+}
+
+}  // namespace
+
+Json make_record(const std::string& kind) {
+  return {{"schemaVersion", kRecordSchemaVersion}, {"kind", kind}, {"madeBy", kNameAndVersion}};
+}
+
+std::string record_text(const Json& record) {
+  Json finite = record;
+  name_non_finite(finite);
+  // Invalid UTF-8 (a file name, an engine's output) is replaced rather than thrown at the user.
+  return finite.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_record(const std::filesystem::path& path, const Json& record) {
+  write_file(path, record_text(record));
+}
+
+Json read_record(const std::filesystem::path& path, const std::string& kind) {
+  Json record;
+  try {
+    record = Json::parse(read_file(path, kMaxRecordBytes));
+  } catch (const Json::exception& error) {
+    throw Error(ExitCode::kInput, fmt::format("{}: not a record: {}", path.string(), error.what()));
+  }
+  const auto is = [&](const char* key, const Json& wanted) {
+    return record.is_object() && record.contains(key) && record[key] == wanted;
+  };
+  if (!is("kind", kind))
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: not a record of kind '{}'", path.string(), kind));
+  if (!is("schemaVersion", kRecordSchemaVersion))
+    throw Error(ExitCode::kInput, fmt::format("{}: its schemaVersion is not {}", path.string(),
+                                              kRecordSchemaVersion));
+  return record;
+}
+
+Json number_or_name(double value) {
+  if (std::isfinite(value)) return value;
+  if (std::isnan(value)) return "nan";
+  return value > 0 ? "inf" : "-inf";
+}
+
+Json to_json(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
+Json to_json(Rgb c) { return Json::array({c.r, c.g, c.b}); }
+
+}  // namespace lobelia

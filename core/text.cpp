@@ -1,0 +1,136 @@
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace lobelia {
+namespace {
+
+/// Levenshtein's distance.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+    }
+  }
+  return row.back();
+}
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+template <class Number>
+bool parse_whole(std::string_view text, Number& value) {
+  text = trim(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+}  // namespace
+
+std::string closest(std::string_view word, std::span<const std::string_view> candidates) {
+  if (word.size() > 64) return "";  // nobody mistypes that much; bounds the work on hostile input
+  std::string_view best;
+  std::size_t best_distance = 0;
+  for (const auto candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (best.empty() || distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  const std::size_t allowed = std::max<std::size_t>(1, std::max(word.size(), best.size()) / 3);
+  return best.empty() || best_distance > allowed ? "" : std::string(best);
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
+  const std::string suggestion = closest(word, candidates);
+  return suggestion.empty() ? "" : "; did you mean '" + suggestion + "'?";
+}
+
+std::string join(std::span<const std::string_view> items, std::string_view separator) {
+  std::string result;
+  for (const auto item : items) {
+    if (!result.empty()) result += separator;
+    result += item;
+  }
+  return result;
+}
+
+std::vector<std::string> split(std::string_view text, std::string_view separators) {
+  std::vector<std::string> parts;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    if (const auto part = trim(text.substr(at, end - at)); !part.empty()) parts.emplace_back(part);
+    at = end + 1;
+  }
+  return parts;
+}
+
+bool parse_number(std::string_view text, double& value) {
+  return parse_whole(text, value) && std::isfinite(value);
+}
+
+bool parse_integer(std::string_view text, long long& value) { return parse_whole(text, value); }
+
+std::string escape_markup(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&': result += "&amp;"; break;
+      case '<': result += "&lt;"; break;
+      case '>': result += "&gt;"; break;
+      case '"': result += "&quot;"; break;
+      case '\'': result += "&#39;"; break;
+      default:
+        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') result += c;
+    }
+  }
+  return result;
+}
+
+std::string shell_quote(std::string_view argument) {
+  constexpr std::string_view kSafe =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!argument.empty() && argument.find_first_not_of(kSafe) == argument.npos)
+    return std::string(argument);
+  std::string result = "'";
+  for (const char c : argument) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+std::string shell_join(std::span<const std::string> arguments) {
+  std::string result;
+  for (const auto& argument : arguments) {
+    if (!result.empty()) result += ' ';
+    result += shell_quote(argument);
+  }
+  return result;
+}
+
+std::string printable(std::string_view text, std::size_t max_length) {
+  std::string result;
+  for (const char c : text) {
+    if (result.size() >= max_length) return result + "...";
+    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  }
+  return result;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,30 @@
+// Small things about text.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lobelia {
+
+/// The candidate within a third of its length in edits of `word`, or "" if none is near.
+std::string closest(std::string_view word, std::span<const std::string_view> candidates);
+/// "; did you mean 'x'?" or "", to end an error message with.
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
+/// "a, b, c"
+std::string join(std::span<const std::string_view> items, std::string_view separator = ", ");
+/// Parts between any of `separators`, trimmed of white space, empty ones dropped.
+std::vector<std::string> split(std::string_view text, std::string_view separators);
+/// Reads exactly one finite decimal number, nothing before or after it.
+bool parse_number(std::string_view text, double& value);
+bool parse_integer(std::string_view text, long long& value);
+/// & < > " ' escaped; control characters dropped: safe inside HTML, XML text and quoted attributes.
+std::string escape_markup(std::string_view text);
+/// The argument as a POSIX shell reads it back: quoted only where it has to be.
+std::string shell_quote(std::string_view argument);
+std::string shell_join(std::span<const std::string> arguments);
+/// Without control characters, at most `max_length` long: for showing hostile input in a message.
+std::string printable(std::string_view text, std::size_t max_length = 80);
+
+}  // namespace lobelia
