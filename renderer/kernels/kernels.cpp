@@ -1,0 +1,171 @@
+#include "renderer/kernels/kernels.hpp"
+
+#include <variant>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/kernels/kernels.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for each instruction set
+#include <hwy/highway.h>
+
+#include "renderer/kernels/lanes-inl.hpp"
+#include "renderer/lobes/catalogue.hpp"
+#include "renderer/models/catalogue.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+namespace {
+
+HWY_INLINE Lanes3 load(const Vec3Chunk& from, std::size_t i) {
+  return {Lanes::load(from.x + i), Lanes::load(from.y + i), Lanes::load(from.z + i)};
+}
+HWY_INLINE void store(Lanes3 a, Vec3Chunk& to, std::size_t i) {
+  a.x.store(to.x + i);
+  a.y.store(to.y + i);
+  a.z.store(to.z + i);
+}
+HWY_INLINE Lanes3 broadcast(Vec3 a) { return {Lanes(a.x), Lanes(a.y), Lanes(a.z)}; }
+HWY_INLINE Lanes3 unit(Lanes3 a) { return Lanes(1.0) / sqrt(dot(a, a)) * a; }
+
+void trace(const CameraFrame& camera, const std::vector<Sphere>& spheres, std::size_t count,
+           const double* u, const double* v, double* sphere, Vec3Chunk& point, Vec3Chunk& normal,
+           Vec3Chunk& to_eye) {
+  const Lanes3 origin = broadcast(camera.origin), forward = broadcast(camera.forward);
+  const Lanes3 right = broadcast(camera.right), up = broadcast(camera.up);
+  const hn::ScalableTag<double> d;
+  for (std::size_t i = 0; i < count; i += Lanes::count()) {
+    const Lanes3 direction = unit(forward + Lanes::load(u + i) * right + Lanes::load(v + i) * up);
+    Lanes nearest(std::numeric_limits<double>::infinity()), index(-1.0);
+    Lanes3 n = broadcast({}), p = broadcast({});
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+      const Lanes3 center = broadcast(spheres[k].center);
+      const Lanes radius(spheres[k].radius);
+      // The foot of the perpendicular from the centre on the ray, then half the chord: no
+      // difference of squares of large numbers, so a small or distant sphere stays round.
+      const Lanes3 to_center = center - origin;
+      const Lanes along = dot(to_center, direction);
+      const Lanes3 off_axis = to_center - along * direction;
+      const Lanes half_chord_squared = radius * radius - dot(off_axis, off_axis);
+      const Lanes half_chord = sqrt(positive_part(half_chord_squared));
+      const Lanes t = along - half_chord;
+      const auto hit = hn::And(hn::Gt(half_chord_squared.v, hn::Zero(d)),
+                               hn::And(hn::Gt(t.v, hn::Zero(d)), hn::Lt(t.v, nearest.v)));
+      const Lanes3 n_here = Lanes(-1 / spheres[k].radius) * (off_axis + half_chord * direction);
+      const Lanes3 p_here = center + radius * n_here;
+      const auto choose = [&](Lanes& old, Lanes now) HWY_ATTR {
+        old = Lanes(hn::IfThenElse(hit, now.v, old.v));
+      };
+      choose(nearest, t);
+      choose(index, Lanes(double(k)));
+      choose(n.x, n_here.x), choose(n.y, n_here.y), choose(n.z, n_here.z);
+      choose(p.x, p_here.x), choose(p.y, p_here.y), choose(p.z, p_here.z);
+    }
+    index.store(sphere + i);
+    store(p, point, i);
+    store(n, normal, i);
+    store(-1.0 * direction, to_eye, i);
+  }
+}
+
+void light(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Chunk& to_light,
+           double* falloff, double* distance) {
+  if (const auto* directional = std::get_if<DirectionalLight>(&light)) {
+    for (std::size_t i = 0; i < count; i += Lanes::count()) {
+      store(broadcast(-directional->direction), to_light, i);
+      Lanes(1.0).store(falloff + i);
+      Lanes(std::numeric_limits<double>::infinity()).store(distance + i);
+    }
+    return;
+  }
+  const Lanes3 position = broadcast(std::get<PointLight>(light).position);
+  for (std::size_t i = 0; i < count; i += Lanes::count()) {
+    const Lanes3 way = position - load(point, i);
+    const Lanes squared = dot(way, way), length = sqrt(squared);
+    store(Lanes(1.0) / length * way, to_light, i);
+    (Lanes(1.0) / squared).store(falloff + i);
+    length.store(distance + i);
+  }
+}
+
+void visibility(const std::vector<Sphere>& spheres, const std::vector<int>& occluders,
+                std::size_t count, const Vec3Chunk& point, const Vec3Chunk& to_light,
+                const double* distance, double* visible) {
+  const hn::ScalableTag<double> d;
+  for (std::size_t i = 0; i < count; i += Lanes::count()) {
+    const Lanes3 p = load(point, i), l = load(to_light, i);
+    const Lanes far = Lanes::load(distance + i);
+    auto blocked = hn::Lt(far.v, hn::Zero(d));  // nowhere
+    for (const int k : occluders) {
+      const Lanes3 to_center = broadcast(spheres[k].center) - p;
+      const Lanes along = dot(to_center, l);
+      const Lanes3 off_axis = to_center - along * l;
+      const Lanes half_chord_squared =
+          Lanes(spheres[k].radius * spheres[k].radius) - dot(off_axis, off_axis);
+      const Lanes half_chord = sqrt(positive_part(half_chord_squared));
+      const auto meets = hn::And(hn::Gt(half_chord_squared.v, hn::Zero(d)),
+                                 hn::And(hn::Gt((along + half_chord).v, hn::Zero(d)),
+                                         hn::Lt((along - half_chord).v, far.v)));
+      blocked = hn::Or(blocked, meets);
+    }
+    Lanes(hn::IfThenElse(blocked, hn::Zero(d), hn::Set(d, 1.0))).store(visible + i);
+  }
+}
+
+template <class M, class L>
+void shade(double exponent, std::size_t count, const Vec3Chunk& normal, const Vec3Chunk& to_eye,
+           const Vec3Chunk& to_light, double* specular) {
+  const Lanes n_exponent(exponent);
+  for (std::size_t i = 0; i < count; i += Lanes::count()) {
+    const Lanes3 n = load(normal, i), v = load(to_eye, i), l = load(to_light, i);
+    const Lanes n_dot_l = dot(n, l);
+    Lanes3 difference;
+    if constexpr (M::kInfo.angle == LobeAngle::kReflection)
+      difference = Lanes(2.0) * dot(n, v) * n - v - l;
+    else
+      difference = n - unit(l + v);
+    const Lanes s = Lanes(0.5) * dot(difference, difference);
+    const Lanes value = L::value(s, n_exponent) * M::foreshortening(n_dot_l);
+    // Also where there is no half vector (L = -V): N.L and N.V are never both positive there.
+    zero_unless_positive(n_dot_l, value).store(specular + i);
+  }
+}
+
+void cosine(std::size_t count, const Vec3Chunk& normal, const Vec3Chunk& to_light,
+            double* n_dot_l) {
+  for (std::size_t i = 0; i < count; i += Lanes::count())
+    positive_part(dot(load(normal, i), load(to_light, i))).store(n_dot_l + i);
+}
+
+template <class M>
+constexpr auto shade_row() {
+  return map_types<KernelTable::Shade>(Lobes{}, []<class L>() { return &shade<M, L>; });
+}
+
+KernelTable::Shade find_shade(ModelId model, LobeId lobe) {
+  using Row = std::array<KernelTable::Shade, Lobes::kSize>;
+  static constexpr auto kTable = map_types<Row>(Models{}, []<class M>() { return shade_row<M>(); });
+  return kTable.at(model.index).at(lobe.index);
+}
+
+}  // namespace
+
+const KernelTable& kernel_table() {
+  static const KernelTable table{trace,      light,  visibility,
+                                 find_shade, cosine, hwy::TargetName(HWY_TARGET)};
+  return table;
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia {
+
+HWY_EXPORT(kernel_table);
+
+const KernelTable& kernels() {
+  static const KernelTable& table = HWY_DYNAMIC_DISPATCH(kernel_table)();
+  return table;
+}
+
+}  // namespace lobelia
+#endif

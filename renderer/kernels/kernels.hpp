@@ -1,0 +1,55 @@
+// The inner loops, chosen at run time for the processor. They work on chunks of rays held as
+// structures of arrays, so that the choice of model, lobe and effects is made once a chunk.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "renderer/highlight.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// Rays in a chunk at most; a multiple of every register's lanes.
+inline constexpr std::size_t kChunk = 512;
+
+struct Vec3Chunk {
+  alignas(64) double x[kChunk], y[kChunk], z[kChunk];
+};
+
+/// Kernels run over whole registers: lanes from `count` up to the next multiple of 8 are computed too,
+/// from whatever stands there, and are to be ignored.
+struct KernelTable {
+  /// Camera rays through film positions (u, v) at distance 1 (multiples of right and up): the
+  /// nearest sphere in front (its index, or -1), the point, the unit normal, the unit vector to the eye.
+  void (*trace)(const CameraFrame& camera, const std::vector<Sphere>& spheres, std::size_t count,
+                const double* u, const double* v, double* sphere, Vec3Chunk& point,
+                Vec3Chunk& normal, Vec3Chunk& to_eye);
+
+  /// to_light, and the factor on the light's irradiance or intensity (1, or 1/distance^2).
+  void (*light)(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Chunk& to_light,
+                double* falloff, double* distance);
+
+  /// 1 where no sphere of `occluders` stands between point and light, else 0.
+  void (*visibility)(const std::vector<Sphere>& spheres, const std::vector<int>& occluders,
+                     std::size_t count, const Vec3Chunk& point, const Vec3Chunk& to_light,
+                     const double* distance, double* visible);
+
+  /// Lobe times foreshortening (radiance per unit irradiance without the coefficient).
+  using Shade = void (*)(double exponent, std::size_t count, const Vec3Chunk& normal,
+                         const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular);
+  Shade (*shade)(ModelId model, LobeId lobe);
+
+  /// max(N.L, 0)
+  void (*cosine)(std::size_t count, const Vec3Chunk& normal, const Vec3Chunk& to_light,
+                 double* n_dot_l);
+
+  const char* instruction_set;  ///< "AVX2"
+};
+
+/// For this processor; decided once.
+const KernelTable& kernels();
+
+}  // namespace lobelia

@@ -1,0 +1,22 @@
+// The catalogue of lobes. To add one: write its file, include it here, add it to the list. Tests,
+// command line, scene reader and documentation find it there.
+#include "renderer/lobes/cosine.hpp"
+#include "renderer/lobes/cs16.hpp"
+#include "renderer/type_list.hpp"
+
+#if defined(LOBELIA_RENDERER_LOBES_CATALOGUE_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_RENDERER_LOBES_CATALOGUE_HPP
+#undef LOBELIA_RENDERER_LOBES_CATALOGUE_HPP
+#else
+#define LOBELIA_RENDERER_LOBES_CATALOGUE_HPP
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+using Lobes = TypeList<CosineLobe, Cs16Lobe>;
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

@@ -1,0 +1,43 @@
+// Blinn-Phong as a normal distribution, normalised over the hemisphere.
+//
+//   D = coef * lobe(angle of N from H),   f_r = D F / 4 with implicit geometry G = (N.L)(N.V)
+//   radiance = D / 4 * (N.L) * E, with F = 1
+//
+// Row 5 of the paper's table. A distribution of normals, not of reflected light: used as an RDF it
+// would return four times the energy.
+#include "renderer/models/model.hpp"
+
+#if defined(LOBELIA_RENDERER_MODELS_BLINN_PHONG_NDF_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_RENDERER_MODELS_BLINN_PHONG_NDF_HPP
+#undef LOBELIA_RENDERER_MODELS_BLINN_PHONG_NDF_HPP
+#else
+#define LOBELIA_RENDERER_MODELS_BLINN_PHONG_NDF_HPP
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+struct BlinnPhongNdf {
+  static constexpr ModelInfo kInfo{
+      "blinn_phong_ndf", "Blinn-Phong (NDF)", LobeAngle::kHalfVector, true,
+      "coef 2 pi integral of lobe(a) sin a, a = 0..pi/2",
+      "Blinn 1977; Romanyuk et al., table of coefficients, row 5"};
+  static constexpr EnergyIntegral kEnergy{{1, 0, 0, 0}, 1};
+  static constexpr double kShare = 0.25;
+
+  template <class Real>
+  static Real foreshortening(Real n_dot_l) {
+    return n_dot_l;
+  }
+
+  static double paper_cosine(double n) {
+    return (n + 1) / (2 * std::numbers::pi);
+  }
+  static double paper_cs16(double n) { return 1.063 * n / (2 * std::numbers::pi); }
+};
+static_assert(Model<BlinnPhongNdf>);
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

@@ -1,0 +1,55 @@
+// What a model is: the angle its lobe sees, where the cosine stands, and the coefficient that makes
+// the reflected energy 1 at normal incidence.
+//
+//   radiance per unit irradiance normal to the beam
+//     = kShare * coefficient * lobe(s, n) * foreshortening(N.L),   0 where N.L <= 0
+//
+// Compiled once for each instruction set, as lobes are (renderer/lobes/lobe.hpp).
+#pragma once
+
+#include <hwy/highway.h>
+
+#include <array>
+#include <concepts>
+#include <numbers>
+
+#include "renderer/highlight.hpp"
+#include "renderer/lobes/lobe.hpp"
+#include "renderer/real.hpp"
+
+namespace lobelia {
+
+/// The integral that the coefficient normalises, over s = 1 - cos of the lobe's own angle:
+///   energy = coefficient * 2 pi * sum over j of weights[j] * integral of lobe(s) s^j, 0..s_max.
+/// For the half-vector models the lobe's angle is half the angle of the reflected ray, x, so that
+/// sin x dx = 4 (1 - s) ds, cos x = 1 - 4 s + 2 s^2 and x = pi/2 is s = 1 - cos(pi/4).
+struct EnergyIntegral {
+  std::array<double, 4> weights;
+  double s_max;
+};
+
+inline constexpr double kHalfOfRightAngle = 1 - std::numbers::sqrt2 / 2;  ///< 1 - cos(pi/4)
+
+/// 1 / (2 pi sum of weights[j] M_j), with the moments M_j of the lobe.
+template <class L>
+double exact_coefficient(const EnergyIntegral& energy, double n) {
+  double sum = 0;
+  for (int j = 0; j < 4; ++j)
+    if (energy.weights[j] != 0) sum += energy.weights[j] * L::moment(j, n, energy.s_max);
+  return 1 / (2 * std::numbers::pi * sum);
+}
+
+template <class M>
+concept Model = requires(double n_dot_l, double n) {
+  { M::kInfo } -> std::convertible_to<const ModelInfo&>;
+  { M::kEnergy } -> std::convertible_to<const EnergyIntegral&>;
+  /// 1 for an RDF, N.L otherwise; for N.L > 0. Templated on double or Lanes.
+  { M::foreshortening(n_dot_l) } -> std::same_as<double>;
+  /// 1; or 1/4 for a microfacet distribution D, because f_r = D F / 4.
+  { M::kShare } -> std::convertible_to<double>;
+  /// The coefficients as the paper prints them, misprints included.
+  { M::paper_cosine(n) } -> std::same_as<double>;
+  { M::paper_cs16(n) } -> std::same_as<double>;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,41 @@
+// The modified Phong model, a BRDF.
+//
+//   radiance = coef * lobe(angle of R from V) * (N.L) * E
+//
+// Row 2 of the paper's table. f_r = coef * lobe; reciprocal, because R.V = L.R_V.
+#include "renderer/models/model.hpp"
+
+#if defined(LOBELIA_RENDERER_MODELS_MODIFIED_PHONG_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_RENDERER_MODELS_MODIFIED_PHONG_HPP
+#undef LOBELIA_RENDERER_MODELS_MODIFIED_PHONG_HPP
+#else
+#define LOBELIA_RENDERER_MODELS_MODIFIED_PHONG_HPP
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+struct ModifiedPhong {
+  static constexpr ModelInfo kInfo{
+      "modified_phong", "modified Phong", LobeAngle::kReflection, true,
+      "coef 2 pi integral of lobe(x) cos x sin x, x = 0..pi/2",
+      "Lewis 1994; Lafortune and Willems 1994; Romanyuk et al., table of coefficients, row 2"};
+  static constexpr EnergyIntegral kEnergy{{1, -1, 0, 0}, 1};
+  static constexpr double kShare = 1;
+
+  template <class Real>
+  static Real foreshortening(Real n_dot_l) {
+    return n_dot_l;
+  }
+
+  static double paper_cosine(double n) {
+    return (n + 2) / (2 * std::numbers::pi);
+  }
+  static double paper_cs16(double n) { return (1.063 * n + 1) / (2 * std::numbers::pi); }
+};
+static_assert(Model<ModifiedPhong>);
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

@@ -1,0 +1,28 @@
+// What a render says of itself: the attributes in its picture and the record beside it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/record.hpp"
+#include "renderer/render.hpp"
+
+namespace lobelia {
+
+/// Attributes of the EXR: what made it, samples, seed, and the scene itself, so that a picture can be
+/// rendered again from nothing else. No times and no paths: the same render is the same file.
+ImageMetadata render_metadata(const Scene& scene);
+
+/// Kind "render", see docs/records.md. `command` is what to type to make it again.
+Json render_record(const Scene& scene, const RenderResult& result,
+                   const std::vector<std::string>& command, const std::string& image_file);
+
+/// Kind "plan": the effects with their reasons, and the rays expected.
+Json plan_record(const Plan& plan);
+
+/// {"model": ..., "lobe": ..., "normalisation": ..., "exponent": ..., "coefficient": ...}
+Json highlight_record(const Highlight& highlight);
+
+}  // namespace lobelia
