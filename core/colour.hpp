@@ -1,4 +1,4 @@
-// From scene-linear light to a display, by OpenColorIO.
+// From scene-linear light to a display, by OpenColorIO, and back.
 #pragma once
 
 #include "core/image.hpp"
@@ -9,7 +9,7 @@ namespace lobelia {
 /// by the sRGB display of core/lobelia.ocio, rounded to 8 bits. Non-finite pixels become magenta.
 DisplayImage to_display(const Image& image, double exposure_stops);
 
-/// Decodes sRGB-encoded values in place to scene-linear, by the same configuration.
+/// Decodes sRGB-encoded values (IEC 61966-2-1) in place to linear light.
 void decode_srgb(Image& image);
 
 /// The exposure, in stops, that brings `peak` to display white; 0 if peak is not a positive number.

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -119,8 +121,20 @@ TemporaryDirectory::~TemporaryDirectory() {
   fs::remove_all(path_, ignored);
 }
 
-bool is_temporary_name(std::string_view file_name) {
-  return file_name.starts_with('.') && file_name.ends_with(".part");
+void remove_abandoned_files(const fs::path& directory) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with('.') || !name.ends_with(".part")) continue;
+    // ".NAME.PID-N.part"
+    const auto dash = name.rfind('-'), dot = name.rfind('.', dash);
+    long long pid = 0;
+    if (dash == name.npos || dot == name.npos || dot > dash ||
+        !parse_integer(name.substr(dot + 1, dash - dot - 1), pid) || pid <= 0)
+      continue;
+    if (::kill(pid_t(pid), 0) == 0 || errno != ESRCH) continue;
+    fs::remove(entry.path(), error);
+  }
 }
 
 }  // namespace lobelia

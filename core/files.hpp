@@ -36,7 +36,8 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
-/// Names that write_file uses while writing: ".NAME.PID-N.part". True for such a file name.
-bool is_temporary_name(std::string_view file_name);
+/// Removes from `directory` the temporary files of write_file (".NAME.PID-N.part") whose process is
+/// gone: what a killed run left behind.
+void remove_abandoned_files(const std::filesystem::path& directory);
 
 }  // namespace lobelia

@@ -2,7 +2,6 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +10,7 @@
 #include <numbers>
 
 #include "core/interrupt.hpp"
+#include "core/threads.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia {
@@ -67,8 +67,9 @@ class Renderer {
                             std::numbers::inv_pi * m.diffuse_reflectance});
   }
 
+  /// Leaves the row unfinished on Ctrl-C.
   void render_row(int y, Workspace& work) {
-    for (int x = 0; x < image_.width(); x += int(kChunk))
+    for (int x = 0; x < image_.width() && !interrupted(); x += int(kChunk))
       render_chunk(x, y, std::min(int(kChunk), image_.width() - x), work);
   }
 
@@ -192,13 +193,10 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
 
   Renderer renderer(scene, result.plan, result.image);
   std::atomic<int> rows_done{0};
-  oneapi::tbb::task_arena arena(options.threads > 0 ? options.threads
-                                                    : oneapi::tbb::task_arena::automatic);
-  arena.execute([&] {
+  ThreadLimit(options.threads).run([&] {
     oneapi::tbb::parallel_for(
         oneapi::tbb::blocked_range<int>(0, scene.film.height, 8),
         [&](const oneapi::tbb::blocked_range<int>& rows) {
-          if (interrupted()) return;
           const auto work = std::make_unique<Workspace>();
           for (int y = rows.begin(); y < rows.end(); ++y) renderer.render_row(y, *work);
           const int done = rows_done += rows.end() - rows.begin();

@@ -15,6 +15,10 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace {
 
+/// A point light nearer to a surface than this stands in it; the largest intensity at this distance
+/// times the largest coefficient is still finite in float32.
+constexpr double kTouching = 1e-9;
+
 HWY_INLINE Lanes3 load(const Vec3Chunk& from, std::size_t i) {
   return {Lanes::load(from.x + i), Lanes::load(from.y + i), Lanes::load(from.z + i)};
 }
@@ -80,8 +84,10 @@ void light(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Ch
   for (std::size_t i = 0; i < count; i += Lanes::count()) {
     const Lanes3 way = position - load(point, i);
     const Lanes squared = dot(way, way), length = sqrt(squared);
-    store(Lanes(1.0) / length * way, to_light, i);
-    (Lanes(1.0) / squared).store(falloff + i);
+    // A light in the surface itself has no direction; left dark, as one inside the sphere is.
+    const Lanes apart = squared - Lanes(kTouching * kTouching);
+    store(zero_unless_positive(apart, Lanes(1.0) / length) * way, to_light, i);
+    zero_unless_positive(apart, Lanes(1.0) / squared).store(falloff + i);
     length.store(distance + i);
   }
 }

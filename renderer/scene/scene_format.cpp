@@ -15,7 +15,7 @@ std::string range(const Parameter& p) {
     if (p.name == "normalisation") return join(normalisation_names());
     return "";
   }
-  return fmt::format("{} to {}", p.min, p.max);
+  return fmt::format("{:g} to {:g}", p.min, p.max);
 }
 
 std::string table(const ElementFormat& format) {

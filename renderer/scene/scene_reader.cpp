@@ -48,8 +48,21 @@ class Values {
   std::map<std::string_view, Value> values_;
 };
 
+/// Without line breaks and runs of spaces.
+std::string join_words(std::string_view text) {
+  std::string result;
+  for (const auto& word : split(text, " \t\n\r")) result += (result.empty() ? "" : " ") + word;
+  return result;
+}
+
+/// Normalised, but left alone where it is a unit vector already: a scene that is written and read
+/// again stays the same to the last bit.
+Vec3 unit(Vec3 direction) {
+  return std::abs(length(direction) - 1) < 1e-15 ? direction : normalize(direction);
+}
+
 std::string allowed_range(const Parameter& p) {
-  return fmt::format("{} to {}{}{}", p.min, p.max, p.unit.empty() ? "" : " ", p.unit);
+  return fmt::format("{:g} to {:g}{}{}", p.min, p.max, p.unit.empty() ? "" : " ", p.unit);
 }
 
 class SceneReader {
@@ -92,7 +105,8 @@ class SceneReader {
         result.push_back(node);
       else if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
         source_.error(node, fmt::format("text '{}' inside <{}>; values stand in attributes",
-                                        printable(node.value(), 20), printable(parent.name())));
+                                        printable(join_words(node.value()), 20),
+                                        printable(parent.name())));
     }
     return result;
   }
@@ -204,12 +218,14 @@ class SceneReader {
                                            element.name(),
                                            printable(element.attribute("type").value()),
                                            parameter.name, parameter.meaning));
-      values.set(parameter.name, parse({}, parameter, std::string(parameter.default_value.empty()
-                                                                      ? "1 1 1"
-                                                                      : parameter.default_value))
-                                     .value_or(Value{{1, 1, 1}, "", {}}));
+      values.set(parameter.name, default_of(parameter));
     }
     return values;
+  }
+
+  Value default_of(const Parameter& parameter) {
+    if (parameter.default_value.empty()) return {{1, 1, 1}, "", {}};  // after an error: anything
+    return parse({}, parameter, std::string(parameter.default_value)).value();
   }
 
   void unknown_child(pugi::xml_node node, std::initializer_list<std::string_view> nested) {
@@ -289,7 +305,7 @@ class SceneReader {
         good = parse_number(parts[i], n[i]) && std::abs(n[i]) <= kFar;
       if (good) return Vec3{n[0], n[1], n[2]};
       source_.error(node.attribute(name), node,
-                    fmt::format("{} '{}' is not three numbers; allowed: {} to {} each", name,
+                    fmt::format("{} '{}' is not three numbers; allowed: {:g} to {:g} each", name,
                                 printable(text), -kFar, kFar));
       return std::nullopt;
     };
@@ -323,7 +339,7 @@ class SceneReader {
     if (length(direction) == 0)
       source_.error(node, "direction is zero; allowed: any other vector");
     else
-      scene_.lights.push_back(DirectionalLight{normalize(direction), values.rgb("irradiance")});
+      scene_.lights.push_back(DirectionalLight{unit(direction), values.rgb("irradiance")});
   }
 
   /// Returns the material's index, or 0 after an error.

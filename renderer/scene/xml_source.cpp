@@ -42,8 +42,8 @@ std::string XmlSource::place(std::ptrdiff_t offset) const {
 }
 
 void XmlSource::note(std::ptrdiff_t offset, const std::string& message) {
-  if (errors_.size() == kMaxErrors) errors_.push_back(file_name_ + ": further errors left out");
-  if (errors_.size() < kMaxErrors) errors_.push_back(place(offset) + ": " + message);
+  if (errors_.size() < kMaxErrors) errors_.emplace_back(offset, place(offset) + ": " + message);
+  ++error_count_;
 }
 
 void XmlSource::error(pugi::xml_node where, const std::string& message) {
@@ -58,7 +58,14 @@ void XmlSource::error(pugi::xml_attribute where, pugi::xml_node of, const std::s
 
 void XmlSource::throw_if_errors() const {
   if (errors_.empty()) return;
-  throw Error(ExitCode::kInput, fmt::format("{}", fmt::join(errors_, "\n")));
+  auto sorted = errors_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string message;
+  for (const auto& [offset, line] : sorted) message += (message.empty() ? "" : "\n") + line;
+  if (error_count_ > errors_.size())
+    message += fmt::format("\n{}: {} further errors", file_name_, error_count_ - errors_.size());
+  throw Error(ExitCode::kInput, message);
 }
 
 void XmlSource::check_attributes(pugi::xml_node node,

@@ -21,7 +21,7 @@ class XmlSource {
   /// Notes "file:line:column: message".
   void error(pugi::xml_node where, const std::string& message);
   void error(pugi::xml_attribute where, pugi::xml_node of, const std::string& message);
-  /// Throws Error(kInput) with every error noted, one a line, if there is any.
+  /// Throws Error(kInput) with the errors noted, one a line in the file's order, if there is any.
   void throw_if_errors() const;
 
   /// Notes an error for each attribute of `node` that is not one of `allowed`.
@@ -36,7 +36,8 @@ class XmlSource {
   std::string original_, parsed_;  ///< parsed_ is overwritten by the parser, its offsets stay
   std::string file_name_;
   pugi::xml_document document_;
-  std::vector<std::string> errors_;
+  std::vector<std::pair<std::ptrdiff_t, std::string>> errors_;  ///< with their places
+  std::size_t error_count_ = 0;
 };
 
 }  // namespace lobelia
