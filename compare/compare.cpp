@@ -1,0 +1,167 @@
+#include "compare/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "compare/metrics/catalogue.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::string_view kOutliers = "outliers";
+
+std::int64_t count_nonfinite_pixels(const Image& image) {
+  const std::span<const float> values = image.values();
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < values.size(); i += 3)
+    count +=
+        !std::isfinite(values[i]) || !std::isfinite(values[i + 1]) || !std::isfinite(values[i + 2]);
+  return count;
+}
+
+void require_same_size(const Image& a, const Image& b) {
+  if (a.width() != b.width() || a.height() != b.height())
+    throw Error(ExitCode::kInput, fmt::format("the sizes differ: {} x {} against {} x {}",
+                                              a.width(), a.height(), b.width(), b.height()));
+  if (a.pixel_count() == 0) throw Error(ExitCode::kInput, "the pictures have no pixels");
+}
+
+void require_range(std::string_view what, double value, double min, double max) {
+  if (!(value >= min && value <= max))
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} is {}; it must lie in [{}, {}]", what, value, min, max));
+}
+
+std::vector<MetricValue> measure_all(const MetricInput& input) {
+  std::vector<MetricValue> results;
+  std::vector<double> values;
+  for (const Metric* metric : metrics()) {
+    if (metric->needs_tolerance && !input.tolerance) continue;
+    values.assign(metric->outputs.size(), 0.0);
+    metric->measure(input, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      results.push_back({metric->outputs[i].id, metric->outputs[i].meaning, values[i]});
+  }
+  return results;
+}
+
+}  // namespace
+
+std::span<const MetricLimit> default_limits() {
+  static const std::array<MetricLimit, 3> limits{{
+      // Engines that share the formula differ by 5e-4 of the peak where one writes half floats and
+      // by 1e-5 where not; a wrong normalisation is off by 3 % and more.
+      {"max_rel_peak", 0.01},
+      // One step of an 8-bit display, 128 to 129 over the whole picture, has a FLIP of 0.03.
+      {"flip.ldr.mean", 0.01},
+      // 1 is about one just noticeable difference; so it is for all but one pixel in twenty, which
+      // leaves the silhouette, where engines sample the edge differently, to max_rel_peak.
+      {"ciede2000.p95", 1.0},
+  }};
+  return limits;
+}
+
+std::string_view verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kDiffers:
+      return "differs";
+    case Verdict::kNonFinite:
+      return "non-finite";
+  }
+  return "";
+}
+
+double Comparison::value(std::string_view id) const {
+  for (const MetricValue& metric : metrics)
+    if (metric.id == id) return metric.value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+void check_options(const ComparisonOptions& options) {
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  require_range("the exposure in stops", options.viewing.exposure_stops, -kMaxExposureStops,
+                kMaxExposureStops);
+  require_range("pixels per degree", options.viewing.pixels_per_degree, kMinPixelsPerDegree,
+                kMaxPixelsPerDegree);
+  const std::vector<std::string_view> names = limit_names();
+  for (const MetricLimit& limit : options.limits) {
+    const MetricOutput* output = find_metric_output(limit.metric);
+    if (!output || output->kind != OutputKind::kError)
+      throw Error(ExitCode::kUsage, fmt::format("no metric '{}' to set a limit on{}; there are {}",
+                                                printable(limit.metric),
+                                                did_you_mean(limit.metric, names), join(names)));
+    if (limit.metric == kOutliers && !options.tolerance)
+      throw Error(ExitCode::kUsage, "a limit on 'outliers' needs a tolerance");
+    require_range(fmt::format("the limit on {}", limit.metric), limit.maximum, 0, kLargest);
+  }
+  if (options.tolerance) {
+    require_range("the relative tolerance", options.tolerance->relative, 0, kLargest);
+    require_range("the tolerance as a share of the peak", options.tolerance->of_peak, 0, kLargest);
+    require_range("the number of allowed outliers", double(options.tolerance->allowed_outliers), 0,
+                  double(kMaxImagePixels));
+  }
+}
+
+Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {
+  check_options(options);
+  require_same_size(a, b);
+
+  Comparison result;
+  result.viewing = options.viewing;
+  result.tolerance = options.tolerance;
+  result.nonfinite_a = count_nonfinite_pixels(a);
+  result.nonfinite_b = count_nonfinite_pixels(b);
+  const bool finite = result.nonfinite_a == 0 && result.nonfinite_b == 0;
+  if (finite) {
+    const double stops = options.viewing.exposure_stops;
+    result.metrics = measure_all({a, b, DisplayLight(a, stops), DisplayLight(b, stops),
+                                  options.viewing.pixels_per_degree,
+                                  options.tolerance ? &*options.tolerance : nullptr});
+  }
+
+  std::vector<MetricLimit> limits = options.limits;
+  if (options.tolerance)
+    limits.push_back({std::string(kOutliers), double(options.tolerance->allowed_outliers)});
+  if (limits.empty()) limits.assign(default_limits().begin(), default_limits().end());
+  bool pass = true;
+  for (const MetricLimit& limit : limits) {
+    const double value = result.value(limit.metric);
+    // Written so that a NaN fails.
+    const bool within = value <= limit.maximum;
+    result.limits.push_back({limit.metric, limit.maximum, value, within});
+    pass = pass && within;
+  }
+  result.verdict = !finite ? Verdict::kNonFinite : pass ? Verdict::kPass : Verdict::kDiffers;
+  return result;
+}
+
+DisplayImage difference_picture(const Image& a, const Image& b, double white_at) {
+  require_same_size(a, b);
+  DisplayImage picture{a.width(), a.height(), std::vector<std::uint8_t>(3 * a.pixel_count())};
+  const std::span<const float> va = a.values(), vb = b.values();
+  for (std::size_t i = 0; i < va.size(); i += 3) {
+    bool finite = true;
+    for (std::size_t j = i; j < i + 3; ++j) {
+      const double difference = std::abs(double(va[j]) - double(vb[j]));
+      finite = finite && std::isfinite(difference);
+      if (finite && difference > 0)
+        picture.rgb[j] = difference < white_at
+                             ? std::uint8_t(std::lround(255 * difference / white_at))
+                             : std::uint8_t{255};
+    }
+    if (!finite) {
+      picture.rgb[i] = picture.rgb[i + 2] = 255;
+      picture.rgb[i + 1] = 0;
+    }
+  }
+  return picture;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,76 @@
+// Comparing two pictures: numbers, and a verdict with its reasons.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/metrics/metric.hpp"
+#include "core/image.hpp"
+#include "core/record.hpp"
+
+namespace lobelia {
+
+struct MetricLimit {
+  std::string metric;  ///< id of an error of the catalogue
+  double maximum = 0;  ///< the largest value that passes
+};
+
+struct ComparisonOptions {
+  Viewing viewing;
+  std::vector<MetricLimit> limits;
+  std::optional<Tolerance> tolerance;
+};
+
+/// The limits where neither limits nor a tolerance were asked for.
+std::span<const MetricLimit> default_limits();
+
+enum class Verdict : std::uint8_t {
+  kPass,
+  kDiffers,    ///< over a limit, or more outliers than allowed
+  kNonFinite,  ///< a NaN or an infinity in one of them: nothing was measured, nothing can pass
+};
+std::string_view verdict_name(Verdict verdict);  ///< "pass", "differs", "non-finite"
+
+struct MetricValue {
+  std::string_view id, meaning;
+  double value = 0;
+};
+
+struct LimitResult {
+  std::string metric;
+  double limit = 0;
+  double value = 0;  ///< NaN where it could not be measured
+  bool pass = false;
+};
+
+struct Comparison {
+  Verdict verdict = Verdict::kDiffers;
+  std::int64_t nonfinite_a = 0, nonfinite_b = 0;  ///< pixels with a NaN or an infinity
+  Viewing viewing;
+  std::vector<MetricValue> metrics;  ///< in the catalogue's order; empty if something is not finite
+  std::vector<LimitResult> limits;   ///< that the verdict was made of
+  std::optional<Tolerance> tolerance;
+
+  /// The value of a metric, or NaN if it was not measured.
+  double value(std::string_view id) const;
+};
+
+/// Throws Error(kUsage) for options out of range, with the nearest name for an unknown metric.
+void check_options(const ComparisonOptions& options);
+
+/// Compares `a` with the reference `b`. Throws Error(kInput) if their sizes differ or are 0, and as
+/// check_options.
+Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options);
+
+/// As docs/records.md has it; `a` and `b` are the file names that stand in it.
+Json comparison_record(const Comparison& comparison, const std::string& a, const std::string& b);
+
+/// |a - b| per channel / white_at, clipped at 1, not display-encoded. Magenta where it is not
+/// finite. With white_at 0 every difference is white. Throws Error(kInput) if the sizes differ.
+DisplayImage difference_picture(const Image& a, const Image& b, double white_at);
+
+}  // namespace lobelia

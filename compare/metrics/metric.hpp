@@ -1,0 +1,61 @@
+// What a metric is: results with names, and a function of two pictures.
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string_view>
+
+#include "compare/display_light.hpp"
+#include "core/image.hpp"
+
+namespace lobelia {
+
+/// FLIP's standard viewer: a display 0.7 m wide with 3840 pixels, seen from 0.7 m.
+inline constexpr double kDefaultPixelsPerDegree = 3840 * std::numbers::pi / 180;
+/// Below, FLIP's feature filter is narrower than a pixel; above, its filters only cost time.
+inline constexpr double kMinPixelsPerDegree = 5, kMaxPixelsPerDegree = 1000;
+inline constexpr double kMaxExposureStops = 100;
+
+/// How the pictures are looked at. One for a whole set of comparisons, and in every record.
+struct Viewing {
+  double exposure_stops = 0;
+  double pixels_per_degree = kDefaultPixelsPerDegree;
+};
+
+/// A pixel is an outlier if |a - b| > relative * |b| + of_peak * peak in any of its channels.
+struct Tolerance {
+  double relative = 0;  ///< share of the reference's value
+  double of_peak = 0;   ///< share of the reference's brightest value
+  std::int64_t allowed_outliers = 0;
+};
+
+/// A pair of pictures of one size without non-finite values; `b` is the reference.
+struct MetricInput {
+  const Image& a;
+  const Image& b;
+  DisplayLight shown_a, shown_b;
+  double pixels_per_degree;
+  const Tolerance* tolerance;  ///< null if none was asked for
+};
+
+enum class OutputKind : std::uint8_t {
+  kError,  ///< 0 for equal pictures, never negative, larger is worse: a limit may be set on it
+  kFact,   ///< a place or a scale, to read an error by
+};
+
+struct MetricOutput {
+  std::string_view id;  ///< "ciede2000.p95": key in the record, name on the command line
+  OutputKind kind;
+  bool symmetric;  ///< does not change when a and b are exchanged
+  std::string_view meaning;
+};
+
+struct Metric {
+  std::span<const MetricOutput> outputs;
+  bool needs_tolerance;  ///< left out where no tolerance was asked for
+  /// Fills one value per output, in their order.
+  void (*measure)(const MetricInput& input, std::span<double> values);
+};
+
+}  // namespace lobelia

@@ -1,0 +1,41 @@
+// How many pixels lie outside a tolerance.
+//
+// Source:       the failure rule of `idiff` (-fail, -failpercent), with a tolerance that follows
+// the
+//               rounding of the reference: a half-float picture is off by a share of each value.
+// Formula:      the number of pixels with |a - b| > relative * |b| + of_peak * peak in R, G or B;
+//               peak as in max_rel_peak.
+// Input:        scene-linear values, neither exposed nor clipped.
+#include <cmath>
+
+#include "compare/metrics/metric.hpp"
+#include "compare/metrics/peak.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr MetricOutput kOutputs[] = {
+    {"outliers", OutputKind::kError, false, "pixels outside the tolerance"}};
+
+void measure(const MetricInput& input, std::span<double> values) {
+  const std::span<const float> a = input.a.values(), b = input.b.values();
+  const double relative = input.tolerance->relative;
+  const double floor = input.tolerance->of_peak * peak_value(input.b);
+  std::int64_t outliers = 0;
+  for (std::size_t i = 0; i < a.size(); i += 3) {
+    bool outside = false;
+    for (std::size_t j = i; j < i + 3; ++j) {
+      const double reference = b[j];
+      outside |= std::abs(double(a[j]) - reference) > relative * std::abs(reference) + floor;
+    }
+    outliers += outside;
+  }
+  values[0] = double(outliers);
+}
+
+}  // namespace
+
+extern const Metric outliers_metric;
+constinit const Metric outliers_metric{kOutputs, true, measure};
+
+}  // namespace lobelia

@@ -1,0 +1,180 @@
+#include "compare/profile/profile.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// The curve reaches a little past the blooming zone, so that its end is seen, in bins as wide as
+// the pixels are apart, but for these bounds: finer bins would each hold a pixel or none, and
+// coarser ones would blunt the peak.
+constexpr double kCurveReach = 1.25;
+constexpr double kFewestBins = 64, kMostBins = 128;
+
+struct LitPixel {
+  std::size_t index;
+  double angle;
+};
+
+std::vector<LitPixel> lit_pixels(const ProfileGeometry& geometry) {
+  std::vector<LitPixel> lit;
+  for (std::size_t i = 0; i < geometry.angle.size(); ++i)
+    if (!std::isnan(geometry.angle[i])) lit.push_back({i, geometry.angle[i]});
+  return lit;
+}
+
+double radiance_at(const Image& image, std::size_t index) {
+  const float* value = image.values().data() + 3 * index;
+  return (double(value[0]) + double(value[1]) + double(value[2])) / 3;
+}
+
+/// The bin of each lit pixel, by a width that follows the pixels' density; past the last: none.
+struct Binning {
+  double reach = 0, width = 1;
+  std::size_t bins = 0;
+
+  Binning(const std::vector<LitPixel>& lit, double blooming_end) {
+    double largest = 0;
+    for (const LitPixel& pixel : lit) largest = std::max(largest, pixel.angle);
+    reach = std::min(kCurveReach * blooming_end, largest);
+    if (!(reach > 0)) return;
+    const auto within = std::count_if(lit.begin(), lit.end(),
+                                      [&](const LitPixel& pixel) { return pixel.angle <= reach; });
+    // The side of a square with the area that a pixel has in the disc of radius `reach`.
+    const double spacing =
+        reach * std::sqrt(std::numbers::pi / double(std::max<std::ptrdiff_t>(within, 1)));
+    width = std::clamp(spacing, reach / kMostBins, reach / kFewestBins);
+    bins = std::size_t(std::ceil(reach / width));
+  }
+  std::size_t bin(double angle) const { return std::min(std::size_t(angle / width), bins - 1); }
+};
+
+void add_curves(Profile& profile, const std::vector<LitPixel>& lit, const NamedImages& images) {
+  const Binning binning(lit, profile.blooming_end);
+  std::vector<std::size_t> count(binning.bins, 0);
+  std::vector<double> angle_sum(binning.bins, 0.0);
+  std::vector<std::vector<double>> sums(images.size(), angle_sum);
+  for (const LitPixel& pixel : lit) {
+    if (binning.bins == 0 || pixel.angle > binning.reach) continue;
+    const std::size_t bin = binning.bin(pixel.angle);
+    ++count[bin];
+    angle_sum[bin] += pixel.angle;
+    for (std::size_t k = 0; k < images.size(); ++k)
+      sums[k][bin] += radiance_at(*images[k].second, pixel.index);
+  }
+  profile.radiance.resize(images.size());
+  for (std::size_t bin = 0; bin < binning.bins; ++bin) {
+    if (count[bin] == 0) continue;
+    profile.pixels.push_back(count[bin]);
+    profile.angle.push_back(angle_sum[bin] / double(count[bin]));
+    for (std::size_t k = 0; k < images.size(); ++k)
+      profile.radiance[k].push_back(sums[k][bin] / double(count[bin]));
+  }
+}
+
+/// Where the curve, from the peak outward, first falls to half the peak: straight lines between
+/// the bins.
+double half_width(const std::vector<double>& angle, const std::vector<double>& radiance,
+                  const HighlightShape& shape) {
+  if (!(shape.peak > 0)) return kNaN;
+  const double half = shape.peak / 2;
+  double inner_angle = shape.peak_angle, inner = shape.peak;
+  for (std::size_t bin = 0; bin < angle.size(); ++bin) {
+    if (angle[bin] <= shape.peak_angle) continue;
+    if (radiance[bin] <= half)
+      return inner_angle + (angle[bin] - inner_angle) * (inner - half) / (inner - radiance[bin]);
+    inner_angle = angle[bin];
+    inner = radiance[bin];
+  }
+  return kNaN;
+}
+
+HighlightShape measure_shape(const std::vector<LitPixel>& lit, const ProfileGeometry& geometry,
+                             const Image& image) {
+  HighlightShape shape{lit.empty() ? kNaN : -std::numeric_limits<double>::infinity(), kNaN, kNaN,
+                       0};
+  bool finite = true;
+  for (const LitPixel& pixel : lit) {
+    const double radiance = radiance_at(image, pixel.index);
+    finite = finite && std::isfinite(radiance);
+    shape.energy += radiance * geometry.solid_angle[pixel.index];
+    if (radiance > shape.peak) {
+      shape.peak = radiance;
+      shape.peak_angle = pixel.angle;
+    }
+  }
+  // A peak beside a NaN is not known to be the peak.
+  if (!finite) shape.peak = shape.peak_angle = kNaN;
+  return shape;
+}
+
+ZoneError zone_error(const std::vector<LitPixel>& lit, const Image& a, const Image& b, double begin,
+                     double end, double peak) {
+  ZoneError error;
+  double squares = 0;
+  bool finite = true;
+  for (const LitPixel& pixel : lit) {
+    if (!(pixel.angle >= begin && pixel.angle < end)) continue;
+    const double difference = radiance_at(a, pixel.index) - radiance_at(b, pixel.index);
+    finite = finite && std::isfinite(difference);
+    error.max_abs = std::max(error.max_abs, std::abs(difference));
+    squares += difference * difference;
+    ++error.pixels;
+  }
+  if (error.pixels == 0 || !finite) {
+    error.max_abs = error.rms = error.max_rel_peak = kNaN;
+    return error;
+  }
+  error.rms = std::sqrt(squares / double(error.pixels));
+  error.max_rel_peak = error.max_abs == 0 ? 0 : error.max_abs / peak;
+  return error;
+}
+
+void require_pixel_count(const ProfileGeometry& geometry, const NamedImages& images) {
+  const std::size_t expected = geometry.angle.size();
+  if (geometry.solid_angle.size() != expected)
+    throw Error(ExitCode::kInternal, "a profile's angles and solid angles differ in number");
+  for (const auto& [name, image] : images)
+    if (image->pixel_count() != expected)
+      throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, the scene's film has {}",
+                                                name, image->width(), image->height(), expected));
+}
+
+}  // namespace
+
+Profile measure_profile(const ProfileGeometry& geometry, const NamedImages& images,
+                        const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+  require_pixel_count(geometry, images);
+  const std::vector<LitPixel> lit = lit_pixels(geometry);
+  Profile profile;
+  profile.epicentre_end = geometry.epicentre_end;
+  profile.blooming_end = geometry.blooming_end;
+  add_curves(profile, lit, images);
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    profile.names.push_back(images[k].first);
+    HighlightShape shape = measure_shape(lit, geometry, *images[k].second);
+    shape.half_width = half_width(profile.angle, profile.radiance[k], shape);
+    profile.shapes.push_back(shape);
+  }
+  for (const auto& [a, b] : pairs) {
+    const auto zone = [&](double begin, double end) {
+      return zone_error(lit, *images.at(a).second, *images.at(b).second, begin, end,
+                        profile.shapes[b].peak);
+    };
+    profile.differences.push_back({images.at(a).first, images.at(b).first,
+                                   zone(0, geometry.epicentre_end),
+                                   zone(geometry.epicentre_end, geometry.blooming_end)});
+  }
+  return profile;
+}
+
+}  // namespace lobelia

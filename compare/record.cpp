@@ -1,0 +1,30 @@
+// A comparison as its record, docs/records.md.
+#include "compare/compare.hpp"
+
+namespace lobelia {
+
+Json comparison_record(const Comparison& comparison, const std::string& a, const std::string& b) {
+  Json record = make_record("comparison");
+  record["verdict"] = verdict_name(comparison.verdict);
+  record["a"] = a;
+  record["b"] = b;
+  record["nonfinite"] = {{"a", comparison.nonfinite_a}, {"b", comparison.nonfinite_b}};
+  record["viewing"] = {{"exposureStops", comparison.viewing.exposure_stops},
+                       {"pixelsPerDegree", comparison.viewing.pixels_per_degree}};
+  record["metrics"] = Json::object();
+  for (const MetricValue& metric : comparison.metrics)
+    record["metrics"][std::string(metric.id)] = number_or_name(metric.value);
+  record["limits"] = Json::array();
+  for (const LimitResult& limit : comparison.limits)
+    record["limits"].push_back({{"metric", limit.metric},
+                                {"limit", limit.limit},
+                                {"value", number_or_name(limit.value)},
+                                {"pass", limit.pass}});
+  if (comparison.tolerance)
+    record["tolerance"] = {{"relative", comparison.tolerance->relative},
+                           {"ofPeak", comparison.tolerance->of_peak},
+                           {"allowedOutliers", comparison.tolerance->allowed_outliers}};
+  return record;
+}
+
+}  // namespace lobelia
