@@ -10,8 +10,7 @@
 // Agrees with:  NVIDIA's tool, version 1.6, built without fused multiply-add, its mean taken in
 //               double: in all nine digits of mean and maximum on the pictures of the test.
 // Differs:      the mean is summed in double; the tool's float32 sum is wrong by percents on a
-// large
-//               picture.
+//               large picture.
 //
 // Why the error map is float32, unlike every other metric: in a flat area the feature difference is
 // the square root of rounding noise, some 1e-4 in the tool, and moves the error by up to 5e-5. More

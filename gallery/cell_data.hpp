@@ -1,0 +1,88 @@
+// A cell's records as data. What is missing or broken becomes words in `problem` fields, so that
+// one bad file costs its own place on the page and nothing else.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gallery/farm_data.hpp"
+#include "gallery/picture.hpp"
+#include "gallery/profile_data.hpp"
+
+namespace lobelia::gallery {
+
+struct PlannedEffect {
+  std::string name;
+  bool on = false;
+  std::string reason;
+};
+
+/// One engine's picture of the cell and how it was made.
+struct CellImage {
+  std::string engine;
+  Picture png;
+  std::string exr, record, log;  ///< plain names of files that exist; else empty
+  std::string problem;           ///< why its record cannot be read
+  std::string made_by, version, witness;
+  std::string command;  ///< as a shell reads it
+  std::vector<std::string> engine_commands;
+  NamedNumbers seconds;
+  NamedTexts facts;  ///< rays, passes, instruction set: printed, not understood
+  std::vector<PlannedEffect> effects;
+};
+
+struct MetricLimit {
+  std::string metric;
+  double limit = 0, value = 0;
+  bool pass = false;
+};
+
+struct Tolerance {
+  std::optional<double> relative, of_peak, allowed_outliers;
+};
+
+struct CellComparison {
+  std::string a, b;  ///< engines
+  Picture png;
+  std::string record;
+  std::string problem;
+  std::optional<double> white_at, relative_to_peak;
+  std::string verdict;
+  std::optional<double> nonfinite_a, nonfinite_b;
+  NamedNumbers metrics;
+  std::vector<MetricLimit> limits;
+  std::optional<Tolerance> tolerance;
+  NamedTexts viewing;
+
+  std::optional<double> metric(const std::string& id) const;
+};
+
+struct CellProblem {
+  std::string engine;  ///< may be empty: it concerns the cell as a whole
+  std::string message;
+};
+
+struct CellData {
+  std::string id;
+  CellStatus status = CellStatus::kMissing;
+  std::string unreadable;  ///< why cell.json cannot be read; then nothing below is filled
+  bool has_record = false;
+  std::string made_by;
+  NamedTexts highlight;
+  std::optional<double> exposure_stops;
+  std::vector<CellImage> images;
+  std::vector<CellComparison> comparisons;
+  ProfileData profile;
+  std::vector<CellProblem> problems;
+  bool has_scene = false;
+
+  const CellImage* find_image(const std::string& engine) const;
+  const CellComparison* find_comparison(const std::string& b) const;
+};
+
+/// Reads DIR/cells/ID/cell.json and all that it names. `entry` is the cell's line in farm.json.
+CellData read_cell(const std::filesystem::path& directory, const CellEntry& entry);
+
+}  // namespace lobelia::gallery

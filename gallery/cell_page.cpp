@@ -1,0 +1,133 @@
+#include "gallery/cell_page.hpp"
+
+#include <algorithm>
+
+#include "gallery/cell_sections.hpp"
+#include "gallery/names.hpp"
+#include "gallery/numbers.hpp"
+#include "gallery/page.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+constexpr char kRoot[] = "../../";
+constexpr int kShownEachSide = 5;  // of a long axis, around where the reader stands
+
+std::string neighbour_link(const CellEntry& cell) {
+  return "../" + link_to({cell.id, "index.html"});
+}
+
+const CellEntry* cell_beside(const FarmData& farm, const CellEntry& entry, int axis, int value) {
+  if (value < 0 || value >= static_cast<int>(farm.axes[axis].values.size())) return nullptr;
+  std::vector<int> at = entry.at;
+  at[axis] = value;
+  return farm.find_cell(at);
+}
+
+void write_step(Html& html, const FarmData& farm, const CellEntry& entry, int axis, int step) {
+  const std::string arrow = step < 0 ? "←" : "→";
+  const CellEntry* cell = cell_beside(farm, entry, axis, entry.at[axis] + step);
+  if (!cell) {
+    html.element("span", {{"class", "step"}, {"aria-hidden", "true"}}, arrow);
+    return;
+  }
+  const std::string words = (step < 0 ? "Previous " : "Next ") + farm.axes[axis].name + ": " +
+                            farm.axes[axis].values[cell->at[axis]].label;
+  html.element("a",
+               {{"class", "step"},
+                {"href", neighbour_link(*cell)},
+                {"rel", step < 0 ? "prev" : "next"},
+                {"aria-label", words},
+                {"title", words}},
+               arrow);
+}
+
+void write_axis(Html& html, const FarmData& farm, const CellEntry& entry, int axis) {
+  const GridAxis& a = farm.axes[axis];
+  const int here = entry.at[axis];
+  const Tag row(html, "div", {{"class", "axis-row"}});
+  html.element("span", {{"class", "axis-name"}}, a.name);
+  write_step(html, farm, entry, axis, -1);
+  write_step(html, farm, entry, axis, +1);
+  const Tag list(html, "ul");
+  const int count = static_cast<int>(a.values.size());
+  const int from = std::max(0, here - kShownEachSide),
+            to = std::min(count, here + kShownEachSide + 1);
+  for (int value = from; value < to; ++value) {
+    const Tag item(html, "li");
+    const CellEntry* cell = cell_beside(farm, entry, axis, value);
+    if (value == here) {
+      html.element("span", {{"aria-current", "true"}}, a.values[value].label);
+    } else if (cell) {
+      html.element("a", {{"href", neighbour_link(*cell)}}, a.values[value].label);
+    } else {
+      html.element("span", {{"class", "absent"}}, a.values[value].label);
+    }
+  }
+}
+
+void write_navigation(Html& html, const FarmData& farm, const CellEntry& entry) {
+  const Tag nav(html, "nav", {{"class", "axes"}, {"aria-label", "Neighbouring cells"}});
+  for (int axis = 0; axis < static_cast<int>(farm.axes.size()); ++axis) {
+    if (entry.at[axis] >= 0) write_axis(html, farm, entry, axis);
+  }
+}
+
+void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
+  const Tag box(html, "div", {{"class", "verdict " + std::string(info(cell.status).name)}});
+  {
+    const Tag line(html, "p");
+    write_status(html, cell.status);
+    html.text(" ");
+    html.text(info(cell.status).meaning);
+  }
+  if (!cell.unreadable.empty()) html.element("p", cell.unreadable);
+  for (const CellProblem& problem : cell.problems) {
+    const Tag line(html, "p");
+    if (!problem.engine.empty()) html.element("strong", farm.engine_title(problem.engine) + ": ");
+    html.text(problem.message);
+  }
+  if (cell.status == CellStatus::kMissing && !farm.command.empty()) {
+    html.element("p", "The same command takes the farm up again where it stopped:");
+    write_command(html, farm.command);
+  }
+}
+
+void write_highlight(Html& html, const CellData& cell) {
+  if (cell.highlight.empty()) return;
+  const Tag list(html, "dl", {{"class", "facts"}});
+  for (const auto& [name, value] : cell.highlight) {
+    const Tag item(html, "div");
+    html.element("dt", name);
+    html.element("dd", value);
+  }
+}
+
+}  // namespace
+
+std::string cell_page(const FarmData& farm, const CellEntry& entry, const CellData& cell) {
+  Html html;
+  {
+    const Tag header(html, "header");
+    {
+      const Tag back(html, "p", {{"class", "back"}});
+      html.element("a", {{"href", std::string(kRoot) + "index.html"}}, "↑ " + farm.title);
+    }
+    html.element("h1", entry.label.empty() ? entry.id : entry.label);
+    write_navigation(html, farm, entry);
+    write_verdict(html, farm, cell);
+    write_highlight(html, cell);
+  }
+  if (cell.has_record) {
+    write_pictures(html, farm, cell);
+    write_profile(html, farm, cell);
+    write_numbers(html, farm, cell);
+    write_plan(html, cell);
+  }
+  write_making(html, farm, cell);
+  return finish_page({(entry.label.empty() ? entry.id : entry.label) + " · " + farm.title, "cell",
+                      kRoot, cell.made_by.empty() ? farm.made_by : cell.made_by},
+                     html);
+}
+
+}  // namespace lobelia::gallery

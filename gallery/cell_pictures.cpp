@@ -1,0 +1,138 @@
+#include "gallery/cell_sections.hpp"
+#include "gallery/names.hpp"
+#include "gallery/numbers.hpp"
+#include "gallery/page.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+/// Sizes that a reader can choose without script: a radio button each, and style.css does the rest.
+void write_size_choice(Html& html) {
+  struct Size {
+    const char *id, *label;
+  };
+  for (const Size& size : {Size{"fit", "fit"}, Size{"one", "1 : 1"}, Size{"two", "2 : 1"},
+                           Size{"four", "4 : 1"}, Size{"eight", "8 : 1"}}) {
+    const std::string id = std::string("size-") + size.id;
+    Attributes attributes = {{"type", "radio"}, {"name", "size"}, {"id", id}, {"class", "size"}};
+    if (id == "size-fit") attributes.push_back({"checked", "checked"});
+    html.empty("input", attributes);
+    html.element("label", {{"for", id}}, size.label);
+  }
+}
+
+void write_image(Html& html, const Picture& picture, const std::string& alt) {
+  // Scrolls by itself when enlarged, and gallery.js keeps all of them at the same place.
+  const Tag frame(html, "div", {{"class", "picture"}, {"tabindex", "0"}});
+  const bool small = picture.width <= 320;
+  html.empty("img", {{"src", link_to({picture.file})},
+                     {"alt", alt},
+                     {"width", std::to_string(picture.width)},
+                     {"height", std::to_string(picture.height)},
+                     {"class", small ? "small" : "large"}});
+}
+
+std::string why_no_picture(const EngineEntry& engine, const CellData& cell) {
+  if (!engine.available) {
+    std::string words = engine.title + " was not there";
+    if (!engine.why.empty()) words += ": " + engine.why;
+    words += ".";
+    if (!engine.install.empty()) words += " To get it: " + engine.install;
+    return words;
+  }
+  for (const CellProblem& problem : cell.problems) {
+    if (problem.engine == engine.name) return engine.title + " made no picture: " + problem.message;
+  }
+  if (const CellImage* image = cell.find_image(engine.name)) return image->png.why_not;
+  return engine.title + " has not made this picture.";
+}
+
+std::string witness_words(const CellImage& image) {
+  if (image.witness == "native") return "its own shading of this model";
+  if (image.witness == "expressed") return "the model written in its language";
+  return image.witness;
+}
+
+void write_engine_picture(Html& html, const EngineEntry& engine, const CellData& cell) {
+  const CellImage* image = cell.find_image(engine.name);
+  const Tag figure(html, "figure");
+  {
+    const Tag caption(html, "figcaption");
+    html.element("strong", engine.title);
+    if (!image) {
+      // Said in place of the picture.
+    } else if (engine.name == kOurEngine) {
+      html.text(" · ours");
+    } else if (const std::string words = witness_words(*image); !words.empty()) {
+      html.text(" · " + words);
+    }
+  }
+  if (image && image->png.shown()) {
+    write_image(html, image->png, "The picture by " + engine.title);
+  } else {
+    write_absence(html, why_no_picture(engine, cell));
+  }
+}
+
+void write_scale(Html& html, const CellComparison& comparison) {
+  if (!comparison.white_at) return;
+  std::string words = "white = " + number_text(*comparison.white_at);
+  if (comparison.relative_to_peak) {
+    words += " = " + percent_text(*comparison.relative_to_peak) + " of the peak";
+  }
+  const Tag scale(html, "p", {{"class", "scale"}});
+  html.element("span", "0");
+  html.element("span", {{"class", "ramp"}, {"aria-hidden", "true"}}, "");
+  html.element("span", words);
+}
+
+void write_difference(Html& html, const EngineEntry& engine, const CellData& cell) {
+  const CellComparison* comparison = cell.find_comparison(engine.name);
+  const Tag figure(html, "figure");
+  html.element("figcaption", {}, "Difference from " + engine.title);
+  if (!comparison) {
+    write_absence(html, "There is nothing to compare with: no picture by " + engine.title + ".");
+  } else if (comparison->png.shown()) {
+    write_image(html, comparison->png, "Difference between ours and " + engine.title);
+    write_scale(html, *comparison);
+  } else {
+    write_absence(html, comparison->png.why_not);
+  }
+}
+
+void write_explanation(Html& html, const CellData& cell) {
+  const Tag note(html, "div", {{"class", "note"}});
+  if (cell.exposure_stops) {
+    html.element("p", "For the eye, every picture of the first row has the same exposure, " +
+                          stops_text(*cell.exposure_stops) +
+                          ", and is then encoded for an sRGB display. The numbers below are taken "
+                          "from the linear float pictures, not from these.");
+  }
+  html.element("p",
+               "A difference picture shows |ours − theirs| for red, green and blue, divided by the "
+               "value printed below it and clipped at 1. It is not encoded for the display: half "
+               "the value is half the light level in the file.");
+}
+
+}  // namespace
+
+void write_pictures(Html& html, const FarmData& farm, const CellData& cell) {
+  const Tag section(html, "section", {{"class", "pictures"}, {"aria-labelledby", "pictures"}});
+  html.element("h2", {{"id", "pictures"}}, "Pictures");
+  html.element("span", {{"class", "size-title"}}, "Size");
+  write_size_choice(html);
+  {
+    const Tag row(html, "div", {{"class", "picture-row"}});
+    for (const EngineEntry& engine : farm.engines) write_engine_picture(html, engine, cell);
+  }
+  const Tag row(html, "div", {{"class", "picture-row"}});
+  for (const EngineEntry& engine : farm.engines) {
+    if (engine.name == kOurEngine) {
+      write_explanation(html, cell);
+    } else {
+      write_difference(html, engine, cell);
+    }
+  }
+}
+
+}  // namespace lobelia::gallery

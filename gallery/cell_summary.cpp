@@ -1,0 +1,67 @@
+#include "gallery/cell_summary.hpp"
+
+#include <fmt/format.h>
+
+#include "gallery/metric_notes.hpp"
+#include "gallery/numbers.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+EngineFigure figure(const EngineEntry& engine, const CellData& cell) {
+  EngineFigure result{engine.short_title, "–", ""};
+  const CellComparison* comparison = cell.find_comparison(engine.name);
+  if (!comparison) {
+    if (cell.has_record) result.worst = "none";
+    return result;
+  }
+  if (!comparison->problem.empty()) {
+    result.worst = "unreadable";
+  } else if (comparison->verdict == "non-finite") {
+    result.worst = "non-finite";
+  } else if (const auto worst = comparison->metric("max_rel_peak")) {
+    result.worst = percent_text(*worst, TrailingZeros::kKeep);
+  }
+  const double outliers = comparison->metric("outliers").value_or(0);
+  if (outliers > 0) result.note = count_text(outliers) + " px";
+  return result;
+}
+
+std::vector<std::string> reasons_of(const FarmData& farm, const CellData& cell) {
+  std::vector<std::string> reasons;
+  if (!cell.unreadable.empty()) reasons.push_back(cell.unreadable);
+  for (const CellProblem& problem : cell.problems) {
+    const std::string who = problem.engine.empty() ? "" : farm.engine_title(problem.engine) + ": ";
+    reasons.push_back(who + problem.message);
+  }
+  for (const CellComparison& comparison : cell.comparisons) {
+    const std::string pair = farm.engine_title(comparison.b) + " · ";
+    if (!comparison.problem.empty()) reasons.push_back(pair + comparison.problem);
+    if (comparison.verdict == "non-finite") reasons.push_back(pair + "pixels that are not finite");
+    for (const MetricLimit& limit : comparison.limits) {
+      if (limit.pass) continue;
+      reasons.push_back(fmt::format("{}{}: {}, limit {}", pair, metric_note(limit.metric).title,
+                                    metric_text(limit.metric, limit.value),
+                                    metric_text(limit.metric, limit.limit)));
+    }
+  }
+  return reasons;
+}
+
+}  // namespace
+
+CellSummary summarise(const FarmData& farm, const CellEntry& entry, const CellData& cell) {
+  CellSummary summary;
+  summary.entry = &entry;
+  summary.status = cell.status;
+  if (const CellImage* ours = cell.find_image(kOurEngine)) summary.picture = ours->png;
+  for (const EngineEntry& engine : farm.engines) {
+    if (engine.name != kOurEngine && engine.available) {
+      summary.figures.push_back(figure(engine, cell));
+    }
+  }
+  if (summary.status != CellStatus::kPass) summary.reasons = reasons_of(farm, cell);
+  return summary;
+}
+
+}  // namespace lobelia::gallery

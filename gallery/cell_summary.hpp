@@ -1,0 +1,27 @@
+// What the index says of a cell.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gallery/cell_data.hpp"
+
+namespace lobelia::gallery {
+
+struct EngineFigure {
+  std::string engine;  ///< short title
+  std::string worst;   ///< "0.049 %", or in a word why there is none
+  std::string note;    ///< "2 px": pixels beyond the tolerance, if any
+};
+
+struct CellSummary {
+  const CellEntry* entry = nullptr;
+  CellStatus status = CellStatus::kMissing;
+  Picture picture;                    ///< ours
+  std::vector<EngineFigure> figures;  ///< one per reference engine that is there
+  std::vector<std::string> reasons;   ///< why it is not a pass
+};
+
+CellSummary summarise(const FarmData& farm, const CellEntry& entry, const CellData& cell);
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,163 @@
+#include <algorithm>
+
+#include "gallery/cell_sections.hpp"
+#include "gallery/metric_notes.hpp"
+#include "gallery/numbers.hpp"
+#include "gallery/page.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+bool is_coordinate(const std::string& id) { return id.ends_with(".x") || id.ends_with(".y"); }
+
+/// Ids of all metrics, in the order in which the records have them.
+std::vector<std::string> metric_ids(const CellData& cell) {
+  std::vector<std::string> ids;
+  const auto add = [&](const std::string& id) {
+    if (!is_coordinate(id) && std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  };
+  for (const CellComparison& comparison : cell.comparisons) {
+    for (const auto& [id, value] : comparison.metrics) add(id);
+    for (const MetricLimit& limit : comparison.limits) add(limit.metric);
+  }
+  return ids;
+}
+
+std::string value_text(const CellComparison& comparison, const std::string& id) {
+  const auto value = comparison.metric(id);
+  if (!value) return "–";
+  std::string words = metric_text(id, *value);
+  const auto x = comparison.metric(id + ".x"), y = comparison.metric(id + ".y");
+  if (x && y) words += " at (" + count_text(*x) + ", " + count_text(*y) + ")";
+  return words;
+}
+
+std::string limit_text(const CellComparison& comparison, const std::string& id) {
+  std::string words;
+  for (const MetricLimit& limit : comparison.limits) {
+    if (limit.metric != id) continue;
+    words += limit.pass ? "✓ within " : "≠ over ";
+    words += metric_text(id, limit.limit);
+  }
+  return words;
+}
+
+void write_metric_row(Html& html, const CellData& cell, const std::string& id) {
+  const MetricNote note = metric_note(id);
+  const Tag row(html, "tr");
+  {
+    const Tag head(html, "th", {{"scope", "row"}});
+    html.text(note.title);
+    if (!note.meaning.empty()) html.element("small", note.meaning);
+  }
+  for (const CellComparison& comparison : cell.comparisons) {
+    const Tag value(html, "td", {{"class", "number"}});
+    html.text(value_text(comparison, id));
+    const std::string limit = limit_text(comparison, id);
+    if (limit.empty()) continue;
+    html.element("small", {{"class", limit.starts_with("≠") ? "over" : "within"}}, limit);
+  }
+}
+
+template <class Words>
+void write_words_row(Html& html, const CellData& cell, const std::string& head,
+                     const Words& words) {
+  const Tag row(html, "tr");
+  html.element("th", {{"scope", "row"}}, head);
+  for (const CellComparison& comparison : cell.comparisons) {
+    html.element("td", words(comparison));
+  }
+}
+
+std::string tolerance_text(const CellComparison& comparison) {
+  if (!comparison.tolerance) return "none";
+  const Tolerance& t = *comparison.tolerance;
+  std::string words;
+  const auto add = [&](const std::string& part) { words += (words.empty() ? "" : " + ") + part; };
+  if (t.relative && *t.relative != 0) add(percent_text(*t.relative) + " of the value");
+  if (t.of_peak && *t.of_peak != 0) add(percent_text(*t.of_peak) + " of the peak");
+  if (words.empty()) words = "exactly equal";
+  if (t.allowed_outliers && *t.allowed_outliers != 0) {
+    words += ", but for " + count_text(*t.allowed_outliers) + " pixels";
+  }
+  return words;
+}
+
+std::string nonfinite_text(const CellComparison& comparison) {
+  return count_text(comparison.nonfinite_a.value_or(0)) + " in ours, " +
+         count_text(comparison.nonfinite_b.value_or(0)) + " in theirs";
+}
+
+std::string viewing_text(const CellComparison& comparison) {
+  std::string words;
+  for (const auto& [name, value] : comparison.viewing) {
+    if (!words.empty()) words += ", ";
+    words += name == "exposureStops"     ? "exposure " + value + " stops"
+             : name == "pixelsPerDegree" ? value + " pixels per degree"
+                                         : name + " " + value;
+  }
+  return words;
+}
+
+void write_metric_head(Html& html, const FarmData& farm, const CellData& cell) {
+  const Tag thead(html, "thead");
+  const Tag line(html, "tr");
+  html.element("th", {{"scope", "col"}}, "Measure");
+  for (const CellComparison& comparison : cell.comparisons) {
+    html.element("th", {{"scope", "col"}},
+                 farm.engine_title(comparison.a) + " and " + farm.engine_title(comparison.b));
+  }
+}
+
+}  // namespace
+
+void write_numbers(Html& html, const FarmData& farm, const CellData& cell) {
+  const Tag section(html, "section", {{"aria-labelledby", "numbers"}});
+  html.element("h2", {{"id", "numbers"}}, "The numbers");
+  if (cell.comparisons.empty()) {
+    write_absence(html, "Our picture was compared with no other: no reference picture was there.");
+    return;
+  }
+  const Tag wrap(html, "div", {{"class", "table-wrap"}});
+  const Tag table(html, "table", {{"class", "metrics"}});
+  write_metric_head(html, farm, cell);
+  const Tag tbody(html, "tbody");
+  write_words_row(html, cell, "Verdict", [](const CellComparison& comparison) {
+    if (!comparison.problem.empty()) return comparison.problem;
+    if (comparison.verdict == "pass") return std::string("✓ pass");
+    if (comparison.verdict == "differs") return std::string("≠ differs");
+    return "✕ " + (comparison.verdict.empty() ? "no verdict" : comparison.verdict);
+  });
+  write_words_row(html, cell, "Pixels that are not finite", nonfinite_text);
+  write_words_row(html, cell, "Tolerance of each pixel", tolerance_text);
+  for (const std::string& id : metric_ids(cell)) write_metric_row(html, cell, id);
+  write_words_row(html, cell, "Seen at", viewing_text);
+}
+
+void write_plan(Html& html, const CellData& cell) {
+  const CellImage* ours = cell.find_image(kOurEngine);
+  const Tag section(html, "section", {{"aria-labelledby", "plan"}});
+  html.element("h2", {{"id", "plan"}}, "The plan");
+  if (!ours || ours->effects.empty()) {
+    write_absence(html, "The record of our picture has no plan.");
+    return;
+  }
+  html.element("p", "Which effects this scene calls for; our renderer simulates nothing else.");
+  const Tag wrap(html, "div", {{"class", "table-wrap"}});
+  const Tag table(html, "table");
+  {
+    const Tag thead(html, "thead");
+    const Tag line(html, "tr");
+    for (const char* title : {"Effect", "State", "Why"})
+      html.element("th", {{"scope", "col"}}, title);
+  }
+  const Tag tbody(html, "tbody");
+  for (const PlannedEffect& effect : ours->effects) {
+    const Tag row(html, "tr");
+    html.element("th", {{"scope", "row"}}, effect.name);
+    html.element("td", {{"class", effect.on ? "on" : "off"}}, effect.on ? "● on" : "○ off");
+    html.element("td", effect.reason);
+  }
+}
+
+}  // namespace lobelia::gallery

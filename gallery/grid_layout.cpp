@@ -1,0 +1,110 @@
+#include "gallery/grid_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+#include "core/error.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+constexpr std::size_t kMaxPlaces = 200'000;
+constexpr int kMostGroupedColumns = 12;  // more would leave thumbnails too small to see
+
+void require_drawable(const FarmData& farm) {
+  std::size_t places = 1;
+  for (const GridAxis& axis : farm.axes) {
+    places *= axis.values.size();
+    if (places > kMaxPlaces) {
+      throw Error(ExitCode::kInput,
+                  fmt::format("farm.json: the axes span more than {} cells, which no page can show",
+                              kMaxPlaces));
+    }
+  }
+}
+
+/// The grid's order, but what lights the scene comes last: highlights are compared under one light.
+std::vector<int> in_reading_order(const FarmData& farm) {
+  std::vector<int> axes(farm.axes.size());
+  std::iota(axes.begin(), axes.end(), 0);
+  std::stable_partition(axes.begin(), axes.end(), [&](int axis) {
+    return farm.axes[axis].name != "light" && farm.axes[axis].name != "scene";
+  });
+  return axes;
+}
+
+}  // namespace
+
+GridLayout lay_out(const FarmData& farm) {
+  require_drawable(farm);
+  std::vector<int> axes = in_reading_order(farm);
+  GridLayout layout;
+  const auto take_first = [&] {
+    const int axis = axes.front();
+    axes.erase(axes.begin());
+    return axis;
+  };
+  // A single axis reads better across than as a column of one picture each.
+  if (axes.size() > 1) layout.rows = take_first();
+  const bool grouped =
+      axes.size() > 1 && axis_size(farm, axes[0]) * axis_size(farm, axes[1]) <= kMostGroupedColumns;
+  if (grouped) layout.groups = take_first();
+  // Where two axes are too much for one line, the first of them goes to the sections.
+  const std::size_t columns = !grouped && axes.size() > 1 ? 1 : 0;
+  layout.columns = axes[columns];
+  axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(columns));
+  layout.section_axes = axes;
+  layout.sections = {{}};
+  for (const int axis : layout.section_axes) {
+    std::vector<std::vector<int>> longer;
+    for (const auto& section : layout.sections) {
+      for (int value = 0; value < axis_size(farm, axis); ++value) {
+        longer.push_back(section);
+        longer.back().push_back(value);
+      }
+    }
+    layout.sections = std::move(longer);
+  }
+  return layout;
+}
+
+std::vector<int> GridLayout::position(const std::vector<int>& section, int row, int group,
+                                      int column) const {
+  const int placed = (rows >= 0 ? 1 : 0) + (groups >= 0 ? 1 : 0) + 1;
+  std::vector<int> at(placed + section.size());
+  if (rows >= 0) at[rows] = row;
+  if (groups >= 0) at[groups] = group;
+  at[columns] = column;
+  for (std::size_t i = 0; i < section.size(); ++i) at[section_axes[i]] = section[i];
+  return at;
+}
+
+std::string GridLayout::section_label(const FarmData& farm, const std::vector<int>& section) const {
+  std::string label;
+  for (std::size_t i = 0; i < section.size(); ++i) {
+    const GridAxis& axis = farm.axes[section_axes[i]];
+    if (!label.empty()) label += " · ";
+    label += axis.name + ": " + axis.values[section[i]].label;
+  }
+  if (!label.empty() && label[0] >= 'a' && label[0] <= 'z')
+    label[0] = static_cast<char>(label[0] - 32);
+  return label;
+}
+
+int axis_size(const FarmData& farm, int axis) {
+  return axis < 0 ? 1 : static_cast<int>(farm.axes[axis].values.size());
+}
+
+std::vector<const CellEntry*> cells_without_place(const FarmData& farm) {
+  std::vector<const CellEntry*> result;
+  for (const CellEntry& cell : farm.cells) {
+    const bool unknown = std::count(cell.at.begin(), cell.at.end(), -1) > 0;
+    if (unknown || farm.find_cell(cell.at) != &cell) result.push_back(&cell);
+  }
+  return result;
+}
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,53 @@
+// Writing markup that cannot be malformed: tags close themselves, text and attributes are escaped.
+// The result is HTML that is well-formed XML too, so that any XML reader can check it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lobelia::gallery {
+
+struct Attribute {
+  std::string_view name;  ///< ours, never from a record
+  std::string value;      ///< escaped when written
+};
+using Attributes = std::vector<Attribute>;
+
+class Html {
+ public:
+  void text(std::string_view text);
+  /// Markup made by this room, such as a chart; the only way to write without escaping.
+  void raw(std::string_view markup) { out_ += markup; }
+  /// An element without content: <img ... />.
+  void empty(std::string_view tag, const Attributes& attributes = {});
+  /// An element with text alone.
+  void element(std::string_view tag, const Attributes& attributes, std::string_view text);
+  void element(std::string_view tag, std::string_view text) { element(tag, {}, text); }
+  const std::string& str() const { return out_; }
+
+ private:
+  friend class Tag;
+  void open(std::string_view tag, const Attributes& attributes);
+  void close(std::string_view tag);
+
+  std::string out_;
+};
+
+/// An element that lasts as long as this object.
+class Tag {
+ public:
+  Tag(Html& html, std::string_view tag, const Attributes& attributes = {})
+      : html_(html), tag_(tag) {
+    html_.open(tag_, attributes);
+  }
+  ~Tag() { html_.close(tag_); }
+  Tag(const Tag&) = delete;
+  Tag& operator=(const Tag&) = delete;
+
+ private:
+  Html& html_;
+  std::string_view tag_;
+};
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include "gallery/grid_layout.hpp"
+#include "gallery/index_page.hpp"
+#include "gallery/names.hpp"
+#include "gallery/page.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+class GridWriter {
+ public:
+  GridWriter(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells)
+      : html_(html), farm_(farm), cells_(cells), layout_(lay_out(farm)) {}
+
+  void write() {
+    for (std::size_t i = 0; i < layout_.sections.size(); ++i) write_section(i);
+    write_rest();
+  }
+
+ private:
+  const std::vector<AxisValue>& values(int axis) const { return farm_.axes[axis].values; }
+  int groups() const { return axis_size(farm_, layout_.groups); }
+  int columns() const { return axis_size(farm_, layout_.columns); }
+
+  void write_section(std::size_t index) {
+    const auto& section = layout_.sections[index];
+    const std::string label = layout_.section_label(farm_, section);
+    const std::string id = fmt::format("grid-{}", index + 1);
+    const Tag outer(html_, "section", {{"class", "grid-section"}, {"aria-labelledby", id}});
+    html_.element("h2", {{"id", id}}, label.empty() ? "The grid" : label);
+    const Tag table(html_, "table", {{"class", "grid"}, {"aria-labelledby", id}});
+    write_column_widths();
+    write_head();
+    const Tag body(html_, "tbody");
+    for (int row = 0; row < axis_size(farm_, layout_.rows); ++row) write_row(section, row);
+  }
+
+  void write_column_widths() {
+    const Tag group(html_, "colgroup");
+    if (layout_.rows >= 0) html_.empty("col", {{"class", "heads"}});
+    for (int i = 0; i < groups() * columns(); ++i) html_.empty("col", {{"class", "place"}});
+  }
+
+  void write_corner(const std::string& rowspan) {
+    if (layout_.rows < 0) return;
+    html_.element("th", {{"scope", "col"}, {"class", "corner"}, {"rowspan", rowspan}},
+                  farm_.axes[layout_.rows].name);
+  }
+
+  void write_label(const std::string& axis, const std::string& label) {
+    // "n = 16" says what it is; "16" does not.
+    if (label.find('=') == std::string::npos) html_.element("small", axis + " ");
+    html_.text(label);
+  }
+
+  void write_column_heads(int group) {
+    const std::string& name = farm_.axes[layout_.columns].name;
+    for (int column = 0; column < columns(); ++column) {
+      const bool first = group > 0 && column == 0;
+      const Tag head(html_, "th", {{"scope", "col"}, {"class", first ? "first" : "inner"}});
+      write_label(name, values(layout_.columns)[column].label);
+    }
+  }
+
+  void write_head() {
+    const Tag thead(html_, "thead");
+    if (layout_.groups >= 0) {
+      const Tag line(html_, "tr", {{"class", "groups"}});
+      write_corner("2");
+      for (int group = 0; group < groups(); ++group) {
+        const Tag head(html_, "th",
+                       {{"scope", "colgroup"},
+                        {"colspan", std::to_string(columns())},
+                        {"class", group > 0 ? "first" : "inner"}});
+        write_label(farm_.axes[layout_.groups].name, values(layout_.groups)[group].label);
+      }
+    }
+    const Tag line(html_, "tr", {{"class", "columns"}});
+    if (layout_.groups < 0) write_corner("1");
+    for (int group = 0; group < groups(); ++group) write_column_heads(group);
+  }
+
+  void write_row(const std::vector<int>& section, int row) {
+    const Tag line(html_, "tr");
+    if (layout_.rows >= 0) {
+      html_.element("th", {{"scope", "row"}}, values(layout_.rows)[row].label);
+    }
+    for (int group = 0; group < groups(); ++group) {
+      for (int column = 0; column < columns(); ++column) {
+        const bool first = group > 0 && column == 0;
+        write_place(farm_.find_cell(layout_.position(section, row, group, column)), first);
+      }
+    }
+  }
+
+  void write_place(const CellEntry* entry, bool first) {
+    const std::string side = first ? " first" : "";
+    if (!entry) {
+      const Tag place(html_, "td", {{"class", "none" + side}});
+      html_.text("not in this farm");
+      return;
+    }
+    const CellSummary& cell = cells_[entry - farm_.cells.data()];
+    const std::string_view status = info(cell.status).name;
+    const Tag place(html_, "td",
+                    {{"class", fmt::format("cell {}{}", status, side)},
+                     {"data-status", std::string(status)},
+                     {"data-text", entry->label + " " + entry->id}});
+    write_cell(cell);
+  }
+
+  void write_cell(const CellSummary& cell) {
+    const std::string words = cell.entry->label + ": " + std::string(info(cell.status).word);
+    {
+      const Tag link(html_, "a", {{"href", link_to({"cells", cell.entry->id, "index.html"})}});
+      if (cell.picture.shown()) {
+        html_.empty("img", {{"src", link_to({"cells", cell.entry->id, cell.picture.file})},
+                            {"alt", words},
+                            {"width", std::to_string(cell.picture.width)},
+                            {"height", std::to_string(cell.picture.height)},
+                            {"loading", "lazy"},
+                            {"decoding", "async"}});
+      } else {
+        html_.element("span", {{"class", "no-picture"}, {"aria-label", words + ", no picture"}},
+                      "no picture");
+      }
+    }
+    write_status(html_, cell.status);
+    for (const EngineFigure& figure : cell.figures) {
+      const Tag line(html_, "span", {{"class", "worst"}});
+      html_.element("span", figure.engine);
+      html_.element("span", figure.worst + (figure.note.empty() ? "" : ","));
+      if (!figure.note.empty()) html_.element("span", figure.note);
+    }
+  }
+
+  void write_rest() {
+    const auto rest = cells_without_place(farm_);
+    if (rest.empty()) return;
+    const Tag outer(html_, "section", {{"aria-labelledby", "rest"}});
+    html_.element("h2", {{"id", "rest"}}, "Cells that have no place on the axes");
+    const Tag list(html_, "ul");
+    for (const CellEntry* entry : rest) {
+      const Tag item(html_, "li");
+      html_.element("a", {{"href", link_to({"cells", entry->id, "index.html"})}}, entry->id);
+      html_.text(" ");
+      write_status(html_, cells_[entry - farm_.cells.data()].status);
+    }
+  }
+
+  Html& html_;
+  const FarmData& farm_;
+  const std::vector<CellSummary>& cells_;
+  const GridLayout layout_;
+};
+
+}  // namespace
+
+void write_grid(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
+  GridWriter(html, farm, cells).write();
+}
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,175 @@
+#include "gallery/index_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gallery/names.hpp"
+#include "gallery/numbers.hpp"
+#include "gallery/page.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+constexpr std::size_t kMostReasons = 3;  // per cell; its page has them all
+
+/// "POV-Ray and Blender Cycles"
+std::string reference_titles(const FarmData& farm, bool available_only) {
+  std::vector<std::string> titles;
+  for (const EngineEntry& engine : farm.engines) {
+    if (engine.name != kOurEngine && (engine.available || !available_only)) {
+      titles.push_back(engine.title);
+    }
+  }
+  std::string words;
+  for (std::size_t i = 0; i < titles.size(); ++i) {
+    if (i > 0) words += i + 1 == titles.size() ? " and " : ", ";
+    words += titles[i];
+  }
+  return words;
+}
+
+void write_introduction(Html& html, const FarmData& farm) {
+  const Tag header(html, "header");
+  html.element("h1", farm.title);
+  const std::string references = reference_titles(farm, true);
+  html.element(
+      "p", {{"class", "lead"}},
+      "Every picture shows specular highlights, shaded by one reflection model with one "
+      "normalisation, drawn by Lobelia straight from the model’s formula. " +
+          (references.empty()
+               ? "No other renderer was there to compare it with."
+               : references + " drew the same scenes, and each pair was compared pixel by "
+                              "pixel; the programs share no code, so what they agree on is not one "
+                              "program’s mistake."));
+}
+
+void write_missing_engines(Html& html, const FarmData& farm) {
+  for (const EngineEntry& engine : farm.engines) {
+    if (engine.available) continue;
+    const Tag box(html, "div", {{"class", "notice"}, {"role", "note"}});
+    {
+      const Tag line(html, "p");
+      html.element("strong", engine.title + " is missing");
+      html.text((engine.why.empty() ? "" : ": " + engine.why) + ". The grid was drawn without it.");
+    }
+    if (engine.install.empty()) continue;
+    html.element("p", "To get it, type this and run the farm again; it does only what is missing:");
+    write_command(html, engine.install);
+  }
+}
+
+void write_counts(Html& html, const std::vector<CellSummary>& cells) {
+  const Tag list(html, "ul", {{"class", "counts"}});
+  {
+    const Tag item(html, "li");
+    html.element("strong", count_text(static_cast<double>(cells.size())));
+    html.text(cells.size() == 1 ? " cell" : " cells");
+  }
+  for (const CellStatus status : kCellStatuses) {
+    const auto count = std::count_if(
+        cells.begin(), cells.end(), [&](const CellSummary& cell) { return cell.status == status; });
+    if (count == 0 && status != CellStatus::kPass) continue;
+    const Tag item(html, "li");
+    html.element("strong", count_text(static_cast<double>(count)));
+    html.text(" ");
+    write_status(html, status);
+  }
+}
+
+void write_making(Html& html, const FarmData& farm) {
+  const Tag section(html, "section", {{"class", "making"}, {"aria-labelledby", "making"}});
+  html.element("h2", {{"id", "making"}}, "How it was made");
+  if (!farm.command.empty()) write_command(html, farm.command);
+  const Tag list(html, "dl", {{"class", "facts"}});
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    if (value.empty()) return;
+    const Tag item(html, "div");
+    html.element("dt", name);
+    html.element("dd", value);
+  };
+  for (const EngineEntry& engine : farm.engines) {
+    fact(engine.title, !engine.available        ? "missing"
+                       : engine.version.empty() ? "present"
+                                                : engine.version);
+  }
+  fact("Grid", farm.grid);
+  for (const auto& [name, value] : farm.host) fact(name, value);
+}
+
+void write_legend(Html& html, const FarmData& farm) {
+  const Tag section(html, "section", {{"class", "legend"}, {"aria-labelledby", "legend"}});
+  html.element("h2", {{"id", "legend"}}, "How to read the grid");
+  {
+    const Tag list(html, "dl", {{"class", "marks"}});
+    for (const CellStatus status : kCellStatuses) {
+      const Tag item(html, "div");
+      {
+        const Tag term(html, "dt");
+        write_status(html, status);
+      }
+      html.element("dd", info(status).meaning);
+    }
+  }
+  const Tag words(html, "div");
+  html.element(
+      "p",
+      "A thumbnail is our picture at an exposure that brings its brightest value to white, "
+      "so that sharp and broad highlights can both be seen; the cell’s page prints the "
+      "exposure. Click it for all pictures, differences, curves and numbers.");
+  if (!reference_titles(farm, true).empty()) {
+    html.element("p",
+                 "The small print is the worst difference against each engine: the largest "
+                 "|ours − theirs| over all pixels and channels of the linear float pictures, "
+                 "divided by the brightest value of theirs. “2 px” after it counts pixels beyond "
+                 "the tolerance; a few are allowed on the silhouette and the terminator, where "
+                 "rounding decides what a ray hits.");
+  }
+}
+
+void write_attention(Html& html, const std::vector<CellSummary>& cells) {
+  const auto needs_look = [](const CellSummary& cell) {
+    return cell.status != CellStatus::kPass && cell.status != CellStatus::kMissing;
+  };
+  const auto count = std::count_if(cells.begin(), cells.end(), needs_look);
+  if (count == 0) return;
+  const Tag section(html, "section", {{"class", "attention"}, {"aria-labelledby", "attention"}});
+  html.element("h2", {{"id", "attention"}}, "Look at these first");
+  const Tag list(html, "ul");
+  for (const CellSummary& cell : cells) {
+    if (!needs_look(cell)) continue;
+    const Tag item(html, "li");
+    write_status(html, cell.status);
+    html.text(" ");
+    html.element("a", {{"href", link_to({"cells", cell.entry->id, "index.html"})}},
+                 cell.entry->label.empty() ? cell.entry->id : cell.entry->label);
+    for (std::size_t i = 0; i < std::min(cell.reasons.size(), kMostReasons); ++i) {
+      html.element("small", cell.reasons[i]);
+    }
+    if (cell.reasons.size() > kMostReasons) {
+      html.element("small", fmt::format("and {} more", cell.reasons.size() - kMostReasons));
+    }
+  }
+}
+
+}  // namespace
+
+std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cells) {
+  Html html;
+  {
+    const Tag top(html, "div", {{"class", "top"}});
+    {
+      const Tag left(html, "div");
+      write_introduction(html, farm);
+      write_counts(html, cells);
+    }
+    write_making(html, farm);
+  }
+  write_missing_engines(html, farm);
+  write_legend(html, farm);
+  write_attention(html, cells);
+  write_grid(html, farm, cells);
+  return finish_page({farm.title + " · Lobelia", "index", "", farm.made_by}, html);
+}
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,18 @@
+// The index: what this is, how it was made, and the grid.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gallery/cell_summary.hpp"
+#include "gallery/html.hpp"
+
+namespace lobelia::gallery {
+
+/// `cells` in the order of farm.cells.
+std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cells);
+
+/// The grid as thumbnails, a table for each section (index_grid.cpp).
+void write_grid(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells);
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,61 @@
+#include "gallery/metric_notes.hpp"
+
+#include "gallery/numbers.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+struct Entry {
+  std::string_view id, title, meaning;
+  MetricUnit unit;
+};
+
+constexpr Entry kEntries[] = {
+    {"rmse", "Root mean square difference", "Over all pixels and channels, in radiance.",
+     MetricUnit::kRadiance},
+    {"max_abs", "Largest difference",
+     "Of any channel of any pixel, in radiance; and at which pixel.", MetricUnit::kRadiance},
+    {"peak", "Peak", "The brightest value of the reference picture.", MetricUnit::kRadiance},
+    {"max_rel_peak", "Largest difference, of the peak",
+     "The largest difference divided by the peak.", MetricUnit::kShare},
+    {"ciede2000.mean", "CIEDE2000, mean",
+     "Colour difference as seen on a display at the cell’s exposure; 1 is about just noticeable.",
+     MetricUnit::kPlain},
+    {"ciede2000.p95", "CIEDE2000, 95th percentile", "95 of 100 pixels differ by less than this.",
+     MetricUnit::kPlain},
+    {"ciede2000.max", "CIEDE2000, largest", "The pixel whose colour differs most.",
+     MetricUnit::kPlain},
+    {"flip.ldr.mean", "LDR-FLIP, mean",
+     "What a person notices on flipping between the two pictures: 0 nothing, 1 everything.",
+     MetricUnit::kPlain},
+    {"flip.ldr.max", "LDR-FLIP, largest", "The pixel where a person would notice most.",
+     MetricUnit::kPlain},
+    {"outliers", "Pixels beyond the tolerance",
+     "A few pixels may be: on the silhouette and on the terminator rounding decides what a ray "
+     "hits.",
+     MetricUnit::kCount},
+};
+
+}  // namespace
+
+MetricNote metric_note(std::string_view id) {
+  for (const Entry& entry : kEntries) {
+    if (entry.id == id) return {std::string(entry.title), entry.meaning, entry.unit};
+  }
+  return {std::string(id), "", MetricUnit::kPlain};
+}
+
+std::string metric_text(std::string_view id, double value) {
+  switch (metric_note(id).unit) {
+    case MetricUnit::kShare:
+      return percent_text(value);
+    case MetricUnit::kCount:
+      return count_text(value);
+    case MetricUnit::kRadiance:
+    case MetricUnit::kPlain:
+      break;
+  }
+  return number_text(value);
+}
+
+}  // namespace lobelia::gallery

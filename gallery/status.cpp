@@ -1,0 +1,41 @@
+#include "gallery/status.hpp"
+
+namespace lobelia::gallery {
+
+const StatusInfo& info(CellStatus status) {
+  static constexpr StatusInfo kPass{
+      "pass", "pass", "✓",
+      "Our picture agrees with every engine that is there, within the limits."};
+  static constexpr StatusInfo kDiffers{
+      "differs", "differs", "≠",
+      "All pictures are there, but at least one number is over its limit."};
+  static constexpr StatusInfo kFailed{"failed", "failed", "✕",
+                                      "A picture could not be rendered, or could not be compared."};
+  static constexpr StatusInfo kMissing{
+      "missing", "not done", "…",
+      "Not done yet: the farm was stopped before it came to this cell."};
+  static constexpr StatusInfo kUnreadable{"unreadable", "unreadable", "?",
+                                          "The cell’s own record is missing or cannot be read."};
+  switch (status) {
+    case CellStatus::kPass:
+      return kPass;
+    case CellStatus::kDiffers:
+      return kDiffers;
+    case CellStatus::kFailed:
+      return kFailed;
+    case CellStatus::kMissing:
+      return kMissing;
+    case CellStatus::kUnreadable:
+      break;
+  }
+  return kUnreadable;
+}
+
+std::optional<CellStatus> find_status(std::string_view name) {
+  for (const CellStatus status : kCellStatuses) {
+    if (status != CellStatus::kUnreadable && info(status).name == name) return status;
+  }
+  return std::nullopt;
+}
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,192 @@
+#include "gallery/svg_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gallery/html.hpp"
+#include "gallery/ticks.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+constexpr double kLeft = 78, kRight = 12, kTop = 34, kBottom = 50;
+constexpr double kCharacter = 7.2;  // typical width at the size that style.css sets
+
+struct LineStyle {
+  std::string_view dashes;
+  double width;
+};
+constexpr std::array<LineStyle, 6> kLineStyles = {
+    {{"none", 7}, {"none", 1.8}, {"9 5", 2.2}, {"2 4", 2.6}, {"12 4 2 4", 2.2}, {"5 3", 2.2}}};
+
+std::string number(double value) {
+  std::string text = fmt::format("{:.2f}", value);
+  return text == "-0.00" ? "0.00" : text;
+}
+
+int text_length(std::string_view text) {
+  return static_cast<int>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+class Drawing {
+ public:
+  explicit Drawing(const Chart& chart) : chart_(chart) {}
+
+  std::string draw() {
+    {
+      const Tag svg(html_, "svg",
+                    {{"class", "chart"},
+                     {"viewBox", fmt::format("0 0 {} {}", chart_.width, chart_.height)},
+                     {"role", "img"},
+                     {"aria-labelledby", chart_.id + "-title " + chart_.id + "-desc"}});
+      html_.element("title", {{"id", chart_.id + "-title"}}, chart_.title);
+      html_.element("desc", {{"id", chart_.id + "-desc"}}, chart_.description);
+      draw_clip();
+      for (std::size_t i = 0; i < chart_.bands.size(); ++i) draw_band(chart_.bands[i], i);
+      draw_x_axis();
+      draw_y_axis();
+      for (const ChartSeries& series : chart_.series) draw_series(series);
+      draw_legend();
+    }
+    return html_.str();
+  }
+
+ private:
+  static double share(const ChartAxis& axis, double value) {
+    if (axis.logarithmic) return std::log(value / axis.from) / std::log(axis.to / axis.from);
+    return (value - axis.from) / (axis.to - axis.from);
+  }
+  double right() const { return chart_.width - kRight; }
+  double bottom() const { return chart_.height - kBottom; }
+  double at_x(double value) const { return kLeft + share(chart_.x, value) * (right() - kLeft); }
+  double at_y(double value) const { return bottom() - share(chart_.y, value) * (bottom() - kTop); }
+
+  void line(const char* name, double x1, double y1, double x2, double y2) {
+    html_.empty("line", {{"class", name},
+                         {"x1", number(x1)},
+                         {"y1", number(y1)},
+                         {"x2", number(x2)},
+                         {"y2", number(y2)}});
+  }
+  void text(const char* name, double x, double y, const char* anchor, std::string_view words) {
+    html_.element("text",
+                  {{"class", name}, {"x", number(x)}, {"y", number(y)}, {"text-anchor", anchor}},
+                  words);
+  }
+
+  void draw_clip() {
+    const Tag clip(html_, "clipPath", {{"id", chart_.id + "-clip"}});
+    html_.empty("rect", {{"x", number(kLeft)},
+                         {"y", number(kTop - 4)},
+                         {"width", number(right() - kLeft)},
+                         {"height", number(bottom() - kTop + 8)}});
+  }
+
+  void draw_band(const ChartBand& band, std::size_t index) {
+    const double from = std::clamp(band.from, chart_.x.from, chart_.x.to);
+    const double to = std::clamp(band.to, chart_.x.from, chart_.x.to);
+    if (!(to > from)) return;
+    const double x1 = at_x(from), x2 = at_x(to);
+    html_.empty("rect", {{"class", fmt::format("band band-{}", index % 2)},
+                         {"x", number(x1)},
+                         {"y", number(kTop)},
+                         {"width", number(x2 - x1)},
+                         {"height", number(bottom() - kTop)}});
+    if (band.to <= chart_.x.to) line("band-edge", x2, kTop, x2, bottom());
+    if (x2 - x1 > kCharacter * text_length(band.label)) {
+      text("band-label", (x1 + x2) / 2, kTop + 15, "middle", band.label);
+    }
+  }
+
+  void draw_x_axis() {
+    for (const Tick& tick : linear_ticks(chart_.x.from, chart_.x.to, 10)) {
+      const double x = at_x(tick.value);
+      line("tick", x, bottom(), x, bottom() + 5);
+      text("tick-label", x, bottom() + 19, "middle", tick.label);
+    }
+    line("axis", kLeft, bottom(), right(), bottom());
+    text("axis-label", (kLeft + right()) / 2, chart_.height - 8.0, "middle", chart_.x.label);
+  }
+
+  void draw_y_axis() {
+    const ChartAxis& y = chart_.y;
+    for (const Tick& tick :
+         y.logarithmic ? log_ticks(y.from, y.to) : linear_ticks(y.from, y.to, 5)) {
+      const double at = at_y(tick.value);
+      if (tick.label.empty()) {
+        line("tick", kLeft - 3, at, kLeft, at);
+        continue;
+      }
+      line("grid-line", kLeft, at, right(), at);
+      text("tick-label", kLeft - 8, at + 4, "end", tick.label);
+    }
+    line("axis", kLeft, kTop, kLeft, bottom());
+    const double middle = (kTop + bottom()) / 2;
+    html_.element("text",
+                  {{"class", "axis-label"},
+                   {"transform", fmt::format("translate(16 {}) rotate(-90)", number(middle))},
+                   {"text-anchor", "middle"}},
+                  y.label);
+  }
+
+  std::string path_of(const ChartSeries& series) const {
+    std::string path;
+    bool drawing = false;
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
+      const double x = series.x[i], y = series.y[i];
+      if (!std::isfinite(x) || !std::isfinite(y) || (chart_.y.logarithmic && y <= 0)) {
+        drawing = false;
+        continue;
+      }
+      // Far outside the frame is as good as just outside, and keeps the numbers short.
+      const double py = std::clamp(at_y(y), -10.0 * chart_.height, 10.0 * chart_.height);
+      const double px = std::clamp(at_x(x), -10.0 * chart_.width, 10.0 * chart_.width);
+      path += fmt::format("{}{} {}", drawing ? "L" : "M", number(px), number(py));
+      drawing = true;
+    }
+    return path;
+  }
+
+  void draw_series(const ChartSeries& series) {
+    const std::string path = path_of(series);
+    if (path.empty()) return;
+    const int style = std::clamp(series.style, 0, static_cast<int>(kLineStyles.size()) - 1);
+    const Tag shape(html_, "path",
+                    {{"class", fmt::format("series series-{}", style)},
+                     {"d", path},
+                     {"fill", "none"},
+                     {"clip-path", "url(#" + chart_.id + "-clip)"},
+                     {"stroke-dasharray", std::string(kLineStyles[style].dashes)},
+                     {"stroke-width", fmt::format("{}", kLineStyles[style].width)}});
+    html_.element("title", series.label);
+  }
+
+  void draw_legend() {
+    double x = kLeft;
+    for (const ChartSeries& series : chart_.series) {
+      const int style = std::clamp(series.style, 0, static_cast<int>(kLineStyles.size()) - 1);
+      html_.empty("line", {{"class", fmt::format("series series-{}", style)},
+                           {"x1", number(x)},
+                           {"y1", "14"},
+                           {"x2", number(x + 36)},
+                           {"y2", "14"},
+                           {"stroke-dasharray", std::string(kLineStyles[style].dashes)},
+                           {"stroke-width", fmt::format("{}", kLineStyles[style].width)}});
+      text("legend", x + 44, 18, "start", series.label);
+      x += 44 + kCharacter * text_length(series.label) + 28;
+    }
+  }
+
+  const Chart& chart_;
+  Html html_;
+};
+
+}  // namespace
+
+std::string draw_chart(const Chart& chart) { return Drawing(chart).draw(); }
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,39 @@
+// A line chart as inline SVG. Colours come from style.css, so that it follows the page into the
+// dark; dash patterns are in the drawing itself, so that lines can be told apart without colour.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lobelia::gallery {
+
+struct ChartAxis {
+  std::string label;  ///< with its unit
+  double from = 0, to = 1;
+  bool logarithmic = false;  ///< then from > 0
+};
+
+struct ChartBand {
+  double from = 0, to = 0;  ///< on the x axis
+  std::string label;
+};
+
+struct ChartSeries {
+  std::string label;
+  std::vector<double> x, y;  ///< a value that is not finite, or not above 0 on a log axis, is a gap
+  int style = 0;             ///< 0 is a broad pale line to lie under the others; 1 to 5 are dashes
+};
+
+struct Chart {
+  std::string id;     ///< unique on the page
+  std::string title;  ///< read by screen readers; not drawn
+  std::string description;
+  int width = 1200, height = 360;
+  ChartAxis x, y;
+  std::vector<ChartBand> bands;
+  std::vector<ChartSeries> series;
+};
+
+std::string draw_chart(const Chart& chart);
+
+}  // namespace lobelia::gallery
