@@ -71,6 +71,8 @@ std::vector<std::uint8_t> encode_exr(const Image& image, const ImageMetadata& me
   OIIO::ImageSpec spec(image.width(), image.height(), 3, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
+  // OpenImageIO would write the time of day, and the same picture would be another file each second.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
   return encode("exr", spec, OIIO::TypeDesc::FLOAT, image.values().data());
 }

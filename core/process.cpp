@@ -118,6 +118,17 @@ ProcessResult run_process(const std::vector<std::string>& arguments, const Proce
     throw;
   }
   ::close(ends[1]);
+  // Whatever way this function is left, also by an exception of on_line: nothing keeps running.
+  struct Guard {
+    pid_t pid;
+    int output;
+    bool reaped = false;
+    ~Guard() {
+      ::close(output);
+      ::kill(-pid, SIGKILL);  // with whatever it left behind in its group
+      if (!reaped) ::waitpid(pid, nullptr, 0);
+    }
+  } guard{pid, ends[0]};
 
   ProcessResult result;
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started); };
@@ -141,7 +152,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments, const Proce
     } else if (ended) {
       break;
     }
-    if (!ended) ended = ::waitpid(pid, &status, WNOHANG) == pid;
+    if (!ended) guard.reaped = ended = ::waitpid(pid, &status, WNOHANG) == pid;
     if (!ended && !result.timed_out && !result.interrupted) {
       if (interrupted())
         stop(result.interrupted);
@@ -149,8 +160,6 @@ ProcessResult run_process(const std::vector<std::string>& arguments, const Proce
         stop(result.timed_out);
     }
   }
-  ::close(ends[0]);
-  ::kill(-pid, SIGKILL);  // whatever it left behind in its group
   sink.flush_line();
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.seconds = seconds().count();
