@@ -1,0 +1,16 @@
+// A scene written down for render_scenes.py: numbers and enumerations. Nothing that a person typed
+// into the scene file (ids, paths) is in it, so nothing of it can become code.
+#pragma once
+
+#include <string>
+
+#include "core/record.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// One entry of the job's "scenes". `scene` is in engine units (preparation.hpp); `name` is ours.
+/// Throws Error(kEngine) for what Blender cannot render.
+Json blender_input(const Scene& scene, const std::string& name);
+
+}  // namespace lobelia

@@ -1,0 +1,64 @@
+#include "reference_scenes/engine.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
+#include "reference_scenes/blender/blender.hpp"
+#include "reference_scenes/keep_input.hpp"
+#include "reference_scenes/povray/povray.hpp"
+#include "reference_scenes/preparation.hpp"
+
+namespace lobelia {
+namespace {
+
+struct CatalogueEntry {
+  EngineInfo info;
+  std::unique_ptr<Engine> (*make)(const std::filesystem::path& program);
+  void (*keep_input)(const Scene& scene, const std::filesystem::path& directory);
+};
+
+/// An engine is one line here.
+constexpr CatalogueEntry kCatalogue[] = {
+    {kPovrayInfo, make_povray, keep_povray_input},
+    {kBlenderInfo, make_blender, keep_blender_input},
+};
+
+constexpr auto kInfos = [] {
+  std::array<EngineInfo, std::size(kCatalogue)> infos;
+  for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = kCatalogue[i].info;
+  return infos;
+}();
+
+const CatalogueEntry& entry(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const CatalogueEntry& candidate : kCatalogue) {
+    if (candidate.info.name == name) return candidate;
+    names.push_back(candidate.info.name);
+  }
+  throw Error(ExitCode::kUsage,
+              fmt::format("no reference engine '{}'; there are: {}{}", printable(name), join(names),
+                          did_you_mean(name, names)));
+}
+
+}  // namespace
+
+std::span<const EngineInfo> engine_infos() { return kInfos; }
+
+std::unique_ptr<Engine> make_engine(std::string_view name, const std::filesystem::path& program) {
+  return entry(name).make(program);
+}
+
+void keep_engine_input(std::string_view engine, const Scene& scene,
+                       const std::filesystem::path& directory) {
+  const CatalogueEntry& found = entry(engine);
+  if (const std::string why = why_not_comparable(scene); !why.empty())
+    throw Error(ExitCode::kInput, why);
+  make_directories(directory);
+  found.keep_input(scene, directory);
+}
+
+}  // namespace lobelia

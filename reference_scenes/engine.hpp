@@ -1,0 +1,66 @@
+// The engines that we did not write: what they are, whether they are here, and how to ask them for
+// the same picture.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/record.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+struct EngineInfo {
+  std::string_view name;          ///< "povray", as on the command line and in file names
+  std::string_view title;         ///< "POV-Ray"
+  std::string_view install_hint;  ///< "sudo apt-get install povray"
+};
+
+struct EngineStatus {
+  bool available = false;
+  std::filesystem::path program;
+  std::string version;  ///< "3.7.0.10"
+  std::string why;      ///< where not available: one sentence
+};
+
+struct ReferenceOptions {
+  int threads = 0;                                                      ///< 0: all processors
+  std::chrono::duration<double> time_limit = std::chrono::minutes(10);  ///< for each picture
+  std::filesystem::path log_directory;  ///< receives the engine's own output; empty: dropped
+};
+
+/// One picture, or why there is none. `image` has the gain and every other trick taken out again.
+struct ReferenceResult {
+  Image image;
+  std::string error;  ///< empty on success
+  Json record;        ///< kind "reference": engine, version, witness (native or expressed), command
+                      ///< lines, passes, seconds
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual const EngineInfo& info() const = 0;
+  /// Looks for the program and asks its version; slow the first time, remembered afterwards.
+  virtual const EngineStatus& status() = 0;
+  /// Renders every scene, each once, in any order, several at a time if the engine likes; calls
+  /// `on_result(index, result)` for each, never two at once. One scene's failure is its result and
+  /// nothing else's. Throws Error(kEngine) if the engine is not available and Error(kInterrupted)
+  /// on Ctrl-C.
+  virtual void render(std::span<const Scene> scenes, const ReferenceOptions& options,
+                      const std::function<void(std::size_t, ReferenceResult)>& on_result) = 0;
+};
+
+/// The catalogue: the engines' names, and an engine by name (with `program` in place of the one in
+/// $PATH, if not empty).
+std::span<const EngineInfo> engine_infos();
+std::unique_ptr<Engine> make_engine(std::string_view name, const std::filesystem::path& program);
+
+}  // namespace lobelia

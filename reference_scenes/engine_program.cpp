@@ -1,0 +1,128 @@
+#include "reference_scenes/engine_program.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr double kProbeSeconds = 60;  // a cold disk under Blender may take ten
+constexpr std::size_t kMaxWords = 300;
+
+/// "3.7.0.10" out of "POV-Ray 3.7.0.10.unofficial".
+std::string version_after(std::string_view line, std::string_view prefix) {
+  if (!line.starts_with(prefix)) return {};
+  line.remove_prefix(prefix.size());
+  std::size_t length = 0;
+  while (length < line.size() &&
+         (std::isdigit(static_cast<unsigned char>(line[length])) || line[length] == '.'))
+    ++length;
+  std::string version(line.substr(0, length));
+  while (version.ends_with('.')) version.pop_back();
+  return version;
+}
+
+bool is_supported(const std::string& version, const EngineProbe& probe) {
+  const auto parts = split(version, ".");
+  long long major = 0, minor = 0;
+  return parts.size() >= 2 && parse_integer(parts[0], major) && parse_integer(parts[1], minor) &&
+         probe.supports(int(major), int(minor));
+}
+
+}  // namespace
+
+EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
+                          const std::filesystem::path& program) {
+  EngineStatus status;
+  const std::string wanted = program.empty() ? std::string(probe.program) : program.string();
+  status.program = find_program(wanted);
+  if (status.program.empty()) {
+    status.why = program.empty() ? fmt::format("no program '{}' in $PATH", probe.program)
+                                 : fmt::format("'{}' is not a program", printable(wanted, 400));
+    return status;
+  }
+  ProcessOptions options;
+  options.timeout = std::chrono::duration<double>(kProbeSeconds);
+  // POV-Ray prints its version on stderr, after complaints about missing configuration files.
+  options.on_line = [&](std::string_view line) {
+    if (status.version.empty()) status.version = version_after(line, probe.version_prefix);
+  };
+  ProcessResult result;
+  try {
+    result = run_process({status.program.string(), "--version"}, options);
+  } catch (const Error& error) {
+    status.why = error.what();
+    return status;
+  }
+  if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
+  if (result.timed_out)
+    status.why = fmt::format("'{}' did not tell its version within {} s", status.program.string(),
+                             kProbeSeconds);
+  else if (status.version.empty())
+    status.why = fmt::format("'{}' does not answer --version as {} does", status.program.string(),
+                             engine.title);
+  else if (!is_supported(status.version, probe))
+    status.why = fmt::format("'{}' is {} {}; what can be driven is {}", status.program.string(),
+                             engine.title, status.version, probe.supported);
+  else
+    status.available = true;
+  return status;
+}
+
+void require_available(const EngineInfo& engine, const EngineStatus& status) {
+  if (!status.available)
+    throw Error(ExitCode::kEngine, fmt::format("{} is not available: {}; to install it: {}",
+                                               engine.title, status.why, engine.install_hint));
+}
+
+std::string last_words(const std::string& output_tail) {
+  auto lines = split(output_tail, "\n");
+  // Progress explains nothing: our script's messages and Cycles' frames.
+  std::erase_if(lines, [](const std::string& line) {
+    return line.starts_with("lobelia: ") || line.starts_with("Fra:");
+  });
+  // What follows the first error explains it; without one, the last lines are all there is.
+  std::size_t first = lines.size() - std::min<std::size_t>(lines.size(), 3);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (lines[i].find("Error") != std::string::npos ||
+        lines[i].find("error") != std::string::npos) {
+      first = i;
+      break;
+    }
+  std::string words;
+  for (std::size_t i = first; i < lines.size() && words.size() < kMaxWords; ++i)
+    words += (words.empty() ? "" : " ") + lines[i];
+  return printable(words, kMaxWords);
+}
+
+std::string describe_failure(const EngineInfo& engine, const ProcessResult& result,
+                             double time_limit_seconds) {
+  if (result.timed_out)
+    return fmt::format("{} was stopped after {:.6g} s, the time limit of a picture", engine.title,
+                       time_limit_seconds);
+  const std::string words = last_words(result.output_tail);
+  const std::string how = result.exit_code > 128
+                              ? fmt::format("was ended by signal {}", result.exit_code - 128)
+                              : fmt::format("stopped with exit code {}", result.exit_code);
+  return fmt::format("{} {}{}{}", engine.title, how, words.empty() ? "" : ": ", words);
+}
+
+void write_engine_log(const ReferenceOptions& options, const EngineInfo& engine, std::size_t index,
+                      const std::string& text) {
+  if (!options.log_directory.empty())
+    write_file(options.log_directory / fmt::format("{}-{}.log", engine.name, index), text);
+}
+
+Json reference_record(const EngineInfo& engine, const EngineStatus& status, const Scene& scene) {
+  Json record = make_record("reference");
+  record["engine"] = {{"name", engine.name}, {"title", engine.title}, {"version", status.version}};
+  record["image"] = {{"width", scene.film.width}, {"height", scene.film.height}};
+  return record;
+}
+
+}  // namespace lobelia

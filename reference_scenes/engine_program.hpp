@@ -1,0 +1,46 @@
+// Finding an engine's program, asking its version, and saying in one line why it failed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/process.hpp"
+#include "reference_scenes/engine.hpp"
+
+namespace lobelia {
+
+/// Of an engine, for the probe.
+struct EngineProbe {
+  std::string_view program;         ///< as in $PATH
+  std::string_view version_prefix;  ///< what stands before the version in `--version`: "Blender "
+  std::string_view supported;       ///< "3.4 to 4.x"
+  bool (*supports)(int major, int minor) = nullptr;
+};
+
+/// Looks for the program (`program` if not empty) and runs it with --version.
+EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
+                          const std::filesystem::path& program);
+
+/// Error(kEngine) with the reason and how to install it, unless it is available.
+void require_available(const EngineInfo& engine, const EngineStatus& status);
+
+/// Of an engine's output the words that say most about a failure, in one line.
+std::string last_words(const std::string& output_tail);
+
+/// Why a process failed, in one line: "POV-Ray stopped with exit code 1: ...".
+std::string describe_failure(const EngineInfo& engine, const ProcessResult& result,
+                             double time_limit_seconds);
+
+/// Writes the engine's own output on scene `index` to ENGINE-INDEX.log in the log directory, if
+/// there is one.
+void write_engine_log(const ReferenceOptions& options, const EngineInfo& engine, std::size_t index,
+                      const std::string& text);
+
+/// The record of kind "reference", as far as both engines fill it alike.
+Json reference_record(const EngineInfo& engine, const EngineStatus& status, const Scene& scene);
+
+}  // namespace lobelia

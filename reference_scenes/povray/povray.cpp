@@ -1,0 +1,261 @@
+#include "reference_scenes/povray/povray.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/image_io.hpp"
+#include "core/interrupt.hpp"
+#include "core/text.hpp"
+#include "reference_scenes/engine_program.hpp"
+#include "reference_scenes/povray/povray_input.hpp"
+#include "reference_scenes/preparation.hpp"
+
+namespace lobelia {
+namespace embedded {
+extern const std::string_view lobelia_models_inc;
+}
+namespace {
+namespace fs = std::filesystem;
+
+constexpr char kIncludeFile[] = "lobelia_models.inc";
+/// POV-Ray 3.7 sleeps through most of the 0.7 s that a small picture takes it; a large one works.
+constexpr int kProcessesPerProcessor = 4;
+constexpr std::size_t kLargePixels = 1 << 20;
+constexpr std::uint64_t kMaxLogBytes = 16 << 20;
+
+constexpr EngineProbe kProbe{"povray", "POV-Ray ", "3.7 or 3.8",
+                             [](int major, int minor) { return major == 3 && minor >= 7; }};
+
+/// Relative to the directory of the scenes, where POV-Ray runs. Everything that decides over the
+/// picture is said, because a povray.ini of the user is read first.
+std::vector<std::string> povray_arguments(const std::string& program, const std::string& stem,
+                                          const Film& film, int threads) {
+  return {program, fmt::format("+I{}.pov", stem), fmt::format("+O{}.exr", stem),
+          "+FE",  // OpenEXR: always half float
+          fmt::format("+W{}", film.width), fmt::format("+H{}", film.height),
+          "-A",  // no anti-aliasing: the ray goes through the middle of the pixel
+          "-J", "+Q9", "-UA",
+          "-D",  // no window
+          "-P",
+          "-C",  // never continue an older picture
+          // No chatter, but not -GA, which would hide errors too.
+          "-GD", "-GR", "-GS", "-V", fmt::format("+WT{}", threads)};
+}
+
+struct PassResult {
+  Image image;
+  std::string error, command;
+  double seconds = 0;
+};
+
+/// The passes of one scene, filled in by whichever thread comes to them.
+struct Job {
+  PovrayInput input;
+  Film film;
+  std::vector<PassResult> passes;
+  std::size_t unfinished = 0;
+};
+
+struct WorkItem {
+  std::size_t job, pass;
+};
+
+std::string pass_stem(std::size_t scene, std::size_t pass) {
+  return fmt::format("scene{}-pass{}", scene, pass);
+}
+
+Image read_pass(const fs::path& file, const Film& film, double gain) {
+  Image image = read_image(file);
+  if (image.width() != film.width || image.height() != film.height)
+    throw Error(ExitCode::kEngine, "POV-Ray's picture has another size than was asked for");
+  for (float& value : image.values()) value = float(value / gain);
+  return image;
+}
+
+class Povray final : public Engine {
+ public:
+  explicit Povray(fs::path program) : wanted_program_(std::move(program)) {}
+
+  const EngineInfo& info() const override { return kPovrayInfo; }
+
+  const EngineStatus& status() override {
+    if (!probed_) {
+      status_ = probe_engine(kPovrayInfo, kProbe, wanted_program_);
+      probed_ = true;
+    }
+    return status_;
+  }
+
+  void render(std::span<const Scene> scenes, const ReferenceOptions& options,
+              const std::function<void(std::size_t, ReferenceResult)>& on_result) override;
+
+ private:
+  PassResult run_pass(const std::string& stem, const PovrayPass& pass, const Film& film,
+                      int threads, const ReferenceOptions& options) const;
+  std::string joined_logs(std::size_t index, const std::vector<PassResult>& passes) const;
+
+  fs::path wanted_program_, directory_;
+  EngineStatus status_;
+  bool probed_ = false;
+};
+
+PassResult Povray::run_pass(const std::string& stem, const PovrayPass& pass, const Film& film,
+                            int threads, const ReferenceOptions& options) const {
+  PassResult result;
+  write_file(directory_ / (stem + ".pov"), pass.scene);
+  const auto arguments = povray_arguments(status_.program.string(), stem, film, threads);
+  ProcessOptions process;
+  process.working_directory = directory_;
+  process.timeout = options.time_limit;
+  process.log = directory_ / (stem + ".log");
+  const ProcessResult ended = run_process(arguments, process);
+  if (ended.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
+  result.command = shell_join(arguments);
+  result.seconds = ended.seconds;
+  const fs::path picture = directory_ / (stem + ".exr");
+  if (ended.exit_code != 0 || ended.timed_out) {
+    result.error = describe_failure(kPovrayInfo, ended, options.time_limit.count());
+  } else if (!fs::exists(picture)) {
+    result.error = fmt::format("POV-Ray wrote no picture: {}", last_words(ended.output_tail));
+  } else {
+    try {
+      result.image = read_pass(picture, film, pass.gain);
+    } catch (const Error& error) {
+      result.error = fmt::format("POV-Ray's picture cannot be used: {}", error.what());
+    }
+  }
+  std::error_code ignored;
+  fs::remove(picture, ignored);  // of many large pictures only those at work lie on the disk
+  return result;
+}
+
+std::string Povray::joined_logs(std::size_t index, const std::vector<PassResult>& passes) const {
+  std::string text;
+  for (std::size_t p = 0; p < passes.size(); ++p) {
+    const fs::path log = directory_ / (pass_stem(index, p) + ".log");
+    text += "$ " + passes[p].command + "\n";
+    if (fs::exists(log)) text += read_file(log, kMaxLogBytes);
+  }
+  return text;
+}
+
+ReferenceResult finish(Job& job, Json record) {
+  ReferenceResult result;
+  double seconds = 0;
+  Json commands = Json::array();
+  std::vector<Image> images;
+  for (PassResult& pass : job.passes) {
+    if (result.error.empty()) result.error = pass.error;
+    seconds += pass.seconds;
+    commands.push_back(pass.command);
+    images.push_back(std::move(pass.image));
+  }
+  record["witness"] = job.input.native ? "native" : "expressed";
+  record["method"] = job.input.native ? "POV-Ray's own highlight under its own lamps"
+                                      : "pattern function under a real lamp, one pass per light";
+  record["passes"] = job.passes.size();
+  record["engineCommands"] = std::move(commands);
+  record["seconds"] = {{"total", seconds}};
+  result.record = std::move(record);
+  if (result.error.empty()) result.image = sum_of(images);
+  job.passes.clear();
+  return result;
+}
+
+void Povray::render(std::span<const Scene> scenes, const ReferenceOptions& options,
+                    const std::function<void(std::size_t, ReferenceResult)>& on_result) {
+  require_available(kPovrayInfo, status());
+  const TemporaryDirectory directory;
+  directory_ = directory.path();
+  write_file(directory_ / kIncludeFile, embedded::lobelia_models_inc);
+
+  std::vector<Job> jobs(scenes.size());
+  std::vector<WorkItem> work;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    std::string error = why_not_comparable(scenes[i]);
+    if (error.empty()) {
+      try {
+        jobs[i].input = povray_input(in_engine_units(scenes[i]));
+      } catch (const Error& refused) {
+        error = refused.what();
+      }
+    }
+    if (!error.empty()) {
+      on_result(i, {{}, error, reference_record(kPovrayInfo, status_, scenes[i])});
+      continue;
+    }
+    jobs[i].film = scenes[i].film;
+    jobs[i].unfinished = jobs[i].input.passes.size();
+    jobs[i].passes.resize(jobs[i].unfinished);
+    for (std::size_t p = 0; p < jobs[i].unfinished; ++p) work.push_back({i, p});
+  }
+
+  const int processors = options.threads > 0
+                             ? options.threads
+                             : int(std::max(1u, std::thread::hardware_concurrency()));
+  const bool large = std::ranges::any_of(jobs, [](const Job& job) {
+    return std::size_t(job.film.width) * job.film.height > kLargePixels;
+  });
+  const int processes = processors * (large ? 1 : kProcessesPerProcessor);
+  const int workers = int(std::min(work.size(), std::size_t(processes)));
+  const int threads_each = workers > 0 ? std::max(1, processors / workers) : 1;
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stop{false};
+  std::mutex mutex;  // of the jobs' bookkeeping, on_result and the first failure
+  std::exception_ptr failure;
+  const auto run = [&] {
+    try {
+      for (std::size_t i; !stop && (i = next++) < work.size();) {
+        throw_if_interrupted();
+        const auto [index, pass] = work[i];
+        Job& job = jobs[index];
+        const std::string stem = pass_stem(index, pass);
+        PassResult result = run_pass(stem, job.input.passes[pass], job.film, threads_each, options);
+        const std::scoped_lock lock(mutex);
+        job.passes[pass] = std::move(result);
+        if (--job.unfinished > 0 || stop) continue;
+        write_engine_log(options, kPovrayInfo, index, joined_logs(index, job.passes));
+        on_result(index, finish(job, reference_record(kPovrayInfo, status_, scenes[index])));
+      }
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!failure) failure = std::current_exception();
+      stop = true;
+    }
+  };
+  {
+    std::vector<std::jthread> pool;
+    for (int i = 0; i < workers; ++i) pool.emplace_back(run);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_povray(const fs::path& program) {
+  return std::make_unique<Povray>(program);
+}
+
+void keep_povray_input(const Scene& scene, const fs::path& directory) {
+  const PovrayInput input = povray_input(in_engine_units(scene));
+  write_file(directory / kIncludeFile, embedded::lobelia_models_inc);
+  std::string commands =
+      "# Each picture is so many times too bright; divided by that, they add up.\n";
+  for (std::size_t p = 0; p < input.passes.size(); ++p) {
+    const std::string stem = fmt::format("pass{}", p);
+    write_file(directory / (stem + ".pov"), input.passes[p].scene);
+    commands +=
+        fmt::format("{}  # {}\n", shell_join(povray_arguments("povray", stem, scene.film, 1)),
+                    exact_text(input.passes[p].gain));
+  }
+  write_file(directory / "povray.sh", commands);
+}
+
+}  // namespace lobelia

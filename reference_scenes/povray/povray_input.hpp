@@ -1,0 +1,30 @@
+// A scene written down for POV-Ray: numbers and our own names around lobelia_models.inc. Nothing
+// that a person typed into the scene file (ids, paths) is in it, so nothing of it can become code.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+struct PovrayPass {
+  std::string scene;  ///< the .pov file
+  double gain = 1;    ///< its picture is this many times too bright; a power of two
+};
+
+struct PovrayInput {
+  /// POV-Ray's own phong and specular with all lights at once; otherwise the model is a pattern
+  /// function of one light and each pass has one.
+  bool native = false;
+  std::vector<PovrayPass> passes;
+};
+
+/// `scene` is in engine units (preparation.hpp).
+PovrayInput povray_input(const Scene& scene);
+
+/// Greatest radiance that the given lights can bring to the picture, from above.
+double peak_bound(const Scene& scene, const std::vector<Light>& lights);
+
+}  // namespace lobelia

@@ -1,0 +1,33 @@
+// What every engine needs of a scene before it is written down for it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// Why no engine can be asked for this scene, as a sentence; empty if one can.
+std::string why_not_comparable(const Scene& scene);
+
+/// The same picture in the engines' units: the first sphere's centre is the origin and the smallest
+/// radius lies in [1, 2); a scene without lights has a black one. The factor is a power of two, so
+/// a scene that is there already keeps its numbers, bit for bit.
+Scene in_engine_units(Scene scene);
+
+/// Distance from `light` to the nearest surface that it can light; 1 if it can light none.
+double nearest_surface(const PointLight& light, const std::vector<Sphere>& spheres);
+
+/// The greatest distance from the origin of anything in the scene, and at least 1.
+double extent(const Scene& scene);
+
+/// Pixel by pixel in double precision, in the order given. All sizes are equal.
+Image sum_of(const std::vector<Image>& passes);
+
+/// Text of a number that reads back to the same number. Throws Error(kInternal) if not finite: it
+/// would be code, not a number, in an engine's input.
+std::string exact_text(double value);
+
+}  // namespace lobelia

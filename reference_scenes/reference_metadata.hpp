@@ -1,0 +1,14 @@
+// What a reference picture says of itself.
+#pragma once
+
+#include "core/image.hpp"
+#include "core/record.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// Attributes of the EXR: which engine made it and how, and the scene. `record` is of kind
+/// "reference". No times and no paths: the same reference is the same file.
+ImageMetadata reference_metadata(const Scene& scene, const Json& record);
+
+}  // namespace lobelia
