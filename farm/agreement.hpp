@@ -1,0 +1,18 @@
+// How far a reference picture may be from ours before something is wrong.
+#pragma once
+
+#include <string_view>
+
+#include "compare/compare.hpp"
+
+namespace lobelia {
+
+/// For an engine of reference_scenes. Pixels beyond it count as outliers; up to three are allowed,
+/// because a silhouette or a terminator may fall on the other side of a pixel's centre.
+///
+///   povray   6e-4 of the value: it writes half floats, which round by 2^-11 = 4.9e-4; and 1e-8 of the
+///            peak, where those are subnormal
+///   blender  3e-5 of the peak: Cycles computes in float32, measured at most 1.1e-5 up to n = 1024
+Tolerance agreement(std::string_view engine);
+
+}  // namespace lobelia

@@ -1,0 +1,32 @@
+// The axes that a grid may have: how a value is written and what it does to a scene. One catalogue;
+// to add an axis is one entry in axes.cpp.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+struct AxisValue {
+  std::string value;  ///< as in the grid file: "cs16:paper"
+  std::string label;  ///< for people: "cs16, paper"
+  std::string token;  ///< for file names, of [A-Za-z0-9_.+-]: "cs16_paper"
+  std::function<void(Scene&)> apply;
+};
+
+struct AxisKind {
+  std::string_view name;
+  std::string_view allowed;  ///< of a value, in words
+  /// Reads one value; files are looked for in `directory`. Throws std::runtime_error saying what is
+  /// wrong, without place or file.
+  AxisValue (*parse)(const std::string& text, const std::filesystem::path& directory);
+};
+
+std::span<const AxisKind> axis_kinds();
+
+}  // namespace lobelia

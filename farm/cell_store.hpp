@@ -1,0 +1,51 @@
+// One cell's directory: what lies there, and whether it is still what would be made today.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/record.hpp"
+#include "farm/grid.hpp"
+
+namespace lobelia {
+
+/// The inputs of a result stand in its record in full ("inputs"); a result is current if they are
+/// equal to today's. No hashes: a person can read why something was made again.
+class CellStore {
+ public:
+  CellStore(const std::filesystem::path& farm_directory, const Cell& cell);
+
+  const Cell& cell() const { return *cell_; }
+  std::filesystem::path file(const std::string& name) const { return directory_ / name; }
+
+  /// Makes the directory, writes scene.xml, removes what a killed run left behind.
+  void prepare() const;
+
+  /// {"program": ..., "scene": the scene's text}, and the engine with its version if there is one.
+  Json inputs(const std::string& engine_version) const;
+
+  /// Whether `engine`'s picture is there and its record names these inputs.
+  bool has_current_image(const std::string& engine, const std::string& kind,
+                         const Json& inputs) const;
+  /// Whether cell.json is there, without problems, and names these inputs.
+  bool is_finished(const Json& inputs) const;
+
+  /// Writes the picture, then its record, because that says that the picture is there.
+  void store_image(const std::string& engine, const Image& image, const ImageMetadata& metadata,
+                   const Json& record) const;
+
+ private:
+  const Cell* cell_;
+  std::filesystem::path directory_;
+  std::string scene_xml_;
+};
+
+/// The exposure at which a cell is looked at: the brightest value of our picture becomes white.
+double cell_exposure(const Image& ours);
+
+/// The brightest finite value of a picture, at least 0.
+double brightest(const Image& image);
+
+}  // namespace lobelia

@@ -1,0 +1,90 @@
+#include "farm/finish_cell.hpp"
+
+#include "compare/compare.hpp"
+#include "core/colour.hpp"
+#include "core/image_io.hpp"
+#include "farm/agreement.hpp"
+#include "farm/profile_scene.hpp"
+#include "renderer/render_record.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr char kOurs[] = "lobelia";
+
+Json image_entry(const std::string& engine) {
+  return {{"engine", engine},
+          {"exr", engine + ".exr"},
+          {"png", engine + ".png"},
+          {"record", engine + ".json"}};
+}
+
+/// Writes the comparison with one reference; returns its entry in cell.json and its verdict.
+std::pair<Json, Verdict> compare_with(const CellStore& store, const std::string& engine,
+                                      const Image& ours, const Image& reference, double exposure) {
+  ComparisonOptions options;
+  options.viewing.exposure_stops = exposure;
+  options.tolerance = agreement(engine);
+  const Comparison comparison = compare(ours, reference, options);
+
+  const std::string name = std::string(kOurs) + "-" + engine;
+  // White is what the tolerance allows at the brightest place.
+  const double relative = options.tolerance->relative + options.tolerance->of_peak;
+  const double white_at = relative * brightest(reference);
+  write_png(store.file(name + ".png"), difference_picture(ours, reference, white_at));
+  write_record(store.file(name + ".json"), comparison_record(comparison, std::string(kOurs) + ".exr",
+                                                             engine + ".exr"));
+  return {{{"a", kOurs},
+           {"b", engine},
+           {"record", name + ".json"},
+           {"png", name + ".png"},
+           {"difference", {{"whiteAt", white_at}, {"relativeToPeak", relative}}}},
+          comparison.verdict};
+}
+
+}  // namespace
+
+std::string finish_cell(const CellStore& store, const std::vector<std::string>& references,
+                        const std::vector<CellProblem>& problems, const Json& inputs) {
+  const Cell& cell = store.cell();
+  std::vector<std::pair<std::string, Image>> pictures;
+  pictures.emplace_back(kOurs, read_image(store.file(std::string(kOurs) + ".exr")));
+  for (const auto& engine : references)
+    pictures.emplace_back(engine, read_image(store.file(engine + ".exr")));
+  const Image& ours = pictures.front().second;
+  const double exposure = cell_exposure(ours);
+
+  Json record = make_record("cell");
+  record["id"] = cell.id;
+  record["axes"] = Json::object();
+  for (const auto& [name, value] : cell.axes) record["axes"][name] = value;
+  std::string status = problems.empty() ? "pass" : "failed";
+  record["status"] = status;  // keeps its place near the top
+  record["highlight"] = highlight_record(cell.scene.materials.front().highlight);
+  record["exposureStops"] = exposure;
+  record["images"] = Json::array();
+  record["comparisons"] = Json::array();
+  for (const auto& [engine, image] : pictures) {
+    write_png(store.file(engine + ".png"), to_display(image, exposure));
+    record["images"].push_back(image_entry(engine));
+    if (engine == kOurs) continue;
+    const auto [entry, verdict] = compare_with(store, engine, ours, image, exposure);
+    record["comparisons"].push_back(entry);
+    if (verdict != Verdict::kPass && status == "pass") status = "differs";
+  }
+  if (!cell.scene.lights.empty() && !cell.scene.spheres.empty()) {
+    NamedImages named;
+    for (const auto& [engine, image] : pictures) named.emplace_back(engine, &image);
+    write_record(store.file("profile.json"), profile_scene(cell.scene, 0, 0, named));
+    record["profile"] = "profile.json";
+  }
+  record["problems"] = Json::array();
+  for (const auto& problem : problems)
+    record["problems"].push_back({{"engine", problem.engine}, {"message", problem.message}});
+  record["status"] = status;
+  record["inputs"] = inputs;
+  write_record(store.file("cell.json"), record);
+  return status;
+}
+
+}  // namespace lobelia

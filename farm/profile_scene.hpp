@@ -1,0 +1,28 @@
+// A scene's highlight profile: the scene gives each pixel its angle, the formula its truth.
+#pragma once
+
+#include "compare/profile/profile.hpp"
+#include "core/image.hpp"
+#include "core/record.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// Name of the formula among the pictures of a profile.
+inline constexpr char kAnalyticName[] = "analytic";
+
+/// The formula at the centre of every pixel that sees `sphere`: all lights, diffuse base included,
+/// no shadows; 0 elsewhere. Evaluated in double, apart from the renderer's kernels.
+Image analytic_image(const Scene& scene, int sphere);
+
+/// Angle at which the lobe has fallen to `value`, in radians; the lobe's widest angle (half a turn
+/// about the mirror direction, a right angle about the normal) if it never does.
+double lobe_angle_at(const Highlight& highlight, double value);
+
+/// The record of the highlight of `light` on `sphere` in those pictures, which come in the order of
+/// the report. The formula is added in front as "analytic"; differences are of the first picture
+/// from each other one, and of each from the formula. Throws Error(kInput) if there is no such
+/// light or sphere, or if a picture has not the size of the scene's film.
+Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images);
+
+}  // namespace lobelia
