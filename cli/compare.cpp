@@ -1,0 +1,172 @@
+#include "compare/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "compare/metrics/catalogue.hpp"
+#include "core/files.hpp"
+#include "core/image_io.hpp"
+#include "core/text.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+  std::string a, b, json, tolerance, difference_picture;
+  std::vector<std::string> fail;
+  double difference_scale = 0;
+  ComparisonOptions comparison;
+};
+
+MetricLimit parse_limit(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  MetricLimit limit{text.substr(0, equals), 0};
+  if (equals == std::string::npos || !parse_number(text.substr(equals + 1), limit.maximum))
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("--fail {}: expected METRIC=LIMIT, for example rmse=0.001", printable(text)));
+  return limit;
+}
+
+Tolerance parse_tolerance(const std::string& text) {
+  const std::vector<std::string> parts = split(text, ",");
+  Tolerance tolerance;
+  long long outliers = 0;
+  if (parts.size() != 3 || !parse_number(parts[0], tolerance.relative) ||
+      !parse_number(parts[1], tolerance.of_peak) || !parse_integer(parts[2], outliers))
+    throw Error(ExitCode::kUsage,
+                fmt::format("--tolerance {}: expected RELATIVE,OF_PEAK,OUTLIERS, for example "
+                            "6e-4,1e-6,3",
+                            printable(text)));
+  tolerance.allowed_outliers = outliers;
+  return tolerance;
+}
+
+void print_table(const Options& options, const Comparison& comparison) {
+  fmt::print("a  {}\nb  {}  (the reference)\n\n", options.a, options.b);
+  if (comparison.verdict == Verdict::kNonFinite)
+    fmt::print("  pixels with a NaN or an infinity: {} in a, {} in b; nothing was measured\n",
+               comparison.nonfinite_a, comparison.nonfinite_b);
+  for (const MetricValue& metric : comparison.metrics)
+    fmt::print("  {:<16}{:>14.6g}  {}\n", metric.id, metric.value, metric.meaning);
+  fmt::print("\n");
+  if (comparison.verdict != Verdict::kNonFinite)
+    for (const LimitResult& limit : comparison.limits)
+      fmt::print("  {:<16}{:>14.6g}  {} {:g}\n", limit.metric, limit.value,
+                 limit.pass ? "is within" : "is OVER", limit.limit);
+  fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite ? "" : "\n",
+             verdict_name(comparison.verdict));
+}
+
+ExitCode run(Options options) {
+  for (const std::string& text : options.fail)
+    options.comparison.limits.push_back(parse_limit(text));
+  if (!options.tolerance.empty()) options.comparison.tolerance = parse_tolerance(options.tolerance);
+  check_options(options.comparison);
+  const bool json_to_file = !options.json.empty() && options.json != "-";
+  if (json_to_file) require_writable(options.json);
+  if (!options.difference_picture.empty()) require_writable(options.difference_picture);
+
+  const Image a = read_image(options.a), b = read_image(options.b);
+  const Comparison comparison = compare(a, b, options.comparison);
+  if (!options.difference_picture.empty()) {
+    // Without a scale the largest difference is white; one that is not finite is magenta anyway.
+    const double largest = comparison.value("max_abs");
+    const double white_at = options.difference_scale > 0 ? options.difference_scale
+                            : largest > 0                ? largest
+                                                         : 1.0;
+    write_png(options.difference_picture, difference_picture(a, b, white_at));
+    fmt::print(stderr, "{}: white is a difference of {:.6g}\n", options.difference_picture,
+               white_at);
+  }
+  const Json record = comparison_record(comparison, options.a, options.b);
+  if (json_to_file) write_record(options.json, record);
+  if (options.json == "-")
+    fmt::print("{}", record_text(record));
+  else
+    print_table(options, comparison);
+  return comparison.verdict == Verdict::kPass ? ExitCode::kSuccess : ExitCode::kDiffers;
+}
+
+std::string footer() {
+  std::string defaults;
+  for (const MetricLimit& limit : default_limits())
+    defaults += fmt::format("{}{} {:g}", defaults.empty() ? "" : ", ", limit.metric, limit.maximum);
+  return fmt::format(
+      "Metrics that a limit can be set on:\n"
+      "  {}\n"
+      "Without --fail and --tolerance the limits are {}.\n"
+      "A NaN or an infinity in either picture is a verdict of its own and never passes.\n"
+      "\n"
+      "Examples:\n"
+      "  lobelia compare ours.exr povray.exr\n"
+      "  lobelia compare ours.exr povray.exr --tolerance 6e-4,1e-6,3 --json comparison.json\n"
+      "  lobelia compare ours.exr blender.exr --fail max_rel_peak=3e-5 --fail flip.ldr.mean=1e-3\n"
+      "\n"
+      "Exit codes: 0 pass, 1 over a limit or not finite, 2 usage, 3 a picture is unreadable or "
+      "the\n"
+      "sizes differ, 4 an output cannot be written.",
+      join(limit_names()), defaults);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, ExitCode& exit_code) {
+  auto* command = app.add_subcommand("compare", "Compare two pictures: metrics and a verdict");
+  auto options = std::make_shared<Options>();
+  Viewing& viewing = options->comparison.viewing;
+  command->add_option("A", options->a, "Picture to judge")->required();
+  command->add_option("B", options->b, "Reference picture, of the same size")->required();
+
+  command
+      ->add_option("--fail", options->fail,
+                   "Verdict 'differs' if METRIC is over LIMIT; may be given again")
+      ->type_name("METRIC=LIMIT")
+      ->expected(1)
+      ->take_all()
+      ->group("Verdict");
+  command
+      ->add_option(
+          "--tolerance", options->tolerance,
+          "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
+          "any channel; verdict 'differs' if there are more than COUNT")
+      ->type_name("REL,PEAK,COUNT")
+      ->group("Verdict");
+
+  command
+      ->add_option("--exposure", viewing.exposure_stops,
+                   "Exposure at which CIEDE2000 and FLIP look at the pictures")
+      ->type_name("STOPS")
+      ->check(CLI::Range(-kMaxExposureStops, kMaxExposureStops))
+      ->capture_default_str()
+      ->group("Viewing");
+  command
+      ->add_option("--pixels-per-degree", viewing.pixels_per_degree,
+                   "How many pixels of the display a degree of the viewer's eye sees, for FLIP")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(kMinPixelsPerDegree, kMaxPixelsPerDegree))
+      ->capture_default_str()
+      ->group("Viewing");
+
+  command
+      ->add_option("--json", options->json,
+                   "Write the record (kind comparison) to FILE; with - to stdout, and no table")
+      ->type_name("FILE|-")
+      ->group("Output");
+  auto* picture = command->add_option("--diff-image", options->difference_picture,
+                                      "Write |A - B| per channel as a picture");
+  picture->type_name("FILE.png")->group("Output");
+  command
+      ->add_option("--diff-scale", options->difference_scale,
+                   "The difference that is shown as white; default: the largest")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber)
+      ->needs(picture)
+      ->group("Output");
+  command->footer(footer());
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,81 @@
+#include "farm/farm.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "reference_scenes/engine.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+  std::string grid, directory;
+  std::map<std::string, std::string> programs;
+  int threads = 0;
+  double time_limit = 600;
+  bool again = false, quiet = false;
+};
+
+ExitCode run(const Options& options) {
+  const Grid grid = read_grid(options.grid);
+  ProgressLine line(!options.quiet);
+  FarmOptions farm_options;
+  for (const auto& [engine, program] : options.programs)
+    if (!program.empty()) farm_options.programs[engine] = program;
+  farm_options.threads = options.threads;
+  farm_options.time_limit = std::chrono::duration<double>(options.time_limit);
+  farm_options.again = options.again;
+  farm_options.command = command_line();
+  farm_options.on_progress = [&](const FarmProgress& progress) {
+    if (progress.total > 0)
+      line.show(double(progress.done) / double(progress.total), progress.running);
+  };
+  const FarmSummary summary = run_farm(grid, options.directory, farm_options);
+  line.clear();
+
+  for (const auto& sentence : summary.absent_engines)
+    fmt::print(stderr, "lobelia: {}\n", sentence);
+  for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
+  fmt::print("{} cells: {} pass, {} differ, {} failed; {} pictures rendered, {} kept\n",
+             summary.cells, summary.pass, summary.differs, summary.failed, summary.rendered,
+             summary.kept);
+  if (summary.failed > 0) return ExitCode::kEngine;
+  return summary.differs > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
+}
+
+}  // namespace
+
+void add_farm(CLI::App& app, ExitCode& exit_code) {
+  auto* command = app.add_subcommand("farm", "Render, reference and compare every cell of a grid");
+  auto options = std::make_shared<Options>();
+  command->add_option("GRID", options->grid, "Grid file (see reference_scenes/grids)")->required();
+  command->add_option("-o,--output", options->directory, "Directory for pictures and records")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--threads", options->threads, "Threads; 0 is all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--time-limit", options->time_limit, "Seconds an engine may take for a picture")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  command->add_flag("--again", options->again, "Make everything again, current or not");
+  command->add_flag("-q,--quiet", options->quiet, "No progress");
+  for (const auto& engine : engine_infos())
+    command
+        ->add_option(fmt::format("--{}", engine.name), options->programs[std::string(engine.name)],
+                     fmt::format("Program to use for {}", engine.title))
+        ->type_name("PATH");
+  command->footer(
+      "What is there and current is kept: a second run does only what is missing. Ctrl-C leaves\n"
+      "nothing half-written. An engine that is not installed is left out, and the records say so.\n\n"
+      "Exit codes: 0 every cell agrees, 1 some differ, 3 bad grid, 4 cannot write, 5 some cell\n"
+      "could not be rendered, 130 interrupted.\n\n"
+      "Example: lobelia farm reference_scenes/grids/sphere_grid.xml -o out/gallery\n"
+      "         lobelia gallery out/gallery");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,93 @@
+// The program: builds the command line, runs one subcommand, prints errors, chooses the exit code.
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <new>
+
+#include "cli/commands.hpp"
+#include "core/interrupt.hpp"
+#include "core/text.hpp"
+#include "core/version.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+std::vector<std::string> g_command_line;
+
+constexpr char kFooter[] =
+    "Begin with:\n"
+    "  lobelia render reference_scenes/scenes/oblique_45.xml -o highlight.exr\n"
+    "  lobelia reference reference_scenes/scenes/oblique_45.xml --engine povray -o povray.exr\n"
+    "  lobelia compare highlight.exr povray.exr\n"
+    "\n"
+    "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing or failed,\n"
+    "130 interrupted.";
+
+/// One line a message line, so that every line can be grepped for.
+int fail(ExitCode code, std::string_view message) {
+  while (!message.empty()) {
+    const auto end = std::min(message.find('\n'), message.size());
+    fmt::print(stderr, "lobelia: {}\n", message.substr(0, end));
+    message.remove_prefix(std::min(end + 1, message.size()));
+  }
+  return int(code);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Lobelia renders specular highlights with all normalised models, renders the same\n"
+               "scenes with POV-Ray and Blender Cycles, and says how far they are apart.",
+               "lobelia"};
+  app.set_version_flag("--version", kNameAndVersion);
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  ExitCode exit_code = ExitCode::kSuccess;
+  for (const auto add : {add_render, add_plan, add_models, add_scene_format, add_reference,
+                         add_compare, add_profile, add_farm, add_gallery})
+    add(app, exit_code);
+  // CLI11 would only say that a subcommand is missing.
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string_view> names;
+    for (const auto* command : app.get_subcommands({})) names.push_back(command->get_name());
+    if (std::find(names.begin(), names.end(), argv[1]) == names.end())
+      return fail(ExitCode::kUsage,
+                  fmt::format("unknown subcommand '{}'; allowed: {}{}", printable(argv[1]),
+                              join(names), did_you_mean(argv[1], names)));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    std::string help = "lobelia";
+    for (const auto* command : app.get_subcommands()) help += " " + command->get_name();
+    return fail(ExitCode::kUsage, fmt::format("{} (see {} --help)", error.what(), help));
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return fail(ExitCode::kOutput, "standard output: cannot write");
+  return int(exit_code);
+}
+
+}  // namespace
+
+const std::vector<std::string>& command_line() { return g_command_line; }
+
+}  // namespace lobelia::cli
+
+int main(int argc, char** argv) {
+  using namespace lobelia;
+  // A closed pipe or a file over the size limit is an error of that write, not the end of the process.
+  ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);
+  catch_interrupts();
+  cli::g_command_line.assign(argv, argv + argc);
+  if (!cli::g_command_line.empty()) cli::g_command_line[0] = "lobelia";
+  try {
+    return cli::run(argc, argv);
+  } catch (const Error& error) {
+    return cli::fail(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return cli::fail(ExitCode::kInternal, "not enough memory");
+  } catch (const std::exception& error) {
+    return cli::fail(ExitCode::kInternal, fmt::format("internal error: {}", error.what()));
+  }
+}

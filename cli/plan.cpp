@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/scene_overrides.hpp"
+#include "renderer/render_record.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+  std::string scene;
+  bool json = false;
+  SceneOverrides overrides;
+};
+
+void run(const Options& options) {
+  Scene scene = read_scene(options.scene);
+  options.overrides.apply(scene);
+  const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
+  if (options.json) {
+    fmt::print("{}", record_text(plan_record(plan)));
+    return;
+  }
+  for (const auto& effect : plan.effects)
+    fmt::print("{:<14}{:<5}{}\n", effect.name, effect.on ? "on" : "off", effect.reason);
+  fmt::print("camera rays   {}\nshadow rays   {}{}\n", plan.camera_rays,
+             plan.max_shadow_rays > 0 ? "at most " : "", plan.max_shadow_rays);
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, ExitCode&) {
+  auto* command = app.add_subcommand("plan", "Say which effects a scene calls for, and why");
+  auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scene, "Scene file")->required();
+  command->add_flag("--json", options->json, "Print the plan as JSON");
+  options->overrides.add_to(*command);
+  command->footer("Example: lobelia plan reference_scenes/scenes/two_spheres.xml");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace lobelia::cli

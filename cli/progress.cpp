@@ -1,0 +1,60 @@
+#include "cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lobelia::cli {
+namespace {
+
+constexpr int kBarWidth = 24;
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ::ioctl(2, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80u;
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool enabled) : enabled_(enabled), terminal_(::isatty(2) == 1) {}
+
+void ProgressLine::show(double fraction, std::string_view what) {
+  if (!enabled_) return;
+  const std::scoped_lock lock(mutex_);
+  const auto now = Clock::now();
+  const std::chrono::duration<double> since = now - last_drawn_, elapsed = now - started_;
+  if (since.count() < (terminal_ ? 0.1 : 10.0)) return;
+  last_drawn_ = now;
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  const double left = fraction > 0 ? elapsed.count() * (1 - fraction) / fraction : 0;
+  const std::string time = fraction > 0.01 ? duration_text(left) + " left" : "";
+  if (!terminal_) {
+    fmt::print(stderr, "{:3.0f} %  {}  {}\n", 100 * fraction, what, time);
+    return;
+  }
+  const int filled = int(kBarWidth * fraction);
+  std::string line = fmt::format("[{:#<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "",
+                                 kBarWidth - filled, 100 * fraction, time, what);
+  if (const std::size_t width = terminal_width() - 1; line.size() > width) line.resize(width);
+  fmt::print(stderr, "\r\x1b[K{}", line);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressLine::clear() {
+  const std::scoped_lock lock(mutex_);
+  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  drawn_ = false;
+}
+
+std::string duration_text(double seconds) {
+  const long whole = std::lround(seconds);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/output_path.hpp"
+#include "cli/progress.hpp"
+#include "cli/scene_overrides.hpp"
+#include "core/files.hpp"
+#include "core/image_io.hpp"
+#include "reference_scenes/engine.hpp"
+#include "reference_scenes/keep_input.hpp"
+#include "reference_scenes/preparation.hpp"
+#include "reference_scenes/reference_metadata.hpp"
+#include "renderer/render_record.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+  std::string scene, engine, output, program, log_directory, keep_input;
+  int threads = 0;
+  double time_limit = 600;
+  bool quiet = false;
+  SceneOverrides overrides;
+};
+
+ReferenceResult render_one(Engine& engine, const Scene& scene, const Options& options) {
+  ReferenceOptions reference;
+  reference.threads = options.threads;
+  reference.time_limit = std::chrono::duration<double>(options.time_limit);
+  reference.log_directory = options.log_directory;
+  ReferenceResult result;
+  engine.render(std::span(&scene, 1), reference,
+                [&](std::size_t, ReferenceResult done) { result = std::move(done); });
+  return result;
+}
+
+void run(const Options& options) {
+  const auto engine = make_engine(options.engine, options.program);
+  Scene scene = read_scene(options.scene);
+  options.overrides.apply(scene);
+  if (const std::string why = why_not_comparable(scene); !why.empty())
+    throw Error(ExitCode::kInput, fmt::format("{}: {}", options.scene, why));
+  const auto record_path = checked_record_path(options.output);
+  if (!options.log_directory.empty()) make_directories(options.log_directory);
+  if (!options.keep_input.empty()) keep_engine_input(options.engine, scene, options.keep_input);
+
+  const EngineInfo& engine_info = engine->info();
+  ProgressLine progress(!options.quiet);
+  progress.show(0, fmt::format("{} at work", engine_info.title));
+  ReferenceResult result = render_one(*engine, scene, options);
+  progress.clear();
+  if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
+
+  write_exr(options.output, result.image, reference_metadata(scene, result.record));
+  const std::filesystem::path output(options.output);
+  Json& record = result.record;
+  record["command"] = command_line();
+  record["image"]["file"] = output.filename().string();
+  record["highlights"] = Json::array();
+  for (const Material& material : scene.materials)
+    record["highlights"].push_back(highlight_record(material.highlight));
+  write_record(record_path, record);
+  if (!options.quiet)
+    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {} {}, {}\n", options.output, result.image.width(),
+               result.image.height(), record["seconds"]["total"].get<double>(), engine_info.title,
+               engine->status().version, record["witness"].get<std::string>());
+}
+
+std::string engine_list() {
+  std::string list;
+  for (const EngineInfo& engine : engine_infos())
+    list += (list.empty() ? "" : " or ") + std::string(engine.name);
+  return list;
+}
+
+}  // namespace
+
+void add_reference(CLI::App& app, ExitCode&) {
+  auto* command = app.add_subcommand(
+      "reference", "Render a scene with an engine that is not ours, to the same kind of EXR");
+  auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
+  command->add_option("--engine", options->engine, fmt::format("Who renders: {}", engine_list()))
+      ->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "Picture to write, OUT.exr; its record goes to OUT.json")
+      ->required()
+      ->type_name("OUT.exr");
+  command->add_option("--program", options->program,
+                      "The engine's program, if not the one in $PATH");
+  command
+      ->add_option("--time-limit", options->time_limit, "Seconds after which the engine is stopped")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "Threads; 0 is all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--log-dir", options->log_directory, "Directory for the engine's own output");
+  command->add_option("--keep-input", options->keep_input,
+                      "Directory for what the engine is given, with the command that renders it");
+  command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  options->overrides.add_to(*command);
+  command->footer(
+      "POV-Ray draws the Phong RDF and the Blinn-Phong RDF by its own phong and specular (the "
+      "record\n"
+      "says \"native\"); every other model, and all in Cycles, is written in the engine's own "
+      "language\n"
+      "(\"expressed\"). One ray at each pixel's centre. POV-Ray's pictures are half float: 5e-4 of "
+      "the\n"
+      "value.\n\n"
+      "Example: lobelia reference reference_scenes/scenes/oblique_45.xml --engine povray "
+      "-o povray.exr");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace lobelia::cli

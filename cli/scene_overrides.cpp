@@ -1,0 +1,76 @@
+#include "cli/scene_overrides.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/image.hpp"
+#include "core/text.hpp"
+#include "renderer/scene/scene_format.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+template <class Id, class Find>
+void choose(const std::optional<std::string>& value, std::string_view option,
+            std::span<const std::string_view> names, Find find, Id& id) {
+  if (!value) return;
+  const auto found = find(*value);
+  if (!found)
+    throw Error(ExitCode::kUsage, fmt::format("{} '{}' is unknown; allowed: {}{}", option,
+                                              printable(*value), join(names),
+                                              did_you_mean(*value, names)));
+  id = *found;
+}
+
+template <class Number, class Target>
+void replace(const std::optional<Number>& value, std::string_view option, double min, double max,
+             Target& target) {
+  if (!value) return;
+  // Written so that a NaN is refused too.
+  if (!(double(*value) >= min && double(*value) <= max))
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} {} is out of range; allowed: {:g} to {:g}", option, *value, min, max));
+  target = Target(*value);
+}
+
+}  // namespace
+
+void SceneOverrides::add_to(CLI::App& command) {
+  const std::string group = "In place of what the scene says";
+  command.add_option("--model", model_, fmt::format("Model: {}", join(model_names())))
+      ->group(group);
+  command.add_option("--lobe", lobe_, fmt::format("Lobe: {}", join(lobe_names())))->group(group);
+  command
+      .add_option("--normalisation", normalisation_,
+                  fmt::format("Coefficient: {}", join(normalisation_names())))
+      ->group(group);
+  command.add_option("--exponent", exponent_,
+                     fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent))
+      ->group(group);
+  command.add_option("--width", width_, "Width of the picture in pixels")->group(group);
+  command.add_option("--height", height_, "Height of the picture in pixels")->group(group);
+  command.add_option("--samples", samples_, "Rays a pixel; 1 is the pixel's centre")->group(group);
+  command.add_option("--seed", seed_, "Chooses the positions of more than one sample")
+      ->group(group);
+}
+
+void SceneOverrides::apply(Scene& scene) const {
+  for (auto& material : scene.materials) {
+    Highlight& highlight = material.highlight;
+    choose(model_, "--model", model_names(), find_model, highlight.model);
+    choose(lobe_, "--lobe", lobe_names(), find_lobe, highlight.lobe);
+    choose(normalisation_, "--normalisation", normalisation_names(), find_normalisation,
+           highlight.normalisation);
+    replace(exponent_, "--exponent", kMinExponent, kMaxExponent, highlight.exponent);
+  }
+  replace(width_, "--width", 1, kMaxImageSide, scene.film.width);
+  replace(height_, "--height", 1, kMaxImageSide, scene.film.height);
+  if (std::int64_t{scene.film.width} * scene.film.height > kMaxImagePixels)
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} x {} pixels are too many; allowed: {} in all", scene.film.width,
+                            scene.film.height, kMaxImagePixels));
+  replace(samples_, "--samples", 1, 65536, scene.sampler.sample_count);
+  replace(seed_, "--seed", 0, 0x1p53, scene.sampler.seed);  // what a scene file can hold
+}
+
+}  // namespace lobelia::cli
