@@ -1,0 +1,125 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "run_lobelia.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kSubcommands[] = {"render", "plan",    "models",  "scene-format", "reference",
+                                        "compare", "profile", "farm", "gallery"};
+
+TEST(Help, OfTheProgramNamesEverySubcommandAndTheExitCodes) {
+  const TemporaryDirectory directory;
+  const auto result = run_lobelia({"--help"}, directory.path());
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* name : kSubcommands) EXPECT_THAT(result.output_tail, HasSubstr(name));
+  EXPECT_THAT(result.output_tail, HasSubstr("Exit codes"));
+}
+
+TEST(Help, OfEverySubcommandIsThere) {
+  const TemporaryDirectory directory;
+  for (const char* name : kSubcommands) {
+    const auto result = run_lobelia({name, "--help"}, directory.path());
+    EXPECT_EQ(result.exit_code, 0) << name;
+    EXPECT_THAT(result.output_tail, HasSubstr("--help")) << name;
+  }
+}
+
+struct Mistake {
+  std::vector<std::string> arguments;
+  int exit_code;
+  std::string message;
+};
+
+TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
+  const TemporaryDirectory inputs;
+  const auto file = [&](const char* name, const std::string& text) {
+    write_file(inputs.path() / name, text);
+    return (inputs.path() / name).string();
+  };
+  const std::string scene = kScenes + "head_on.xml";
+  const std::string broken = file("broken.xml", "<scene version=\"1\">\n<sensor");
+  const std::string text_exr = file("text.exr", "this is text");
+  const Mistake mistakes[] = {
+      {{}, 2, "subcommand"},
+      {{"rendr"}, 2, "did you mean 'render'?"},
+      {{"render"}, 2, "SCENE"},
+      {{"render", scene}, 2, "--output"},
+      {{"render", "missing.xml", "-o", "a.exr"}, 3, "missing.xml: cannot read: No such file"},
+      {{"render", ".", "-o", "a.exr"}, 3, "not a regular file"},
+      {{"render", broken, "-o", "a.exr"}, 3, "broken.xml:2:"},
+      {{"render", scene, "-o", "a.png"}, 2, "must end in .exr"},
+      {{"render", scene, "-o", "no/such/a.exr"}, 4, "no/such/a.exr: cannot write: No such file"},
+      {{"render", scene, "-o", "a.exr", "--exponent", "-3"}, 2,
+       "--exponent -3 is out of range; allowed: 0.001 to 1e+08"},
+      {{"render", scene, "-o", "a.exr", "--exponent", "nan"}, 2, "--exponent nan"},
+      {{"render", scene, "-o", "a.exr", "--exponent", "many"}, 2, "many"},
+      {{"render", scene, "-o", "a.exr", "--model", "phong"}, 2, "--model 'phong' is unknown"},
+      {{"render", scene, "-o", "a.exr", "--lobe", "cosin"}, 2, "did you mean 'cosine'?"},
+      {{"render", scene, "-o", "a.exr", "--width", "1000000"}, 2, "allowed: 1 to 32768"},
+      {{"render", scene, "-o", "a.exr", "--width", "32768", "--height", "32768"}, 2, "too many"},
+      {{"render", scene, "-o", "a.exr", "--threads", "-1"}, 2, "--threads"},
+      {{"plan", "missing.xml"}, 3, "missing.xml"},
+      {{"compare", "a.exr"}, 2, "B"},
+      {{"compare", text_exr, text_exr}, 3, "text.exr: not a readable picture"},
+      {{"compare", "a.exr", "b.exr"}, 3, "a.exr"},
+      {{"profile", text_exr, "--scene", scene}, 3, "text.exr"},
+      {{"reference", scene, "--engine", "maya", "-o", "a.exr"}, 2, "maya"},
+      {{"reference", scene, "--engine", "povray", "--program", "/no/such", "-o", "a.exr"}, 5,
+       "/no/such"},
+      {{"farm", "missing.xml", "-o", "out"}, 3, "missing.xml"},
+      {{"gallery", "no-such-directory"}, 3, "no-such-directory"},
+  };
+  for (const auto& [arguments, exit_code, message] : mistakes) {
+    const TemporaryDirectory directory;
+    const auto result = run_lobelia(arguments, directory.path());
+    const std::string shown = testing::PrintToString(arguments) + "\n" + result.output_tail;
+    EXPECT_EQ(result.exit_code, exit_code) << shown;
+    EXPECT_THAT(result.output_tail, HasSubstr(message)) << shown;
+    EXPECT_TRUE(result.output_tail.starts_with("lobelia: ")) << shown;
+    EXPECT_EQ(std::count(result.output_tail.begin(), result.output_tail.end(), '\n'), 1) << shown;
+    EXPECT_EQ(files_in(directory.path()), 0u) << shown;
+  }
+}
+
+TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
+  const TemporaryDirectory directory;
+  for (const char* command : {"models", "models --json", "scene-format"}) {
+    const auto result =
+        run_shell(std::string("\"$LOBELIA\" ") + command + " >/dev/full", directory.path());
+    EXPECT_EQ(result.exit_code, 4) << command << result.output_tail;
+  }
+}
+
+TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
+  const TemporaryDirectory directory;
+  for (const char* name : {"head_on", "oblique_45"})
+    ASSERT_EQ(run_lobelia({"render", kScenes + name + ".xml", "--width", "64", "--height", "64",
+                           "-o", std::string(name) + ".exr"},
+                          directory.path())
+                  .exit_code,
+              0);
+  ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "-o", "large.exr"}, directory.path())
+                .exit_code,
+            0);
+  const auto compare = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "compare");
+    return run_lobelia(arguments, directory.path());
+  };
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr"}).exit_code, 0);
+  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr"}).exit_code, 1);
+  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9"}).exit_code, 0);
+  EXPECT_EQ(compare({"head_on.exr", "large.exr"}).exit_code, 3);
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--fail", "rsme=1"}).exit_code, 2);
+  EXPECT_THAT(compare({"head_on.exr", "head_on.exr", "--json", "-"}).output_tail,
+              HasSubstr("\"schemaVersion\": 1"));
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--json", "no/such/a.json"}).exit_code, 4);
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,105 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/image_io.hpp"
+#include "core/record.hpp"
+#include "run_lobelia.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+std::string bytes(const std::filesystem::path& path) { return read_file(path, 1 << 28); }
+
+TEST(RenderCommand, GivesTheSameFileByteForByteWhateverThreadsAndPlace) {
+  const TemporaryDirectory a, b;
+  const std::string scene = kScenes + "two_spheres.xml";
+  ASSERT_EQ(run_lobelia({"render", scene, "-o", "x.exr", "--threads", "1"}, a.path()).exit_code, 0);
+  ASSERT_EQ(run_lobelia({"render", scene, "-o", "y.exr", "--threads", "4"}, b.path()).exit_code, 0);
+  EXPECT_EQ(bytes(a.path() / "x.exr"), bytes(b.path() / "y.exr"));
+}
+
+TEST(RenderCommand, PutsTimesAndPlanIntoTheRecordBeside) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(run_lobelia({"render", kScenes + "head_on.xml", "-o", "x.exr", "--model",
+                         "modified_phong", "--exponent", "100"},
+                        directory.path())
+                .exit_code,
+            0);
+  const Json record = read_record(directory.path() / "x.json", "render");
+  EXPECT_GT(record["seconds"]["total"], 0);
+  EXPECT_EQ(record["highlights"][0]["model"], "modified_phong");
+  EXPECT_EQ(record["highlights"][0]["exponent"], 100);
+  EXPECT_EQ(record["image"]["file"], "x.exr");
+  EXPECT_GE(record["plan"]["effects"].size(), 3u);
+  EXPECT_EQ(files_in(directory.path()), 2u);
+}
+
+TEST(RenderCommand, OverridesChangeThePicture) {
+  const TemporaryDirectory directory;
+  const auto render = [&](const std::string& file, std::vector<std::string> overrides) {
+    std::vector<std::string> arguments{"render", kScenes + "oblique_45.xml", "-q", "-o", file,
+                                       "--height", "40"};
+    arguments.insert(arguments.end(), overrides.begin(), overrides.end());
+    EXPECT_EQ(run_lobelia(arguments, directory.path()).exit_code, 0);
+    return read_image(directory.path() / file);
+  };
+  const Image plain = render("plain.exr", {});
+  EXPECT_EQ(plain.height(), 40);
+  const std::vector<std::vector<std::string>> changes{
+      {"--model", "blinn_phong_ndf"}, {"--lobe", "cs16"}, {"--lobe", "cs16", "--normalisation", "paper"},
+      {"--exponent", "99"},           {"--samples", "4"}};
+  std::vector<std::vector<float>> seen{{plain.values().begin(), plain.values().end()}};
+  for (const auto& change : changes) {
+    const Image image = render("changed.exr", change);
+    const std::vector<float> values(image.values().begin(), image.values().end());
+    for (const auto& other : seen) EXPECT_NE(values, other) << testing::PrintToString(change);
+    seen.push_back(values);
+  }
+}
+
+TEST(RenderCommand, OnAFullDiskLeavesNothingBehind) {
+  const TemporaryDirectory directory;
+  // A limit of 8 blocks of 512 bytes stands in for the disk.
+  const auto result = run_shell("ulimit -f 8; \"$LOBELIA\" render '" + kScenes +
+                                    "two_lights.xml' -q -o x.exr",
+                                directory.path());
+  EXPECT_EQ(result.exit_code, 4) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("x.exr: cannot write: File too large"));
+  EXPECT_EQ(files_in(directory.path()), 0u);
+}
+
+TEST(RenderCommand, KeepsTheOldPictureIfTheNewOneCannotBeWritten) {
+  const TemporaryDirectory directory;
+  write_file(directory.path() / "x.exr", "old");
+  run_shell("ulimit -f 8; \"$LOBELIA\" render '" + kScenes + "two_lights.xml' -q -o x.exr",
+            directory.path());
+  EXPECT_EQ(bytes(directory.path() / "x.exr"), "old");
+}
+
+TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
+  const TemporaryDirectory directory;
+  const auto result = run_shell(
+      "timeout --preserve-status -s INT 0.5 \"$LOBELIA\" render '" + kScenes +
+          "oblique_45.xml' --width 4096 --height 4096 --samples 4096 -q -o x.exr",
+      directory.path());
+  EXPECT_EQ(result.exit_code, 130) << result.output_tail;
+  EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
+  EXPECT_EQ(files_in(directory.path()), 0u);
+}
+
+TEST(RenderCommand, WithoutTheImageModuleIsStillHelpful) {
+  // The module is loaded only for pictures: help and plans need none of its 260 libraries.
+  const TemporaryDirectory directory;
+  const auto result = run_shell("cp \"$LOBELIA\" ./lobelia && ./lobelia plan '" + kScenes +
+                                    "head_on.xml' && ./lobelia render '" + kScenes +
+                                    "head_on.xml' -q -o x.exr",
+                                directory.path());
+  EXPECT_EQ(result.exit_code, 70);
+  EXPECT_THAT(result.output_tail, HasSubstr("camera rays   65536"));
+  EXPECT_THAT(result.output_tail, HasSubstr("lobelia_image_io.so is neither beside the program"));
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,37 @@
+// Runs the program as a user does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/files.hpp"
+#include "core/process.hpp"
+
+namespace lobelia {
+
+inline const std::string kScenes = std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/";
+
+/// Exit code and everything printed, in `directory`.
+inline ProcessResult run_lobelia(std::vector<std::string> arguments,
+                                 const std::filesystem::path& directory) {
+  arguments.insert(arguments.begin(), LOBELIA_PROGRAM);
+  ProcessOptions options;
+  options.working_directory = directory;
+  options.timeout = std::chrono::seconds(60);
+  return run_process(arguments, options);
+}
+
+/// The same through a shell, for redirections and limits; $LOBELIA is the program.
+inline ProcessResult run_shell(const std::string& script, const std::filesystem::path& directory) {
+  ProcessOptions options;
+  options.working_directory = directory;
+  options.timeout = std::chrono::seconds(60);
+  return run_process({"/bin/sh", "-c", "LOBELIA='" LOBELIA_PROGRAM "'\n" + script}, options);
+}
+
+inline std::size_t files_in(const std::filesystem::path& directory) {
+  return std::size_t(std::distance(std::filesystem::directory_iterator(directory),
+                                   std::filesystem::directory_iterator()));
+}
+
+}  // namespace lobelia

@@ -1,0 +1,111 @@
+#include "compare/metrics/ciede2000.hpp"
+
+#include <gtest/gtest.h>
+
+#include "compare/compare.hpp"
+#include "tests/compare/pictures.hpp"
+
+namespace lobelia {
+namespace {
+
+struct Pair {
+  Lab a, b;
+  double difference;
+};
+
+// G. Sharma, W. Wu, E. N. Dalal, Color Research and Application 30 (2005), Table 1, all 34 pairs.
+constexpr Pair kSharma[] = {
+    {{50.0000, 2.6772, -79.7751}, {50.0000, 0.0000, -82.7485}, 2.0425},
+    {{50.0000, 3.1571, -77.2803}, {50.0000, 0.0000, -82.7485}, 2.8615},
+    {{50.0000, 2.8361, -74.0200}, {50.0000, 0.0000, -82.7485}, 3.4412},
+    {{50.0000, -1.3802, -84.2814}, {50.0000, 0.0000, -82.7485}, 1.0000},
+    {{50.0000, -1.1848, -84.8006}, {50.0000, 0.0000, -82.7485}, 1.0000},
+    {{50.0000, -0.9009, -85.5211}, {50.0000, 0.0000, -82.7485}, 1.0000},
+    {{50.0000, 0.0000, 0.0000}, {50.0000, -1.0000, 2.0000}, 2.3669},
+    {{50.0000, -1.0000, 2.0000}, {50.0000, 0.0000, 0.0000}, 2.3669},
+    {{50.0000, 2.4900, -0.0010}, {50.0000, -2.4900, 0.0009}, 7.1792},
+    {{50.0000, 2.4900, -0.0010}, {50.0000, -2.4900, 0.0010}, 7.1792},
+    {{50.0000, 2.4900, -0.0010}, {50.0000, -2.4900, 0.0011}, 7.2195},
+    {{50.0000, 2.4900, -0.0010}, {50.0000, -2.4900, 0.0012}, 7.2195},
+    {{50.0000, -0.0010, 2.4900}, {50.0000, 0.0009, -2.4900}, 4.8045},
+    {{50.0000, -0.0010, 2.4900}, {50.0000, 0.0010, -2.4900}, 4.8045},
+    {{50.0000, -0.0010, 2.4900}, {50.0000, 0.0011, -2.4900}, 4.7461},
+    {{50.0000, 2.5000, 0.0000}, {50.0000, 0.0000, -2.5000}, 4.3065},
+    {{50.0000, 2.5000, 0.0000}, {73.0000, 25.0000, -18.0000}, 27.1492},
+    {{50.0000, 2.5000, 0.0000}, {61.0000, -5.0000, 29.0000}, 22.8977},
+    {{50.0000, 2.5000, 0.0000}, {56.0000, -27.0000, -3.0000}, 31.9030},
+    {{50.0000, 2.5000, 0.0000}, {58.0000, 24.0000, 15.0000}, 19.4535},
+    {{50.0000, 2.5000, 0.0000}, {50.0000, 3.1736, 0.5854}, 1.0000},
+    {{50.0000, 2.5000, 0.0000}, {50.0000, 3.2972, 0.0000}, 1.0000},
+    {{50.0000, 2.5000, 0.0000}, {50.0000, 1.8634, 0.5757}, 1.0000},
+    {{50.0000, 2.5000, 0.0000}, {50.0000, 3.2592, 0.3350}, 1.0000},
+    {{60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}, 1.2644},
+    {{63.0109, -31.0961, -5.8663}, {62.8187, -29.7946, -4.0864}, 1.2630},
+    {{61.2901, 3.7196, -5.3901}, {61.4292, 2.2480, -4.9620}, 1.8731},
+    {{35.0831, -44.1164, 3.7933}, {35.0232, -40.0716, 1.5901}, 1.8645},
+    {{22.7233, 20.0904, -46.6940}, {23.0331, 14.9730, -42.5619}, 2.0373},
+    {{36.4612, 47.8580, 18.3852}, {36.2715, 50.5065, 21.2231}, 1.4146},
+    {{90.8027, -2.0831, 1.4410}, {91.1528, -1.6435, 0.0447}, 1.4441},
+    {{90.9257, -0.5406, -0.9208}, {88.6381, -0.8985, -0.7239}, 1.5381},
+    {{6.7747, -0.2908, -2.4247}, {5.8714, -0.0985, -2.2286}, 0.6377},
+    {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082},
+};
+
+TEST(Ciede2000, AgreesWithThe34PairsOfSharma) {
+  ASSERT_EQ(std::size(kSharma), 34u);
+  for (std::size_t i = 0; i < std::size(kSharma); ++i) {
+    const Pair& pair = kSharma[i];
+    // Four digits are printed: half a unit of the last is the whole tolerance.
+    EXPECT_NEAR(ciede2000(pair.a, pair.b), pair.difference, 0.5001e-4) << "pair " << i + 1;
+    EXPECT_NEAR(ciede2000(pair.b, pair.a), pair.difference, 0.5001e-4) << "exchanged, " << i + 1;
+  }
+}
+
+TEST(Ciede2000, OfBlackAndWhiteIs100) {
+  EXPECT_NEAR(ciede2000(lab_from_display({0, 0, 0}), lab_from_display({1, 1, 1})), 100, 1e-9);
+}
+
+TEST(Ciede2000, SeesAGreyAsExactlyNeutral) {
+  for (const double grey : {0.001, 0.18, 0.5, 1.0}) {
+    const Lab lab = lab_from_display({grey, grey, grey});
+    EXPECT_NEAR(lab.a, 0, 1e-12);
+    EXPECT_NEAR(lab.b, 0, 1e-12);
+  }
+}
+
+TEST(Ciede2000, PutsThePrimariesOfTheDisplayWhereTablesHaveThem) {
+  // As colour calculators with the standard's four-digit matrix have them, e.g. easyrgb.com. Their
+  // white has a fifth digit (0.95047, 1, 1.08883): 0.01 in b. A wrong white is off by units.
+  const auto expect_near = [](Lab lab, double l, double a, double b) {
+    EXPECT_NEAR(lab.l, l, 0.011);
+    EXPECT_NEAR(lab.a, a, 0.011);
+    EXPECT_NEAR(lab.b, b, 0.011);
+  };
+  expect_near(lab_from_display({1, 0, 0}), 53.2329, 80.1093, 67.2201);
+  expect_near(lab_from_display({0, 1, 0}), 87.7370, -86.1846, 83.1812);
+  expect_near(lab_from_display({0, 0, 1}), 32.3026, 79.1967, -107.8637);
+}
+
+TEST(Ciede2000, PercentileIsTheValueThatNineteenPixelsInTwentyDoNotExceed) {
+  const Image reference = testing::flat(100, 1, 0, 0, 0);
+  Image picture = reference;
+  for (int x = 0; x < 5; ++x) picture.pixel(x, 0)[0] = picture.pixel(x, 0)[1] = 1;
+  EXPECT_EQ(compare(picture, reference, {}).value("ciede2000.p95"), 0);
+  picture.pixel(5, 0)[2] = 1;
+  const Comparison comparison = compare(picture, reference, {});
+  EXPECT_GT(comparison.value("ciede2000.p95"), 10);
+  EXPECT_LT(comparison.value("ciede2000.p95"), comparison.value("ciede2000.max"));
+}
+
+TEST(Ciede2000, LooksAtTheExposedPicture) {
+  // Both are white at three stops more, and so the same to the eye.
+  const Image a = testing::flat(8, 8, 0.2f, 0.2f, 0.2f), b = testing::flat(8, 8, 0.4f, 0.4f, 0.4f);
+  ComparisonOptions options;
+  EXPECT_GT(compare(a, b, options).value("ciede2000.mean"), 10);
+  options.viewing.exposure_stops = 3;
+  EXPECT_EQ(compare(a, b, options).value("ciede2000.mean"), 0);
+  EXPECT_EQ(compare(a, b, options).value("flip.ldr.mean"), 0);
+}
+
+}  // namespace
+}  // namespace lobelia

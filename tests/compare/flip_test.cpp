@@ -1,0 +1,120 @@
+// LDR-FLIP against values of NVIDIA's tool.
+#include <gtest/gtest.h>
+
+#include "compare/compare.hpp"
+#include "compare/metrics/flip_filters.hpp"
+#include "tests/compare/pictures.hpp"
+
+namespace lobelia {
+namespace {
+
+/// As the tool decodes an 8-bit sRGB code: in float32, whose last digit its results depend on.
+float decoded(int code) {
+  const float value = float(code) / 255.0f;
+  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+Image flat_codes(int r, int g, int b) {
+  return testing::flat(64, 64, decoded(r), decoded(g), decoded(b));
+}
+
+struct Check {
+  const char* name;
+  Image reference, test;
+  double mean, max;
+};
+
+// FLIP 1.6, LDR, 67.0206 pixels per degree, 64 x 64; its error map averaged in double.
+std::vector<Check> checks() {
+  std::vector<Check> list;
+  const auto grey = [](int code) { return flat_codes(code, code, code); };
+  list.push_back({"black, white", grey(0), grey(255), 0.96738833, 0.96738833});
+  list.push_back({"grey 128, 129", grey(128), grey(129), 0.02986309, 0.02986309});
+  list.push_back({"grey 128, 160", grey(128), grey(160), 0.33305269, 0.33305269});
+  list.push_back(
+      {"red, green", flat_codes(255, 0, 0), flat_codes(0, 255, 0), 0.98666495, 0.98666495});
+  list.push_back({"blue, black", flat_codes(0, 0, 255), grey(0), 0.95833308, 0.95833308});
+  Image dot = grey(128);
+  for (float& value : dot.pixel(32, 32)) value = 1;
+  list.push_back({"grey 128, a white pixel in it", grey(128), dot, 0.00105004, 0.378678});
+  return list;
+}
+
+TEST(Flip, AgreesWithTheReferenceTool) {
+  for (const Check& check : checks()) {
+    const Comparison comparison = compare(check.test, check.reference, {});
+    EXPECT_NEAR(comparison.value("flip.ldr.mean"), check.mean, 1e-8) << check.name;
+    EXPECT_NEAR(comparison.value("flip.ldr.max"), check.max, 5e-7) << check.name;
+  }
+}
+
+TEST(Flip, AgreesWithTheReferenceToolOnAPictureOfAllColoursAndEdges) {
+  // Computed with the tool's own C++ header at 67.0206 pixels per degree.
+  const auto pattern = [](int k) {
+    Image image(48, 40);
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 48; ++x)
+        for (int c = 0; c < 3; ++c)
+          image.pixel(x, y)[std::size_t(c)] = decoded(
+              (x * (7 + c * 5) + y * (11 + c * 3) + ((x / 8 + y / 8) % 2) * 60 + (x * y * k) % 37) %
+              256);
+    return image;
+  };
+  const Comparison comparison = compare(pattern(3), pattern(2), {});
+  EXPECT_NEAR(comparison.value("flip.ldr.mean"), 0.206531537, 1e-8);
+  EXPECT_NEAR(comparison.value("flip.ldr.max"), 0.859666228, 1e-8);
+}
+
+TEST(Flip, DefaultViewerSees67PixelsPerDegree) {
+  EXPECT_NEAR(kDefaultPixelsPerDegree, 67.0206, 5e-5);
+}
+
+TEST(Flip, SeesLessOfAFineDifferenceFromFarther) {
+  const Image grey = testing::flat(64, 64, 0.2f, 0.2f, 0.2f);
+  Image checker = grey;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (float& value : checker.pixel(x, y)) value *= (x + y) % 2 ? 1.2f : 0.8f;
+  ComparisonOptions near, far;
+  near.viewing.pixels_per_degree = 20;
+  far.viewing.pixels_per_degree = 120;
+  EXPECT_GT(compare(checker, grey, near).value("flip.ldr.mean"),
+            3 * compare(checker, grey, far).value("flip.ldr.mean"));
+}
+
+TEST(Flip, FiltersKeepAFlatPictureFlatAtEveryDistance) {
+  for (const double ppd :
+       {kMinPixelsPerDegree, 30.0, kDefaultPixelsPerDegree, kMaxPixelsPerDegree}) {
+    const FlipFilters filters{float(ppd)};
+    const auto sum = [](const std::vector<float>& taps) {
+      double total = 0;
+      for (const float tap : taps) total += tap;
+      return total;
+    };
+    // Sums of up to 300 float32 taps.
+    EXPECT_NEAR(sum(filters.luminance), 1, 1e-5) << ppd;
+    EXPECT_NEAR(sum(filters.red_green), 1, 1e-5) << ppd;
+    EXPECT_NEAR(std::pow(sum(filters.blue_yellow_1), 2) + std::pow(sum(filters.blue_yellow_2), 2),
+                1, 1e-5)
+        << ppd;
+    EXPECT_NEAR(sum(filters.gaussian), 1, 1e-5) << ppd;
+    EXPECT_NEAR(sum(filters.edge), 0, 1e-5) << ppd;
+    EXPECT_NEAR(sum(filters.point), 0, 1e-5) << ppd;
+  }
+}
+
+TEST(Flip, ComesOutTheSameWhereverATaskOfRowsEnds) {
+  // The same columns of a taller picture: rows far from the added ones must not change.
+  const Image a = testing::noise(20, 100, 3, 1.0f), b = testing::noise(20, 100, 4, 1.0f);
+  const DisplayLight shown(a, 0);
+  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  const FlipRows whole = flip_filter_rows(shown, filters, 0, 100);
+  const FlipRows part = flip_filter_rows(shown, filters, 37, 41);
+  for (std::size_t i = 0; i < part.edge.size(); ++i) {
+    EXPECT_EQ(part.edge[i], whole.edge[37 * 20 + i]);
+    EXPECT_EQ(part.colour[i].y, whole.colour[37 * 20 + i].y);
+  }
+}
+
+}  // namespace
+}  // namespace lobelia

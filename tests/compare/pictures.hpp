@@ -1,0 +1,56 @@
+// Small pictures for the tests, the same on every machine.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "compare/metrics/metric.hpp"
+#include "core/image.hpp"
+
+namespace lobelia::testing {
+
+inline Image flat(int width, int height, float r, float g, float b) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto pixel = image.pixel(x, y);
+      pixel[0] = r, pixel[1] = g, pixel[2] = b;
+    }
+  return image;
+}
+
+/// Values in [0, scale), from a generator of its own: std's distributions differ between libraries.
+inline Image noise(int width, int height, std::uint64_t seed, float scale) {
+  Image image(width, height);
+  std::uint64_t state = seed * 2862933555777941757u + 3037000493u;
+  for (float& value : image.values()) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    value = scale * float(state >> 40) / float(1 << 24);
+  }
+  return image;
+}
+
+/// A highlight in the middle: exp(-sharpness * distance^2), the sides of the picture at 1.
+inline Image highlight(int width, int height, double sharpness, double peak) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double u = (x + 0.5) / width * 2 - 1, v = (y + 0.5) / height * 2 - 1;
+      const double value = peak * std::exp(-sharpness * (u * u + v * v));
+      const auto pixel = image.pixel(x, y);
+      pixel[0] = float(value), pixel[1] = float(0.8 * value), pixel[2] = float(0.6 * value);
+    }
+  return image;
+}
+
+inline MetricInput input(const Image& a, const Image& b, const Tolerance* tolerance = nullptr,
+                         double exposure_stops = 0) {
+  return {a,
+          b,
+          DisplayLight(a, exposure_stops),
+          DisplayLight(b, exposure_stops),
+          kDefaultPixelsPerDegree,
+          tolerance};
+}
+
+}  // namespace lobelia::testing

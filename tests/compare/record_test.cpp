@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "compare/compare.hpp"
+#include "compare/metrics/catalogue.hpp"
+#include "tests/compare/pictures.hpp"
+
+namespace lobelia {
+namespace {
+
+TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
+  const Image a = testing::highlight(32, 32, 10, 1.0), b = testing::highlight(32, 32, 10, 1.1);
+  ComparisonOptions options;
+  options.viewing.exposure_stops = -1;
+  options.limits = {{"rmse", 1}};
+  options.tolerance = Tolerance{0.5, 0.25, 7};
+  const Json record = comparison_record(compare(a, b, options), "a.exr", "b.exr");
+  EXPECT_EQ(record["schemaVersion"], kRecordSchemaVersion);
+  EXPECT_EQ(record["kind"], "comparison");
+  EXPECT_EQ(record["verdict"], "pass");
+  EXPECT_EQ(record["a"], "a.exr");
+  EXPECT_EQ(record["b"], "b.exr");
+  EXPECT_EQ(record["nonfinite"], (Json{{"a", 0}, {"b", 0}}));
+  EXPECT_EQ(record["viewing"]["exposureStops"], -1.0);
+  EXPECT_EQ(record["viewing"]["pixelsPerDegree"], kDefaultPixelsPerDegree);
+  for (const Metric* metric : metrics())
+    for (const MetricOutput& output : metric->outputs)
+      EXPECT_TRUE(record["metrics"][std::string(output.id)].is_number()) << output.id;
+  ASSERT_EQ(record["limits"].size(), 2u);
+  EXPECT_EQ(record["limits"][0]["metric"], "rmse");
+  EXPECT_EQ(record["limits"][0]["value"], record["metrics"]["rmse"]);
+  EXPECT_EQ(record["limits"][0]["pass"], true);
+  EXPECT_EQ(record["tolerance"],
+            (Json{{"relative", 0.5}, {"ofPeak", 0.25}, {"allowedOutliers", 7}}));
+}
+
+TEST(ComparisonRecord, OfABrokenPictureHasNoMetricsAndNoPass) {
+  const Image good = testing::flat(4, 4, 1, 1, 1);
+  Image broken = good;
+  broken.pixel(1, 1)[0] = std::numeric_limits<float>::quiet_NaN();
+  const Json record = comparison_record(compare(broken, good, {}), "a", "b");
+  EXPECT_EQ(record["verdict"], "non-finite");
+  EXPECT_EQ(record["nonfinite"]["a"], 1);
+  EXPECT_TRUE(record["metrics"].is_object());
+  EXPECT_TRUE(record["metrics"].empty());
+  EXPECT_FALSE(record.contains("tolerance"));
+  ASSERT_FALSE(record["limits"].empty());
+  for (const Json& limit : record["limits"]) {
+    EXPECT_EQ(limit["pass"], false);
+    EXPECT_EQ(limit["value"], "nan");
+  }
+}
+
+TEST(ComparisonRecord, NamesAnInfinityRatherThanLosingIt) {
+  const Json record = comparison_record(
+      compare(testing::flat(4, 4, 1, 1, 1), testing::flat(4, 4, 0, 0, 0), {}), "a", "b");
+  EXPECT_EQ(record["metrics"]["max_rel_peak"], "inf");
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "compare/compare.hpp"
+#include "core/error.hpp"
+#include "tests/compare/pictures.hpp"
+
+namespace lobelia {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+template <class Function>
+Error error_of(Function function) {
+  try {
+    function();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return Error(ExitCode::kInternal, "");
+}
+
+TEST(Verdict, OfAPictureWithItselfIsPass) {
+  const Image image = testing::highlight(32, 32, 10, 2.0);
+  const Comparison comparison = compare(image, image, {});
+  EXPECT_EQ(comparison.verdict, Verdict::kPass);
+  EXPECT_EQ(comparison.limits.size(), default_limits().size());
+}
+
+TEST(Verdict, OfOneBadPixelInManyIsNonFinite) {
+  const Image good = testing::highlight(256, 256, 10, 2.0);
+  for (const float bad : {kNaN, kInfinity, -kInfinity})
+    for (const std::size_t channel : {0u, 1u, 2u}) {
+      Image broken = good;
+      broken.pixel(200, 201)[channel] = bad;
+      for (const bool in_a : {true, false}) {
+        const Comparison comparison = in_a ? compare(broken, good, {}) : compare(good, broken, {});
+        EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
+        EXPECT_EQ(comparison.nonfinite_a, in_a ? 1 : 0);
+        EXPECT_EQ(comparison.nonfinite_b, in_a ? 0 : 1);
+        EXPECT_TRUE(comparison.metrics.empty());
+        for (const LimitResult& limit : comparison.limits) EXPECT_FALSE(limit.pass);
+      }
+    }
+}
+
+TEST(Verdict, OfTwoPicturesBrokenInTheSameWayIsNonFinite) {
+  const Image broken = testing::flat(4, 4, kNaN, kNaN, kNaN);
+  const Comparison comparison = compare(broken, broken, {});
+  EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
+  EXPECT_EQ(comparison.nonfinite_a, 16) << "pixels are counted, not values";
+}
+
+TEST(Verdict, FollowsTheLimitsOfTheUser) {
+  const Image a = testing::flat(8, 8, 0.5f, 0.5f, 0.5f), b = testing::flat(8, 8, 0.75f, 0.5f, 0.5f);
+  ComparisonOptions options;
+  options.limits = {{"max_abs", 0.25}};
+  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass) << "the limit itself passes";
+  options.limits = {{"max_abs", 0.2499}};
+  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers);
+  options.limits = {{"max_abs", 1}, {"rmse", 0.01}};
+  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers) << "one limit is enough";
+}
+
+TEST(Verdict, OfADefaultComparisonSeesAWrongNormalisationAndPassesHalfFloatRounding) {
+  const Image reference = testing::highlight(128, 128, 10, 1.0);
+  EXPECT_EQ(compare(testing::highlight(128, 128, 10, 1.0005), reference, {}).verdict,
+            Verdict::kPass);
+  EXPECT_EQ(compare(testing::highlight(128, 128, 10, 1.03), reference, {}).verdict,
+            Verdict::kDiffers);
+}
+
+TEST(Verdict, AgainstABlackReferenceIsDiffers) {
+  EXPECT_EQ(compare(testing::flat(4, 4, 1e-6f, 0, 0), testing::flat(4, 4, 0, 0, 0), {}).verdict,
+            Verdict::kDiffers);
+}
+
+TEST(Tolerance, CountsPixelsAndAllowsSoMany) {
+  const Image b = testing::flat(10, 10, 1, 0.001f, 0);
+  Image a = b;
+  a.pixel(1, 1)[0] = 1.1f;
+  a.pixel(1, 1)[1] = 0.5f;  // the same pixel again
+  a.pixel(2, 2)[2] = 0.5f;
+  a.pixel(3, 3)[0] = 1.0005f;           // within the relative part
+  a.pixel(4, 4)[1] = 0.001f + 0.5e-4f;  // within the share of the peak alone
+  a.pixel(5, 5)[1] = 0.001f + 2e-4f;    // not
+  ComparisonOptions options;
+  options.tolerance = Tolerance{1e-3, 1e-4, 3};
+  Comparison comparison = compare(a, b, options);
+  EXPECT_EQ(comparison.value("outliers"), 3);
+  EXPECT_EQ(comparison.verdict, Verdict::kPass) << "a tolerance stands in place of the defaults";
+  options.tolerance->allowed_outliers = 2;
+  comparison = compare(a, b, options);
+  EXPECT_EQ(comparison.verdict, Verdict::kDiffers);
+  ASSERT_EQ(comparison.limits.size(), 1u);
+  EXPECT_EQ(comparison.limits[0].metric, "outliers");
+}
+
+TEST(Tolerance, IsNotMeasuredUnlessAskedFor) {
+  const Image image = testing::flat(4, 4, 1, 1, 1);
+  EXPECT_TRUE(std::isnan(compare(image, image, {}).value("outliers")));
+}
+
+TEST(Comparison, RefusesSizesThatDiffer) {
+  const Error error =
+      error_of([] { compare(testing::flat(4, 8, 0, 0, 0), testing::flat(8, 4, 0, 0, 0), {}); });
+  EXPECT_EQ(error.code(), ExitCode::kInput);
+  EXPECT_STREQ(error.what(), "the sizes differ: 4 x 8 against 8 x 4");
+}
+
+TEST(Comparison, RefusesPicturesWithoutPixels) {
+  EXPECT_EQ(error_of([] { compare(Image(), Image(), {}); }).code(), ExitCode::kInput);
+}
+
+TEST(Comparison, SuggestsTheMetricThatWasMeant) {
+  ComparisonOptions options;
+  options.limits = {{"ciede2000.p96", 1}};
+  const Error error = error_of([&] { check_options(options); });
+  EXPECT_EQ(error.code(), ExitCode::kUsage);
+  EXPECT_THAT(error.what(), HasSubstr("did you mean 'ciede2000.p95'?"));
+}
+
+TEST(Comparison, RefusesALimitOnAPlaceOrAScale) {
+  for (const char* fact : {"max_abs.x", "peak"}) {
+    ComparisonOptions options;
+    options.limits = {{fact, 1}};
+    EXPECT_EQ(error_of([&] { check_options(options); }).code(), ExitCode::kUsage) << fact;
+  }
+}
+
+TEST(Comparison, RefusesOptionsOutOfRange) {
+  const auto refused = [](auto change) {
+    ComparisonOptions options;
+    change(options);
+    EXPECT_EQ(error_of([&] { check_options(options); }).code(), ExitCode::kUsage);
+  };
+  const double nan = kNaN;
+  refused([&](ComparisonOptions& o) { o.viewing.exposure_stops = nan; });
+  refused([](ComparisonOptions& o) { o.viewing.exposure_stops = 1e6; });
+  refused([](ComparisonOptions& o) { o.viewing.pixels_per_degree = 0; });
+  refused([](ComparisonOptions& o) { o.viewing.pixels_per_degree = 1e9; });
+  refused([](ComparisonOptions& o) { o.limits = {{"rmse", -1}}; });
+  refused([&](ComparisonOptions& o) { o.limits = {{"rmse", nan}}; });
+  refused([](ComparisonOptions& o) { o.limits = {{"outliers", 1}}; });
+  refused([](ComparisonOptions& o) { o.tolerance = Tolerance{-1, 0, 0}; });
+  refused([](ComparisonOptions& o) { o.tolerance = Tolerance{0, 0, -1}; });
+  check_options({});
+}
+
+TEST(DifferencePicture, ShowsTheErrorAsAShareOfWhite) {
+  const Image b = testing::flat(2, 1, 0.5f, 0.5f, 0.5f);
+  Image a = b;
+  a.pixel(0, 0)[0] = 0.75f;
+  a.pixel(0, 0)[1] = 0.25f;
+  a.pixel(1, 0)[2] = 9.0f;
+  const DisplayImage picture = difference_picture(a, b, 0.5);
+  EXPECT_THAT(picture.rgb, ::testing::ElementsAre(128, 128, 0, 0, 0, 255));
+  EXPECT_THAT(difference_picture(a, b, 0).rgb, ::testing::ElementsAre(255, 255, 0, 0, 0, 255));
+}
+
+TEST(DifferencePicture, IsMagentaWhereAValueIsNotFinite) {
+  const Image b = testing::flat(2, 1, 0, 0, 0);
+  Image a = b;
+  a.pixel(1, 0)[1] = kNaN;
+  EXPECT_THAT(difference_picture(a, b, 1).rgb, ::testing::ElementsAre(0, 0, 0, 255, 0, 255));
+}
+
+}  // namespace
+}  // namespace lobelia

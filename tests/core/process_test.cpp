@@ -1,0 +1,93 @@
+#include "core/process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace lobelia {
+namespace {
+
+using std::chrono::seconds;
+
+std::vector<std::string> shell(const std::string& script) { return {"/bin/sh", "-c", script}; }
+
+TEST(Process, ReportsItsExitCodeAndItsOutputLineByLine) {
+  std::vector<std::string> lines;
+  ProcessOptions options;
+  options.on_line = [&](std::string_view line) { lines.emplace_back(line); };
+  const auto result = run_process(shell("echo one; echo two >&2; printf three; exit 7"), options);
+  EXPECT_EQ(result.exit_code, 7);
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "two", "three"}));
+  EXPECT_EQ(result.output_tail, "one\ntwo\nthree");
+}
+
+TEST(Process, IsKilledIfItsReaderThrows) {
+  const TemporaryDirectory directory;
+  ProcessOptions options;
+  options.working_directory = directory.path();
+  options.on_line = [](std::string_view) { throw std::runtime_error("no more"); };
+  EXPECT_THROW(run_process(shell("echo hello; sleep 1; touch late"), options), std::runtime_error);
+  run_process(shell("sleep 1.5"), {});
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "late"));
+}
+
+TEST(Process, ArgumentsAreNotSeenByAShell) {
+  const auto result = run_process({"/bin/echo", "$HOME; `id` 'x'"}, {});
+  EXPECT_EQ(result.output_tail, "$HOME; `id` 'x'\n");
+}
+
+TEST(Process, OverItsTimeIsKilledWithItsChildren) {
+  const TemporaryDirectory directory;
+  ProcessOptions options;
+  options.timeout = std::chrono::milliseconds(300);
+  options.working_directory = directory.path();
+  const auto result = run_process(shell("(sleep 2; touch late) & sleep 30"), options);
+  EXPECT_TRUE(result.timed_out);
+  EXPECT_LT(result.seconds, 10);
+  run_process(shell("sleep 2.5"), {});
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "late"));
+}
+
+TEST(Process, ThatDiesOfASignalHasItInTheExitCode) {
+  EXPECT_EQ(run_process(shell("kill -SEGV $$"), {}).exit_code, 128 + 11);
+}
+
+TEST(Process, ThatIsMissingIsAnEngineError) {
+  try {
+    run_process({"/no/such/program"}, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kEngine);
+    EXPECT_THAT(error.what(), testing::HasSubstr("/no/such/program"));
+  }
+}
+
+TEST(Process, WritesItsOutputToTheLog) {
+  const TemporaryDirectory directory;
+  ProcessOptions options;
+  options.log = directory.path() / "log";
+  run_process(shell("echo hello"), options);
+  EXPECT_EQ(read_file(options.log, 100), "hello\n");
+}
+
+TEST(Process, ManyLinesAreAllSeenAndTheTailIsBounded) {
+  std::size_t count = 0;
+  ProcessOptions options;
+  options.on_line = [&](std::string_view) { ++count; };
+  const auto result = run_process(shell("seq 100000"), options);
+  EXPECT_EQ(count, 100000u);
+  EXPECT_LE(result.output_tail.size(), 4096u);
+  EXPECT_TRUE(result.output_tail.ends_with("99999\n100000\n"));
+}
+
+TEST(Programs, AreFoundInThePathOrByTheirOwn) {
+  EXPECT_FALSE(find_program("sh").empty());
+  EXPECT_EQ(find_program("/bin/sh"), "/bin/sh");
+  EXPECT_TRUE(find_program("no-such-program-anywhere").empty());
+  EXPECT_TRUE(find_program("/etc/passwd").empty());
+}
+
+}  // namespace
+}  // namespace lobelia

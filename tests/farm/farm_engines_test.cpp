@@ -1,0 +1,42 @@
+// The farm with the real engines.
+#include "farm_fixture.hpp"
+#include "reference_scenes/engine.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool engines_are_here() {
+  for (const auto& engine : engine_infos())
+    if (!make_engine(engine.name, {})->status().available) {
+      if (std::getenv("LOBELIA_REQUIRE_ENGINES")) ADD_FAILURE() << engine.title << " is missing";
+      return false;
+    }
+  return true;
+}
+
+TEST_F(FarmTest, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
+  if (!engines_are_here()) GTEST_SKIP() << "needs POV-Ray and Blender";
+  const Grid real = grid("16, 1024", "<engine name=\"povray\"/><engine name=\"blender\"/>");
+  FarmSummary summary = run_farm(real, out(), {});
+  EXPECT_EQ(summary.pass, 2u);
+  EXPECT_EQ(summary.rendered, 6u);
+  for (const char* id : {"n16", "n1024"})
+    for (const char* engine : {"povray", "blender"}) {
+      const std::string name = std::string("lobelia-") + engine;
+      const Json record = read_record(in_cell(id, name + ".json"), "comparison");
+      EXPECT_EQ(record["verdict"], "pass");
+      EXPECT_GT(record["metrics"]["peak"], 1) << "a black picture agrees with nothing";
+      EXPECT_TRUE(fs::exists(in_cell(id, name + ".png")));
+    }
+  EXPECT_EQ(run_farm(real, out(), {}).rendered, 0u);
+  fs::remove(in_cell("n16", "povray.exr"));
+  fs::remove(in_cell("n16", "cell.json"));
+  summary = run_farm(real, out(), {});
+  EXPECT_EQ(summary.rendered, 1u);
+  EXPECT_EQ(summary.pass, 2u);
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,45 @@
+// A small grid in a directory of its own.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/files.hpp"
+#include "core/record.hpp"
+#include "farm/farm.hpp"
+
+namespace lobelia {
+
+class FarmTest : public testing::Test {
+ protected:
+  Grid grid(const std::string& exponents, const std::string& engines = "") {
+    const auto path = directory_.path() / "grid.xml";
+    write_file(path, fmt::format("<grid version=\"1\" title=\"A small grid\">"
+                                 "<scene file=\"{}/reference_scenes/scenes/oblique_45.xml\"/>"
+                                 "<film width=\"48\" height=\"48\"/>"
+                                 "<axis name=\"exponent\" values=\"{}\"/>{}</grid>",
+                                 LOBELIA_SOURCE_DIR, exponents, engines));
+    return read_grid(path);
+  }
+  std::filesystem::path out() const { return directory_.path() / "out"; }
+  std::filesystem::path in_cell(const std::string& id, const std::string& file) const {
+    return out() / "cells" / id / file;
+  }
+  Json cell_record(const std::string& id) const {
+    return read_record(in_cell(id, "cell.json"), "cell");
+  }
+  /// An executable shell script.
+  std::filesystem::path script(const std::string& name, const std::string& text) const {
+    const auto path = directory_.path() / name;
+    write_file(path, "#!/bin/sh\n" + text);
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return path;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,132 @@
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "farm_fixture.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kBothEngines[] = "<engine name=\"povray\"/><engine name=\"blender\"/>";
+
+TEST_F(FarmTest, WritesEveryFileThatTheRecordsPromise) {
+  const FarmSummary summary = run_farm(grid("16, 32"), out(), {});
+  EXPECT_EQ(summary.cells, 2u);
+  EXPECT_EQ(summary.pass, 2u);
+  EXPECT_EQ(summary.rendered, 2u);
+  const Json farm = read_record(out() / "farm.json", "farm");
+  EXPECT_EQ(farm["title"], "A small grid");
+  ASSERT_EQ(farm["cells"].size(), 2u);
+  for (const auto& cell : farm["cells"]) {
+    EXPECT_EQ(cell["status"], "pass");
+    const std::string id = cell["id"];
+    const Json record = cell_record(id);
+    for (const auto& image : record["images"])
+      for (const char* key : {"exr", "png", "record"})
+        EXPECT_TRUE(fs::exists(in_cell(id, image[key]))) << id << " " << image[key];
+    EXPECT_TRUE(fs::exists(in_cell(id, "profile.json")));
+    EXPECT_TRUE(fs::exists(in_cell(id, "scene.xml")));
+  }
+}
+
+TEST_F(FarmTest, ACellsSceneRendersToTheCellsPicture) {
+  run_farm(grid("16"), out(), {});
+  const int status =
+      std::system(fmt::format("cd '{}' && '{}' render scene.xml -q -o again.exr",
+                              in_cell("n16", "").string(), LOBELIA_PROGRAM)
+                      .c_str());
+  ASSERT_EQ(status, 0);
+  EXPECT_EQ(read_file(in_cell("n16", "again.exr"), 1 << 24),
+            read_file(in_cell("n16", "lobelia.exr"), 1 << 24));
+}
+
+TEST_F(FarmTest, ASecondRunDoesOnlyWhatIsMissing) {
+  run_farm(grid("16, 32"), out(), {});
+  const auto before = fs::last_write_time(in_cell("n16", "lobelia.exr"));
+  FarmSummary summary = run_farm(grid("16, 32"), out(), {});
+  EXPECT_EQ(summary.rendered, 0u);
+  EXPECT_EQ(summary.kept, 2u);
+  summary = run_farm(grid("16, 32, 64"), out(), {});
+  EXPECT_EQ(summary.rendered, 1u);
+  EXPECT_EQ(summary.pass, 3u);
+  fs::remove(in_cell("n32", "lobelia.exr"));
+  fs::remove(in_cell("n32", "cell.json"));
+  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 1u);
+  EXPECT_EQ(fs::last_write_time(in_cell("n16", "lobelia.exr")), before);
+}
+
+TEST_F(FarmTest, ABrokenRecordOrAChangedSceneIsMadeAgain) {
+  run_farm(grid("16, 32"), out(), {});
+  write_file(in_cell("n16", "cell.json"), "{");
+  write_file(in_cell("n16", "lobelia.json"), "");
+  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 1u);
+  Grid other = grid("16, 32");
+  other.scene.film.width = 50;
+  EXPECT_EQ(run_farm(other, out(), {}).rendered, 2u);
+  EXPECT_EQ(read_image(in_cell("n16", "lobelia.exr")).width(), 50);
+}
+
+TEST_F(FarmTest, AgainMakesEverythingAgain) {
+  run_farm(grid("16"), out(), {});
+  FarmOptions options;
+  options.again = true;
+  EXPECT_EQ(run_farm(grid("16"), out(), options).rendered, 1u);
+}
+
+TEST_F(FarmTest, AnAbsentEngineIsLeftOutAndNamedWithTheWayToGetIt) {
+  FarmOptions options;
+  options.programs = {{"povray", "/no/such/povray"}, {"blender", "/no/such/blender"}};
+  const FarmSummary summary = run_farm(grid("16", kBothEngines), out(), options);
+  EXPECT_EQ(summary.pass, 1u);
+  ASSERT_EQ(summary.absent_engines.size(), 2u);
+  EXPECT_THAT(summary.absent_engines[0], testing::HasSubstr("apt-get install povray"));
+  const Json farm = read_record(out() / "farm.json", "farm");
+  EXPECT_EQ(farm["engines"][1]["available"], false);
+  EXPECT_EQ(farm["engines"][2]["install"], "sudo apt-get install blender");
+}
+
+TEST_F(FarmTest, AnEngineThatFailsIsThatCellsResultAndNothingElses) {
+  FarmOptions options;
+  options.programs = {
+      {"povray", script("povray", "echo 'POV-Ray 3.7.0.10' >&2\n"
+                                  "case \"$*\" in *version*) exit 0;; esac\nexit 3\n")},
+      {"blender", "/no/such/blender"}};
+  const FarmSummary summary = run_farm(grid("16, 32", kBothEngines), out(), options);
+  EXPECT_EQ(summary.failed, 2u);
+  ASSERT_EQ(summary.problems.size(), 2u);
+  const Json record = cell_record("n16");
+  EXPECT_EQ(record["status"], "failed");
+  EXPECT_EQ(record["problems"][0]["engine"], "povray");
+  EXPECT_EQ(record["images"].size(), 1u) << "our own picture is there all the same";
+  // And it is tried again, because a failure is not a result to keep.
+  EXPECT_EQ(run_farm(grid("16, 32", kBothEngines), out(), options).failed, 2u);
+}
+
+TEST_F(FarmTest, ADirectoryThatCannotBeWrittenIsSaidBeforeAnythingIsRendered) {
+  write_file(directory_.path() / "file", "x");
+  try {
+    run_farm(grid("16"), directory_.path() / "file" / "out", {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kOutput);
+  }
+}
+
+TEST_F(FarmTest, ReportsEveryStep) {
+  std::size_t last = 0, total = 0;
+  FarmOptions options;
+  options.threads = 1;
+  options.on_progress = [&](const FarmProgress& progress) {
+    EXPECT_EQ(progress.done, last + 1);
+    last = progress.done;
+    total = progress.total;
+  };
+  run_farm(grid("16, 32, 64"), out(), options);
+  EXPECT_EQ(last, 6u);
+  EXPECT_EQ(total, 6u);
+}
+
+}  // namespace
+}  // namespace lobelia

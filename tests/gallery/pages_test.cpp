@@ -1,0 +1,159 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/error.hpp"
+#include "gallery/gallery.hpp"
+#include "tests/gallery/fake_farm.hpp"
+#include "tests/gallery/site.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+std::map<std::string, std::string> contents(const std::filesystem::path& directory) {
+  std::map<std::string, std::string> result;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
+    if (!entry.is_regular_file()) continue;
+    result[entry.path().lexically_relative(directory).string()] =
+        read_file(entry.path(), std::uint64_t{1} << 24);
+  }
+  return result;
+}
+
+TEST(GalleryPages, every_cell_has_a_page_and_every_link_leads_somewhere) {
+  const FakeFarm farm;
+  EXPECT_EQ(write_gallery(farm.directory()), farm.directory() / "index.html");
+  const Site site(farm.directory());
+  EXPECT_EQ(site.pages().size(), 5u);
+  EXPECT_THAT(site.bad_links(), IsEmpty());
+  EXPECT_EQ(site.page("index.html").select_nodes("//td[@data-status]").size(), 4u);
+  EXPECT_EQ(site.page("index.html").select_nodes("//td//img").size(), 3u);
+  for (const std::string& id :
+       {FakeFarm::kPass, FakeFarm::kDiffers, FakeFarm::kFailed, FakeFarm::kMissing}) {
+    EXPECT_EQ(site.cell(id).select_nodes("//h1").size(), 1u) << id;
+  }
+}
+
+TEST(GalleryPages, a_link_to_a_file_that_is_not_there_is_found_by_this_suite) {
+  const FakeFarm farm;
+  write_gallery(farm.directory());
+  std::filesystem::remove(farm.cell_directory(FakeFarm::kPass) / "povray.exr");
+  EXPECT_THAT(Site(farm.directory()).bad_links(), Not(IsEmpty()));
+}
+
+TEST(GalleryPages, nothing_comes_from_a_network) {
+  const FakeFarm farm;
+  write_gallery(farm.directory());
+  for (const auto& [name, text] : contents(farm.directory())) {
+    if (name.ends_with(".json")) continue;
+    EXPECT_THAT(text, Not(HasSubstr("http:"))) << name;
+    EXPECT_THAT(text, Not(HasSubstr("https:"))) << name;
+    EXPECT_THAT(text, Not(HasSubstr("@import"))) << name;
+  }
+  EXPECT_THAT(Site(farm.directory()).active_content(), IsEmpty());
+}
+
+TEST(GalleryPages, the_same_records_give_the_same_pages_anywhere) {
+  const FakeFarm one, other;
+  write_gallery(one.directory());
+  write_gallery(other.directory());
+  const auto first = contents(one.directory());
+  EXPECT_EQ(first, contents(other.directory()));
+  write_gallery(one.directory());
+  EXPECT_EQ(first, contents(one.directory()));
+  for (const auto& [name, text] : first) {
+    EXPECT_THAT(text, Not(HasSubstr(one.directory().string()))) << name;
+  }
+}
+
+TEST(GalleryPages, an_engine_that_is_missing_is_named_with_how_to_get_it) {
+  const FakeFarm farm;
+  write_gallery(farm.directory());
+  const Site site(farm.directory());
+  for (const std::string& name :
+       {std::string("index.html"), "cells/" + FakeFarm::kPass + "/index.html"}) {
+    const std::string text = text_of(site.page(name));
+    EXPECT_THAT(text, HasSubstr("Blender Cycles")) << name;
+    EXPECT_THAT(text, HasSubstr("no program 'blender' in $PATH")) << name;
+    EXPECT_THAT(text, HasSubstr("sudo apt-get install blender")) << name;
+  }
+}
+
+TEST(GalleryPages, a_cell_shows_its_numbers_curves_plan_and_commands) {
+  const FakeFarm farm;
+  write_gallery(farm.directory());
+  const Site site(farm.directory());
+  const auto& page = site.cell(FakeFarm::kPass);
+  EXPECT_EQ(page.select_nodes("//svg").size(), 2u);
+  const std::string text = text_of(page);
+  for (const char* words :
+       {"Phong (RDF) · n = 16", "white = 0.0016 = 0.06 % of the peak", "some.new.one", "at (1, 0)",
+        "✓ within 3", "one convex body", "lobelia render 'scene with space.xml'",
+        "povray +Iscene.pov", "−1.5 stops", "epicentre", "camera 4"}) {
+    EXPECT_THAT(text, HasSubstr(words));
+  }
+}
+
+TEST(GalleryPages, what_is_missing_is_said_in_words_in_its_place) {
+  const FakeFarm farm;
+  std::filesystem::remove(farm.cell_directory(FakeFarm::kPass) / "povray.png");
+  std::ofstream(farm.cell_directory(FakeFarm::kPass) / "lobelia.png") << "no picture";
+  write_file(farm.cell_directory(FakeFarm::kDiffers) / "lobelia-povray.json", "{ broken");
+  std::filesystem::remove(farm.cell_directory(FakeFarm::kDiffers) / "profile.json");
+  write_gallery(farm.directory());
+  const Site site(farm.directory());
+  EXPECT_THAT(site.bad_links(), IsEmpty());
+  const std::string pass = text_of(site.cell(FakeFarm::kPass));
+  EXPECT_THAT(pass, HasSubstr("The picture povray.png is missing."));
+  EXPECT_THAT(pass, HasSubstr("The picture lobelia.png is not a complete PNG."));
+  const std::string differs = text_of(site.cell(FakeFarm::kDiffers));
+  EXPECT_THAT(differs, HasSubstr("lobelia-povray.json: not a record"));
+  EXPECT_THAT(differs, HasSubstr("profile.json: cannot read"));
+  EXPECT_THAT(text_of(site.cell(FakeFarm::kFailed)),
+              HasSubstr("POV-Ray made no picture: stopped after 600 s"));
+  EXPECT_THAT(text_of(site.cell(FakeFarm::kMissing)), HasSubstr("lobelia farm small.xml -o out"));
+}
+
+TEST(GalleryPages, cells_that_need_a_look_are_listed_with_their_reason) {
+  const FakeFarm farm;
+  write_gallery(farm.directory());
+  const Site site(farm.directory());
+  const std::string list =
+      text_of(site.page("index.html").select_node("//section[@class='attention']").node());
+  EXPECT_THAT(list, HasSubstr("POV-Ray: stopped after 600 s"));
+  EXPECT_THAT(list, HasSubstr("Pixels beyond the tolerance: 9, limit 3"));
+  EXPECT_THAT(list, Not(HasSubstr("n = 16 · ")));
+}
+
+TEST(GalleryPages, an_unreadable_cell_costs_its_own_page_and_no_other) {
+  const FakeFarm farm;
+  write_file(farm.cell_directory(FakeFarm::kPass) / "cell.json", "[1, 2");
+  std::filesystem::remove(farm.cell_directory(FakeFarm::kDiffers) / "cell.json");
+  write_gallery(farm.directory());
+  const Site site(farm.directory());
+  EXPECT_THAT(site.bad_links(), IsEmpty());
+  EXPECT_THAT(text_of(site.cell(FakeFarm::kPass)), HasSubstr("cell.json: not a record"));
+  EXPECT_THAT(text_of(site.cell(FakeFarm::kDiffers)), HasSubstr("cell.json: cannot read"));
+  EXPECT_EQ(site.page("index.html").select_nodes("//td[@data-status='unreadable']").size(), 2u);
+}
+
+TEST(GalleryPages, a_directory_without_a_farm_is_an_input_error_that_says_what_to_do) {
+  const TemporaryDirectory empty;
+  try {
+    write_gallery(empty.path());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    EXPECT_THAT(error.what(), HasSubstr("farm.json: no such file"));
+    EXPECT_THAT(error.what(), HasSubstr("lobelia farm"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(empty.path()));
+}
+
+}  // namespace
+}  // namespace lobelia::gallery

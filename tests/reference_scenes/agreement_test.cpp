@@ -1,0 +1,184 @@
+// The real POV-Ray and the real Blender against our renderer, pixel by pixel.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "reference_scenes/engine.hpp"
+#include "renderer/render.hpp"
+#include "renderer/scene/scene_io.hpp"
+#include "tests/reference_scenes/require_engine.hpp"
+#include "tests/reference_scenes/test_scenes.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the engine's number format and precision leave, and no more.
+struct Tolerance {
+  double relative, of_peak;
+};
+Tolerance tolerance_of(std::string_view engine) {
+  // Measured over 540 pictures of 256 x 256: every model and normalisation, n = 16, 128, 1024, six
+  // lights. POV-Ray writes half floats, which round by up to 2^-11: 4.88e-4 of the value. Cycles
+  // computes in float32: 2.0e-5 of the peak (n = 1024, grazing light); by light from behind, 3.4e-5
+  // in one pixel.
+  return engine == "povray" ? Tolerance{6e-4, 1e-8} : Tolerance{0, 3e-5};
+}
+/// Pixels whose ray grazes the silhouette or the terminator, where a rounding decides.
+constexpr int kAllowedOutliers = 3;
+
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+
+class Agreement : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    engine_ = make_engine(GetParam(), {});
+    require_engine(*engine_);
+  }
+
+  void expect_agreement(const std::vector<NamedScene>& named) {
+    std::vector<Scene> scenes;
+    for (const NamedScene& one : named) scenes.push_back(one.scene);
+    std::size_t results = 0;
+    const Tolerance tolerance = tolerance_of(GetParam());
+    engine_->render(scenes, {}, [&](std::size_t index, ReferenceResult result) {
+      ++results;
+      SCOPED_TRACE(named[index].name);
+      ASSERT_EQ(result.error, "");
+      const Image ours = render(scenes[index], {}).image;
+      ASSERT_GT(*std::ranges::max_element(ours.values()), 0) << "nothing to compare";
+      const Difference d = difference(result.image, ours, tolerance.relative, tolerance.of_peak);
+      EXPECT_TRUE(d.finite);
+      EXPECT_LE(d.outliers, kAllowedOutliers) << "worst is " << d.worst << " of the peak";
+      EXPECT_EQ(result.record.at("kind"), "reference");
+      EXPECT_EQ(result.record.at("engine").at("version"), engine_->status().version);
+    });
+    EXPECT_EQ(results, scenes.size());
+    ASSERT_GT(results, 0u);
+  }
+
+  std::unique_ptr<Engine> engine_;
+};
+
+TEST_P(Agreement, OfEveryModelAndNormalisation) {
+  std::vector<NamedScene> scenes;
+  for (const ModelInfo& model : models())
+    for (const Normalised& lobe : kNormalisations)
+      for (const double exponent : {16.0, 1024.0}) {
+        const HighlightChoice choice{model.name, lobe.lobe, lobe.normalisation, exponent};
+        const std::string name =
+            fmt::format("{} {} {} n={}", model.name, lobe.lobe, lobe.normalisation, exponent);
+        scenes.push_back({name + " at 45 degrees", sphere_scene(choice, {directional_at(45)}, 64)});
+        scenes.push_back({name + " by a point light", sphere_scene(choice, {point_light()}, 64)});
+      }
+  expect_agreement(scenes);
+}
+
+TEST_P(Agreement, OfGrazingLightAndOfLightFromBehind) {
+  std::vector<NamedScene> scenes;
+  for (const ModelInfo& model : models())
+    for (const double degrees : {0.0, 80.0, 120.0})
+      scenes.push_back(
+          {fmt::format("{} at {} degrees", model.name, degrees),
+           sphere_scene({model.name, "cosine", "exact", 16}, {directional_at(degrees)}, 64)});
+  expect_agreement(scenes);
+}
+
+TEST_P(Agreement, OfALobeWiderThanAHemisphere) {
+  std::vector<NamedScene> scenes;
+  for (const ModelInfo& model : models())
+    for (const double exponent : {5.0, 0.01})
+      scenes.push_back(
+          {fmt::format("{} n={}", model.name, exponent),
+           sphere_scene({model.name, "cs16", "exact", exponent}, {directional_at(45)}, 64)});
+  expect_agreement(scenes);
+}
+
+TEST_P(Agreement, OfTwoColouredLightsWithAShadowOnAColouredBase) {
+  std::vector<NamedScene> scenes;
+  for (const ModelInfo& model : models())
+    scenes.push_back(
+        {std::string(model.name),
+         shadow_scene({model.name, "cosine", "exact", 50},
+                      {directional_at(30, {1, 0.5, 0.25}), point_light({2, 4, 8})}, 96)});
+  // Grey highlights, so that POV-Ray shades by itself.
+  Scene grey = scenes[0].scene;
+  grey.materials[0].specular_reflectance = {0.5, 0.5, 0.5};
+  grey.materials[1].highlight = highlight_of({"blinn_phong_rdf", "cosine", "exact", 20});
+  scenes.push_back({"grey", grey});
+  expect_agreement(scenes);
+}
+
+TEST_P(Agreement, WhateverTheUnitsOfTheScene) {
+  std::vector<NamedScene> scenes;
+  for (const double size : {1e-4, 1e4}) {
+    Scene scene = shadow_scene({"modified_phong", "cs16", "exact", 50},
+                               {point_light({2, 4, 8}), directional_at(30)}, 96);
+    const auto place = [&](Vec3 point) { return size * (point + Vec3{30, -20, 10}); };
+    scene.camera.origin = place(scene.camera.origin);
+    scene.camera.target = place(scene.camera.target);
+    for (Sphere& sphere : scene.spheres) {
+      sphere.center = place(sphere.center);
+      sphere.radius *= size;
+    }
+    auto& light = std::get<PointLight>(scene.lights[0]);
+    light.position = place(light.position);
+    light.intensity = size * size * light.intensity;
+    scenes.push_back({fmt::format("size {}", size), scene});
+  }
+  expect_agreement(scenes);
+}
+
+TEST_P(Agreement, OfTheCanonicalScenes) {
+  std::vector<NamedScene> scenes;
+  for (const auto& file :
+       fs::directory_iterator(fs::path(LOBELIA_SOURCE_DIR) / "reference_scenes" / "scenes")) {
+    if (file.path().extension() != ".xml") continue;
+    Scene scene = read_scene(file.path());
+    scene.film = {96, 96};
+    scenes.push_back({file.path().filename().string(), scene});
+  }
+  ASSERT_GE(scenes.size(), 6u);
+  expect_agreement(scenes);
+}
+
+TEST_P(Agreement, OfTheSmallestPictureAndOfWideOnes) {
+  const HighlightChoice choice{"modified_phong", "cosine", "exact", 8};
+  Scene small = sphere_scene(choice, {directional_at(20)}, 4);
+  Scene flat = sphere_scene(choice, {directional_at(20)}, 64);
+  flat.film = {64, 5};
+  Scene wide = sphere_scene(choice, {directional_at(20)}, 64);
+  wide.camera.fov_degrees = 150;
+  wide.camera.origin = {0, 0, 1.5};
+  expect_agreement({{"small", small}, {"flat", flat}, {"wide", wide}});
+}
+
+TEST_P(Agreement, SceneWithoutLightIsBlack) {
+  const Scene scene = sphere_scene({"modified_phong", "cosine", "exact", 8}, {}, 16);
+  engine_->render(std::span(&scene, 1), {}, [&](std::size_t, ReferenceResult result) {
+    ASSERT_EQ(result.error, "");
+    for (const float value : result.image.values()) EXPECT_EQ(value, 0.0f);
+  });
+}
+
+TEST_P(Agreement, SamplesAreRefusedAndTheNextSceneIsRendered) {
+  std::vector<Scene> scenes(
+      2, sphere_scene({"modified_phong", "cosine", "exact", 8}, {directional_at(20)}, 16));
+  scenes[0].sampler.sample_count = 16;
+  std::vector<std::string> errors(2, "no result");
+  engine_->render(scenes, {},
+                  [&](std::size_t index, ReferenceResult result) { errors[index] = result.error; });
+  EXPECT_NE(errors[0].find("one ray per pixel centre"), std::string::npos) << errors[0];
+  EXPECT_EQ(errors[1], "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, Agreement, testing::Values("povray", "blender"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace lobelia

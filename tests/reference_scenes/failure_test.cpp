@@ -1,0 +1,140 @@
+// Engines that are missing, crash, hang or lie, played by shell scripts.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "reference_scenes/engine.hpp"
+#include "tests/reference_scenes/test_scenes.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class FakeEngine : public testing::TestWithParam<std::string> {
+ protected:
+  /// A program that answers --version as the engine does and otherwise runs `body`.
+  fs::path program(const std::string& body, std::string version = "") {
+    if (version.empty())
+      version = GetParam() == "povray" ? "POV-Ray 3.7.0.10.unofficial" : "Blender 3.4.1";
+    const fs::path path = directory_.path() / "engine";
+    write_file(path,
+               fmt::format("#!/bin/sh\n[ \"$1\" = --version ] && echo '{}' >&2 && exit 0\n{}\n",
+                           version, body));
+    fs::permissions(path, fs::perms::owner_all);
+    return path;
+  }
+
+  std::map<std::size_t, std::string> errors_of(const std::string& body, int scenes = 1,
+                                               double limit = 20) {
+    const auto engine = make_engine(GetParam(), program(body));
+    const std::vector<Scene> all(
+        std::size_t(scenes),
+        sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
+    ReferenceOptions options;
+    options.time_limit = std::chrono::duration<double>(limit);
+    options.log_directory = directory_.path();
+    std::map<std::size_t, std::string> errors;
+    engine->render(all, options, [&](std::size_t index, ReferenceResult result) {
+      EXPECT_FALSE(errors.contains(index)) << "told twice";
+      EXPECT_EQ(result.image.pixel_count(), 0u);
+      errors[index] = result.error;
+    });
+    EXPECT_EQ(errors.size(), std::size_t(scenes)) << "every scene has its result";
+    return errors;
+  }
+
+  std::string unavailable_because(const fs::path& path) {
+    const auto engine = make_engine(GetParam(), path);
+    EXPECT_FALSE(engine->status().available);
+    try {
+      engine->render({}, {}, [](std::size_t, ReferenceResult) {});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kEngine);
+      EXPECT_THAT(error.what(), HasSubstr(engine->status().why));
+      EXPECT_THAT(error.what(), HasSubstr("sudo apt-get install"));
+    }
+    return engine->status().why;
+  }
+
+  /// The script's first scene, as the real one tells it.
+  static constexpr char kBeginFirst[] =
+      R"(for job; do :; done
+         name=$(grep -o 'scene[0-9]*"' "$job" 2>/dev/null | head -1 | tr -d '"')
+         echo "lobelia: begin $name")";
+
+  TemporaryDirectory directory_;
+};
+
+TEST_P(FakeEngine, MissingIsSaidWithHowToInstall) {
+  EXPECT_THAT(unavailable_because(directory_.path() / "nothing"), HasSubstr("is not a program"));
+}
+
+TEST_P(FakeEngine, AnotherProgramIsNotTakenForIt) {
+  EXPECT_THAT(unavailable_because(program("", "GNU grep 3.8")),
+              HasSubstr("does not answer --version"));
+  EXPECT_THAT(
+      unavailable_because(program("", GetParam() == "povray" ? "POV-Ray 3.6.1" : "Blender 2.83.0")),
+      HasSubstr("what can be driven is"));
+}
+
+TEST_P(FakeEngine, VersionIsRead) {
+  const auto engine = make_engine(GetParam(), program("exit 1"));
+  EXPECT_TRUE(engine->status().available) << engine->status().why;
+  EXPECT_EQ(engine->status().version, GetParam() == "povray" ? "3.7.0.10" : "3.4.1");
+}
+
+TEST_P(FakeEngine, ComplaintIsInTheErrorInOneLineAndInTheLog) {
+  const auto errors = errors_of("echo chatter; echo 'Parse Error: no such thing'; exit 7");
+  EXPECT_THAT(errors.at(0), HasSubstr("stopped with exit code 7: Parse Error: no such thing"));
+  EXPECT_EQ(errors.at(0).find('\n'), std::string::npos);
+  const fs::path log = directory_.path() / (GetParam() + "-0.log");
+  EXPECT_THAT(read_file(log, 1 << 20), HasSubstr("chatter"));
+}
+
+TEST_P(FakeEngine, CrashIsThatScenesResult) {
+  for (const auto& [scene, error] : errors_of(std::string(kBeginFirst) + "\nkill -SEGV $$", 3))
+    EXPECT_THAT(error, HasSubstr("was ended by signal 11")) << scene;
+}
+
+TEST_P(FakeEngine, HangIsEndedAtTheTimeLimit) {
+  for (const auto& [scene, error] : errors_of(std::string(kBeginFirst) + "\nsleep 60", 2, 0.4))
+    EXPECT_THAT(error, HasSubstr("was stopped after 0.4 s")) << scene;
+}
+
+TEST_P(FakeEngine, NoPictureIsAnError) {
+  EXPECT_THAT(errors_of("exit 0").at(0),
+              testing::AnyOf(HasSubstr("wrote no picture"), HasSubstr("rendered nothing")));
+}
+
+TEST_P(FakeEngine, TextInPlaceOfAPictureIsAnError) {
+  const std::string pov = R"(for a; do case $a in +O*) echo text > "${a#+O}";; esac; done)";
+  const std::string blender = std::string(kBeginFirst) + R"(
+    echo text > "${job%job.json}$name-0.exr"
+    echo "lobelia: done $name 1")";
+  EXPECT_THAT(errors_of(GetParam() == "povray" ? pov : blender).at(0),
+              HasSubstr("picture cannot be used"));
+}
+
+TEST_P(FakeEngine, FailureOfTheReceiverEndsTheWork) {
+  const auto engine = make_engine(GetParam(), program("exit 1"));
+  const std::vector<Scene> scenes(
+      3, sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
+  EXPECT_THROW(engine->render(scenes, {},
+                              [](std::size_t, ReferenceResult) {
+                                throw Error(ExitCode::kOutput, "disk full");
+                              }),
+               Error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, FakeEngine, testing::Values("povray", "blender"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,179 @@
+// What is written down for the engines: numbers in full, and nothing that a person typed.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <regex>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "reference_scenes/blender/blender_input.hpp"
+#include "reference_scenes/engine.hpp"
+#include "reference_scenes/povray/povray_input.hpp"
+#include "reference_scenes/preparation.hpp"
+#include "renderer/render.hpp"
+#include "tests/reference_scenes/test_scenes.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr HighlightChoice kExpressed{"modified_blinn_phong", "cs16", "exact", 64};
+constexpr HighlightChoice kNative{"phong_rdf", "cosine", "exact", 64};
+
+TEST(EngineInput, IsNumbersAndOurOwnNamesWhateverTheMaterialIsCalled) {
+  const std::string hostile =
+      "x\"} #include \"/etc/passwd\"\n#declare Gain = 0; Lobelia_Begin(1)\\\n'''\nimport os";
+  for (const HighlightChoice& choice : {kExpressed, kNative}) {
+    Scene scene = shadow_scene(choice, {directional_at(45), point_light()}, 64);
+    for (Material& material : scene.materials) material.id = hostile;
+    const std::regex allowed(
+        R"(#version 3\.7;|#include "lobelia_models\.inc"|Lobelia_[A-Za-z_]+\([-+0-9.e<>, /]*)"
+        R"((Lobelia_[A-Za-z0-9_]+, )*[-+0-9.e<>, /]*\))");
+    for (const PovrayPass& pass : povray_input(scene).passes)
+      for (const std::string& line : split(pass.scene, "\n"))
+        EXPECT_TRUE(std::regex_match(line, allowed)) << line;
+    const std::string job = blender_input(scene, "scene0").dump();
+    EXPECT_THAT(job, Not(HasSubstr("passwd")));
+    EXPECT_THAT(job, Not(HasSubstr("import")));
+  }
+}
+
+TEST(EngineInput, HasEveryNumberInFull) {
+  const double third = 1.0 / 3, tenths = 0.1 + 0.2;
+  ASSERT_EQ(exact_text(tenths), "0.30000000000000004");
+  Scene scene = sphere_scene(kExpressed, {PointLight{{2, third, 3}, {tenths, 1, third}}}, 64);
+  scene.camera.origin = {tenths, third, 5};
+  scene.materials[0].highlight.exponent = 100 * third;
+  const std::string pov = povray_input(scene).passes.at(0).scene;
+  const std::string job = blender_input(scene, "scene0").dump();
+  for (const double value : {third, tenths, 100 * third}) {
+    EXPECT_THAT(pov, HasSubstr(exact_text(value)));
+    EXPECT_THAT(job, HasSubstr(exact_text(value)));
+  }
+}
+
+TEST(EngineInput, NeverHasANumberThatIsNotFinite) {
+  EXPECT_THROW(exact_text(std::numeric_limits<double>::quiet_NaN()), Error);
+  EXPECT_THROW(exact_text(std::numeric_limits<double>::infinity()), Error);
+}
+
+TEST(EngineInput, GainBringsEveryPictureIntoTheRangeOfHalfFloat) {
+  for (const ModelInfo& model : models())
+    for (const Normalised& lobe : kNormalisations)
+      for (const double exponent : {1.0, 16.0, 1024.0, 1e6})
+        for (const double brightness : {1e-6, 1.0, 1e6}) {
+          Scene scene = shadow_scene(
+              {model.name, lobe.lobe, lobe.normalisation, exponent},
+              {directional_at(30, brightness * kWhite), point_light(brightness * kWhite)}, 32);
+          for (const PovrayPass& pass : povray_input(scene).passes) {
+            int power = 0;
+            EXPECT_EQ(std::frexp(pass.gain, &power), 0.5) << "not a power of two: " << pass.gain;
+          }
+          const PovrayInput input = povray_input(scene);
+          const double gain = input.passes.front().gain;
+          const auto lights = input.native ? scene.lights : std::vector{scene.lights.front()};
+          EXPECT_LE(gain * peak_bound(scene, lights), 3e4);
+          EXPECT_GT(gain * peak_bound(scene, lights), 1.4e4);
+          scene.lights = lights;
+          const Image picture = render(scene, {}).image;
+          const double peak = *std::ranges::max_element(picture.values());
+          EXPECT_LE(peak, peak_bound(scene, lights) * (1 + 1e-6));
+        }
+}
+
+TEST(EngineInput, PovrayShadesByItselfWhatItHasItself) {
+  const auto is_native = [](const HighlightChoice& choice, Rgb specular = kWhite) {
+    Scene scene = sphere_scene(choice, {directional_at(45), point_light()}, 64);
+    scene.materials[0].specular_reflectance = specular;
+    const PovrayInput input = povray_input(scene);
+    EXPECT_EQ(input.passes.size(), input.native ? 1u : 2u);
+    return input.native;
+  };
+  EXPECT_TRUE(is_native({"phong_rdf", "cosine", "exact", 64}));
+  EXPECT_TRUE(is_native({"phong_rdf", "cosine", "paper", 64}));
+  EXPECT_TRUE(is_native({"blinn_phong_rdf", "cosine", "exact", 64}, {0.5, 0.5, 0.5}));
+  EXPECT_FALSE(is_native({"phong_rdf", "cosine", "exact", 64}, {1, 0.5, 0.5}))
+      << "its highlights have the colour of the lamp";
+  EXPECT_FALSE(is_native({"phong_rdf", "cs16", "exact", 64}));
+  EXPECT_FALSE(is_native({"modified_phong", "cosine", "exact", 64}));
+}
+
+TEST(EngineUnits, LeaveAUnitSphereAtTheOriginAsItIs) {
+  const Scene scene = shadow_scene(kExpressed, {point_light()}, 64);
+  Scene alone = scene;
+  alone.spheres.pop_back();
+  const Scene placed = in_engine_units(alone);
+  EXPECT_EQ(placed.camera.origin, scene.camera.origin);
+  EXPECT_EQ(placed.spheres[0].center, scene.spheres[0].center);
+  EXPECT_EQ(placed.spheres[0].radius, 1);
+  EXPECT_EQ(std::get<PointLight>(placed.lights[0]).intensity,
+            std::get<PointLight>(scene.lights[0]).intensity);
+}
+
+TEST(EngineUnits, KeepThePicture) {
+  Scene scene = shadow_scene(kExpressed, {point_light(), directional_at(20)}, 48);
+  const auto move = [](Vec3 point) { return 0.01 * point + Vec3{7, -3, 2}; };
+  scene.camera.origin = move(scene.camera.origin);
+  scene.camera.target = move(scene.camera.target);
+  for (Sphere& sphere : scene.spheres) {
+    sphere.center = move(sphere.center);
+    sphere.radius *= 0.01;
+  }
+  auto& light = std::get<PointLight>(scene.lights[0]);
+  light.position = move(light.position);
+  const Image picture = render(scene, {}).image;
+  const Scene placed = in_engine_units(scene);
+  EXPECT_GE(placed.spheres[1].radius, 1);
+  EXPECT_LT(placed.spheres[1].radius, 2);
+  const Difference d = difference(render(placed, {}).image, picture, 1e-6, 1e-6);
+  EXPECT_EQ(d.outliers, 0);
+}
+
+TEST(EngineUnits, GiveASceneWithoutLightsABlackOne) {
+  Scene scene = sphere_scene(kExpressed, {}, 16);
+  EXPECT_EQ(in_engine_units(scene).lights.size(), 1u);
+  EXPECT_EQ(povray_input(in_engine_units(scene)).passes.size(), 1u);
+}
+
+TEST(NotComparable, SaysWhy) {
+  Scene scene = sphere_scene(kExpressed, {point_light()}, 16);
+  EXPECT_EQ(why_not_comparable(scene), "");
+  Scene sampled = scene;
+  sampled.sampler.sample_count = 4;
+  EXPECT_THAT(why_not_comparable(sampled),
+              HasSubstr("reference engines render one ray per pixel centre"));
+  Scene inside = scene;
+  inside.camera.origin = {0, 0, 0.5};
+  EXPECT_THAT(why_not_comparable(inside), HasSubstr("inside a sphere"));
+  Scene wide = scene;
+  wide.spheres.push_back({{1e9, 0, 0}, 1, 0});
+  EXPECT_THAT(why_not_comparable(wide), HasSubstr("precision"));
+}
+
+TEST(BlenderInput, RefusesWhatBlenderWouldEnlarge) {
+  Scene scene = sphere_scene(kExpressed, {point_light()}, 16);
+  scene.film = {3, 16};
+  EXPECT_THROW(blender_input(scene, "scene0"), Error);
+}
+
+TEST(EngineCatalogue, FindsByNameAndSuggests) {
+  for (const EngineInfo& engine : engine_infos())
+    EXPECT_EQ(make_engine(engine.name, {})->info().name, engine.name);
+  try {
+    make_engine("blander", {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_STREQ(error.what(),
+                 "no reference engine 'blander'; there are: povray, blender; did you mean "
+                 "'blender'?");
+  }
+}
+
+}  // namespace
+}  // namespace lobelia

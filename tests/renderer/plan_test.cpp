@@ -1,0 +1,86 @@
+#include "renderer/plan/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia {
+namespace {
+
+Scene canonical(const std::string& name) {
+  return read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
+}
+
+const EffectDecision& effect(const Plan& plan, std::string_view name) {
+  const auto found = std::find_if(plan.effects.begin(), plan.effects.end(),
+                                  [&](const EffectDecision& e) { return e.name == name; });
+  EXPECT_NE(found, plan.effects.end()) << name;
+  return *found;
+}
+
+TEST(Plan, GivesAReasonForEveryEffect) {
+  for (const char* name : {"head_on", "two_lights", "two_spheres"})
+    for (const auto& decision : make_plan(canonical(name), EffectPolicy::kAsCalledFor).effects)
+      EXPECT_FALSE(decision.reason.empty()) << decision.name;
+}
+
+TEST(Plan, OneSphereNeedsNoShadows) {
+  const Plan plan = make_plan(canonical("grazing_80"), EffectPolicy::kAsCalledFor);
+  EXPECT_FALSE(effect(plan, "shadows").on);
+  EXPECT_EQ(plan.max_shadow_rays, 0u);
+}
+
+TEST(Plan, OnlyTheSphereInTheWayOfTheLightOccludes) {
+  const Plan plan = make_plan(canonical("two_spheres"), EffectPolicy::kAsCalledFor);
+  EXPECT_TRUE(effect(plan, "shadows").on);
+  ASSERT_EQ(plan.occluders.size(), 1u);
+  EXPECT_EQ(plan.occluders[0][0], std::vector<int>{1});  // the small one shades the large one
+  EXPECT_TRUE(plan.occluders[0][1].empty());             // and not the other way round
+}
+
+TEST(Plan, ASphereBesideThePathOfTheLightCostsNothing) {
+  Scene scene = canonical("two_spheres");
+  scene.spheres[1].center = {2, -2, 0};
+  EXPECT_FALSE(effect(make_plan(scene, EffectPolicy::kAsCalledFor), "shadows").on);
+}
+
+TEST(Plan, ASphereBehindAPointLightCostsNothing) {
+  Scene scene = canonical("point_light");
+  const Vec3 light = std::get<PointLight>(scene.lights[0]).position;
+  scene.spheres.push_back({3 * light, 0.5, 0});
+  const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
+  EXPECT_TRUE(plan.occluders[0][0].empty());
+  EXPECT_EQ(plan.occluders[0][1], std::vector<int>{});
+}
+
+TEST(Plan, ALightInsideASphereRulesNothingOut) {
+  Scene scene = canonical("point_light");
+  std::get<PointLight>(scene.lights[0]).position = {0, 0, 0};
+  scene.spheres.push_back({{0, 0, 3}, 0.1, 0});
+  EXPECT_EQ(make_plan(scene, EffectPolicy::kAsCalledFor).occluders[0][0], std::vector<int>{1});
+}
+
+TEST(Plan, ALightThatDoesNotShineCastsNoShadows) {
+  Scene scene = canonical("two_spheres");
+  std::get<DirectionalLight>(scene.lights[0]).irradiance = {};
+  EXPECT_FALSE(effect(make_plan(scene, EffectPolicy::kAsCalledFor), "shadows").on);
+}
+
+TEST(Plan, DiffuseIsOnWhereSomeMaterialHasIt) {
+  EXPECT_FALSE(effect(make_plan(canonical("head_on"), EffectPolicy::kAsCalledFor), "diffuse").on);
+  EXPECT_TRUE(effect(make_plan(canonical("two_lights"), EffectPolicy::kAsCalledFor), "diffuse").on);
+}
+
+TEST(Plan, CountsCameraRaysExactly) {
+  Scene scene = canonical("head_on");
+  scene.film = {30, 20};
+  scene.sampler.sample_count = 7;
+  const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
+  EXPECT_EQ(plan.camera_rays, 30u * 20 * 7);
+  EXPECT_TRUE(effect(plan, "antialiasing").on);
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,284 @@
+#include "renderer/render.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/highlight_map.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia {
+namespace {
+
+const std::string kScenes = std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/";
+constexpr const char* kCanonical[] = {"head_on",     "oblique_45", "grazing_80",
+                                      "point_light", "two_lights", "two_spheres"};
+
+Scene canonical(const std::string& name, int width = 96, int height = 96) {
+  Scene scene = read_scene(kScenes + name + ".xml");
+  scene.film = {width, height};
+  return scene;
+}
+
+float brightest(const Image& image) {
+  return *std::max_element(image.values().begin(), image.values().end());
+}
+
+bool same(const Image& a, const Image& b) {
+  return std::equal(a.values().begin(), a.values().end(), b.values().begin(), b.values().end());
+}
+
+/// Radiance of the highlight at the centre of every pixel, from the formula, one pixel at a time and
+/// without the kernels; without shadows.
+std::vector<Rgb> formula(const Scene& scene) {
+  std::vector<Rgb> sum(std::size_t(scene.film.width) * scene.film.height);
+  for (int s = 0; s < int(scene.spheres.size()); ++s)
+    for (int l = 0; l < int(scene.lights.size()); ++l) {
+      const Material& material = scene.materials[scene.spheres[s].material];
+      const HighlightMap map = highlight_map(scene, l, s);
+      for (std::size_t i = 0; i < sum.size(); ++i) {
+        if (std::isnan(map.angle[i])) continue;
+        const double half_sine = std::sin(map.angle[i] / 2);
+        const double value =
+            highlight_radiance(material.highlight, map.n_dot_l[i], 2 * half_sine * half_sine);
+        const auto& light = std::get<DirectionalLight>(scene.lights[l]);
+        sum[i] = sum[i] + light.irradiance * (value * material.specular_reflectance +
+                                              map.n_dot_l[i] / std::numbers::pi *
+                                                  material.diffuse_reflectance);
+      }
+    }
+  return sum;
+}
+
+TEST(Render, EveryModelAndLobeIsTheFormulaInEveryPixel) {
+  for (const char* name : {"head_on", "oblique_45", "grazing_80"})
+    for (std::size_t m = 0; m < models().size(); ++m)
+      for (std::size_t l = 0; l < lobes().size(); ++l)
+        for (const double n : {1.0, 16.0, 128.0, 1024.0, 1e5}) {
+          Scene scene = canonical(name, 64, 48);
+          scene.materials[0].highlight = {
+              {std::uint8_t(m)}, {std::uint8_t(l)}, Normalisation::kExact, n};
+          scene.materials[0].specular_reflectance = {1, 0.5, 0.25};
+          scene.materials[0].diffuse_reflectance = {0.1, 0.2, 0.3};
+          const Image image = render(scene, {}).image;
+          const auto truth = formula(scene);
+          const double peak = brightest(image);
+          ASSERT_GT(peak, 0);
+          double worst = 0;
+          for (std::size_t i = 0; i < truth.size(); ++i) {
+            const float* p = image.values().data() + 3 * i;
+            worst = std::max({worst, std::abs(p[0] - truth[i].r), std::abs(p[1] - truth[i].g),
+                              std::abs(p[2] - truth[i].b)});
+          }
+          // Half a unit of float32 at the peak, and a little for the two ways of finding the angle.
+          EXPECT_LE(worst, 1e-7 * peak) << name << " " << models()[m].name << " "
+                                        << lobes()[l].name << " n = " << n;
+        }
+}
+
+TEST(Render, TheHighlightPeaksWhereTheHalfVectorIsTheNormal) {
+  // Light at 45 degrees: the normal there is the unit vector between light and eye. Its image is
+  // found through the camera by hand.
+  Scene scene = canonical("oblique_45", 512, 512);
+  scene.materials[0].highlight.exponent = 256;
+  const Image image = render(scene, {}).image;
+  const Vec3 to_light{0.5, 0.5, std::numbers::sqrt2 / 2};
+  Vec3 normal = normalize(to_light + Vec3{0, 0, 1});
+  for (int i = 0; i < 50; ++i)  // the eye is near, so its direction depends on the point
+    normal = normalize(to_light + normalize(Vec3{0, 0, 5} - normal));
+  const double half = std::tan(14 * std::numbers::pi / 180), depth = 5 - normal.z;
+  const double x = (normal.x / depth / half + 1) * 256, y = (1 - normal.y / depth / half) * 256;
+  const auto at = std::max_element(image.values().begin(), image.values().end());
+  const auto pixel = std::distance(image.values().begin(), at) / 3;
+  EXPECT_NEAR(double(pixel % 512) + 0.5, x, 1);
+  EXPECT_NEAR(double(pixel / 512) + 0.5, y, 1);
+}
+
+TEST(Render, IsTheSameBitForBitWhateverTheNumberOfThreads) {
+  for (const char* name : kCanonical) {
+    Scene scene = canonical(name, 130, 70);
+    scene.sampler = {3, 7};
+    RenderOptions one, many;
+    one.threads = 1;
+    many.threads = 5;
+    EXPECT_TRUE(same(render(scene, one).image, render(scene, many).image)) << name;
+  }
+}
+
+TEST(Render, WithEveryEffectForcedIsTheSameBitForBit) {
+  for (const char* name : kCanonical) {
+    const Scene scene = canonical(name);
+    RenderOptions all;
+    all.effects = EffectPolicy::kAll;
+    EXPECT_TRUE(same(render(scene, {}).image, render(scene, all).image)) << name;
+  }
+}
+
+TEST(Render, TracesNoShadowRayWhereThePlanHasShadowsOff) {
+  for (const char* name : kCanonical) {
+    const RenderResult result = render(canonical(name), {});
+    EXPECT_EQ(result.camera_rays, result.plan.camera_rays);
+    EXPECT_LE(result.shadow_rays, result.plan.max_shadow_rays);
+    EXPECT_EQ(result.shadow_rays > 0, std::string(name) == "two_spheres") << name;
+  }
+}
+
+TEST(Render, TheShadowOfTheSmallSphereCutsTheHighlight) {
+  Scene scene = canonical("two_spheres", 128, 128);
+  const Image with = render(scene, {}).image;
+  scene.spheres.pop_back();
+  const Image without = render(scene, {}).image;
+  int darker = 0;
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x)
+      if (without.pixel(x, y)[0] > 0.5f && with.pixel(x, y)[0] == 0) ++darker;
+  EXPECT_GT(darker, 20);
+}
+
+TEST(Render, LightsAdd) {
+  Scene both = canonical("two_lights");
+  const Image sum = render(both, {}).image;
+  Scene first = both, second = both;
+  first.lights = {both.lights[0]};
+  second.lights = {both.lights[1]};
+  const Image a = render(first, {}).image, b = render(second, {}).image;
+  for (std::size_t i = 0; i < sum.values().size(); ++i)
+    EXPECT_NEAR(sum.values()[i], a.values()[i] + b.values()[i], 1e-6 * brightest(sum));
+}
+
+TEST(Render, APointLightFallsWithTheSquareOfItsDistance) {
+  Scene scene = canonical("head_on", 65, 65);
+  scene.lights = {PointLight{{0, 0, 1e4}, {1e8, 1e8, 1e8}}};
+  const float far = brightest(render(scene, {}).image);
+  scene.lights = {PointLight{{0, 0, 2e4}, {1e8, 1e8, 1e8}}};
+  EXPECT_NEAR(far / brightest(render(scene, {}).image), 4, 1e-3);
+}
+
+TEST(Render, ManySamplesApproachTheAreaOfTheSphereInThePicture) {
+  Scene scene = canonical("head_on", 32, 32);
+  scene.materials[0].specular_reflectance = {};
+  scene.materials[0].diffuse_reflectance = {1, 1, 1};
+  scene.lights = {PointLight{{0, 0, 5}, {1, 1, 1}}};
+  // With the light in the eye every visible point is lit; the limb darkens, so compare with a finer
+  // picture, not with the disc.
+  scene.sampler.sample_count = 64;
+  const Image coarse = render(scene, {}).image;
+  scene.film = {512, 512};
+  scene.sampler.sample_count = 1;
+  const Image fine = render(scene, {}).image;
+  const auto mean = [](const Image& image) {
+    double sum = 0;
+    for (const float v : image.values()) sum += v;
+    return sum / double(image.values().size());
+  };
+  EXPECT_NEAR(mean(coarse) / mean(fine), 1, 2e-3);
+}
+
+TEST(Render, TheSeedMovesTheSamplesAndNothingElse) {
+  Scene scene = canonical("oblique_45");
+  scene.sampler = {4, 1};
+  const Image a = render(scene, {}).image;
+  EXPECT_TRUE(same(a, render(scene, {}).image));
+  scene.sampler.seed = 2;
+  EXPECT_FALSE(same(a, render(scene, {}).image));
+  scene.sampler.sample_count = 1;
+  const Image centre = render(scene, {}).image;
+  scene.sampler.seed = 3;
+  EXPECT_TRUE(same(centre, render(scene, {}).image));
+}
+
+TEST(Render, OddSizesHaveNoGapsAndNoSeams) {
+  // Widths about the size of a chunk and of a register, against the same picture in one pixel steps.
+  for (const int width : {1, 3, 7, 511, 512, 513, 1031}) {
+    Scene scene = canonical("head_on", width, 9);
+    const Image image = render(scene, {}).image;
+    for (int x = 0; x < width; ++x)
+      for (int y = 0; y < 9; ++y)  // head-on: the same from left and right
+        ASSERT_NEAR(image.pixel(x, y)[0], image.pixel(width - 1 - x, y)[0],
+                    2e-6 * brightest(image))
+            << width;
+  }
+}
+
+struct HardCase {
+  const char* name;
+  std::function<void(Scene&)> make;
+  bool dark;  ///< nothing at all can be lit
+};
+
+TEST(Render, HardCasesHaveNoNanAndNoInfinity) {
+  const HardCase cases[] = {
+      {"light behind the sphere",
+       [](Scene& s) { s.lights = {DirectionalLight{{0, 0, 1}, {1, 1, 1}}}; }, true},
+      {"light at a right angle",
+       [](Scene& s) { s.lights = {DirectionalLight{{1, 0, 0}, {1, 1, 1}}}; }, false},
+      {"light inside the sphere",
+       [](Scene& s) { s.lights = {PointLight{{0.1, 0, 0}, {1, 1, 1}}}; }, true},
+      {"light on the surface",
+       [](Scene& s) { s.lights = {PointLight{{0, 0, 1}, {1, 1, 1}}}; }, true},
+      {"no light", [](Scene& s) { s.lights.clear(); }, true},
+      {"no sphere", [](Scene& s) { s.spheres.clear(); }, true},
+      {"camera inside", [](Scene& s) { s.spheres[0].radius = 10; }, true},
+      {"camera looks away", [](Scene& s) { s.camera.target = {0, 0, 10}; }, true},
+      {"exponent 1e8", [](Scene& s) { s.materials[0].highlight.exponent = 1e8; }, false},
+      {"exponent 1e-3", [](Scene& s) { s.materials[0].highlight.exponent = 1e-3; }, false},
+      {"tiny sphere, near",
+       [](Scene& s) {
+         s.spheres[0].radius = 1e-6;
+         s.camera.origin = {0, 0, 5e-6};
+       },
+       false},
+      {"huge and distant",
+       [](Scene& s) {
+         s.spheres[0].radius = 1e6;
+         s.camera.origin = {0, 0, 5e6};
+       },
+       false},
+      {"1e7 radii away, through a telescope",
+       [](Scene& s) {
+         s.camera.origin = {0, 0, 1e7};
+         s.camera.fov_degrees = 2e-5;
+       },
+       false},
+      {"two concentric spheres",
+       [](Scene& s) { s.spheres.push_back({{0, 0, 0}, 0.5, 0}); }, false},
+      {"the same sphere twice", [](Scene& s) { s.spheres.push_back(s.spheres[0]); }, false},
+  };
+  for (const auto& hard : cases)
+    for (std::size_t m = 0; m < models().size(); ++m) {
+      Scene scene = canonical("head_on", 33, 33);
+      scene.materials[0].highlight.model = {std::uint8_t(m)};
+      hard.make(scene);
+      const Image image = render(scene, {}).image;
+      for (const float v : image.values())
+        ASSERT_TRUE(std::isfinite(v) && v >= 0) << hard.name << " " << models()[m].name;
+      EXPECT_EQ(brightest(image) == 0, hard.dark) << hard.name << " " << models()[m].name;
+    }
+}
+
+TEST(Render, ADistantSphereIsAsRoundAndBrightAsANearOne) {
+  // The same picture of a sphere a million times as far and as large.
+  Scene near = canonical("head_on", 65, 65), far = near;
+  far.camera.origin = {0, 0, 5e6};
+  far.spheres[0].radius = 1e6;
+  const Image a = render(near, {}).image, b = render(far, {}).image;
+  for (std::size_t i = 0; i < a.values().size(); ++i)
+    EXPECT_NEAR(a.values()[i], b.values()[i], 1e-6 * brightest(a));
+}
+
+TEST(Render, ReportsProgressUpToTheEnd) {
+  std::atomic<double> largest{0};
+  RenderOptions options;
+  options.on_progress = [&](double fraction) {
+    for (double seen = largest; fraction > seen && !largest.compare_exchange_weak(seen, fraction);) {
+    }
+  };
+  render(canonical("head_on"), options);
+  EXPECT_EQ(largest, 1);
+}
+
+}  // namespace
+}  // namespace lobelia

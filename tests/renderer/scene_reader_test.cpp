@@ -1,0 +1,193 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "renderer/scene/scene_format.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia {
+namespace {
+
+const std::string kRoot = LOBELIA_SOURCE_DIR;
+
+constexpr char kSensor[] =
+    "<sensor type=\"perspective\"><float name=\"fov\" value=\"28\"/>"
+    "<transform name=\"to_world\"><lookat origin=\"0,0,5\" target=\"0,0,0\" up=\"0,1,0\"/>"
+    "</transform></sensor>";
+
+std::string scene(const std::string& body, const std::string& sensor = kSensor) {
+  return "<scene version=\"1\">\n" + sensor + "\n" + body + "\n</scene>";
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_scene(text, "s.xml");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    return error.what();
+  }
+  return "it was read";
+}
+
+TEST(CanonicalScenes, AllReadAndWriteBackToTheSameScene) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kRoot + "/reference_scenes/scenes")) {
+    ++count;
+    const Scene scene = read_scene(entry.path());
+    EXPECT_FALSE(scene.lights.empty()) << entry.path();
+    EXPECT_FALSE(scene.spheres.empty()) << entry.path();
+    const std::string xml = scene_to_xml(scene);
+    EXPECT_EQ(scene_to_xml(parse_scene(xml, "again")), xml) << entry.path();
+  }
+  EXPECT_GE(count, 6);
+}
+
+TEST(SceneWriter, KeepsEveryDigit) {
+  Scene original = read_scene(kRoot + "/reference_scenes/scenes/two_lights.xml");
+  original.camera.fov_degrees = 28.072486935852954;
+  original.spheres[0].center = {1.0 / 3, -2e-9, 123456789.123456};
+  original.materials[0].highlight.exponent = 0.1 + 0.2;
+  original.sampler.seed = 9007199254740991u;
+  const Scene back = parse_scene(scene_to_xml(original), "again");
+  EXPECT_EQ(back.camera.fov_degrees, original.camera.fov_degrees);
+  EXPECT_EQ(back.spheres[0].center, original.spheres[0].center);
+  EXPECT_EQ(back.materials[0].highlight.exponent, original.materials[0].highlight.exponent);
+  EXPECT_EQ(back.sampler.seed, original.sampler.seed);
+}
+
+TEST(SceneReader, TakesDefaultsInlineMaterialsReferencesAndBothSpellingsOfAPoint) {
+  const Scene s = parse_scene(
+      scene("<shape type=\"sphere\"><point name=\"center\" x=\"1\" z=\"3\"/>"
+            "<bsdf type=\"modified_phong\"><float name=\"exponent\" value=\"8\"/></bsdf></shape>"
+            "<shape type=\"sphere\"><ref id=\"below\"/></shape>"
+            "<bsdf type=\"phong_rdf\" id=\"below\"><float name=\"exponent\" value=\"9\"/>"
+            "<rgb name=\"specular_reflectance\" value=\"0.5\"/></bsdf>"),
+      "s.xml");
+  ASSERT_EQ(s.spheres.size(), 2u);
+  EXPECT_EQ(s.spheres[0].center, (Vec3{1, 0, 3}));
+  EXPECT_EQ(s.spheres[0].radius, 1);
+  EXPECT_EQ(s.film.width, 256);
+  EXPECT_EQ(s.sampler.sample_count, 1);
+  EXPECT_EQ(s.materials[s.spheres[0].material].highlight.exponent, 8);
+  EXPECT_EQ(info(s.materials[s.spheres[0].material].highlight.lobe).name, "cosine");
+  EXPECT_EQ(s.materials[s.spheres[1].material].highlight.exponent, 9);
+  EXPECT_EQ(s.materials[s.spheres[1].material].specular_reflectance, (Rgb{0.5, 0.5, 0.5}));
+}
+
+struct BadScene {
+  std::string text, message;  ///< the message word for word
+};
+
+TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
+  const std::string emitter = "<emitter type=\"directional\">\n  <vector name=\"direction\" value=\"";
+  const BadScene bad[] = {
+      {scene(emitter + "0,0\"/></emitter>"),
+       "s.xml:4:35: direction '0,0' is not three numbers; allowed: -1e+09 to 1e+09"},
+      {scene(emitter + "0,0,nan\"/></emitter>"),
+       "s.xml:4:35: direction '0,0,nan' is not a finite number; allowed: -1e+09 to 1e+09"},
+      {scene(emitter + "0,0,0\"/></emitter>"),
+       "s.xml:3:2: direction is zero; allowed: any other vector"},
+      {scene("<emitter type=\"directionl\"/>"),
+       "s.xml:3:16: unknown emitter type 'directionl'; allowed: directional, point; did you mean "
+       "'directional'?"},
+      {scene("<shpae/>"),
+       "s.xml:3:2: unknown element <shpae> in <scene>; allowed: sensor, emitter, bsdf, shape; did "
+       "you mean 'shape'?"},
+      {scene("<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/><bsdf type=\"phong_rdf\">"
+             "<float name=\"exponent\" value=\"8\"/></bsdf></shape>"),
+       "s.xml:3:50: radius '-1' is out of range; allowed: 1e-09 to 1e+09"},
+      {scene("<shape type=\"sphere\"><bsdf type=\"phong_rdf\">"
+             "<float name=\"exponent\" value=\"-8\"/></bsdf></shape>"),
+       "s.xml:3:75: exponent '-8' is out of range; allowed: 0.001 to 1e+08"},
+      {scene("<shape type=\"sphere\"><bsdf type=\"phong_rdf\"/></shape>"),
+       "s.xml:3:23: <bsdf type=\"phong_rdf\"> needs the parameter 'exponent' (sharpness n)"},
+      {scene("<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
+             "<string name=\"lobe\" value=\"cs15\"/></bsdf></shape>"),
+       "s.xml:3:106: unknown lobe 'cs15'; allowed: cosine, cs16; did you mean 'cs16'?"},
+      {scene("<shape type=\"sphere\"><ref id=\"x\"/></shape>"),
+       "s.xml:3:31: no <bsdf> has the id 'x'"},
+      {scene("<shape type=\"sphere\"/>"),
+       "s.xml:3:2: <shape> needs a <bsdf> or a <ref id=\"...\"/> to one"},
+      {"<scene version=\"1\"/>", "s.xml:1:2: the scene has no <sensor>; it needs one"},
+      {scene("", std::string(kSensor) + kSensor), "s.xml:2:157: a second <sensor>; one is allowed"},
+      {"<scene version=\"2\">\n" + std::string(kSensor) + "</scene>",
+       "s.xml:1:17: format version '2'; this program reads version 1"},
+      {"<scen/>", "s.xml:1:2: the root element is <scen>; a scene file begins with <scene>"},
+  };
+  for (const auto& [text, message] : bad) EXPECT_EQ(error_of(text), message) << text;
+}
+
+TEST(SceneReader, ReportsAllErrorsInOneRun) {
+  const std::string message = error_of(
+      scene("<emitter type=\"pint\"/>\n<emitter type=\"point\"/>\n<shape type=\"sphere\"/>\nhello"));
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 3) << message;
+  EXPECT_THAT(message, testing::HasSubstr("s.xml:3:"));
+  EXPECT_THAT(message, testing::HasSubstr("s.xml:4:"));
+  EXPECT_THAT(message, testing::HasSubstr("s.xml:5:"));
+  EXPECT_THAT(message, testing::HasSubstr("text 'hello' inside <scene>"));
+}
+
+TEST(SceneReader, RefusesAPictureOfAMillionByAMillion) {
+  std::string sensor = kSensor;
+  sensor.insert(sensor.find("</sensor>"),
+                "<film type=\"hdrfilm\"><integer name=\"width\" value=\"1000000\"/>"
+                "<integer name=\"height\" value=\"1000000\"/></film>");
+  EXPECT_THAT(error_of(scene("", sensor)),
+              testing::HasSubstr("width '1000000' is out of range; allowed: 1 to 32768 pixels"));
+}
+
+TEST(SceneReader, RefusesTooManyPixelsInAll) {
+  std::string sensor = kSensor;
+  sensor.insert(sensor.find("</sensor>"),
+                "<film type=\"hdrfilm\"><integer name=\"width\" value=\"32768\"/>"
+                "<integer name=\"height\" value=\"32768\"/></film>");
+  EXPECT_THAT(error_of(scene("", sensor)), testing::HasSubstr("32768 x 32768 pixels; allowed: "));
+}
+
+TEST(SceneReader, ReadsNoEntitiesAndNothingFromOutside) {
+  EXPECT_THAT(error_of("<!DOCTYPE scene [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>" + scene("&x;")),
+              testing::HasSubstr("a DOCTYPE is not allowed"));
+}
+
+TEST(SceneReader, SurvivesBrokenXmlAndBinaryAndDeepNesting) {
+  for (const std::string& text :
+       {std::string("<scene"), std::string("<scene>\n<a></scene>"), std::string(),
+        std::string("\0\xff\xfe<>", 5), std::string("just text")})
+    EXPECT_THAT(error_of(text), testing::HasSubstr("s.xml")) << text;
+  EXPECT_THAT(error_of("<scene>\n<a></scene>"), testing::StartsWith("s.xml:2:"));
+  std::string deep;
+  for (int i = 0; i < 200000; ++i) deep += "<a>";
+  EXPECT_NE(error_of(deep), "it was read");
+  EXPECT_NE(error_of(scene(deep)), "it was read");
+}
+
+TEST(SceneReader, BoundsTheNumberOfEverything) {
+  std::string emitters;
+  for (int i = 0; i <= kMaxLights; ++i)
+    emitters += "<emitter type=\"directional\"><vector name=\"direction\" value=\"0,0,1\"/></emitter>";
+  EXPECT_THAT(error_of(scene(emitters)), testing::HasSubstr("over 64 emitters"));
+  std::string shapes = "<bsdf type=\"phong_rdf\" id=\"m\"><float name=\"exponent\" value=\"8\"/></bsdf>";
+  for (int i = 0; i <= kMaxSpheres; ++i) shapes += "<shape type=\"sphere\"><ref id=\"m\"/></shape>";
+  EXPECT_THAT(error_of(scene(shapes)), testing::HasSubstr("over 1024 shapes"));
+  EXPECT_THAT(error_of(std::string(kMaxSceneBytes + 1, ' ')), testing::HasSubstr("bytes; at most"));
+}
+
+TEST(SceneReader, ShowsNoControlCharactersOfAHostileFile) {
+  EXPECT_THAT(error_of(scene("<emitter type=\"\x1b[31mred\"/>")),
+              testing::Not(testing::HasSubstr("\x1b")));
+}
+
+TEST(SceneFormatDocument, IsWhatTheProgramPrints) {
+  std::ifstream file(kRoot + "/docs/scene_format.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), scene_format_document())
+      << "run: lobelia scene-format > docs/scene_format.md";
+}
+
+}  // namespace
+}  // namespace lobelia
