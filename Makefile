@@ -1,0 +1,57 @@
+# The front door. Each target first installs what is missing (scripts/setup), then uses the presets
+# of CMakePresets.json; whoever has everything installed can use cmake and ctest directly.
+
+PRESET ?= release
+OUT    ?= out/gallery
+GRID   ?= reference_scenes/grids/sphere_grid.xml
+JOBS   ?= $(shell nproc)
+SETUP  ?= yes
+
+# SETUP=no: for systems whose packages have other names than Debian's.
+setup     = $(if $(filter no,$(SETUP)),@:,@scripts/setup)
+configure = cmake --preset "$(PRESET)"
+build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
+
+.DEFAULT_GOAL := help
+.PHONY: help gallery test build bench lint clean
+.NOTPARALLEL:
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## /make \1\t/p' Makefile | expand -t 16
+	@echo
+	@echo 'Variables: PRESET (release, dev, asan, tsan, ci), OUT (where the gallery goes), JOBS,'
+	@echo 'GRID (a grid file), SETUP=no (look for no missing packages)'
+
+gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
+	$(setup) build engines
+	$(configure)
+	$(build) --target lobelia lobelia_image_io
+	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)"
+
+test: ## builds everything and runs the test suite
+	$(setup) build engines browser
+	$(configure)
+	$(build)
+	ctest --preset "$(PRESET)" --parallel "$(JOBS)"
+
+build: ## builds everything into build/release
+	$(setup) build
+	$(configure)
+	$(build)
+
+bench: ## builds and runs the benchmarks
+	$(setup) build
+	$(configure)
+	$(build) --target run_bench
+
+lint: ## checks the layout of the source, and for common mistakes with TIDY=yes (minutes)
+	$(setup) build lint
+	@scripts/lint format
+ifeq ($(TIDY),yes)
+	$(configure)
+	$(build)
+	@scripts/lint tidy "build/$(PRESET)" "$(JOBS)"
+endif
+
+clean: ## removes what make built: build/ and out/
+	rm -rf build out

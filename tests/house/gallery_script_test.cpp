@@ -1,0 +1,54 @@
+// scripts/gallery with a program that only writes down how it was called.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "tests/house/tree.hpp"
+
+namespace house {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class GalleryScript : public ::testing::Test {
+ protected:
+  /// Runs the script with a farm that exits with `farm_status`; returns the script's exit code.
+  int run(int farm_status) {
+    const fs::path program = scratch_ / "lobelia";
+    write(program,
+          "#!/bin/sh\nif [ $1 = gallery ]; then echo \"$2/index.html\"; exit 0; fi\n"
+          "echo \"$1|$2|$3|$4\"\nmkdir -p \"$4\"\nexit " +
+              std::to_string(farm_status) + "\n");
+    fs::permissions(program, fs::perms::owner_all);
+    const std::string command = "'" LOBELIA_SOURCE_DIR "/scripts/gallery' '" + program.string() +
+                                "' grid.xml '" + (scratch_ / "a place").string() + "' > '" +
+                                (scratch_ / "said").string() + "'";
+    const int status = std::system(command.c_str());
+    said = read(scratch_ / "said");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  Scratch scratch_;
+  std::string said;
+};
+
+TEST_F(GalleryScript, the_last_line_is_the_path_of_the_gallery) {
+  EXPECT_EQ(run(0), 0);
+  EXPECT_THAT(said, HasSubstr("farm|grid.xml|-o|"));
+  EXPECT_THAT(said, EndsWith("/a place/index.html\n"));
+}
+
+TEST_F(GalleryScript, cells_that_differ_are_shown_and_the_exit_code_says_so) {
+  EXPECT_EQ(run(1), 1);
+  EXPECT_THAT(said, EndsWith("/a place/index.html\n"));
+}
+
+TEST_F(GalleryScript, an_interrupted_farm_makes_no_gallery) {
+  EXPECT_EQ(run(130), 130);
+  EXPECT_THAT(said, Not(HasSubstr("index.html")));
+}
+
+}  // namespace
+}  // namespace house

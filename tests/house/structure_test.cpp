@@ -1,0 +1,332 @@
+// Rules of the house that no compiler checks. Each check is a function of a tree and returns what
+// is wrong with it, and each is shown to fail on a small tree made for that.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tests/house/tree.hpp"
+
+namespace house {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Problems = std::vector<std::string>;
+
+const fs::path kRoot = LOBELIA_SOURCE_DIR;
+
+std::string place(const fs::path& file, std::size_t line) {
+  return file.string() + ":" + std::to_string(line) + ": ";
+}
+
+// ---- arrows between rooms
+
+/// What each room may see besides itself. tests and bench may see everything.
+const std::map<std::string, std::set<std::string>> kMaySee = {
+    {"core", {}},
+    {"renderer", {"core"}},
+    {"compare", {"core"}},
+    {"reference_scenes", {"core", "renderer"}},
+    {"farm", {"core", "renderer", "compare", "reference_scenes"}},
+    {"cost", {"core", "renderer", "compare"}},
+    {"gallery", {"core"}},
+    {"cli", {"core", "renderer", "compare", "reference_scenes", "farm", "cost", "gallery"}},
+};
+
+/// Who alone may include a heavy library.
+bool may_include_library(const std::string& header, const std::string& file) {
+  if (header.starts_with("OpenImageIO/")) return file == "core/image_io_module.cpp";
+  if (header.starts_with("OpenColorIO/"))
+    return file.starts_with("core/colour") && file.ends_with(".cpp");
+  return true;
+}
+
+Problems forbidden_arrows(const fs::path& root) {
+  static const std::regex include(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
+  static const std::regex link(R"re(\blobelia(?:::|_)([a-z_]+))re");
+  static const std::regex tests_and_bench("^(tests|bench)/.*");
+  Problems problems;
+  const auto check = [&](const fs::path& file, std::size_t line, const std::string& target) {
+    const std::string room = file.begin()->string();
+    if (room == target || !kMaySee.contains(target)) return;
+    if (!kMaySee.at(room).contains(target))
+      problems.push_back(place(file, line) + room + " may not see " + target);
+  };
+  for (const fs::path& file : project_files(root)) {
+    const std::string name = file.generic_string(), room = file.begin()->string();
+    const bool free = std::regex_match(name, tests_and_bench);
+    const bool cmake = file.filename() == "CMakeLists.txt" && kMaySee.contains(room);
+    if (!is_cpp(file) && !cmake) continue;
+    if (!free && !kMaySee.contains(room)) {
+      problems.push_back(name + ": " + room + " is no room that kMaySee of this test knows");
+      continue;
+    }
+    std::size_t number = 0;
+    for (const std::string& line : lines(read(root / file))) {
+      ++number;
+      std::smatch match;
+      if (cmake) {
+        if (std::regex_search(line, match, link)) {
+          for (std::sregex_iterator it(line.begin(), line.end(), link), end; it != end; ++it)
+            check(file, number, (*it)[1]);
+        }
+        continue;
+      }
+      if (!std::regex_search(line, match, include)) continue;
+      std::string header = match[1];
+      if (header.starts_with("."))
+        header = (file.parent_path() / header).lexically_normal().generic_string();
+      if (!may_include_library(header, name))
+        problems.push_back(place(file, number) + "may not include " + header);
+      if (!free) check(file, number, fs::path(header).begin()->string());
+    }
+  }
+  return problems;
+}
+
+TEST(Rooms, arrows_between_rooms_point_down_only) {
+  EXPECT_THAT(forbidden_arrows(kRoot), IsEmpty());
+}
+
+TEST(Rooms, every_kind_of_forbidden_arrow_is_found) {
+  Scratch tree;
+  write(tree / "core/a.cpp", "#include \"core/a.hpp\"\n#include <vector>\n");       // fine
+  write(tree / "renderer/a.cpp", "#include \"core/a.hpp\"\n#include \"a.hpp\"\n");  // fine
+  write(tree / "tests/core/a.cpp", "#include \"cli/commands.hpp\"\n");              // fine
+  write(tree / "core/colour_space.cpp", "#include <OpenColorIO/OpenColorIO.h>\n");  // fine
+  write(tree / "build/core/a.cpp", "#include \"cli/made.hpp\"\n");  // made, not ours
+  write(tree / "cli/CMakeLists.txt", "target_link_libraries(lobelia PRIVATE lobelia::farm)\n");
+  ASSERT_THAT(forbidden_arrows(tree.path()), IsEmpty());
+
+  write(tree / "core/up.hpp", "\n#include \"renderer/highlight.hpp\"\n");
+  write(tree / "compare/sideways.cpp", "#  include <renderer/render.hpp>\n");
+  write(tree / "renderer/plan/dots.cpp", "#include \"../../compare/verdict.hpp\"\n");
+  write(tree / "gallery/deep.cpp", "#include \"farm/farm.hpp\"\n");
+  write(tree / "farm/CMakeLists.txt",
+        "lobelia_room(farm SOURCES a.cpp LINK lobelia::core lobelia::gallery)\n");
+  write(tree / "compare/read.cpp", "#include <OpenImageIO/imageio.h>\n");
+  write(tree / "tests/core/ocio.cpp", "#include <OpenColorIO/OpenColorIO.h>\n");
+  write(tree / "attic/new_room.cpp", "int x;\n");
+  EXPECT_THAT(forbidden_arrows(tree.path()),
+              ElementsAre("attic/new_room.cpp: attic is no room that kMaySee of this test knows",
+                          "compare/read.cpp:1: may not include OpenImageIO/imageio.h",
+                          "compare/sideways.cpp:1: compare may not see renderer",
+                          "core/up.hpp:2: core may not see renderer",
+                          "farm/CMakeLists.txt:1: farm may not see gallery",
+                          "gallery/deep.cpp:1: gallery may not see farm",
+                          "renderer/plan/dots.cpp:1: renderer may not see compare",
+                          "tests/core/ocio.cpp:1: may not include OpenColorIO/OpenColorIO.h"));
+}
+
+// ---- words that may not stand anywhere
+
+/// Lines of files that `applies` admits which match `pattern`.
+template <class Applies>
+Problems lines_with(const fs::path& root, const std::regex& pattern, Applies applies) {
+  Problems problems;
+  for (const fs::path& file : project_files(root)) {
+    if (!applies(file)) continue;
+    std::size_t number = 0;
+    for (const std::string& line : lines(read(root / file))) {
+      ++number;
+      std::smatch match;
+      if (std::regex_search(line, match, pattern))
+        problems.push_back(place(file, number) + match.str());
+    }
+  }
+  return problems;
+}
+
+Problems paths_of_a_machine(const fs::path& root) {
+  // Spelled so that this file does not match itself. A path inside a URL is none of a machine.
+  static const std::regex pattern(
+      "(^|[^A-Za-z0-9_.~-])/(wo"
+      "rk|ho"
+      "me|ro"
+      "ot|Us"
+      "ers)/");
+  return lines_with(root, pattern, [](const fs::path&) { return true; });
+}
+
+Problems loose_arithmetic(const fs::path& root) {
+  static const std::regex pattern(
+      "-ffast-"
+      "math|-O"
+      "fast|-funsafe-"
+      "math|-fassociative-"
+      "math|#\\s*pragma\\s+STD"
+      "C|"
+      "#\\s*pragma\\s+GCC\\s+opti"
+      "mize|__attribute__\\s*\\(\\(\\s*opti"
+      "mize");
+  return lines_with(root, pattern, [](const fs::path& file) {
+    // Pages may say that we do without.
+    return file.extension() != ".md";
+  });
+}
+
+TEST(Words, no_file_names_a_path_of_a_developers_machine) {
+  EXPECT_THAT(paths_of_a_machine(kRoot), IsEmpty());
+}
+
+TEST(Words, nothing_lets_the_compiler_change_the_arithmetic) {
+  EXPECT_THAT(loose_arithmetic(kRoot), IsEmpty());
+}
+
+TEST(Words, forbidden_words_are_found) {
+  Scratch tree;
+  write(tree / "docs/a.md",
+        "see https://example.org/ho"
+        "me/x; we use no -ffast-"
+        "math\n");
+  ASSERT_THAT(paths_of_a_machine(tree.path()), IsEmpty());
+  ASSERT_THAT(loose_arithmetic(tree.path()), IsEmpty());
+  write(tree / "docs/b.md",
+        "\ncd /ho"
+        "me/me/x\n");
+  write(tree / ".ci/run",
+        "cd /wo"
+        "rk/main\n");
+  write(tree / "CMakeLists.txt",
+        "add_compile_options(-ffast-"
+        "math)\n");
+  write(tree / "core/a.cpp",
+        "#pragma STD"
+        "C FP_CONTRACT ON\n");
+  EXPECT_EQ(paths_of_a_machine(tree.path()).size(), 2u);
+  EXPECT_EQ(loose_arithmetic(tree.path()).size(), 2u);
+}
+
+// ---- what the pages promise
+
+/// Commands in a page: lines of ``` blocks, without a leading "$ ", and `...` spans.
+std::vector<std::string> commands(const std::string& page) {
+  std::vector<std::string> result;
+  bool block = false;
+  static const std::regex span("`([^`]+)`");
+  for (std::string line : lines(page)) {
+    if (line.starts_with("```")) {
+      block = !block;
+    } else if (block || line.starts_with("    ")) {
+      line.erase(0, line.find_first_not_of(" $"));
+      result.push_back(line);
+    } else {
+      for (std::sregex_iterator it(line.begin(), line.end(), span), end; it != end; ++it)
+        result.push_back((*it)[1]);
+    }
+  }
+  return result;
+}
+
+/// The words after `program` in its commands, up to the first that is no plain word.
+std::set<std::string> words_after(const std::string& program, const std::string& page) {
+  std::set<std::string> result;
+  static const std::regex word("[a-z][a-z_-]*");
+  for (const std::string& command : commands(page)) {
+    std::istringstream in(command);
+    std::string first, next;
+    in >> first;
+    if (first != program) continue;
+    while (in >> next && std::regex_match(next, word)) {
+      result.insert(next);
+      if (program != "make") break;
+    }
+  }
+  return result;
+}
+
+std::set<std::string> make_targets(const std::string& makefile) {
+  std::set<std::string> result;
+  static const std::regex target("^([a-z][a-z_-]*):");
+  std::smatch match;
+  for (const std::string& line : lines(makefile))
+    if (std::regex_search(line, match, target)) result.insert(match[1]);
+  return result;
+}
+
+const std::vector<std::string> kPages = {"README.md", "CONTRIBUTING.md"};
+
+TEST(Pages, commands_are_found_in_blocks_and_spans) {
+  const std::string page =
+      "Type `make gallery` or\n\n    make test PRESET=ci\n\n```\n$ lobelia render x\n```\n";
+  EXPECT_THAT(words_after("make", page), ElementsAre("gallery", "test"));
+  EXPECT_THAT(words_after("lobelia", page), ElementsAre("render"));
+  EXPECT_THAT(make_targets("PRESET ?= x\nall: a ## b\n\tmake c:\n"), ElementsAre("all"));
+}
+
+TEST(Pages, every_make_command_is_a_target) {
+  const auto targets = make_targets(read(kRoot / "Makefile"));
+  for (const std::string& page : kPages)
+    for (const std::string& target : words_after("make", read(kRoot / page)))
+      EXPECT_TRUE(targets.contains(target)) << page << " says make " << target;
+  const auto promised = words_after("make", read(kRoot / "README.md"));
+  for (const char* target : {"gallery", "test", "build", "bench", "lint", "clean"})
+    EXPECT_TRUE(promised.contains(target)) << "README.md does not mention make " << target;
+}
+
+TEST(Pages, every_lobelia_command_is_a_subcommand) {
+  const auto subcommands = words_after("lobelia", read(kRoot / "README.md"));
+  EXPECT_FALSE(subcommands.empty());
+  Scratch scratch;
+  for (const std::string& name : subcommands) {
+    const fs::path help = scratch / "help";
+    const std::string command =
+        "'" LOBELIA_PROGRAM "' " + name + " --help > '" + help.string() + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    // An unknown word before --help gets the program's own help.
+    EXPECT_THAT(read(help), HasSubstr("Usage: lobelia " + name + " "))
+        << "README.md says lobelia " << name;
+  }
+}
+
+TEST(Pages, ci_runs_only_what_the_readme_says) {
+  const auto said = commands(read(kRoot / "README.md"));
+  static const std::regex command("^(?:exec )?(make .*)$");
+  std::smatch match;
+  int found = 0;
+  for (const std::string& line : lines(read(kRoot / ".ci/run"))) {
+    if (!std::regex_match(line, match, command)) continue;
+    ++found;
+    EXPECT_NE(std::find(said.begin(), said.end(), match[1].str()), said.end())
+        << "README.md does not say: " << match[1];
+  }
+  EXPECT_EQ(found, 1);
+}
+
+/// Links of a page to files that are not there.
+Problems dead_links(const fs::path& root, const fs::path& page) {
+  static const std::regex link(R"re(\]\(([^)#\s]+)(?:#[^)\s]*)?\))re");
+  Problems problems;
+  const std::string text = read(root / page);
+  for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
+    const std::string target = (*it)[1];
+    if (target.find("://") != std::string::npos || target.starts_with("mailto:")) continue;
+    if (!fs::exists(root / page.parent_path() / target))
+      problems.push_back(page.string() + ": " + target);
+  }
+  return problems;
+}
+
+TEST(Pages, every_link_to_a_file_leads_somewhere) {
+  int pages = 0;
+  for (const fs::path& file : project_files(kRoot)) {
+    if (file.extension() != ".md") continue;
+    ++pages;
+    EXPECT_THAT(dead_links(kRoot, file), IsEmpty());
+  }
+  EXPECT_GT(pages, 1);
+}
+
+TEST(Pages, dead_links_are_found) {
+  Scratch tree;
+  write(tree / "docs/a.md", "[b](b.md#x) [c](../c.md) [d](https://example.org/d.md)");
+  write(tree / "docs/b.md", "");
+  EXPECT_THAT(dead_links(tree.path(), "docs/a.md"), ElementsAre(HasSubstr("../c.md")));
+}
+
+}  // namespace
+}  // namespace house

@@ -1,0 +1,91 @@
+// Reading the source tree, and making small trees to prove that a check can fail.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace house {
+
+namespace fs = std::filesystem;
+
+inline std::string read(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  EXPECT_TRUE(in) << path;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void write(const fs::path& path, const std::string& text) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+/// An empty directory that goes with this object.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "lobelia-house-XXXXXX").string();
+    if (!::mkdtemp(name.data())) ADD_FAILURE() << "no temporary directory " << name;
+    path_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  fs::path operator/(const fs::path& name) const { return path_ / name; }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Every text file of the project, relative to `root`, sorted. What is built or made is left out:
+/// hidden directories (but .ci), build trees, farms, and what .gitignore names.
+inline std::vector<fs::path> project_files(const fs::path& root) {
+  std::vector<fs::path> files;
+  for (auto it = fs::recursive_directory_iterator(root); it != fs::recursive_directory_iterator();
+       ++it) {
+    const fs::path name = it->path().filename();
+    if (it->is_directory()) {
+      const bool hidden = name.string().starts_with('.') && name != ".ci" && name != ".github";
+      const bool top = it.depth() == 0;
+      if (hidden || name == "node_modules" || (top && (name == "build" || name == "out")) ||
+          fs::exists(it->path() / "CMakeCache.txt") || fs::exists(it->path() / "farm.json"))
+        it.disable_recursion_pending();
+      continue;
+    }
+    if (name == ".git") continue;  // a file, in a linked work tree
+    if (!it->is_regular_file() || read(it->path()).find('\0') != std::string::npos) continue;
+    files.push_back(it->path().lexically_relative(root));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+inline bool is_cpp(const fs::path& file) {
+  return file.extension() == ".cpp" || file.extension() == ".hpp" || file.extension() == ".h";
+}
+
+/// Lines of `text`, numbered from 1.
+inline std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result(1);
+  for (const char c : text) {
+    if (c == '\n')
+      result.emplace_back();
+    else
+      result.back() += c;
+  }
+  return result;
+}
+
+}  // namespace house
