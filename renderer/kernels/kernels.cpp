@@ -2,6 +2,12 @@
 
 #include <variant>
 
+// Without optimisation Highway's functions are not inlined, and GCC 12 hands wide registers through
+// memory that it aligns to 16 bytes only: a debug build keeps to the baseline.
+#ifndef __OPTIMIZE__
+#define HWY_COMPILE_ONLY_STATIC
+#endif
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "renderer/kernels/kernels.cpp"
 #include <hwy/foreach_target.h>  // includes this file again for each instruction set
