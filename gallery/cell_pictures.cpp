@@ -122,7 +122,7 @@ void write_pictures(Html& html, const FarmData& farm, const CellData& cell) {
   html.element("span", {{"class", "size-title"}}, "Size");
   write_size_choice(html);
   {
-    const Tag row(html, "div", {{"class", "picture-row"}});
+    const Tag row(html, "div", {{"class", "picture-row engines"}});
     for (const EngineEntry& engine : farm.engines) write_engine_picture(html, engine, cell);
   }
   const Tag row(html, "div", {{"class", "picture-row"}});
