@@ -48,8 +48,8 @@ void shade(benchmark::State& state, ModelId model, LobeId lobe) {
     const Vec3 d = info(model).angle == LobeAngle::kReflection ? 2 * dot(n, v) * n - v - l
                                                                : n - normalize(l + v);
     const Highlight highlight{model, lobe, Normalisation::kExact, kExponent};
-    const double truth = highlight_radiance(highlight, dot(n, l), dot(d, d) / 2) /
-                         radiance_coefficient(highlight);
+    const double truth =
+        highlight_radiance(highlight, dot(n, l), dot(d, d) / 2) / radiance_coefficient(highlight);
     if (std::abs(points.value[i] - truth) > 1e-12) state.SkipWithError("wrong result");
   }
   state.SetItemsProcessed(std::int64_t(state.iterations()) * std::int64_t(kChunk));

@@ -36,8 +36,7 @@ ExitCode run(const Options& options) {
   const FarmSummary summary = run_farm(grid, options.directory, farm_options);
   line.clear();
 
-  for (const auto& sentence : summary.absent_engines)
-    fmt::print(stderr, "lobelia: {}\n", sentence);
+  for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
   for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
   fmt::print("{} cells: {} pass, {} differ, {} failed; {} pictures rendered, {} kept\n",
              summary.cells, summary.pass, summary.differs, summary.failed, summary.rendered,
@@ -58,7 +57,8 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--time-limit", options->time_limit, "Seconds an engine may take for a picture")
+  command
+      ->add_option("--time-limit", options->time_limit, "Seconds an engine may take for a picture")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   command->add_flag("--again", options->again, "Make everything again, current or not");
@@ -70,7 +70,8 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
         ->type_name("PATH");
   command->footer(
       "What is there and current is kept: a second run does only what is missing. Ctrl-C leaves\n"
-      "nothing half-written. An engine that is not installed is left out, and the records say so.\n\n"
+      "nothing half-written. An engine that is not installed is left out, and the records say "
+      "so.\n\n"
       "Exit codes: 0 every cell agrees, 1 some differ, 3 bad grid, 4 cannot write, 5 some cell\n"
       "could not be rendered, 130 interrupted.\n\n"
       "Example: lobelia farm reference_scenes/grids/sphere_grid.xml -o out/gallery\n"

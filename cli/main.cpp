@@ -21,7 +21,8 @@ constexpr char kFooter[] =
     "  lobelia reference reference_scenes/scenes/oblique_45.xml --engine povray -o povray.exr\n"
     "  lobelia compare highlight.exr povray.exr\n"
     "\n"
-    "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing or failed,\n"
+    "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing or "
+    "failed,\n"
     "130 interrupted.";
 
 /// One line a message line, so that every line can be grepped for.
@@ -35,9 +36,10 @@ int fail(ExitCode code, std::string_view message) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Lobelia renders specular highlights with all normalised models, renders the same\n"
-               "scenes with POV-Ray and Blender Cycles, and says how far they are apart.",
-               "lobelia"};
+  CLI::App app{
+      "Lobelia renders specular highlights with all normalised models, renders the same\n"
+      "scenes with POV-Ray and Blender Cycles, and says how far they are apart.",
+      "lobelia"};
   app.set_version_flag("--version", kNameAndVersion);
   app.require_subcommand(1);
   app.footer(kFooter);

@@ -40,9 +40,10 @@ void run(bool json) {
                m.applies_cosine ? "yes" : "no", m.integral);
   fmt::print("\n{:<26}{:<38}source\n", "lobe", "value, s = 1 - cos");
   for (const auto& l : lobes()) fmt::print("{:<26}{:<38}{}\n", l.name, l.formula, l.source);
-  fmt::print("\n{:<26}meaning\n{:<26}the closed form: energy 1 at normal incidence\n"
-             "{:<26}the constant as the paper prints it, misprints included\n",
-             "normalisation", "exact", "paper");
+  fmt::print(
+      "\n{:<26}meaning\n{:<26}the closed form: energy 1 at normal incidence\n"
+      "{:<26}the constant as the paper prints it, misprints included\n",
+      "normalisation", "exact", "paper");
 }
 
 }  // namespace

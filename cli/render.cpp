@@ -56,7 +56,9 @@ void add_render(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand("render", "Render a scene to a linear float32 EXR");
   auto options = std::make_shared<Options>();
   command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
-  command->add_option("-o,--output", options->output, "Picture to write, OUT.exr; its record goes to OUT.json")
+  command
+      ->add_option("-o,--output", options->output,
+                   "Picture to write, OUT.exr; its record goes to OUT.json")
       ->required()
       ->type_name("OUT.exr");
   command->add_option("--png", options->png, "Write a picture for the eye too (8 bits, sRGB)")
@@ -67,14 +69,16 @@ void add_render(CLI::App& app, ExitCode&) {
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--effects", options->effects,
-                      "Simulate effects as the scene calls for them, or all")
+  command
+      ->add_option("--effects", options->effects,
+                   "Simulate effects as the scene calls for them, or all")
       ->check(CLI::IsMember({"as-called-for", "all"}))
       ->capture_default_str();
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
-      "One ray at each pixel's centre unless --samples says otherwise. The same scene gives the same\n"
+      "One ray at each pixel's centre unless --samples says otherwise. The same scene gives the "
+      "same\n"
       "file, byte for byte, whatever the number of threads; times are in the record.\n\n"
       "Example: lobelia render reference_scenes/scenes/head_on.xml --model modified_phong "
       "--exponent 128 -o out.exr");

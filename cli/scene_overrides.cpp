@@ -16,9 +16,9 @@ void choose(const std::optional<std::string>& value, std::string_view option,
   if (!value) return;
   const auto found = find(*value);
   if (!found)
-    throw Error(ExitCode::kUsage, fmt::format("{} '{}' is unknown; allowed: {}{}", option,
-                                              printable(*value), join(names),
-                                              did_you_mean(*value, names)));
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} '{}' is unknown; allowed: {}{}", option, printable(*value),
+                            join(names), did_you_mean(*value, names)));
   id = *found;
 }
 
@@ -28,8 +28,8 @@ void replace(const std::optional<Number>& value, std::string_view option, double
   if (!value) return;
   // Written so that a NaN is refused too.
   if (!(double(*value) >= min && double(*value) <= max))
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} {} is out of range; allowed: {:g} to {:g}", option, *value, min, max));
+    throw Error(ExitCode::kUsage, fmt::format("{} {} is out of range; allowed: {:g} to {:g}",
+                                              option, *value, min, max));
   target = Target(*value);
 }
 
@@ -44,8 +44,9 @@ void SceneOverrides::add_to(CLI::App& command) {
       .add_option("--normalisation", normalisation_,
                   fmt::format("Coefficient: {}", join(normalisation_names())))
       ->group(group);
-  command.add_option("--exponent", exponent_,
-                     fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent))
+  command
+      .add_option("--exponent", exponent_,
+                  fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent))
       ->group(group);
   command.add_option("--width", width_, "Width of the picture in pixels")->group(group);
   command.add_option("--height", height_, "Height of the picture in pixels")->group(group);

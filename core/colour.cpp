@@ -39,8 +39,8 @@ DisplayImage to_display(const Image& image, double exposure_stops) {
     to_srgb->apply(description);
     for (int x = 0; x < image.width(); ++x) {
       const std::size_t p = std::size_t{3} * x;
-      const bool finite = std::isfinite(source[p]) && std::isfinite(source[p + 1]) &&
-                          std::isfinite(source[p + 2]);
+      const bool finite =
+          std::isfinite(source[p]) && std::isfinite(source[p + 1]) && std::isfinite(source[p + 2]);
       for (std::size_t c = 0; c < 3; ++c)
         result.rgb[row.size() * y + p + c] =
             finite ? std::uint8_t(std::lround(255 * std::clamp(row[p + c], 0.0f, 1.0f)))

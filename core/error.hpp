@@ -9,13 +9,14 @@ namespace lobelia {
 /// Exit codes of the program, documented in README.md. A user's script may rely on them.
 enum class ExitCode : int {
   kSuccess = 0,
-  kDiffers = 1,      ///< it ran, and the answer is no: over a threshold, non-finite pixels, failed cells
-  kUsage = 2,        ///< the command line is wrong
-  kInput = 3,        ///< an input cannot be read, is invalid, or does not fit the other one
-  kOutput = 4,       ///< an output cannot be written
-  kEngine = 5,       ///< a reference engine is missing or failed
-  kInternal = 70,    ///< a bug of ours
-  kInterrupted = 130 ///< Ctrl-C
+  kDiffers =
+      1,        ///< it ran, and the answer is no: over a threshold, non-finite pixels, failed cells
+  kUsage = 2,   ///< the command line is wrong
+  kInput = 3,   ///< an input cannot be read, is invalid, or does not fit the other one
+  kOutput = 4,  ///< an output cannot be written
+  kEngine = 5,  ///< a reference engine is missing or failed
+  kInternal = 70,     ///< a bug of ours
+  kInterrupted = 130  ///< Ctrl-C
 };
 
 /// A failure with the exit code it asks for. what() is complete: what, where, what was allowed.

@@ -28,8 +28,8 @@ struct FileDescriptor {
 };
 
 [[noreturn]] void output_error(const fs::path& path, int error) {
-  throw Error(ExitCode::kOutput, fmt::format("{}: cannot write: {}", path.string(),
-                                             std::strerror(error)));
+  throw Error(ExitCode::kOutput,
+              fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
 }
 
 fs::path temporary_name(const fs::path& path) {

@@ -17,7 +17,8 @@ Image read_image(const std::filesystem::path& path);
 
 /// Writes a float32 OpenEXR with ZIP compression. The bytes depend on the arguments alone.
 /// Throws Error(kOutput); never leaves a partial file under `path`.
-void write_exr(const std::filesystem::path& path, const Image& image, const ImageMetadata& metadata);
+void write_exr(const std::filesystem::path& path, const Image& image,
+               const ImageMetadata& metadata);
 
 /// Writes an 8-bit sRGB PNG. Errors as write_exr.
 void write_png(const std::filesystem::path& path, const DisplayImage& image);

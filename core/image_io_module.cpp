@@ -22,9 +22,9 @@ void check_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec) 
     unreadable(path, "it has no pixels");
   if (spec.width > kMaxImageSide || spec.height > kMaxImageSide ||
       std::int64_t{spec.width} * spec.height > kMaxImagePixels || spec.nchannels > 1024)
-    unreadable(path, fmt::format("{} x {} pixels, {} channels; at most {} a side and {} in all are read",
-                                 spec.width, spec.height, spec.nchannels, kMaxImageSide,
-                                 kMaxImagePixels));
+    unreadable(
+        path, fmt::format("{} x {} pixels, {} channels; at most {} a side and {} in all are read",
+                          spec.width, spec.height, spec.nchannels, kMaxImageSide, kMaxImagePixels));
 }
 
 Image read(const std::filesystem::path& path) {
@@ -54,16 +54,18 @@ Image read(const std::filesystem::path& path) {
   return image;
 }
 
-std::vector<std::uint8_t> encode(const char* extension, OIIO::ImageSpec spec,
-                                 OIIO::TypeDesc type, const void* pixels) {
+std::vector<std::uint8_t> encode(const char* extension, OIIO::ImageSpec spec, OIIO::TypeDesc type,
+                                 const void* pixels) {
   std::vector<std::uint8_t> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const auto output = OIIO::ImageOutput::create(extension);
   if (!output)
-    throw Error(ExitCode::kInternal, fmt::format("no writer for {}: {}", extension, OIIO::geterror()));
+    throw Error(ExitCode::kInternal,
+                fmt::format("no writer for {}: {}", extension, OIIO::geterror()));
   if (!output->set_ioproxy(&memory) || !output->open(std::string("memory.") + extension, spec) ||
       !output->write_image(type, pixels) || !output->close())
-    throw Error(ExitCode::kOutput, fmt::format("cannot encode {}: {}", extension, output->geterror()));
+    throw Error(ExitCode::kOutput,
+                fmt::format("cannot encode {}: {}", extension, output->geterror()));
   return bytes;
 }
 
@@ -88,6 +90,7 @@ std::string version() { return OIIO_VERSION_STRING; }
 }  // namespace
 }  // namespace lobelia
 
-extern "C" __attribute__((visibility("default"))) const lobelia::ImageIoTable lobelia_image_io_table;
+extern "C" __attribute__((visibility("default")))
+const lobelia::ImageIoTable lobelia_image_io_table;
 const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::encode_exr,
                                                       lobelia::encode_png, lobelia::version};

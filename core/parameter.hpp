@@ -12,12 +12,18 @@ enum class ParameterType { kFloat, kInteger, kString, kPoint, kVector, kRgb };
 /// XML tag of a parameter of that type, as in Mitsuba: "float", "integer", "string", "point", ...
 constexpr std::string_view parameter_tag(ParameterType type) {
   switch (type) {
-    case ParameterType::kFloat: return "float";
-    case ParameterType::kInteger: return "integer";
-    case ParameterType::kString: return "string";
-    case ParameterType::kPoint: return "point";
-    case ParameterType::kVector: return "vector";
-    case ParameterType::kRgb: return "rgb";
+    case ParameterType::kFloat:
+      return "float";
+    case ParameterType::kInteger:
+      return "integer";
+    case ParameterType::kString:
+      return "string";
+    case ParameterType::kPoint:
+      return "point";
+    case ParameterType::kVector:
+      return "vector";
+    case ParameterType::kRgb:
+      return "rgb";
   }
   return "";
 }

@@ -103,7 +103,8 @@ class OutputSink {
 
 }  // namespace
 
-ProcessResult run_process(const std::vector<std::string>& arguments, const ProcessOptions& options) {
+ProcessResult run_process(const std::vector<std::string>& arguments,
+                          const ProcessOptions& options) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     throw Error(ExitCode::kEngine, fmt::format("no pipe: {}", std::strerror(errno)));

@@ -11,18 +11,18 @@
 namespace lobelia {
 
 struct ProcessOptions {
-  std::filesystem::path working_directory;      ///< empty: ours
-  std::filesystem::path log;                    ///< receives stdout and stderr; empty: dropped
+  std::filesystem::path working_directory;  ///< empty: ours
+  std::filesystem::path log;                ///< receives stdout and stderr; empty: dropped
   std::chrono::duration<double> timeout = std::chrono::hours(1);
   std::function<void(std::string_view)> on_line;  ///< called with each line of output, if set
 };
 
 struct ProcessResult {
-  int exit_code = 0;        ///< of the program, or 128 + signal
-  bool timed_out = false;   ///< it was killed, with all its children
-  bool interrupted = false; ///< killed because interrupted() became true
-  double seconds = 0;       ///< wall time
-  std::string output_tail;  ///< the last 4 KiB of its output
+  int exit_code = 0;         ///< of the program, or 128 + signal
+  bool timed_out = false;    ///< it was killed, with all its children
+  bool interrupted = false;  ///< killed because interrupted() became true
+  double seconds = 0;        ///< wall time
+  std::string output_tail;   ///< the last 4 KiB of its output
 };
 
 /// Runs `arguments` (the first is the program's path) to its end. Its process group is killed on

@@ -16,7 +16,9 @@ namespace {
 std::string file_token(std::string text) {
   std::replace_if(
       text.begin(), text.end(),
-      [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '.' && c != '+' && c != '-'; },
+      [](unsigned char c) {
+        return !std::isalnum(c) && c != '_' && c != '.' && c != '+' && c != '-';
+      },
       '_');
   return text;
 }

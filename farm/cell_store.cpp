@@ -45,8 +45,7 @@ Json CellStore::inputs(const std::string& engine_version) const {
 
 bool CellStore::has_current_image(const std::string& engine, const std::string& kind,
                                   const Json& inputs) const {
-  return fs::exists(file(engine + ".exr")) &&
-         names_inputs(file(engine + ".json"), kind, inputs);
+  return fs::exists(file(engine + ".exr")) && names_inputs(file(engine + ".json"), kind, inputs);
 }
 
 bool CellStore::is_finished(const Json& inputs) const {

@@ -112,16 +112,16 @@ class Farm {
   void find_engines() {
     for (const auto& name : grid_.engines) {
       const auto program = options_.programs.find(name);
-      EngineHere here{make_engine(name, program == options_.programs.end() ? fs::path()
-                                                                           : program->second),
-                      name, ""};
+      EngineHere here{
+          make_engine(name, program == options_.programs.end() ? fs::path() : program->second),
+          name, ""};
       const EngineStatus& status = here.engine->status();
       if (status.available)
         here.version = status.version;
       else
-        summary_.absent_engines.push_back(
-            fmt::format("{} is left out: {}; to get it: {}", here.engine->info().title, status.why,
-                        here.engine->info().install_hint));
+        summary_.absent_engines.push_back(fmt::format("{} is left out: {}; to get it: {}",
+                                                      here.engine->info().title, status.why,
+                                                      here.engine->info().install_hint));
       engines_.push_back(std::move(here));
     }
   }
@@ -173,9 +173,8 @@ class Farm {
       }
       std::vector<std::size_t> todo;
       for (const std::size_t i : unfinished)
-        if (options_.again ||
-            !stores_[i].has_current_image(engines_[e].name, "reference",
-                                          stores_[i].inputs(engines_[e].version)))
+        if (options_.again || !stores_[i].has_current_image(engines_[e].name, "reference",
+                                                            stores_[i].inputs(engines_[e].version)))
           todo.push_back(i);
       kept_pictures(unfinished.size() - todo.size());
       progress_.expect(engines_[e].name, todo.size());
@@ -220,11 +219,10 @@ class Farm {
       return;
     }
     const std::string file = here.name + ".exr";
-    result.record["command"] = {"lobelia", "reference", "scene.xml", "--engine", here.name,
-                                "-o",      file};
-    result.record["image"] = {{"file", file},
-                              {"width", result.image.width()},
-                              {"height", result.image.height()}};
+    result.record["command"] = {"lobelia", "reference", "scene.xml", "--engine",
+                                here.name, "-o",        file};
+    result.record["image"] = {
+        {"file", file}, {"width", result.image.width()}, {"height", result.image.height()}};
     const ImageMetadata metadata = reference_metadata(cells_[i].scene, result.record);
     result.record["inputs"] = stores_[i].inputs(here.version);
     stores_[i].store_image(here.name, result.image, metadata, result.record);
@@ -237,8 +235,8 @@ class Farm {
     for_each_cell(unfinished, [&](std::size_t i) {
       std::vector<std::string> references;
       for (const auto& here : engines_)
-        if (!here.version.empty() && stores_[i].has_current_image(
-                                         here.name, "reference", stores_[i].inputs(here.version)))
+        if (!here.version.empty() &&
+            stores_[i].has_current_image(here.name, "reference", stores_[i].inputs(here.version)))
           references.push_back(here.name);
       status_[i] = finish_cell(stores_[i], references, problems_[i], cell_inputs(i));
       progress_.step("comparing");

@@ -23,14 +23,14 @@ struct FarmOptions {
   std::map<std::string, std::filesystem::path> programs;  ///< in place of those in $PATH, by engine
   int threads = 0;                                        ///< 0: all processors
   std::chrono::duration<double> time_limit = std::chrono::minutes(10);  ///< for each picture
-  bool again = false;                                     ///< make everything again
-  std::vector<std::string> command;                       ///< for the record
-  std::function<void(const FarmProgress&)> on_progress;   ///< from any thread
+  bool again = false;                                                   ///< make everything again
+  std::vector<std::string> command;                                     ///< for the record
+  std::function<void(const FarmProgress&)> on_progress;                 ///< from any thread
 };
 
 struct FarmSummary {
   std::size_t cells = 0, pass = 0, differs = 0, failed = 0, missing = 0;
-  std::size_t rendered = 0, kept = 0;  ///< pictures
+  std::size_t rendered = 0, kept = 0;       ///< pictures
   std::vector<std::string> absent_engines;  ///< sentences: which, why, how to get it
   std::vector<std::string> problems;        ///< "cell: engine: message"
 };

@@ -32,8 +32,8 @@ std::pair<Json, Verdict> compare_with(const CellStore& store, const std::string&
   const double relative = options.tolerance->relative + options.tolerance->of_peak;
   const double white_at = relative * brightest(reference);
   write_png(store.file(name + ".png"), difference_picture(ours, reference, white_at));
-  write_record(store.file(name + ".json"), comparison_record(comparison, std::string(kOurs) + ".exr",
-                                                             engine + ".exr"));
+  write_record(store.file(name + ".json"),
+               comparison_record(comparison, std::string(kOurs) + ".exr", engine + ".exr"));
   return {{{"a", kOurs},
            {"b", engine},
            {"record", name + ".json"},

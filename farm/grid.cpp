@@ -58,9 +58,9 @@ class GridReader {
     if (tag == "axis") read_axis(node);
     if (tag == "engine") read_engine(node);
     if (std::find(std::begin(kElements), std::end(kElements), tag) == std::end(kElements))
-      source_.error(node, fmt::format("unknown element <{}> in <grid>; allowed: {}{}",
-                                      printable(tag), join(kElements),
-                                      did_you_mean(tag, kElements)));
+      source_.error(node,
+                    fmt::format("unknown element <{}> in <grid>; allowed: {}{}", printable(tag),
+                                join(kElements), did_you_mean(tag, kElements)));
   }
 
   bool once(pugi::xml_node node) {
@@ -105,8 +105,8 @@ class GridReader {
     const std::string values = source_.required(node, "values");
     if (name.empty() || values.empty()) return;
     const auto kinds = axis_kinds();
-    const auto kind = std::find_if(kinds.begin(), kinds.end(),
-                                   [&](const AxisKind& k) { return k.name == name; });
+    const auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const AxisKind& k) { return k.name == name; });
     if (kind == kinds.end()) {
       std::vector<std::string_view> names;
       for (const auto& k : kinds) names.push_back(k.name);
@@ -132,8 +132,8 @@ class GridReader {
       }
     }
     if (axis.values.empty())
-      source_.error(node, fmt::format("the axis '{}' has no values; allowed: {}", name,
-                                      kind->allowed));
+      source_.error(node,
+                    fmt::format("the axis '{}' has no values; allowed: {}", name, kind->allowed));
     grid_.axes.push_back(std::move(axis));
   }
 

@@ -19,8 +19,9 @@ constexpr auto kLobeNames =
 constexpr std::string_view kNormalisationNames[] = {"exact", "paper"};
 
 using LobeValue = double (*)(double s, double n);
-constexpr auto kLobeValues = map_types<LobeValue>(
-    Lobes{}, []<class L>() -> LobeValue { return [](double s, double n) { return L::value(s, n); }; });
+constexpr auto kLobeValues = map_types<LobeValue>(Lobes{}, []<class L>() -> LobeValue {
+  return [](double s, double n) { return L::value(s, n); };
+});
 
 /// How one model uses its lobe, for code that meets models by id.
 struct ModelUse {
@@ -62,7 +63,9 @@ std::string_view name(Normalisation normalisation) {
   return kNormalisationNames[std::size_t(normalisation)];
 }
 
-std::optional<ModelId> find_model(std::string_view name) { return find<ModelId>(kModelNames, name); }
+std::optional<ModelId> find_model(std::string_view name) {
+  return find<ModelId>(kModelNames, name);
+}
 std::optional<LobeId> find_lobe(std::string_view name) { return find<LobeId>(kLobeNames, name); }
 std::optional<Normalisation> find_normalisation(std::string_view name) {
   for (std::size_t i = 0; i < std::size(kNormalisationNames); ++i)
@@ -76,9 +79,12 @@ double radiance_coefficient(const Highlight& highlight) {
   if (highlight.normalisation == Normalisation::kExact)
     return model.share * kExactCoefficients.at(highlight.lobe.index)(model.energy, n);
   switch (kPaperColumns.at(highlight.lobe.index)) {
-    case PaperColumn::kCosine: return model.share * model.paper_cosine(n);
-    case PaperColumn::kCs16: return model.share * model.paper_cs16(n);
-    case PaperColumn::kNone: break;
+    case PaperColumn::kCosine:
+      return model.share * model.paper_cosine(n);
+    case PaperColumn::kCs16:
+      return model.share * model.paper_cs16(n);
+    case PaperColumn::kNone:
+      break;
   }
   throw Error(ExitCode::kInput, "the paper gives no coefficient for the lobe '" +
                                     std::string(info(highlight.lobe).name) +

@@ -44,7 +44,7 @@ struct ModelInfo {
   std::string_view name;   ///< "phong_rdf"
   std::string_view title;  ///< "Phong (RDF)"
   LobeAngle angle;
-  bool applies_cosine;     ///< radiance carries N.L; false for an RDF, which is 0 where N.L <= 0
+  bool applies_cosine;        ///< radiance carries N.L; false for an RDF, which is 0 where N.L <= 0
   std::string_view integral;  ///< that the exact coefficient makes equal to 1
   std::string_view source;
 };

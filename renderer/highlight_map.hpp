@@ -10,9 +10,9 @@ namespace lobelia {
 /// For one light and one sphere, per pixel in reading order, at the pixel's centre.
 struct HighlightMap {
   int width = 0, height = 0;
-  std::vector<double> angle;        ///< the lobe's angle in radians; NaN where the pixel does not
-                                    ///< see the sphere, or the light is below its horizon (N.L <= 0)
-  std::vector<double> n_dot_l;      ///< cosine at the light's side; NaN as above
+  std::vector<double> angle;    ///< the lobe's angle in radians; NaN where the pixel does not
+                                ///< see the sphere, or the light is below its horizon (N.L <= 0)
+  std::vector<double> n_dot_l;  ///< cosine at the light's side; NaN as above
   std::vector<double> solid_angle;  ///< of the pixel as seen from the camera, steradian; never NaN
 };
 

@@ -194,14 +194,15 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
   Renderer renderer(scene, result.plan, result.image);
   std::atomic<int> rows_done{0};
   ThreadLimit(options.threads).run([&] {
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<int>(0, scene.film.height, 8),
-        [&](const oneapi::tbb::blocked_range<int>& rows) {
-          const auto work = std::make_unique<Workspace>();
-          for (int y = rows.begin(); y < rows.end(); ++y) renderer.render_row(y, *work);
-          const int done = rows_done += rows.end() - rows.begin();
-          if (options.on_progress) options.on_progress(double(done) / scene.film.height);
-        });
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, scene.film.height, 8),
+                              [&](const oneapi::tbb::blocked_range<int>& rows) {
+                                const auto work = std::make_unique<Workspace>();
+                                for (int y = rows.begin(); y < rows.end(); ++y)
+                                  renderer.render_row(y, *work);
+                                const int done = rows_done += rows.end() - rows.begin();
+                                if (options.on_progress)
+                                  options.on_progress(double(done) / scene.film.height);
+                              });
   });
   throw_if_interrupted();
   const std::chrono::duration<double> plan_time = planned - start;

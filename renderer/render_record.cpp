@@ -47,9 +47,8 @@ Json render_record(const Scene& scene, const RenderResult& result,
   Json record = make_record("render");
   record["engine"] = {{"name", "lobelia"}, {"version", kVersion}};
   record["command"] = command;
-  record["image"] = {{"file", image_file},
-                     {"width", result.image.width()},
-                     {"height", result.image.height()}};
+  record["image"] = {
+      {"file", image_file}, {"width", result.image.width()}, {"height", result.image.height()}};
   record["highlights"] = Json::array();
   for (const auto& material : scene.materials)
     record["highlights"].push_back(highlight_record(material.highlight));

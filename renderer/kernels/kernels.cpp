@@ -61,9 +61,8 @@ void trace(const CameraFrame& camera, const std::vector<Sphere>& spheres, std::s
                                hn::And(hn::Gt(t.v, hn::Zero(d)), hn::Lt(t.v, nearest.v)));
       const Lanes3 n_here = Lanes(-1 / spheres[k].radius) * (off_axis + half_chord * direction);
       const Lanes3 p_here = center + radius * n_here;
-      const auto choose = [&](Lanes& old, Lanes now) HWY_ATTR {
-        old = Lanes(hn::IfThenElse(hit, now.v, old.v));
-      };
+      const auto choose = [&](Lanes& old, Lanes now)
+                              HWY_ATTR { old = Lanes(hn::IfThenElse(hit, now.v, old.v)); };
       choose(nearest, t);
       choose(index, Lanes(double(k)));
       choose(n.x, n_here.x), choose(n.y, n_here.y), choose(n.z, n_here.z);

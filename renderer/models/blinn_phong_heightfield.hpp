@@ -17,10 +17,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 struct BlinnPhongHeightfield {
-  static constexpr ModelInfo kInfo{
-      "blinn_phong_heightfield", "Blinn-Phong (heightfield)", LobeAngle::kHalfVector, true,
-      "coef 2 pi integral of lobe(a) cos a sin a, a = 0..pi/2",
-      "Romanyuk et al., table of coefficients, row 6"};
+  static constexpr ModelInfo kInfo{"blinn_phong_heightfield",
+                                   "Blinn-Phong (heightfield)",
+                                   LobeAngle::kHalfVector,
+                                   true,
+                                   "coef 2 pi integral of lobe(a) cos a sin a, a = 0..pi/2",
+                                   "Romanyuk et al., table of coefficients, row 6"};
   static constexpr EnergyIntegral kEnergy{{1, -1, 0, 0}, 1};
   static constexpr double kShare = 0.25;
 
@@ -29,9 +31,7 @@ struct BlinnPhongHeightfield {
     return n_dot_l;
   }
 
-  static double paper_cosine(double n) {
-    return (n + 2) / (2 * std::numbers::pi);
-  }
+  static double paper_cosine(double n) { return (n + 2) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return (1.063 * n + 1) / (2 * std::numbers::pi); }
 };
 static_assert(Model<BlinnPhongHeightfield>);

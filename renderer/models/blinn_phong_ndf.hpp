@@ -18,10 +18,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 struct BlinnPhongNdf {
-  static constexpr ModelInfo kInfo{
-      "blinn_phong_ndf", "Blinn-Phong (NDF)", LobeAngle::kHalfVector, true,
-      "coef 2 pi integral of lobe(a) sin a, a = 0..pi/2",
-      "Blinn 1977; Romanyuk et al., table of coefficients, row 5"};
+  static constexpr ModelInfo kInfo{"blinn_phong_ndf",
+                                   "Blinn-Phong (NDF)",
+                                   LobeAngle::kHalfVector,
+                                   true,
+                                   "coef 2 pi integral of lobe(a) sin a, a = 0..pi/2",
+                                   "Blinn 1977; Romanyuk et al., table of coefficients, row 5"};
   static constexpr EnergyIntegral kEnergy{{1, 0, 0, 0}, 1};
   static constexpr double kShare = 0.25;
 
@@ -30,9 +32,7 @@ struct BlinnPhongNdf {
     return n_dot_l;
   }
 
-  static double paper_cosine(double n) {
-    return (n + 1) / (2 * std::numbers::pi);
-  }
+  static double paper_cosine(double n) { return (n + 1) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return 1.063 * n / (2 * std::numbers::pi); }
 };
 static_assert(Model<BlinnPhongNdf>);

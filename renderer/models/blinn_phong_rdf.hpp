@@ -18,10 +18,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 struct BlinnPhongRdf {
-  static constexpr ModelInfo kInfo{
-      "blinn_phong_rdf", "Blinn-Phong (RDF)", LobeAngle::kHalfVector, false,
-      "coef 2 pi integral of lobe(x/2) sin x, x = 0..pi/2",
-      "Blinn 1977; Romanyuk et al., table of coefficients, row 3"};
+  static constexpr ModelInfo kInfo{"blinn_phong_rdf",
+                                   "Blinn-Phong (RDF)",
+                                   LobeAngle::kHalfVector,
+                                   false,
+                                   "coef 2 pi integral of lobe(x/2) sin x, x = 0..pi/2",
+                                   "Blinn 1977; Romanyuk et al., table of coefficients, row 3"};
   static constexpr EnergyIntegral kEnergy{{4, -4, 0, 0}, kHalfOfRightAngle};
   static constexpr double kShare = 1;
 

@@ -17,7 +17,10 @@ namespace lobelia::HWY_NAMESPACE {
 
 struct ModifiedPhong {
   static constexpr ModelInfo kInfo{
-      "modified_phong", "modified Phong", LobeAngle::kReflection, true,
+      "modified_phong",
+      "modified Phong",
+      LobeAngle::kReflection,
+      true,
       "coef 2 pi integral of lobe(x) cos x sin x, x = 0..pi/2",
       "Lewis 1994; Lafortune and Willems 1994; Romanyuk et al., table of coefficients, row 2"};
   static constexpr EnergyIntegral kEnergy{{1, -1, 0, 0}, 1};
@@ -28,9 +31,7 @@ struct ModifiedPhong {
     return n_dot_l;
   }
 
-  static double paper_cosine(double n) {
-    return (n + 2) / (2 * std::numbers::pi);
-  }
+  static double paper_cosine(double n) { return (n + 2) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return (1.063 * n + 1) / (2 * std::numbers::pi); }
 };
 static_assert(Model<ModifiedPhong>);

@@ -18,10 +18,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 struct PhongRdf {
-  static constexpr ModelInfo kInfo{
-      "phong_rdf", "Phong (RDF)", LobeAngle::kReflection, false,
-      "coef 2 pi integral of lobe(x) sin x, x = 0..pi/2",
-      "Phong 1975; Romanyuk et al., table of coefficients, row 1"};
+  static constexpr ModelInfo kInfo{"phong_rdf",
+                                   "Phong (RDF)",
+                                   LobeAngle::kReflection,
+                                   false,
+                                   "coef 2 pi integral of lobe(x) sin x, x = 0..pi/2",
+                                   "Phong 1975; Romanyuk et al., table of coefficients, row 1"};
   static constexpr EnergyIntegral kEnergy{{1, 0, 0, 0}, 1};
   static constexpr double kShare = 1;
 
@@ -30,9 +32,7 @@ struct PhongRdf {
     return Real(1);
   }
 
-  static double paper_cosine(double n) {
-    return (n + 1) / (2 * std::numbers::pi);
-  }
+  static double paper_cosine(double n) { return (n + 1) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return 1.063 * n / (2 * std::numbers::pi); }
 };
 static_assert(Model<PhongRdf>);

@@ -47,8 +47,9 @@ std::uint64_t product(const Film& film, const Sampler& sampler) {
 }
 
 EffectDecision decide_diffuse(const Scene& scene, EffectPolicy policy, Plan& plan) {
-  const auto lambertian = std::count_if(scene.materials.begin(), scene.materials.end(),
-                                        [](const Material& m) { return !is_black(m.diffuse_reflectance); });
+  const auto lambertian =
+      std::count_if(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& m) { return !is_black(m.diffuse_reflectance); });
   plan.diffuse = policy == EffectPolicy::kAll || lambertian > 0;
   std::string reason = lambertian > 0 ? fmt::format("{} of {} materials have a diffuse reflectance",
                                                     lambertian, scene.materials.size())

@@ -41,10 +41,10 @@ struct PointLight {
 using Light = std::variant<DirectionalLight, PointLight>;
 
 struct Material {
-  std::string id;              ///< from the file: untrusted text, for people only
-  Highlight highlight;         ///< model, lobe, normalisation, exponent
-  Rgb specular_reflectance;    ///< scales the highlight, each 0..1
-  Rgb diffuse_reflectance;     ///< Lambertian albedo beneath it, each 0..1
+  std::string id;            ///< from the file: untrusted text, for people only
+  Highlight highlight;       ///< model, lobe, normalisation, exponent
+  Rgb specular_reflectance;  ///< scales the highlight, each 0..1
+  Rgb diffuse_reflectance;   ///< Lambertian albedo beneath it, each 0..1
 };
 
 struct Sphere {

@@ -35,7 +35,8 @@ std::string table(const ElementFormat& format) {
 std::string scene_format_document() {
   std::string text = fmt::format(
       "# Scene files, format version {}\n\n"
-      "XML in the spirit of Mitsuba's: elements with a `type`, parameters as `<float name= value=>`,\n"
+      "XML in the spirit of Mitsuba's: elements with a `type`, parameters as `<float name= "
+      "value=>`,\n"
       "a camera by `<lookat>`, materials inside their shape or by `<ref id=>`. Whoever knows that\n"
       "format is at home. This page is printed by `lobelia scene-format`.\n\n"
       "```xml\n"
@@ -61,7 +62,8 @@ std::string scene_format_document() {
       "</scene>\n"
       "```\n\n"
       "A point or a vector is `value=\"x, y, z\"` or `x= y= z=`; a colour is one number (grey) or\n"
-      "three (linear Rec. 709). Right-handed; units and directions: [conventions](conventions.md).\n"
+      "three (linear Rec. 709). Right-handed; units and directions: "
+      "[conventions](conventions.md).\n"
       "Every error is reported with its line and column, all of them in one run. Limits: {} MiB,\n"
       "{} emitters, {} shapes, {} materials, {} pixels. No DOCTYPE and no entities.\n\n"
       "`<scene version=>` holds one `<sensor>`, any `<emitter>`, `<shape>` and `<bsdf id=>`. The\n"
@@ -71,7 +73,8 @@ std::string scene_format_document() {
       kMaxMaterials, kMaxImagePixels);
   for (const auto& format : {kPerspective, kFilm, kSampler, kDirectional, kPoint, kSphere})
     text += table(format);
-  text += table({"bsdf", "MODEL", "a material: a highlight over a diffuse base", kHighlightParameters});
+  text +=
+      table({"bsdf", "MODEL", "a material: a highlight over a diffuse base", kHighlightParameters});
   text += "\nMODEL is one of:\n\n";
   for (const auto& model : models()) text += fmt::format("- `{}`: {}\n", model.name, model.title);
   return text;

@@ -18,8 +18,8 @@ inline constexpr int kMaxLights = 64;
 inline constexpr int kMaxSpheres = 1024;
 inline constexpr int kMaxMaterials = 1024;
 
-inline constexpr double kFar = 1e9;       ///< bound of every coordinate and length
-inline constexpr double kBrightest = 1e9; ///< bound of every irradiance and intensity
+inline constexpr double kFar = 1e9;        ///< bound of every coordinate and length
+inline constexpr double kBrightest = 1e9;  ///< bound of every irradiance and intensity
 
 inline constexpr Parameter kPerspectiveParameters[] = {
     {"fov", ParameterType::kFloat, "", 1e-3, 179, "degrees", "full horizontal angle of view"},
@@ -50,7 +50,8 @@ inline constexpr Parameter kSphereParameters[] = {
 };
 inline constexpr Parameter kHighlightParameters[] = {
     {"lobe", ParameterType::kString, "cosine", 0, 0, "", "shape of the highlight"},
-    {"normalisation", ParameterType::kString, "exact", 0, 0, "", "where its coefficient comes from"},
+    {"normalisation", ParameterType::kString, "exact", 0, 0, "",
+     "where its coefficient comes from"},
     {"exponent", ParameterType::kFloat, "", kMinExponent, kMaxExponent, "", "sharpness n"},
     {"specular_reflectance", ParameterType::kRgb, "1", 0, 1, "", "scales the highlight"},
     {"diffuse_reflectance", ParameterType::kRgb, "0", 0, 1, "", "Lambertian albedo beneath it"},
@@ -66,8 +67,8 @@ inline constexpr ElementFormat kPerspective{"sensor", "perspective", "the camera
                                             kPerspectiveParameters};
 inline constexpr ElementFormat kFilm{"film", "hdrfilm", "size of the picture; inside the sensor",
                                      kFilmParameters};
-inline constexpr ElementFormat kSampler{"sampler", "independent",
-                                        "rays a pixel; inside the sensor", kSamplerParameters};
+inline constexpr ElementFormat kSampler{"sampler", "independent", "rays a pixel; inside the sensor",
+                                        kSamplerParameters};
 inline constexpr ElementFormat kDirectional{"emitter", "directional", "parallel light",
                                             kDirectionalParameters};
 inline constexpr ElementFormat kPoint{"emitter", "point", "a light in a point", kPointParameters};

@@ -104,9 +104,9 @@ class SceneReader {
       if (node.type() == pugi::node_element)
         result.push_back(node);
       else if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
-        source_.error(node, fmt::format("text '{}' inside <{}>; values stand in attributes",
-                                        printable(join_words(node.value()), 20),
-                                        printable(parent.name())));
+        source_.error(
+            node, fmt::format("text '{}' inside <{}>; values stand in attributes",
+                              printable(join_words(node.value()), 20), printable(parent.name())));
     }
     return result;
   }
@@ -146,8 +146,8 @@ class SceneReader {
       return std::nullopt;
     };
     const auto parts = split(text, ", \t\n\r");
-    const bool triple = parameter.type != ParameterType::kFloat &&
-                        parameter.type != ParameterType::kInteger;
+    const bool triple =
+        parameter.type != ParameterType::kFloat && parameter.type != ParameterType::kInteger;
     const bool grey = parameter.type == ParameterType::kRgb && parts.size() == 1;
     if (parts.size() != (triple && !grey ? 3 : 1))
       return complain(parameter.type == ParameterType::kRgb ? "is not one or three numbers"
@@ -214,10 +214,10 @@ class SceneReader {
     for (const auto& parameter : table) {
       if (values.contains(parameter.name)) continue;
       if (parameter.default_value.empty())
-        source_.error(element, fmt::format("<{} type=\"{}\"> needs the parameter '{}' ({})",
-                                           element.name(),
-                                           printable(element.attribute("type").value()),
-                                           parameter.name, parameter.meaning));
+        source_.error(element,
+                      fmt::format("<{} type=\"{}\"> needs the parameter '{}' ({})", element.name(),
+                                  printable(element.attribute("type").value()), parameter.name,
+                                  parameter.meaning));
       values.set(parameter.name, default_of(parameter));
     }
     return values;
@@ -317,8 +317,7 @@ class SceneReader {
     const Vec3 view = *target - *origin;
     if (length(view) == 0)
       source_.error(node, "origin and target are the same point: the camera looks nowhere");
-    else if (length(*up) == 0 ||
-             length(cross(normalize(view), normalize(*up))) < 1e-6)
+    else if (length(*up) == 0 || length(cross(normalize(view), normalize(*up))) < 1e-6)
       source_.error(node, "up is zero or along the view: the camera has no upright");
   }
 
@@ -366,8 +365,8 @@ class SceneReader {
       material.diffuse_reflectance = values.rgb("diffuse_reflectance");
     }
     if (materials_seen_ == kMaxMaterials + 1)
-      source_.error(node, fmt::format("over {} materials; allowed: {}", kMaxMaterials,
-                                      kMaxMaterials));
+      source_.error(node,
+                    fmt::format("over {} materials; allowed: {}", kMaxMaterials, kMaxMaterials));
     scene_.materials.push_back(std::move(material));
     return materials_seen_ - 1;
   }
@@ -393,11 +392,11 @@ class SceneReader {
     int materials = 0;
     for (const auto child : node.children()) {
       const std::string_view tag = child.name();
-      if (tag == "bsdf" && one_material(child, materials)) sphere.material = add_material(child, false);
+      if (tag == "bsdf" && one_material(child, materials))
+        sphere.material = add_material(child, false);
       if (tag == "ref" && one_material(child, materials)) sphere.material = refer(child);
     }
-    if (materials == 0)
-      source_.error(node, "<shape> needs a <bsdf> or a <ref id=\"...\"/> to one");
+    if (materials == 0) source_.error(node, "<shape> needs a <bsdf> or a <ref id=\"...\"/> to one");
     if (int(scene_.spheres.size()) == kMaxSpheres)
       source_.error(node, fmt::format("over {} shapes; allowed: {}", kMaxSpheres, kMaxSpheres));
     if (int(scene_.spheres.size()) <= kMaxSpheres) scene_.spheres.push_back(sphere);
@@ -416,8 +415,9 @@ class SceneReader {
     std::vector<std::string_view> ids;
     for (const auto& [known, index] : material_by_id_) ids.push_back(known);
     if (!id.empty())
-      source_.error(node.attribute("id"), node,
-                    fmt::format("no <bsdf> has the id '{}'{}", printable(id), did_you_mean(id, ids)));
+      source_.error(
+          node.attribute("id"), node,
+          fmt::format("no <bsdf> has the id '{}'{}", printable(id), did_you_mean(id, ids)));
     return 0;
   }
 

@@ -20,9 +20,9 @@ XmlSource::XmlSource(std::string text, std::string file_name, std::size_t max_by
     throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read", file_name_,
                                               original_.size(), max_bytes));
   // In place, so that names and values point into parsed_ and tell where they stand.
-  const auto result = document_.load_buffer_inplace(
-      parsed_.data(), parsed_.size(), pugi::parse_default | pugi::parse_doctype,
-      pugi::encoding_utf8);
+  const auto result =
+      document_.load_buffer_inplace(parsed_.data(), parsed_.size(),
+                                    pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
   if (!result)
     throw Error(ExitCode::kInput,
                 fmt::format("{}: broken XML: {}", place(result.offset), result.description()));

@@ -10,8 +10,8 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kSubcommands[] = {"render", "plan",    "models",  "scene-format", "reference",
-                                        "compare", "profile", "farm", "gallery"};
+constexpr const char* kSubcommands[] = {"render",  "plan",    "models", "scene-format", "reference",
+                                        "compare", "profile", "farm",   "gallery"};
 
 TEST(Help, OfTheProgramNamesEverySubcommandAndTheExitCodes) {
   const TemporaryDirectory directory;
@@ -55,7 +55,8 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"render", broken, "-o", "a.exr"}, 3, "broken.xml:2:"},
       {{"render", scene, "-o", "a.png"}, 2, "must end in .exr"},
       {{"render", scene, "-o", "no/such/a.exr"}, 4, "no/such/a.exr: cannot write: No such file"},
-      {{"render", scene, "-o", "a.exr", "--exponent", "-3"}, 2,
+      {{"render", scene, "-o", "a.exr", "--exponent", "-3"},
+       2,
        "--exponent -3 is out of range; allowed: 0.001 to 1e+08"},
       {{"render", scene, "-o", "a.exr", "--exponent", "nan"}, 2, "--exponent nan"},
       {{"render", scene, "-o", "a.exr", "--exponent", "many"}, 2, "many"},
@@ -70,7 +71,8 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"compare", "a.exr", "b.exr"}, 3, "a.exr"},
       {{"profile", text_exr, "--scene", scene}, 3, "text.exr"},
       {{"reference", scene, "--engine", "maya", "-o", "a.exr"}, 2, "maya"},
-      {{"reference", scene, "--engine", "povray", "--program", "/no/such", "-o", "a.exr"}, 5,
+      {{"reference", scene, "--engine", "povray", "--program", "/no/such", "-o", "a.exr"},
+       5,
        "/no/such"},
       {{"farm", "missing.xml", "-o", "out"}, 3, "missing.xml"},
       {{"gallery", "no-such-directory"}, 3, "no-such-directory"},

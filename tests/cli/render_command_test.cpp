@@ -39,8 +39,8 @@ TEST(RenderCommand, PutsTimesAndPlanIntoTheRecordBeside) {
 TEST(RenderCommand, OverridesChangeThePicture) {
   const TemporaryDirectory directory;
   const auto render = [&](const std::string& file, std::vector<std::string> overrides) {
-    std::vector<std::string> arguments{"render", kScenes + "oblique_45.xml", "-q", "-o", file,
-                                       "--height", "40"};
+    std::vector<std::string> arguments{
+        "render", kScenes + "oblique_45.xml", "-q", "-o", file, "--height", "40"};
     arguments.insert(arguments.end(), overrides.begin(), overrides.end());
     EXPECT_EQ(run_lobelia(arguments, directory.path()).exit_code, 0);
     return read_image(directory.path() / file);
@@ -48,8 +48,11 @@ TEST(RenderCommand, OverridesChangeThePicture) {
   const Image plain = render("plain.exr", {});
   EXPECT_EQ(plain.height(), 40);
   const std::vector<std::vector<std::string>> changes{
-      {"--model", "blinn_phong_ndf"}, {"--lobe", "cs16"}, {"--lobe", "cs16", "--normalisation", "paper"},
-      {"--exponent", "99"},           {"--samples", "4"}};
+      {"--model", "blinn_phong_ndf"},
+      {"--lobe", "cs16"},
+      {"--lobe", "cs16", "--normalisation", "paper"},
+      {"--exponent", "99"},
+      {"--samples", "4"}};
   std::vector<std::vector<float>> seen{{plain.values().begin(), plain.values().end()}};
   for (const auto& change : changes) {
     const Image image = render("changed.exr", change);
@@ -62,9 +65,9 @@ TEST(RenderCommand, OverridesChangeThePicture) {
 TEST(RenderCommand, OnAFullDiskLeavesNothingBehind) {
   const TemporaryDirectory directory;
   // A limit of 8 blocks of 512 bytes stands in for the disk.
-  const auto result = run_shell("ulimit -f 8; \"$LOBELIA\" render '" + kScenes +
-                                    "two_lights.xml' -q -o x.exr",
-                                directory.path());
+  const auto result =
+      run_shell("ulimit -f 8; \"$LOBELIA\" render '" + kScenes + "two_lights.xml' -q -o x.exr",
+                directory.path());
   EXPECT_EQ(result.exit_code, 4) << result.output_tail;
   EXPECT_THAT(result.output_tail, HasSubstr("x.exr: cannot write: File too large"));
   EXPECT_EQ(files_in(directory.path()), 0u);
@@ -80,10 +83,10 @@ TEST(RenderCommand, KeepsTheOldPictureIfTheNewOneCannotBeWritten) {
 
 TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
   const TemporaryDirectory directory;
-  const auto result = run_shell(
-      "timeout --preserve-status -s INT 0.5 \"$LOBELIA\" render '" + kScenes +
-          "oblique_45.xml' --width 4096 --height 4096 --samples 4096 -q -o x.exr",
-      directory.path());
+  const auto result =
+      run_shell("timeout --preserve-status -s INT 0.5 \"$LOBELIA\" render '" + kScenes +
+                    "oblique_45.xml' --width 4096 --height 4096 --samples 4096 -q -o x.exr",
+                directory.path());
   EXPECT_EQ(result.exit_code, 130) << result.output_tail;
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
   EXPECT_EQ(files_in(directory.path()), 0u);
@@ -92,10 +95,10 @@ TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
 TEST(RenderCommand, WithoutTheImageModuleIsStillHelpful) {
   // The module is loaded only for pictures: help and plans need none of its 260 libraries.
   const TemporaryDirectory directory;
-  const auto result = run_shell("cp \"$LOBELIA\" ./lobelia && ./lobelia plan '" + kScenes +
-                                    "head_on.xml' && ./lobelia render '" + kScenes +
-                                    "head_on.xml' -q -o x.exr",
-                                directory.path());
+  const auto result =
+      run_shell("cp \"$LOBELIA\" ./lobelia && ./lobelia plan '" + kScenes +
+                    "head_on.xml' && ./lobelia render '" + kScenes + "head_on.xml' -q -o x.exr",
+                directory.path());
   EXPECT_EQ(result.exit_code, 70);
   EXPECT_THAT(result.output_tail, HasSubstr("camera rays   65536"));
   EXPECT_THAT(result.output_tail, HasSubstr("lobelia_image_io.so is neither beside the program"));

@@ -33,9 +33,8 @@ TEST(Records, NameNumbersThatJsonDoesNotHave) {
 TEST(Records, OfAnotherKindOrVersionOrBrokenAreRefused) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "r.json";
-  for (const char* text :
-       {"", "{", "[]", "7", "{\"kind\":\"plan\",\"schemaVersion\":1}",
-        "{\"kind\":\"render\",\"schemaVersion\":2}", "{\"kind\":\"render\"}"}) {
+  for (const char* text : {"", "{", "[]", "7", "{\"kind\":\"plan\",\"schemaVersion\":1}",
+                           "{\"kind\":\"render\",\"schemaVersion\":2}", "{\"kind\":\"render\"}"}) {
     write_file(path, text);
     EXPECT_THROW(read_record(path, "render"), Error) << text;
   }

@@ -33,10 +33,9 @@ TEST_F(FarmTest, WritesEveryFileThatTheRecordsPromise) {
 
 TEST_F(FarmTest, ACellsSceneRendersToTheCellsPicture) {
   run_farm(grid("16"), out(), {});
-  const int status =
-      std::system(fmt::format("cd '{}' && '{}' render scene.xml -q -o again.exr",
-                              in_cell("n16", "").string(), LOBELIA_PROGRAM)
-                      .c_str());
+  const int status = std::system(fmt::format("cd '{}' && '{}' render scene.xml -q -o again.exr",
+                                             in_cell("n16", "").string(), LOBELIA_PROGRAM)
+                                     .c_str());
   ASSERT_EQ(status, 0);
   EXPECT_EQ(read_file(in_cell("n16", "again.exr"), 1 << 24),
             read_file(in_cell("n16", "lobelia.exr"), 1 << 24));
@@ -89,10 +88,10 @@ TEST_F(FarmTest, AnAbsentEngineIsLeftOutAndNamedWithTheWayToGetIt) {
 
 TEST_F(FarmTest, AnEngineThatFailsIsThatCellsResultAndNothingElses) {
   FarmOptions options;
-  options.programs = {
-      {"povray", script("povray", "echo 'POV-Ray 3.7.0.10' >&2\n"
-                                  "case \"$*\" in *version*) exit 0;; esac\nexit 3\n")},
-      {"blender", "/no/such/blender"}};
+  options.programs = {{"povray", script("povray",
+                                        "echo 'POV-Ray 3.7.0.10' >&2\n"
+                                        "case \"$*\" in *version*) exit 0;; esac\nexit 3\n")},
+                      {"blender", "/no/such/blender"}};
   const FarmSummary summary = run_farm(grid("16, 32", kBothEngines), out(), options);
   EXPECT_EQ(summary.failed, 2u);
   ASSERT_EQ(summary.problems.size(), 2u);

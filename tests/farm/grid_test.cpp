@@ -60,8 +60,9 @@ TEST(Cells, CarryTheValuesOfTheirAxesIntoTheScene) {
 
 TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
   const std::pair<const char*, const char*> bad[] = {
-      {"<axis name=\"modle\" values=\"a\"/>", "unknown axis 'modle'; allowed: model, normalisation, "
-                                              "exponent, light; did you mean 'model'?"},
+      {"<axis name=\"modle\" values=\"a\"/>",
+       "unknown axis 'modle'; allowed: model, normalisation, "
+       "exponent, light; did you mean 'model'?"},
       {"<axis name=\"model\" values=\"phong\"/>", "unknown model 'phong'; allowed: phong_rdf"},
       {"<axis name=\"normalisation\" values=\"cs16\"/>", "'cs16' is not LOBE:NORMALISATION"},
       {"<axis name=\"normalisation\" values=\"cs16:papr\"/>", "did you mean 'paper'?"},
@@ -72,8 +73,9 @@ TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
       {"<axis name=\"exponent\" values=\" , \"/>", "has no values; allowed: numbers"},
       {"<axis name=\"exponent\" values=\"1\"/><axis name=\"exponent\" values=\"2\"/>",
        "a second axis 'exponent'"},
-      {"<engine name=\"povry\"/>", "unknown engine 'povry'; allowed: povray, blender; did you mean "
-                                   "'povray'?"},
+      {"<engine name=\"povry\"/>",
+       "unknown engine 'povry'; allowed: povray, blender; did you mean "
+       "'povray'?"},
       {"<film width=\"0\" height=\"9\"/>", "width '0'; allowed: whole numbers from 1 to 32768"},
       {"<film width=\"32768\" height=\"32768\"/>", "pixels; allowed: "},
       {"<axes/>", "unknown element <axes> in <grid>"},

@@ -77,7 +77,8 @@ TEST(Cs16, IsTheCosineLobeAtExponent16AndNeverAboveIt) {
   for (const double s : abscissae(16))
     EXPECT_NEAR(Cs16Lobe::value(s, 16.0), CosineLobe::value(s, 16.0), 1e-14) << s;
   for (const double n : {16.0, 128.0, 1024.0})
-    for (const double s : abscissae(n))  // Bernoulli's inequality; 4e-15 for the rounding of 16 factors
+    for (const double s :
+         abscissae(n))  // Bernoulli's inequality; 4e-15 for the rounding of 16 factors
       EXPECT_LE(Cs16Lobe::value(s, n), CosineLobe::value(s, n) + 4e-15) << n << " " << s;
 }
 

@@ -107,9 +107,9 @@ TEST(ThePaper, Cs16CoefficientsMissTheEnergyByTheseResiduals) {
   // Largest |1 - energy| over n = 16..1024; the paper prints 4.7e-4, 1.3e-3, 1.5e-3 and 9.5e-3 for
   // the first four: the last two of these are not reproducible.
   const std::map<std::string_view, double> expected{
-      {"phong_rdf", 4.71e-4},        {"modified_phong", 1.27e-3},
-      {"blinn_phong_rdf", 5.2e-3},   {"modified_blinn_phong", 5.6e-2},
-      {"blinn_phong_ndf", 4.71e-4},  {"blinn_phong_heightfield", 1.27e-3}};
+      {"phong_rdf", 4.71e-4},       {"modified_phong", 1.27e-3},
+      {"blinn_phong_rdf", 5.2e-3},  {"modified_blinn_phong", 5.6e-2},
+      {"blinn_phong_ndf", 4.71e-4}, {"blinn_phong_heightfield", 1.27e-3}};
   const LobeId cs16 = *find_lobe("cs16");
   for (const ModelId model : all_models()) {
     double largest = 0;

@@ -45,9 +45,9 @@ std::vector<Rgb> formula(const Scene& scene) {
         const double value =
             highlight_radiance(material.highlight, map.n_dot_l[i], 2 * half_sine * half_sine);
         const auto& light = std::get<DirectionalLight>(scene.lights[l]);
-        sum[i] = sum[i] + light.irradiance * (value * material.specular_reflectance +
-                                              map.n_dot_l[i] / std::numbers::pi *
-                                                  material.diffuse_reflectance);
+        sum[i] = sum[i] + light.irradiance *
+                              (value * material.specular_reflectance +
+                               map.n_dot_l[i] / std::numbers::pi * material.diffuse_reflectance);
       }
     }
   return sum;
@@ -74,8 +74,8 @@ TEST(Render, EveryModelAndLobeIsTheFormulaInEveryPixel) {
                               std::abs(p[2] - truth[i].b)});
           }
           // Half a unit of float32 at the peak, and a little for the two ways of finding the angle.
-          EXPECT_LE(worst, 1e-7 * peak) << name << " " << models()[m].name << " "
-                                        << lobes()[l].name << " n = " << n;
+          EXPECT_LE(worst, 1e-7 * peak)
+              << name << " " << models()[m].name << " " << lobes()[l].name << " n = " << n;
         }
 }
 
@@ -197,8 +197,7 @@ TEST(Render, OddSizesHaveNoGapsAndNoSeams) {
     const Image image = render(scene, {}).image;
     for (int x = 0; x < width; ++x)
       for (int y = 0; y < 9; ++y)  // head-on: the same from left and right
-        ASSERT_NEAR(image.pixel(x, y)[0], image.pixel(width - 1 - x, y)[0],
-                    2e-6 * brightest(image))
+        ASSERT_NEAR(image.pixel(x, y)[0], image.pixel(width - 1 - x, y)[0], 2e-6 * brightest(image))
             << width;
   }
 }
@@ -212,17 +211,33 @@ struct HardCase {
 TEST(Render, HardCasesHaveNoNanAndNoInfinity) {
   const HardCase cases[] = {
       {"light behind the sphere",
-       [](Scene& s) { s.lights = {DirectionalLight{{0, 0, 1}, {1, 1, 1}}}; }, true},
+       [](Scene& s) {
+         s.lights = {DirectionalLight{{0, 0, 1}, {1, 1, 1}}};
+       },
+       true},
       {"light at a right angle",
-       [](Scene& s) { s.lights = {DirectionalLight{{1, 0, 0}, {1, 1, 1}}}; }, false},
+       [](Scene& s) {
+         s.lights = {DirectionalLight{{1, 0, 0}, {1, 1, 1}}};
+       },
+       false},
       {"light inside the sphere",
-       [](Scene& s) { s.lights = {PointLight{{0.1, 0, 0}, {1, 1, 1}}}; }, true},
+       [](Scene& s) {
+         s.lights = {PointLight{{0.1, 0, 0}, {1, 1, 1}}};
+       },
+       true},
       {"light on the surface",
-       [](Scene& s) { s.lights = {PointLight{{0, 0, 1}, {1, 1, 1}}}; }, true},
+       [](Scene& s) {
+         s.lights = {PointLight{{0, 0, 1}, {1, 1, 1}}};
+       },
+       true},
       {"no light", [](Scene& s) { s.lights.clear(); }, true},
       {"no sphere", [](Scene& s) { s.spheres.clear(); }, true},
       {"camera inside", [](Scene& s) { s.spheres[0].radius = 10; }, true},
-      {"camera looks away", [](Scene& s) { s.camera.target = {0, 0, 10}; }, true},
+      {"camera looks away",
+       [](Scene& s) {
+         s.camera.target = {0, 0, 10};
+       },
+       true},
       {"exponent 1e8", [](Scene& s) { s.materials[0].highlight.exponent = 1e8; }, false},
       {"exponent 1e-3", [](Scene& s) { s.materials[0].highlight.exponent = 1e-3; }, false},
       {"tiny sphere, near",
@@ -244,7 +259,10 @@ TEST(Render, HardCasesHaveNoNanAndNoInfinity) {
        },
        false},
       {"two concentric spheres",
-       [](Scene& s) { s.spheres.push_back({{0, 0, 0}, 0.5, 0}); }, false},
+       [](Scene& s) {
+         s.spheres.push_back({{0, 0, 0}, 0.5, 0});
+       },
+       false},
       {"the same sphere twice", [](Scene& s) { s.spheres.push_back(s.spheres[0]); }, false},
   };
   for (const auto& hard : cases)
@@ -273,7 +291,8 @@ TEST(Render, ReportsProgressUpToTheEnd) {
   std::atomic<double> largest{0};
   RenderOptions options;
   options.on_progress = [&](double fraction) {
-    for (double seen = largest; fraction > seen && !largest.compare_exchange_weak(seen, fraction);) {
+    for (double seen = largest;
+         fraction > seen && !largest.compare_exchange_weak(seen, fraction);) {
     }
   };
   render(canonical("head_on"), options);

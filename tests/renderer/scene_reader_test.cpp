@@ -35,7 +35,8 @@ std::string error_of(const std::string& text) {
 
 TEST(CanonicalScenes, AllReadAndWriteBackToTheSameScene) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(kRoot + "/reference_scenes/scenes")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(kRoot + "/reference_scenes/scenes")) {
     ++count;
     const Scene scene = read_scene(entry.path());
     EXPECT_FALSE(scene.lights.empty()) << entry.path();
@@ -83,7 +84,8 @@ struct BadScene {
 };
 
 TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
-  const std::string emitter = "<emitter type=\"directional\">\n  <vector name=\"direction\" value=\"";
+  const std::string emitter =
+      "<emitter type=\"directional\">\n  <vector name=\"direction\" value=\"";
   const BadScene bad[] = {
       {scene(emitter + "0,0\"/></emitter>"),
        "s.xml:4:35: direction '0,0' is not three numbers; allowed: -1e+09 to 1e+09"},
@@ -105,8 +107,9 @@ TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
        "s.xml:3:75: exponent '-8' is out of range; allowed: 0.001 to 1e+08"},
       {scene("<shape type=\"sphere\"><bsdf type=\"phong_rdf\"/></shape>"),
        "s.xml:3:23: <bsdf type=\"phong_rdf\"> needs the parameter 'exponent' (sharpness n)"},
-      {scene("<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
-             "<string name=\"lobe\" value=\"cs15\"/></bsdf></shape>"),
+      {scene(
+           "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
+           "<string name=\"lobe\" value=\"cs15\"/></bsdf></shape>"),
        "s.xml:3:106: unknown lobe 'cs15'; allowed: cosine, cs16; did you mean 'cs16'?"},
       {scene("<shape type=\"sphere\"><ref id=\"x\"/></shape>"),
        "s.xml:3:31: no <bsdf> has the id 'x'"},
@@ -122,8 +125,8 @@ TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
 }
 
 TEST(SceneReader, ReportsAllErrorsInOneRun) {
-  const std::string message = error_of(
-      scene("<emitter type=\"pint\"/>\n<emitter type=\"point\"/>\n<shape type=\"sphere\"/>\nhello"));
+  const std::string message = error_of(scene(
+      "<emitter type=\"pint\"/>\n<emitter type=\"point\"/>\n<shape type=\"sphere\"/>\nhello"));
   EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 3) << message;
   EXPECT_THAT(message, testing::HasSubstr("s.xml:3:"));
   EXPECT_THAT(message, testing::HasSubstr("s.xml:4:"));
@@ -149,8 +152,9 @@ TEST(SceneReader, RefusesTooManyPixelsInAll) {
 }
 
 TEST(SceneReader, ReadsNoEntitiesAndNothingFromOutside) {
-  EXPECT_THAT(error_of("<!DOCTYPE scene [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>" + scene("&x;")),
-              testing::HasSubstr("a DOCTYPE is not allowed"));
+  EXPECT_THAT(
+      error_of("<!DOCTYPE scene [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>" + scene("&x;")),
+      testing::HasSubstr("a DOCTYPE is not allowed"));
 }
 
 TEST(SceneReader, SurvivesBrokenXmlAndBinaryAndDeepNesting) {
@@ -168,9 +172,11 @@ TEST(SceneReader, SurvivesBrokenXmlAndBinaryAndDeepNesting) {
 TEST(SceneReader, BoundsTheNumberOfEverything) {
   std::string emitters;
   for (int i = 0; i <= kMaxLights; ++i)
-    emitters += "<emitter type=\"directional\"><vector name=\"direction\" value=\"0,0,1\"/></emitter>";
+    emitters +=
+        "<emitter type=\"directional\"><vector name=\"direction\" value=\"0,0,1\"/></emitter>";
   EXPECT_THAT(error_of(scene(emitters)), testing::HasSubstr("over 64 emitters"));
-  std::string shapes = "<bsdf type=\"phong_rdf\" id=\"m\"><float name=\"exponent\" value=\"8\"/></bsdf>";
+  std::string shapes =
+      "<bsdf type=\"phong_rdf\" id=\"m\"><float name=\"exponent\" value=\"8\"/></bsdf>";
   for (int i = 0; i <= kMaxSpheres; ++i) shapes += "<shape type=\"sphere\"><ref id=\"m\"/></shape>";
   EXPECT_THAT(error_of(scene(shapes)), testing::HasSubstr("over 1024 shapes"));
   EXPECT_THAT(error_of(std::string(kMaxSceneBytes + 1, ' ')), testing::HasSubstr("bytes; at most"));
