@@ -38,9 +38,10 @@ ExitCode run(const Options& options) {
 
   for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
   for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
-  fmt::print("{} cells: {} pass, {} differ, {} failed; {} pictures rendered, {} kept\n",
-             summary.cells, summary.pass, summary.differs, summary.failed, summary.rendered,
-             summary.kept);
+  fmt::print("{} cells: {} pass, {} differ, {} failed{}; {} pictures rendered, {} kept\n",
+             summary.cells, summary.pass, summary.differs, summary.failed,
+             summary.unchecked > 0 ? fmt::format(", {} not compared", summary.unchecked) : "",
+             summary.rendered, summary.kept);
   if (summary.failed > 0) return ExitCode::kEngine;
   return summary.differs > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
 }

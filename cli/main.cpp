@@ -3,6 +3,8 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <iostream>
 #include <new>
 
 #include "cli/commands.hpp"
@@ -23,15 +25,23 @@ constexpr char kFooter[] =
     "\n"
     "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing or "
     "failed,\n"
-    "130 interrupted.";
+    "70 a bug of ours, 130 interrupted.";
 
 /// One line a message line, so that every line can be grepped for.
 int fail(ExitCode code, std::string_view message) {
   while (!message.empty()) {
     const auto end = std::min(message.find('\n'), message.size());
-    fmt::print(stderr, "lobelia: {}\n", message.substr(0, end));
+    fmt::print(stderr, "lobelia: {}\n", printable(message.substr(0, end), 2000));
     message.remove_prefix(std::min(end + 1, message.size()));
   }
+  return int(code);
+}
+
+/// The exit code, once everything printed has arrived.
+int flushed(ExitCode code) {
+  std::cout.flush();  // CLI11 prints its help there
+  if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return fail(ExitCode::kOutput, "standard output: cannot write");
   return int(code);
 }
 
@@ -59,14 +69,15 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    if (error.get_exit_code() == 0) {  // --help and --version
+      app.exit(error);
+      return flushed(ExitCode::kSuccess);
+    }
     std::string help = "lobelia";
     for (const auto* command : app.get_subcommands()) help += " " + command->get_name();
     return fail(ExitCode::kUsage, fmt::format("{} (see {} --help)", error.what(), help));
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    return fail(ExitCode::kOutput, "standard output: cannot write");
-  return int(exit_code);
+  return flushed(exit_code);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One line on stderr that shows how far long work has come, on a terminal only.
+// One line on stderr that shows how far long work has come.
 #pragma once
 
 #include <chrono>

@@ -24,12 +24,20 @@ struct Options {
   SceneOverrides overrides;
 };
 
+void require_png(const std::filesystem::path& png, const std::filesystem::path& exr,
+                 const std::filesystem::path& record) {
+  if (png == exr || png == record)
+    throw Error(ExitCode::kUsage,
+                fmt::format("--png {}: is written by this command already", png.string()));
+  require_writable(png);
+}
+
 void run(const Options& options) {
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
   const auto record_path = checked_record_path(options.output);
 
-  if (!options.png.empty()) require_writable(options.png);
+  if (!options.png.empty()) require_png(options.png, options.output, record_path);
 
   ProgressLine progress(!options.quiet);
   RenderOptions render_options;

@@ -56,8 +56,11 @@ void SceneOverrides::add_to(CLI::App& command) {
 }
 
 void SceneOverrides::apply(Scene& scene) const {
-  for (auto& material : scene.materials) {
-    Highlight& highlight = material.highlight;
+  Highlight unused;  // wrong values are refused for a scene without materials too
+  std::vector<Highlight*> highlights{&unused};
+  for (auto& material : scene.materials) highlights.push_back(&material.highlight);
+  for (Highlight* const each : highlights) {
+    Highlight& highlight = *each;
     choose(model_, "--model", model_names(), find_model, highlight.model);
     choose(lobe_, "--lobe", lobe_names(), find_lobe, highlight.lobe);
     choose(normalisation_, "--normalisation", normalisation_names(), find_normalisation,

@@ -10,11 +10,11 @@ namespace lobelia {
 enum class ExitCode : int {
   kSuccess = 0,
   kDiffers =
-      1,        ///< it ran, and the answer is no: over a threshold, non-finite pixels, failed cells
-  kUsage = 2,   ///< the command line is wrong
-  kInput = 3,   ///< an input cannot be read, is invalid, or does not fit the other one
-  kOutput = 4,  ///< an output cannot be written
-  kEngine = 5,  ///< a reference engine is missing or failed
+      1,  ///< it ran, and the answer is no: over a threshold, non-finite pixels, cells that differ
+  kUsage = 2,         ///< the command line is wrong
+  kInput = 3,         ///< an input cannot be read, is invalid, or does not fit the other one
+  kOutput = 4,        ///< an output cannot be written
+  kEngine = 5,        ///< a reference engine is missing or failed, a cell could not be rendered
   kInternal = 70,     ///< a bug of ours
   kInterrupted = 130  ///< Ctrl-C
 };

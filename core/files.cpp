@@ -32,6 +32,30 @@ struct FileDescriptor {
               fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
 }
 
+bool names_directory(const fs::path& path) {
+  std::error_code ignored;  // open() will say what is wrong with the path
+  return fs::is_directory(path, ignored);
+}
+
+/// Where a write to `path` ends up: the file behind a symbolic link is replaced, not the link.
+/// Throws Error(kOutput) for what is there and is not a regular file: a rename would replace a
+/// device by a file.
+fs::path final_target(const fs::path& path) {
+  std::error_code ignored;
+  fs::path target = path;
+  if (fs::is_symlink(path, ignored)) {
+    target = fs::weakly_canonical(path, ignored);
+    if (target.empty()) output_error(path, ELOOP);
+  }
+  if (names_directory(target)) output_error(path, EISDIR);
+  const auto type = fs::status(target, ignored).type();
+  if (type != fs::file_type::regular && fs::exists(fs::file_status(type)) &&
+      type != fs::file_type::unknown)
+    throw Error(ExitCode::kOutput,
+                fmt::format("{}: cannot write: not a regular file", path.string()));
+  return target;
+}
+
 fs::path temporary_name(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
   return path.parent_path() /
@@ -67,8 +91,8 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
 }
 
 void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  if (fs::is_directory(path)) output_error(path, EISDIR);
-  const fs::path part = temporary_name(path);
+  const fs::path target = final_target(path);
+  const fs::path part = temporary_name(target);
   FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
   if (file.fd < 0) output_error(path, errno);
   const auto fail = [&](int error) {
@@ -86,7 +110,7 @@ void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
   if (::fsync(file.fd) != 0 && errno != EINVAL) fail(errno);
   const int closed = ::close(std::exchange(file.fd, -1));
   if (closed != 0) fail(errno);
-  if (::rename(part.c_str(), path.c_str()) != 0) fail(errno);
+  if (::rename(part.c_str(), target.c_str()) != 0) fail(errno);
 }
 
 void write_file(const fs::path& path, std::string_view text) {
@@ -94,8 +118,8 @@ void write_file(const fs::path& path, std::string_view text) {
 }
 
 void require_writable(const fs::path& path) {
-  if (path.filename().empty() || fs::is_directory(path)) output_error(path, EISDIR);
-  const fs::path part = temporary_name(path);
+  if (path.filename().empty()) output_error(path, EISDIR);
+  const fs::path part = temporary_name(final_target(path));
   const FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
   if (file.fd < 0) output_error(path, errno);
   ::unlink(part.c_str());
@@ -104,14 +128,19 @@ void require_writable(const fs::path& path) {
 void make_directories(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (!error && !fs::is_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error && !names_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
   if (error)
     throw Error(ExitCode::kOutput,
                 fmt::format("{}: cannot make the directory: {}", path.string(), error.message()));
 }
 
 TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (fs::temp_directory_path() / "lobelia-XXXXXX").string();
+  std::error_code error;
+  const fs::path parent = fs::temp_directory_path(error);
+  if (error)
+    throw Error(ExitCode::kOutput,
+                fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
+  std::string name = (parent / "lobelia-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
   path_ = name;
 }

@@ -5,6 +5,8 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -20,11 +22,27 @@ namespace {
 void check_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
     unreadable(path, "it has no pixels");
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+      spec.height != spec.full_height)
+    unreadable(path, "it is a crop: its data window differs from its display window");
   if (spec.width > kMaxImageSide || spec.height > kMaxImageSide ||
       std::int64_t{spec.width} * spec.height > kMaxImagePixels || spec.nchannels > 1024)
     unreadable(
         path, fmt::format("{} x {} pixels, {} channels; at most {} a side and {} in all are read",
                           spec.width, spec.height, spec.nchannels, kMaxImageSide, kMaxImagePixels));
+}
+
+/// Whether the values are display-encoded: what the file says, or else integers are and floats are
+/// not. A PNG that says "gamma 1/2.2" means sRGB: that is how its writers approximate it.
+bool is_srgb(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  if (space.empty()) return !spec.format.is_floating_point();
+  if (space == "sRGB") return true;
+  if (space == "Linear" || space == "linear" || space == "scene_linear") return false;
+  const float gamma = spec.get_float_attribute("oiio:Gamma", 1);
+  if (std::abs(gamma - 2.2f) < 0.05f) return true;
+  if (std::abs(gamma - 1.0f) < 0.01f) return false;
+  unreadable(path, fmt::format("its colour space is '{}'; sRGB and linear are read", space));
 }
 
 Image read(const std::filesystem::path& path) {
@@ -47,10 +65,7 @@ Image read(const std::filesystem::path& path) {
     unreadable(path, input->geterror());
   for (std::size_t i = 0; i < grey.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) image.values()[3 * i + c] = grey[i];
-  // Integer formats hold display-encoded values unless they say otherwise; float formats light.
-  const bool integer = spec.format.is_floating_point() == false;
-  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-  if (space == "sRGB" || (space.empty() && integer)) decode_srgb(image);
+  if (is_srgb(path, spec)) decode_srgb(image);
   return image;
 }
 

@@ -1,5 +1,7 @@
 #include "core/interrupt.hpp"
 
+#include <array>
+#include <atomic>
 #include <csignal>
 
 #include "core/error.hpp"
@@ -7,25 +9,46 @@
 namespace lobelia {
 namespace {
 
-volatile std::sig_atomic_t g_interrupted = 0;
+std::atomic<bool> g_interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
+              "a signal handler may not wait");
 
-void on_signal(int) { g_interrupted = 1; }
+/// Running groups, 0 where none; more at once than any engine starts. One that finds no place is
+/// still killed by whoever waits for it, only not by a second Ctrl-C.
+std::array<std::atomic<pid_t>, 256> g_groups{};
+
+void on_signal(int signal) {
+  if (!g_interrupted.exchange(true)) return;
+  // Whoever presses Ctrl-C twice means it.
+  for (auto& group : g_groups)
+    if (const pid_t pid = group) ::kill(-pid, SIGKILL);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
 
 }  // namespace
 
 void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = on_signal;
-  // The handler serves once: whoever presses Ctrl-C twice means it.
-  action.sa_flags = int(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
 }
 
-bool interrupted() { return g_interrupted != 0; }
+bool interrupted() { return g_interrupted; }
 
 void throw_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted");
+}
+
+InterruptibleGroup::InterruptibleGroup(pid_t group) {
+  for (int i = 0; i < int(g_groups.size()) && slot_ < 0; ++i) {
+    pid_t free = 0;
+    if (g_groups[std::size_t(i)].compare_exchange_strong(free, group)) slot_ = i;
+  }
+}
+
+InterruptibleGroup::~InterruptibleGroup() {
+  if (slot_ >= 0) g_groups[std::size_t(slot_)] = 0;
 }
 
 }  // namespace lobelia

@@ -1,13 +1,28 @@
 // Ctrl-C: a flag that long work looks at between steps.
 #pragma once
 
+#include <sys/types.h>
+
 namespace lobelia {
 
-/// Makes SIGINT and SIGTERM set the flag. A second SIGINT ends the process at once.
+/// Makes SIGINT, SIGTERM and SIGHUP set the flag. A second one ends the process at once, and the
+/// process groups that are registered with it.
 void catch_interrupts();
 /// True once the user has asked to stop.
 bool interrupted();
 /// Throws Error(kInterrupted) if interrupted().
 void throw_if_interrupted();
+
+/// Holds a child's process group where a second Ctrl-C finds it, for as long as this object lives.
+class InterruptibleGroup {
+ public:
+  explicit InterruptibleGroup(pid_t group);
+  ~InterruptibleGroup();
+  InterruptibleGroup(const InterruptibleGroup&) = delete;
+  InterruptibleGroup& operator=(const InterruptibleGroup&) = delete;
+
+ private:
+  int slot_ = -1;
+};
 
 }  // namespace lobelia

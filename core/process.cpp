@@ -8,13 +8,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <utility>
-
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
 
@@ -48,6 +46,20 @@ class SpawnActions {
   posix_spawnattr_t attributes_;
 };
 
+/// Ours, with `changes` ("NAME=value") in place of the variables of those names.
+std::vector<std::string> environment_with(const std::vector<std::string>& changes) {
+  std::vector<std::string> result = changes;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    const auto name = text.substr(0, text.find('=') + 1);
+    const bool changed = std::any_of(
+        changes.begin(), changes.end(),
+        [&](const std::string& change) { return std::string_view(change).starts_with(name); });
+    if (!changed) result.emplace_back(text);
+  }
+  return result;
+}
+
 /// Starts the program in a process group of its own, so that a time-out reaches its children too
 /// and the terminal's Ctrl-C is ours to pass on.
 pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& options, int output) {
@@ -59,12 +71,15 @@ pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& opt
     posix_spawn_file_actions_addchdir_np(spawn.actions(), options.working_directory.c_str());
   posix_spawnattr_setflags(spawn.attributes(), POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(spawn.attributes(), 0);
-  std::vector<char*> argv;
+  const std::vector<std::string> variables = environment_with(options.environment);
+  std::vector<char*> argv, envp;
+  for (const auto& variable : variables) envp.push_back(const_cast<char*>(variable.c_str()));
+  envp.push_back(nullptr);
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_t pid = 0;
   const int error =
-      posix_spawn(&pid, argv[0], spawn.actions(), spawn.attributes(), argv.data(), environ);
+      posix_spawn(&pid, argv[0], spawn.actions(), spawn.attributes(), argv.data(), envp.data());
   if (error != 0)
     throw Error(ExitCode::kEngine,
                 fmt::format("{}: cannot be started: {}", arguments.front(), std::strerror(error)));
@@ -130,6 +145,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
       if (!reaped) ::waitpid(pid, nullptr, 0);
     }
   } guard{pid, ends[0]};
+  const InterruptibleGroup interruptible(pid);
 
   ProcessResult result;
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started); };
@@ -170,13 +186,14 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
 
 fs::path find_program(const std::string& name) {
   const auto executable = [](const fs::path& path) {
-    return fs::is_regular_file(path) && ::access(path.c_str(), X_OK) == 0;
+    std::error_code ignored;  // a directory that may not be searched has no program for us
+    return fs::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
   };
   if (name.find('/') != name.npos) return executable(name) ? fs::absolute(name) : fs::path();
   const char* path = std::getenv("PATH");
   for (const auto& directory : split(path ? path : "", ":"))
     if (const fs::path candidate = fs::path(directory) / name; executable(candidate))
-      return candidate;
+      return fs::absolute(candidate);
   return {};
 }
 

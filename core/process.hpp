@@ -12,6 +12,7 @@ namespace lobelia {
 
 struct ProcessOptions {
   std::filesystem::path working_directory;  ///< empty: ours
+  std::vector<std::string> environment;     ///< "NAME=value", in place of ours or besides
   std::filesystem::path log;                ///< receives stdout and stderr; empty: dropped
   std::chrono::duration<double> timeout = std::chrono::hours(1);
   std::function<void(std::string_view)> on_line;  ///< called with each line of output, if set

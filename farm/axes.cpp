@@ -12,7 +12,8 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-/// Safe in a file name on every system: whatever else becomes '_'.
+/// Safe in a file name on every system: whatever else becomes '_', and so does a dot in front, which
+/// would hide the file or be a directory.
 std::string file_token(std::string text) {
   std::replace_if(
       text.begin(), text.end(),
@@ -20,6 +21,7 @@ std::string file_token(std::string text) {
         return !std::isalnum(c) && c != '_' && c != '.' && c != '+' && c != '-';
       },
       '_');
+  if (text.starts_with('.')) text.front() = '_';
   return text;
 }
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
+#include "compare/metrics/metric.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -14,14 +17,34 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-bool names_inputs(const fs::path& path, const std::string& kind, const Json& inputs) {
-  if (!fs::exists(path)) return false;
+/// The record at `path` if it is there and names these inputs; a broken one is made again.
+std::optional<Json> current_record(const fs::path& path, const std::string& kind,
+                                   const Json& inputs) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return std::nullopt;
   try {
-    const Json record = read_record(path, kind);
-    return record.contains("inputs") && record["inputs"] == inputs;
+    Json record = read_record(path, kind);
+    if (record.contains("inputs") && record["inputs"] == inputs) return record;
   } catch (const Error&) {
-    return false;  // a broken record is made again
   }
+  return std::nullopt;
+}
+
+std::uintmax_t size_of(const fs::path& path) {
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  return error ? 0 : size;
+}
+
+/// Every file that a cell's record names.
+std::vector<std::string> named_files(const Json& record) {
+  std::vector<std::string> files;
+  for (const char* list : {"images", "comparisons"})
+    for (const auto& entry : record.at(list))
+      for (const char* key : {"exr", "png", "record"})
+        if (entry.contains(key)) files.push_back(entry.at(key).get<std::string>());
+  if (record.contains("profile")) files.push_back(record.at("profile").get<std::string>());
+  return files;
 }
 
 }  // namespace
@@ -31,9 +54,15 @@ CellStore::CellStore(const fs::path& farm_directory, const Cell& cell)
       directory_(farm_directory / "cells" / cell.id),
       scene_xml_(scene_to_xml(cell.scene)) {}
 
-void CellStore::prepare() const {
+void CellStore::prepare(bool again) const {
   make_directories(directory_);
   remove_abandoned_files(directory_);
+  std::error_code ignored;
+  if (again) {
+    for (const auto& entry : fs::directory_iterator(directory_, ignored))
+      if (entry.path().extension() == ".json") fs::remove(entry.path(), ignored);
+  }
+  fs::remove(file("cell.json"), ignored);
   write_file(file("scene.xml"), scene_xml_);
 }
 
@@ -45,18 +74,33 @@ Json CellStore::inputs(const std::string& engine_version) const {
 
 bool CellStore::has_current_image(const std::string& engine, const std::string& kind,
                                   const Json& inputs) const {
-  return fs::exists(file(engine + ".exr")) && names_inputs(file(engine + ".json"), kind, inputs);
+  const auto record = current_record(file(engine + ".json"), kind, inputs);
+  return record && record->contains("bytes") && size_of(file(engine + ".exr")) > 0 &&
+         record->at("bytes") == size_of(file(engine + ".exr"));
 }
 
-bool CellStore::is_finished(const Json& inputs) const {
-  if (!names_inputs(file("cell.json"), "cell", inputs)) return false;
-  const Json record = read_record(file("cell.json"), "cell");
-  return record.contains("problems") && record["problems"].empty();
+std::string CellStore::finished_status(const Json& inputs) const {
+  const auto record = current_record(file("cell.json"), "cell", inputs);
+  if (!record) return "";
+  try {
+    if (!record->at("problems").empty()) return "";
+    for (const auto& name : named_files(*record))
+      if (size_of(file(name)) == 0) return "";
+    return record->at("status").get<std::string>();
+  } catch (const Json::exception&) {
+    return "";  // not a record that we wrote
+  }
+}
+
+void CellStore::discard_image(const std::string& engine) const {
+  std::error_code ignored;
+  fs::remove(file(engine + ".json"), ignored);
 }
 
 void CellStore::store_image(const std::string& engine, const Image& image,
-                            const ImageMetadata& metadata, const Json& record) const {
+                            const ImageMetadata& metadata, Json record) const {
   write_exr(file(engine + ".exr"), image, metadata);
+  record["bytes"] = size_of(file(engine + ".exr"));
   write_record(file(engine + ".json"), record);
 }
 
@@ -67,6 +111,8 @@ double brightest(const Image& image) {
   return peak;
 }
 
-double cell_exposure(const Image& ours) { return exposure_for_peak(brightest(ours)); }
+double cell_exposure(const Image& ours) {
+  return std::clamp(exposure_for_peak(brightest(ours)), -kMaxExposureStops, kMaxExposureStops);
+}
 
 }  // namespace lobelia

@@ -20,21 +20,26 @@ class CellStore {
   const Cell& cell() const { return *cell_; }
   std::filesystem::path file(const std::string& name) const { return directory_ / name; }
 
-  /// Makes the directory, writes scene.xml, removes what a killed run left behind.
-  void prepare() const;
+  /// Makes the directory, writes scene.xml, removes what a killed run left behind and the cell's
+  /// record, which speaks of results that are about to change. With `again` also the pictures'
+  /// records, so that none of them counts as current before it has been made again.
+  void prepare(bool again) const;
 
   /// {"program": ..., "scene": the scene's text}, and the engine with its version if there is one.
   Json inputs(const std::string& engine_version) const;
 
-  /// Whether `engine`'s picture is there and its record names these inputs.
+  /// Whether `engine`'s picture is there, whole, and its record names these inputs.
   bool has_current_image(const std::string& engine, const std::string& kind,
                          const Json& inputs) const;
-  /// Whether cell.json is there, without problems, and names these inputs.
-  bool is_finished(const Json& inputs) const;
+  /// The status in cell.json, if that is there without problems, names these inputs, and every file
+  /// that it names is there too; otherwise empty.
+  std::string finished_status(const Json& inputs) const;
+  /// Removes the record of a picture that turned out to be unreadable: it will be made again.
+  void discard_image(const std::string& engine) const;
 
   /// Writes the picture, then its record, because that says that the picture is there.
   void store_image(const std::string& engine, const Image& image, const ImageMetadata& metadata,
-                   const Json& record) const;
+                   Json record) const;
 
  private:
   const Cell* cell_;

@@ -26,8 +26,6 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kOurs[] = "lobelia";
-
 /// Counts steps and tells the caller, from any thread.
 class ProgressCounter {
  public:
@@ -79,24 +77,31 @@ class Farm {
   }
 
   FarmSummary run() {
-    make_directories(directory_);
-    require_writable(directory_ / "farm.json");
     find_engines();
-    try {
-      std::vector<std::size_t> unfinished;
-      for (std::size_t i = 0; i < cells_.size(); ++i) {
-        const Json inputs = cell_inputs(i);
-        if (!options_.again && stores_[i].is_finished(inputs))
-          keep_cell(i);
-        else
-          unfinished.push_back(i);
+    make_directories(directory_);
+    remove_abandoned_files(directory_);
+    std::vector<std::size_t> unfinished;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (!options_.again) status_[i] = stores_[i].finished_status(cell_inputs(i));
+      if (status_[i] != "missing" && !status_[i].empty()) {
+        keep_cell();
+      } else {
+        status_[i] = "missing";
+        unfinished.push_back(i);
       }
-      for (const std::size_t i : unfinished) stores_[i].prepare();
+    }
+    // Now as well as at the end: a run that is killed has its record too.
+    write_farm_record();
+    try {
+      for (const std::size_t i : unfinished) stores_[i].prepare(options_.again);
       render_ours(unfinished);
       render_references(unfinished);
       finish(unfinished);
-    } catch (const Error&) {
-      write_farm_record();
+    } catch (...) {
+      try {
+        write_farm_record();
+      } catch (const Error&) {  // the first failure is the one to tell
+      }
       throw;
     }
     write_farm_record();
@@ -118,6 +123,9 @@ class Farm {
       const EngineStatus& status = here.engine->status();
       if (status.available)
         here.version = status.version;
+      else if (program != options_.programs.end())  // asked for by its path: a mistake, not a lack
+        throw Error(ExitCode::kEngine,
+                    fmt::format("{}: {}", here.engine->info().title, status.why));
       else
         summary_.absent_engines.push_back(fmt::format("{} is left out: {}; to get it: {}",
                                                       here.engine->info().title, status.why,
@@ -132,8 +140,7 @@ class Farm {
     return inputs;
   }
 
-  void keep_cell(std::size_t i) {
-    status_[i] = read_record(stores_[i].file("cell.json"), "cell").value("status", "failed");
+  void keep_cell() {
     std::size_t pictures = 1;
     for (const auto& here : engines_) pictures += here.version.empty() ? 0 : 1;
     summary_.kept += pictures;
@@ -164,30 +171,34 @@ class Farm {
 
   /// Every engine in a thread of its own: they wait for processes, not for each other.
   void render_references(const std::vector<std::size_t>& unfinished) {
-    std::vector<std::thread> threads;
+    std::vector<std::vector<std::size_t>> todos(engines_.size());
     std::vector<std::exception_ptr> failures(engines_.size());
     for (std::size_t e = 0; e < engines_.size(); ++e) {
       if (engines_[e].version.empty()) {
         progress_.skip(unfinished.size());
         continue;
       }
-      std::vector<std::size_t> todo;
+      std::vector<std::size_t>& todo = todos[e];
       for (const std::size_t i : unfinished)
         if (options_.again || !stores_[i].has_current_image(engines_[e].name, "reference",
                                                             stores_[i].inputs(engines_[e].version)))
           todo.push_back(i);
       kept_pictures(unfinished.size() - todo.size());
       progress_.expect(engines_[e].name, todo.size());
-      if (todo.empty()) continue;
-      threads.emplace_back([this, e, todo, &failures] {
-        try {
-          render_with(engines_[e], todo);
-        } catch (...) {
-          failures[e] = std::current_exception();
-        }
-      });
     }
-    for (auto& thread : threads) thread.join();
+    {
+      std::vector<std::jthread> threads;
+      for (std::size_t e = 0; e < engines_.size(); ++e) {
+        if (todos[e].empty()) continue;
+        threads.emplace_back([this, e, &todos, &failures] {
+          try {
+            render_with(engines_[e], todos[e]);
+          } catch (...) {
+            failures[e] = std::current_exception();
+          }
+        });
+      }
+    }
     for (const auto& failure : failures)
       if (failure) std::rethrow_exception(failure);
   }
@@ -198,18 +209,16 @@ class Farm {
     ReferenceOptions options;
     options.threads = options_.threads;
     options.time_limit = options_.time_limit;
-    const fs::path logs = directory_ / (".logs-" + here.name);
-    make_directories(logs);
-    options.log_directory = logs;
+    const TemporaryDirectory logs;
+    options.log_directory = logs.path();
     here.engine->render(scenes, options, [&](std::size_t k, ReferenceResult result) {
       std::error_code none;  // an engine may have had nothing to say
-      fs::rename(logs / fmt::format("{}-{}.log", here.name, k),
-                 stores_[todo[k]].file(here.name + ".log"), none);
+      fs::copy_file(logs.path() / fmt::format("{}-{}.log", here.name, k),
+                    stores_[todo[k]].file(here.name + ".log"), fs::copy_options::overwrite_existing,
+                    none);
       store_reference(here, todo[k], std::move(result));
       progress_.step(here.name);
     });
-    std::error_code ignored;
-    fs::remove_all(logs, ignored);
   }
 
   void store_reference(const EngineHere& here, std::size_t i, ReferenceResult result) {
@@ -219,8 +228,10 @@ class Farm {
       return;
     }
     const std::string file = here.name + ".exr";
-    result.record["command"] = {"lobelia", "reference", "scene.xml", "--engine",
-                                here.name, "-o",        file};
+    Json command{"lobelia", "reference", "scene.xml", "--engine", here.name, "-o", file};
+    if (const auto program = options_.programs.find(here.name); program != options_.programs.end())
+      command.insert(command.end(), {"--program", program->second.string()});
+    result.record["command"] = std::move(command);
     result.record["image"] = {
         {"file", file}, {"width", result.image.width()}, {"height", result.image.height()}};
     const ImageMetadata metadata = reference_metadata(cells_[i].scene, result.record);
@@ -238,7 +249,14 @@ class Farm {
         if (!here.version.empty() &&
             stores_[i].has_current_image(here.name, "reference", stores_[i].inputs(here.version)))
           references.push_back(here.name);
-      status_[i] = finish_cell(stores_[i], references, problems_[i], cell_inputs(i));
+      try {
+        status_[i] = finish_cell(stores_[i], references, problems_[i], cell_inputs(i));
+      } catch (const Error& error) {
+        // A disk that is full ends the farm; whatever is wrong with this cell is its own result.
+        if (error.code() == ExitCode::kOutput) throw;
+        problems_[i].push_back({kOurs, error.what()});
+        status_[i] = "failed";
+      }
       progress_.step("comparing");
     });
   }
@@ -300,6 +318,7 @@ class Farm {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (status_[i] == "pass") ++summary_.pass;
       if (status_[i] == "differs") ++summary_.differs;
+      if (status_[i] == "unchecked") ++summary_.unchecked;
       if (status_[i] == "failed") ++summary_.failed;
       if (status_[i] == "missing") ++summary_.missing;
       for (const auto& problem : problems_[i])

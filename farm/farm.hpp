@@ -30,13 +30,15 @@ struct FarmOptions {
 
 struct FarmSummary {
   std::size_t cells = 0, pass = 0, differs = 0, failed = 0, missing = 0;
+  std::size_t unchecked = 0;                ///< cells with no engine to compare with
   std::size_t rendered = 0, kept = 0;       ///< pictures
   std::vector<std::string> absent_engines;  ///< sentences: which, why, how to get it
   std::vector<std::string> problems;        ///< "cell: engine: message"
 };
 
 /// Throws Error(kInterrupted) on Ctrl-C, after farm.json has been written with what is done;
-/// Error(kOutput) if the directory cannot be written.
+/// Error(kOutput) if the directory cannot be written; Error(kEngine) if one of `programs` is not
+/// the engine that it should be.
 FarmSummary run_farm(const Grid& grid, const std::filesystem::path& directory,
                      const FarmOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include "compare/compare.hpp"
 #include "core/colour.hpp"
+#include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "farm/agreement.hpp"
 #include "farm/profile_scene.hpp"
@@ -10,13 +11,20 @@
 namespace lobelia {
 namespace {
 
-constexpr char kOurs[] = "lobelia";
-
 Json image_entry(const std::string& engine) {
   return {{"engine", engine},
           {"exr", engine + ".exr"},
           {"png", engine + ".png"},
           {"record", engine + ".json"}};
+}
+
+Image read_or_discard(const CellStore& store, const std::string& engine) {
+  try {
+    return read_image(store.file(engine + ".exr"));
+  } catch (const Error&) {
+    store.discard_image(engine);
+    throw;
+  }
 }
 
 /// Writes the comparison with one reference; returns its entry in cell.json and its verdict.
@@ -45,12 +53,17 @@ std::pair<Json, Verdict> compare_with(const CellStore& store, const std::string&
 }  // namespace
 
 std::string finish_cell(const CellStore& store, const std::vector<std::string>& references,
-                        const std::vector<CellProblem>& problems, const Json& inputs) {
+                        std::vector<CellProblem>& problems, const Json& inputs) {
   const Cell& cell = store.cell();
   std::vector<std::pair<std::string, Image>> pictures;
-  pictures.emplace_back(kOurs, read_image(store.file(std::string(kOurs) + ".exr")));
-  for (const auto& engine : references)
-    pictures.emplace_back(engine, read_image(store.file(engine + ".exr")));
+  pictures.emplace_back(kOurs, read_or_discard(store, kOurs));
+  for (const auto& engine : references) {
+    try {
+      pictures.emplace_back(engine, read_or_discard(store, engine));
+    } catch (const Error& error) {
+      problems.push_back({engine, error.what()});
+    }
+  }
   const Image& ours = pictures.front().second;
   const double exposure = cell_exposure(ours);
 
@@ -58,9 +71,11 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   record["id"] = cell.id;
   record["axes"] = Json::object();
   for (const auto& [name, value] : cell.axes) record["axes"][name] = value;
-  std::string status = problems.empty() ? "pass" : "failed";
+  std::string status = !problems.empty() ? "failed" : pictures.size() > 1 ? "pass" : "unchecked";
   record["status"] = status;  // keeps its place near the top
-  record["highlight"] = highlight_record(cell.scene.materials.front().highlight);
+  if (!cell.scene.spheres.empty())
+    record["highlight"] = highlight_record(
+        cell.scene.materials.at(std::size_t(cell.scene.spheres.front().material)).highlight);
   record["exposureStops"] = exposure;
   record["images"] = Json::array();
   record["comparisons"] = Json::array();

@@ -8,13 +8,17 @@
 
 namespace lobelia {
 
+inline constexpr char kOurs[] = "lobelia";  ///< our name among the engines
+
 struct CellProblem {
   std::string engine, message;
 };
 
 /// Compares our picture with each of `references` (engines whose pictures are there) and writes
-/// cell.json. Returns the cell's status: "pass", "differs" or "failed" (if there are problems).
+/// cell.json. Returns the cell's status: "pass", "differs", "failed" (if there are problems) or
+/// "unchecked" (no reference). A reference that cannot be read is a problem, added to `problems`;
+/// throws Error(kInput) if ours cannot. What cannot be read is discarded, to be made again.
 std::string finish_cell(const CellStore& store, const std::vector<std::string>& references,
-                        const std::vector<CellProblem>& problems, const Json& inputs);
+                        std::vector<CellProblem>& problems, const Json& inputs);
 
 }  // namespace lobelia

@@ -18,6 +18,8 @@ namespace lobelia {
 namespace {
 
 constexpr std::size_t kMaxGridBytes = 1 << 20;
+constexpr std::size_t kMaxAxisValues = 10000;
+constexpr std::size_t kMaxParts = 10000000;
 constexpr std::string_view kGridFormatVersion = "1";
 constexpr std::string_view kElements[] = {"scene", "film", "axis", "engine"};
 
@@ -120,17 +122,26 @@ class GridReader {
       return;
     }
     Axis axis{name, {}};
-    std::set<std::string> tokens;
+    std::set<std::string> texts, tokens;
     for (const auto& text : split(values, ", \t\n\r")) {
       try {
+        // By the text first, so that a file named a thousand times is read once.
+        if (!texts.insert(text).second)
+          throw std::runtime_error(
+              fmt::format("'{}' stands twice on the axis '{}'", printable(text), name));
+        if (texts.size() > kMaxAxisValues) break;
         axis.values.push_back(kind->parse(text, directory_));
         if (!tokens.insert(axis.values.back().token).second)
-          source_.error(node.attribute("values"), node,
-                        fmt::format("'{}' stands twice on the axis '{}'", printable(text), name));
+          throw std::runtime_error(
+              fmt::format("'{}' would have the same file name as another value of the axis '{}'",
+                          printable(text), name));
       } catch (const std::runtime_error& error) {
         source_.error(node.attribute("values"), node, error.what());
       }
     }
+    if (texts.size() > kMaxAxisValues)
+      source_.error(node, fmt::format("over {} values on the axis '{}'; allowed: {}",
+                                      kMaxAxisValues, name, kMaxAxisValues));
     if (axis.values.empty())
       source_.error(node,
                     fmt::format("the axis '{}' has no values; allowed: {}", name, kind->allowed));
@@ -159,6 +170,13 @@ class GridReader {
       source_.error(root, fmt::format("over {} cells; allowed: {}", kMaxCells, kMaxCells));
       return;
     }
+    // Every cell holds its scene.
+    const Scene& scene = grid_.scene;
+    const std::size_t parts = scene.spheres.size() + scene.materials.size() + scene.lights.size();
+    if (count * parts > kMaxParts)
+      source_.error(root, fmt::format("{} cells of {} spheres, materials and lights each; allowed: "
+                                      "{} in all",
+                                      count, parts, kMaxParts));
   }
 
   XmlSource& source_;

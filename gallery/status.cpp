@@ -11,6 +11,8 @@ const StatusInfo& info(CellStatus status) {
       "All pictures are there, but at least one number is over its limit."};
   static constexpr StatusInfo kFailed{"failed", "failed", "✕",
                                       "A picture could not be rendered, or could not be compared."};
+  static constexpr StatusInfo kUnchecked{"unchecked", "not compared", "○",
+                                         "Rendered by us; no other engine was there."};
   static constexpr StatusInfo kMissing{
       "missing", "not done", "…",
       "Not done yet: the farm was stopped before it came to this cell."};
@@ -23,6 +25,8 @@ const StatusInfo& info(CellStatus status) {
       return kDiffers;
     case CellStatus::kFailed:
       return kFailed;
+    case CellStatus::kUnchecked:
+      return kUnchecked;
     case CellStatus::kMissing:
       return kMissing;
     case CellStatus::kUnreadable:

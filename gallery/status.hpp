@@ -8,11 +8,11 @@
 namespace lobelia::gallery {
 
 /// As in farm.json, and kUnreadable for a cell whose own record cannot be read.
-enum class CellStatus { kPass, kDiffers, kFailed, kMissing, kUnreadable };
+enum class CellStatus { kPass, kDiffers, kFailed, kUnchecked, kMissing, kUnreadable };
 
-inline constexpr std::array<CellStatus, 5> kCellStatuses = {
-    CellStatus::kPass, CellStatus::kDiffers, CellStatus::kFailed, CellStatus::kUnreadable,
-    CellStatus::kMissing};
+inline constexpr std::array<CellStatus, 6> kCellStatuses = {
+    CellStatus::kPass,      CellStatus::kDiffers,    CellStatus::kFailed,
+    CellStatus::kUnchecked, CellStatus::kUnreadable, CellStatus::kMissing};
 
 struct StatusInfo {
   std::string_view name;     ///< "pass", as in records; also the class in style.css

@@ -80,6 +80,13 @@ void require_available(const EngineInfo& engine, const EngineStatus& status) {
                                                engine.title, status.why, engine.install_hint));
 }
 
+std::vector<std::string> private_home(const std::filesystem::path& directory) {
+  std::vector<std::string> environment;
+  for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"})
+    environment.push_back(fmt::format("{}={}", name, directory.string()));
+  return environment;
+}
+
 std::string last_words(const std::string& output_tail) {
   auto lines = split(output_tail, "\n");
   // Progress explains nothing: our script's messages and Cycles' frames.

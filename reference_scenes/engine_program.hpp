@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +25,10 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
 
 /// Error(kEngine) with the reason and how to install it, unless it is available.
 void require_available(const EngineInfo& engine, const EngineStatus& status);
+
+/// Environment in which an engine finds no settings of the user's, which might alter its pictures, and
+/// leaves no caches of its own behind.
+std::vector<std::string> private_home(const std::filesystem::path& directory);
 
 /// Of an engine's output the words that say most about a failure, in one line.
 std::string last_words(const std::string& output_tail);

@@ -53,7 +53,7 @@ struct Highlight {
   ModelId model;
   LobeId lobe;
   Normalisation normalisation = Normalisation::kExact;
-  double exponent = 64;  ///< n, (0, 1e8]
+  double exponent = 64;  ///< n, kMinExponent to kMaxExponent
 };
 
 inline constexpr double kMinExponent = 1e-3;

@@ -120,12 +120,12 @@ class BlenderRun {
     const std::size_t waited = waiting_.size();
     ProcessOptions process;
     process.working_directory = directory_.path();
+    process.environment = private_home(directory_.path());
     // It starts no scene after one time limit, and each scene has an alarm of its own; this is for
     // a Blender that never comes to that.
     process.timeout = 2 * options_.time_limit;
     process.on_line = [&](std::string_view line) { take_line(line); };
     ProcessResult ended = run_process(arguments, process);
-    if (failure_) std::rethrow_exception(failure_);
     if (ended.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
 
     if (current_) {  // died with a scene in its hands: that scene's result, and no one else's
@@ -139,15 +139,10 @@ class BlenderRun {
     }
   }
 
-  /// Called while run_process waits for Blender, so nothing may be thrown through it.
+  /// What it throws (a full disk, say) ends Blender and comes out of run_process.
   void take_line(std::string_view line) {
-    if (failure_) return;
-    try {
-      log_.append(line).append("\n");
-      if (line.starts_with("lobelia: ")) take_message(split(line, " "));
-    } catch (...) {
-      failure_ = std::current_exception();
-    }
+    log_.append(line).append("\n");
+    if (line.starts_with("lobelia: ")) take_message(split(line, " "));
   }
 
   /// "lobelia: begin NAME", "lobelia: done NAME SECONDS" or "lobelia: failed NAME WHY".
@@ -209,7 +204,6 @@ class BlenderRun {
   std::deque<std::size_t> waiting_;
   std::optional<std::size_t> current_;  ///< begun and not done
   std::string command_, log_;           ///< of the process at work, since the last scene
-  std::exception_ptr failure_;          ///< thrown by on_result
 };
 
 class Blender final : public Engine {

@@ -113,6 +113,7 @@ PassResult Povray::run_pass(const std::string& stem, const PovrayPass& pass, con
   const auto arguments = povray_arguments(status_.program.string(), stem, film, threads);
   ProcessOptions process;
   process.working_directory = directory_;
+  process.environment = private_home(directory_);
   process.timeout = options.time_limit;
   process.log = directory_ / (stem + ".log");
   const ProcessResult ended = run_process(arguments, process);

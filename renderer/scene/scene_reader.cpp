@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -257,6 +258,14 @@ class SceneReader {
       source_.error(node, "<sensor> needs <transform name=\"to_world\"> with a <lookat> in it");
   }
 
+  /// Whether one more may be read; says so once where not. What is over the limit is not looked at.
+  bool within(pugi::xml_node node, std::string_view what, int limit, int seen) {
+    if (seen < limit) return true;
+    if (over_limit_.insert(std::string(what)).second)
+      source_.error(node, fmt::format("over {} {}; allowed: {}", limit, what, limit));
+    return false;
+  }
+
   bool once(pugi::xml_node node, int& count) {
     if (++count > 1) source_.error(node, fmt::format("a second <{}>; one is allowed", node.name()));
     return count == 1;
@@ -322,13 +331,12 @@ class SceneReader {
   }
 
   void read_emitter(pugi::xml_node node) {
+    if (!within(node, "emitters", kMaxLights, emitters_seen_)) return;
+    ++emitters_seen_;
     source_.check_attributes(node, {"type", "id"});
     static constexpr ElementFormat kEmitters[] = {kDirectional, kPoint};
     const ElementFormat* format = format_of(node, kEmitters);
     if (!format) return;
-    if (int(scene_.lights.size()) == kMaxLights)
-      source_.error(node, fmt::format("over {} emitters; allowed: {}", kMaxLights, kMaxLights));
-    if (int(scene_.lights.size()) >= kMaxLights) return;
     const Values values = read_parameters(node, format->parameters, {});
     if (format->type == kPoint.type) {
       scene_.lights.push_back(PointLight{values.vec3("position"), values.rgb("intensity")});
@@ -343,6 +351,7 @@ class SceneReader {
 
   /// Returns the material's index, or 0 after an error.
   int add_material(pugi::xml_node node, bool needs_id) {
+    if (!within(node, "materials", kMaxMaterials, materials_seen_)) return 0;
     source_.check_attributes(node, {"type", "id"});
     std::vector<ElementFormat> formats;
     for (const auto& model : models())
@@ -364,9 +373,6 @@ class SceneReader {
       material.specular_reflectance = values.rgb("specular_reflectance");
       material.diffuse_reflectance = values.rgb("diffuse_reflectance");
     }
-    if (materials_seen_ == kMaxMaterials + 1)
-      source_.error(node,
-                    fmt::format("over {} materials; allowed: {}", kMaxMaterials, kMaxMaterials));
     scene_.materials.push_back(std::move(material));
     return materials_seen_ - 1;
   }
@@ -385,6 +391,8 @@ class SceneReader {
   }
 
   void read_shape(pugi::xml_node node) {
+    if (!within(node, "shapes", kMaxSpheres, shapes_seen_)) return;
+    ++shapes_seen_;
     source_.check_attributes(node, {"type", "id"});
     if (!format_of(node, std::span(&kSphere, 1))) return;
     const Values values = read_parameters(node, kSphere.parameters, {"bsdf", "ref"});
@@ -397,9 +405,7 @@ class SceneReader {
       if (tag == "ref" && one_material(child, materials)) sphere.material = refer(child);
     }
     if (materials == 0) source_.error(node, "<shape> needs a <bsdf> or a <ref id=\"...\"/> to one");
-    if (int(scene_.spheres.size()) == kMaxSpheres)
-      source_.error(node, fmt::format("over {} shapes; allowed: {}", kMaxSpheres, kMaxSpheres));
-    if (int(scene_.spheres.size()) <= kMaxSpheres) scene_.spheres.push_back(sphere);
+    scene_.spheres.push_back(sphere);
   }
 
   bool one_material(pugi::xml_node node, int& count) {
@@ -413,7 +419,8 @@ class SceneReader {
     const auto found = material_by_id_.find(id);
     if (found != material_by_id_.end()) return found->second;
     std::vector<std::string_view> ids;
-    for (const auto& [known, index] : material_by_id_) ids.push_back(known);
+    if (!source_.full())
+      for (const auto& [known, index] : material_by_id_) ids.push_back(known);
     if (!id.empty())
       source_.error(
           node.attribute("id"), node,
@@ -424,7 +431,8 @@ class SceneReader {
   XmlSource& source_;
   Scene scene_;
   std::map<std::string, int> material_by_id_;
-  int sensors_ = 0, materials_seen_ = 0;
+  std::set<std::string> over_limit_;
+  int sensors_ = 0, emitters_seen_ = 0, materials_seen_ = 0, shapes_seen_ = 0;
 };
 
 }  // namespace

@@ -56,6 +56,8 @@ void XmlSource::error(pugi::xml_attribute where, pugi::xml_node of, const std::s
   note(inside ? value - parsed_.data() : of.offset_debug(), message);
 }
 
+bool XmlSource::full() const { return errors_.size() >= kMaxErrors; }
+
 void XmlSource::throw_if_errors() const {
   if (errors_.empty()) return;
   auto sorted = errors_;

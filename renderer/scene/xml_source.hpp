@@ -21,6 +21,8 @@ class XmlSource {
   /// Notes "file:line:column: message".
   void error(pugi::xml_node where, const std::string& message);
   void error(pugi::xml_attribute where, pugi::xml_node of, const std::string& message);
+  /// So many errors that further ones are only counted: not worth a long search for suggestions.
+  bool full() const;
   /// Throws Error(kInput) with the errors noted, one a line in the file's order, if there is any.
   void throw_if_errors() const;
 

@@ -54,6 +54,8 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"render", ".", "-o", "a.exr"}, 3, "not a regular file"},
       {{"render", broken, "-o", "a.exr"}, 3, "broken.xml:2:"},
       {{"render", scene, "-o", "a.png"}, 2, "must end in .exr"},
+      {{"render", scene, "-o", "a.exr", "--png", "a.exr"}, 2, "is written by this command already"},
+      {{"render", scene, "-o", std::string(300, 'x') + ".exr"}, 4, "File name too long"},
       {{"render", scene, "-o", "no/such/a.exr"}, 4, "no/such/a.exr: cannot write: No such file"},
       {{"render", scene, "-o", "a.exr", "--exponent", "-3"},
        2,
@@ -91,7 +93,7 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
 
 TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
   const TemporaryDirectory directory;
-  for (const char* command : {"models", "models --json", "scene-format"}) {
+  for (const char* command : {"models", "models --json", "scene-format", "--help", "farm --help"}) {
     const auto result =
         run_shell(std::string("\"$LOBELIA\" ") + command + " >/dev/full", directory.path());
     EXPECT_EQ(result.exit_code, 4) << command << result.output_tail;

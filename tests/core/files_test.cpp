@@ -56,6 +56,31 @@ TEST(WriteFile, OverADirectoryIsAnOutputError) {
   EXPECT_EQ(code_of([&] { write_file(directory.path(), "x"); }), ExitCode::kOutput);
 }
 
+TEST(WriteFile, ThroughALinkReplacesTheFileBehindIt) {
+  const TemporaryDirectory directory;
+  write_file(directory.path() / "real", "old");
+  fs::create_symlink("real", directory.path() / "link");
+  write_file(directory.path() / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(directory.path() / "link"));
+  EXPECT_EQ(read_file(directory.path() / "real", 100), "new");
+}
+
+TEST(WriteFile, DoesNotReplaceAPipeOrADevice) {
+  const TemporaryDirectory directory;
+  const auto pipe = directory.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(code_of([&] { require_writable(pipe); }), ExitCode::kOutput);
+  EXPECT_EQ(code_of([&] { write_file(pipe, "x"); }), ExitCode::kOutput);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST(WriteFile, WithANameThatNoSystemTakesIsAnOutputError) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / std::string(300, 'x');
+  EXPECT_EQ(code_of([&] { write_file(path, "x"); }), ExitCode::kOutput);
+  EXPECT_EQ(code_of([&] { require_writable(path); }), ExitCode::kOutput);
+}
+
 TEST(WriteFile, ThatDoesNotFitLeavesTheOldFileAndNoPart) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt";

@@ -64,6 +64,13 @@ TEST(Process, ThatIsMissingIsAnEngineError) {
   }
 }
 
+TEST(Process, SeesOurEnvironmentWithTheChangesAsked) {
+  ProcessOptions options;
+  options.environment = {"HOME=/somewhere", "LOBELIA_TEST=a b"};
+  const auto result = run_process(shell("echo \"$HOME|$LOBELIA_TEST|${PATH:+path}\""), options);
+  EXPECT_EQ(result.output_tail, "/somewhere|a b|path\n");
+}
+
 TEST(Process, WritesItsOutputToTheLog) {
   const TemporaryDirectory directory;
   ProcessOptions options;

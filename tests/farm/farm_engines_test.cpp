@@ -1,23 +1,24 @@
 // The farm with the real engines.
 #include "farm_fixture.hpp"
 #include "reference_scenes/engine.hpp"
+#include "tests/reference_scenes/require_engine.hpp"
 
 namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool engines_are_here() {
-  for (const auto& engine : engine_infos())
-    if (!make_engine(engine.name, {})->status().available) {
-      if (std::getenv("LOBELIA_REQUIRE_ENGINES")) ADD_FAILURE() << engine.title << " is missing";
-      return false;
+class FarmWithEngines : public FarmTest {
+ protected:
+  void SetUp() override {
+    for (const auto& engine : engine_infos()) {
+      require_engine(*make_engine(engine.name, {}));
+      if (IsSkipped() || HasFatalFailure()) return;
     }
-  return true;
-}
+  }
+};
 
-TEST_F(FarmTest, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
-  if (!engines_are_here()) GTEST_SKIP() << "needs POV-Ray and Blender";
+TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
   const Grid real = grid("16, 1024", "<engine name=\"povray\"/><engine name=\"blender\"/>");
   FarmSummary summary = run_farm(real, out(), {});
   EXPECT_EQ(summary.pass, 2u);
@@ -32,7 +33,6 @@ TEST_F(FarmTest, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
     }
   EXPECT_EQ(run_farm(real, out(), {}).rendered, 0u);
   fs::remove(in_cell("n16", "povray.exr"));
-  fs::remove(in_cell("n16", "cell.json"));
   summary = run_farm(real, out(), {});
   EXPECT_EQ(summary.rendered, 1u);
   EXPECT_EQ(summary.pass, 2u);

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "farm/cell_store.hpp"
 #include "farm_fixture.hpp"
 
 namespace lobelia {
@@ -9,18 +10,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// An empty $PATH, for as long as it lives.
+class WithoutPrograms {
+ public:
+  WithoutPrograms() { ::setenv("PATH", "/nonexistent", 1); }
+  ~WithoutPrograms() { ::setenv("PATH", path_.c_str(), 1); }
+
+ private:
+  std::string path_ = std::getenv("PATH");
+};
+
 constexpr char kBothEngines[] = "<engine name=\"povray\"/><engine name=\"blender\"/>";
 
 TEST_F(FarmTest, WritesEveryFileThatTheRecordsPromise) {
   const FarmSummary summary = run_farm(grid("16, 32"), out(), {});
   EXPECT_EQ(summary.cells, 2u);
-  EXPECT_EQ(summary.pass, 2u);
+  EXPECT_EQ(summary.unchecked, 2u) << "no engine was asked to compare with";
   EXPECT_EQ(summary.rendered, 2u);
   const Json farm = read_record(out() / "farm.json", "farm");
   EXPECT_EQ(farm["title"], "A small grid");
   ASSERT_EQ(farm["cells"].size(), 2u);
   for (const auto& cell : farm["cells"]) {
-    EXPECT_EQ(cell["status"], "pass");
+    EXPECT_EQ(cell["status"], "unchecked");
     const std::string id = cell["id"];
     const Json record = cell_record(id);
     for (const auto& image : record["images"])
@@ -49,10 +60,14 @@ TEST_F(FarmTest, ASecondRunDoesOnlyWhatIsMissing) {
   EXPECT_EQ(summary.kept, 2u);
   summary = run_farm(grid("16, 32, 64"), out(), {});
   EXPECT_EQ(summary.rendered, 1u);
-  EXPECT_EQ(summary.pass, 3u);
+  EXPECT_EQ(summary.unchecked, 3u);
   fs::remove(in_cell("n32", "lobelia.exr"));
-  fs::remove(in_cell("n32", "cell.json"));
   EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 1u);
+  for (const char* file : {"lobelia.png", "profile.json", "cell.json"}) {
+    fs::remove(in_cell("n32", file));
+    EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 0u) << file;
+    EXPECT_TRUE(fs::exists(in_cell("n32", file))) << file;
+  }
   EXPECT_EQ(fs::last_write_time(in_cell("n16", "lobelia.exr")), before);
 }
 
@@ -67,6 +82,45 @@ TEST_F(FarmTest, ABrokenRecordOrAChangedSceneIsMadeAgain) {
   EXPECT_EQ(read_image(in_cell("n16", "lobelia.exr")).width(), 50);
 }
 
+TEST_F(FarmTest, ATruncatedPictureIsMadeAgain) {
+  run_farm(grid("16, 32"), out(), {});
+  const std::string whole = read_file(in_cell("n16", "lobelia.exr"), 1 << 24);
+  write_file(in_cell("n16", "lobelia.exr"), whole.substr(0, whole.size() / 2));
+  fs::remove(in_cell("n16", "cell.json"));
+  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 1u);
+  EXPECT_EQ(read_file(in_cell("n16", "lobelia.exr"), 1 << 24), whole);
+}
+
+TEST_F(FarmTest, ACorruptPictureFailsItsCellAloneAndIsMadeAgain) {
+  run_farm(grid("16, 32"), out(), {});
+  const auto size = fs::file_size(in_cell("n16", "lobelia.exr"));
+  write_file(in_cell("n16", "lobelia.exr"), std::string(size, 'x'));  // of the right length
+  fs::remove(in_cell("n16", "cell.json"));
+  const FarmSummary summary = run_farm(grid("16, 32"), out(), {});
+  EXPECT_EQ(summary.failed, 1u);
+  EXPECT_EQ(summary.unchecked, 1u);
+  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).unchecked, 2u);
+}
+
+TEST_F(FarmTest, ASceneWithNothingInItAndOneThatIsAlmostBlackAreCellsToo) {
+  Grid empty = grid("16");
+  empty.scene.spheres.clear();
+  empty.scene.materials.clear();
+  EXPECT_EQ(run_farm(empty, out(), {}).unchecked, 1u);
+  Grid dark = grid("16");
+  std::get<DirectionalLight>(dark.scene.lights[0]).irradiance = {1e-38, 1e-38, 1e-38};
+  EXPECT_EQ(run_farm(dark, out(), {}).unchecked, 1u);
+  EXPECT_EQ(cell_record("n16")["exposureStops"], 100);
+}
+
+TEST_F(FarmTest, AnInterruptedAgainIsTakenUpWhereItStopped) {
+  const Grid two = grid("16, 32");
+  run_farm(two, out(), {});
+  const auto cells = cells_of(two);
+  CellStore(out(), cells.front()).prepare(true);  // what --again does first
+  EXPECT_EQ(run_farm(two, out(), {}).rendered, 1u);
+}
+
 TEST_F(FarmTest, AgainMakesEverythingAgain) {
   run_farm(grid("16"), out(), {});
   FarmOptions options;
@@ -74,11 +128,23 @@ TEST_F(FarmTest, AgainMakesEverythingAgain) {
   EXPECT_EQ(run_farm(grid("16"), out(), options).rendered, 1u);
 }
 
-TEST_F(FarmTest, AnAbsentEngineIsLeftOutAndNamedWithTheWayToGetIt) {
+TEST_F(FarmTest, AProgramThatIsNotThereIsTheUsersMistake) {
   FarmOptions options;
-  options.programs = {{"povray", "/no/such/povray"}, {"blender", "/no/such/blender"}};
-  const FarmSummary summary = run_farm(grid("16", kBothEngines), out(), options);
-  EXPECT_EQ(summary.pass, 1u);
+  options.programs = {{"povray", "/no/such/povray"}};
+  try {
+    run_farm(grid("16", "<engine name=\"povray\"/>"), out(), options);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kEngine);
+    EXPECT_THAT(error.what(), testing::HasSubstr("/no/such/povray"));
+  }
+  EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(FarmTest, AnAbsentEngineIsLeftOutAndNamedWithTheWayToGetIt) {
+  const WithoutPrograms nothing_in_path;
+  const FarmSummary summary = run_farm(grid("16", kBothEngines), out(), {});
+  EXPECT_EQ(summary.unchecked, 1u);
   ASSERT_EQ(summary.absent_engines.size(), 2u);
   EXPECT_THAT(summary.absent_engines[0], testing::HasSubstr("apt-get install povray"));
   const Json farm = read_record(out() / "farm.json", "farm");
@@ -90,8 +156,8 @@ TEST_F(FarmTest, AnEngineThatFailsIsThatCellsResultAndNothingElses) {
   FarmOptions options;
   options.programs = {{"povray", script("povray",
                                         "echo 'POV-Ray 3.7.0.10' >&2\n"
-                                        "case \"$*\" in *version*) exit 0;; esac\nexit 3\n")},
-                      {"blender", "/no/such/blender"}};
+                                        "case \"$*\" in *version*) exit 0;; esac\nexit 3\n")}};
+  const WithoutPrograms nothing_in_path;
   const FarmSummary summary = run_farm(grid("16, 32", kBothEngines), out(), options);
   EXPECT_EQ(summary.failed, 2u);
   ASSERT_EQ(summary.problems.size(), 2u);

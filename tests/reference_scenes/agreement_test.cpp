@@ -160,10 +160,14 @@ TEST_P(Agreement, OfTheSmallestPictureAndOfWideOnes) {
 
 TEST_P(Agreement, SceneWithoutLightIsBlack) {
   const Scene scene = sphere_scene({"modified_phong", "cosine", "exact", 8}, {}, 16);
+  int results = 0;
   engine_->render(std::span(&scene, 1), {}, [&](std::size_t, ReferenceResult result) {
-    ASSERT_EQ(result.error, "");
+    ++results;
+    EXPECT_EQ(result.error, "");
+    EXPECT_EQ(result.image.pixel_count(), 16u * 16);
     for (const float value : result.image.values()) EXPECT_EQ(value, 0.0f);
   });
+  EXPECT_EQ(results, 1);
 }
 
 TEST_P(Agreement, SamplesAreRefusedAndTheNextSceneIsRendered) {

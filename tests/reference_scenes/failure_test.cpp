@@ -55,6 +55,7 @@ class FakeEngine : public testing::TestWithParam<std::string> {
     EXPECT_FALSE(engine->status().available);
     try {
       engine->render({}, {}, [](std::size_t, ReferenceResult) {});
+      ADD_FAILURE() << "an engine that is not available rendered";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::kEngine);
       EXPECT_THAT(error.what(), HasSubstr(engine->status().why));
