@@ -71,8 +71,7 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
         ->type_name("PATH");
   command->footer(
       "What is there and current is kept: a second run does only what is missing. Ctrl-C leaves\n"
-      "nothing half-written. An engine that is not installed is left out, and the records say "
-      "so.\n\n"
+      "nothing half-written. An engine that is not installed is left out, as the records say.\n\n"
       "Exit codes: 0 every cell agrees, 1 some differ, 3 bad grid, 4 cannot write, 5 some cell\n"
       "could not be rendered, 130 interrupted.\n\n"
       "Example: lobelia farm reference_scenes/grids/sphere_grid.xml -o out/gallery\n"

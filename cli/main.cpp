@@ -23,9 +23,8 @@ constexpr char kFooter[] =
     "  lobelia reference reference_scenes/scenes/oblique_45.xml --engine povray -o povray.exr\n"
     "  lobelia compare highlight.exr povray.exr\n"
     "\n"
-    "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing or "
-    "failed,\n"
-    "70 a bug of ours, 130 interrupted.";
+    "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing\n"
+    "or failed, 70 a bug of ours, 130 interrupted.";
 
 /// One line a message line, so that every line can be grepped for.
 int fail(ExitCode code, std::string_view message) {

@@ -85,9 +85,8 @@ void add_render(CLI::App& app, ExitCode&) {
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
-      "One ray at each pixel's centre unless --samples says otherwise. The same scene gives the "
-      "same\n"
-      "file, byte for byte, whatever the number of threads; times are in the record.\n\n"
+      "One ray at each pixel's centre unless --samples says otherwise. The same scene gives\n"
+      "the same file, byte for byte, whatever the number of threads; times are in the record.\n\n"
       "Example: lobelia render reference_scenes/scenes/head_on.xml --model modified_phong "
       "--exponent 128 -o out.exr");
   command->callback([options] { run(*options); });

@@ -6,8 +6,6 @@
 #include <sstream>
 #include <string_view>
 
-#include "core/error.hpp"
-
 namespace lobelia {
 namespace ocio = OCIO_NAMESPACE;
 namespace embedded {

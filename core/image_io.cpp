@@ -44,6 +44,4 @@ void write_png(const fs::path& path, const DisplayImage& image) {
   write_file(path, module().encode_png(image));
 }
 
-std::string image_library_version() { return module().version(); }
-
 }  // namespace lobelia

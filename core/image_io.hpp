@@ -23,7 +23,4 @@ void write_exr(const std::filesystem::path& path, const Image& image,
 /// Writes an 8-bit sRGB PNG. Errors as write_exr.
 void write_png(const std::filesystem::path& path, const DisplayImage& image);
 
-/// "2.4.7": the version of OpenImageIO in use.
-std::string image_library_version();
-
 }  // namespace lobelia

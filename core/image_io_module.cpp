@@ -100,12 +100,10 @@ std::vector<std::uint8_t> encode_png(const DisplayImage& image) {
   return encode("png", spec, OIIO::TypeDesc::UINT8, image.rgb.data());
 }
 
-std::string version() { return OIIO_VERSION_STRING; }
-
 }  // namespace
 }  // namespace lobelia
 
 extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
 const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::encode_exr,
-                                                      lobelia::encode_png, lobelia::version};
+                                                      lobelia::encode_png};

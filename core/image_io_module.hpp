@@ -10,7 +10,6 @@ struct ImageIoTable {
   Image (*read_image)(const std::filesystem::path&);
   std::vector<std::uint8_t> (*encode_exr)(const Image&, const ImageMetadata&);
   std::vector<std::uint8_t> (*encode_png)(const DisplayImage&);
-  std::string (*version)();
 };
 
 inline constexpr char kImageIoModuleFile[] = "lobelia_image_io.so";

@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "gallery/cell_page.hpp"

@@ -1,5 +1,6 @@
 #include "renderer/kernels/kernels.hpp"
 
+#include <limits>
 #include <variant>
 
 // Without optimisation Highway's functions are not inlined, and GCC 12 hands wide registers through

@@ -5,7 +5,6 @@
 #include <optional>
 #include <set>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "renderer/scene/scene_format.hpp"

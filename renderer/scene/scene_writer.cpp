@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "core/text.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 
