@@ -1,12 +1,12 @@
 #include "renderer/render.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <memory>
 #include <numbers>
 
 #include "core/interrupt.hpp"
@@ -193,12 +193,13 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
 
   Renderer renderer(scene, result.plan, result.image);
   std::atomic<int> rows_done{0};
+  oneapi::tbb::enumerable_thread_specific<Workspace> workspaces;
   ThreadLimit(options.threads).run([&] {
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, scene.film.height, 8),
                               [&](const oneapi::tbb::blocked_range<int>& rows) {
-                                const auto work = std::make_unique<Workspace>();
+                                Workspace& work = workspaces.local();
                                 for (int y = rows.begin(); y < rows.end(); ++y)
-                                  renderer.render_row(y, *work);
+                                  renderer.render_row(y, work);
                                 const int done = rows_done += rows.end() - rows.begin();
                                 if (options.on_progress)
                                   options.on_progress(double(done) / scene.film.height);
