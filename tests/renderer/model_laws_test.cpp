@@ -53,8 +53,8 @@ double energy(const Highlight& h) {
   for (const double factor : {1.0, 2.0, 4.0, 6.0, 8.0, 16.0, 1e9}) {
     const double end = std::min(kPi / 2, factor / std::sqrt(h.exponent));
     if (end > begin)
-      sum += end < kPi / 2 ? Quadrature::integrate(f, begin, end, 12, 1e-12)
-                           : to_the_corner.integrate(f, begin, end, 1e-12);
+      sum += h.exponent > 1 || end < kPi / 2 ? Quadrature::integrate(f, begin, end, 12, 1e-12)
+                                             : to_the_corner.integrate(f, begin, end, 1e-12);
     begin = std::max(begin, end);
   }
   const bool distribution = model == "blinn_phong_ndf" || model == "blinn_phong_heightfield";
