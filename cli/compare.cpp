@@ -9,12 +9,14 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/text.hpp"
+#include "renderer/edge_map.hpp"
+#include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::cli {
 namespace {
 
 struct Options {
-  std::string a, b, json, tolerance, difference_picture;
+  std::string a, b, json, tolerance, scene, difference_picture;
   std::vector<std::string> fail;
   double difference_scale = 0;
   ComparisonOptions comparison;
@@ -64,6 +66,8 @@ ExitCode run(Options options) {
   for (const std::string& text : options.fail)
     options.comparison.limits.push_back(parse_limit(text));
   if (!options.tolerance.empty()) options.comparison.tolerance = parse_tolerance(options.tolerance);
+  if (!options.scene.empty())
+    options.comparison.tolerance->edges = edge_map(read_scene(options.scene));
   check_options(options.comparison);
   const bool json_to_file = !options.json.empty() && options.json != "-";
   if (json_to_file) require_writable(options.json);
@@ -97,12 +101,13 @@ std::string footer() {
   return fmt::format(
       "Metrics that a limit can be set on:\n"
       "  {}\n"
-      "Without --fail and --tolerance the limits are {}.\n"
+      "Without --fail and --tolerance the limits are {}: a look, not a proof.\n"
+      "Pictures of 8 or 16 bits (PNG, JPEG) are decoded from sRGB to linear light, clipped as they are.\n"
       "A NaN or an infinity in either picture is a verdict of its own and never passes.\n"
       "\n"
       "Examples:\n"
       "  lobelia compare ours.exr povray.exr\n"
-      "  lobelia compare ours.exr povray.exr --tolerance 6e-4,1e-6,3 --json comparison.json\n"
+      "  lobelia compare ours.exr povray.exr --tolerance 6e-4,1e-8,3 --scene scene.xml\n"
       "  lobelia compare ours.exr blender.exr --fail max_rel_peak=3e-5 --fail flip.ldr.mean=1e-3\n"
       "\n"
       "Exit codes: 0 pass, 1 over a limit or not finite, 2 usage, 3 a picture is unreadable or "
@@ -127,12 +132,19 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->expected(1)
       ->take_all()
       ->group("Verdict");
+  auto* tolerance =
+      command
+          ->add_option(
+              "--tolerance", options->tolerance,
+              "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
+              "any channel; verdict 'differs' if there are more than COUNT")
+          ->type_name("REL,PEAK,COUNT")
+          ->group("Verdict");
   command
-      ->add_option(
-          "--tolerance", options->tolerance,
-          "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
-          "any channel; verdict 'differs' if there are more than COUNT")
-      ->type_name("REL,PEAK,COUNT")
+      ->add_option("--scene", options->scene,
+                   "With --tolerance: outliers may lie only on the silhouettes, terminators and "
+                   "shadow edges of this scene")
+      ->needs(tolerance)
       ->group("Verdict");
 
   command

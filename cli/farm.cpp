@@ -33,7 +33,15 @@ ExitCode run(const Options& options) {
     if (progress.total > 0)
       line.show(double(progress.done) / double(progress.total), progress.running);
   };
-  const FarmSummary summary = run_farm(grid, options.directory, farm_options);
+  FarmSummary summary;
+  try {
+    summary = run_farm(grid, options.directory, farm_options);
+  } catch (const Error& error) {
+    line.clear();
+    if (error.code() != ExitCode::kInterrupted) throw;
+    throw Error(error.code(),
+                "interrupted; what is done is kept, and the same command goes on from there");
+  }
   line.clear();
 
   for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
@@ -51,7 +59,7 @@ ExitCode run(const Options& options) {
 void add_farm(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("farm", "Render, reference and compare every cell of a grid");
   auto options = std::make_shared<Options>();
-  command->add_option("GRID", options->grid, "Grid file (see reference_scenes/grids)")->required();
+  command->add_option("GRID", options->grid, "Grid file (docs/grid_format.md)")->required();
   command->add_option("-o,--output", options->directory, "Directory for pictures and records")
       ->required()
       ->type_name("DIR");

@@ -10,7 +10,7 @@ namespace lobelia::cli {
 namespace {
 
 std::string_view angle_name(LobeAngle angle) {
-  return angle == LobeAngle::kReflection ? "R and V" : "N and H";
+  return angle == LobeAngle::kReflection ? "L and R" : "N and H";
 }
 
 Json catalogue_record() {

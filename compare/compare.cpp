@@ -14,6 +14,7 @@ namespace lobelia {
 namespace {
 
 constexpr std::string_view kOutliers = "outliers";
+constexpr std::string_view kOutliersOffEdge = "outliers.off_edge";
 
 std::int64_t count_nonfinite_pixels(const Image& image) {
   const std::span<const float> values = image.values();
@@ -99,6 +100,10 @@ void check_options(const ComparisonOptions& options) {
                                                 did_you_mean(limit.metric, names), join(names)));
     if (limit.metric == kOutliers && !options.tolerance)
       throw Error(ExitCode::kUsage, "a limit on 'outliers' needs a tolerance");
+    if (limit.metric == kOutliersOffEdge &&
+        (!options.tolerance || options.tolerance->edges.empty()))
+      throw Error(ExitCode::kUsage,
+                  "a limit on 'outliers.off_edge' needs a tolerance and a scene that has edges");
     require_range(fmt::format("the limit on {}", limit.metric), limit.maximum, 0, kLargest);
   }
   if (options.tolerance) {
@@ -112,6 +117,10 @@ void check_options(const ComparisonOptions& options) {
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {
   check_options(options);
   require_same_size(a, b);
+  if (options.tolerance && !options.tolerance->edges.empty() &&
+      options.tolerance->edges.size() != a.pixel_count())
+    throw Error(ExitCode::kInput, fmt::format("the pictures have {} pixels, the scene {}",
+                                              a.pixel_count(), options.tolerance->edges.size()));
 
   Comparison result;
   result.viewing = options.viewing;
@@ -129,6 +138,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   std::vector<MetricLimit> limits = options.limits;
   if (options.tolerance)
     limits.push_back({std::string(kOutliers), double(options.tolerance->allowed_outliers)});
+  if (options.tolerance && !options.tolerance->edges.empty())
+    limits.push_back({std::string(kOutliersOffEdge), 0});
   if (limits.empty()) limits.assign(default_limits().begin(), default_limits().end());
   bool pass = true;
   for (const MetricLimit& limit : limits) {

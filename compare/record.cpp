@@ -23,7 +23,8 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
   if (comparison.tolerance)
     record["tolerance"] = {{"relative", comparison.tolerance->relative},
                            {"ofPeak", comparison.tolerance->of_peak},
-                           {"allowedOutliers", comparison.tolerance->allowed_outliers}};
+                           {"allowedOutliers", comparison.tolerance->allowed_outliers},
+                           {"onEdgesOnly", !comparison.tolerance->edges.empty()}};
   return record;
 }
 

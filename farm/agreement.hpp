@@ -4,16 +4,18 @@
 #include <string_view>
 
 #include "compare/compare.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace lobelia {
 
-/// For an engine of reference_scenes. Pixels beyond it count as outliers; up to three are allowed,
-/// because a silhouette or a terminator may fall on the other side of a pixel's centre.
+/// For an engine of reference_scenes. Pixels beyond it count as outliers; up to three are allowed, on
+/// the edges of the scene only, because a silhouette or a terminator may fall on the other side of a
+/// pixel's centre.
 ///
 ///   povray   6e-4 of the value: it writes half floats, which round by 2^-11 = 4.9e-4; and 1e-8 of the
 ///            peak, where those are subnormal
 ///   blender  3e-5 of the peak: Cycles computes in float32; tests/reference_scenes/agreement_test.cpp has what
 ///            was measured: 2.0e-5
-Tolerance agreement(std::string_view engine);
+Tolerance agreement(std::string_view engine, const Scene& scene);
 
 }  // namespace lobelia

@@ -32,7 +32,7 @@ std::pair<Json, Verdict> compare_with(const CellStore& store, const std::string&
                                       const Image& ours, const Image& reference, double exposure) {
   ComparisonOptions options;
   options.viewing.exposure_stops = exposure;
-  options.tolerance = agreement(engine);
+  options.tolerance = agreement(engine, store.cell().scene);
   const Comparison comparison = compare(ours, reference, options);
 
   const std::string name = std::string(kOurs) + "-" + engine;

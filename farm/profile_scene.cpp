@@ -7,23 +7,10 @@
 
 #include "core/error.hpp"
 #include "renderer/highlight_map.hpp"
+#include "renderer/pixel_ray.hpp"
 
 namespace lobelia {
 namespace {
-
-/// Where the ray through the centre of pixel (x, y) meets the sphere, which it is known to meet.
-Vec3 point_on_sphere(const CameraFrame& frame, const Film& film, int x, int y,
-                     const Sphere& sphere) {
-  const double u = (2 * (x + 0.5) / film.width - 1) * frame.half_width;
-  const double v = (1 - 2 * (y + 0.5) / film.height) * frame.half_height;
-  const Vec3 direction = normalize(frame.forward + u * frame.right + v * frame.up);
-  const Vec3 to_center = sphere.center - frame.origin;
-  const double along = dot(to_center, direction);
-  const Vec3 off_axis = to_center - along * direction;
-  const double half_chord =
-      std::sqrt(std::max(0.0, sphere.radius * sphere.radius - dot(off_axis, off_axis)));
-  return frame.origin + (along - half_chord) * direction;
-}
 
 /// 1 - cos(angle), without the cancellation near 0.
 double one_minus_cos(double angle) {
@@ -53,7 +40,9 @@ Image analytic_image(const Scene& scene, int sphere_index) {
       for (int x = 0; x < width; ++x) {
         const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
         if (std::isnan(map.angle[i])) continue;
-        const Vec3 point = point_on_sphere(frame, scene.film, x, y, sphere);
+        const auto hit =
+            nearest_hit(scene, frame.origin, normalize(centre_ray(frame, scene.film, x, y)));
+        const Vec3 point = hit->point;  // the map has an angle only where there is one
         const Rgb irradiance = illuminate(scene.lights[light], point).irradiance;
         const double specular =
             highlight_radiance(material.highlight, map.n_dot_l[i], one_minus_cos(map.angle[i]));
@@ -96,9 +85,25 @@ Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages&
                                                 name, image->width(), image->height(),
                                                 scene.film.width, scene.film.height));
 
-  const Image analytic = analytic_image(scene, sphere);
+  // What the other lights add, by the formula, is taken out of every picture: the curve is of one
+  // highlight.
+  Scene one_light = scene;
+  one_light.lights = {scene.lights[std::size_t(light)]};
+  const Image analytic = analytic_image(one_light, sphere);
+  std::vector<Image> single;
+  if (scene.lights.size() > 1) {
+    const Image with_all = analytic_image(scene, sphere);
+    for (const auto& [name, image] : images) {
+      single.push_back(*image);
+      const std::span<float> values = single.back().values();
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] =
+            float(double(values[i]) - (double(with_all.values()[i]) - analytic.values()[i]));
+    }
+  }
   NamedImages all{{kAnalyticName, &analytic}};
-  all.insert(all.end(), images.begin(), images.end());
+  for (std::size_t k = 0; k < images.size(); ++k)
+    all.emplace_back(images[k].first, single.empty() ? images[k].second : &single[k]);
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t k = 2; k < all.size(); ++k) pairs.emplace_back(1, k);
   for (std::size_t k = 1; k < all.size(); ++k) pairs.emplace_back(k, 0);

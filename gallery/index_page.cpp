@@ -40,8 +40,10 @@ void write_introduction(Html& html, const FarmData& farm) {
           (references.empty()
                ? "No other renderer was there to compare it with."
                : references + " drew the same scenes, and each pair was compared pixel by "
-                              "pixel; the programs share no code, so what they agree on is not one "
-                              "program’s mistake."));
+                              "pixel. A picture is a witness of the model where the engine has it "
+                              "as its own shading; elsewhere the formula was written in the "
+                              "engine’s language by hand, and geometry, camera, light, visibility "
+                              "and arithmetic are the witness. Each cell says which."));
 }
 
 void write_missing_engines(Html& html, const FarmData& farm) {

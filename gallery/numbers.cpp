@@ -34,7 +34,7 @@ std::string superscript(int exponent) {
 }
 
 std::string non_finite(double value) {
-  if (std::isnan(value)) return "not a number";
+  if (std::isnan(value)) return "–";
   return value > 0 ? "infinite" : "minus infinite";
 }
 

@@ -5,7 +5,7 @@
 
 namespace lobelia::gallery {
 
-/// Significant digits: "0.0123", "1234", "4.9 × 10⁻⁴"; "not a number" and "infinite" in words.
+/// Significant digits: "0.0123", "1234", "4.9 × 10⁻⁴"; "–" where it is not a number.
 std::string number_text(double value, int digits = 3);
 /// "10⁻³"
 std::string power_of_ten_text(int exponent);

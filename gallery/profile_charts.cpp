@@ -34,7 +34,7 @@ int style_of(const FarmData& farm, const std::string& name) {
 ChartAxis angle_axis(const ProfileData& profile) {
   const bool half = profile.angle.find("half") != std::string::npos;
   ChartAxis axis{half ? "angle between normal and half vector (degrees)"
-                      : "angle between mirror direction and eye (degrees)",
+                      : "angle between light and mirror direction (degrees)",
                  0, 0, false};
   for (const double angle : profile.degrees) {
     if (angle <= 180) axis.to = std::max(axis.to, angle);

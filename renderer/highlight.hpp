@@ -29,7 +29,7 @@ enum class Normalisation : std::uint8_t {
 
 /// Which angle the lobe sees; s = 1 - cos of it.
 enum class LobeAngle : std::uint8_t {
-  kReflection,  ///< between the mirror direction and the other direction (Phong family)
+  kReflection,  ///< between L and R, the mirror direction of V (Phong family)
   kHalfVector,  ///< between the normal and the half vector (Blinn family)
 };
 

@@ -2,36 +2,11 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
+
+#include "renderer/pixel_ray.hpp"
 
 namespace lobelia {
 namespace {
-
-struct Hit {
-  int sphere;
-  Vec3 point, normal;
-};
-
-/// The nearest sphere along a ray: one ray at a time, apart from the kernels on purpose, so that the
-/// profiles are measured by other code than the picture was made by.
-std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) {
-  std::optional<Hit> nearest;
-  double nearest_t = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < int(scene.spheres.size()); ++k) {
-    const Sphere& sphere = scene.spheres[k];
-    const Vec3 to_center = sphere.center - origin;
-    const double along = dot(to_center, direction);
-    const Vec3 off_axis = to_center - along * direction;
-    const double squared = sphere.radius * sphere.radius - dot(off_axis, off_axis);
-    if (!(squared > 0)) continue;
-    const double t = along - std::sqrt(squared);
-    if (!(t > 0 && t < nearest_t)) continue;
-    nearest_t = t;
-    const Vec3 normal = normalize(-(off_axis + std::sqrt(squared) * direction));
-    nearest = Hit{k, sphere.center + sphere.radius * normal, normal};
-  }
-  return nearest;
-}
 
 /// The angle between unit vectors, without the cancellation of acos near 0.
 double angle_between(Vec3 a, Vec3 b) { return 2 * std::atan2(length(a - b), length(a + b)); }
@@ -52,9 +27,7 @@ HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t i = std::size_t(y) * width + x;
-      const double u = (2 * (x + 0.5) / width - 1) * frame.half_width;
-      const double v = (1 - 2 * (y + 0.5) / height) * frame.half_height;
-      const Vec3 ray = frame.forward + u * frame.right + v * frame.up;
+      const Vec3 ray = centre_ray(frame, scene.film, x, y);
       const double distance = length(ray);
       map.solid_angle[i] = pixel_area / (distance * distance * distance);
       const Vec3 direction = normalize(ray);

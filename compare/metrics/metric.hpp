@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "compare/display_light.hpp"
 #include "core/image.hpp"
@@ -28,6 +29,9 @@ struct Tolerance {
   double relative = 0;  ///< share of the reference's value
   double of_peak = 0;   ///< share of the reference's brightest value
   std::int64_t allowed_outliers = 0;
+  /// By pixel, 1 where an outlier may lie (silhouettes, terminators, shadow edges: see edge_map in
+  /// renderer/); none may lie elsewhere. Empty: they may lie anywhere.
+  std::vector<std::uint8_t> edges = {};
 };
 
 /// A pair of pictures of one size without non-finite values; `b` is the reference.

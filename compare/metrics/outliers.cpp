@@ -1,10 +1,11 @@
 // How many pixels lie outside a tolerance.
 //
-// Source:       the failure rule of `idiff` (-fail, -failpercent), with a tolerance that follows
-// the
+// Source:       the failure rule of `idiff` (-fail, -failpercent), with a tolerance that follows the
 //               rounding of the reference: a half-float picture is off by a share of each value.
 // Formula:      the number of pixels with |a - b| > relative * |b| + of_peak * peak in R, G or B;
-//               peak as in max_rel_peak.
+//               peak as in max_rel_peak. off_edge counts those that lie elsewhere than on the
+//               edges that the tolerance names, where rounding may decide what a ray hits; 0 if
+//               it names none.
 // Input:        scene-linear values, neither exposed nor clipped.
 #include <cmath>
 
@@ -15,13 +16,15 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"outliers", OutputKind::kError, false, "pixels outside the tolerance"}};
+    {"outliers", OutputKind::kError, false, "pixels outside the tolerance"},
+    {"outliers.off_edge", OutputKind::kError, false, "of these, away from the edges of the scene"}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   const double relative = input.tolerance->relative;
   const double floor = input.tolerance->of_peak * peak_value(input.b);
-  std::int64_t outliers = 0;
+  const std::vector<std::uint8_t>& edges = input.tolerance->edges;
+  std::int64_t outliers = 0, off_edge = 0;
   for (std::size_t i = 0; i < a.size(); i += 3) {
     bool outside = false;
     for (std::size_t j = i; j < i + 3; ++j) {
@@ -29,8 +32,10 @@ void measure(const MetricInput& input, std::span<double> values) {
       outside |= std::abs(double(a[j]) - reference) > relative * std::abs(reference) + floor;
     }
     outliers += outside;
+    off_edge += outside && !edges.empty() && edges[i / 3] == 0;
   }
   values[0] = double(outliers);
+  values[1] = double(off_edge);
 }
 
 }  // namespace

@@ -119,6 +119,14 @@ TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
   EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr"}).exit_code, 1);
   EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9"}).exit_code, 0);
   EXPECT_EQ(compare({"head_on.exr", "large.exr"}).exit_code, 3);
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--scene", kScenes + "head_on.xml"}).exit_code,
+            2)
+      << "--scene says where outliers may lie, and there is no tolerance";
+  // The pictures are 64 x 64, the scene's film 256 x 256.
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--tolerance", "0,0,3", "--scene",
+                     kScenes + "head_on.xml"})
+                .exit_code,
+            3);
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--fail", "rsme=1"}).exit_code, 2);
   EXPECT_THAT(compare({"head_on.exr", "head_on.exr", "--json", "-"}).output_tail,
               HasSubstr("\"schemaVersion\": 1"));

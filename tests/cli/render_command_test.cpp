@@ -112,7 +112,9 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
       "exit $code",
       directory.path());
   EXPECT_EQ(result.exit_code, 130) << result.output_tail;
-  EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
+  EXPECT_EQ(
+      result.output_tail,
+      "lobelia: interrupted; what is done is kept, and the same command goes on from there\n");
   const auto out = directory.path() / "out";
   EXPECT_EQ(read_record(out / "farm.json", "farm")["cells"][0]["status"], "missing");
   EXPECT_TRUE(std::filesystem::exists(out / "cells/modified_phong/lobelia.exr"));

@@ -98,7 +98,7 @@ TEST(MetricLaws, AMetricThatIsNotCalledSymmetricIsNot) {
       if (metric->outputs[i].symmetric) continue;
       bool changed = false;
       const Image dim = testing::flat(8, 8, 0.0015f, 0, 0), bright = testing::flat(8, 8, 1, 0, 0);
-      const Tolerance half{0.9985, 0, 0};
+      const Tolerance half{0.9985, 0, 0, std::vector<std::uint8_t>(8 * 8, 0)};
       std::vector<double> forth(metric->outputs.size()), back(forth);
       metric->measure(testing::input(dim, bright, &half), forth);
       metric->measure(testing::input(bright, dim, &half), back);

@@ -116,5 +116,18 @@ TEST(ProfileScene, RefusesWhatTheSceneDoesNotHave) {
   EXPECT_EQ(code(0, 0, turned), ExitCode::kInput) << "as many pixels, another shape";
 }
 
+TEST(ProfileScene, OfOneLightDoesNotSeeTheHighlightOfTheOther) {
+  Scene alone = scene_with("phong_rdf", 64), both = alone;
+  both.lights.push_back(DirectionalLight{normalize({0.6, -0.3, -1}), {7, 7, 7}});
+  const Image one = render(alone, RenderOptions{}).image, two = render(both, RenderOptions{}).image;
+  const Json expected = profile_scene(alone, 0, 0, {{"lobelia", &one}})["images"];
+  const Json measured = profile_scene(both, 0, 0, {{"lobelia", &two}})["images"];
+  for (const char* picture : {"analytic", "lobelia"})
+    for (const char* figure : {"peak", "halfWidthDegrees", "energy"})
+      EXPECT_NEAR(measured[picture][figure].get<double>(), expected[picture][figure].get<double>(),
+                  1e-5 * expected[picture][figure].get<double>())
+          << picture << " " << figure;
+}
+
 }  // namespace
 }  // namespace lobelia

@@ -31,8 +31,9 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
   EXPECT_EQ(record["limits"][0]["metric"], "rmse");
   EXPECT_EQ(record["limits"][0]["value"], record["metrics"]["rmse"]);
   EXPECT_EQ(record["limits"][0]["pass"], true);
-  EXPECT_EQ(record["tolerance"],
-            (Json{{"relative", 0.5}, {"ofPeak", 0.25}, {"allowedOutliers", 7}}));
+  EXPECT_EQ(
+      record["tolerance"],
+      (Json{{"relative", 0.5}, {"ofPeak", 0.25}, {"allowedOutliers", 7}, {"onEdgesOnly", false}}));
 }
 
 TEST(ComparisonRecord, OfABrokenPictureHasNoMetricsAndNoPass) {

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <limits>
 
 #include "compare/compare.hpp"
@@ -169,6 +171,23 @@ TEST(DifferencePicture, IsMagentaWhereAValueIsNotFinite) {
   Image a = b;
   a.pixel(1, 0)[1] = kNaN;
   EXPECT_THAT(difference_picture(a, b, 1).rgb, ::testing::ElementsAre(0, 0, 0, 255, 0, 255));
+}
+
+TEST(Tolerance, WithEdgesAllowsOutliersOnThemAndNowhereElse) {
+  Image a(4, 1), b(4, 1);
+  for (float& value : b.values()) value = 1;
+  std::copy(b.values().begin(), b.values().end(), a.values().begin());
+  a.pixel(1, 0)[2] = 0.5f;
+  ComparisonOptions options;
+  options.tolerance = Tolerance{1e-3, 0, 1, {0, 1, 0, 0}};
+  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass);
+  options.tolerance->edges = {1, 0, 1, 1};
+  const Comparison comparison = compare(a, b, options);
+  EXPECT_EQ(comparison.verdict, Verdict::kDiffers);
+  EXPECT_EQ(comparison.value("outliers"), 1);
+  EXPECT_EQ(comparison.value("outliers.off_edge"), 1);
+  options.tolerance->edges = {1, 1};
+  EXPECT_THROW(compare(a, b, options), Error);
 }
 
 }  // namespace

@@ -1,4 +1,8 @@
 // The farm with the real engines.
+#include <algorithm>
+
+#include "core/image_io.hpp"
+#include "farm/agreement.hpp"
 #include "farm_fixture.hpp"
 #include "reference_scenes/engine.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
@@ -19,7 +23,9 @@ class FarmWithEngines : public FarmTest {
 };
 
 TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
-  const Grid real = grid("16, 1024", "<engine name=\"povray\"/><engine name=\"blender\"/>");
+  Grid real = grid("16, 1024", "<engine name=\"povray\"/><engine name=\"blender\"/>");
+  // At n = 1024 a smaller picture has its peak between two pixels, and a share of it means little.
+  real.scene.film = {128, 128};
   FarmSummary summary = run_farm(real, out(), {});
   EXPECT_EQ(summary.pass, 2u);
   EXPECT_EQ(summary.rendered, 6u);
@@ -32,6 +38,23 @@ TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
       EXPECT_TRUE(fs::exists(in_cell(id, name + ".png")));
     }
   EXPECT_EQ(run_farm(real, out(), {}).rendered, 0u);
+
+  // Three black pixels where the highlight is brightest are not three pixels of a silhouette.
+  const Scene scene = cells_of(real).front().scene;
+  Image broken = read_image(in_cell("n16", "lobelia.exr"));
+  for (int x = 0; x < 3; ++x) {
+    const auto values = broken.values();
+    const auto at = std::max_element(values.begin(), values.end()) - values.begin();
+    for (std::ptrdiff_t c = 0; c < 3; ++c) values[std::size_t(at - at % 3 + c)] = 0;
+  }
+  for (const char* engine : {"povray", "blender"}) {
+    ComparisonOptions options;
+    options.tolerance = agreement(engine, scene);
+    const Image reference = read_image(in_cell("n16", std::string(engine) + ".exr"));
+    const Comparison comparison = compare(broken, reference, options);
+    EXPECT_EQ(comparison.value("outliers"), 3) << engine;
+    EXPECT_EQ(comparison.verdict, Verdict::kDiffers) << engine;
+  }
   fs::remove(in_cell("n16", "povray.exr"));
   summary = run_farm(real, out(), {});
   EXPECT_EQ(summary.rendered, 1u);

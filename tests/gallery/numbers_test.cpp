@@ -18,7 +18,7 @@ TEST(Numbers, are_written_as_people_read_them) {
   EXPECT_EQ(number_text(-1.44), "−1.44");
   EXPECT_EQ(number_text(4.9e-4), "4.9 × 10⁻⁴");
   EXPECT_EQ(number_text(-1e12), "−1 × 10¹²");
-  EXPECT_EQ(number_text(NAN), "not a number");
+  EXPECT_EQ(number_text(NAN), "–");
   EXPECT_EQ(number_text(-INFINITY), "minus infinite");
 }
 

@@ -1,0 +1,58 @@
+#include "renderer/pixel_ray.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace lobelia {
+namespace {
+
+/// Where a ray of unit direction is nearest to a sphere's centre, and half of the chord, squared.
+struct Chord {
+  double along;
+  Vec3 off_axis;
+  double half_squared;
+};
+
+Chord chord_of(const Sphere& sphere, Vec3 origin, Vec3 direction) {
+  const Vec3 to_center = sphere.center - origin;
+  const double along = dot(to_center, direction);
+  const Vec3 off_axis = to_center - along * direction;
+  return {along, off_axis, sphere.radius * sphere.radius - dot(off_axis, off_axis)};
+}
+
+}  // namespace
+
+Vec3 centre_ray(const CameraFrame& frame, const Film& film, int x, int y) {
+  const double u = (2 * (x + 0.5) / film.width - 1) * frame.half_width;
+  const double v = (1 - 2 * (y + 0.5) / film.height) * frame.half_height;
+  return frame.forward + u * frame.right + v * frame.up;
+}
+
+std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) {
+  std::optional<Hit> nearest;
+  double nearest_t = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < int(scene.spheres.size()); ++k) {
+    const Sphere& sphere = scene.spheres[k];
+    const Chord chord = chord_of(sphere, origin, direction);
+    if (!(chord.half_squared > 0)) continue;
+    const double half = std::sqrt(chord.half_squared), t = chord.along - half;
+    if (!(t > 0 && t < nearest_t)) continue;
+    nearest_t = t;
+    const Vec3 normal = normalize(-(chord.off_axis + half * direction));
+    nearest = Hit{k, sphere.center + sphere.radius * normal, normal};
+  }
+  return nearest;
+}
+
+bool is_shadowed(const Scene& scene, const Hit& hit, const Illumination& illumination) {
+  for (int k = 0; k < int(scene.spheres.size()); ++k) {
+    if (k == hit.sphere) continue;
+    const Chord chord = chord_of(scene.spheres[k], hit.point, illumination.to_light);
+    if (!(chord.half_squared > 0)) continue;
+    const double half = std::sqrt(chord.half_squared);
+    if (chord.along + half > 0 && chord.along - half < illumination.distance) return true;
+  }
+  return false;
+}
+
+}  // namespace lobelia
