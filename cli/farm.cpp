@@ -45,6 +45,9 @@ ExitCode run(const Options& options) {
   line.clear();
 
   for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
+  if (summary.foreign > 0)
+    fmt::print(stderr, "lobelia: {}/cells also holds {} cells that are not of this grid\n",
+               options.directory, summary.foreign);
   for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
   fmt::print("{} cells: {} pass, {} differ, {} failed{}; {} pictures rendered, {} kept\n",
              summary.cells, summary.pass, summary.differs, summary.failed,

@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "core/error.hpp"
@@ -313,8 +314,19 @@ class Farm {
     write_record(directory_ / "farm.json", record);
   }
 
+  std::size_t count_foreign_cells() const {
+    std::set<std::string> ids;
+    for (const auto& cell : cells_) ids.insert(cell.id);
+    std::size_t foreign = 0;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(directory_ / "cells", ignored))
+      if (!ids.contains(entry.path().filename().string())) ++foreign;
+    return foreign;
+  }
+
   FarmSummary summarise() {
     summary_.cells = cells_.size();
+    summary_.foreign = count_foreign_cells();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (status_[i] == "pass") ++summary_.pass;
       if (status_[i] == "differs") ++summary_.differs;

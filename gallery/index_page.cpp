@@ -99,12 +99,15 @@ void write_making(Html& html, const FarmData& farm) {
   for (const auto& [name, value] : farm.host) fact(name, value);
 }
 
-void write_legend(Html& html, const FarmData& farm) {
+/// Explains only the marks that this grid has.
+void write_legend(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
   const Tag section(html, "section", {{"class", "legend"}, {"aria-labelledby", "legend"}});
   html.element("h2", {{"id", "legend"}}, "How to read the grid");
   {
     const Tag list(html, "dl", {{"class", "marks"}});
     for (const CellStatus status : kCellStatuses) {
+      const auto has_it = [&](const CellSummary& cell) { return cell.status == status; };
+      if (std::none_of(cells.begin(), cells.end(), has_it)) continue;
       const Tag item(html, "div");
       {
         const Tag term(html, "dt");
@@ -168,7 +171,7 @@ std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cel
     write_making(html, farm);
   }
   write_missing_engines(html, farm);
-  write_legend(html, farm);
+  write_legend(html, farm, cells);
   write_attention(html, cells);
   write_grid(html, farm, cells);
   return finish_page({farm.title + " · Lobelia", "index", "", farm.made_by}, html);

@@ -60,6 +60,8 @@ TEST_F(FarmTest, ASecondRunDoesOnlyWhatIsMissing) {
   EXPECT_EQ(summary.kept, 2u);
   summary = run_farm(grid("16, 32, 64"), out(), {});
   EXPECT_EQ(summary.rendered, 1u);
+  EXPECT_EQ(summary.foreign, 0u);
+  EXPECT_EQ(run_farm(grid("16"), out(), {}).foreign, 2u);
   EXPECT_EQ(summary.unchecked, 3u);
   fs::remove(in_cell("n32", "lobelia.exr"));
   EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 1u);
