@@ -104,7 +104,7 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
                  "values=\"modified_phong\"/><engine name=\"povray\"/></grid>");
   const auto result = run_shell(
       "chmod +x slow-povray\n"
-      "timeout --preserve-status -s INT 2 \"$LOBELIA\" farm grid.xml -o out -q "
+      "timeout --preserve-status -s INT 4 \"$LOBELIA\" farm grid.xml -o out -q "
       "--povray ./slow-povray\n"
       "code=$?\n"
       "find out -name '*.part' -o -name '.*'\n"
