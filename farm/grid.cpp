@@ -142,7 +142,7 @@ class GridReader {
     if (texts.size() > kMaxAxisValues)
       source_.error(node, fmt::format("over {} values on the axis '{}'; allowed: {}",
                                       kMaxAxisValues, name, kMaxAxisValues));
-    if (axis.values.empty())
+    if (texts.empty())
       source_.error(node,
                     fmt::format("the axis '{}' has no values; allowed: {}", name, kind->allowed));
     grid_.axes.push_back(std::move(axis));
