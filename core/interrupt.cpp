@@ -3,6 +3,8 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 #include "core/error.hpp"
 
@@ -17,8 +19,23 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_a
 /// still killed by whoever waits for it, only not by a second Ctrl-C.
 std::array<std::atomic<pid_t>, 256> g_groups{};
 
+/// timeout(1) and others send a signal to the process and to its group: that is one wish, told twice.
+constexpr std::int64_t kOneWishNanoseconds = 300'000'000;
+std::atomic<std::int64_t> g_first_time{0};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+std::int64_t now() {  // clock_gettime may be called in a signal handler
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
 void on_signal(int signal) {
-  if (!g_interrupted.exchange(true)) return;
+  if (!g_interrupted.exchange(true)) {
+    g_first_time = now();
+    return;
+  }
+  if (now() - g_first_time < kOneWishNanoseconds) return;
   // Whoever presses Ctrl-C twice means it.
   for (auto& group : g_groups)
     if (const pid_t pid = group) ::kill(-pid, SIGKILL);

@@ -5,8 +5,8 @@
 
 namespace lobelia {
 
-/// Makes SIGINT, SIGTERM and SIGHUP set the flag. A second one ends the process at once, and the
-/// process groups that are registered with it.
+/// Makes SIGINT, SIGTERM and SIGHUP set the flag. A second one, 0.3 s later or more, ends the process at
+/// once, and the process groups that are registered with it.
 void catch_interrupts();
 /// True once the user has asked to stop.
 bool interrupted();

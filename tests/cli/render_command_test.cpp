@@ -92,6 +92,17 @@ TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
   EXPECT_EQ(files_in(directory.path()), 0u);
 }
 
+TEST(RenderCommand, TakesTwoSignalsInOneBreathForOneWish) {
+  const TemporaryDirectory directory;
+  const auto result = run_shell("\"$LOBELIA\" render '" + kScenes +
+                                    "oblique_45.xml' --width 4096 --height 4096 --samples 4096 -q "
+                                    "-o x.exr & job=$!\n"
+                                    "sleep 0.5; kill -TERM $job; kill -TERM $job; wait $job",
+                                directory.path());
+  EXPECT_EQ(result.exit_code, 130) << result.output_tail;
+  EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
+}
+
 TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
   const TemporaryDirectory directory;
   // An engine that would take a minute; known in the list of processes by its odd time.
