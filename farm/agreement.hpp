@@ -1,14 +1,15 @@
 // How far a reference picture may be from ours before something is wrong.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "compare/compare.hpp"
-#include "renderer/scene/scene.hpp"
 
 namespace lobelia {
 
-/// For an engine of reference_scenes. Pixels beyond it count as outliers; up to three are allowed, on
+/// For an engine of reference_scenes, and the edge_map of the scene. Pixels beyond it count as outliers; up to three are allowed, on
 /// the edges of the scene only, because a silhouette or a terminator may fall on the other side of a
 /// pixel's centre.
 ///
@@ -16,6 +17,6 @@ namespace lobelia {
 ///            peak, where those are subnormal
 ///   blender  3e-5 of the peak: Cycles computes in float32; tests/reference_scenes/agreement_test.cpp has what
 ///            was measured: 2.0e-5
-Tolerance agreement(std::string_view engine, const Scene& scene);
+Tolerance agreement(std::string_view engine, std::vector<std::uint8_t> edges);
 
 }  // namespace lobelia

@@ -6,6 +6,7 @@
 #include "core/image_io.hpp"
 #include "farm/agreement.hpp"
 #include "farm/profile_scene.hpp"
+#include "renderer/edge_map.hpp"
 #include "renderer/render_record.hpp"
 
 namespace lobelia {
@@ -29,10 +30,11 @@ Image read_or_discard(const CellStore& store, const std::string& engine) {
 
 /// Writes the comparison with one reference; returns its entry in cell.json and its verdict.
 std::pair<Json, Verdict> compare_with(const CellStore& store, const std::string& engine,
-                                      const Image& ours, const Image& reference, double exposure) {
+                                      const Image& ours, const Image& reference, double exposure,
+                                      const std::vector<std::uint8_t>& edges) {
   ComparisonOptions options;
   options.viewing.exposure_stops = exposure;
-  options.tolerance = agreement(engine, store.cell().scene);
+  options.tolerance = agreement(engine, edges);
   const Comparison comparison = compare(ours, reference, options);
 
   const std::string name = std::string(kOurs) + "-" + engine;
@@ -66,6 +68,7 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   }
   const Image& ours = pictures.front().second;
   const double exposure = cell_exposure(ours);
+  const auto edges = edge_map(cell.scene);
 
   Json record = make_record("cell");
   record["id"] = cell.id;
@@ -83,7 +86,7 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
     write_png(store.file(engine + ".png"), to_display(image, exposure));
     record["images"].push_back(image_entry(engine));
     if (engine == kOurs) continue;
-    const auto [entry, verdict] = compare_with(store, engine, ours, image, exposure);
+    const auto [entry, verdict] = compare_with(store, engine, ours, image, exposure, edges);
     record["comparisons"].push_back(entry);
     if (verdict != Verdict::kPass && status == "pass") status = "differs";
   }

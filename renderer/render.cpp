@@ -146,14 +146,7 @@ class Renderer {
         for (std::size_t i = 0; i < hits; ++i) work.falloff[i] *= work.visible[i];
         shadow_rays_ += hits;
       }
-      const Rgb emitted = std::visit(
-          [](const auto& source) {
-            if constexpr (requires { source.irradiance; })
-              return source.irradiance;
-            else
-              return source.intensity;
-          },
-          light);
+      const Rgb emitted = strength(light);
       material.shade(material.exponent, hits, work.hit_normal, work.hit_to_eye, work.to_light,
                      work.specular);
       const Rgb specular = emitted * material.specular;

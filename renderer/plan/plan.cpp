@@ -9,18 +9,6 @@
 namespace lobelia {
 namespace {
 
-/// Light emitted by `light` at all?
-bool shines(const Light& light) {
-  return std::visit(
-      [](const auto& l) {
-        if constexpr (requires { l.irradiance; })
-          return !is_black(l.irradiance);
-        else
-          return !is_black(l.intensity);
-      },
-      light);
-}
-
 /// Whether `occluder` can stand between any point of `receiver` and the light. Conservative: false
 /// only where the sphere of radius rA + rB around the occluder stays clear of the axis from the
 /// receiver's centre to the light.
@@ -61,7 +49,7 @@ EffectDecision decide_shadows(const Scene& scene, EffectPolicy policy, Plan& pla
   std::size_t pairs = 0;
   plan.occluders.assign(scene.lights.size(), std::vector<std::vector<int>>(scene.spheres.size()));
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    if (!shines(scene.lights[l]) && policy != EffectPolicy::kAll) continue;
+    if (is_black(strength(scene.lights[l])) && policy != EffectPolicy::kAll) continue;
     for (std::size_t a = 0; a < scene.spheres.size(); ++a)
       for (std::size_t b = 0; b < scene.spheres.size(); ++b) {
         if (a == b) continue;  // a convex body shadows itself only where N.L <= 0

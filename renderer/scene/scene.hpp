@@ -40,6 +40,12 @@ struct PointLight {
 
 using Light = std::variant<DirectionalLight, PointLight>;
 
+/// What the light is as bright as: a directional light's irradiance, a point light's intensity.
+inline Rgb strength(const Light& light) {
+  const auto* directional = std::get_if<DirectionalLight>(&light);
+  return directional ? directional->irradiance : std::get<PointLight>(light).intensity;
+}
+
 struct Material {
   std::string id;            ///< from the file: untrusted text, for people only
   Highlight highlight;       ///< model, lobe, normalisation, exponent
