@@ -26,6 +26,8 @@ constexpr char kFooter[] =
     "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing\n"
     "or failed, 70 a bug of ours, 130 interrupted.";
 
+constexpr char kStdoutFailed[] = "standard output: cannot write";
+
 /// One line a message line, so that every line can be grepped for.
 int fail(ExitCode code, std::string_view message) {
   while (!message.empty()) {
@@ -40,7 +42,7 @@ int fail(ExitCode code, std::string_view message) {
 int flushed(ExitCode code) {
   std::cout.flush();  // CLI11 prints its help there
   if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    return fail(ExitCode::kOutput, "standard output: cannot write");
+    return fail(ExitCode::kOutput, kStdoutFailed);
   return int(code);
 }
 
@@ -100,6 +102,8 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return cli::fail(ExitCode::kInternal, "not enough memory");
   } catch (const std::exception& error) {
+    // fmt::print throws where more than a buffer could not be written.
+    if (std::ferror(stdout)) return cli::fail(ExitCode::kOutput, cli::kStdoutFailed);
     return cli::fail(ExitCode::kInternal, fmt::format("internal error: {}", error.what()));
   }
 }

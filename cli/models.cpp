@@ -22,9 +22,11 @@ Json catalogue_record() {
                                 {"appliesCosine", m.applies_cosine},
                                 {"integral", m.integral},
                                 {"source", m.source}});
-  for (const auto& l : lobes())
+  for (const LobeId id : all_lobes()) {
+    const LobeInfo& l = info(id);
     record["lobes"].push_back(
         {{"name", l.name}, {"title", l.title}, {"formula", l.formula}, {"source", l.source}});
+  }
   record["normalisations"] = normalisation_names();
   return record;
 }
@@ -39,7 +41,8 @@ void run(bool json) {
     fmt::print("{:<26}{:<28}{:<10}{:<6}{}\n", m.name, m.title, angle_name(m.angle),
                m.applies_cosine ? "yes" : "no", m.integral);
   fmt::print("\n{:<26}{:<38}source\n", "lobe", "value, s = 1 - cos");
-  for (const auto& l : lobes()) fmt::print("{:<26}{:<38}{}\n", l.name, l.formula, l.source);
+  for (const LobeId id : all_lobes())
+    fmt::print("{:<26}{:<38}{}\n", info(id).name, info(id).formula, info(id).source);
   fmt::print(
       "\n{:<26}meaning\n{:<26}the closed form: energy 1 at normal incidence\n"
       "{:<26}the constant as the paper prints it, misprints included\n",

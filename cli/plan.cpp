@@ -4,6 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/scene_overrides.hpp"
+#include "cli/warnings.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -19,6 +20,7 @@ struct Options {
 void run(const Options& options) {
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
+  warn_of(scene);
   const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
   if (options.json) {
     fmt::print("{}", record_text(plan_record(plan)));
@@ -26,6 +28,7 @@ void run(const Options& options) {
   }
   for (const auto& effect : plan.effects)
     fmt::print("{:<14}{:<5}{}\n", effect.name, effect.on ? "on" : "off", effect.reason);
+  fmt::print("{:<19}{}\n", "precision", plan.precision_reason);
   fmt::print("camera rays   {}\nshadow rays   {}{}\n", plan.camera_rays,
              plan.max_shadow_rays > 0 ? "at most " : "", plan.max_shadow_rays);
 }

@@ -6,6 +6,7 @@
 #include "cli/output_path.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_overrides.hpp"
+#include "cli/warnings.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "reference_scenes/engine.hpp"
@@ -43,6 +44,7 @@ void run(const Options& options) {
   options.overrides.apply(scene);
   if (const std::string why = why_not_comparable(scene); !why.empty())
     throw Error(ExitCode::kInput, fmt::format("{}: {}", options.scene, why));
+  warn_of(scene);
   const auto record_path = checked_record_path(options.output);
   if (!options.log_directory.empty()) make_directories(options.log_directory);
   if (!options.keep_input.empty()) keep_engine_input(options.engine, scene, options.keep_input);

@@ -6,6 +6,7 @@
 #include "cli/output_path.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_overrides.hpp"
+#include "cli/warnings.hpp"
 #include "core/colour.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
@@ -19,6 +20,7 @@ namespace {
 struct Options {
   std::string scene, output, png, effects = "as-called-for";
   double exposure = 0;
+  std::string precision = "sufficient";
   int threads = 0;
   bool quiet = false;
   SceneOverrides overrides;
@@ -39,11 +41,13 @@ void run(const Options& options) {
 
   if (!options.png.empty()) require_png(options.png, options.output, record_path);
 
+  warn_of(scene);
   ProgressLine progress(!options.quiet);
   RenderOptions render_options;
   render_options.threads = options.threads;
   render_options.effects =
       options.effects == "all" ? EffectPolicy::kAll : EffectPolicy::kAsCalledFor;
+  render_options.precision = find_precision(options.precision);
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
   const RenderResult result = render(scene, render_options);
   progress.clear();
@@ -81,6 +85,12 @@ void add_render(CLI::App& app, ExitCode&) {
       ->add_option("--effects", options->effects,
                    "Simulate effects as the scene calls for them, or all")
       ->check(CLI::IsMember({"as-called-for", "all"}))
+      ->capture_default_str();
+  command
+      ->add_option("--precision", options->precision,
+                   "Shade with the narrowest precision whose error bound allows it (sufficient), "
+                   "or with this one")
+      ->check(CLI::IsMember({"sufficient", "float32", "mixed", "float64"}))
       ->capture_default_str();
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);

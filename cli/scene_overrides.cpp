@@ -12,13 +12,14 @@ namespace {
 
 template <class Id, class Find>
 void choose(const std::optional<std::string>& value, std::string_view option,
-            std::span<const std::string_view> names, Find find, Id& id) {
+            std::span<const std::string_view> names, const std::string& allowed, Find find,
+            Id& id) {
   if (!value) return;
   const auto found = find(*value);
   if (!found)
     throw Error(ExitCode::kUsage,
-                fmt::format("{} '{}' is unknown; allowed: {}{}", option, printable(*value),
-                            join(names), did_you_mean(*value, names)));
+                fmt::format("{} '{}' is unknown; allowed: {}{}", option, printable(*value), allowed,
+                            did_you_mean(*value, names)));
   id = *found;
 }
 
@@ -39,7 +40,7 @@ void SceneOverrides::add_to(CLI::App& command) {
   const std::string group = "In place of what the scene says";
   command.add_option("--model", model_, fmt::format("Model: {}", join(model_names())))
       ->group(group);
-  command.add_option("--lobe", lobe_, fmt::format("Lobe: {}", join(lobe_names())))->group(group);
+  command.add_option("--lobe", lobe_, fmt::format("Lobe: {}", allowed_lobes()))->group(group);
   command
       .add_option("--normalisation", normalisation_,
                   fmt::format("Coefficient: {}", join(normalisation_names())))
@@ -61,10 +62,10 @@ void SceneOverrides::apply(Scene& scene) const {
   for (auto& material : scene.materials) highlights.push_back(&material.highlight);
   for (Highlight* const each : highlights) {
     Highlight& highlight = *each;
-    choose(model_, "--model", model_names(), find_model, highlight.model);
-    choose(lobe_, "--lobe", lobe_names(), find_lobe, highlight.lobe);
-    choose(normalisation_, "--normalisation", normalisation_names(), find_normalisation,
-           highlight.normalisation);
+    choose(model_, "--model", model_names(), join(model_names()), find_model, highlight.model);
+    choose(lobe_, "--lobe", lobe_names(), allowed_lobes(), find_lobe, highlight.lobe);
+    choose(normalisation_, "--normalisation", normalisation_names(), join(normalisation_names()),
+           find_normalisation, highlight.normalisation);
     replace(exponent_, "--exponent", kMinExponent, kMaxExponent, highlight.exponent);
   }
   replace(width_, "--width", 1, kMaxImageSide, scene.film.width);

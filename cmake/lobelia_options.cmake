@@ -8,6 +8,11 @@ target_compile_options(lobelia_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # A compiler that fuses a*b+c on some processors only would make the picture depend on them.
   -ffp-contract=off)
+# SSE4.2 is the least that the kernels are written for (docs/decisions/0002); below it Highway would add
+# a target without registers. Every x86 processor since 2009 has it.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  target_compile_options(lobelia_options INTERFACE -march=x86-64-v2)
+endif()
 if(LOBELIA_WERROR)
   target_compile_options(lobelia_options INTERFACE -Werror)
 endif()

@@ -26,9 +26,9 @@ std::string file_token(std::string text) {
 }
 
 [[noreturn]] void unknown(std::string_view what, const std::string& text,
-                          std::span<const std::string_view> names) {
+                          std::span<const std::string_view> names, const std::string& allowed) {
   throw std::runtime_error(fmt::format("unknown {} '{}'; allowed: {}{}", what, printable(text),
-                                       join(names), did_you_mean(text, names)));
+                                       allowed, did_you_mean(text, names)));
 }
 
 template <class Change>
@@ -40,7 +40,7 @@ auto for_each_highlight(Change change) {
 
 AxisValue parse_model(const std::string& text, const fs::path&) {
   const auto model = find_model(text);
-  if (!model) unknown("model", text, model_names());
+  if (!model) unknown("model", text, model_names(), join(model_names()));
   return {text, std::string(info(*model).title), text,
           for_each_highlight([m = *model](Highlight& h) { h.model = m; })};
 }
@@ -53,9 +53,9 @@ AxisValue parse_normalisation(const std::string& text, const fs::path&) {
         fmt::format("'{}' is not LOBE:NORMALISATION, as cs16:paper is", printable(text)));
   const std::string lobe_text = text.substr(0, colon), how_text = text.substr(colon + 1);
   const auto lobe = find_lobe(lobe_text);
-  if (!lobe) unknown("lobe", lobe_text, lobe_names());
+  if (!lobe) unknown("lobe", lobe_text, lobe_names(), allowed_lobes());
   const auto how = find_normalisation(how_text);
-  if (!how) unknown("normalisation", how_text, normalisation_names());
+  if (!how) unknown("normalisation", how_text, normalisation_names(), join(normalisation_names()));
   return {text, lobe_text + ", " + how_text, lobe_text + "_" + how_text,
           for_each_highlight([l = *lobe, n = *how](Highlight& h) {
             h.lobe = l;

@@ -1,6 +1,13 @@
 #include "renderer/highlight.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <vector>
+
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 
@@ -11,17 +18,9 @@ using HWY_NAMESPACE::Lobes;
 using HWY_NAMESPACE::Models;
 
 constexpr auto kModelInfos = map_types<ModelInfo>(Models{}, []<class M>() { return M::kInfo; });
-constexpr auto kLobeInfos = map_types<LobeInfo>(Lobes{}, []<class L>() { return L::kInfo; });
 constexpr auto kModelNames =
     map_types<std::string_view>(Models{}, []<class M>() { return M::kInfo.name; });
-constexpr auto kLobeNames =
-    map_types<std::string_view>(Lobes{}, []<class L>() { return L::kInfo.name; });
 constexpr std::string_view kNormalisationNames[] = {"exact", "paper"};
-
-using LobeValue = double (*)(double s, double n);
-constexpr auto kLobeValues = map_types<LobeValue>(Lobes{}, []<class L>() -> LobeValue {
-  return [](double s, double n) { return L::value(s, n); };
-});
 
 /// How one model uses its lobe, for code that meets models by id.
 struct ModelUse {
@@ -36,37 +35,130 @@ constexpr auto kModelUses = map_types<ModelUse>(Models{}, []<class M>() {
                   M::paper_cs16, M::kEnergy, M::kShare};
 });
 
-using ExactCoefficient = double (*)(const EnergyIntegral&, double n);
-constexpr auto kExactCoefficients = map_types<ExactCoefficient>(
-    Lobes{}, []<class L>() -> ExactCoefficient { return exact_coefficient<L>; });
-constexpr auto kPaperColumns =
-    map_types<PaperColumn>(Lobes{}, []<class L>() { return L::kPaperColumn; });
+/// What is asked of one lobe, for code that meets lobes by id.
+struct LobeUse {
+  double (*value)(LobeParameters, double s);
+  double (*sample)(LobeParameters, double xi);
+  double (*density)(LobeParameters, double s);
+  double (*exact_coefficient)(LobeParameters, const EnergyIntegral&);
+  PaperColumn (*paper_column)(LobeParameters);
+  Float32Error (*float32_error)(LobeParameters);
+};
+constexpr auto kLobeUses = map_types<LobeUse>(Lobes{}, []<class L>() {
+  return LobeUse{[](LobeParameters p, double s) { return L(p).value(s); },
+                 [](LobeParameters p, double xi) { return L(p).sample(xi); },
+                 [](LobeParameters p, double s) { return L(p).density(s); },
+                 [](LobeParameters p, const EnergyIntegral& energy) {
+                   return exact_coefficient(energy, L(p));
+                 },
+                 [](LobeParameters p) { return L(p).paper_column(); },
+                 [](LobeParameters p) { return L(p).float32_error(); }};
+});
 
-template <class Id, std::size_t size>
-std::optional<Id> find(const std::array<std::string_view, size>& names, std::string_view name) {
-  for (std::size_t i = 0; i < size; ++i)
-    if (names[i] == name) return Id{std::uint8_t(i)};
-  return std::nullopt;
+/// The entry of a family as one of its members has it: k is a number.
+struct MemberText {
+  std::string name, title, formula;
+  MemberText(const LobeInfo& family, int order)
+      : name(fmt::format("{}{}", family.name, order)), title(name) {
+    for (const char c : family.formula)
+      formula += c == 'k' ? std::to_string(order) : std::string(1, c);
+  }
+};
+
+/// Every lobe that has a name, the members of a family in ascending order.
+class LobeTable {
+ public:
+  LobeTable() {
+    map_types<int>(Lobes{}, [this]<class L>() { return add<L>(); });
+  }
+
+  std::vector<LobeId> listed;
+  std::vector<std::string_view> names;
+
+  const LobeInfo& info(LobeId id) const {
+    const auto& members = infos_.at(id.index);
+    return id.order == 0 ? members.at(0) : members.at(std::size_t(id.order) / 2 - 1);
+  }
+  std::optional<LobeId> find(std::string_view name) const {
+    for (std::size_t i = 0; i < infos_.size(); ++i)
+      for (std::size_t m = 0; m < infos_[i].size(); ++m)
+        if (infos_[i][m].name == name)
+          return LobeId{std::uint8_t(i), std::uint16_t(families_[i] ? 2 * m + 2 : 0)};
+    return std::nullopt;
+  }
+
+ private:
+  template <class L>
+  int add() {
+    const auto index = std::uint8_t(infos_.size());
+    auto& members = infos_.emplace_back();
+    families_.push_back(!L::kOrders.empty());
+    if (L::kOrders.empty()) {
+      members.push_back(L::kInfo);
+      list({index, 0});
+      return 0;
+    }
+    for (int order = 2; order <= kMaxOrder; order += 2) {
+      const MemberText& text = texts_.emplace_back(L::kInfo, order);
+      members.push_back({text.name, text.title, text.formula, L::kInfo.source});
+    }
+    for (const int order : L::kOrders) list({index, std::uint16_t(order)});
+    return 0;
+  }
+  void list(LobeId id) {
+    listed.push_back(id);
+    names.push_back(info(id).name);
+  }
+
+  std::vector<std::vector<LobeInfo>> infos_;
+  std::vector<bool> families_;
+  std::deque<MemberText> texts_;  // whose addresses stay
+};
+
+const LobeTable& lobe_table() {
+  static const LobeTable table;
+  return table;
 }
+
+constexpr auto kModelIds = [] {
+  std::array<ModelId, Models::kSize> ids;
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = {std::uint8_t(i)};
+  return ids;
+}();
+
+LobeParameters parameters(LobeId lobe, double exponent) { return {exponent, lobe.order}; }
 
 }  // namespace
 
+std::span<const ModelId> all_models() { return kModelIds; }
 std::span<const ModelInfo> models() { return kModelInfos; }
-std::span<const LobeInfo> lobes() { return kLobeInfos; }
+std::span<const LobeId> all_lobes() { return lobe_table().listed; }
 std::span<const std::string_view> model_names() { return kModelNames; }
-std::span<const std::string_view> lobe_names() { return kLobeNames; }
+std::span<const std::string_view> lobe_names() { return lobe_table().names; }
 std::span<const std::string_view> normalisation_names() { return kNormalisationNames; }
 
+std::string allowed_lobes() {
+  std::string families;
+  map_types<int>(Lobes{}, [&]<class L>() {
+    if (!L::kOrders.empty())
+      families += fmt::format("; {0}K for any even K from 2 to {1}", L::kInfo.name, kMaxOrder);
+    return 0;
+  });
+  return join(lobe_names()) + families;
+}
+
 const ModelInfo& info(ModelId id) { return kModelInfos.at(id.index); }
-const LobeInfo& info(LobeId id) { return kLobeInfos.at(id.index); }
+const LobeInfo& info(LobeId id) { return lobe_table().info(id); }
 std::string_view name(Normalisation normalisation) {
   return kNormalisationNames[std::size_t(normalisation)];
 }
 
 std::optional<ModelId> find_model(std::string_view name) {
-  return find<ModelId>(kModelNames, name);
+  for (const ModelId id : kModelIds)
+    if (info(id).name == name) return id;
+  return std::nullopt;
 }
-std::optional<LobeId> find_lobe(std::string_view name) { return find<LobeId>(kLobeNames, name); }
+std::optional<LobeId> find_lobe(std::string_view name) { return lobe_table().find(name); }
 std::optional<Normalisation> find_normalisation(std::string_view name) {
   for (std::size_t i = 0; i < std::size(kNormalisationNames); ++i)
     if (kNormalisationNames[i] == name) return Normalisation(i);
@@ -75,10 +167,12 @@ std::optional<Normalisation> find_normalisation(std::string_view name) {
 
 double radiance_coefficient(const Highlight& highlight) {
   const ModelUse& model = kModelUses.at(highlight.model.index);
+  const LobeUse& lobe = kLobeUses.at(highlight.lobe.index);
   const double n = highlight.exponent;
+  const LobeParameters p = parameters(highlight.lobe, n);
   if (highlight.normalisation == Normalisation::kExact)
-    return model.share * kExactCoefficients.at(highlight.lobe.index)(model.energy, n);
-  switch (kPaperColumns.at(highlight.lobe.index)) {
+    return model.share * lobe.exact_coefficient(p, model.energy);
+  switch (lobe.paper_column(p)) {
     case PaperColumn::kCosine:
       return model.share * model.paper_cosine(n);
     case PaperColumn::kCs16:
@@ -91,14 +185,45 @@ double radiance_coefficient(const Highlight& highlight) {
                                     "'; use the normalisation 'exact'");
 }
 
+bool has_paper_coefficient(LobeId lobe) {
+  return kLobeUses.at(lobe.index).paper_column(parameters(lobe, 1)) != PaperColumn::kNone;
+}
+
+std::string warning(const Highlight& highlight) {
+  const double n = highlight.exponent;
+  if (highlight.normalisation != Normalisation::kPaper ||
+      (n >= kPaperMinExponent && n <= kPaperMaxExponent))
+    return "";
+  return fmt::format(
+      "exponent {:g}: the paper gives its coefficients for {:g} to {:g}; the normalisation 'exact' "
+      "holds for every exponent",
+      n, kPaperMinExponent, kPaperMaxExponent);
+}
+
 double lobe_value(LobeId lobe, double s, double exponent) {
-  return kLobeValues.at(lobe.index)(s, exponent);
+  return kLobeUses.at(lobe.index).value(parameters(lobe, exponent), s);
+}
+
+double sample_lobe(LobeId lobe, double xi, double exponent) {
+  return kLobeUses.at(lobe.index).sample(parameters(lobe, exponent), xi);
+}
+
+double lobe_density(LobeId lobe, double s, double exponent) {
+  return kLobeUses.at(lobe.index).density(parameters(lobe, exponent), s);
+}
+
+double lobe_float32_error(LobeId lobe, double exponent) {
+  return kLobeUses.at(lobe.index).float32_error(parameters(lobe, exponent)).of_peak;
+}
+
+double foreshortening(ModelId model, double n_dot_l) {
+  return kModelUses.at(model.index).foreshortening(n_dot_l);
 }
 
 double highlight_radiance(const Highlight& highlight, double n_dot_l, double s) {
   if (!(n_dot_l > 0)) return 0;
   return radiance_coefficient(highlight) * lobe_value(highlight.lobe, s, highlight.exponent) *
-         kModelUses.at(highlight.model.index).foreshortening(n_dot_l);
+         foreshortening(highlight.model, n_dot_l);
 }
 
 }  // namespace lobelia

@@ -15,17 +15,23 @@ struct ModelId {
   std::uint8_t index = 0;
   friend constexpr bool operator==(ModelId, ModelId) = default;
 };
-/// Position in the catalogue of lobes (renderer/lobes/catalogue.hpp).
+/// Position in the catalogue of lobes (renderer/lobes/catalogue.hpp) and, for a family of lobes, which
+/// member: the k of cs_k.
 struct LobeId {
   std::uint8_t index = 0;
+  std::uint16_t order = 0;  ///< even, 2 to kMaxOrder, for a family; 0 for a single lobe
   friend constexpr bool operator==(LobeId, LobeId) = default;
 };
+inline constexpr int kMaxOrder = 1024;
 
 /// Where the coefficient in front of the lobe comes from.
 enum class Normalisation : std::uint8_t {
-  kExact,  ///< the closed form of the integral: energy 1 at normal incidence
+  kExact,  ///< from the integral itself: energy 1 at normal incidence
   kPaper,  ///< as the paper prints it for that model and lobe
 };
+
+/// The exponents for which the paper gives its coefficients. Others are allowed, and warned of.
+inline constexpr double kPaperMinExponent = 16, kPaperMaxExponent = 1024;
 
 /// Which angle the lobe sees; s = 1 - cos of it.
 enum class LobeAngle : std::uint8_t {
@@ -36,7 +42,7 @@ enum class LobeAngle : std::uint8_t {
 struct LobeInfo {
   std::string_view name;     ///< "cosine", as in scene files and on the command line
   std::string_view title;    ///< "cosine", for people
-  std::string_view formula;  ///< of s = 1 - cos and n
+  std::string_view formula;  ///< of s = 1 - cos and n; 0 where s >= 1
   std::string_view source;
 };
 
@@ -59,12 +65,16 @@ struct Highlight {
 inline constexpr double kMinExponent = 1e-3;
 inline constexpr double kMaxExponent = 1e8;
 
-/// The catalogues, in their order. ids are indices into these.
+/// The catalogues, in their order. Of a family of lobes the usual members are listed; find_lobe knows
+/// all of them.
+std::span<const ModelId> all_models();
 std::span<const ModelInfo> models();
-std::span<const LobeInfo> lobes();
+std::span<const LobeId> all_lobes();
 std::span<const std::string_view> model_names();
 std::span<const std::string_view> lobe_names();
 std::span<const std::string_view> normalisation_names();  ///< "exact", "paper"
+/// "cosine, cs2, ..., csK with any even K from 2 to 1024, ...": what find_lobe takes, for messages.
+std::string allowed_lobes();
 
 const ModelInfo& info(ModelId id);
 const LobeInfo& info(LobeId id);
@@ -78,8 +88,25 @@ std::optional<Normalisation> find_normalisation(std::string_view name);
 /// irradiance. For the microfacet models it is a quarter of the coefficient of D: f_r = D F / 4.
 double radiance_coefficient(const Highlight& highlight);
 
+/// Whether the paper prints a coefficient for the lobe at all: it does for cosine and cs16.
+bool has_paper_coefficient(LobeId lobe);
+
+/// What the user ought to know of this highlight though it is allowed, or "".
+std::string warning(const Highlight& highlight);
+
 /// The lobe at s = 1 - cos(angle), s in [0, 2], in double precision: in [0, 1], value 1 at s = 0.
 double lobe_value(LobeId lobe, double s, double exponent);
+
+/// A random s of the lobe from `xi` uniform in [0, 1), and the density of such s over [0, 1]. Follows
+/// the lobe itself, by the closed form, for cosine, cs_k and spherical Gaussian; nearly so for the rest.
+double sample_lobe(LobeId lobe, double xi, double exponent);
+double lobe_density(LobeId lobe, double s, double exponent);
+
+/// Bound of what float32 arithmetic adds to the lobe at a given float32 s, relative to the peak.
+double lobe_float32_error(LobeId lobe, double exponent);
+
+/// N.L where the model applies it, else 1; for N.L > 0.
+double foreshortening(ModelId model, double n_dot_l);
 
 /// Radiance per unit irradiance normal to the beam, for unit vectors pointing away from the surface.
 double highlight_radiance(const Highlight& highlight, double n_dot_l, double s);

@@ -4,33 +4,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lobelia {
 
 /// max(x, 0)
 inline double positive_part(double x) { return std::max(x, 0.0); }
 
-/// 1 where x > 0, else 0.
-inline double step_positive(double x) { return x > 0 ? 1.0 : 0.0; }
+/// b where a > 0, else 0, even where b is NaN.
+inline double zero_unless_positive(double a, double b) { return a > 0 ? b : 0.0; }
 
-/// (1 - s)^n for s in [0, 2], n > 0; 0 where s >= 1. Through log1p: 1 - s would lose the digits of
-/// a small s, which a large n multiplies (at n = 1e6 none would be left in float32).
-inline double power_of_one_minus(double s, double n) {
-  return s < 1 ? std::exp(n * std::log1p(-s)) : 0.0;
+/// e^x for x <= 0; 0 where that would be no normal number, whose arithmetic can take a hundred times
+/// as long.
+inline double exp_or_zero(double x) {
+  return x >= std::log(std::numeric_limits<double>::min()) ? std::exp(x) : 0.0;
 }
 
-/// The integral of u^p (1 - u)^j over u from u0 to 1, for p > -1, 0 <= u0 <= 1, j = 0..3.
-/// Its terms of order j > 0 cancel to 1/p of their size, which is harmless where it is added to the
-/// term of order 0, p times larger than the rest (see EnergyIntegral).
-inline double power_moment(double p, double u0, int j) {
-  constexpr double kBinomial[4][4] = {{1}, {1, -1}, {1, -2, 1}, {1, -3, 3, -1}};
-  double sum = 0;
-  for (int i = 0; i <= j; ++i) {
-    const double q = p + i + 1;  // (1 - u0^q) / q
-    const double tail = u0 > 0 ? -std::expm1(q * std::log(u0)) : 1.0;
-    sum += kBinomial[j][i] * tail / q;
-  }
-  return sum;
+/// ln(1 - s) for s in [0, 1). From s itself: 1 - s would lose the digits of a small s, which a large
+/// n multiplies (at n = 1e6 none would be left in float32). Anything finite for other s.
+inline double log_one_minus(double s) { return s < 1 ? std::log1p(-s) : 0.0; }
+
+/// 2 asin^2(sqrt(s/2)): half of the square of the angle whose 1 - cos is s; s in [0, 1].
+inline double half_square_of_angle(double s) {
+  const double half_angle = std::asin(std::sqrt(std::min(s, 1.0) / 2));
+  return 2 * half_angle * half_angle;
+}
+
+/// 1 - q s. In a narrow type q keeps all of its digits, so that those of a small difference are right.
+inline double one_minus_product(double q, double s) { return 1 - q * s; }
+
+/// The type of number in a Real: its own, or that of a register's lanes.
+template <class Real>
+struct ScalarOf {
+  using Type = typename Real::Scalar;
+};
+template <>
+struct ScalarOf<double> {
+  using Type = double;
+};
+
+/// Smallest u whose power `k` is a normal number of that type.
+template <class Scalar>
+inline double smallest_base(int k) {
+  return std::exp2(double(std::numeric_limits<Scalar>::min_exponent - 1) / k);
 }
 
 }  // namespace lobelia

@@ -39,9 +39,11 @@ struct PixelSamples {
 
 /// What shading needs of a material, computed once for the picture.
 struct PreparedMaterial {
-  KernelTable::Shade shade = nullptr;
-  double exponent = 0;
-  Rgb specular, diffuse;  ///< reflectance times coefficient; reflectance / pi
+  Highlight highlight;
+  Fresnel fresnel = Fresnel::kNone;
+  Rgb specular;  ///< reflectance times coefficient
+  Rgb grazing;   ///< what Schlick's factor adds to it at grazing angles, at most
+  Rgb diffuse;   ///< reflectance / pi
 };
 
 /// The buffers of one thread: about 100 KiB, within the second-level cache.
@@ -52,7 +54,7 @@ struct Workspace {
   std::vector<int> pixel_of = std::vector<int>(kChunk);
   Vec3Chunk hit_point{}, hit_normal{}, hit_to_eye{}, to_light{};
   alignas(64) double falloff[kChunk]{}, distance[kChunk]{}, visible[kChunk]{};
-  alignas(64) double specular[kChunk]{}, n_dot_l[kChunk]{};
+  alignas(64) double specular[kChunk]{}, n_dot_l[kChunk]{}, fresnel[kChunk]{};
   std::vector<Rgb> sum = std::vector<Rgb>(kChunk);
 };
 
@@ -60,11 +62,13 @@ class Renderer {
  public:
   Renderer(const Scene& scene, const Plan& plan, Image& image)
       : scene_(scene), plan_(plan), image_(image), frame_(camera_frame(scene.camera, scene.film)) {
-    for (const Material& m : scene.materials)
-      materials_.push_back({kernels_.shade(m.highlight.model, m.highlight.lobe),
-                            m.highlight.exponent,
-                            radiance_coefficient(m.highlight) * m.specular_reflectance,
+    for (const Material& m : scene.materials) {
+      const double coefficient = radiance_coefficient(m.highlight);
+      const Rgb f0 = m.specular_reflectance;
+      materials_.push_back({m.highlight, m.fresnel, coefficient * f0,
+                            coefficient * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b},
                             std::numbers::inv_pi * m.diffuse_reflectance});
+    }
   }
 
   /// Leaves the row unfinished on Ctrl-C.
@@ -147,13 +151,14 @@ class Renderer {
         shadow_rays_ += hits;
       }
       const Rgb emitted = strength(light);
-      material.shade(material.exponent, hits, work.hit_normal, work.hit_to_eye, work.to_light,
-                     work.specular);
+      kernels_.shade(material.highlight, plan_.precision[l][sphere])(
+          material.highlight, hits, work.hit_normal, work.hit_to_eye, work.to_light, work.specular);
       const Rgb specular = emitted * material.specular;
       for (std::size_t i = 0; i < hits; ++i) {
         Rgb& sum = work.sum[work.pixel_of[i]];
         sum = sum + work.falloff[i] * work.specular[i] * specular;
       }
+      if (plan_.fresnel) add_fresnel(material, emitted, hits, work);
       if (!plan_.diffuse) continue;
       kernels_.cosine(hits, work.hit_normal, work.to_light, work.n_dot_l);
       const Rgb diffuse = emitted * material.diffuse;
@@ -161,6 +166,16 @@ class Renderer {
         Rgb& sum = work.sum[work.pixel_of[i]];
         sum = sum + work.falloff[i] * work.n_dot_l[i] * diffuse;
       }
+    }
+  }
+
+  void add_fresnel(const PreparedMaterial& material, Rgb emitted, std::size_t hits,
+                   Workspace& work) {
+    const Rgb grazing = material.fresnel == Fresnel::kSchlick ? emitted * material.grazing : Rgb{};
+    kernels_.fresnel(hits, work.hit_to_eye, work.to_light, work.fresnel);
+    for (std::size_t i = 0; i < hits; ++i) {
+      Rgb& sum = work.sum[work.pixel_of[i]];
+      sum = sum + work.falloff[i] * work.specular[i] * work.fresnel[i] * grazing;
     }
   }
 
@@ -179,7 +194,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   RenderResult result;
-  result.plan = make_plan(scene, options.effects);
+  result.plan = make_plan(scene, options.effects, options.precision);
   const auto planned = Clock::now();
   result.image = Image(scene.film.width, scene.film.height);
   result.instruction_set = kernels().instruction_set;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/image.hpp"
@@ -14,6 +15,7 @@ namespace lobelia {
 struct RenderOptions {
   int threads = 0;  ///< 0: all processors
   EffectPolicy effects = EffectPolicy::kAsCalledFor;
+  std::optional<Precision> precision;       ///< none: what the plan finds sufficient
   std::function<void(double)> on_progress;  ///< fraction done, from any thread, not in order
 };
 

@@ -30,16 +30,19 @@ ImageMetadata render_metadata(const Scene& scene) {
 Json plan_record(const Plan& plan) {
   Json record = make_record("plan");
   record["effects"] = effects_record(plan);
+  record["precision"] = plan.precision_reason;
   record["expectedRays"] = {{"camera", plan.camera_rays}, {"shadowAtMost", plan.max_shadow_rays}};
   return record;
 }
 
 Json highlight_record(const Highlight& highlight) {
-  return {{"model", info(highlight.model).name},
-          {"lobe", info(highlight.lobe).name},
-          {"normalisation", name(highlight.normalisation)},
-          {"exponent", highlight.exponent},
-          {"coefficient", radiance_coefficient(highlight)}};
+  Json record{{"model", info(highlight.model).name},
+              {"lobe", info(highlight.lobe).name},
+              {"normalisation", name(highlight.normalisation)},
+              {"exponent", highlight.exponent},
+              {"coefficient", radiance_coefficient(highlight)}};
+  if (const std::string text = warning(highlight); !text.empty()) record["warning"] = text;
+  return record;
 }
 
 Json render_record(const Scene& scene, const RenderResult& result,
@@ -54,7 +57,8 @@ Json render_record(const Scene& scene, const RenderResult& result,
     record["highlights"].push_back(highlight_record(material.highlight));
   record["samples"] = scene.sampler.sample_count;
   record["seed"] = scene.sampler.seed;
-  record["plan"] = {{"effects", effects_record(result.plan)}};
+  record["plan"] = {{"effects", effects_record(result.plan)},
+                    {"precision", result.plan.precision_reason}};
   record["rays"] = {{"camera", result.camera_rays}, {"shadow", result.shadow_rays}};
   record["instructionSet"] = result.instruction_set;
   record["seconds"] = {{"plan", result.plan_seconds},

@@ -35,7 +35,10 @@ HWY_INLINE void store(Lanes3 a, Vec3Chunk& to, std::size_t i) {
   a.z.store(to.z + i);
 }
 HWY_INLINE Lanes3 broadcast(Vec3 a) { return {Lanes(a.x), Lanes(a.y), Lanes(a.z)}; }
-HWY_INLINE Lanes3 unit(Lanes3 a) { return Lanes(1.0) / sqrt(dot(a, a)) * a; }
+template <class T>
+HWY_INLINE Lanes3Of<T> unit(Lanes3Of<T> a) {
+  return LanesOf<T>(1.0) / sqrt(dot(a, a)) * a;
+}
 
 void trace(const CameraFrame& camera, const std::vector<Sphere>& spheres, std::size_t count,
            const double* u, const double* v, double* sphere, Vec3Chunk& point, Vec3Chunk& normal,
@@ -122,22 +125,84 @@ void visibility(const std::vector<Sphere>& spheres, const std::vector<int>& occl
   }
 }
 
+/// The difference of the two unit vectors whose angle the lobe sees.
+template <class M, class T>
+HWY_INLINE Lanes3Of<T> difference(Lanes3Of<T> n, Lanes3Of<T> v, Lanes3Of<T> l) {
+  if constexpr (M::kInfo.angle == LobeAngle::kReflection)
+    return LanesOf<T>(2.0) * dot(n, v) * n - v - l;
+  else
+    return n - unit(l + v);
+}
+
+template <class T>
+HWY_INLINE LanesOf<T> one_minus_cos(Lanes3Of<T> difference) {
+  return LanesOf<T>(0.5) * dot(difference, difference);
+}
+
+/// Two registers' worth of vectors, as the precisions narrower than float64 take them.
+struct Pair {
+  Lanes3 low, high;
+  HWY_INLINE Pair(const Vec3Chunk& from, std::size_t i)
+      : low(load(from, i)), high(load(from, i + Lanes::count())) {}
+  HWY_INLINE Lanes3Of<float> rounded() const {
+    return {narrow(low.x, high.x), narrow(low.y, high.y), narrow(low.z, high.z)};
+  }
+};
+
 template <class M, class L>
-void shade(double exponent, std::size_t count, const Vec3Chunk& normal, const Vec3Chunk& to_eye,
-           const Vec3Chunk& to_light, double* specular) {
-  const Lanes n_exponent(exponent);
+struct Shader {
+  static void float64(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
+                      const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular) {
+    const L lobe({highlight.exponent, highlight.lobe.order});
+    for (std::size_t i = 0; i < count; i += Lanes::count()) {
+      const Lanes3 n = load(normal, i), v = load(to_eye, i), l = load(to_light, i);
+      const Lanes n_dot_l = dot(n, l);
+      const Lanes s = one_minus_cos(difference<M>(n, v, l));
+      const Lanes value = lobe.value(s) * M::foreshortening(n_dot_l);
+      // Also where there is no half vector (L = -V): N.L and N.V are never both positive there.
+      zero_unless_positive(n_dot_l, value).store(specular + i);
+    }
+  }
+
+  /// N.L stays float64 up to its sign, so that every precision has the same terminator.
+  template <bool mixed>
+  static void narrow_lobe(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
+                          const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular) {
+    const L lobe({highlight.exponent, highlight.lobe.order});
+    for (std::size_t i = 0; i < count; i += Lanes32::count()) {
+      const Pair n(normal, i), v(to_eye, i), l(to_light, i);
+      const Lanes low = dot(n.low, l.low), high = dot(n.high, l.high);
+      Lanes32 s;
+      if constexpr (mixed)
+        s = narrow(one_minus_cos(difference<M>(n.low, v.low, l.low)),
+                   one_minus_cos(difference<M>(n.high, v.high, l.high)));
+      else
+        s = one_minus_cos(difference<M>(n.rounded(), v.rounded(), l.rounded()));
+      // A cosine too small for a normal float32 would stall the arithmetic; the light is as good as
+      // below the horizon.
+      const Lanes tiny(double(std::numeric_limits<float>::min()));
+      const Lanes32 n_dot_l =
+          narrow(zero_unless_positive(low - tiny, low), zero_unless_positive(high - tiny, high));
+      const Lanes32 value = lobe.value(s) * M::foreshortening(n_dot_l);
+      store_wide(zero_unless_positive(n_dot_l, value), specular + i);
+    }
+  }
+};
+
+template <class L>
+void lobe32(const Highlight& highlight, std::size_t count, const float* s, float* value) {
+  const L lobe({highlight.exponent, highlight.lobe.order});
+  for (std::size_t i = 0; i < count; i += Lanes32::count())
+    lobe.value(Lanes32::load(s + i)).store(value + i);
+}
+
+void fresnel(std::size_t count, const Vec3Chunk& to_eye, const Vec3Chunk& to_light,
+             double* weight) {
   for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    const Lanes3 n = load(normal, i), v = load(to_eye, i), l = load(to_light, i);
-    const Lanes n_dot_l = dot(n, l);
-    Lanes3 difference;
-    if constexpr (M::kInfo.angle == LobeAngle::kReflection)
-      difference = Lanes(2.0) * dot(n, v) * n - v - l;
-    else
-      difference = n - unit(l + v);
-    const Lanes s = Lanes(0.5) * dot(difference, difference);
-    const Lanes value = L::value(s, n_exponent) * M::foreshortening(n_dot_l);
-    // Also where there is no half vector (L = -V): N.L and N.V are never both positive there.
-    zero_unless_positive(n_dot_l, value).store(specular + i);
+    const Lanes3 sum = load(to_eye, i) + load(to_light, i);
+    const Lanes base = positive_part(Lanes(1.0) - Lanes(0.5) * sqrt(dot(sum, sum)));
+    const Lanes square = base * base;
+    (square * square * base).store(weight + i);
   }
 }
 
@@ -147,22 +212,34 @@ void cosine(std::size_t count, const Vec3Chunk& normal, const Vec3Chunk& to_ligh
     positive_part(dot(load(normal, i), load(to_light, i))).store(n_dot_l + i);
 }
 
+using ShadeRow = std::array<KernelTable::Shade, 3>;  // by precision
+
 template <class M>
-constexpr auto shade_row() {
-  return map_types<KernelTable::Shade>(Lobes{}, []<class L>() { return &shade<M, L>; });
+constexpr auto shade_table() {
+  return map_types<ShadeRow>(Lobes{}, []<class L>() -> ShadeRow {
+    using S = Shader<M, L>;
+    return {&S::template narrow_lobe<false>, &S::template narrow_lobe<true>, &S::float64};
+  });
 }
 
-KernelTable::Shade find_shade(ModelId model, LobeId lobe) {
-  using Row = std::array<KernelTable::Shade, Lobes::kSize>;
-  static constexpr auto kTable = map_types<Row>(Models{}, []<class M>() { return shade_row<M>(); });
-  return kTable.at(model.index).at(lobe.index);
+KernelTable::Shade find_shade(const Highlight& highlight, Precision precision) {
+  using Row = std::array<ShadeRow, Lobes::kSize>;
+  static constexpr auto kTable =
+      map_types<Row>(Models{}, []<class M>() { return shade_table<M>(); });
+  return kTable.at(highlight.model.index).at(highlight.lobe.index).at(std::size_t(precision));
+}
+
+KernelTable::LobeValue find_lobe32(LobeId lobe) {
+  static constexpr auto kTable =
+      map_types<KernelTable::LobeValue>(Lobes{}, []<class L>() { return &lobe32<L>; });
+  return kTable.at(lobe.index);
 }
 
 }  // namespace
 
 const KernelTable& kernel_table() {
-  static const KernelTable table{trace,      light,  visibility,
-                                 find_shade, cosine, hwy::TargetName(HWY_TARGET)};
+  static const KernelTable table{trace,       light,   visibility, find_shade,
+                                 find_lobe32, fresnel, cosine,     hwy::TargetName(HWY_TARGET)};
   return table;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/highlight.hpp"
+#include "renderer/precision.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -18,7 +19,7 @@ struct Vec3Chunk {
   alignas(64) double x[kChunk], y[kChunk], z[kChunk];
 };
 
-/// Kernels run over whole registers: lanes from `count` up to the next multiple of 8 are computed too,
+/// Kernels run over whole registers: lanes from `count` up to the next multiple of 16 are computed too,
 /// from whatever stands there, and are to be ignored.
 struct KernelTable {
   /// Camera rays through film positions (u, v) at distance 1 (multiples of right and up): the
@@ -36,10 +37,20 @@ struct KernelTable {
                      std::size_t count, const Vec3Chunk& point, const Vec3Chunk& to_light,
                      const double* distance, double* visible);
 
-  /// Lobe times foreshortening (radiance per unit irradiance without the coefficient).
-  using Shade = void (*)(double exponent, std::size_t count, const Vec3Chunk& normal,
+  /// Lobe times foreshortening (radiance per unit irradiance without the coefficient), 0 where
+  /// N.L <= 0.
+  using Shade = void (*)(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
                          const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular);
-  Shade (*shade)(ModelId model, LobeId lobe);
+  Shade (*shade)(const Highlight& highlight, Precision precision);
+
+  /// The lobe alone, in float32.
+  using LobeValue = void (*)(const Highlight& highlight, std::size_t count, const float* s,
+                             float* value);
+  LobeValue (*lobe32)(LobeId lobe);
+
+  /// (1 - V.H)^5, by which Schlick's Fresnel factor goes from its value at normal incidence to 1.
+  void (*fresnel)(std::size_t count, const Vec3Chunk& to_eye, const Vec3Chunk& to_light,
+                  double* weight);
 
   /// max(N.L, 0)
   void (*cosine)(std::size_t count, const Vec3Chunk& normal, const Vec3Chunk& to_light,

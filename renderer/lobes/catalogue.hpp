@@ -1,7 +1,10 @@
 // The catalogue of lobes. To add one: write its file, include it here, add it to the list. Tests,
 // command line, scene reader and documentation find it there.
 #include "renderer/lobes/cosine.hpp"
-#include "renderer/lobes/cs16.hpp"
+#include "renderer/lobes/cs.hpp"
+#include "renderer/lobes/gauss.hpp"
+#include "renderer/lobes/schlick.hpp"
+#include "renderer/lobes/spherical_gaussian.hpp"
 #include "renderer/type_list.hpp"
 
 #if defined(LOBELIA_RENDERER_LOBES_CATALOGUE_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -14,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
-using Lobes = TypeList<CosineLobe, Cs16Lobe>;
+using Lobes = TypeList<CosineLobe, CsLobe, SphericalGaussianLobe, GaussLobe, SchlickLobe>;
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

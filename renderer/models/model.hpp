@@ -31,11 +31,10 @@ struct EnergyIntegral {
 inline constexpr double kHalfOfRightAngle = 1 - std::numbers::sqrt2 / 2;  ///< 1 - cos(pi/4)
 
 /// 1 / (2 pi sum of weights[j] M_j), with the moments M_j of the lobe.
-template <class L>
-double exact_coefficient(const EnergyIntegral& energy, double n) {
+double exact_coefficient(const EnergyIntegral& energy, const auto& lobe) {
   double sum = 0;
   for (int j = 0; j < 4; ++j)
-    if (energy.weights[j] != 0) sum += energy.weights[j] * L::moment(j, n, energy.s_max);
+    if (energy.weights[j] != 0) sum += energy.weights[j] * lobe.moment(j, energy.s_max);
   return 1 / (2 * std::numbers::pi * sum);
 }
 

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 
 namespace lobelia {
 namespace {
@@ -45,6 +48,17 @@ EffectDecision decide_diffuse(const Scene& scene, EffectPolicy policy, Plan& pla
   return {"diffuse", plan.diffuse, std::move(reason)};
 }
 
+EffectDecision decide_fresnel(const Scene& scene, EffectPolicy policy, Plan& plan) {
+  const auto reflecting =
+      std::count_if(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& m) { return m.fresnel != Fresnel::kNone; });
+  plan.fresnel = policy == EffectPolicy::kAll || reflecting > 0;
+  std::string reason = reflecting > 0 ? fmt::format("{} of {} materials have a Fresnel factor",
+                                                    reflecting, scene.materials.size())
+                                      : "no material has a Fresnel factor";
+  return {"fresnel", plan.fresnel, std::move(reason)};
+}
+
 EffectDecision decide_shadows(const Scene& scene, EffectPolicy policy, Plan& plan) {
   std::size_t pairs = 0;
   plan.occluders.assign(scene.lights.size(), std::vector<std::vector<int>>(scene.spheres.size()));
@@ -74,6 +88,65 @@ EffectDecision decide_shadows(const Scene& scene, EffectPolicy policy, Plan& pla
   return {"shadows", on, std::move(reason)};
 }
 
+/// A lower bound of |L + V| over the points of a sphere that are seen and lit: from the centre's
+/// directions, each widened by the angle that the sphere fills. 0 where there is none.
+double min_half_length(const Scene& scene, const Light& light, const Sphere& sphere) {
+  const auto widening = [&](Vec3 from) {
+    const double distance = length(from - sphere.center);
+    return distance > sphere.radius ? std::asin(sphere.radius / distance) : std::numbers::pi;
+  };
+  const Vec3 to_eye = scene.camera.origin - sphere.center;
+  if (length(to_eye) == 0) return 0;
+  double angle = widening(scene.camera.origin);
+  Vec3 to_light;
+  if (const auto* directional = std::get_if<DirectionalLight>(&light)) {
+    to_light = -directional->direction;
+  } else {
+    const Vec3 position = std::get<PointLight>(light).position;
+    angle += widening(position);
+    to_light = position - sphere.center;
+    if (length(to_light) == 0) return 0;
+  }
+  angle += std::acos(std::clamp(dot(normalize(to_eye), normalize(to_light)), -1.0, 1.0));
+  return angle < std::numbers::pi ? 2 * std::cos(angle / 2) : 0;
+}
+
+void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& plan) {
+  std::array<std::size_t, 3> pairs{};
+  // For each material by the length of L + V in halvings, of which few are asked for.
+  std::map<std::pair<int, int>, Precision> known;
+  for (const Light& light : scene.lights) {
+    auto& row = plan.precision.emplace_back();
+    for (const Sphere& sphere : scene.spheres) {
+      Precision precision = asked.value_or(Precision::kFloat64);
+      if (!asked) {
+        const double least = min_half_length(scene, light, sphere);
+        const int halvings = least > 0x1p-8 ? -int(std::floor(std::log2(least))) : 9;
+        const auto [entry, is_new] = known.try_emplace({sphere.material, halvings});
+        if (is_new)
+          entry->second = sufficient_precision(scene.materials[sphere.material].highlight,
+                                               halvings < 9 ? std::exp2(-halvings) : 0);
+        precision = entry->second;
+      }
+      row.push_back(precision);
+      ++pairs[std::size_t(precision)];
+    }
+  }
+  if (asked) {
+    plan.precision_reason = fmt::format("{} was asked for", name(*asked));
+    return;
+  }
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (pairs[p] > 0)
+      plan.precision_reason += fmt::format(
+          "{}{} for {} of {} pairs of light and sphere", plan.precision_reason.empty() ? "" : ", ",
+          name(Precision(p)), pairs[p], scene.lights.size() * scene.spheres.size());
+  plan.precision_reason +=
+      plan.precision_reason.empty()
+          ? "nothing is lit"
+          : fmt::format(": the narrowest that adds at most {:g} of the peak", kAllowedShadingError);
+}
+
 EffectDecision decide_antialiasing(const Scene& scene) {
   const int samples = scene.sampler.sample_count;
   return {"antialiasing", samples > 1,
@@ -83,14 +156,16 @@ EffectDecision decide_antialiasing(const Scene& scene) {
 
 }  // namespace
 
-Plan make_plan(const Scene& scene, EffectPolicy policy) {
+Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision> precision) {
   Plan plan;
   plan.effects.push_back(decide_diffuse(scene, policy, plan));
+  plan.effects.push_back(decide_fresnel(scene, policy, plan));
   plan.effects.push_back(decide_shadows(scene, policy, plan));
   plan.effects.push_back(decide_antialiasing(scene));
   if (policy == EffectPolicy::kAll)
     for (auto& effect : plan.effects)
       if (effect.on) effect.reason += " (forced: all effects were asked for)";
+  decide_precision(scene, precision, plan);
   plan.camera_rays = product(scene.film, scene.sampler);
   for (const auto& by_sphere : plan.occluders)
     if (std::any_of(by_sphere.begin(), by_sphere.end(), [](const auto& o) { return !o.empty(); }))

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/precision.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -22,11 +24,18 @@ struct Plan {
   std::vector<EffectDecision> effects;
   /// occluders[light][sphere]: the spheres that may stand between that sphere and that light.
   std::vector<std::vector<std::vector<int>>> occluders;
-  bool diffuse = false;               ///< some lit material has a diffuse base
+  bool diffuse = false;  ///< some lit material has a diffuse base
+  bool fresnel = false;  ///< some material has a Fresnel factor
+  /// precision[light][sphere]: how a highlight is shaded, and in words why.
+  std::vector<std::vector<Precision>> precision;
+  std::string precision_reason;
   std::uint64_t camera_rays = 0;      ///< exactly
   std::uint64_t max_shadow_rays = 0;  ///< at most: one per lit hit and light with occluders
 };
 
-Plan make_plan(const Scene& scene, EffectPolicy policy);
+/// `precision` for every highlight, or for each the narrowest whose error bound allows it. That all
+/// effects are asked for does not change the precision: it is no effect of light.
+Plan make_plan(const Scene& scene, EffectPolicy policy,
+               std::optional<Precision> precision = std::nullopt);
 
 }  // namespace lobelia

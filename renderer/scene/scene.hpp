@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/vec.hpp"
+#include "renderer/fresnel.hpp"
 #include "renderer/highlight.hpp"
 
 namespace lobelia {
@@ -49,8 +50,9 @@ inline Rgb strength(const Light& light) {
 struct Material {
   std::string id;            ///< from the file: untrusted text, for people only
   Highlight highlight;       ///< model, lobe, normalisation, exponent
-  Rgb specular_reflectance;  ///< scales the highlight, each 0..1
+  Rgb specular_reflectance;  ///< scales the highlight, each 0..1; F0 of Schlick's Fresnel factor
   Rgb diffuse_reflectance;   ///< Lambertian albedo beneath it, each 0..1
+  Fresnel fresnel = Fresnel::kNone;
 };
 
 struct Sphere {

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "renderer/fresnel.hpp"
 
 namespace lobelia {
 namespace {
 
 std::string range(const Parameter& p) {
   if (p.type == ParameterType::kString) {
-    if (p.name == "lobe") return join(lobe_names());
+    if (p.name == "lobe") return allowed_lobes();
+    if (p.name == "fresnel") return join(fresnel_names());
     if (p.name == "normalisation") return join(normalisation_names());
     return "";
   }

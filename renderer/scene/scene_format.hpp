@@ -53,6 +53,8 @@ inline constexpr Parameter kHighlightParameters[] = {
     {"normalisation", ParameterType::kString, "exact", 0, 0, "",
      "where its coefficient comes from"},
     {"exponent", ParameterType::kFloat, "", kMinExponent, kMaxExponent, "", "sharpness n"},
+    {"fresnel", ParameterType::kString, "none", 0, 0, "",
+     "schlick: the specular reflectance is that at normal incidence, and grows to 1"},
     {"specular_reflectance", ParameterType::kRgb, "1", 0, 1, "", "scales the highlight"},
     {"diffuse_reflectance", ParameterType::kRgb, "0", 0, 1, "", "Lambertian albedo beneath it"},
 };

@@ -366,9 +366,12 @@ class SceneReader {
       const Values values = read_parameters(node, format->parameters, {});
       material.highlight.model = *find_model(format->type);
       material.highlight.exponent = values.number("exponent");
-      choose(values["lobe"], node, "lobe", lobe_names(), find_lobe, material.highlight.lobe);
+      choose(values["lobe"], node, "lobe", lobe_names(), allowed_lobes(), find_lobe,
+             material.highlight.lobe);
       choose(values["normalisation"], node, "normalisation", normalisation_names(),
-             find_normalisation, material.highlight.normalisation);
+             join(normalisation_names()), find_normalisation, material.highlight.normalisation);
+      choose(values["fresnel"], node, "fresnel", fresnel_names(), join(fresnel_names()),
+             find_fresnel, material.fresnel);
       material.specular_reflectance = values.rgb("specular_reflectance");
       material.diffuse_reflectance = values.rgb("diffuse_reflectance");
     }
@@ -378,7 +381,8 @@ class SceneReader {
 
   template <class Id, class Find>
   void choose(const Value& value, pugi::xml_node element, std::string_view what,
-              std::span<const std::string_view> names, Find find, Id& id) {
+              std::span<const std::string_view> names, const std::string& allowed, Find find,
+              Id& id) {
     if (const auto found = find(value.text)) {
       id = *found;
       return;
@@ -386,7 +390,7 @@ class SceneReader {
     const pugi::xml_node where = value.node ? value.node : element;
     source_.error(where.attribute("value"), where,
                   fmt::format("unknown {} '{}'; allowed: {}{}", what, printable(value.text),
-                              join(names), did_you_mean(value.text, names)));
+                              allowed, did_you_mean(value.text, names)));
   }
 
   void read_shape(pugi::xml_node node) {

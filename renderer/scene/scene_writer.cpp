@@ -38,11 +38,13 @@ std::string bsdf(const Material& material, std::size_t index) {
       "    <string name=\"lobe\" value=\"{}\"/>\n"
       "    <string name=\"normalisation\" value=\"{}\"/>\n"
       "    <float name=\"exponent\" value=\"{}\"/>\n"
+      "    <string name=\"fresnel\" value=\"{}\"/>\n"
       "    <rgb name=\"specular_reflectance\" value=\"{}\"/>\n"
       "    <rgb name=\"diffuse_reflectance\" value=\"{}\"/>\n"
       "  </bsdf>\n",
       info(h.model).name, index, info(h.lobe).name, name(h.normalisation), h.exponent,
-      text(material.specular_reflectance), text(material.diffuse_reflectance));
+      name(material.fresnel), text(material.specular_reflectance),
+      text(material.diffuse_reflectance));
 }
 
 }  // namespace

@@ -15,17 +15,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-std::vector<LobeId> all_lobes() {
-  std::vector<LobeId> ids;
-  for (std::size_t i = 0; i < lobes().size(); ++i) ids.push_back({std::uint8_t(i)});
-  return ids;
-}
-std::vector<ModelId> all_models() {
-  std::vector<ModelId> ids;
-  for (std::size_t i = 0; i < models().size(); ++i) ids.push_back({std::uint8_t(i)});
-  return ids;
-}
-
 /// The integrand of the paper's table over the angle x, written out again from the table: the tests
 /// must not use the weights that the coefficients are made of.
 double integrand(std::string_view model, LobeId lobe, double n, double x) {
@@ -70,7 +59,7 @@ TEST(EveryModel, WithItsExactCoefficientReflectsExactlyTheEnergyThatArrives) {
         EXPECT_NEAR(energy({model, lobe, Normalisation::kExact, n}), 1, 3e-10)
             << info(model).name << " " << info(lobe).name << " n = " << n;
       }
-  EXPECT_EQ(cases, int(models().size() * lobes().size() * 11));
+  EXPECT_EQ(cases, int(all_models().size() * all_lobes().size() * 11));
 }
 
 TEST(EveryModel, HasTheSameExactCoefficientForCs16AndCosineAtExponent16) {

@@ -110,7 +110,9 @@ TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
       {scene(
            "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
            "<string name=\"lobe\" value=\"cs15\"/></bsdf></shape>"),
-       "s.xml:3:106: unknown lobe 'cs15'; allowed: cosine, cs16; did you mean 'cs16'?"},
+       "s.xml:3:106: unknown lobe 'cs15'; allowed: cosine, cs2, cs4, cs8, cs16, cs32, cs64, "
+       "spherical_gaussian, gauss, schlick; csK for any even K from 2 to 1024; did you mean "
+       "'cs16'?"},
       {scene("<shape type=\"sphere\"><ref id=\"x\"/></shape>"),
        "s.xml:3:31: no <bsdf> has the id 'x'"},
       {scene("<shape type=\"sphere\"/>"),

@@ -1,0 +1,16 @@
+#include "cli/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace lobelia::cli {
+
+void warn_of(const Scene& scene) {
+  std::set<std::string> lines;
+  for (const Material& material : scene.materials) lines.insert(warning(material.highlight));
+  lines.erase("");
+  for (const std::string& line : lines) fmt::print(stderr, "lobelia: warning: {}\n", line);
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,11 @@
+// Warnings: what is allowed and yet worth a line on stderr.
+#pragma once
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia::cli {
+
+/// One line for each distinct thing about the scene's materials.
+void warn_of(const Scene& scene);
+
+}  // namespace lobelia::cli

@@ -1,0 +1,25 @@
+#include "renderer/fresnel.hpp"
+
+#include <algorithm>
+
+namespace lobelia {
+namespace {
+constexpr std::string_view kNames[] = {"none", "schlick"};
+}
+
+std::span<const std::string_view> fresnel_names() { return kNames; }
+std::string_view name(Fresnel fresnel) { return kNames[std::size_t(fresnel)]; }
+std::optional<Fresnel> find_fresnel(std::string_view name) {
+  for (std::size_t i = 0; i < std::size(kNames); ++i)
+    if (kNames[i] == name) return Fresnel(i);
+  return std::nullopt;
+}
+
+Rgb fresnel_factor(Fresnel fresnel, Rgb reflectance, Vec3 to_eye, Vec3 to_light) {
+  if (fresnel == Fresnel::kNone) return reflectance;
+  const double base = std::max(0.0, 1 - length(to_eye + to_light) / 2);
+  const double weight = base * base * base * base * base;
+  return (1 - weight) * reflectance + Rgb{weight, weight, weight};
+}
+
+}  // namespace lobelia

@@ -1,0 +1,97 @@
+// cs_k, polynomials that stand in for cos^n: log2 k squarings and one multiply-add. The paper's is
+// cs_16 (its eq. 1); cs_n is cos^n itself, and as k grows cs_k becomes the spherical Gaussian.
+//
+//   value(s) = max(0, 1 - n s / k)^k where s < 1, else 0
+//
+// The paper prints (n/16 (cos x - 1) + 1)^16 for x <= theta_cr = arccos((n - 16)/n), else 0, and then
+// replaces theta_cr by 6/sqrt(n). We cut where the base reaches 0, which is theta_cr exactly; between
+// the two the paper's even power of a small negative base is at most 4e-15. Below n = k the lobe is
+// wider than a hemisphere, and is cut at s = 1 as cos^n is. By Bernoulli's inequality it is nowhere
+// above cos^n where n >= k.
+#include <boost/math/special_functions/beta.hpp>
+
+#include "renderer/lobes/lobe.hpp"
+
+#if defined(LOBELIA_RENDERER_LOBES_CS_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_RENDERER_LOBES_CS_HPP
+#undef LOBELIA_RENDERER_LOBES_CS_HPP
+#else
+#define LOBELIA_RENDERER_LOBES_CS_HPP
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+struct CsLobe {
+  static constexpr LobeInfo kInfo{"cs", "cs_k", "max(0, 1 - n s / k)^k",
+                                  "Romanyuk et al., eq. (1), for k = 16"};
+  static constexpr std::array kOrders{2, 4, 8, 16, 32, 64};
+
+  explicit CsLobe(LobeParameters p)
+      : n(p.exponent),
+        k(p.order),
+        slope(n / k),
+        support(std::min(1.0, k / n)),
+        smallest64(smallest_base<double>(k)),
+        smallest32(smallest_base<float>(k)) {
+    // Of u^(k+1) from where the lobe ends to its middle, u = 1 - n s / k.
+    mass = n > k ? 1 : -std::expm1((k + 1) * std::log1p(-slope));
+  }
+
+  template <class Real>
+  Real value(Real s) const {
+    constexpr bool kNarrow = std::is_same_v<typename ScalarOf<Real>::Type, float>;
+    const Real u = positive_part(one_minus_product(slope, s));
+    const Real power =
+        zero_unless_positive(u - Real(kNarrow ? smallest32 : smallest64), to_the_k(u));
+    return zero_unless_positive(Real(1) - s, power);
+  }
+
+  template <class Number>
+  Number definition(Number c) const {
+    using std::pow;
+    const Number base = Number(n) / Number(k) * (c - Number(1)) + Number(1);
+    return base > Number(0) ? Number(pow(base, Number(k))) : Number(0);
+  }
+
+  /// With w = n s / k, (k/n)^(j+1) times the integral of (1 - w)^k w^j: the incomplete beta function;
+  /// of order 0 where the lobe ends before s_max, k / (n (k + 1)).
+  double moment(int j, double s_max) const {
+    return std::pow(k / n, j + 1) *
+           boost::math::beta(j + 1.0, k + 1.0, std::min(1.0, slope * s_max));
+  }
+
+  double sample(double xi) const {
+    return std::min(support, -std::expm1(std::log1p(-xi * mass) / (k + 1)) / slope);
+  }
+  double density(double s) const { return slope * (k + 1) / mass * value(s); }
+  PaperColumn paper_column() const { return k == 16 ? PaperColumn::kCs16 : PaperColumn::kNone; }
+  /// The base is rounded once and multiplied k times with itself.
+  Float32Error float32_error() const { return {6e-8 * 2 * k, 2.0 * k}; }
+
+  double n;
+  int k;
+  double slope, support, mass;
+  double smallest64, smallest32;  ///< below, u^k is no normal number
+
+ private:
+  /// By squaring, for an even k.
+  template <class Real>
+  Real to_the_k(Real u) const {
+    Real square = u * u;
+    int rest = k / 2;
+    for (; rest % 2 == 0; rest /= 2) square = square * square;
+    Real power = square;
+    for (rest /= 2; rest > 0; rest /= 2) {
+      square = square * square;
+      if (rest % 2 == 1) power = power * square;
+    }
+    return power;
+  }
+};
+static_assert(Lobe<CsLobe>);
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

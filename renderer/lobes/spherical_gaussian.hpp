@@ -1,0 +1,53 @@
+// The spherical Gaussian, which cs_k becomes as k grows.
+//
+//   value(s) = exp(-n s) where s < 1, else 0
+#include <boost/math/special_functions/gamma.hpp>
+
+#include "renderer/lobes/lobe.hpp"
+
+#if defined(LOBELIA_RENDERER_LOBES_SPHERICAL_GAUSSIAN_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef LOBELIA_RENDERER_LOBES_SPHERICAL_GAUSSIAN_HPP
+#undef LOBELIA_RENDERER_LOBES_SPHERICAL_GAUSSIAN_HPP
+#else
+#define LOBELIA_RENDERER_LOBES_SPHERICAL_GAUSSIAN_HPP
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+struct SphericalGaussianLobe {
+  static constexpr LobeInfo kInfo{"spherical_gaussian", "spherical Gaussian", "exp(-n s)",
+                                  "Wang et al. 2009, All-frequency rendering, sec. 3"};
+  static constexpr std::array<int, 0> kOrders{};
+
+  explicit SphericalGaussianLobe(LobeParameters p) : n(p.exponent), mass(-std::expm1(-n)) {}
+
+  template <class Real>
+  Real value(Real s) const {
+    return zero_unless_positive(Real(1) - s, exp_or_zero(Real(-n) * s));
+  }
+
+  template <class Number>
+  Number definition(Number c) const {
+    using std::exp;
+    return exp(Number(n) * (c - Number(1)));
+  }
+
+  /// The incomplete gamma function; of order 0, (1 - exp(-n s_max)) / n.
+  double moment(int j, double s_max) const {
+    return boost::math::tgamma_lower(j + 1.0, n * s_max) / std::pow(n, j + 1);
+  }
+
+  double sample(double xi) const { return std::min(1.0, -std::log1p(-xi * mass) / n); }
+  double density(double s) const { return n / mass * value(s); }
+  PaperColumn paper_column() const { return PaperColumn::kNone; }
+  Float32Error float32_error() const { return {2e-7, 3, 2}; }
+
+  double n, mass;
+};
+static_assert(Lobe<SphericalGaussianLobe>);
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target guard

@@ -1,0 +1,73 @@
+#include "renderer/precision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lobelia {
+namespace {
+
+constexpr std::string_view kNames[] = {"float32", "mixed", "float64"};
+constexpr double kUnit32 = 0x1p-24, kUnit64 = 0x1p-53;  ///< largest relative error of one rounding
+
+/// What roundings may add to the difference of the two unit vectors whose angle the lobe sees, in
+/// units of one rounding. Counted in docs/numerics.md.
+double roundings(LobeAngle angle, double min_half_length) {
+  return angle == LobeAngle::kReflection ? 20 : 5 + 4 / min_half_length;
+}
+
+/// The most that the lobe changes where the difference of the vectors, its chord, changes by
+/// `absolute + relative * chord`.
+double modulus(const Highlight& highlight, double absolute, double relative) {
+  const auto value = [&](double chord) {
+    return lobe_value(highlight.lobe, chord * chord / 2, highlight.exponent);
+  };
+  const auto change = [&](double chord) {
+    const double step = absolute + relative * chord;
+    return value(std::max(0.0, chord - step)) - value(chord + step);
+  };
+  // A lobe bends over a chord of 1/sqrt(n); 64 points of that scale find the steepest place to a few
+  // per cent. The right angle, where every lobe ends, is one more.
+  constexpr int kPoints = 64;
+  const double end = std::min(std::numbers::sqrt2, 6 / std::sqrt(highlight.exponent));
+  double most = change(std::numbers::sqrt2);
+  for (int i = 1; i <= kPoints; ++i) most = std::max(most, change(end * i / kPoints));
+  return 1.05 * most;
+}
+
+}  // namespace
+
+std::span<const std::string_view> precision_names() { return kNames; }
+std::string_view name(Precision precision) { return kNames[std::size_t(precision)]; }
+std::optional<Precision> find_precision(std::string_view name) {
+  for (std::size_t i = 0; i < std::size(kNames); ++i)
+    if (kNames[i] == name) return Precision(i);
+  return std::nullopt;
+}
+
+double shading_error_bound(Precision precision, const Highlight& highlight,
+                           double min_half_length) {
+  const double roundings_here = roundings(info(highlight.model).angle, min_half_length);
+  const double in_float64 = modulus(highlight, roundings_here * kUnit64, 0);
+  // The lobe's own arithmetic, and the product with N.L, which is rounded too.
+  const double in_lobe = lobe_float32_error(highlight.lobe, highlight.exponent) + 2 * kUnit32;
+  switch (precision) {
+    case Precision::kFloat32:
+      return modulus(highlight, roundings_here * kUnit32, 0) + in_lobe;
+    case Precision::kMixed:
+      return in_float64 + modulus(highlight, 0, kUnit32) + in_lobe;
+    case Precision::kFloat64:
+      break;
+  }
+  return in_float64 + 8 * kUnit64;
+}
+
+Precision sufficient_precision(const Highlight& highlight, double min_half_length) {
+  for (const Precision p : {Precision::kFloat32, Precision::kMixed})
+    if (shading_error_bound(p, highlight, min_half_length) <= kAllowedShadingError) return p;
+  return Precision::kFloat64;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,39 @@
+// How many digits a highlight is shaded with.
+//
+// Rays always meet spheres in double precision, so that a hit is a hit whatever follows. What follows
+// may be narrower where a bound on its error allows it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "renderer/highlight.hpp"
+
+namespace lobelia {
+
+enum class Precision : std::uint8_t {
+  kFloat32,  ///< unit vectors are rounded to float32, and all that follows is float32
+  kMixed,    ///< s = 1 - cos is computed in float64 and rounded; the lobe is float32
+  kFloat64,  ///< all of it
+};
+
+/// "float32", "mixed", "float64"
+std::span<const std::string_view> precision_names();
+std::string_view name(Precision precision);
+std::optional<Precision> find_precision(std::string_view name);
+
+/// What a precision may add to a picture, relative to the highlight's peak. A tenth of a step of a
+/// half float at the peak, and a third of what Cycles' own float32 leaves.
+inline constexpr double kAllowedShadingError = 1e-5;
+
+/// Upper bound of |shaded - true| / peak, for unit vectors whose sum L + V is at least
+/// `min_half_length` long (it only matters to half-vector models; 0 where nothing is known). The
+/// derivation is in docs/numerics.md.
+double shading_error_bound(Precision precision, const Highlight& highlight, double min_half_length);
+
+/// The narrowest precision whose bound is within kAllowedShadingError.
+Precision sufficient_precision(const Highlight& highlight, double min_half_length);
+
+}  // namespace lobelia

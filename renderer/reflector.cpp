@@ -1,0 +1,120 @@
+#include "renderer/reflector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lobelia {
+namespace {
+
+bool is_direction(Vec3 v) {
+  const double m = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && m > 0;
+}
+
+/// A vector at an angle of s = 1 - cos from the unit vector `axis`, turned by `v` of a full turn.
+Vec3 about(Vec3 axis, double s, double v) {
+  // A frame without a square root or a special case but for -z (Duff et al. 2017).
+  const double sign = std::copysign(1.0, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
+  const Vec3 first{1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
+  const Vec3 second{b, sign + axis.y * axis.y * a, -axis.y};
+  const double sine = std::sqrt(s * (2 - s)), turn = 2 * std::numbers::pi * v;
+  return sine * std::cos(turn) * first + sine * std::sin(turn) * second + (1 - s) * axis;
+}
+
+}  // namespace
+
+/// Unit vectors, both above the horizon.
+struct Reflector::Directions {
+  Vec3 normal, to_eye, to_light;
+};
+
+std::optional<Reflector::Directions> Reflector::above_horizon(Vec3 normal, Vec3 to_eye,
+                                                              Vec3 to_light) {
+  if (!is_direction(normal) || !is_direction(to_eye) || !is_direction(to_light))
+    return std::nullopt;
+  const Directions d{normalize(normal), normalize(to_eye), normalize(to_light)};
+  if (!(dot(d.normal, d.to_eye) > 0 && dot(d.normal, d.to_light) > 0)) return std::nullopt;
+  return d;
+}
+
+Reflector::Reflector(const Material& material)
+    : material_(material), coefficient_(radiance_coefficient(material.highlight)) {}
+
+double Reflector::one_minus_cos(const Directions& d) const {
+  const Vec3 difference = info(material_.highlight.model).angle == LobeAngle::kReflection
+                              ? 2 * dot(d.normal, d.to_eye) * d.normal - d.to_eye - d.to_light
+                              : d.normal - normalize(d.to_eye + d.to_light);
+  return dot(difference, difference) / 2;
+}
+
+/// How many of the draws follow the highlight: as much as it is of the reflectance at this angle.
+double Reflector::specular_share(double n_dot_v) const {
+  const double base = std::max(0.0, 1 - n_dot_v), weight = base * base * base * base * base;
+  double specular = max_component(material_.specular_reflectance);
+  if (material_.fresnel == Fresnel::kSchlick) specular += (1 - specular) * weight;
+  const double diffuse = max_component(material_.diffuse_reflectance);
+  return specular + diffuse > 0 ? specular / (specular + diffuse) : 1;
+}
+
+Rgb Reflector::eval(const Directions& d) const {
+  const Highlight& highlight = material_.highlight;
+  const double n_dot_l = dot(d.normal, d.to_light);
+  const double value = coefficient_ *
+                       lobe_value(highlight.lobe, one_minus_cos(d), highlight.exponent) *
+                       foreshortening(highlight.model, n_dot_l);
+  return value * fresnel_factor(material_.fresnel, material_.specular_reflectance, d.to_eye,
+                                d.to_light) +
+         n_dot_l * std::numbers::inv_pi * material_.diffuse_reflectance;
+}
+
+double Reflector::pdf(const Directions& d) const {
+  const Highlight& highlight = material_.highlight;
+  const double share = specular_share(dot(d.normal, d.to_eye));
+  double specular =
+      lobe_density(highlight.lobe, std::min(1.0, one_minus_cos(d)), highlight.exponent) /
+      (2 * std::numbers::pi);
+  // From half vectors to directions: dL = 4 (V.H) dH, V.H = |L + V| / 2.
+  if (info(highlight.model).angle == LobeAngle::kHalfVector)
+    specular /= 2 * length(d.to_eye + d.to_light);
+  return share * specular + (1 - share) * dot(d.normal, d.to_light) * std::numbers::inv_pi;
+}
+
+Rgb Reflector::eval(Vec3 normal, Vec3 to_eye, Vec3 to_light) const {
+  const auto d = above_horizon(normal, to_eye, to_light);
+  return d ? eval(*d) : Rgb{};
+}
+
+double Reflector::pdf(Vec3 normal, Vec3 to_eye, Vec3 to_light) const {
+  const auto d = above_horizon(normal, to_eye, to_light);
+  return d ? pdf(*d) : 0;
+}
+
+std::optional<ReflectorSample> Reflector::sample(Vec3 normal, Vec3 to_eye, double choice, double u,
+                                                 double v) const {
+  const auto here = above_horizon(normal, to_eye, normal);
+  if (!here) return std::nullopt;
+  const Highlight& highlight = material_.highlight;
+  Vec3 to_light;
+  if (choice < specular_share(dot(here->normal, here->to_eye))) {
+    const double s = sample_lobe(highlight.lobe, u, highlight.exponent);
+    if (info(highlight.model).angle == LobeAngle::kReflection) {
+      const Vec3 mirrored = 2 * dot(here->normal, here->to_eye) * here->normal - here->to_eye;
+      to_light = about(mirrored, s, v);
+    } else {
+      const Vec3 half = about(here->normal, s, v);
+      to_light = 2 * dot(half, here->to_eye) * half - here->to_eye;
+    }
+  } else {
+    // Malley's method: a point of the disc, lifted. N.L = sqrt(1 - u).
+    to_light = about(here->normal, u / (1 + std::sqrt(1 - u)), v);
+  }
+  const auto d = above_horizon(normal, to_eye, to_light);
+  if (!d) return std::nullopt;
+  const ReflectorSample drawn{d->to_light, eval(*d), pdf(*d)};
+  // A pdf may underflow to 0 far from the lobe, where no draw is expected.
+  if (!(drawn.pdf > 0)) return std::nullopt;
+  return drawn;
+}
+
+}  // namespace lobelia
