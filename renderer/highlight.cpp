@@ -18,6 +18,8 @@ using HWY_NAMESPACE::Lobes;
 using HWY_NAMESPACE::Models;
 
 constexpr auto kModelInfos = map_types<ModelInfo>(Models{}, []<class M>() { return M::kInfo; });
+constexpr auto kModelFormulas =
+    map_types<CoefficientFormulas>(Models{}, []<class M>() { return M::kFormulas; });
 constexpr auto kModelNames =
     map_types<std::string_view>(Models{}, []<class M>() { return M::kInfo.name; });
 constexpr std::string_view kNormalisationNames[] = {"exact", "paper"};
@@ -57,11 +59,14 @@ constexpr auto kLobeUses = map_types<LobeUse>(Lobes{}, []<class L>() {
 
 /// The entry of a family as one of its members has it: k is a number.
 struct MemberText {
-  std::string name, title, formula;
+  std::string name, title, formula, moments;
   MemberText(const LobeInfo& family, int order)
       : name(fmt::format("{}{}", family.name, order)), title(name) {
-    for (const char c : family.formula)
-      formula += c == 'k' ? std::to_string(order) : std::string(1, c);
+    const auto with_order = [&](std::string_view text, std::string& to) {
+      for (const char c : text) to += c == 'k' ? std::to_string(order) : std::string(1, c);
+    };
+    with_order(family.formula, formula);
+    with_order(family.moments, moments);
   }
 };
 
@@ -100,7 +105,7 @@ class LobeTable {
     }
     for (int order = 2; order <= kMaxOrder; order += 2) {
       const MemberText& text = texts_.emplace_back(L::kInfo, order);
-      members.push_back({text.name, text.title, text.formula, L::kInfo.source});
+      members.push_back({text.name, text.title, text.formula, text.moments, L::kInfo.source});
     }
     for (const int order : L::kOrders) list({index, std::uint16_t(order)});
     return 0;
@@ -148,6 +153,20 @@ std::string allowed_lobes() {
 }
 
 const ModelInfo& info(ModelId id) { return kModelInfos.at(id.index); }
+const CoefficientFormulas& formulas(ModelId id) { return kModelFormulas.at(id.index); }
+std::string exact_formula(ModelId id) {
+  const ModelUse& use = kModelUses.at(id.index);
+  std::string sum;
+  for (std::size_t j = 0; j < use.energy.weights.size(); ++j) {
+    const double weight = use.energy.weights[j];
+    if (weight == 0) continue;
+    if (!sum.empty()) sum += weight < 0 ? " - " : " + ";
+    sum += (std::abs(weight) == 1 ? "" : fmt::format("{:g} ", std::abs(weight))) +
+           fmt::format("M{}", j);
+  }
+  return fmt::format("1/(2 pi ({})), s = 0 to {}", sum,
+                     use.energy.s_max == 1 ? "1" : "1 - sqrt(1/2)");
+}
 const LobeInfo& info(LobeId id) { return lobe_table().info(id); }
 std::string_view name(Normalisation normalisation) {
   return kNormalisationNames[std::size_t(normalisation)];

@@ -43,6 +43,7 @@ struct LobeInfo {
   std::string_view name;     ///< "cosine", as in scene files and on the command line
   std::string_view title;    ///< "cosine", for people
   std::string_view formula;  ///< of s = 1 - cos and n; 0 where s >= 1
+  std::string_view moments;  ///< M_j, the integral of formula s^j over s = 0 to S
   std::string_view source;
 };
 
@@ -53,6 +54,13 @@ struct ModelInfo {
   bool applies_cosine;        ///< radiance carries N.L; false for an RDF, which is 0 where N.L <= 0
   std::string_view integral;  ///< that the exact coefficient makes equal to 1
   std::string_view source;
+};
+
+/// Coefficients in words, of n.
+struct CoefficientFormulas {
+  std::string_view exact_cosine;  ///< what the integral gives for the cosine lobe
+  std::string_view paper_cosine;  ///< as the paper prints it
+  std::string_view paper_cs16;    ///< as the paper prints it
 };
 
 struct Highlight {
@@ -77,6 +85,10 @@ std::span<const std::string_view> normalisation_names();  ///< "exact", "paper"
 std::string allowed_lobes();
 
 const ModelInfo& info(ModelId id);
+const CoefficientFormulas& formulas(ModelId id);
+/// The exact coefficient of any lobe by its moments M_j, the integrals of lobe s^j:
+/// "1/(2 pi (M0 - M1)), s = 0 to 1".
+std::string exact_formula(ModelId id);
 const LobeInfo& info(LobeId id);
 std::string_view name(Normalisation normalisation);
 

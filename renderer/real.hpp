@@ -8,11 +8,8 @@
 
 namespace lobelia {
 
-/// max(x, 0)
-inline double positive_part(double x) { return std::max(x, 0.0); }
-
-/// b where a > 0, else 0, even where b is NaN.
-inline double zero_unless_positive(double a, double b) { return a > 0 ? b : 0.0; }
+/// `value` where a < b, else 0, even where `value` is NaN.
+inline double where_less(double a, double b, double value) { return a < b ? value : 0.0; }
 
 /// e^x for x <= 0; 0 where that would be no normal number, whose arithmetic can take a hundred times
 /// as long.

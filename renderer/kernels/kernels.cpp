@@ -17,6 +17,7 @@
 #include "renderer/kernels/lanes-inl.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
+#include "renderer/models/lobe_angle.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -35,10 +36,7 @@ HWY_INLINE void store(Lanes3 a, Vec3Chunk& to, std::size_t i) {
   a.z.store(to.z + i);
 }
 HWY_INLINE Lanes3 broadcast(Vec3 a) { return {Lanes(a.x), Lanes(a.y), Lanes(a.z)}; }
-template <class T>
-HWY_INLINE Lanes3Of<T> unit(Lanes3Of<T> a) {
-  return LanesOf<T>(1.0) / sqrt(dot(a, a)) * a;
-}
+HWY_INLINE Lanes3 unit(Lanes3 a) { return Lanes(1.0) / sqrt(dot(a, a)) * a; }
 
 void trace(const CameraFrame& camera, const std::vector<Sphere>& spheres, std::size_t count,
            const double* u, const double* v, double* sphere, Vec3Chunk& point, Vec3Chunk& normal,
@@ -95,8 +93,8 @@ void light(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Ch
     const Lanes squared = dot(way, way), length = sqrt(squared);
     // A light in the surface itself has no direction; left dark, as one inside the sphere is.
     const Lanes apart = squared - Lanes(kTouching * kTouching);
-    store(zero_unless_positive(apart, Lanes(1.0) / length) * way, to_light, i);
-    zero_unless_positive(apart, Lanes(1.0) / squared).store(falloff + i);
+    store(where_less(Lanes(0.0), apart, Lanes(1.0) / length) * way, to_light, i);
+    where_less(Lanes(0.0), apart, Lanes(1.0) / squared).store(falloff + i);
     length.store(distance + i);
   }
 }
@@ -125,20 +123,6 @@ void visibility(const std::vector<Sphere>& spheres, const std::vector<int>& occl
   }
 }
 
-/// The difference of the two unit vectors whose angle the lobe sees.
-template <class M, class T>
-HWY_INLINE Lanes3Of<T> difference(Lanes3Of<T> n, Lanes3Of<T> v, Lanes3Of<T> l) {
-  if constexpr (M::kInfo.angle == LobeAngle::kReflection)
-    return LanesOf<T>(2.0) * dot(n, v) * n - v - l;
-  else
-    return n - unit(l + v);
-}
-
-template <class T>
-HWY_INLINE LanesOf<T> one_minus_cos(Lanes3Of<T> difference) {
-  return LanesOf<T>(0.5) * dot(difference, difference);
-}
-
 /// Two registers' worth of vectors, as the precisions narrower than float64 take them.
 struct Pair {
   Lanes3 low, high;
@@ -157,10 +141,10 @@ struct Shader {
     for (std::size_t i = 0; i < count; i += Lanes::count()) {
       const Lanes3 n = load(normal, i), v = load(to_eye, i), l = load(to_light, i);
       const Lanes n_dot_l = dot(n, l);
-      const Lanes s = one_minus_cos(difference<M>(n, v, l));
+      const Lanes s = one_minus_cos<M::kInfo.angle, Lanes>(n, v, l);
       const Lanes value = lobe.value(s) * M::foreshortening(n_dot_l);
       // Also where there is no half vector (L = -V): N.L and N.V are never both positive there.
-      zero_unless_positive(n_dot_l, value).store(specular + i);
+      where_less(Lanes(0.0), n_dot_l, value).store(specular + i);
     }
   }
 
@@ -174,17 +158,16 @@ struct Shader {
       const Lanes low = dot(n.low, l.low), high = dot(n.high, l.high);
       Lanes32 s;
       if constexpr (mixed)
-        s = narrow(one_minus_cos(difference<M>(n.low, v.low, l.low)),
-                   one_minus_cos(difference<M>(n.high, v.high, l.high)));
+        s = narrow(one_minus_cos<M::kInfo.angle, Lanes>(n.low, v.low, l.low),
+                   one_minus_cos<M::kInfo.angle, Lanes>(n.high, v.high, l.high));
       else
-        s = one_minus_cos(difference<M>(n.rounded(), v.rounded(), l.rounded()));
+        s = one_minus_cos<M::kInfo.angle, Lanes32>(n.rounded(), v.rounded(), l.rounded());
       // A cosine too small for a normal float32 would stall the arithmetic; the light is as good as
       // below the horizon.
       const Lanes tiny(double(std::numeric_limits<float>::min()));
-      const Lanes32 n_dot_l =
-          narrow(zero_unless_positive(low - tiny, low), zero_unless_positive(high - tiny, high));
+      const Lanes32 n_dot_l = narrow(where_less(tiny, low, low), where_less(tiny, high, high));
       const Lanes32 value = lobe.value(s) * M::foreshortening(n_dot_l);
-      store_wide(zero_unless_positive(n_dot_l, value), specular + i);
+      store_wide(where_less(Lanes32(0.0), n_dot_l, value), specular + i);
     }
   }
 };

@@ -50,8 +50,8 @@ struct LanesOf {
 
   friend HWY_INLINE LanesOf sqrt(LanesOf a) { return LanesOf(hn::Sqrt(a.v)); }
   friend HWY_INLINE LanesOf positive_part(LanesOf a) { return LanesOf(hn::ZeroIfNegative(a.v)); }
-  friend HWY_INLINE LanesOf zero_unless_positive(LanesOf a, LanesOf b) {
-    return LanesOf(hn::IfThenElseZero(hn::Gt(a.v, hn::Zero(D())), b.v));
+  friend HWY_INLINE LanesOf where_less(LanesOf a, LanesOf b, LanesOf value) {
+    return LanesOf(hn::IfThenElseZero(hn::Lt(a.v, b.v), value.v));
   }
   friend HWY_INLINE LanesOf exp_or_zero(LanesOf x) {
     const D d;

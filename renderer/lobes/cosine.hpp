@@ -18,14 +18,15 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 struct CosineLobe {
-  static constexpr LobeInfo kInfo{"cosine", "cosine", "(1 - s)^n", "Phong 1975; Blinn 1977"};
+  static constexpr LobeInfo kInfo{"cosine", "cosine", "(1 - s)^n", "B(S; j + 1, n + 1)",
+                                  "Phong 1975; Blinn 1977"};
   static constexpr std::array<int, 0> kOrders{};
 
   explicit CosineLobe(LobeParameters p) : n(p.exponent) {}
 
   template <class Real>
   Real value(Real s) const {
-    return zero_unless_positive(Real(1) - s, exp_or_zero(Real(n) * log_one_minus(s)));
+    return where_less(s, Real(1), exp_or_zero(Real(n) * log_one_minus(s)));
   }
 
   template <class Number>

@@ -24,6 +24,7 @@ namespace lobelia::HWY_NAMESPACE {
 
 struct CsLobe {
   static constexpr LobeInfo kInfo{"cs", "cs_k", "max(0, 1 - n s / k)^k",
+                                  "(k/n)^(j+1) B(min(1, n S/k); j + 1, k + 1)",
                                   "Romanyuk et al., eq. (1), for k = 16"};
   static constexpr std::array kOrders{2, 4, 8, 16, 32, 64};
 
@@ -41,10 +42,10 @@ struct CsLobe {
   template <class Real>
   Real value(Real s) const {
     constexpr bool kNarrow = std::is_same_v<typename ScalarOf<Real>::Type, float>;
-    const Real u = positive_part(one_minus_product(slope, s));
-    const Real power =
-        zero_unless_positive(u - Real(kNarrow ? smallest32 : smallest64), to_the_k(u));
-    return zero_unless_positive(Real(1) - s, power);
+    const Real base = one_minus_product(slope, s);
+    // Cut before it is raised: a product that is no normal number stalls even if nobody looks at it.
+    const Real power = to_the_k(where_less(Real(kNarrow ? smallest32 : smallest64), base, base));
+    return support < 1 ? power : where_less(s, Real(1), power);
   }
 
   template <class Number>
@@ -72,7 +73,7 @@ struct CsLobe {
   double n;
   int k;
   double slope, support, mass;
-  double smallest64, smallest32;  ///< below, u^k is no normal number
+  double smallest64, smallest32;  ///< bases below have a power that is no normal number
 
  private:
   /// By squaring, for an even k.

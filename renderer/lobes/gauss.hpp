@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 struct GaussLobe {
-  static constexpr LobeInfo kInfo{"gauss", "Gauss", "exp(-n arccos(1 - s)^2 / 2)",
+  static constexpr LobeInfo kInfo{"gauss", "Gauss", "exp(-n arccos(1 - s)^2 / 2)", "by quadrature",
                                   "Romanyuk et al., among the lobes compared"};
   static constexpr std::array<int, 0> kOrders{};
 
@@ -27,7 +27,7 @@ struct GaussLobe {
 
   template <class Real>
   Real value(Real s) const {
-    return zero_unless_positive(Real(1) - s, exp_or_zero(Real(-n) * half_square_of_angle(s)));
+    return where_less(s, Real(1), exp_or_zero(Real(-n) * half_square_of_angle(s)));
   }
 
   template <class Number>

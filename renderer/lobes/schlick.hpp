@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 struct SchlickLobe {
-  static constexpr LobeInfo kInfo{"schlick", "Schlick", "(1 - s) / (1 - s + n s)",
+  static constexpr LobeInfo kInfo{"schlick", "Schlick", "(1 - s) / (1 - s + n s)", "by quadrature",
                                   "Schlick 1994, A fast alternative to Phong's specular model"};
   static constexpr std::array<int, 0> kOrders{};
 
@@ -26,8 +26,8 @@ struct SchlickLobe {
 
   template <class Real>
   Real value(Real s) const {
-    const Real c = positive_part(Real(1) - s);
-    return zero_unless_positive(c, c / (c + Real(n) * s));
+    const Real c = Real(1) - s;
+    return where_less(Real(0), c, c / (c + Real(n) * s));
   }
 
   template <class Number>

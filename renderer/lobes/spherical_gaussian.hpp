@@ -17,6 +17,7 @@ namespace lobelia::HWY_NAMESPACE {
 
 struct SphericalGaussianLobe {
   static constexpr LobeInfo kInfo{"spherical_gaussian", "spherical Gaussian", "exp(-n s)",
+                                  "gamma(j + 1, n S)/n^(j+1)",
                                   "Wang et al. 2009, All-frequency rendering, sec. 3"};
   static constexpr std::array<int, 0> kOrders{};
 
@@ -24,7 +25,7 @@ struct SphericalGaussianLobe {
 
   template <class Real>
   Real value(Real s) const {
-    return zero_unless_positive(Real(1) - s, exp_or_zero(Real(-n) * s));
+    return where_less(s, Real(1), exp_or_zero(Real(-n) * s));
   }
 
   template <class Number>

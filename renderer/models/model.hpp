@@ -46,6 +46,7 @@ concept Model = requires(double n_dot_l, double n) {
   { M::foreshortening(n_dot_l) } -> std::same_as<double>;
   /// 1; or 1/4 for a microfacet distribution D, because f_r = D F / 4.
   { M::kShare } -> std::convertible_to<double>;
+  { M::kFormulas } -> std::convertible_to<const CoefficientFormulas&>;
   /// The coefficients as the paper prints them, misprints included.
   { M::paper_cosine(n) } -> std::same_as<double>;
   { M::paper_cs16(n) } -> std::same_as<double>;

@@ -1,0 +1,87 @@
+#include "renderer/operation_count.hpp"
+
+#include "renderer/lobes/catalogue.hpp"
+#include "renderer/models/catalogue.hpp"
+#include "renderer/models/lobe_angle.hpp"
+
+namespace lobelia {
+namespace {
+
+thread_local OperationCount g_count;
+
+/// A number that counts what is done to it.
+struct Counted {
+  using Scalar = double;
+  double x = 0;
+  Counted() = default;
+  Counted(double value) : x(value) {}
+
+  friend Counted operator*(Counted a, Counted b) { return ++g_count.multiply, Counted(a.x * b.x); }
+  friend Counted operator+(Counted a, Counted b) { return ++g_count.add, Counted(a.x + b.x); }
+  friend Counted operator-(Counted a, Counted b) { return ++g_count.add, Counted(a.x - b.x); }
+  friend Counted operator/(Counted a, Counted b) { return ++g_count.divide, Counted(a.x / b.x); }
+  friend Counted sqrt(Counted a) { return ++g_count.root, Counted(std::sqrt(a.x)); }
+  friend Counted where_less(Counted a, Counted b, Counted value) {
+    return ++g_count.compare, Counted(where_less(a.x, b.x, value.x));
+  }
+  friend Counted exp_or_zero(Counted a) {
+    return ++g_count.transcendental, ++g_count.compare, Counted(exp_or_zero(a.x));
+  }
+  friend Counted log_one_minus(Counted s) {
+    return ++g_count.transcendental, Counted(log_one_minus(s.x));
+  }
+  friend Counted half_square_of_angle(Counted s) {
+    ++g_count.root, ++g_count.transcendental, g_count.multiply += 3;
+    return half_square_of_angle(s.x);
+  }
+  friend Counted one_minus_product(double q, Counted s) { return Counted(1) - Counted(q) * s; }
+};
+
+struct CountedVec3 {
+  Counted x, y, z;
+  friend CountedVec3 operator+(CountedVec3 a, CountedVec3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend CountedVec3 operator-(CountedVec3 a, CountedVec3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend CountedVec3 operator*(Counted k, CountedVec3 a) { return {k * a.x, k * a.y, k * a.z}; }
+  friend Counted dot(CountedVec3 a, CountedVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+};
+
+template <class F>
+OperationCount counted(F f) {
+  g_count = {};
+  f();
+  return g_count;
+}
+
+}  // namespace
+
+OperationCount operations(LobeId lobe) {
+  using Count = OperationCount (*)(LobeParameters);
+  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::Lobes{}, []<class L>() -> Count {
+    return [](LobeParameters p) { return counted([&] { L(p).value(Counted(1e-3)); }); };
+  });
+  return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe.order});  // n > k: of finite support
+}
+
+OperationCount operations(ModelId model) {
+  using Count = OperationCount (*)();
+  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::Models{}, []<class M>() -> Count {
+    return [] {
+      return counted([] {
+        const CountedVec3 up{0, 0, 1};
+        const Counted s = HWY_NAMESPACE::one_minus_cos<M::kInfo.angle, Counted>(up, up, up);
+        // An RDF needs N.L for its sign only, the others also as a factor.
+        const Counted n_dot_l = dot(up, up);
+        Counted value = s;
+        if constexpr (M::kInfo.applies_cosine) value = value * M::foreshortening(n_dot_l);
+        where_less(Counted(0), n_dot_l, value);
+      });
+    };
+  });
+  return kCounts.at(model.index)();
+}
+
+}  // namespace lobelia

@@ -1,0 +1,42 @@
+// What lobes and models cost in arithmetic, against a count by hand.
+#include <gtest/gtest.h>
+
+#include "renderer/operation_count.hpp"
+
+namespace lobelia {
+namespace {
+
+TEST(OperationCount, OfCs16IsFourSquaringsAndOneMultiplyAddAsThePaperSays) {
+  // One comparison cuts the base at 0.
+  EXPECT_EQ(operations(*find_lobe("cs16")), (OperationCount{5, 1, 0, 0, 0, 1}));
+}
+
+TEST(OperationCount, OfCsIsLog2OfKSquaringsWhereKIsAPowerOfTwo) {
+  int squarings = 1;
+  for (const int k : {2, 4, 8, 16, 32, 64, 128})
+    EXPECT_EQ(operations(*find_lobe("cs" + std::to_string(k))).multiply, 1 + squarings++) << k;
+  // u^12 = (u^4)^2 u^4: three squarings and a product.
+  EXPECT_EQ(operations(*find_lobe("cs12")).multiply, 1 + 4);
+}
+
+TEST(OperationCount, OfSchlickHasADivisionAndNoTranscendentalOfCosineTwoOfThese) {
+  const OperationCount schlick = operations(*find_lobe("schlick"));
+  EXPECT_EQ(schlick.divide, 1);
+  EXPECT_EQ(schlick.transcendental, 0);
+  EXPECT_EQ(operations(*find_lobe("cosine")).transcendental, 2);
+}
+
+TEST(OperationCount, OfEveryLobeAndModelIsNotNothing) {
+  for (const LobeId lobe : all_lobes()) EXPECT_GT(operations(lobe).multiply, 0);
+  for (const ModelId model : all_models()) {
+    const OperationCount count = operations(model);
+    EXPECT_GT(count.multiply, 6) << info(model).name;
+    // The half vector is of unit length after a root and a division.
+    const int roots = info(model).angle == LobeAngle::kHalfVector ? 1 : 0;
+    EXPECT_EQ(count.root, roots) << info(model).name;
+    EXPECT_EQ(count.divide, roots) << info(model).name;
+  }
+}
+
+}  // namespace
+}  // namespace lobelia
