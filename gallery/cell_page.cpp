@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
 #include "gallery/names.hpp"
-#include "gallery/numbers.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {

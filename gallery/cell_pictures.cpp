@@ -1,6 +1,6 @@
+#include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
 #include "gallery/names.hpp"
-#include "gallery/numbers.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
 
+#include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
-#include "gallery/numbers.hpp"
 #include "gallery/page.hpp"
 #include "gallery/profile_charts.hpp"
 

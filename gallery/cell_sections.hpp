@@ -1,8 +1,8 @@
 // The parts of a cell's page, in the order in which they stand on it.
 #pragma once
 
+#include "core/html.hpp"
 #include "gallery/cell_data.hpp"
-#include "gallery/html.hpp"
 
 namespace lobelia::gallery {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/numbers.hpp"
 #include "gallery/metric_notes.hpp"
-#include "gallery/numbers.hpp"
 
 namespace lobelia::gallery {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
 #include "gallery/metric_notes.hpp"
-#include "gallery/numbers.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/numbers.hpp"
 #include "core/text.hpp"
 #include "gallery/names.hpp"
-#include "gallery/numbers.hpp"
 
 namespace lobelia::gallery {
 namespace {

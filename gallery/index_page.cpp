@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "core/numbers.hpp"
 #include "gallery/names.hpp"
-#include "gallery/numbers.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {

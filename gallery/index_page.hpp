@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/html.hpp"
 #include "gallery/cell_summary.hpp"
-#include "gallery/html.hpp"
 
 namespace lobelia::gallery {
 

@@ -1,6 +1,6 @@
 #include "gallery/metric_notes.hpp"
 
-#include "gallery/numbers.hpp"
+#include "core/numbers.hpp"
 
 namespace lobelia::gallery {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "gallery/html.hpp"
+#include "core/html.hpp"
 #include "gallery/status.hpp"
 
 namespace lobelia::gallery {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gallery/ticks.hpp"
+#include "core/ticks.hpp"
 
 namespace lobelia::gallery {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "core/svg_chart.hpp"
 #include "gallery/farm_data.hpp"
 #include "gallery/profile_data.hpp"
-#include "gallery/svg_chart.hpp"
 
 namespace lobelia::gallery {
 

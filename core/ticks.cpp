@@ -1,13 +1,13 @@
-#include "gallery/ticks.hpp"
+#include "core/ticks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "gallery/numbers.hpp"
+#include "core/numbers.hpp"
 
-namespace lobelia::gallery {
+namespace lobelia {
 namespace {
 
 double round_step(double rough) {
@@ -55,4 +55,4 @@ double round_up(double value) {
   return step * std::ceil(value / step - 1e-9);
 }
 
-}  // namespace lobelia::gallery
+}  // namespace lobelia

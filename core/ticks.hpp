@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace lobelia::gallery {
+namespace lobelia {
 
 struct Tick {
   double value = 0;
@@ -19,4 +19,4 @@ std::vector<Tick> log_ticks(double from, double to);
 /// A round number at or above `value`, to end an axis with; 1 if value is not positive.
 double round_up(double value);
 
-}  // namespace lobelia::gallery
+}  // namespace lobelia

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace lobelia::gallery {
+namespace lobelia {
 
 /// Significant digits: "0.0123", "1234", "4.9 × 10⁻⁴"; "–" where it is not a number.
 std::string number_text(double value, int digits = 3);
@@ -22,4 +22,4 @@ std::string stops_text(double stops);
 /// An integer with thin spaces: "65 536". Values that are not integers as number_text.
 std::string count_text(double count);
 
-}  // namespace lobelia::gallery
+}  // namespace lobelia

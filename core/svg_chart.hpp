@@ -1,11 +1,11 @@
-// A line chart as inline SVG. Colours come from style.css, so that it follows the page into the
+// A line chart as inline SVG. Colours come from the page, so that it follows the page into the
 // dark; dash patterns are in the drawing itself, so that lines can be told apart without colour.
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace lobelia::gallery {
+namespace lobelia {
 
 struct ChartAxis {
   std::string label;  ///< with its unit
@@ -36,4 +36,4 @@ struct Chart {
 
 std::string draw_chart(const Chart& chart);
 
-}  // namespace lobelia::gallery
+}  // namespace lobelia

@@ -1,12 +1,12 @@
-#include "gallery/numbers.hpp"
+#include "core/numbers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "gallery/ticks.hpp"
+#include "core/ticks.hpp"
 
-namespace lobelia::gallery {
+namespace lobelia {
 namespace {
 
 TEST(Numbers, are_written_as_people_read_them) {
@@ -69,4 +69,4 @@ TEST(Ticks, an_axis_ends_at_a_round_number) {
 }
 
 }  // namespace
-}  // namespace lobelia::gallery
+}  // namespace lobelia

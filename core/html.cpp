@@ -1,11 +1,11 @@
-#include "gallery/html.hpp"
+#include "core/html.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "core/text.hpp"
 
-namespace lobelia::gallery {
+namespace lobelia {
 namespace {
 
 // Elements that are part of a line; all others end one, so that the source of a page can be read.
@@ -55,4 +55,4 @@ void Html::element(std::string_view tag, const Attributes& attributes, std::stri
   close(tag);
 }
 
-}  // namespace lobelia::gallery
+}  // namespace lobelia

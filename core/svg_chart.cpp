@@ -1,4 +1,4 @@
-#include "gallery/svg_chart.hpp"
+#include "core/svg_chart.hpp"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "gallery/html.hpp"
-#include "gallery/ticks.hpp"
+#include "core/html.hpp"
+#include "core/ticks.hpp"
 
-namespace lobelia::gallery {
+namespace lobelia {
 namespace {
 
 constexpr double kLeft = 78, kRight = 12, kTop = 34, kBottom = 50;
@@ -189,4 +189,4 @@ class Drawing {
 
 std::string draw_chart(const Chart& chart) { return Drawing(chart).draw(); }
 
-}  // namespace lobelia::gallery
+}  // namespace lobelia

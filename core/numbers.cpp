@@ -1,4 +1,4 @@
-#include "gallery/numbers.hpp"
+#include "core/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace lobelia::gallery {
+namespace lobelia {
 namespace {
 
 // A typographic minus: the hyphen is too short to be seen in front of a small exponent.
@@ -99,4 +99,4 @@ std::string count_text(double count) {
   return (count < 0 ? "−" : "") + digits;
 }
 
-}  // namespace lobelia::gallery
+}  // namespace lobelia

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lobelia::gallery {
+namespace lobelia {
 
 struct Attribute {
   std::string_view name;  ///< ours, never from a record
@@ -17,7 +17,7 @@ using Attributes = std::vector<Attribute>;
 class Html {
  public:
   void text(std::string_view text);
-  /// Markup made by this room, such as a chart; the only way to write without escaping.
+  /// Markup made by such an object, a chart; the only way to write without escaping.
   void raw(std::string_view markup) { out_ += markup; }
   /// An element without content: <img ... />.
   void empty(std::string_view tag, const Attributes& attributes = {});
@@ -50,4 +50,4 @@ class Tag {
   std::string_view tag_;
 };
 
-}  // namespace lobelia::gallery
+}  // namespace lobelia

@@ -1,4 +1,4 @@
-#include "gallery/svg_chart.hpp"
+#include "core/svg_chart.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <pugixml.hpp>
 #include <set>
 
-namespace lobelia::gallery {
+namespace lobelia {
 namespace {
 
 Chart chart_of(const std::vector<double>& y) {
@@ -75,4 +75,4 @@ TEST(SvgChart, lines_can_be_told_apart_without_colour) {
 }
 
 }  // namespace
-}  // namespace lobelia::gallery
+}  // namespace lobelia
