@@ -7,13 +7,20 @@
 #include <cmath>
 
 #include "core/html.hpp"
+#include "core/numbers.hpp"
 #include "core/ticks.hpp"
 
 namespace lobelia {
+
+namespace embedded {
+extern const std::string_view chart_style;
+}
+
 namespace {
 
 constexpr double kLeft = 78, kRight = 12, kTop = 34, kBottom = 50;
-constexpr double kCharacter = 7.2;  // typical width at the size that style.css sets
+constexpr double kTitle = 36;       // height that a drawn title takes
+constexpr double kCharacter = 7.2;  // typical width at the size that the styles set
 
 struct LineStyle {
   std::string_view dashes;
@@ -43,19 +50,55 @@ class Drawing {
                      {"viewBox", fmt::format("0 0 {} {}", chart_.width, chart_.height)},
                      {"role", "img"},
                      {"aria-labelledby", chart_.id + "-title " + chart_.id + "-desc"}});
-      html_.element("title", {{"id", chart_.id + "-title"}}, chart_.title);
-      html_.element("desc", {{"id", chart_.id + "-desc"}}, chart_.description);
-      draw_clip();
-      for (std::size_t i = 0; i < chart_.bands.size(); ++i) draw_band(chart_.bands[i], i);
-      draw_x_axis();
-      draw_y_axis();
-      for (const ChartSeries& series : chart_.series) draw_series(series);
-      draw_legend();
+      draw_contents();
+    }
+    return html_.str();
+  }
+
+  std::string draw_file() {
+    {
+      const double height = chart_.height + kTitle;
+      const Tag svg(html_, "svg",
+                    {{"xmlns", "http://www.w3.org/2000/svg"},
+                     {"class", "chart"},
+                     {"width", number(chart_.width)},
+                     {"height", number(height)},
+                     {"viewBox", fmt::format("0 {} {} {}", -kTitle, chart_.width, height)},
+                     {"role", "img"},
+                     {"aria-labelledby", chart_.id + "-title " + chart_.id + "-desc"}});
+      html_.element("style", embedded::chart_style);
+      html_.empty("rect", {{"class", "ground"},
+                           {"y", number(-kTitle)},
+                           {"width", number(chart_.width)},
+                           {"height", number(height)}});
+      text("chart-title", kLeft, -10, "start", chart_.title);
+      draw_contents();
     }
     return html_.str();
   }
 
  private:
+  void draw_contents() {
+    html_.element("title", {{"id", chart_.id + "-title"}}, chart_.title);
+    html_.element("desc", {{"id", chart_.id + "-desc"}}, chart_.description);
+    draw_clip();
+    for (std::size_t i = 0; i < chart_.bands.size(); ++i) draw_band(chart_.bands[i], i);
+    draw_x_axis();
+    draw_y_axis();
+    for (const ChartSeries& series : chart_.series) draw_series(series);
+    draw_legend();
+  }
+
+  /// Where an axis is marked: as it says itself, otherwise at about `count` round numbers.
+  static std::vector<Tick> ticks_of(const ChartAxis& axis, int count) {
+    if (axis.ticks.empty())
+      return axis.logarithmic ? log_ticks(axis.from, axis.to)
+                              : linear_ticks(axis.from, axis.to, count);
+    std::vector<Tick> ticks;
+    for (const double value : axis.ticks) ticks.push_back({value, number_text(value)});
+    return ticks;
+  }
+
   static double share(const ChartAxis& axis, double value) {
     if (axis.logarithmic) return std::log(value / axis.from) / std::log(axis.to / axis.from);
     return (value - axis.from) / (axis.to - axis.from);
@@ -103,7 +146,7 @@ class Drawing {
   }
 
   void draw_x_axis() {
-    for (const Tick& tick : linear_ticks(chart_.x.from, chart_.x.to, 10)) {
+    for (const Tick& tick : ticks_of(chart_.x, 10)) {
       const double x = at_x(tick.value);
       line("tick", x, bottom(), x, bottom() + 5);
       text("tick-label", x, bottom() + 19, "middle", tick.label);
@@ -113,9 +156,7 @@ class Drawing {
   }
 
   void draw_y_axis() {
-    const ChartAxis& y = chart_.y;
-    for (const Tick& tick :
-         y.logarithmic ? log_ticks(y.from, y.to) : linear_ticks(y.from, y.to, 5)) {
+    for (const Tick& tick : ticks_of(chart_.y, 5)) {
       const double at = at_y(tick.value);
       if (tick.label.empty()) {
         line("tick", kLeft - 3, at, kLeft, at);
@@ -130,7 +171,7 @@ class Drawing {
                   {{"class", "axis-label"},
                    {"transform", fmt::format("translate(16 {}) rotate(-90)", number(middle))},
                    {"text-anchor", "middle"}},
-                  y.label);
+                  chart_.y.label);
   }
 
   std::string path_of(const ChartSeries& series) const {
@@ -188,5 +229,6 @@ class Drawing {
 }  // namespace
 
 std::string draw_chart(const Chart& chart) { return Drawing(chart).draw(); }
+std::string draw_chart_file(const Chart& chart) { return Drawing(chart).draw_file(); }
 
 }  // namespace lobelia

@@ -1,5 +1,6 @@
-// A line chart as inline SVG. Colours come from the page, so that it follows the page into the
-// dark; dash patterns are in the drawing itself, so that lines can be told apart without colour.
+// A line chart as SVG, inline or a file of its own. Inline, colours come from the page, so that it
+// follows the page into the dark; dash patterns are in the drawing itself, so that lines can be told
+// apart without colour.
 #pragma once
 
 #include <string>
@@ -10,7 +11,8 @@ namespace lobelia {
 struct ChartAxis {
   std::string label;  ///< with its unit
   double from = 0, to = 1;
-  bool logarithmic = false;  ///< then from > 0
+  bool logarithmic = false;        ///< then from > 0
+  std::vector<double> ticks = {};  ///< labelled values; empty: round numbers
 };
 
 struct ChartBand {
@@ -26,7 +28,7 @@ struct ChartSeries {
 
 struct Chart {
   std::string id;     ///< unique on the page
-  std::string title;  ///< read by screen readers; not drawn
+  std::string title;  ///< read by screen readers; drawn only where the chart stands alone
   std::string description;
   int width = 1200, height = 360;
   ChartAxis x, y;
@@ -35,5 +37,8 @@ struct Chart {
 };
 
 std::string draw_chart(const Chart& chart);
+/// The same as an SVG file of its own: with its title, its colours (light, and dark for a reader who
+/// prefers that) and a ground to stand on.
+std::string draw_chart_file(const Chart& chart);
 
 }  // namespace lobelia

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <pugixml.hpp>
+#include <regex>
 #include <set>
+
+#include "core/files.hpp"
 
 namespace lobelia {
 namespace {
@@ -72,6 +75,49 @@ TEST(SvgChart, lines_can_be_told_apart_without_colour) {
     dashes.insert(path.node().attribute("stroke-dasharray").value());
   }
   EXPECT_EQ(dashes.size(), 5u);
+}
+
+TEST(SvgChart, an_axis_is_marked_where_it_says) {
+  Chart chart = chart_of({1, 2, 3});
+  chart.x = {"n", 16, 1024, true, {16, 128, 1024}};
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(draw_chart(chart).c_str()));
+  EXPECT_EQ(document.select_nodes("//line[@class='tick']").size(), 3u);
+  const auto at = [&](const char* label) {
+    return document.select_node((std::string("//text[.='") + label + "']").c_str())
+        .node()
+        .attribute("x")
+        .as_double();
+  };
+  EXPECT_NEAR(at("128") - at("16"), at("1024") - at("128"), 0.02) << "logarithmic";
+}
+
+TEST(SvgChart, alone_has_a_namespace_a_title_a_ground_and_a_size) {
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(draw_chart_file(chart_of({1, 2, 3})).c_str()));
+  const pugi::xml_node svg = document.child("svg");
+  EXPECT_STREQ(svg.attribute("xmlns").value(), "http://www.w3.org/2000/svg");
+  EXPECT_GT(svg.attribute("width").as_double(), 100);
+  EXPECT_TRUE(document.select_node("/svg/rect[@class='ground']"));
+  EXPECT_TRUE(document.select_node("//text[.='Title <&>']"));
+  const std::string style = svg.child("style").text().get();
+  EXPECT_NE(style.find("prefers-color-scheme: dark"), std::string::npos);
+  EXPECT_EQ(style.find("var("), std::string::npos) << "image viewers do not know variables";
+}
+
+/// The colours that a style sheet gives to the lines 1 to 5.
+std::set<std::string> series_colours(const std::string& css) {
+  static const std::regex pattern("series-[1-5](?: \\{ stroke)?: (#[0-9a-f]{6})");
+  std::set<std::string> colours;
+  for (std::sregex_iterator it(css.begin(), css.end(), pattern), end; it != end; ++it)
+    colours.insert((*it)[1]);
+  return colours;
+}
+
+TEST(SvgChart, has_the_same_colours_alone_and_in_the_gallery) {
+  const auto alone = series_colours(read_file(LOBELIA_SOURCE_DIR "/core/svg_chart.css", 1 << 20));
+  EXPECT_EQ(alone.size(), 10u) << "five in the light, five in the dark";
+  EXPECT_EQ(alone, series_colours(read_file(LOBELIA_SOURCE_DIR "/gallery/web/style.css", 1 << 20)));
 }
 
 }  // namespace
