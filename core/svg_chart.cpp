@@ -19,8 +19,8 @@ extern const std::string_view chart_style;
 namespace {
 
 constexpr double kLeft = 78, kRight = 12, kTop = 34, kBottom = 50;
-constexpr double kTitle = 36;       // height that a drawn title takes
-constexpr double kCharacter = 7.2;  // typical width at the size that the styles set
+constexpr double kTitle = 36, kMargin = 16;  // of a chart alone: above, and on the right
+constexpr double kCharacter = 7.2;           // typical width at the size that the styles set
 
 struct LineStyle {
   std::string_view dashes;
@@ -57,19 +57,19 @@ class Drawing {
 
   std::string draw_file() {
     {
-      const double height = chart_.height + kTitle;
+      const double width = chart_.width + kMargin, height = chart_.height + kTitle;
       const Tag svg(html_, "svg",
                     {{"xmlns", "http://www.w3.org/2000/svg"},
                      {"class", "chart"},
-                     {"width", number(chart_.width)},
+                     {"width", number(width)},
                      {"height", number(height)},
-                     {"viewBox", fmt::format("0 {} {} {}", -kTitle, chart_.width, height)},
+                     {"viewBox", fmt::format("0 {} {} {}", -kTitle, width, height)},
                      {"role", "img"},
                      {"aria-labelledby", chart_.id + "-title " + chart_.id + "-desc"}});
       html_.element("style", embedded::chart_style);
       html_.empty("rect", {{"class", "ground"},
                            {"y", number(-kTitle)},
-                           {"width", number(chart_.width)},
+                           {"width", number(width)},
                            {"height", number(height)}});
       text("chart-title", kLeft, -10, "start", chart_.title);
       draw_contents();
