@@ -30,11 +30,13 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"core", {}},
     {"renderer", {"core"}},
     {"compare", {"core"}},
+    {"verify", {"core", "renderer"}},
     {"reference_scenes", {"core", "renderer"}},
     {"farm", {"core", "renderer", "compare", "reference_scenes"}},
     {"cost", {"core", "renderer", "compare"}},
     {"gallery", {"core"}},
-    {"cli", {"core", "renderer", "compare", "reference_scenes", "farm", "cost", "gallery"}},
+    {"cli",
+     {"core", "renderer", "compare", "verify", "reference_scenes", "farm", "cost", "gallery"}},
 };
 
 /// Who alone may include a heavy library.
