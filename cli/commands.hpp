@@ -19,6 +19,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_profile(CLI::App& app, ExitCode& exit_code);
 void add_farm(CLI::App& app, ExitCode& exit_code);
 void add_gallery(CLI::App& app, ExitCode& exit_code);
+void add_verify(CLI::App& app, ExitCode& exit_code);
 
 /// What the user typed, program name first; for records.
 const std::vector<std::string>& command_line();

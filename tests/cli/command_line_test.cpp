@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 
 constexpr const char* kSubcommands[] = {"render",  "plan",    "models", "scene-format", "reference",
-                                        "compare", "profile", "farm",   "gallery"};
+                                        "compare", "profile", "farm",   "gallery",      "verify"};
 
 TEST(Help, OfTheProgramNamesEverySubcommandAndTheExitCodes) {
   const TemporaryDirectory directory;
@@ -78,6 +78,10 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
        "/no/such"},
       {{"farm", "missing.xml", "-o", "out"}, 3, "missing.xml"},
       {{"gallery", "no-such-directory"}, 3, "no-such-directory"},
+      {{"verify"}, 2, "subcommand"},
+      {{"verify", "papers"}, 2, "verify --help"},
+      {{"verify", "paper", "--json", "no/such/a.json"}, 4, "no/such/a.json: cannot write"},
+      {{"verify", "paper", "--plots", text_exr}, 4, "text.exr"},
   };
   for (const auto& [arguments, exit_code, message] : mistakes) {
     const TemporaryDirectory directory;
@@ -93,7 +97,8 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
 
 TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
   const TemporaryDirectory directory;
-  for (const char* command : {"models", "models --json", "scene-format", "--help", "farm --help"}) {
+  for (const char* command :
+       {"models", "models --json", "scene-format", "verify paper", "--help", "farm --help"}) {
     const auto result =
         run_shell(std::string("\"$LOBELIA\" ") + command + " >/dev/full", directory.path());
     EXPECT_EQ(result.exit_code, 4) << command << result.output_tail;

@@ -1,0 +1,52 @@
+#include "verify/paper/catalogue.hpp"
+
+namespace lobelia::paper {
+namespace {
+
+constexpr MakeClaim kCatalogue[] = {
+    cs16_largest_error,
+    cs16_smallest_error,
+    cs16_operations,
+    theta_cr_approximation,
+    theta_cr_beyond,
+    residual_phong_rdf,
+    residual_modified_phong,
+    residual_blinn_phong_rdf_cut,
+    residual_blinn_phong_rdf,
+    residual_modified_blinn_phong,
+    residual_distributions,
+    cosine_column,
+    cosine_modified_blinn_phong,
+    factor_1063,
+    best_digits,
+    bounds_blinn_phong_rdf,
+    bounds_modified_blinn_phong,
+    bounds_of_cs16,
+    outside_the_range,
+    schlick_epicentre,
+    schlick_tail,
+    schlick_division,
+    gauss_accuracy,
+    gauss_inverse_cosine,
+    reciprocity_of_brdfs,
+    reciprocity_of_rdfs,
+    energy_of_cs16,
+    energy_of_brdfs,
+    energy_of_rdfs_seen,
+    energy_of_rdfs_lit,
+    distribution_as_rdf,
+    distribution_as_brdf,
+    renderer_constants,
+};
+
+}  // namespace
+
+std::span<const MakeClaim> catalogue() { return kCatalogue; }
+
+std::vector<Claim> measure_all() {
+  std::vector<Claim> claims;
+  for (const MakeClaim make : catalogue()) claims.push_back(make());
+  return claims;
+}
+
+}  // namespace lobelia::paper

@@ -1,0 +1,21 @@
+// The curves behind the claims, as SVG files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/svg_chart.hpp"
+
+namespace lobelia::paper {
+
+struct Plot {
+  std::string file;  ///< "residuals.svg"
+  Chart chart;
+};
+std::vector<Plot> plots();
+
+/// Writes them all into `directory`, which is made if it is not there.
+void write_plots(const std::filesystem::path& directory);
+
+}  // namespace lobelia::paper

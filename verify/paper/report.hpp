@@ -1,0 +1,20 @@
+// The measured claims for people (a table) and for programs (a record of kind verify-paper).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/record.hpp"
+#include "verify/paper/claim.hpp"
+
+namespace lobelia::paper {
+
+/// "1.70e-2 (n = 1024, x = 3.54 degrees)"
+std::string text_of(const Figure& figure);
+/// "13 confirmed, 9 not reproduced, 9 found beyond the paper"
+std::string counts_text(std::span<const Claim> claims);
+/// One line a claim: verdict, name, printed, measured; then the counts.
+std::string table_text(std::span<const Claim> claims);
+Json paper_record(std::span<const Claim> claims);
+
+}  // namespace lobelia::paper
