@@ -7,6 +7,8 @@ constexpr MakeClaim kCatalogue[] = {
     cs16_largest_error,
     cs16_smallest_error,
     cs16_operations,
+    cs16_normalised,
+    cs16_tail,
     theta_cr_approximation,
     theta_cr_beyond,
     residual_phong_rdf,

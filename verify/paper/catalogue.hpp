@@ -13,6 +13,8 @@ namespace lobelia::paper {
 Claim cs16_largest_error();
 Claim cs16_smallest_error();
 Claim cs16_operations();
+Claim cs16_normalised();
+Claim cs16_tail();
 Claim theta_cr_approximation();
 Claim theta_cr_beyond();
 

@@ -1,7 +1,7 @@
 // The bounds that the paper prints for the two coefficients of the Blinn-Phong family.
 //
-// Distances to a bound are written without the difference that would cancel: 8 pi C - (n + 2) of row 3
-// is (n + 2) q / (1 - q) with q = 2^(-n/2 - 1), which is above 0 where the difference rounds to 0.
+// Of row 3, 8 pi C - (n + 2) is (n + 2) q / (1 - q) with q = 2^(-n/2 - 1): above 0 also where it is so
+// small that the difference rounds to 0.
 #include <fmt/format.h>
 
 #include "verify/paper/catalogue.hpp"
@@ -19,12 +19,12 @@ Real least_over_all_n(F f) {
 }
 
 Real above_n_plus_2(Real n) {
+  if (n < 64) return 8 * kPi * column::blinn_phong_rdf(n) - (n + 2);
   const Real q = std::exp2(-n / 2 - 1);
   return (n + 2) * q / (1 - q);
 }
 Real above_n_plus_6(Real n) {
-  const Real q = std::exp2(-n / 2);
-  return (8 - q * (n + 6)) / (n + q);
+  return 8 * kPi * column::modified_blinn_phong_corrected(n) - (n + 6);
 }
 
 constexpr char kDefinition[] =
@@ -33,8 +33,9 @@ constexpr char kDefinition[] =
 }  // namespace
 
 Claim bounds_blinn_phong_rdf() {
-  // The lower bound is approached as 2^(-n/2): beyond n = 2000 no number is so near.
-  const bool holds = above_n_plus_2(kLastExponent) > 0 &&
+  const Extreme nearest = largest_over_n([](Real n) { return -above_n_plus_2(n); });
+  const bool holds = nearest.value < 0 &&
+                     least_over_all_n([](Real n) { return n < 64 ? above_n_plus_2(n) : 1; }) > 0 &&
                      least_over_all_n([](Real n) { return 2 - above_n_plus_2(n); }) > 0;
   Claim claim{"bounds-blinn-phong-rdf", kBounds, "(n+2)/(8 pi) < Blinn-Phong (RDF) < (n+4)/(8 pi)",
               "n + 2 .. n + 4"};
