@@ -40,16 +40,19 @@ constexpr auto kModelUses = map_types<ModelUse>(Models{}, []<class M>() {
 /// What is asked of one lobe, for code that meets lobes by id.
 struct LobeUse {
   double (*value)(LobeParameters, double s);
-  double (*sample)(LobeParameters, double xi);
-  double (*density)(LobeParameters, double s);
+  PreparedLobe (*prepare)(LobeParameters);
   double (*exact_coefficient)(LobeParameters, const EnergyIntegral&);
   PaperColumn (*paper_column)(LobeParameters);
   Float32Error (*float32_error)(LobeParameters);
 };
 constexpr auto kLobeUses = map_types<LobeUse>(Lobes{}, []<class L>() {
   return LobeUse{[](LobeParameters p, double s) { return L(p).value(s); },
-                 [](LobeParameters p, double xi) { return L(p).sample(xi); },
-                 [](LobeParameters p, double s) { return L(p).density(s); },
+                 [](LobeParameters p) {
+                   const L lobe(p);
+                   return PreparedLobe{[lobe](double s) { return lobe.value(s); },
+                                       [lobe](double xi) { return lobe.sample(xi); },
+                                       [lobe](double s) { return lobe.density(s); }};
+                 },
                  [](LobeParameters p, const EnergyIntegral& energy) {
                    return exact_coefficient(energy, L(p));
                  },
@@ -223,12 +226,8 @@ double lobe_value(LobeId lobe, double s, double exponent) {
   return kLobeUses.at(lobe.index).value(parameters(lobe, exponent), s);
 }
 
-double sample_lobe(LobeId lobe, double xi, double exponent) {
-  return kLobeUses.at(lobe.index).sample(parameters(lobe, exponent), xi);
-}
-
-double lobe_density(LobeId lobe, double s, double exponent) {
-  return kLobeUses.at(lobe.index).density(parameters(lobe, exponent), s);
+PreparedLobe prepare(LobeId lobe, double exponent) {
+  return kLobeUses.at(lobe.index).prepare(parameters(lobe, exponent));
 }
 
 double lobe_float32_error(LobeId lobe, double exponent) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -109,10 +110,16 @@ std::string warning(const Highlight& highlight);
 /// The lobe at s = 1 - cos(angle), s in [0, 2], in double precision: in [0, 1], value 1 at s = 0.
 double lobe_value(LobeId lobe, double s, double exponent);
 
-/// A random s of the lobe from `xi` uniform in [0, 1), and the density of such s over [0, 1]. Follows
-/// the lobe itself, by the closed form, for cosine, cs_k and spherical Gaussian; nearly so for the rest.
-double sample_lobe(LobeId lobe, double xi, double exponent);
-double lobe_density(LobeId lobe, double s, double exponent);
+/// A lobe at one exponent with its constants worked out once, for code that asks it many times.
+struct PreparedLobe {
+  std::function<double(double s)> value;  ///< lobe_value
+  /// A random s of the lobe from a number uniform in [0, 1), and the density of such s over [0, 1].
+  /// Follows the lobe itself, by the closed form, for cosine, cs_k and spherical Gaussian; nearly so for
+  /// the rest.
+  std::function<double(double xi)> sample;
+  std::function<double(double s)> density;
+};
+PreparedLobe prepare(LobeId lobe, double exponent);
 
 /// Bound of what float32 arithmetic adds to the lobe at a given float32 s, relative to the peak.
 double lobe_float32_error(LobeId lobe, double exponent);

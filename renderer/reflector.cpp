@@ -39,7 +39,9 @@ std::optional<Reflector::Directions> Reflector::above_horizon(Vec3 normal, Vec3 
 }
 
 Reflector::Reflector(const Material& material)
-    : material_(material), coefficient_(radiance_coefficient(material.highlight)) {}
+    : material_(material),
+      lobe_(prepare(material.highlight.lobe, material.highlight.exponent)),
+      coefficient_(radiance_coefficient(material.highlight)) {}
 
 double Reflector::one_minus_cos(const Directions& d) const {
   const Vec3 difference = info(material_.highlight.model).angle == LobeAngle::kReflection
@@ -58,24 +60,19 @@ double Reflector::specular_share(double n_dot_v) const {
 }
 
 Rgb Reflector::eval(const Directions& d) const {
-  const Highlight& highlight = material_.highlight;
   const double n_dot_l = dot(d.normal, d.to_light);
-  const double value = coefficient_ *
-                       lobe_value(highlight.lobe, one_minus_cos(d), highlight.exponent) *
-                       foreshortening(highlight.model, n_dot_l);
+  const double value = coefficient_ * lobe_.value(one_minus_cos(d)) *
+                       foreshortening(material_.highlight.model, n_dot_l);
   return value * fresnel_factor(material_.fresnel, material_.specular_reflectance, d.to_eye,
                                 d.to_light) +
          n_dot_l * std::numbers::inv_pi * material_.diffuse_reflectance;
 }
 
 double Reflector::pdf(const Directions& d) const {
-  const Highlight& highlight = material_.highlight;
   const double share = specular_share(dot(d.normal, d.to_eye));
-  double specular =
-      lobe_density(highlight.lobe, std::min(1.0, one_minus_cos(d)), highlight.exponent) /
-      (2 * std::numbers::pi);
+  double specular = lobe_.density(std::min(1.0, one_minus_cos(d))) / (2 * std::numbers::pi);
   // From half vectors to directions: dL = 4 (V.H) dH, V.H = |L + V| / 2.
-  if (info(highlight.model).angle == LobeAngle::kHalfVector)
+  if (info(material_.highlight.model).angle == LobeAngle::kHalfVector)
     specular /= 2 * length(d.to_eye + d.to_light);
   return share * specular + (1 - share) * dot(d.normal, d.to_light) * std::numbers::inv_pi;
 }
@@ -94,11 +91,10 @@ std::optional<ReflectorSample> Reflector::sample(Vec3 normal, Vec3 to_eye, doubl
                                                  double v) const {
   const auto here = above_horizon(normal, to_eye, normal);
   if (!here) return std::nullopt;
-  const Highlight& highlight = material_.highlight;
   Vec3 to_light;
   if (choice < specular_share(dot(here->normal, here->to_eye))) {
-    const double s = sample_lobe(highlight.lobe, u, highlight.exponent);
-    if (info(highlight.model).angle == LobeAngle::kReflection) {
+    const double s = lobe_.sample(u);
+    if (info(material_.highlight.model).angle == LobeAngle::kReflection) {
       const Vec3 mirrored = 2 * dot(here->normal, here->to_eye) * here->normal - here->to_eye;
       to_light = about(mirrored, s, v);
     } else {

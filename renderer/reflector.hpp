@@ -46,6 +46,7 @@ class Reflector {
   double pdf(const Directions& d) const;
 
   Material material_;
+  PreparedLobe lobe_;
   double coefficient_;
 };
 
