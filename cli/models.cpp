@@ -1,61 +1,107 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <numbers>
 
 #include "cli/commands.hpp"
 #include "core/record.hpp"
-#include "renderer/highlight.hpp"
+#include "core/text.hpp"
+#include "renderer/albedo.hpp"
+#include "renderer/catalogue_record.hpp"
+#include "renderer/scene/scene_format.hpp"
 
 namespace lobelia::cli {
 namespace {
 
-std::string_view angle_name(LobeAngle angle) {
-  return angle == LobeAngle::kReflection ? "L and R" : "N and H";
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::string range_of(const Parameter& p) {
+  const std::string choices = string_choices(p);
+  return choices.empty() ? fmt::format("{:g} to {:g}", p.min, p.max) : choices;
 }
 
-Json catalogue_record() {
-  Json record = make_record("models");
-  for (const auto& m : models())
-    record["models"].push_back({{"name", m.name},
-                                {"title", m.title},
-                                {"angle", angle_name(m.angle)},
-                                {"appliesCosine", m.applies_cosine},
-                                {"integral", m.integral},
-                                {"source", m.source}});
-  for (const LobeId id : all_lobes()) {
-    const LobeInfo& l = info(id);
-    record["lobes"].push_back(
-        {{"name", l.name}, {"title", l.title}, {"formula", l.formula}, {"source", l.source}});
+void print_catalogues() {
+  fmt::print("{:<26}{:<28}{:<10}{:<6}{}\n", "model", "title", "angle", "N.L", "coefficient");
+  for (const ModelId id : all_models()) {
+    const ModelInfo& m = info(id);
+    fmt::print("{:<26}{:<28}{:<10}{:<6}{}\n", m.name, m.title, angle_name(m.angle),
+               m.applies_cosine ? "yes" : "no", exact_formula(id));
+    fmt::print("{:<70}cosine lobe {}; paper {}; cs16 in the paper {}\n", "",
+               formulas(id).exact_cosine, formulas(id).paper_cosine, formulas(id).paper_cs16);
   }
-  record["normalisations"] = normalisation_names();
-  return record;
+  fmt::print("\n{:<20}{:<32}{:<46}{}\n", "lobe", "value, s = 1 - cos",
+             "moments M_j = integral of value s^j, 0 to S", "source");
+  for (const LobeId id : all_lobes())
+    fmt::print("{:<20}{:<32}{:<46}{}\n", info(id).name, info(id).formula, info(id).moments,
+               info(id).source);
+  fmt::print("\n{:<20}meaning\n", "normalisation");
+  for (const std::string_view how : normalisation_names())
+    fmt::print("{:<20}{}\n", how, meaning(*find_normalisation(how)));
+  fmt::print("\n{:<22}{:<10}{:<40}meaning\n", "parameter", "default", "allowed");
+  for (const Parameter& p : kHighlightParameters)
+    fmt::print("{:<22}{:<10}{:<40}{}\n", p.name,
+               p.default_value.empty() ? "required" : p.default_value, range_of(p), p.meaning);
 }
 
-void run(bool json) {
+void print_operations(std::string_view name, const OperationCount& c) {
+  fmt::print("{:<26}{:>9}{:>6}{:>8}{:>6}{:>16}{:>9}\n", name, c.multiply, c.add, c.divide, c.root,
+             c.transcendental, c.compare);
+}
+
+void print_costs() {
+  fmt::print("\n{:<26}{:>9}{:>6}{:>8}{:>6}{:>16}{:>9}\n", "operations a point", "multiply", "add",
+             "divide", "root", "transcendental", "compare");
+  for (const LobeId id : all_lobes()) print_operations(info(id).name, operations(id));
+  for (const ModelId id : all_models()) print_operations(info(id).name, operations(id));
+}
+
+void print_measured(double exponent) {
+  fmt::print("\nMeasured at n = {:g}\n\n{:<20}{:>12}{:>12}{:>15}{:>15}\n", exponent, "lobe",
+             "half width", "0 beyond", "above cosine", "below cosine");
+  for (const LobeId id : all_lobes()) {
+    const LobeProperties p = measure(id, exponent);
+    fmt::print("{:<20}{:>8.3f} deg{:>8.3f} deg{:>15.3g}{:>15.3g}\n", info(id).name,
+               p.half_width / kDegree, p.support / kDegree, p.above_cosine, p.below_cosine);
+  }
+  fmt::print("\n{:<26}{:<20}{:<8}{:>12}{:>9}{:>17}{:>19}{:>13}\n", "model", "lobe", "norm.",
+             "coefficient", "energy", "largest seen, at", "largest lit, at", "reciprocity");
+  for (const Highlight& h : all_highlights(exponent)) {
+    const AlbedoPeak seen = largest_albedo(h), lit = largest_albedo_of_light(h);
+    fmt::print("{:<26}{:<20}{:<8}{:>12.6g}{:>9.5f}{:>9.5f}{:>6.2f} d{:>11.5g}{:>6.2f} d{:>13}\n",
+               info(h.model).name, info(h.lobe).name, name(h.normalisation),
+               radiance_coefficient(h), directional_albedo(h, 0), seen.albedo,
+               seen.incidence / kDegree, lit.albedo, lit.incidence / kDegree,
+               reciprocity_gap(h) < 1e-9 ? "holds" : "fails");
+  }
+  fmt::print(
+      "\nenergy: reflected at normal incidence; a microfacet distribution without masking loses some.\n"
+      "largest seen: the albedo towards an eye under a uniform sky, over incidences of the eye up to\n"
+      "89.99 degrees. largest lit: what leaves of a beam, over incidences of the beam. Above 1 the\n"
+      "model makes light. The two are one where reciprocity holds.\n");
+}
+
+void run(bool json, double exponent) {
   if (json) {
-    fmt::print("{}", record_text(catalogue_record()));
+    fmt::print("{}", record_text(catalogue_record(exponent)));
     return;
   }
-  fmt::print("{:<26}{:<28}{:<10}{:<6}coefficient makes this 1\n", "model", "title", "angle", "N.L");
-  for (const auto& m : models())
-    fmt::print("{:<26}{:<28}{:<10}{:<6}{}\n", m.name, m.title, angle_name(m.angle),
-               m.applies_cosine ? "yes" : "no", m.integral);
-  fmt::print("\n{:<26}{:<38}source\n", "lobe", "value, s = 1 - cos");
-  for (const LobeId id : all_lobes())
-    fmt::print("{:<26}{:<38}{}\n", info(id).name, info(id).formula, info(id).source);
-  fmt::print(
-      "\n{:<26}meaning\n{:<26}the closed form: energy 1 at normal incidence\n"
-      "{:<26}the constant as the paper prints it, misprints included\n",
-      "normalisation", "exact", "paper");
+  print_catalogues();
+  print_costs();
+  print_measured(exponent);
 }
 
 }  // namespace
 
 void add_models(CLI::App& app, ExitCode&) {
-  auto* command = app.add_subcommand("models", "List the models, lobes and normalisations");
+  auto* command = app.add_subcommand(
+      "models", "List models, lobes and normalisations: formulas, cost, what was measured of them");
   auto json = std::make_shared<bool>(false);
+  auto exponent = std::make_shared<double>(64);
   command->add_flag("--json", *json, "Print the catalogue as JSON");
-  command->callback([json] { run(*json); });
+  command->add_option("--exponent", *exponent, "Exponent n at which to measure")
+      ->check(CLI::Range(kMinExponent, kMaxExponent))
+      ->capture_default_str();
+  command->callback([json, exponent] { run(*json, *exponent); });
 }
 
 }  // namespace lobelia::cli

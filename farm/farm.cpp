@@ -326,6 +326,10 @@ class Farm {
 
   FarmSummary summarise() {
     summary_.cells = cells_.size();
+    for (const Cell& cell : cells_)
+      for (const Material& material : cell.scene.materials)
+        if (std::string text = warning(material.highlight); !text.empty())
+          summary_.warnings.insert(std::move(text));
     summary_.foreign = count_foreign_cells();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (status_[i] == "pass") ++summary_.pass;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct FarmSummary {
   std::size_t unchecked = 0;                ///< cells with no engine to compare with
   std::size_t rendered = 0, kept = 0;       ///< pictures
   std::vector<std::string> absent_engines;  ///< sentences: which, why, how to get it
+  std::set<std::string> warnings;           ///< of the cells' highlights, each once
   std::vector<std::string> problems;        ///< "cell: engine: message"
 };
 

@@ -9,13 +9,8 @@ namespace lobelia {
 namespace {
 
 std::string range(const Parameter& p) {
-  if (p.type == ParameterType::kString) {
-    if (p.name == "lobe") return allowed_lobes();
-    if (p.name == "fresnel") return join(fresnel_names());
-    if (p.name == "normalisation") return join(normalisation_names());
-    return "";
-  }
-  return fmt::format("{:g} to {:g}", p.min, p.max);
+  return p.type == ParameterType::kString ? string_choices(p)
+                                          : fmt::format("{:g} to {:g}", p.min, p.max);
 }
 
 std::string table(const ElementFormat& format) {
@@ -31,6 +26,13 @@ std::string table(const ElementFormat& format) {
 }
 
 }  // namespace
+
+std::string string_choices(const Parameter& p) {
+  if (p.name == "lobe") return allowed_lobes();
+  if (p.name == "fresnel") return join(fresnel_names());
+  if (p.name == "normalisation") return join(normalisation_names());
+  return "";
+}
 
 std::string scene_format_document() {
   std::string text = fmt::format(

@@ -76,6 +76,9 @@ inline constexpr ElementFormat kDirectional{"emitter", "directional", "parallel 
 inline constexpr ElementFormat kPoint{"emitter", "point", "a light in a point", kPointParameters};
 inline constexpr ElementFormat kSphere{"shape", "sphere", "a sphere", kSphereParameters};
 
+/// What a string parameter may be, as a message or a table lists it; "" for a number.
+std::string string_choices(const Parameter& parameter);
+
 /// docs/scene_format.md, whole; a test keeps the file the same as this.
 std::string scene_format_document();
 

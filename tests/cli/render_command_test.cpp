@@ -12,6 +12,26 @@ using testing::HasSubstr;
 
 std::string bytes(const std::filesystem::path& path) { return read_file(path, 1 << 28); }
 
+TEST(RenderCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndGoesOn) {
+  const TemporaryDirectory directory;
+  const auto render = [&](const char* exponent, const char* normalisation) {
+    return run_lobelia({"render", kScenes + "head_on.xml", "--width", "8", "--height", "8",
+                        "--exponent", exponent, "--normalisation", normalisation, "-o", "out.exr"},
+                       directory.path());
+  };
+  for (const char* exponent : {"15.9", "1025"}) {
+    const auto result = render(exponent, "paper");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.output_tail, HasSubstr(std::string("warning: exponent ") + exponent));
+    EXPECT_THAT(result.output_tail, HasSubstr("for 16 to 1024"));
+    const Json record = read_record(directory.path() / "out.json", "render");
+    EXPECT_TRUE(record.at("highlights").at(0).contains("warning"));
+    EXPECT_THAT(render(exponent, "exact").output_tail, testing::Not(HasSubstr("warning")));
+  }
+  for (const char* exponent : {"16", "1024"})
+    EXPECT_THAT(render(exponent, "paper").output_tail, testing::Not(HasSubstr("warning")));
+}
+
 TEST(RenderCommand, GivesTheSameFileByteForByteWhateverThreadsAndPlace) {
   const TemporaryDirectory a, b;
   const std::string scene = kScenes + "two_spheres.xml";

@@ -1,0 +1,78 @@
+// The catalogue as `lobelia models --json` has it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "renderer/catalogue_record.hpp"
+
+namespace lobelia {
+namespace {
+
+/// Everything that holds a number must hold a finite one.
+void expect_finite(const Json& json) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_structured()) expect_finite(value);
+    if (value.is_number()) {
+      EXPECT_TRUE(std::isfinite(value.get<double>())) << key;
+    }
+  }
+}
+
+const Json& find(const Json& list, std::string_view name) {
+  for (const Json& entry : list)
+    if (entry.at("name") == name) return entry;
+  throw std::runtime_error(std::string(name) + " is not in the catalogue");
+}
+
+TEST(CatalogueRecord, HasEveryModelLobeAndTheirCombinationsMeasured) {
+  const Json record = catalogue_record(64);
+  EXPECT_EQ(record.at("models").size(), all_models().size());
+  EXPECT_EQ(record.at("lobes").size(), all_lobes().size());
+  // Two lobes have a coefficient of the paper beside the exact one.
+  EXPECT_EQ(record.at("highlights").size(), all_models().size() * (all_lobes().size() + 2));
+  expect_finite(record);
+  for (const Json& parameter : record.at("parameters"))
+    EXPECT_TRUE(parameter.contains("allowed") || parameter.contains("max")) << parameter.dump();
+}
+
+TEST(CatalogueRecord, MeasuresThePaperMisprintAsTwiceTheEnergy) {
+  const Json record = catalogue_record(64);
+  int found = 0;
+  for (const Json& h : record.at("highlights"))
+    if (h.at("model") == "modified_blinn_phong" && h.at("lobe") == "cosine") {
+      ++found;
+      EXPECT_NEAR(h.at("energyAtNormalIncidence").get<double>(),
+                  h.at("normalisation") == "paper" ? 2 : 1, 1e-9);
+    }
+  EXPECT_EQ(found, 2);
+}
+
+TEST(CatalogueRecord, KnowsTheHalfWidthAndTheSupportOfALobe) {
+  const Json record = catalogue_record(100);
+  const double degree = std::numbers::pi / 180;
+  // cos^n is a half at arccos(2^(-1/n)); cs_k is 0 from 1 - cos = k/n on.
+  EXPECT_NEAR(find(record.at("lobes"), "cosine").at("halfWidthDegrees").get<double>(),
+              std::acos(std::exp2(-0.01)) / degree, 1e-9);
+  EXPECT_NEAR(find(record.at("lobes"), "cs16").at("supportDegrees").get<double>(),
+              std::acos(0.84) / degree, 1e-2);
+  EXPECT_NEAR(find(record.at("lobes"), "schlick").at("supportDegrees").get<double>(), 90, 1e-6);
+  // Bernoulli's inequality: below cos^n and never above; Schlick's tail is above everywhere.
+  EXPECT_LT(find(record.at("lobes"), "cs16").at("aboveCosine").get<double>(), 1e-14);
+  EXPECT_GT(find(record.at("lobes"), "cs16").at("belowCosine").get<double>(), 1e-3);
+  EXPECT_GT(find(record.at("lobes"), "schlick").at("aboveCosine").get<double>(), 0.1);
+}
+
+TEST(CatalogueRecord, SaysInWordsTheCoefficientOfEachModel) {
+  const std::set<std::string> expected{
+      "1/(2 pi (M0)), s = 0 to 1", "1/(2 pi (M0 - M1)), s = 0 to 1",
+      "1/(2 pi (4 M0 - 4 M1)), s = 0 to 1 - sqrt(1/2)",
+      "1/(2 pi (4 M0 - 20 M1 + 24 M2 - 8 M3)), s = 0 to 1 - sqrt(1/2)"};
+  std::set<std::string> formulas;
+  for (const ModelId model : all_models()) formulas.insert(exact_formula(model));
+  EXPECT_EQ(formulas, expected);
+}
+
+}  // namespace
+}  // namespace lobelia
