@@ -63,21 +63,23 @@ void print_measured(double exponent) {
     fmt::print("{:<20}{:>8.3f} deg{:>8.3f} deg{:>15.3g}{:>15.3g}\n", info(id).name,
                p.half_width / kDegree, p.support / kDegree, p.above_cosine, p.below_cosine);
   }
-  fmt::print("\n{:<26}{:<20}{:<8}{:>12}{:>9}{:>17}{:>19}{:>13}\n", "model", "lobe", "norm.",
-             "coefficient", "energy", "largest seen, at", "largest lit, at", "reciprocity");
+  fmt::print("\n{:<26}{:<20}{:<8}{:>12}{:>9}{:>14}{:>17}{:>13}{:>13}\n", "model", "lobe", "norm.",
+             "coefficient", "energy", "seen at most", "lit at most, at", "above 1 from",
+             "reciprocity");
   for (const Highlight& h : all_highlights(exponent)) {
-    const AlbedoPeak seen = largest_albedo(h), lit = largest_albedo_of_light(h);
-    fmt::print("{:<26}{:<20}{:<8}{:>12.6g}{:>9.5f}{:>9.5f}{:>6.2f} d{:>11.5g}{:>6.2f} d{:>13}\n",
+    const AlbedoPeak lit = largest_albedo_of_light(h);
+    fmt::print("{:<26}{:<20}{:<8}{:>12.6g}{:>9.5f}{:>14.5f}{:>9.5g}{:>6.2f} d{:>13}{:>13}\n",
                info(h.model).name, info(h.lobe).name, name(h.normalisation),
-               radiance_coefficient(h), directional_albedo(h, 0), seen.albedo,
-               seen.incidence / kDegree, lit.albedo, lit.incidence / kDegree,
+               radiance_coefficient(h), directional_albedo(h, 0), largest_albedo(h).albedo,
+               lit.albedo, lit.incidence / kDegree,
+               lit.above_one_from ? fmt::format("{:.2f} d", *lit.above_one_from / kDegree) : "-",
                reciprocity_gap(h) < 1e-9 ? "holds" : "fails");
   }
   fmt::print(
       "\nenergy: reflected at normal incidence; a microfacet distribution without masking loses some.\n"
-      "largest seen: the albedo towards an eye under a uniform sky, over incidences of the eye up to\n"
-      "89.99 degrees. largest lit: what leaves of a beam, over incidences of the beam. Above 1 the\n"
-      "model makes light. The two are one where reciprocity holds.\n");
+      "seen: the albedo towards an eye under a uniform sky. lit: what leaves of a beam. Both the most\n"
+      "over incidences up to 89.99 degrees; above 1 the model makes light. They are one where\n"
+      "reciprocity holds.\n");
 }
 
 void run(bool json, double exponent) {

@@ -62,17 +62,21 @@ Json parameter_json(const Parameter& p) {
   return json;
 }
 
+Json to_json(const AlbedoPeak& peak) {
+  Json json{{"largest", peak.albedo}, {"atDegrees", peak.incidence / kDegree}};
+  json["aboveOneFromDegrees"] =
+      peak.above_one_from ? Json(*peak.above_one_from / kDegree) : Json(nullptr);
+  return json;
+}
+
 Json highlight_json(const Highlight& h) {
-  const AlbedoPeak by_sky = largest_albedo(h), by_light = largest_albedo_of_light(h);
   return {{"model", info(h.model).name},
           {"lobe", info(h.lobe).name},
           {"normalisation", name(h.normalisation)},
           {"coefficient", radiance_coefficient(h)},
           {"energyAtNormalIncidence", directional_albedo(h, 0)},
-          {"largestAlbedo", by_sky.albedo},
-          {"largestAlbedoDegrees", by_sky.incidence / kDegree},
-          {"largestAlbedoOfLight", by_light.albedo},
-          {"largestAlbedoOfLightDegrees", by_light.incidence / kDegree},
+          {"albedo", to_json(largest_albedo(h))},
+          {"albedoOfLight", to_json(largest_albedo_of_light(h))},
           {"reciprocityGap", reciprocity_gap(h)}};
 }
 
