@@ -113,7 +113,8 @@ double min_half_length(const Scene& scene, const Light& light, const Sphere& sph
 
 void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& plan) {
   std::array<std::size_t, 3> pairs{};
-  // For each material by the length of L + V in halvings, of which few are asked for.
+  // For each material by the length of L + V, rounded down to a power of 2^(1/4): a crowd of spheres
+  // then asks for few bounds.
   std::map<std::pair<int, int>, Precision> known;
   for (const Light& light : scene.lights) {
     auto& row = plan.precision.emplace_back();
@@ -121,11 +122,14 @@ void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& 
       Precision precision = asked.value_or(Precision::kFloat64);
       if (!asked) {
         const double least = min_half_length(scene, light, sphere);
-        const int halvings = least > 0x1p-8 ? -int(std::floor(std::log2(least))) : 9;
-        const auto [entry, is_new] = known.try_emplace({sphere.material, halvings});
+        constexpr int kShortest = -32;
+        const int quarters =
+            least > 0 ? std::max(kShortest, int(std::floor(4 * std::log2(least)))) : kShortest;
+        const auto [entry, is_new] = known.try_emplace({sphere.material, quarters});
         if (is_new)
-          entry->second = sufficient_precision(scene.materials[sphere.material].highlight,
-                                               halvings < 9 ? std::exp2(-halvings) : 0);
+          entry->second =
+              sufficient_precision(scene.materials[sphere.material].highlight,
+                                   quarters > kShortest ? std::exp2(quarters / 4.0) : 0);
         precision = entry->second;
       }
       row.push_back(precision);

@@ -26,6 +26,60 @@ TEST(Plan, GivesAReasonForEveryEffect) {
       EXPECT_FALSE(decision.reason.empty()) << decision.name;
 }
 
+Precision chosen(const std::string& scene_name, std::string_view model, double exponent) {
+  Scene scene = canonical(scene_name);
+  scene.materials[0].highlight = {*find_model(model), *find_lobe("cosine"), {}, exponent};
+  const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
+  EXPECT_EQ(plan.precision.size(), scene.lights.size());
+  return plan.precision.at(0).at(0);
+}
+
+TEST(Plan, ASharperHighlightIsShadedWithMoreDigitsAndNeverWithFewer) {
+  for (const ModelInfo& model : models()) {
+    EXPECT_EQ(chosen("head_on", model.name, 8), Precision::kFloat32) << model.name;
+    EXPECT_EQ(chosen("head_on", model.name, 1e6), Precision::kMixed) << model.name;
+    Precision previous = Precision::kFloat32;
+    for (double n = 2; n < 1e8; n *= 2) {
+      const Precision precision = chosen("head_on", model.name, n);
+      EXPECT_GE(precision, previous) << model.name << " n = " << n;
+      previous = precision;
+    }
+  }
+}
+
+TEST(Plan, ALobeThatEndsSteeplyAtTheHorizonIsShadedInFloat64) {
+  // cos^0.1 falls with a vertical tangent there: no rounding of the angle is harmless.
+  EXPECT_EQ(chosen("head_on", "phong_rdf", 0.1), Precision::kFloat64);
+}
+
+TEST(Plan, AHalfVectorNeedsMoreDigitsWhereLightAndEyeFaceEachOther) {
+  // From the front |L + V| is near 2; at 80 degrees to the eye's side it is 1.5 and less.
+  double front = 0, side = 0;
+  for (double n = 2; n < 1e4; n *= 1.1) {
+    if (chosen("head_on", "blinn_phong_rdf", n) == Precision::kFloat32) front = n;
+    if (chosen("grazing_80", "blinn_phong_rdf", n) == Precision::kFloat32) side = n;
+  }
+  EXPECT_GT(front, side);
+  EXPECT_GT(side, 2);
+}
+
+TEST(Plan, TakesThePrecisionThatIsAskedForAndSaysSo) {
+  for (const Precision precision : {Precision::kFloat32, Precision::kMixed, Precision::kFloat64}) {
+    const Plan plan = make_plan(canonical("two_spheres"), EffectPolicy::kAll, precision);
+    for (const auto& row : plan.precision)
+      for (const Precision here : row) EXPECT_EQ(here, precision);
+    EXPECT_EQ(plan.precision_reason, std::string(name(precision)) + " was asked for");
+  }
+  EXPECT_NE(make_plan(canonical("head_on"), EffectPolicy::kAll).precision_reason, "");
+}
+
+TEST(Plan, FresnelIsOnWhereAMaterialHasIt) {
+  Scene scene = canonical("two_spheres");
+  EXPECT_FALSE(effect(make_plan(scene, EffectPolicy::kAsCalledFor), "fresnel").on);
+  scene.materials.back().fresnel = Fresnel::kSchlick;
+  EXPECT_TRUE(effect(make_plan(scene, EffectPolicy::kAsCalledFor), "fresnel").on);
+}
+
 TEST(Plan, OneSphereNeedsNoShadows) {
   const Plan plan = make_plan(canonical("grazing_80"), EffectPolicy::kAsCalledFor);
   EXPECT_FALSE(effect(plan, "shadows").on);
