@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -18,13 +19,9 @@
 #include "reference_scenes/preparation.hpp"
 
 namespace lobelia {
-namespace embedded {
-extern const std::string_view lobelia_models_inc;
-}
 namespace {
 namespace fs = std::filesystem;
 
-constexpr char kIncludeFile[] = "lobelia_models.inc";
 /// POV-Ray 3.7 sleeps through most of the 0.7 s that a small picture takes it; a large one works.
 constexpr int kProcessesPerProcessor = 4;
 constexpr std::size_t kLargePixels = 1 << 20;
@@ -175,10 +172,10 @@ void Povray::render(std::span<const Scene> scenes, const ReferenceOptions& optio
   require_available(kPovrayInfo, status());
   const TemporaryDirectory directory;
   directory_ = directory.path();
-  write_file(directory_ / kIncludeFile, embedded::lobelia_models_inc);
 
   std::vector<Job> jobs(scenes.size());
   std::vector<WorkItem> work;
+  std::map<std::string, std::string> includes;  // of all jobs: a name always has the same text
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     std::string error = why_not_comparable(scenes[i]);
     if (error.empty()) {
@@ -192,11 +189,13 @@ void Povray::render(std::span<const Scene> scenes, const ReferenceOptions& optio
       on_result(i, {{}, error, reference_record(kPovrayInfo, status_, scenes[i])});
       continue;
     }
+    includes.merge(jobs[i].input.includes);
     jobs[i].film = scenes[i].film;
     jobs[i].unfinished = jobs[i].input.passes.size();
     jobs[i].passes.resize(jobs[i].unfinished);
     for (std::size_t p = 0; p < jobs[i].unfinished; ++p) work.push_back({i, p});
   }
+  for (const auto& [file, text] : includes) write_file(directory_ / file, text);
 
   const int processors = options.threads > 0
                              ? options.threads
@@ -246,7 +245,7 @@ std::unique_ptr<Engine> make_povray(const fs::path& program) {
 
 void keep_povray_input(const Scene& scene, const fs::path& directory) {
   const PovrayInput input = povray_input(in_engine_units(scene));
-  write_file(directory / kIncludeFile, embedded::lobelia_models_inc);
+  for (const auto& [file, text] : input.includes) write_file(directory / file, text);
   std::string commands =
       "# Each picture is so many times too bright; divided by that, they add up.\n";
   for (std::size_t p = 0; p < input.passes.size(); ++p) {

@@ -8,35 +8,19 @@
 #include <span>
 #include <string_view>
 
-#include "core/error.hpp"
 #include "reference_scenes/preparation.hpp"
+#include "shaders/povray.hpp"
 
 namespace lobelia {
+namespace embedded {
+extern const std::string_view lobelia_scene_inc;
+}
 namespace {
 
 /// The largest half float is 65504; half of it leaves room for the bound's own rounding.
 constexpr double kHighestHalf = 3e4;
 /// Keeps lamp colours, which POV-Ray has in float32, within its range.
 constexpr int kMaxGainStops = 60;
-
-struct SdlName {
-  std::string_view ours, sdl;
-};
-constexpr SdlName kModels[] = {{"phong_rdf", "Lobelia_Phong_Rdf"},
-                               {"modified_phong", "Lobelia_Modified_Phong"},
-                               {"blinn_phong_rdf", "Lobelia_Blinn_Phong_Rdf"},
-                               {"modified_blinn_phong", "Lobelia_Modified_Blinn_Phong"},
-                               {"blinn_phong_ndf", "Lobelia_Blinn_Phong_Ndf"},
-                               {"blinn_phong_heightfield", "Lobelia_Blinn_Phong_Heightfield"}};
-constexpr SdlName kLobes[] = {{"cosine", "Lobelia_Cosine"}, {"cs16", "Lobelia_Cs16"}};
-constexpr SdlName kNormalisations[] = {{"exact", "Lobelia_Exact"}, {"paper", "Lobelia_Paper"}};
-
-std::string_view sdl_name(std::span<const SdlName> table, std::string_view ours) {
-  for (const SdlName& entry : table)
-    if (entry.ours == ours) return entry.sdl;
-  throw Error(ExitCode::kEngine,
-              fmt::format("lobelia_models.inc has no '{}' for POV-Ray to render", ours));
-}
 
 std::string sdl(double value) { return exact_text(value); }
 std::string sdl(Vec3 v) { return fmt::format("<{}, {}, {}>", sdl(v.x), sdl(v.y), sdl(v.z)); }
@@ -45,11 +29,12 @@ std::string sdl(Rgb c) { return fmt::format("<{}, {}, {}>", sdl(c.r), sdl(c.g), 
 bool is_grey(Rgb c) { return c.r == c.g && c.g == c.b; }
 
 /// POV-Ray's highlights are these two with the lobe cos^n, in the colour of the lamp. (Of these two
-/// the paper prints the exact coefficient.)
+/// the paper prints the exact coefficient.) They have no Fresnel factor.
 bool is_native(const Material& material) {
   const std::string_view model = info(material.highlight.model).name;
   return (model == "phong_rdf" || model == "blinn_phong_rdf") &&
-         info(material.highlight.lobe).name == "cosine" && is_grey(material.specular_reflectance);
+         info(material.highlight.lobe).name == "cosine" && material.fresnel == Fresnel::kNone &&
+         is_grey(material.specular_reflectance);
 }
 
 std::string light_text(const Light& light, const Scene& scene) {
@@ -61,36 +46,43 @@ std::string light_text(const Light& light, const Scene& scene) {
                      sdl(directional.irradiance), sdl(1000 * extent(scene)));
 }
 
-std::string sphere_text(const Sphere& sphere, const Material& material, bool native) {
-  const Highlight& highlight = material.highlight;
-  const std::string_view model = sdl_name(kModels, info(highlight.model).name);
-  const std::string place = sdl(sphere.center) + ", " + sdl(sphere.radius);
-  if (native)
-    return fmt::format("Lobelia_Native_Sphere({}, {}, {}, {}, {})\n", place, model,
-                       sdl(highlight.exponent), sdl(material.specular_reflectance.r),
-                       sdl(material.diffuse_reflectance));
-  return fmt::format("Lobelia_Sphere({}, {}, {}, {}, {}, {}, {})\n", place, model,
-                     sdl_name(kLobes, info(highlight.lobe).name),
-                     sdl_name(kNormalisations, name(highlight.normalisation)),
-                     sdl(highlight.exponent), sdl(material.specular_reflectance),
+std::string native_sphere_text(const Sphere& sphere, const Material& material) {
+  const bool phong = info(material.highlight.model).angle == LobeAngle::kReflection;
+  return fmt::format("Lobelia_Native_Sphere({}, {}, {}, {}, {}, {})\n", sdl(sphere.center),
+                     sdl(sphere.radius), phong ? "Lobelia_Native_Phong" : "Lobelia_Native_Specular",
+                     sdl(material.highlight.exponent), sdl(material.specular_reflectance.r),
                      sdl(material.diffuse_reflectance));
 }
 
-PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, bool native) {
+std::string sphere_text(const Sphere& sphere, const Material& material) {
+  const PovrayNames names = povray_names(material.highlight);
+  const std::string exponent = sdl(material.highlight.exponent);
+  return fmt::format("Lobelia_Sphere({}, {}, {}, {}({}), {}, {}, {}, {}, {})\n", sdl(sphere.center),
+                     sdl(sphere.radius), names.pattern, names.coefficient, exponent, exponent,
+                     names.brilliance, material.fresnel == Fresnel::kSchlick ? 1 : 0,
+                     sdl(material.specular_reflectance), sdl(material.diffuse_reflectance));
+}
+
+PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const PovrayInput& input) {
   PovrayPass pass;
   const double bound = peak_bound(scene, lights);
   if (bound > 0)
     pass.gain = std::exp2(std::clamp(std::floor(std::log2(kHighestHalf / bound)),
                                      -double(kMaxGainStops), double(kMaxGainStops)));
   // What is not said in the scene itself would be rounded to six digits by the command line.
-  pass.scene = "#version 3.7;\n#include \"lobelia_models.inc\"\n";
+  pass.scene = "#version 3.7;\n";
+  for (const auto& include : input.includes)
+    pass.scene += fmt::format("#include \"{}\"\n", include.first);
   pass.scene += fmt::format("Lobelia_Begin({})\n", sdl(pass.gain));
   pass.scene += fmt::format("Lobelia_Camera({}, {}, {}, {}, {}/{})\n", sdl(scene.camera.origin),
                             sdl(scene.camera.target), sdl(scene.camera.up),
                             sdl(scene.camera.fov_degrees), scene.film.width, scene.film.height);
   for (const Light& light : lights) pass.scene += light_text(light, scene);
-  for (const Sphere& sphere : scene.spheres)
-    pass.scene += sphere_text(sphere, scene.materials.at(std::size_t(sphere.material)), native);
+  for (const Sphere& sphere : scene.spheres) {
+    const Material& material = scene.materials.at(std::size_t(sphere.material));
+    pass.scene +=
+        input.native ? native_sphere_text(sphere, material) : sphere_text(sphere, material);
+  }
   return pass;
 }
 
@@ -100,9 +92,10 @@ double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
   double reflected = 0;  // of unit irradiance, over all spheres
   for (const Sphere& sphere : scene.spheres) {
     const Material& material = scene.materials.at(std::size_t(sphere.material));
+    const double specular =
+        material.fresnel == Fresnel::kNone ? max_component(material.specular_reflectance) : 1;
     reflected =
-        std::max(reflected, radiance_coefficient(material.highlight) *
-                                    max_component(material.specular_reflectance) +
+        std::max(reflected, radiance_coefficient(material.highlight) * specular +
                                 max_component(material.diffuse_reflectance) / std::numbers::pi);
   }
   double irradiance = 0;
@@ -122,10 +115,16 @@ PovrayInput povray_input(const Scene& scene) {
   input.native = std::ranges::all_of(scene.spheres, [&](const Sphere& sphere) {
     return is_native(scene.materials.at(std::size_t(sphere.material)));
   });
-  if (input.native)
-    input.passes.push_back(pass_of(scene, scene.lights, true));
-  else
-    for (const Light& light : scene.lights) input.passes.push_back(pass_of(scene, {light}, false));
+  input.includes["lobelia_scene.inc"] = embedded::lobelia_scene_inc;
+  if (input.native) {
+    input.passes.push_back(pass_of(scene, scene.lights, input));
+    return input;
+  }
+  for (const Sphere& sphere : scene.spheres) {
+    const Highlight& highlight = scene.materials.at(std::size_t(sphere.material)).highlight;
+    input.includes[povray_names(highlight).file] = povray_text(std::span(&highlight, 1));
+  }
+  for (const Light& light : scene.lights) input.passes.push_back(pass_of(scene, {light}, input));
   return input;
 }
 

@@ -1,7 +1,9 @@
-// A scene written down for POV-Ray: numbers and our own names around lobelia_models.inc. Nothing
-// that a person typed into the scene file (ids, paths) is in it, so nothing of it can become code.
+// A scene written down for POV-Ray: numbers and our own names around lobelia_scene.inc and the models'
+// include files, which are what `lobelia export` writes. Nothing that a person typed into the scene
+// file (ids, paths) is in it, so nothing of it can become code.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct PovrayInput {
   /// function of one light and each pass has one.
   bool native = false;
   std::vector<PovrayPass> passes;
+  std::map<std::string, std::string> includes;  ///< file name and text; beside the .pov files
 };
 
 /// `scene` is in engine units (preparation.hpp).

@@ -31,12 +31,14 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"renderer", {"core"}},
     {"compare", {"core"}},
     {"verify", {"core", "renderer"}},
-    {"reference_scenes", {"core", "renderer"}},
+    {"shaders", {"core", "renderer"}},
+    {"reference_scenes", {"core", "renderer", "shaders"}},
     {"farm", {"core", "renderer", "compare", "reference_scenes"}},
     {"cost", {"core", "renderer", "compare"}},
     {"gallery", {"core"}},
     {"cli",
-     {"core", "renderer", "compare", "verify", "reference_scenes", "farm", "cost", "gallery"}},
+     {"core", "renderer", "shaders", "compare", "verify", "reference_scenes", "farm", "cost",
+      "gallery"}},
 };
 
 /// Who alone may include a heavy library.

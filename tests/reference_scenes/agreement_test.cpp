@@ -79,6 +79,40 @@ TEST_P(Agreement, OfEveryModelAndNormalisation) {
   expect_agreement(scenes);
 }
 
+TEST_P(Agreement, OfEveryModelWithEveryLobe) {
+  std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
+  for (const char* name : {"cs12", "cs1024"}) lobes.push_back(*find_lobe(name));
+  std::vector<NamedScene> scenes;
+  for (const ModelInfo& model : models())
+    for (const LobeId lobe : lobes) {
+      // Which exponent goes with which light does not matter to either; each pair would take long.
+      const HighlightChoice sharp{model.name, info(lobe).name, "exact", 1024};
+      const HighlightChoice wide{model.name, info(lobe).name, "exact", 3};
+      const std::string name = fmt::format("{} {}", model.name, info(lobe).name);
+      scenes.push_back({name + " n=1024", sphere_scene(sharp, {directional_at(45)}, 64)});
+      scenes.push_back({name + " n=3", sphere_scene(wide, {point_light()}, 64)});
+    }
+  expect_agreement(scenes);
+}
+
+TEST_P(Agreement, OfSchlicksFresnelFactorWhereItMattersMost) {
+  std::vector<NamedScene> scenes;
+  for (const ModelInfo& model : models())
+    for (const double degrees : {45.0, 120.0}) {
+      Scene scene = shadow_scene({model.name, "cs16", "exact", 12},
+                                 {directional_at(degrees), point_light({2, 4, 8})}, 64);
+      for (Material& material : scene.materials) material.fresnel = Fresnel::kSchlick;
+      scene.materials[0].specular_reflectance = {0.02, 0.5, 0};
+      scenes.push_back({fmt::format("{} at {} degrees", model.name, degrees), scene});
+    }
+  // What POV-Ray would shade by itself were it not for the factor.
+  Scene grey = sphere_scene({"phong_rdf", "cosine", "exact", 20}, {directional_at(100)}, 64);
+  grey.materials[0].specular_reflectance = 0.04 * kWhite;
+  grey.materials[0].fresnel = Fresnel::kSchlick;
+  scenes.push_back({"grey", grey});
+  expect_agreement(scenes);
+}
+
 TEST_P(Agreement, OfGrazingLightAndOfLightFromBehind) {
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models())

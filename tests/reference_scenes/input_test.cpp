@@ -32,8 +32,8 @@ TEST(EngineInput, IsNumbersAndOurOwnNamesWhateverTheMaterialIsCalled) {
     Scene scene = shadow_scene(choice, {directional_at(45), point_light()}, 64);
     for (Material& material : scene.materials) material.id = hostile;
     const std::regex allowed(
-        R"(#version 3\.7;|#include "lobelia_models\.inc"|Lobelia_[A-Za-z_]+\([-+0-9.e<>, /]*)"
-        R"((Lobelia_[A-Za-z0-9_]+, )*[-+0-9.e<>, /]*\))");
+        R"(#version 3\.7;|#include "lobelia_[a-z0-9_]+\.inc"|)"
+        R"(Lobelia_[A-Za-z_]+\(([-+0-9.e<>, /]|Lobelia_[A-Za-z0-9_]+(\([-+0-9.e]+\))?)*\))");
     for (const PovrayPass& pass : povray_input(scene).passes)
       for (const std::string& line : split(pass.scene, "\n"))
         EXPECT_TRUE(std::regex_match(line, allowed)) << line;
@@ -70,6 +70,7 @@ TEST(EngineInput, GainBringsEveryPictureIntoTheRangeOfHalfFloat) {
           Scene scene = shadow_scene(
               {model.name, lobe.lobe, lobe.normalisation, exponent},
               {directional_at(30, brightness * kWhite), point_light(brightness * kWhite)}, 32);
+          scene.materials[0].fresnel = exponent == 16 ? Fresnel::kSchlick : Fresnel::kNone;
           for (const PovrayPass& pass : povray_input(scene).passes) {
             int power = 0;
             EXPECT_EQ(std::frexp(pass.gain, &power), 0.5) << "not a power of two: " << pass.gain;
@@ -87,9 +88,11 @@ TEST(EngineInput, GainBringsEveryPictureIntoTheRangeOfHalfFloat) {
 }
 
 TEST(EngineInput, PovrayShadesByItselfWhatItHasItself) {
-  const auto is_native = [](const HighlightChoice& choice, Rgb specular = kWhite) {
+  const auto is_native = [](const HighlightChoice& choice, Rgb specular = kWhite,
+                            Fresnel fresnel = Fresnel::kNone) {
     Scene scene = sphere_scene(choice, {directional_at(45), point_light()}, 64);
     scene.materials[0].specular_reflectance = specular;
+    scene.materials[0].fresnel = fresnel;
     const PovrayInput input = povray_input(scene);
     EXPECT_EQ(input.passes.size(), input.native ? 1u : 2u);
     return input.native;
@@ -99,6 +102,7 @@ TEST(EngineInput, PovrayShadesByItselfWhatItHasItself) {
   EXPECT_TRUE(is_native({"blinn_phong_rdf", "cosine", "exact", 64}, {0.5, 0.5, 0.5}));
   EXPECT_FALSE(is_native({"phong_rdf", "cosine", "exact", 64}, {1, 0.5, 0.5}))
       << "its highlights have the colour of the lamp";
+  EXPECT_FALSE(is_native({"phong_rdf", "cosine", "exact", 64}, kWhite, Fresnel::kSchlick));
   EXPECT_FALSE(is_native({"phong_rdf", "cs16", "exact", 64}));
   EXPECT_FALSE(is_native({"modified_phong", "cosine", "exact", 64}));
 }

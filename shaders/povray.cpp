@@ -1,0 +1,111 @@
+#include "shaders/povray.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "shaders/names.hpp"
+#include "shaders/parts.hpp"
+
+namespace lobelia {
+namespace embedded {
+extern const std::string_view povray_usage, povray_geometry, povray_quadrature, povray_highlight;
+extern const std::string_view povray_model_phong_rdf, povray_model_modified_phong,
+    povray_model_blinn_phong_rdf, povray_model_modified_blinn_phong, povray_model_blinn_phong_ndf,
+    povray_model_blinn_phong_heightfield;
+extern const std::string_view povray_lobe_cosine, povray_lobe_cs, povray_lobe_spherical_gaussian,
+    povray_lobe_gauss, povray_lobe_schlick;
+}  // namespace embedded
+namespace {
+
+struct Formula {
+  std::string_view name;
+  const std::string_view& text;
+};
+const Formula kModels[] = {
+    {"phong_rdf", embedded::povray_model_phong_rdf},
+    {"modified_phong", embedded::povray_model_modified_phong},
+    {"blinn_phong_rdf", embedded::povray_model_blinn_phong_rdf},
+    {"modified_blinn_phong", embedded::povray_model_modified_blinn_phong},
+    {"blinn_phong_ndf", embedded::povray_model_blinn_phong_ndf},
+    {"blinn_phong_heightfield", embedded::povray_model_blinn_phong_heightfield}};
+/// A family by its name without the order.
+const Formula kLobes[] = {{"cosine", embedded::povray_lobe_cosine},
+                          {"cs", embedded::povray_lobe_cs},
+                          {"spherical_gaussian", embedded::povray_lobe_spherical_gaussian},
+                          {"gauss", embedded::povray_lobe_gauss},
+                          {"schlick", embedded::povray_lobe_schlick}};
+
+std::string_view formula(std::span<const Formula> formulas, std::string_view name) {
+  for (const Formula& one : formulas)
+    if (one.name == name) return one.text;
+  throw Error(ExitCode::kInternal, fmt::format("shaders/povray has no '{}'", name));
+}
+
+std::string lobe_text(LobeId lobe) {
+  std::string name(info(lobe).name);
+  const std::string order = std::to_string(lobe.order);
+  if (lobe.order != 0) name.resize(name.size() - order.size());
+  return fill(formula(kLobes, name), {{"K", order}});
+}
+
+/// For cos^n both columns are closed forms, and so is what the paper has for cs16.
+std::string coefficient_text(const Highlight& highlight) {
+  const std::string model = capitalised(info(highlight.model).name),
+                    lobe = capitalised(info(highlight.lobe).name);
+  if (highlight.normalisation == Normalisation::kPaper || lobe == "Cosine")
+    return fmt::format("Lobelia_{}_{}_{}(N)", model, capitalised(name(highlight.normalisation)),
+                       lobe);
+  return fmt::format(
+      "Lobelia_Normalising(Lobelia_{0}_Lobe, N, Lobelia_{1}_Weight,\n"
+      "                      min(Lobelia_{1}_End, Lobelia_{0}_End(N)))",
+      lobe, model);
+}
+
+std::string usage_text(const Highlight& highlight) {
+  const PovrayNames names = povray_names(highlight);
+  const bool cosine = info(highlight.model).applies_cosine;
+  return fill(embedded::povray_usage,
+              {{"heading", heading(highlight)},
+               {"file", names.file},
+               {"Name", names.pattern},
+               {"brilliance", cosine ? "1" : "0"},
+               {"finish", cosine ? "1: N.L is in the model" : "0: there is no N.L in the model"}});
+}
+
+std::string highlight_text(const Highlight& highlight) {
+  const PovrayNames names = povray_names(highlight);
+  return fill(embedded::povray_highlight,
+              {{"heading", heading(highlight)},
+               {"Name", names.pattern},
+               {"Model", capitalised(info(highlight.model).name)},
+               {"Lobe", capitalised(info(highlight.lobe).name)},
+               {"coefficient", coefficient_text(highlight)},
+               {"cosine", info(highlight.model).applies_cosine
+                              ? "times N.L, which `brilliance 1` brings"
+                              : "without N.L, which `brilliance 0` keeps out"}});
+}
+
+}  // namespace
+
+PovrayNames povray_names(const Highlight& highlight) {
+  const std::string name = function_name(highlight), pattern = capitalised(name);
+  return {name + ".inc", pattern, pattern + "_Coefficient",
+          fmt::format("Lobelia_{}_Brilliance", capitalised(info(highlight.model).name))};
+}
+
+std::string povray_text(std::span<const Highlight> highlights) {
+  Parts parts("#ifndef (Lobelia_Part_%name%)\n#declare Lobelia_Part_%name% = 1;\n",
+              "#end   // of Lobelia_Part_%name%\n");
+  for (const Highlight& highlight : highlights) {
+    radiance_coefficient(highlight);  // says what the paper has not
+    parts.add("Geometry", embedded::povray_geometry);
+    parts.add("Quadrature", embedded::povray_quadrature);
+    parts.add(capitalised(info(highlight.lobe).name), lobe_text(highlight.lobe));
+    const std::string_view model = info(highlight.model).name;
+    parts.add(capitalised(model), formula(kModels, model));
+    parts.add(capitalised(function_name(highlight)), highlight_text(highlight));
+  }
+  return (highlights.empty() ? "" : usage_text(highlights.front())) + parts.text();
+}
+
+}  // namespace lobelia
