@@ -12,11 +12,11 @@ namespace {
 
 constexpr int kSmallestSide = 4;  // Blender's own limit; it would render a larger picture instead
 
-/// What render_scenes.py has formulas for.
+/// What render_scenes.py has formulas for, besides cs_k for every k.
 constexpr std::string_view kModels[] = {"phong_rdf",       "modified_phong",
                                         "blinn_phong_rdf", "modified_blinn_phong",
                                         "blinn_phong_ndf", "blinn_phong_heightfield"};
-constexpr std::string_view kLobes[] = {"cosine", "cs16"};
+constexpr std::string_view kLobes[] = {"cosine", "spherical_gaussian", "gauss", "schlick"};
 
 void require_known(std::span<const std::string_view> known, std::string_view name) {
   if (std::ranges::find(known, name) == known.end())
@@ -38,13 +38,14 @@ Json light_json(const Light& light) {
 Json sphere_json(const Sphere& sphere, const Material& material) {
   const Highlight& highlight = material.highlight;
   require_known(kModels, info(highlight.model).name);
-  require_known(kLobes, info(highlight.lobe).name);
+  if (highlight.lobe.order == 0) require_known(kLobes, info(highlight.lobe).name);
   return {{"center", to_json(sphere.center)},
           {"radius", sphere.radius},
           {"model", info(highlight.model).name},
           {"lobe", info(highlight.lobe).name},
           {"normalisation", name(highlight.normalisation)},
           {"exponent", highlight.exponent},
+          {"fresnel", name(material.fresnel)},
           {"specular", to_json(material.specular_reflectance)},
           {"diffuse", to_json(material.diffuse_reflectance)}};
 }

@@ -9,7 +9,7 @@ job.json (numbers and enumerations only):
        "lights": [{"kind": "directional", "direction": [..], "irradiance": [r, g, b]},
                   {"kind": "point", "position": [..], "intensity": [r, g, b]}],
        "spheres": [{"center": [..], "radius": 1, "model": "phong_rdf", "lobe": "cosine",
-                    "normalisation": "exact", "exponent": 64,
+                    "normalisation": "exact", "exponent": 64, "fresnel": "none",
                     "specular": [r, g, b], "diffuse": [r, g, b]}]}]}
 
 Each light is a picture of its own, NAME-LIGHT.exr (float32, beside job.json); whoever asked for
@@ -26,6 +26,7 @@ that a mistake there shows as a difference of pictures.
 import json
 import math
 import os
+import re
 import signal
 import sys
 import time
@@ -73,43 +74,65 @@ def cs16_paper(model, n):
     }[model]
 
 
-def cs16_exact(model, n):
-    """From the integrals of s^j (1 - n s/16)^16 ds up to where the lobe or the hemisphere ends."""
-    half = model in ("blinn_phong_rdf", "modified_blinn_phong")
-    s_max = 1 - math.cos(math.pi / 4) if half else 1.0
-    end, x = min(s_max, 16 / n), min(1.0, n * s_max / 16)
-
-    def moment(j):
-        # The power multiplied out and integrated term by term. In powers of 1 - n s/16 there are
-        # fewer terms, which cancel each other to the last digit where n is small.
-        terms = (math.comb(16, i) * (-x) ** i / (j + i + 1) for i in range(17))
-        return end ** (j + 1) * math.fsum(terms)
-
-    flat = moment(0)                 # weight 1
-    tilted = moment(0) - moment(1)   # weight 1 - s, which is the cosine
-    if model == "phong_rdf":
-        energy = flat
-    elif model == "modified_phong":
-        energy = tilted
-    elif model == "blinn_phong_rdf":
-        energy = 4 * tilted
-    elif model == "modified_blinn_phong":
-        energy = 4 * (moment(0) - 5 * moment(1) + 6 * moment(2) - 2 * moment(3))
-    elif model == "blinn_phong_ndf":
-        energy = 4 * flat
-    elif model == "blinn_phong_heightfield":
-        energy = 4 * tilted
-    else:
-        raise KeyError(model)
-    return 1 / (2 * math.pi * energy)
+def order_of(lobe):
+    """The k of a lobe cs_k, or None."""
+    return int(lobe[2:]) if re.fullmatch("cs[0-9]+", lobe) else None
 
 
-COEFFICIENTS = {
-    ("cosine", "exact"): cosine_exact,
-    ("cosine", "paper"): cosine_paper,
-    ("cs16", "exact"): cs16_exact,
-    ("cs16", "paper"): cs16_paper,
-}
+def lobe_value(lobe, s, n):
+    """Of s = 1 - cos(angle) below 1."""
+    k = order_of(lobe)
+    if k:
+        return max(0.0, 1 - n * s / k) ** k
+    if lobe == "spherical_gaussian":
+        return math.exp(-n * s)
+    if lobe == "gauss":
+        return math.exp(-2 * n * math.asin(math.sqrt(s / 2)) ** 2)
+    if lobe == "schlick":
+        return (1 - s) / (1 - s + n * s)
+    raise KeyError(lobe)
+
+
+def integral(f, end):
+    """From 0 to end by the rule of Takahasi and Mori, whose points crowd at both ends: a lobe of any
+    sharpness is resolved at 0, and one that drops only at the horizon is there."""
+    step, total = 1 / 64, 0.0
+    for i in range(-205, 206):
+        u = math.pi / 2 * math.sinh(i * step)
+        slope = math.pi / 4 * math.cosh(i * step) / math.cosh(u) ** 2
+        total += f(end / (1 + math.exp(-2 * u))) * slope
+    return total * end * step
+
+
+def exact(model, lobe, n):
+    """1 over 2 pi times the integral of the lobe over the angle x = 0..pi/2, with the model's weight; a
+    microfacet distribution D (the last two) reflects D/4."""
+    if lobe == "cosine":
+        return cosine_exact(model, n)
+    part, cosine, factor = {   # the lobe's angle in terms of x; whether cos x is a weight
+        "phong_rdf": (1.0, False, 1),
+        "modified_phong": (1.0, True, 1),
+        "blinn_phong_rdf": (0.5, False, 1),
+        "modified_blinn_phong": (0.5, True, 1),
+        "blinn_phong_ndf": (1.0, False, 4),
+        "blinn_phong_heightfield": (1.0, True, 4),
+    }[model]
+    # Where the lobe ends or has fallen to 4e-18, in s; Schlick's reaches to the horizon.
+    reach = {"schlick": 1.0}.get(lobe, (order_of(lobe) or 40) / n)
+    end = min(math.pi / 2, 2 * math.asin(math.sqrt(min(1.0, reach) / 2)) / part)
+
+    def integrand(x):
+        s = 2 * math.sin(part * x / 2) ** 2
+        return lobe_value(lobe, s, n) * math.sin(x) * (math.cos(x) if cosine else 1)
+
+    return 1 / (2 * math.pi * factor * integral(integrand, end))
+
+
+def coefficient_of(sphere):
+    model, lobe, n = sphere["model"], sphere["lobe"], sphere["exponent"]
+    if sphere["normalisation"] == "paper":
+        return {"cosine": cosine_paper, "cs16": cs16_paper}[lobe](model, n)
+    return exact(model, lobe, n)
 
 
 # ---- Formulas as shader nodes --------------------------------------------------------------------
@@ -171,13 +194,42 @@ class Nodes:
         lobe = self.math("EXPONENT", self.math("MULTIPLY", n, log1p))
         return self.math("MULTIPLY", lobe, self.math("GREATER_THAN", w, 0.0))
 
-    def cs16_lobe(self, s, n):
-        base = self.math("SUBTRACT", 1.0, self.math("MULTIPLY", n / 16, s))
-        power = self.math("MAXIMUM", base, 0.0)
-        for _ in range(4):
-            power = self.math("MULTIPLY", power, power)
-        # Below n = 16 the lobe would reach beyond 90 degrees, where every lobe ends.
-        return self.math("MULTIPLY", power, self.math("LESS_THAN", s, 1.0))
+    def half_square_of_angle(self, s):
+        """Of the angle whose 1 - cos is s. An arc cosine would lose the digits of a small one."""
+        half = self.math("ARCSINE", self.math("SQRT", self.math("MULTIPLY", 0.5, s)))
+        return self.math("MULTIPLY", 2.0, self.math("MULTIPLY", half, half))
+
+    def lobe(self, name, s, n):
+        k = order_of(name)
+        if name == "cosine":
+            value = self.cosine_lobe(s, n)
+        elif k:  # (1 - n s / k)^k is cos^k for another s
+            value = self.cosine_lobe(self.math("MULTIPLY", n / k, s), k)
+        elif name == "spherical_gaussian":
+            value = self.math("EXPONENT", self.math("MULTIPLY", -n, s))
+        elif name == "gauss":
+            value = self.math("EXPONENT", self.math("MULTIPLY", -n, self.half_square_of_angle(s)))
+        elif name == "schlick":
+            c = self.math("MAXIMUM", self.math("SUBTRACT", 1.0, s), 0.0)
+            value = self.math("DIVIDE", c, self.math("ADD", c, self.math("MULTIPLY", n, s)))
+        else:
+            raise KeyError(name)
+        # Every lobe ends at 90 degrees.
+        return self.math("MULTIPLY", value, self.math("LESS_THAN", s, 1.0))
+
+    def fresnel(self, kind, reflectance, to_eye, to_light):
+        """The colour of the highlight: F0, or Schlick's F0 + (1 - F0)(1 - V.H)^5; V.H is half the
+        length of L + V."""
+        if kind == "none":
+            return self.constant(reflectance)
+        if kind != "schlick":
+            raise KeyError(kind)
+        both = self.vector("LENGTH", self.vector("ADD", to_light, to_eye))
+        base = self.math("MAXIMUM", self.math("SUBTRACT", 1.0, self.math("MULTIPLY", 0.5, both)), 0.0)
+        square = self.math("MULTIPLY", base, base)
+        weight = self.math("MULTIPLY", self.math("MULTIPLY", square, square), base)
+        rest = self.constant([1 - c for c in reflectance])
+        return self.vector("ADD", self.vector("SCALE", rest, scale=weight), tuple(reflectance))
 
 
 def highlight_material(sphere, light, lamp):
@@ -213,15 +265,15 @@ def highlight_material(sphere, light, lamp):
         s = nodes.one_minus_cos(normal, half)
     else:
         raise KeyError(model)
-    lobe = {"cosine": nodes.cosine_lobe, "cs16": nodes.cs16_lobe}[sphere["lobe"]](s, n)
+    lobe = nodes.lobe(sphere["lobe"], s, n)
 
-    coefficient = COEFFICIENTS[sphere["lobe"], sphere["normalisation"]](model, n)
     # Radiance = (specular lobe + diffuse/pi) N.L E, where an RDF's lobe is without the N.L.
     weight = lobe
     if model in RDF_MODELS:
         # What Cycles multiplies is divided out; where N.L <= 0 it shows black in any case.
         weight = nodes.math("DIVIDE", lobe, nodes.math("MAXIMUM", n_dot_l, 1e-7))
-    specular = nodes.constant([math.pi * coefficient * c for c in sphere["specular"]])
+    weight = nodes.math("MULTIPLY", math.pi * coefficient_of(sphere), weight)
+    specular = nodes.fresnel(sphere["fresnel"], sphere["specular"], to_eye, to_light)
     color = nodes.vector("ADD", nodes.vector("SCALE", specular, scale=weight),
                          tuple(sphere["diffuse"]))
     surface = nodes.new("ShaderNodeBsdfDiffuse")
