@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/choice.hpp"
 #include "core/error.hpp"
 #include "core/image.hpp"
 #include "core/text.hpp"
@@ -9,19 +10,6 @@
 
 namespace lobelia::cli {
 namespace {
-
-template <class Id, class Find>
-void choose(const std::optional<std::string>& value, std::string_view option,
-            std::span<const std::string_view> names, const std::string& allowed, Find find,
-            Id& id) {
-  if (!value) return;
-  const auto found = find(*value);
-  if (!found)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} '{}' is unknown; allowed: {}{}", option, printable(*value), allowed,
-                            did_you_mean(*value, names)));
-  id = *found;
-}
 
 template <class Number, class Target>
 void replace(const std::optional<Number>& value, std::string_view option, double min, double max,
@@ -62,10 +50,12 @@ void SceneOverrides::apply(Scene& scene) const {
   for (auto& material : scene.materials) highlights.push_back(&material.highlight);
   for (Highlight* const each : highlights) {
     Highlight& highlight = *each;
-    choose(model_, "--model", model_names(), join(model_names()), find_model, highlight.model);
-    choose(lobe_, "--lobe", lobe_names(), allowed_lobes(), find_lobe, highlight.lobe);
-    choose(normalisation_, "--normalisation", normalisation_names(), join(normalisation_names()),
-           find_normalisation, highlight.normalisation);
+    if (model_)
+      highlight.model = chosen(*model_, "--model", model_names(), join(model_names()), find_model);
+    if (lobe_) highlight.lobe = chosen(*lobe_, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+    if (normalisation_)
+      highlight.normalisation = chosen(*normalisation_, "--normalisation", normalisation_names(),
+                                       join(normalisation_names()), find_normalisation);
     replace(exponent_, "--exponent", kMinExponent, kMaxExponent, highlight.exponent);
   }
   replace(width_, "--width", 1, kMaxImageSide, scene.film.width);

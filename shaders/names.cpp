@@ -2,13 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 namespace lobelia {
 
-std::string function_name(const Highlight& highlight) {
-  return fmt::format("lobelia_{}_{}{}", info(highlight.model).name, info(highlight.lobe).name,
-                     highlight.normalisation == Normalisation::kPaper ? "_paper" : "");
+std::string function_name(const Highlight& highlight, bool fixed_exponent) {
+  std::string name =
+      fmt::format("lobelia_{}_{}{}", info(highlight.model).name, info(highlight.lobe).name,
+                  highlight.normalisation == Normalisation::kPaper ? "_paper" : "");
+  if (fixed_exponent) {
+    name += fmt::format("_n{}", highlight.exponent);
+    std::ranges::replace(name, '.', '_');
+  }
+  return name;
 }
 
 std::string capitalised(std::string_view name) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/version.hpp"
 #include "shaders/names.hpp"
 #include "shaders/parts.hpp"
 
@@ -66,6 +67,8 @@ std::string usage_text(const Highlight& highlight) {
   const bool cosine = info(highlight.model).applies_cosine;
   return fill(embedded::povray_usage,
               {{"heading", heading(highlight)},
+               {"version", kNameAndVersion},
+               {"paper", kPaper},
                {"file", names.file},
                {"Name", names.pattern},
                {"brilliance", cosine ? "1" : "0"},
@@ -76,6 +79,8 @@ std::string highlight_text(const Highlight& highlight) {
   const PovrayNames names = povray_names(highlight);
   return fill(embedded::povray_highlight,
               {{"heading", heading(highlight)},
+               {"model_source", info(highlight.model).source},
+               {"lobe_source", info(highlight.lobe).source},
                {"Name", names.pattern},
                {"Model", capitalised(info(highlight.model).name)},
                {"Lobe", capitalised(info(highlight.lobe).name)},

@@ -67,6 +67,21 @@ struct CsLobe {
   }
   double density(double s) const { return slope * (k + 1) / mass * value(s); }
   PaperColumn paper_column() const { return k == 16 ? PaperColumn::kCs16 : PaperColumn::kNone; }
+  /// By squarings up to k = 64; beyond it the power would multiply the base's rounding too often.
+  LobeText text() const {
+    const std::string order = std::to_string(k) + ".0", slope_text = "n / " + order;
+    if (k > 64)
+      return {"    return exp(" + order + " * lobelia_log_one_minus(min(" + slope_text +
+                  " * s, 0.999999)));\n",
+              slope_text};
+    std::string body = "    float u1 = max(0.0, 1.0 - " + slope_text + " * s);\n", product;
+    for (int power = 2; power <= k; power *= 2) {
+      const std::string half = "u" + std::to_string(power / 2), now = "u" + std::to_string(power);
+      body += "    float " + now + " = " + half + " * " + half + ";\n";
+      if (k & power) product += (product.empty() ? "" : " * ") + now;
+    }
+    return {body + "    return " + product + ";\n", slope_text};
+  }
   /// The base is rounded once and multiplied k times with itself.
   Float32Error float32_error() const { return {6e-8 * 2 * k, 2.0 * k}; }
 

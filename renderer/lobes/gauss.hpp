@@ -59,6 +59,22 @@ struct GaussLobe {
     return n / mass * value(s) * (x > 0 ? x / std::sin(x) : 1);
   }
   PaperColumn paper_column() const { return PaperColumn::kNone; }
+  LobeText text() const {
+    return {
+        "    // x^2/2 = s + s^2 P(s): an inverse cosine would lose a small angle, and those of many\n"
+        "    // processors are rough.\n"
+        "    float p = 0.0006289906971;\n"
+        "    p = p * s - 0.00140708189;\n"
+        "    p = p * s + 0.002161792173;\n"
+        "    p = p * s - 0.0004488384646;\n"
+        "    p = p * s + 0.002371639728;\n"
+        "    p = p * s + 0.004988465579;\n"
+        "    p = p * s + 0.01429481116;\n"
+        "    p = p * s + 0.04444409844;\n"
+        "    p = p * s + 0.1666666688;\n"
+        "    return exp(-n * (s + s * s * p));\n",
+        ""};
+  }
   Float32Error float32_error() const { return {2e-7, 3, 4}; }
 
   static constexpr double kQuarterTurn = std::numbers::pi * std::numbers::pi / 8;  ///< x^2 / 2

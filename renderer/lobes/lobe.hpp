@@ -13,6 +13,7 @@
 #include <array>
 #include <concepts>
 #include <numbers>
+#include <string>
 
 #include "renderer/highlight.hpp"
 #include "renderer/real.hpp"
@@ -30,6 +31,16 @@ struct LobeParameters {
 /// grow by `ulp_per_nat` for each factor e that the result is below the peak.
 struct Float32Error {
   double of_peak, ulp, ulp_per_nat = 0;
+};
+
+/// A lobe in the language that GLSL, HLSL and OSL have in common, for `lobelia export`.
+struct LobeText {
+  /// Of a function of `s` in [0, 1) and `n` that returns the value; it may call the functions of
+  /// shaders/gpu/geometry.txt. In float32.
+  std::string body;
+  /// Of a lobe (1 - slope s)^(n / slope), from which the energy of every model follows: the slope, in
+  /// terms of n. Empty where there is no such form, and for cos^n, whose coefficients the models have.
+  std::string slope;
 };
 
 /// Which column of the paper's table of coefficients belongs to a lobe.
@@ -52,6 +63,7 @@ concept Lobe = requires(const L& lobe, LobeParameters parameters, double s, doub
   { lobe.sample(s) } -> std::same_as<double>;
   { lobe.density(s) } -> std::same_as<double>;
   { lobe.paper_column() } -> std::convertible_to<PaperColumn>;
+  { lobe.text() } -> std::same_as<LobeText>;
   { lobe.float32_error() } -> std::convertible_to<Float32Error>;
 };
 

@@ -42,6 +42,7 @@ struct SphericalGaussianLobe {
   double sample(double xi) const { return std::min(1.0, -std::log1p(-xi * mass) / n); }
   double density(double s) const { return n / mass * value(s); }
   PaperColumn paper_column() const { return PaperColumn::kNone; }
+  LobeText text() const { return {"    return exp(-n * s);\n", "0.0"}; }
   Float32Error float32_error() const { return {2e-7, 3, 2}; }
 
   double n, mass;

@@ -36,6 +36,8 @@ struct BlinnPhongNdf {
                                                  "1.063 n/(2 pi)"};
   static double paper_cosine(double n) { return (n + 1) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return 1.063 * n / (2 * std::numbers::pi); }
+  static constexpr CoefficientTexts kTexts{"(n + 1.0) / (2.0 * %pi%)", "(n + 1.0) / (2.0 * %pi%)",
+                                           "1.063 * n / (2.0 * %pi%)"};
 };
 static_assert(Model<BlinnPhongNdf>);
 

@@ -38,6 +38,9 @@ struct BlinnPhongRdf {
     return (n + 2) / (4 * std::numbers::pi * (2 - std::exp2(-n / 2)));
   }
   static double paper_cs16(double n) { return (1.068 * n + 0.96) / (8 * std::numbers::pi); }
+  static constexpr CoefficientTexts kTexts{"(n + 2.0) / (4.0 * %pi% * (2.0 - exp2(-0.5 * n)))",
+                                           "(n + 2.0) / (4.0 * %pi% * (2.0 - exp2(-0.5 * n)))",
+                                           "(1.068 * n + 0.96) / (8.0 * %pi%)"};
 };
 static_assert(Model<BlinnPhongRdf>);
 

@@ -38,6 +38,12 @@ double exact_coefficient(const EnergyIntegral& energy, const auto& lobe) {
   return 1 / (2 * std::numbers::pi * sum);
 }
 
+/// Coefficients as formulas of n in the language that GLSL, HLSL and OSL have in common, for
+/// `lobelia export`: those of the two columns of the paper, and the true one for cos^n.
+struct CoefficientTexts {
+  std::string_view exact_cosine, paper_cosine, paper_cs16;
+};
+
 template <class M>
 concept Model = requires(double n_dot_l, double n) {
   { M::kInfo } -> std::convertible_to<const ModelInfo&>;
@@ -50,6 +56,7 @@ concept Model = requires(double n_dot_l, double n) {
   /// The coefficients as the paper prints them, misprints included.
   { M::paper_cosine(n) } -> std::same_as<double>;
   { M::paper_cs16(n) } -> std::same_as<double>;
+  { M::kTexts } -> std::convertible_to<const CoefficientTexts&>;
 };
 
 }  // namespace lobelia

@@ -40,6 +40,10 @@ struct ModifiedBlinnPhong {
     return (n + 2) * (n + 4) / (4 * std::numbers::pi * (std::exp2(-n / 2) + n));
   }
   static double paper_cs16(double n) { return (1.027 * n + 4.8) / (8 * std::numbers::pi); }
+  static constexpr CoefficientTexts kTexts{
+      "(n + 2.0) * (n + 4.0) / (8.0 * %pi% * (exp2(-0.5 * n) + n))",
+      "(n + 2.0) * (n + 4.0) / (4.0 * %pi% * (exp2(-0.5 * n) + n))",
+      "(1.027 * n + 4.8) / (8.0 * %pi%)"};
 };
 static_assert(Model<ModifiedBlinnPhong>);
 

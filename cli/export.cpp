@@ -1,0 +1,74 @@
+// lobelia export MODEL...
+#include "shaders/export.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/choice.hpp"
+#include "cli/commands.hpp"
+#include "core/files.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+  std::string language, lobe = "cosine", normalisation = "exact", output;
+  std::vector<std::string> models;
+  std::optional<double> exponent;
+};
+
+void run(const Options& options) {
+  ShaderExport request;
+  request.language = chosen(options.language, "--language", shader_language_names(),
+                            join(shader_language_names()), find_shader_language);
+  for (const std::string& model : options.models)
+    request.models.push_back(
+        chosen(model, "model", model_names(), join(model_names()), find_model));
+  request.lobe = chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+  request.normalisation = chosen(options.normalisation, "--normalisation", normalisation_names(),
+                                 join(normalisation_names()), find_normalisation);
+  request.exponent = options.exponent;
+  const std::string text = shader_text(request);
+  if (options.output.empty())
+    fmt::print("{}", text);
+  else
+    write_file(options.output, text);
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, ExitCode&) {
+  auto* command = app.add_subcommand("export", "Write models as shader functions, to take home");
+  auto options = std::make_shared<Options>();
+  command->add_option("MODEL", options->models, fmt::format("Models: {}", join(model_names())))
+      ->required();
+  command
+      ->add_option("--language", options->language,
+                   fmt::format("Language: {}", join(shader_language_names())))
+      ->required();
+  command->add_option("--lobe", options->lobe, fmt::format("Lobe: {}", allowed_lobes()))
+      ->capture_default_str();
+  command
+      ->add_option("--normalisation", options->normalisation,
+                   fmt::format("Coefficient: {}", join(normalisation_names())))
+      ->capture_default_str();
+  command
+      ->add_option("--exponent", options->exponent,
+                   "A number for n, and the coefficient with it, in place of a parameter; needed "
+                   "for the lobes whose coefficient has no closed form")
+      ->check(CLI::Range(kMinExponent, kMaxExponent));
+  command->add_option("-o,--output", options->output, "File to write; otherwise standard output")
+      ->type_name("FILE");
+  command->footer(
+      "What is written needs nothing of Lobelia, and says what each function returns, where the\n"
+      "cosine is, and which integral its coefficient makes 1. Two exports may be used together.\n"
+      "\n"
+      "Examples:\n"
+      "  lobelia export --language glsl modified_phong blinn_phong_rdf --lobe cs16\n"
+      "  lobelia export --language osl phong_rdf --lobe gauss --exponent 64 -o gauss.h\n"
+      "  lobelia export --language povray modified_phong -o lobelia_modified_phong_cosine.inc");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace lobelia::cli

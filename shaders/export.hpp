@@ -1,0 +1,33 @@
+// `lobelia export`: models as shader functions that need nothing of Lobelia.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/highlight.hpp"
+
+namespace lobelia {
+
+/// Position in the catalogue of languages.
+struct ShaderLanguage {
+  std::uint8_t index = 0;
+};
+std::span<const std::string_view> shader_language_names();  ///< "glsl", "hlsl", "osl", "povray"
+std::optional<ShaderLanguage> find_shader_language(std::string_view name);
+
+struct ShaderExport {
+  ShaderLanguage language;
+  std::vector<ModelId> models;  ///< not empty
+  LobeId lobe;
+  Normalisation normalisation = Normalisation::kExact;
+  std::optional<double> exponent;  ///< else a parameter of the function
+};
+
+/// The text of the file. Throws Error(kUsage) where the language or the lobe asks for an exponent, or
+/// for none, and Error(kInput) where the paper has no coefficient for the lobe.
+std::string shader_text(const ShaderExport& request);
+
+}  // namespace lobelia

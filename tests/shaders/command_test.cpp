@@ -1,0 +1,79 @@
+// `lobelia export` as a user meets it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reference_scenes/povray/povray_input.hpp"
+#include "shaders/export.hpp"
+#include "shaders/povray.hpp"
+#include "tests/cli/run_lobelia.hpp"
+#include "tests/reference_scenes/test_scenes.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+class ExportCommand : public testing::Test {
+ protected:
+  std::string file(const char* name) { return read_file(scratch_.path() / name, 1 << 20); }
+  ProcessResult run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "export");
+    return run_lobelia(arguments, scratch_.path());
+  }
+  TemporaryDirectory scratch_;
+};
+
+TEST_F(ExportCommand, PrintsTheTextOrWritesItToAFile) {
+  const ShaderExport request{*find_shader_language("hlsl"),
+                             {*find_model("modified_phong"), *find_model("blinn_phong_rdf")},
+                             *find_lobe("cs16"),
+                             Normalisation::kPaper,
+                             64};
+  const std::string command =
+      "export --language hlsl modified_phong blinn_phong_rdf --lobe cs16 --normalisation paper "
+      "--exponent 64";
+  ASSERT_EQ(run_shell("\"$LOBELIA\" " + command + " > printed", scratch_.path()).exit_code, 0);
+  ASSERT_EQ(run_shell("\"$LOBELIA\" " + command + " -o written", scratch_.path()).exit_code, 0);
+  EXPECT_EQ(file("printed"), shader_text(request));
+  EXPECT_EQ(file("written"), shader_text(request));
+  EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command)) << "how to get it again";
+}
+
+TEST_F(ExportCommand, IsWhatTheReferenceRendersOfPovrayInclude) {
+  const Scene scene =
+      sphere_scene({"modified_phong", "gauss", "exact", 64}, {directional_at(45)}, 16);
+  ASSERT_EQ(
+      run({"--language", "povray", "modified_phong", "--lobe", "gauss", "-o", "a.inc"}).exit_code,
+      0);
+  EXPECT_EQ(povray_input(scene).includes.at("lobelia_modified_phong_gauss.inc"), file("a.inc"));
+}
+
+TEST_F(ExportCommand, UnknownNamesAreExitCode2AndOneLineWithASuggestion) {
+  const auto expect_refusal = [&](std::vector<std::string> arguments, const char* said) {
+    const ProcessResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.output_tail, HasSubstr(said));
+    EXPECT_EQ(std::count(result.output_tail.begin(), result.output_tail.end(), '\n'), 1);
+  };
+  expect_refusal({"--language", "gsl", "modified_phong"}, "did you mean 'glsl'?");
+  expect_refusal({"--language", "glsl", "modified_fong"}, "did you mean 'modified_phong'?");
+  expect_refusal({"--language", "glsl", "phong_rdf", "--lobe", "cs15"}, "even K from 2 to 1024");
+  expect_refusal({"--language", "glsl", "phong_rdf", "--normalisation", "papre"},
+                 "did you mean 'paper'?");
+  expect_refusal({"--language", "glsl", "phong_rdf", "--exponent", "-1"}, "--exponent");
+  expect_refusal({"--language", "glsl", "phong_rdf", "--lobe", "gauss"}, "--exponent");
+  expect_refusal({"--language", "povray", "phong_rdf", "--exponent", "64"}, "--exponent");
+  expect_refusal({"--language", "glsl"}, "MODEL");
+}
+
+TEST_F(ExportCommand, WhatCannotBeWrittenIsExitCode4AndLeavesNothing) {
+  EXPECT_EQ(run({"--language", "glsl", "phong_rdf", "-o", "nowhere/a.glsl"}).exit_code, 4);
+  EXPECT_EQ(run({"--language", "glsl", "phong_rdf", "--lobe", "cs8", "--normalisation", "paper",
+                 "-o", "a.glsl"})
+                .exit_code,
+            3);
+  EXPECT_EQ(files_in(scratch_.path()), 0u);
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,189 @@
+// The exported text as compilers and people meet it.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <regex>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "tests/shaders/exports.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class CompiledByGlslang : public testing::Test {
+ protected:
+  void SetUp() override {
+    compiler_ = find_program("glslangValidator");
+    if (!compiler_.empty()) return;
+    const char* required = std::getenv("LOBELIA_REQUIRE_ENGINES");
+    if (required && std::string_view(required) == "1") FAIL() << "no program 'glslangValidator'";
+    GTEST_SKIP() << "no program 'glslangValidator': sudo apt-get install glslang-tools";
+  }
+
+  /// What the compiler says of the shaders that were written; empty if they are all right.
+  std::string complaints(std::vector<std::string> options) {
+    options.insert(options.begin(), compiler_.string());
+    options.insert(options.end(), files_.begin(), files_.end());
+    ProcessOptions process;
+    process.working_directory = scratch_.path();
+    const ProcessResult result = run_process(options, process);
+    EXPECT_NE(result.exit_code == 0, result.output_tail.find("ERROR") != std::string::npos);
+    return result.exit_code == 0 ? "" : result.output_tail;
+  }
+
+  void write(const std::string& file, const std::string& text) {
+    write_file(scratch_.path() / file, text);
+    files_.push_back(file);
+  }
+
+  std::filesystem::path compiler_;
+  TemporaryDirectory scratch_;
+  std::vector<std::string> files_;
+};
+
+/// An expression that adds up every function of the export.
+std::string calls(const ShaderExport& request, const std::string& vec3) {
+  std::string sum;
+  for (const ModelId model : request.models)
+    sum += fmt::format("{0}{1}({2}(0.0, 0.0, 1.0), {2}(0.6, 0.0, 0.8), {2}(0.0, 0.6, 0.8){3})",
+                       sum.empty() ? "" : " + ", function_name_of(request, model), vec3,
+                       request.exponent ? "" : ", 16.0");
+  return sum;
+}
+
+TEST_F(CompiledByGlslang, EveryGlslExportIsAcceptedByTheOldestAndTheNewestVersions) {
+  for (const auto& [name, head, output] :
+       {std::array{"100", "#version 100\nprecision highp float;\n", "gl_FragColor"},
+        std::array{"110", "#version 110\n", "gl_FragColor"},
+        std::array{"320", "#version 320 es\nprecision highp float;\nout vec4 colour;\n", "colour"},
+        std::array{"460", "#version 460\nout vec4 colour;\n", "colour"}}) {
+    files_.clear();
+    for (const ShaderExport& request : every_export("glsl"))
+      write(fmt::format("{}_{}.frag", name, files_.size()),
+            fmt::format("{}{}void main() {{ {} = vec4({}); }}\n", head, shader_text(request),
+                        output, calls(request, "vec3")));
+    EXPECT_GT(files_.size(), 70u);
+    EXPECT_EQ(complaints({}), "") << name;
+  }
+}
+
+TEST_F(CompiledByGlslang, EveryHlslExportIsAcceptedAndAllOfThemInOneShader) {
+  std::string text, sum = "0.0";
+  for (const ShaderExport& request : every_export("hlsl")) {
+    text += shader_text(request);
+    sum += " + " + calls(request, "float3");
+  }
+  write("all.frag",
+        text +
+            fmt::format(
+                "float4 main() : SV_Target {{ float v = {}; return float4(v, v, v, v); }}\n", sum));
+  EXPECT_EQ(complaints({"-D", "-V", "-e", "main"}), "");
+}
+
+TEST_F(CompiledByGlslang, AMistakeWouldBeSeen) {
+  std::string text = shader_text(every_export("glsl").front());
+  text.replace(text.find("n_dot_l > 0.0"), 1, "m");
+  write("mistake.frag", "#version 460\n" + text + "void main() {}\n");
+  EXPECT_THAT(complaints({}), HasSubstr("undeclared identifier"));
+}
+
+TEST(OslExport, DeclaresNoNameThatIsAWordOfTheLanguage) {
+  // No compiler of OSL is in Debian. That the text is C-like, values_test shows; this is the rest.
+  const std::set<std::string> reserved{
+      "and",     "break",   "closure",  "color",    "continue",    "do",         "else",
+      "emit",    "float",   "for",      "if",       "illuminance", "illuminate", "int",
+      "matrix",  "normal",  "not",      "or",       "output",      "point",      "public",
+      "return",  "string",  "struct",   "vector",   "void",        "while",      "bool",
+      "case",    "catch",   "char",     "class",    "const",       "delete",     "default",
+      "double",  "enum",    "extern",   "false",    "friend",      "goto",       "inline",
+      "long",    "new",     "operator", "private",  "protected",   "short",      "signed",
+      "sizeof",  "static",  "switch",   "template", "this",        "throw",      "true",
+      "try",     "typedef", "uniform",  "union",    "unsigned",    "varying",    "virtual",
+      "volatile"};
+  static const std::regex declaration("\\b(?:float|vector) ([A-Za-z_0-9]+)");
+  int names = 0;
+  for (const ShaderExport& request : every_export("osl")) {
+    const std::string text = shader_text(request);
+    for (std::sregex_iterator it(text.begin(), text.end(), declaration), end; it != end; ++it) {
+      ++names;
+      EXPECT_FALSE(reserved.contains((*it)[1])) << (*it)[1];
+    }
+  }
+  EXPECT_GT(names, 1000);
+}
+
+TEST(EveryExport, IsFilledInAndSaysWhatItIs) {
+  for (const std::string_view language : shader_language_names())
+    for (ShaderExport request : every_export(std::string(language))) {
+      if (language == "povray") request.exponent.reset();
+      const std::string text = shader_text(request);
+      EXPECT_THAT(text, Not(HasSubstr("%"))) << text;
+      for (const ModelId model : request.models) {
+        EXPECT_THAT(text, HasSubstr(info(model).source));
+        EXPECT_THAT(text, HasSubstr(info(model).title));
+      }
+      EXPECT_THAT(text, HasSubstr(info(request.lobe).source));
+      EXPECT_THAT(text, HasSubstr(request.normalisation == Normalisation::kExact ? "\"exact\""
+                                                                                 : "\"paper\""));
+    }
+}
+
+TEST(AnExport, HasWhatSeveralModelsShareOnce) {
+  const std::string text = shader_text({*find_shader_language("glsl"),
+                                        {all_models().begin(), all_models().end()},
+                                        *find_lobe("cs16"),
+                                        Normalisation::kExact,
+                                        {}});
+  for (const char* once :
+       {"float lobelia_cs16_lobe(", "float lobelia_s_half(", "float lobelia_cs16_energy("}) {
+    EXPECT_NE(text.find(once), std::string::npos) << once;
+    EXPECT_EQ(text.find(once), text.rfind(once)) << once;
+  }
+}
+
+TEST(AnExport, OfAFixedExponentHasTheCoefficientAsOneNumber) {
+  const Highlight highlight{*find_model("modified_phong"), *find_lobe("gauss"),
+                            Normalisation::kExact, 64};
+  const std::string text = shader_text({*find_shader_language("hlsl"),
+                                        {highlight.model},
+                                        highlight.lobe,
+                                        highlight.normalisation,
+                                        64});
+  EXPECT_THAT(text, HasSubstr(fmt::format("radiance = {:.9g}\n", radiance_coefficient(highlight))));
+  EXPECT_THAT(text, Not(HasSubstr("_coefficient")));
+}
+
+TEST(AnExport, ThatCannotBeMadeSaysWhy) {
+  const auto why_not = [](const char* language, const char* lobe, Normalisation normalisation,
+                          std::optional<double> exponent) -> std::string {
+    try {
+      shader_text({*find_shader_language(language),
+                   {*find_model("phong_rdf")},
+                   *find_lobe(lobe),
+                   normalisation,
+                   exponent});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(
+      why_not("glsl", "gauss", Normalisation::kExact, {}),
+      HasSubstr("'gauss' has no closed form; give the exponent that it is for: --exponent"));
+  EXPECT_THAT(why_not("osl", "schlick", Normalisation::kExact, {}), HasSubstr("give the exponent"));
+  EXPECT_THAT(why_not("glsl", "cs8", Normalisation::kPaper, 64),
+              HasSubstr("the paper gives no coefficient for the lobe 'cs8'"));
+  EXPECT_THAT(why_not("povray", "cs8", Normalisation::kPaper, {}), HasSubstr("'cs8'"));
+  EXPECT_THAT(why_not("povray", "cs8", Normalisation::kExact, 64), HasSubstr("an argument"));
+}
+
+}  // namespace
+}  // namespace lobelia
