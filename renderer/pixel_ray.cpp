@@ -47,10 +47,12 @@ std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) 
 bool is_shadowed(const Scene& scene, const Hit& hit, const Illumination& illumination) {
   for (int k = 0; k < int(scene.spheres.size()); ++k) {
     if (k == hit.sphere) continue;
-    const Chord chord = chord_of(scene.spheres[k], hit.point, illumination.to_light);
+    const Sphere& sphere = scene.spheres[k];
+    const Chord chord = chord_of(sphere, hit.point, illumination.to_light);
     if (!(chord.half_squared > 0)) continue;
-    const double half = std::sqrt(chord.half_squared);
-    if (chord.along + half > 0 && chord.along - half < illumination.distance) return true;
+    const bool inside = length(sphere.center - hit.point) < inner_radius(sphere);
+    if (!inside && !(chord.along > 0)) continue;
+    if (chord.along - std::sqrt(chord.half_squared) < illumination.distance) return true;
   }
   return false;
 }

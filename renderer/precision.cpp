@@ -51,8 +51,8 @@ double shading_error_bound(Precision precision, const Highlight& highlight,
                            double min_half_length) {
   const double roundings_here = roundings(info(highlight.model).angle, min_half_length);
   const double in_float64 = modulus(highlight, roundings_here * kUnit64, 0);
-  // The lobe's own arithmetic, and the product with N.L, which is rounded too.
-  const double in_lobe = lobe_float32_error(highlight.lobe, highlight.exponent) + 2 * kUnit32;
+  // The lobe's own arithmetic, and the product with N.L, which is float64.
+  const double in_lobe = lobe_float32_error(highlight.lobe, highlight.exponent) + 2 * kUnit64;
   switch (precision) {
     case Precision::kFloat32:
       return modulus(highlight, roundings_here * kUnit32, 0) + in_lobe;

@@ -114,9 +114,13 @@ void visibility(const std::vector<Sphere>& spheres, const std::vector<int>& occl
       const Lanes half_chord_squared =
           Lanes(spheres[k].radius * spheres[k].radius) - dot(off_axis, off_axis);
       const Lanes half_chord = sqrt(positive_part(half_chord_squared));
+      // Not by the far end of the chord: where the point lies on this sphere too, that is at 0, and
+      // rounding would put it on either side.
+      const double depth = inner_radius(spheres[k]);
+      const auto towards = hn::Or(hn::Gt(along.v, hn::Zero(d)),
+                                  hn::Lt(dot(to_center, to_center).v, hn::Set(d, depth * depth)));
       const auto meets = hn::And(hn::Gt(half_chord_squared.v, hn::Zero(d)),
-                                 hn::And(hn::Gt((along + half_chord).v, hn::Zero(d)),
-                                         hn::Lt((along - half_chord).v, far.v)));
+                                 hn::And(towards, hn::Lt((along - half_chord).v, far.v)));
       blocked = hn::Or(blocked, meets);
     }
     Lanes(hn::IfThenElse(blocked, hn::Zero(d), hn::Set(d, 1.0))).store(visible + i);
@@ -140,35 +144,36 @@ struct Shader {
     const L lobe({highlight.exponent, highlight.lobe.order});
     for (std::size_t i = 0; i < count; i += Lanes::count()) {
       const Lanes3 n = load(normal, i), v = load(to_eye, i), l = load(to_light, i);
-      const Lanes n_dot_l = dot(n, l);
       const Lanes s = one_minus_cos<M::kInfo.angle, Lanes>(n, v, l);
-      const Lanes value = lobe.value(s) * M::foreshortening(n_dot_l);
-      // Also where there is no half vector (L = -V): N.L and N.V are never both positive there.
-      where_less(Lanes(0.0), n_dot_l, value).store(specular + i);
+      store_lit(dot(n, l), lobe.value(s), specular + i);
     }
   }
 
-  /// N.L stays float64 up to its sign, so that every precision has the same terminator.
+  /// N.L stays float64, so that every precision has the same terminator and no product of two small
+  /// float32 is too small for a normal one.
   template <bool mixed>
   static void narrow_lobe(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
                           const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular) {
     const L lobe({highlight.exponent, highlight.lobe.order});
     for (std::size_t i = 0; i < count; i += Lanes32::count()) {
       const Pair n(normal, i), v(to_eye, i), l(to_light, i);
-      const Lanes low = dot(n.low, l.low), high = dot(n.high, l.high);
       Lanes32 s;
       if constexpr (mixed)
         s = narrow(one_minus_cos<M::kInfo.angle, Lanes>(n.low, v.low, l.low),
                    one_minus_cos<M::kInfo.angle, Lanes>(n.high, v.high, l.high));
       else
         s = one_minus_cos<M::kInfo.angle, Lanes32>(n.rounded(), v.rounded(), l.rounded());
-      // A cosine too small for a normal float32 would stall the arithmetic; the light is as good as
-      // below the horizon.
-      const Lanes tiny(double(std::numeric_limits<float>::min()));
-      const Lanes32 n_dot_l = narrow(where_less(tiny, low, low), where_less(tiny, high, high));
-      const Lanes32 value = lobe.value(s) * M::foreshortening(n_dot_l);
-      store_wide(where_less(Lanes32(0.0), n_dot_l, value), specular + i);
+      Lanes low, high;
+      widen(lobe.value(s), low, high);
+      store_lit(dot(n.low, l.low), low, specular + i);
+      store_lit(dot(n.high, l.high), high, specular + i + Lanes::count());
     }
+  }
+
+ private:
+  static HWY_INLINE void store_lit(Lanes n_dot_l, Lanes value, double* specular) {
+    // Also where there is no half vector (L = -V): N.L and N.V are never both positive there.
+    where_less(Lanes(0.0), n_dot_l, value * M::foreshortening(n_dot_l)).store(specular);
   }
 };
 

@@ -110,11 +110,11 @@ HWY_INLINE Lanes32 narrow(Lanes low, Lanes high) {
   const hn::Half<hn::ScalableTag<float>> half;
   return Lanes32(hn::Combine(d, hn::DemoteTo(half, high.v), hn::DemoteTo(half, low.v)));
 }
-HWY_INLINE void store_wide(Lanes32 a, double* to) {
+HWY_INLINE void widen(Lanes32 a, Lanes& low, Lanes& high) {
   const hn::ScalableTag<double> wide;
   const hn::Half<hn::ScalableTag<float>> half;
-  Lanes(hn::PromoteTo(wide, hn::LowerHalf(half, a.v))).store(to);
-  Lanes(hn::PromoteTo(wide, hn::UpperHalf(half, a.v))).store(to + Lanes::count());
+  low = Lanes(hn::PromoteTo(wide, hn::LowerHalf(half, a.v)));
+  high = Lanes(hn::PromoteTo(wide, hn::UpperHalf(half, a.v)));
 }
 
 template <class T>

@@ -1,5 +1,6 @@
 #include "renderer/scene/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,6 +16,12 @@ CameraFrame camera_frame(const Camera& camera, const Film& film) {
   frame.half_width = std::tan(camera.fov_degrees * std::numbers::pi / 360);
   frame.half_height = frame.half_width * film.height / film.width;
   return frame;
+}
+
+double inner_radius(const Sphere& sphere) {
+  const Vec3 c = sphere.center;
+  const double reach = std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+  return std::max(0.0, sphere.radius * (1 - 1e-12) - 0x1p-48 * reach);
 }
 
 Illumination illuminate(const Light& light, Vec3 point) {

@@ -61,6 +61,10 @@ struct Sphere {
   int material = 0;   ///< index into Scene::materials
 };
 
+/// What is nearer to the sphere's centre than this is inside; what is not may lie on the sphere, by the
+/// rounding of its place.
+double inner_radius(const Sphere& sphere);
+
 struct Scene {
   Camera camera;
   Film film;

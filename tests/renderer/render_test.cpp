@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "renderer/highlight_map.hpp"
+#include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
@@ -198,6 +199,25 @@ TEST(Render, TheSeedMovesTheSamplesAndNothingElse) {
   EXPECT_TRUE(same(centre, render(scene, {}).image));
 }
 
+TEST(Kernels, DarkenALightAtTheHorizonInEveryPrecisionAtTheSameCosine) {
+  // An RDF has no cosine to fade with: its highlight stands up to the horizon itself.
+  Vec3Chunk normal{}, to_eye{}, to_light{};
+  alignas(64) double value[kChunk]{};
+  const double cosines[] = {0, 0x1p-1074, 1e-310, 1e-40, 0x1p-127, 1e-20, -0x1p-1074, -1e-20};
+  for (std::size_t i = 0; i < std::size(cosines); ++i) {
+    normal.z[i] = 1;
+    to_eye.x[i] = -1, to_eye.z[i] = cosines[i];
+    to_light.x[i] = 1, to_light.z[i] = cosines[i];
+  }
+  for (const Precision precision : {Precision::kFloat32, Precision::kMixed, Precision::kFloat64}) {
+    const Highlight highlight{*find_model("phong_rdf"), {}, Normalisation::kExact, 16};
+    kernels().shade(highlight, precision)(highlight, std::size(cosines), normal, to_eye, to_light,
+                                          value);
+    for (std::size_t i = 0; i < std::size(cosines); ++i)
+      EXPECT_EQ(value[i], cosines[i] > 0 ? 1 : 0) << name(precision) << " " << cosines[i];
+  }
+}
+
 TEST(Render, OddSizesHaveNoGapsAndNoSeams) {
   // Widths about the size of a chunk and of a register, against the same picture in one pixel steps.
   for (const int width : {1, 3, 7, 511, 512, 513, 1031}) {
@@ -283,6 +303,23 @@ TEST(Render, HardCasesHaveNoNanAndNoInfinity) {
         ASSERT_TRUE(std::isfinite(v) && v >= 0) << hard.name << " " << models()[m].name;
       EXPECT_EQ(brightest(image) == 0, hard.dark) << hard.name << " " << models()[m].name;
     }
+}
+
+TEST(Render, SpheresInOnePlaceDoNotShadeEachOther) {
+  // By exact arithmetic an inner sphere shades nothing of an outer one; by rounding it may seem to.
+  for (const double inner : {1.0, std::nextafter(1.0, 0.0), 1 - 1e-14, 1 - 1e-12, 1 - 1e-6, 0.5})
+    for (const char* name : {"head_on", "oblique_45", "grazing_80"})
+      for (const double size : {1e-6, 1.0, 1e6}) {
+        Scene scene = canonical(name);
+        scene.materials[0].highlight.exponent = 1;
+        scene.camera.origin = size * scene.camera.origin;
+        scene.spheres[0].radius = size;
+        const Image alone = render(scene, {}).image;
+        scene.spheres.push_back({scene.spheres[0].center, inner * size, 0});
+        RenderOptions all;
+        all.effects = EffectPolicy::kAll;
+        EXPECT_TRUE(same(alone, render(scene, all).image)) << name << " " << inner << " " << size;
+      }
 }
 
 TEST(Render, ADistantSphereIsAsRoundAndBrightAsANearOne) {
