@@ -43,7 +43,7 @@ Json lobe_json(LobeId id, double exponent) {
           {"formula", l.formula},
           {"moments", l.moments},
           {"operations", to_json(operations(id))},
-          {"float32ErrorOfPeak", lobe_float32_error(id, exponent)},
+          {"float32ErrorOfPeak", lobe_float32_error(id, exponent).of_peak},
           {"halfWidthDegrees", p.half_width / kDegree},
           {"supportDegrees", p.support / kDegree},
           {"aboveCosine", p.above_cosine},

@@ -230,8 +230,8 @@ PreparedLobe prepare(LobeId lobe, double exponent) {
   return kLobeUses.at(lobe.index).prepare(parameters(lobe, exponent));
 }
 
-double lobe_float32_error(LobeId lobe, double exponent) {
-  return kLobeUses.at(lobe.index).float32_error(parameters(lobe, exponent)).of_peak;
+Float32Error lobe_float32_error(LobeId lobe, double exponent) {
+  return kLobeUses.at(lobe.index).float32_error(parameters(lobe, exponent));
 }
 
 double foreshortening(ModelId model, double n_dot_l) {

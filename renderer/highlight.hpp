@@ -121,8 +121,13 @@ struct PreparedLobe {
 };
 PreparedLobe prepare(LobeId lobe, double exponent);
 
-/// Bound of what float32 arithmetic adds to the lobe at a given float32 s, relative to the peak.
-double lobe_float32_error(LobeId lobe, double exponent);
+/// Bound of what float32 arithmetic adds to a lobe at a given float32 s: relative to the peak, and in
+/// units in the last place of the result, which grow by `ulp_per_nat` for each factor e that the result
+/// is below the peak. `lobelia verify stability` holds every lobe to it.
+struct Float32Error {
+  double of_peak, ulp, ulp_per_nat = 0;
+};
+Float32Error lobe_float32_error(LobeId lobe, double exponent);
 
 /// N.L where the model applies it, else 1; for N.L > 0.
 double foreshortening(ModelId model, double n_dot_l);

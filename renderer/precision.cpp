@@ -51,8 +51,9 @@ double shading_error_bound(Precision precision, const Highlight& highlight,
                            double min_half_length) {
   const double roundings_here = roundings(info(highlight.model).angle, min_half_length);
   const double in_float64 = modulus(highlight, roundings_here * kUnit64, 0);
-  // The lobe's own arithmetic, and the product with N.L, which is float64.
-  const double in_lobe = lobe_float32_error(highlight.lobe, highlight.exponent) + 2 * kUnit64;
+  // The lobe's own arithmetic; the product with N.L is float64.
+  const double in_lobe =
+      lobe_float32_error(highlight.lobe, highlight.exponent).of_peak + 2 * kUnit64;
   switch (precision) {
     case Precision::kFloat32:
       return modulus(highlight, roundings_here * kUnit32, 0) + in_lobe;
@@ -61,7 +62,7 @@ double shading_error_bound(Precision precision, const Highlight& highlight,
     case Precision::kFloat64:
       break;
   }
-  return in_float64 + 8 * kUnit64;
+  return in_float64 + in_lobe * (kUnit64 / kUnit32) + 8 * kUnit64;
 }
 
 Precision sufficient_precision(const Highlight& highlight, double min_half_length) {

@@ -26,13 +26,6 @@ struct LobeParameters {
   int order;        ///< k of a family of lobes; 0 otherwise
 };
 
-/// How far the float32 evaluation of a lobe may be from the truth at the float32 s it is given, as
-/// tests/verify/ proves it: relative to the peak, and in units in the last place of the result, which
-/// grow by `ulp_per_nat` for each factor e that the result is below the peak.
-struct Float32Error {
-  double of_peak, ulp, ulp_per_nat = 0;
-};
-
 /// A lobe in the language that GLSL, HLSL and OSL have in common, for `lobelia export`.
 struct LobeText {
   /// Of a function of `s` in [0, 1) and `n` that returns the value; it may call the functions of
@@ -64,6 +57,7 @@ concept Lobe = requires(const L& lobe, LobeParameters parameters, double s, doub
   { lobe.density(s) } -> std::same_as<double>;
   { lobe.paper_column() } -> std::convertible_to<PaperColumn>;
   { lobe.text() } -> std::same_as<LobeText>;
+  /// As this lobe's float32 arithmetic is derived to be.
   { lobe.float32_error() } -> std::convertible_to<Float32Error>;
 };
 
