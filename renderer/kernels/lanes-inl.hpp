@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <type_traits>
 
 #include "renderer/real.hpp"
@@ -55,10 +56,13 @@ struct LanesOf {
   }
   friend HWY_INLINE LanesOf exp_or_zero(LanesOf x) {
     const D d;
-    // The logarithm of the smallest normal number, rounded towards 0.
+    // The logarithm of the smallest normal number, rounded towards 0; and what is too near to 0 to count,
+    // whose powers in a polynomial would be no normal numbers.
     constexpr T kLowest = std::is_same_v<T, float> ? T(-87.3365402) : T(-708.3964185322640);
+    constexpr T kHighest = -std::numeric_limits<T>::epsilon() / 8;
     const auto normal = hn::Ge(x.v, hn::Set(d, kLowest));
-    return LanesOf(hn::IfThenElseZero(normal, hn::Exp(d, hn::IfThenElseZero(normal, x.v))));
+    const auto counts = hn::And(normal, hn::Le(x.v, hn::Set(d, kHighest)));
+    return LanesOf(hn::IfThenElseZero(normal, hn::Exp(d, hn::IfThenElseZero(counts, x.v))));
   }
   friend HWY_INLINE LanesOf log_one_minus(LanesOf s) {
     const D d;
