@@ -4,6 +4,9 @@
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
+#include <map>
+#include <mutex>
+#include <tuple>
 #include <vector>
 
 #include "verify/truth/big_lobe.hpp"
@@ -11,6 +14,9 @@
 
 namespace lobelia::truth {
 namespace {
+
+/// From where a lobe is this small its tail adds nothing: the whole is more than 1/n.
+constexpr double kNothing = 1e-40;
 
 /// Ends of the pieces, from 0 to a right angle.
 std::vector<Big> pieces(const ModelRow& model, LobeId lobe, double exponent) {
@@ -29,10 +35,7 @@ std::vector<Big> pieces(const ModelRow& model, LobeId lobe, double exponent) {
   return ends;
 }
 
-}  // namespace
-
-double coefficient(ModelId model_id, LobeId lobe, double exponent) {
-  const ModelRow& model = model_row(model_id);
+double integrate(const ModelRow& model, LobeId lobe, double exponent) {
   const auto integrand = [&](const Big& cos_x, const Big& sin_x, const Big& cosine) {
     const Big value = lobe_of_cosine(lobe, cosine, exponent) * sin_x;
     return model.integral_has_cosine ? Big(value * cos_x) : value;
@@ -41,13 +44,21 @@ double coefficient(ModelId model_id, LobeId lobe, double exponent) {
     const Big c = cos(x);
     return integrand(c, sin(x), model.lobe_of_half_angle ? Big(cos(x / 2)) : c);
   };
+  const auto normalised = [&](const Big& sum) {
+    return double(1 / (2 * boost::math::constants::pi<Big>() * sum * model.parts));
+  };
   const std::vector<Big> ends = pieces(model, lobe, exponent);
   Big sum = 0;
-  for (std::size_t i = 1; i + 1 < ends.size(); ++i)
-    sum += boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, ends[i - 1], ends[i]);
+  for (std::size_t i = 1; i + 1 < ends.size(); ++i) {
+    const Big& begin = ends[i - 1];
+    const Big highest =
+        lobe_of_cosine(lobe, cos(model.lobe_of_half_angle ? Big(begin / 2) : begin), exponent);
+    if (highest * exponent < kNothing) return normalised(sum);
+    sum += boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
+  }
   // cos^n of a small n rises steeply from the right angle: the last piece from there, with points that
   // crowd at its end.
-  static boost::math::quadrature::tanh_sinh<Big> corner;
+  thread_local boost::math::quadrature::tanh_sinh<Big> corner;
   const auto from_right_angle = [&](const Big& y) {
     const Big right_angle = boost::math::constants::half_pi<Big>();
     const Big c = sin(y);
@@ -55,7 +66,23 @@ double coefficient(ModelId model_id, LobeId lobe, double exponent) {
   };
   sum +=
       corner.integrate(from_right_angle, Big(0), ends.back() - ends[ends.size() - 2], Big(1e-22));
-  return double(1 / (2 * boost::math::constants::pi<Big>() * sum * model.parts));
+  return normalised(sum);
+}
+
+}  // namespace
+
+double coefficient(ModelId model, LobeId lobe, double exponent) {
+  // Pictures ask for the same few again and again, and each takes hundredths of a second.
+  static std::mutex mutex;
+  static std::map<std::tuple<int, int, int, double>, double> known;
+  const std::tuple key(model.index, lobe.index, lobe.order, exponent);
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto found = known.find(key); found != known.end()) return found->second;
+  }
+  const double value = integrate(model_row(model), lobe, exponent);
+  const std::lock_guard lock(mutex);
+  return known[key] = value;
 }
 
 }  // namespace lobelia::truth

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <map>
+#include <mutex>
 #include <tuple>
 
 #include "verify/truth/big_lobe.hpp"
@@ -83,7 +84,8 @@ struct Picture::Pixels {
   std::vector<Lit> lit;
   double peak = 0;
   /// Lobes by the angle that they see: models share them.
-  mutable std::map<std::tuple<LobeAngle, int, int, double>, std::vector<Big>> lobes;
+  std::map<std::tuple<LobeAngle, int, int, double>, std::vector<Big>> lobes;
+  std::mutex mutex;
 
   void light(const Scene& scene, const Light& source, std::size_t pixel, const Big3& normal,
              const Big3& to_eye, const Big3& point) {
@@ -146,6 +148,7 @@ double Picture::peak() const { return pixels_->peak; }
 std::vector<Rgb> Picture::highlights(const Highlight& highlight) const {
   const ModelRow& model = model_row(highlight.model);
   const LobeId lobe = highlight.lobe;
+  const std::lock_guard lock(pixels_->mutex);
   auto& values = pixels_->lobes[{model.angle, lobe.index, lobe.order, highlight.exponent}];
   if (values.empty())
     for (const auto& lit : pixels_->lit)

@@ -1,0 +1,19 @@
+// Leaves the kernels the least instruction set that they are compiled for, before the first of them is
+// chosen: without fused multiply-adds the roundings are others.
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include "renderer/kernels/kernels.hpp"
+
+namespace lobelia {
+namespace {
+
+const bool kDisabled = (hwy::DisableTargets(~std::int64_t{HWY_STATIC_TARGET}), true);
+
+TEST(TheBaseline, IsWhatRuns) {
+  EXPECT_TRUE(kDisabled);
+  EXPECT_STREQ(kernels().instruction_set, hwy::TargetName(HWY_STATIC_TARGET));
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,76 @@
+// The tables and the record, on a report made by hand.
+#include "verify/stability/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lobelia::stability {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Row row(const char* name, const char* lobe, double truth, double naive, double ours) {
+  Row made{"vectors", name, "modified_phong", lobe, 16, truth};
+  made.naive = judge(naive, truth, 1);
+  made.ours = judge(ours, truth, 1);
+  made.bound_of_peak = 1e-6;
+  made.bound_ulp = kInfinity;
+  made.within = is_within(made);
+  return made;
+}
+
+TEST(AnAnswer, IsJudgedInUnitsOfFloat32AtTheTruth) {
+  EXPECT_EQ(judge(1 + 0x1p-23, 1, 2).ulp, 1);
+  EXPECT_EQ(judge(1 + 0x1p-23, 1, 2).of_peak, 0x1p-24);
+  EXPECT_EQ(judge(1 - 0x1p-23, 1 - 0x1p-24, 1).ulp, 1);
+  // Nothing is nothing; something where there should be nothing is not.
+  EXPECT_EQ(judge(0, 1e-39, 1).ulp, 0);
+  EXPECT_GT(judge(1e-30, 0, 1).ulp, 1e6);
+  for (const double value : {std::nan(""), kInfinity, -kInfinity}) {
+    EXPECT_EQ(judge(value, 1, 1).ulp, kInfinity);
+    EXPECT_EQ(judge(value, 1, 1).of_peak, kInfinity);
+  }
+}
+
+TEST(ARow, IsOutsideOverItsBoundWithAWrongPixelWithNoNumberAndWithADenormalOne) {
+  EXPECT_TRUE(row("", "", 1, 1, 1 + 9e-7).within);
+  EXPECT_FALSE(row("", "", 1, 1, 1 + 2e-6).within);
+  EXPECT_FALSE(row("", "", 1, 1, std::nan("")).within);
+  EXPECT_FALSE(row("", "", 0, 0, 1e-310).within);
+  Row wrong = row("", "", 1, 1, 1);
+  wrong.ours.wrong_pixels = 1;
+  EXPECT_FALSE(is_within(wrong));
+}
+
+TEST(AReport, ShowsTheWorstOfEachLobeAndCaseAndSaysWhatIsOutside) {
+  Report report;
+  report.rows = {row("a", "cosine", 1, 1.5, 1), row("a", "cs16", 1, 1.25, 1 + 5e-7),
+                 row("b", "cs16", 1, 1, 1)};
+  const auto lobes = by_lobe(report.rows), cases = by_case(report.rows);
+  ASSERT_EQ(lobes.size(), 2u);
+  EXPECT_EQ(lobes[1].name, "cs16");
+  EXPECT_EQ(lobes[1].cases, 2);
+  EXPECT_EQ(lobes[1].naive.of_peak, 0.25);
+  EXPECT_NEAR(lobes[1].of_bound, 0.5, 1e-6);
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].naive.of_peak, 0.5);
+  EXPECT_THAT(report_text(report, false), HasSubstr("3 cases, all within their bounds\n"));
+
+  report.rows.push_back(row("b", "cs16", 1, 1, 2));
+  EXPECT_EQ(report.outside(), 1u);
+  EXPECT_THAT(report_text(report, false), HasSubstr("4 cases, 1 OUTSIDE their bounds\n"));
+  const Json record = report_record(report, {"lobelia"}, "", false);
+  EXPECT_EQ(record["outside"], 1);
+  ASSERT_EQ(record["rows"].size(), 1u);  // what is outside is recorded in any case
+  EXPECT_EQ(record["rows"][0]["ours"]["value"], 2);
+  EXPECT_EQ(record["rows"][0]["within"], false);
+  EXPECT_EQ(report_record(report, {"lobelia"}, "", true)["rows"].size(), 4u);
+}
+
+}  // namespace
+}  // namespace lobelia::stability

@@ -1,0 +1,43 @@
+// All of it: the rows, their worst cases as tables for people, and the record.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/record.hpp"
+#include "verify/stability/pictures.hpp"
+#include "verify/stability/row.hpp"
+#include "verify/stability/timing.hpp"
+
+namespace lobelia::stability {
+
+struct Report {
+  Rows rows;
+  std::vector<Stall> stalls;  ///< empty: not measured
+  std::vector<Price> prices;
+  std::vector<PicturePair> pictures;  ///< empty: not made
+  std::size_t outside() const;        ///< rows that are not within their bounds
+};
+
+/// Every case of these lobes, on all processors. `on_progress` gets the fraction done, from any thread.
+/// Throws Error(kInterrupted) on Ctrl-C.
+Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)>& on_progress);
+
+/// The worst of several rows.
+struct Summary {
+  std::string group, name;
+  int cases = 0, outside = 0;
+  Answer naive = {}, ours = {};  ///< the largest error of each kind; no value
+  double of_bound = 0;           ///< the largest part of a bound that is used up
+};
+std::vector<Summary> by_lobe(const Rows& rows);
+std::vector<Summary> by_case(const Rows& rows);
+
+/// `all`: every row, instead of the worst for each lobe and case.
+std::string report_text(const Report& report, bool all);
+/// With `all` or not, every row that is outside. `pictures` is the way from the record to their directory.
+Json report_record(const Report& report, const std::vector<std::string>& command,
+                   const std::filesystem::path& pictures, bool all);
+
+}  // namespace lobelia::stability

@@ -1,0 +1,117 @@
+#include <cmath>
+#include <limits>
+
+#include "renderer/kernels/kernels.hpp"
+#include "renderer/reflector.hpp"
+#include "verify/stability/cases.hpp"
+#include "verify/stability/long_double.hpp"
+#include "verify/stability/naive.hpp"
+#include "verify/truth/truth.hpp"
+
+namespace lobelia::stability {
+namespace {
+
+struct Case {
+  std::string name;
+  Triple at;
+};
+
+/// A vector whose float32 dot product with itself is above 1 though its length is 1 to a rounding.
+Vec3 longer_than_one() {
+  RandomVectors vectors(LobeAngle::kReflection, 1, 2);
+  for (;;) {
+    const Vec3 v = vectors.next().normal;
+    const float x = float(v.x), y = float(v.y), z = float(v.z);
+    if (x * x + y * y + z * z > 1) return v;
+  }
+}
+
+std::vector<Case> cases(double n) {
+  const Vec3 long_one = longer_than_one();
+  const double flank = 1 / std::sqrt(n);
+  // (2, 13, 31) is the mirror direction of (2, 3, 1) about (1, 2, 2), exactly.
+  const Vec3 normal{1, 2, 2}, eye{2, 3, 1}, mirror{2, 13, 31};
+  const Vec3 beside = mirror + flank * length(mirror) * Vec3{0.8, 0.6, 0};
+  const auto scaled = [&](double k) { return Triple{k * normal, k * eye, k * beside}; };
+  const auto at_horizon = [](double l) { return Triple{{0, 0, 1}, {-0.6, 0, 0.8}, {1, 0, l}}; };
+  const auto eye_at = [](double v) { return Triple{{0, 0, 1}, {-1, 0, v}, {0.6, 0, 0.8}}; };
+  const auto mirrored = [](double z) { return Triple{{0, 0, 1}, {-1, 0, z}, {1, 0, z}}; };
+  constexpr double kUlp = 0x1p-149;  // the next float32 to 0
+  return {
+      {"mirror direction, oblique", {normal, eye, mirror}},
+      {"flank, oblique", {normal, eye, beside}},
+      {"dot product rounds above 1", {long_one, long_one, long_one}},
+      {"dot product rounds below -1", {long_one, long_one, -long_one}},
+      {"L = -V", {{0, 0, 1}, {-1, 0, 0}, {1, 0, 0}}},
+      {"L = -V but for 1e-6", mirrored(1e-6)},
+      {"L = -V but for an ulp", mirrored(kUlp)},
+      {"N.L = 0", at_horizon(0)},
+      {"N.L = an ulp", at_horizon(kUlp)},
+      {"N.L = -an ulp", at_horizon(-kUlp)},
+      {"N.V = 0", eye_at(0)},
+      {"N.V = an ulp", eye_at(kUlp)},
+      {"N.V = -an ulp", eye_at(-kUlp)},
+      {"R.L < 0", {{0, 0, 1}, {0.8, 0, 0.6}, {0.8, 0.1, 0.6}}},
+      {"lengths 1e-30", scaled(1e-30)},
+      {"lengths 1e30", scaled(1e30)},
+      {"denormal float32", scaled(1e-40)},
+      {"denormal float64", scaled(1e-310)},
+  };
+}
+
+/// In the precision that the plan would choose.
+double by_kernel(const Highlight& h, const ScreenedVectors& v, double& bound) {
+  const Precision precision = sufficient_precision(h, v.half_length);
+  bound = shading_error_bound(precision, h, v.half_length);
+  Vec3Chunk normal{}, to_eye{}, to_light{};
+  const auto put = [](Vec3Chunk& to, Vec3 a) { to.x[0] = a.x, to.y[0] = a.y, to.z[0] = a.z; };
+  put(normal, v.normal), put(to_eye, v.to_eye), put(to_light, v.to_light);
+  alignas(64) double value[16];
+  kernels().shade(h, precision)(h, 1, normal, to_eye, to_light, value);
+  return value[0];
+}
+
+Row new_row(const Highlight& h, const std::string& name) {
+  Row row{"vectors", name, std::string(info(h.model).name), std::string(info(h.lobe).name),
+          h.exponent};
+  row.bound_ulp = std::numeric_limits<double>::infinity();
+  return row;
+}
+
+}  // namespace
+
+Rows vector_rows(LobeId lobe) {
+  Rows rows;
+  for (const ModelId model : all_models())
+    for (const double n : kExponents) {
+      const Highlight h{model, lobe, Normalisation::kExact, n};
+      const Reflector reflector({"", h, {1, 1, 1}, {}, Fresnel::kNone});
+      const double coefficient = radiance_coefficient(h);
+      for (const auto& [name, at] : cases(n)) {
+        const ScreenedVectors v = screen(info(model).angle, at);
+        const double shape = truth::shape(h, at.normal, at.to_eye, at.to_light);
+        const bool seen = dot(v.normal, v.to_eye) > 0;
+        const double naive = naive::shape(h, at.normal, at.to_eye, at.to_light);
+
+        Row row = new_row(h, name + " (Reflector)");
+        row.truth = seen ? shape : 0;
+        row.naive = judge(naive, row.truth, 1);
+        row.ours =
+            judge(reflector.eval(at.normal, at.to_eye, at.to_light).r / coefficient, row.truth, 1);
+        row.bound_of_peak = 2 * shading_error_bound(Precision::kFloat64, h, v.half_length);
+        row.within = is_within(row);
+        rows.push_back(row);
+        if (!seen) continue;  // the kernels are given only what the camera sees
+
+        row = new_row(h, name);
+        row.truth = shape;
+        row.naive = judge(naive, shape, 1);
+        row.ours = judge(by_kernel(h, v, row.bound_of_peak), shape, 1);
+        row.within = is_within(row);
+        rows.push_back(row);
+      }
+    }
+  return rows;
+}
+
+}  // namespace lobelia::stability
