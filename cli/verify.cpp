@@ -1,56 +1,15 @@
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "cli/commands.hpp"
-#include "core/files.hpp"
-#include "verify/paper/catalogue.hpp"
-#include "verify/paper/errata.hpp"
-#include "verify/paper/plots.hpp"
-#include "verify/paper/report.hpp"
+#include "cli/verify_paper.hpp"
+#include "cli/verify_stability.hpp"
 
 namespace lobelia::cli {
-namespace {
 
-struct PaperOptions {
-  std::string json, plots;
-  bool errata = false;
-};
-
-void run_paper(const PaperOptions& options) {
-  if (!options.json.empty()) require_writable(options.json);
-  if (!options.plots.empty()) make_directories(options.plots);
-  const auto claims = paper::measure_all();
-  if (!options.json.empty()) write_record(options.json, paper::paper_record(claims));
-  if (!options.plots.empty()) paper::write_plots(options.plots);
-  fmt::print("{}", options.errata ? paper::errata_document(claims) : paper::table_text(claims));
-}
-
-void add_paper(CLI::App& verify) {
-  auto* command = verify.add_subcommand(
-      "paper", "Recompute every figure and claim of the paper, and say what is true");
-  auto options = std::make_shared<PaperOptions>();
-  command->add_option("--json", options->json, "Write the record (kind verify-paper) to FILE")
-      ->type_name("FILE");
-  command->add_option("--plots", options->plots, "Write the curves as SVG files into DIR")
-      ->type_name("DIR");
-  command->add_flag("--errata", options->errata, "Print docs/errata.md instead of the table");
-  command->footer(
-      "A claim is confirmed or not reproduced; 'found' is what the paper does not speak of.\n"
-      "docs/errata.md has the definitions and the reasons.\n"
-      "\n"
-      "Exit codes: 0 measured, however much the paper gets wrong; 2 usage, 4 an output cannot\n"
-      "be written.");
-  command->callback([options] { run_paper(*options); });
-}
-
-}  // namespace
-
-void add_verify(CLI::App& app, ExitCode&) {
+void add_verify(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("verify", "Hold claims to a measurement");
   command->require_subcommand(1);
-  command->footer("Begin with:\n  lobelia verify paper");
-  add_paper(*command);
+  command->footer("Begin with:\n  lobelia verify paper\n  lobelia verify stability");
+  add_verify_paper(*command);
+  add_verify_stability(*command, exit_code);
 }
 
 }  // namespace lobelia::cli

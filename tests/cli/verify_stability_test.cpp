@@ -1,0 +1,65 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/image_io.hpp"
+#include "core/record.hpp"
+#include "run_lobelia.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+float brightest(const std::filesystem::path& picture) {
+  const Image image = read_image(picture);
+  return *std::max_element(image.values().begin(), image.values().end());
+}
+
+TEST(VerifyStability, PrintsATableAndWritesARecordAndPicturesThatShowWhatCareBuys) {
+  const TemporaryDirectory directory;
+  const auto result = run_lobelia({"verify", "stability", "--lobe", "cs12", "--no-timing", "-q",
+                                   "--json", "s.json", "--pictures", "pictures"},
+                                  directory.path());
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("all within their bounds"));
+  const Json record = read_record(directory.path() / "s.json", "verify-stability");
+  EXPECT_EQ(record["outside"], 0);
+  EXPECT_GT(record["cases"], 2500);
+  ASSERT_EQ(record["byLobe"].size(), 6u);
+  for (const auto& group : record["byLobe"]) EXPECT_EQ(group["lobe"], "cs12");
+  EXPECT_FALSE(record.contains("price"));
+  ASSERT_EQ(record["pictures"].size(), 3u);
+  for (const auto& picture : record["pictures"]) {
+    for (const char* who : {"naive", "ours"})
+      for (const char* file : {"exr", "png", "error"})
+        EXPECT_GT(brightest(directory.path() / std::string(picture[who][file])), 0);
+    EXPECT_LT(picture["ours"]["largestErrorOfPeak"], 1e-5);
+    EXPECT_GT(picture["naive"]["largestErrorOfPeak"],
+              1000 * double(picture["ours"]["largestErrorOfPeak"]));
+  }
+  // At n = 1e6 the brightest pixel of the naive one is no highlight's any more.
+  EXPECT_GT(record["pictures"][2]["naive"]["largestErrorOfPeak"], 1);
+  EXPECT_EQ(files_in(directory.path() / "pictures"), 19u);
+  EXPECT_EQ(files_in(directory.path()), 2u);
+}
+
+TEST(VerifyStability, RefusesBadNamesAndPlacesBeforeItWorks) {
+  const TemporaryDirectory directory;
+  write_file(directory.path() / "file", "");
+  const auto expect = [&](std::vector<std::string> more, int exit_code, const char* message) {
+    std::vector<std::string> arguments{"verify", "stability"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = run_lobelia(arguments, directory.path());
+    EXPECT_EQ(result.exit_code, exit_code) << result.output_tail;
+    EXPECT_THAT(result.output_tail, HasSubstr(message));
+  };
+  expect({"--lobe", "cs13"}, 2, "--lobe 'cs13' is unknown; allowed: cosine");
+  expect({"--json", "no/such/s.json"}, 4, "no/such/s.json: cannot write");
+  expect({"--pictures", "file"}, 4, "file");
+  EXPECT_EQ(files_in(directory.path()), 1u);
+}
+
+}  // namespace
+}  // namespace lobelia
