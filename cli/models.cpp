@@ -21,12 +21,13 @@ std::string range_of(const Parameter& p) {
 }
 
 void print_catalogues() {
-  fmt::print("{:<26}{:<28}{:<10}{:<6}{}\n", "model", "title", "angle", "N.L", "coefficient");
+  fmt::print("{:<26}{:<28}{:<10}{:<6}{:<20}{}\n", "model", "title", "angle", "N.L", "normalised",
+             "coefficient");
   for (const ModelId id : all_models()) {
     const ModelInfo& m = info(id);
-    fmt::print("{:<26}{:<28}{:<10}{:<6}{}\n", m.name, m.title, angle_name(m.angle),
-               m.applies_cosine ? "yes" : "no", exact_formula(id));
-    fmt::print("{:<70}cosine lobe {}; paper {}; cs16 in the paper {}\n", "",
+    fmt::print("{:<26}{:<28}{:<10}{:<6}{:<20}{}\n", m.name, m.title, angle_name(m.angle),
+               m.applies_cosine ? "yes" : "no", name(m.normalised), exact_formula(id));
+    fmt::print("{:<90}cosine lobe {}; paper {}; cs16 in the paper {}\n", "",
                formulas(id).exact_cosine, formulas(id).paper_cosine, formulas(id).paper_cs16);
   }
   fmt::print("\n{:<20}{:<32}{:<46}{}\n", "lobe", "value, s = 1 - cos",

@@ -25,6 +25,7 @@ Json model_json(ModelId id) {
           {"title", m.title},
           {"angle", angle_name(m.angle)},
           {"appliesCosine", m.applies_cosine},
+          {"normalised", name(m.normalised)},
           {"integral", m.integral},
           {"coefficient",
            {{"exact", exact_formula(id)},

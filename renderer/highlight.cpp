@@ -23,6 +23,7 @@ constexpr auto kModelFormulas =
 constexpr auto kModelNames =
     map_types<std::string_view>(Models{}, []<class M>() { return M::kInfo.name; });
 constexpr std::string_view kNormalisationNames[] = {"exact", "paper"};
+constexpr std::string_view kNormalisedNames[] = {"radiance", "normals", "projected normals"};
 
 /// How one model uses its lobe, for code that meets models by id.
 struct ModelUse {
@@ -173,6 +174,10 @@ std::string exact_formula(ModelId id) {
 const LobeInfo& info(LobeId id) { return lobe_table().info(id); }
 std::string_view name(Normalisation normalisation) {
   return kNormalisationNames[std::size_t(normalisation)];
+}
+
+std::string_view name(NormalisedQuantity normalised) {
+  return kNormalisedNames[std::size_t(normalised)];
 }
 
 std::optional<ModelId> find_model(std::string_view name) {

@@ -40,6 +40,13 @@ enum class LobeAngle : std::uint8_t {
   kHalfVector,  ///< between the normal and the half vector (Blinn family)
 };
 
+/// What the exact coefficient makes 1; not at all the same thing (docs/conventions.md).
+enum class NormalisedQuantity : std::uint8_t {
+  kRadiance,          ///< what is reflected at normal incidence, over all directions
+  kNormals,           ///< the integral of a distribution D of normals over their hemisphere
+  kProjectedNormals,  ///< the integral of D (N.H): the area that they cover, as a heightfield's do
+};
+
 struct LobeInfo {
   std::string_view name;     ///< "cosine", as in scene files and on the command line
   std::string_view title;    ///< "cosine", for people
@@ -52,7 +59,8 @@ struct ModelInfo {
   std::string_view name;   ///< "phong_rdf"
   std::string_view title;  ///< "Phong (RDF)"
   LobeAngle angle;
-  bool applies_cosine;        ///< radiance carries N.L; false for an RDF, which is 0 where N.L <= 0
+  bool applies_cosine;  ///< radiance carries N.L; false for an RDF, which is 0 where N.L <= 0
+  NormalisedQuantity normalised;
   std::string_view integral;  ///< that the exact coefficient makes equal to 1
   std::string_view source;
 };
@@ -92,6 +100,7 @@ const CoefficientFormulas& formulas(ModelId id);
 std::string exact_formula(ModelId id);
 const LobeInfo& info(LobeId id);
 std::string_view name(Normalisation normalisation);
+std::string_view name(NormalisedQuantity normalised);
 
 std::optional<ModelId> find_model(std::string_view name);
 std::optional<LobeId> find_lobe(std::string_view name);

@@ -37,15 +37,16 @@ struct GaussLobe {
     return exp(-Number(n) * x * x / Number(2));
   }
 
-  /// By quadrature over x, up to where the bell has fallen to 1e-18.
+  /// By quadrature over x, up to where the bell has fallen to 1e-18; over x / end, because Boost takes
+  /// the error of an interval as if it were 2 long.
   double moment(int j, double s_max) const {
-    const auto integrand = [&](double x) {
-      const double s = 2 * std::pow(std::sin(x / 2), 2);
+    const double end = std::min(2 * std::asin(std::sqrt(s_max / 2)), 9.2 / std::sqrt(n));
+    const auto integrand = [&](double u) {
+      const double x = end * u, s = 2 * std::pow(std::sin(x / 2), 2);
       return std::exp(-n * x * x / 2) * std::pow(s, j) * std::sin(x);
     };
-    const double end = std::min(2 * std::asin(std::sqrt(s_max / 2)), 9.2 / std::sqrt(n));
-    return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(integrand, 0.0, end, 8,
-                                                                         1e-15);
+    using Quadrature = boost::math::quadrature::gauss_kronrod<double, 61>;
+    return end * Quadrature::integrate(integrand, 0.0, 1.0, 8, 1e-13);
   }
 
   /// x as if it were a plane's radius and not a sphere's angle, which is closed: the density is that

@@ -21,6 +21,7 @@ struct BlinnPhongHeightfield {
                                    "Blinn-Phong (heightfield)",
                                    LobeAngle::kHalfVector,
                                    true,
+                                   NormalisedQuantity::kProjectedNormals,
                                    "coef 2 pi integral of lobe(a) cos a sin a, a = 0..pi/2",
                                    "Romanyuk et al., table of coefficients, row 6"};
   static constexpr EnergyIntegral kEnergy{{1, -1, 0, 0}, 1};

@@ -22,6 +22,7 @@ struct BlinnPhongNdf {
                                    "Blinn-Phong (NDF)",
                                    LobeAngle::kHalfVector,
                                    true,
+                                   NormalisedQuantity::kNormals,
                                    "coef 2 pi integral of lobe(a) sin a, a = 0..pi/2",
                                    "Blinn 1977; Romanyuk et al., table of coefficients, row 5"};
   static constexpr EnergyIntegral kEnergy{{1, 0, 0, 0}, 1};

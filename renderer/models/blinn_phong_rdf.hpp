@@ -22,6 +22,7 @@ struct BlinnPhongRdf {
                                    "Blinn-Phong (RDF)",
                                    LobeAngle::kHalfVector,
                                    false,
+                                   NormalisedQuantity::kRadiance,
                                    "coef 2 pi integral of lobe(x/2) sin x, x = 0..pi/2",
                                    "Blinn 1977; Romanyuk et al., table of coefficients, row 3"};
   static constexpr EnergyIntegral kEnergy{{4, -4, 0, 0}, kHalfOfRightAngle};

@@ -23,6 +23,7 @@ struct ModifiedBlinnPhong {
       "modified Blinn-Phong",
       LobeAngle::kHalfVector,
       true,
+      NormalisedQuantity::kRadiance,
       "coef 2 pi integral of lobe(x/2) cos x sin x, x = 0..pi/2",
       "Giesen 2009 (normalisation); Romanyuk et al., table of coefficients, row 4"};
   static constexpr EnergyIntegral kEnergy{{4, -20, 24, -8}, kHalfOfRightAngle};

@@ -21,6 +21,7 @@ struct ModifiedPhong {
       "modified Phong",
       LobeAngle::kReflection,
       true,
+      NormalisedQuantity::kRadiance,
       "coef 2 pi integral of lobe(x) cos x sin x, x = 0..pi/2",
       "Lewis 1994; Lafortune and Willems 1994; Romanyuk et al., table of coefficients, row 2"};
   static constexpr EnergyIntegral kEnergy{{1, -1, 0, 0}, 1};

@@ -22,6 +22,7 @@ struct PhongRdf {
                                    "Phong (RDF)",
                                    LobeAngle::kReflection,
                                    false,
+                                   NormalisedQuantity::kRadiance,
                                    "coef 2 pi integral of lobe(x) sin x, x = 0..pi/2",
                                    "Phong 1975; Romanyuk et al., table of coefficients, row 1"};
   static constexpr EnergyIntegral kEnergy{{1, 0, 0, 0}, 1};
