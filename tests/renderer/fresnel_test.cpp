@@ -1,0 +1,111 @@
+// The two options of a material: Schlick's Fresnel factor, and the diffuse base; in the reflector and
+// in the picture.
+#include "renderer/fresnel.hpp"
+
+#include "renderer/pixel_ray.hpp"
+#include "renderer/reflector.hpp"
+#include "renderer/render.hpp"
+#include "renderer/scene/scene_io.hpp"
+#include "tests/renderer/laws/directions.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr Rgb kReflectance{0.04, 0.3, 0.9}, kDiffuse{0.1, 0.2, 0.3};
+
+/// Each component: a <= b.
+bool at_most(Rgb a, Rgb b) { return a.r <= b.r && a.g <= b.g && a.b <= b.b; }
+
+void expect_near(Rgb a, Rgb b, double allowed, const std::string& what) {
+  EXPECT_NEAR(a.r, b.r, allowed) << what;
+  EXPECT_NEAR(a.g, b.g, allowed) << what;
+  EXPECT_NEAR(a.b, b.b, allowed) << what;
+}
+
+TEST(SchlicksFactor, IsTheReflectanceHeadOnAndOneAtGrazingAndGrowsInBetween) {
+  const auto factor = [](double degrees) {  // of light and eye, each so far from the half vector
+    const double a = radians(degrees);
+    return fresnel_factor(Fresnel::kSchlick, kReflectance, {std::sin(a), 0, std::cos(a)},
+                          {-std::sin(a), 0, std::cos(a)});
+  };
+  EXPECT_EQ(factor(0), kReflectance);
+  expect_near(factor(90), {1, 1, 1}, 1e-15, "grazing");
+  for (int degree = 0; degree < 90; ++degree) {
+    EXPECT_TRUE(at_most(factor(degree), factor(degree + 1))) << degree;
+    EXPECT_TRUE(at_most(kReflectance, factor(degree)) && at_most(factor(degree), {1, 1, 1}));
+  }
+  // Schlick's (1 - cos)^5 at 60 degrees is 1/32.
+  expect_near(factor(60), 31.0 / 32 * kReflectance + 1.0 / 32 * Rgb{1, 1, 1}, 1e-15, "60");
+}
+
+TEST(Fresnel, ScalesTheHighlightOfEveryModelAndNothingElse) {
+  const Frame frame;
+  for (const Highlight& h : highlights(every_model(), std::vector{1.0, 16.0, 1024.0})) {
+    const Reflector white({"", h, {1, 1, 1}, {}});
+    for (const Fresnel fresnel : {Fresnel::kNone, Fresnel::kSchlick}) {
+      const Reflector reflector({"", h, kReflectance, {}, fresnel});
+      for (const Pair& p : direction_pairs(frame, h.exponent)) {
+        const double highlight = white.eval(frame.normal, p.to_eye, p.to_light).r;
+        const Rgb factor = fresnel_factor(fresnel, kReflectance, p.to_eye, p.to_light);
+        expect_near(reflector.eval(frame.normal, p.to_eye, p.to_light), highlight * factor,
+                    1e-12 * highlight, text(h));
+      }
+    }
+  }
+}
+
+TEST(DiffuseBase, AddsItsAlbedoByPiTimesTheCosineToEveryModel) {
+  const Frame frame;
+  for (const Highlight& h : highlights(every_model(), std::vector{1.0, 16.0, 1024.0})) {
+    const Reflector without({"", h, kReflectance, {}}), with({"", h, kReflectance, kDiffuse});
+    for (const Pair& p : direction_pairs(frame, h.exponent)) {
+      const Rgb sum = without.eval(frame.normal, p.to_eye, p.to_light) +
+                      dot(frame.normal, p.to_light) / kPi * kDiffuse;
+      expect_near(with.eval(frame.normal, p.to_eye, p.to_light), sum, 1e-15 * (1 + sum.b), text(h));
+    }
+  }
+}
+
+/// The picture, one ray through the centre of each pixel, by the reflector.
+Rgb radiance_at(const Scene& scene, const CameraFrame& camera,
+                const std::vector<Reflector>& reflectors, int x, int y) {
+  const Vec3 ray = normalize(centre_ray(camera, scene.film, x, y));
+  const auto hit = nearest_hit(scene, camera.origin, ray);
+  Rgb sum;
+  if (!hit) return sum;
+  const auto material = std::size_t(scene.spheres[std::size_t(hit->sphere)].material);
+  for (const Light& light : scene.lights) {
+    const Illumination here = illuminate(light, hit->point);
+    if (!is_shadowed(scene, *hit, here))
+      sum = sum + here.irradiance * reflectors[material].eval(hit->normal, -ray, here.to_light);
+  }
+  return sum;
+}
+
+TEST(Render, WithFresnelAndDiffuseBaseIsTheReflectorInEveryPixel) {
+  for (const char* name : {"oblique_45", "grazing_80", "point_light", "two_lights"})
+    for (const Highlight& h : highlights(every_model(), std::vector{1.0, 128.0, 1e4})) {
+      Scene scene =
+          read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
+      scene.film = {32, 24};
+      std::vector<Reflector> reflectors;
+      for (Material& material : scene.materials) {
+        material = {"", h, kReflectance, kDiffuse, Fresnel::kSchlick};
+        reflectors.emplace_back(material);
+      }
+      const Image image = render(scene, {}).image;
+      const double peak = *std::max_element(image.values().begin(), image.values().end());
+      ASSERT_GT(peak, 0) << name;
+      const CameraFrame camera = camera_frame(scene.camera, scene.film);
+      for (int y = 0; y < scene.film.height; ++y)
+        for (int x = 0; x < scene.film.width; ++x) {
+          const auto p = image.pixel(x, y);
+          // What the plan may add where it chooses the precision.
+          expect_near({p[0], p[1], p[2]}, radiance_at(scene, camera, reflectors, x, y),
+                      kAllowedShadingError * peak, fmt::format("{} {} {} {}", name, text(h), x, y));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lobelia

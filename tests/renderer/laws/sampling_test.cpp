@@ -1,0 +1,76 @@
+// sample() draws as pdf() says, for every model and lobe, from normal incidence to grazing.
+#include "tests/renderer/laws/chi_square.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr double kSampledExponents[] = {1, 16, 1024, 1e5};
+constexpr double kIncidences[] = {0, 30, 60, 85, 89.9};
+
+/// The highlight alone, or half hidden in a diffuse base and growing towards grazing.
+Material material(const Highlight& h, bool with_base) {
+  return with_base ? Material{"", h, {0.3, 0.2, 0.1}, {0.5, 0.4, 0.3}, Fresnel::kSchlick}
+                   : Material{"", h, {1, 1, 1}, {}};
+}
+
+/// Of `tests` all of which are right, one fails with this probability in all (Sidak).
+double significance(std::size_t tests) { return 1 - std::pow(1 - 0.01, 1.0 / double(tests)); }
+
+void expect_draws_as_the_pdf_says(const std::vector<Highlight>& cases, bool with_base) {
+  const double limit = significance(2 * cases.size() * std::size(kIncidences));
+  std::uint64_t seed = 1;
+  for (const Highlight& h : cases)
+    for (const double degrees : kIncidences) {
+      const Reflector reflector(material(h, with_base));
+      const ChiSquare test(reflector, reflector, info(h.model).angle, radians(degrees), seed++);
+      EXPECT_GT(test.p_value(), limit) << text(h) << " at " << degrees << " degrees";
+      EXPECT_LE(test.probability_of_light(), 1 + 1e-3) << text(h) << " at " << degrees;
+    }
+}
+
+TEST(EverySampler, DrawsAHighlightAsOftenAsItsPdfSays) {
+  expect_draws_as_the_pdf_says(highlights(every_model(), kSampledExponents), false);
+}
+
+TEST(EverySampler, DrawsAHighlightOverADiffuseBaseAsOftenAsItsPdfSays) {
+  expect_draws_as_the_pdf_says(highlights(every_model(), kSampledExponents), true);
+}
+
+/// Of the draws of one material against the pdf of another.
+double p_value(const Material& sampled, const Material& claimed, double degrees,
+               int draws = 10000) {
+  return ChiSquare(Reflector(sampled), Reflector(claimed), info(sampled.highlight.model).angle,
+                   radians(degrees), 1, draws)
+      .p_value();
+}
+
+TEST(TheTestOfSamplers, RejectsAnExponentTwiceAsLarge) {
+  for (const Highlight& h : highlights(every_model(), kSampledExponents)) {
+    Material claimed = material(h, false);
+    claimed.highlight.exponent *= 2;
+    EXPECT_LT(p_value(material(h, false), claimed, 30), significance(10000)) << text(h);
+  }
+}
+
+TEST(TheTestOfSamplers, RejectsAnExponentATenthTooLarge) {
+  for (const ModelId model : every_model())
+    for (const char* lobe : {"cosine", "cs16"})  // Schlick's hardly changes with the exponent
+      for (const double n : {16.0, 1024.0, 1e5}) {
+        const Highlight h{model, *find_lobe(lobe), Normalisation::kExact, n};
+        Material claimed = material(h, false);
+        claimed.highlight.exponent *= 1.1;
+        EXPECT_LT(p_value(material(h, false), claimed, 30, 40000), significance(10000)) << text(h);
+      }
+}
+
+TEST(TheTestOfSamplers, RejectsADiffuseBaseThatIsDrawnTooSeldom) {
+  // Where a lobe is as broad as the base, the two are drawn alike.
+  for (const Highlight& h : highlights(every_model(), std::vector{16.0, 1024.0, 1e5})) {
+    Material claimed = material(h, true);
+    claimed.diffuse_reflectance = 1.5 * claimed.diffuse_reflectance;
+    EXPECT_LT(p_value(material(h, true), claimed, 60), significance(10000)) << text(h);
+  }
+}
+
+}  // namespace
+}  // namespace lobelia
