@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "renderer/highlight_map.hpp"
 #include "renderer/pixel_ray.hpp"
+#include "renderer/reflector.hpp"
 
 namespace lobelia {
 namespace {
@@ -30,34 +31,22 @@ void require_index(const char* what, int index, std::size_t count) {
 
 Image analytic_image(const Scene& scene, int sphere_index) {
   const Sphere& sphere = scene.spheres.at(std::size_t(sphere_index));
-  const Material& material = scene.materials.at(std::size_t(sphere.material));
+  const Reflector reflector(scene.materials.at(std::size_t(sphere.material)));
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
-  const int width = scene.film.width, height = scene.film.height;
-  std::vector<Rgb> radiance(std::size_t(width) * std::size_t(height));
-  for (std::size_t light = 0; light < scene.lights.size(); ++light) {
-    const HighlightMap map = highlight_map(scene, int(light), sphere_index);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-        if (std::isnan(map.angle[i])) continue;
-        const auto hit =
-            nearest_hit(scene, frame.origin, normalize(centre_ray(frame, scene.film, x, y)));
-        const Vec3 point = hit->point;  // the map has an angle only where there is one
-        const Rgb irradiance = illuminate(scene.lights[light], point).irradiance;
-        const double specular =
-            highlight_radiance(material.highlight, map.n_dot_l[i], one_minus_cos(map.angle[i]));
-        const double diffuse = map.n_dot_l[i] / std::numbers::pi;
-        radiance[i] = radiance[i] + irradiance * (specular * material.specular_reflectance +
-                                                  diffuse * material.diffuse_reflectance);
+  Image image(scene.film.width, scene.film.height);
+  for (int y = 0; y < scene.film.height; ++y)
+    for (int x = 0; x < scene.film.width; ++x) {
+      const Vec3 ray = normalize(centre_ray(frame, scene.film, x, y));
+      const auto hit = nearest_hit(scene, frame.origin, ray);
+      if (!hit || hit->sphere != sphere_index) continue;
+      Rgb radiance;
+      for (const Light& light : scene.lights) {
+        const Illumination here = illuminate(light, hit->point);
+        radiance = radiance + here.irradiance * reflector.eval(hit->normal, -ray, here.to_light);
       }
-  }
-  Image image(width, height);
-  const std::span<float> values = image.values();
-  for (std::size_t i = 0; i < radiance.size(); ++i) {
-    values[3 * i] = float(radiance[i].r);
-    values[3 * i + 1] = float(radiance[i].g);
-    values[3 * i + 2] = float(radiance[i].b);
-  }
+      const auto pixel = image.pixel(x, y);
+      pixel[0] = float(radiance.r), pixel[1] = float(radiance.g), pixel[2] = float(radiance.b);
+    }
   return image;
 }
 

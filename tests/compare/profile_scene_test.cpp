@@ -49,6 +49,7 @@ TEST(ProfileScene, OfEveryModelHasTheRenderersHighlightOnTheFormula) {
   for (const ModelInfo& model : models()) {
     Scene scene = scene_with(model.name, 64);
     scene.materials[0].diffuse_reflectance = {0.1, 0.2, 0.3};
+    scene.materials[0].fresnel = Fresnel::kSchlick;
     const RenderResult rendered = render(scene, RenderOptions{});
     const Json record = profile_scene(scene, 0, 0, {{"lobelia", &rendered.image}});
     const Json& difference = record["differences"]["lobelia-analytic"];
