@@ -24,7 +24,7 @@ Rows coefficient_rows(LobeId lobe);
 
 /// Vectors that are hard: in the kernels, at the precision that the plan would choose, and in
 /// Reflector, which takes any. The bound is shading_error_bound; twice that for Reflector, which
-/// normalises them first.
+/// normalises them first; its pdf must be a number too.
 Rows vector_rows(LobeId lobe);
 
 /// The density of samples over s, down to its underflow: a number, never denormal, never below 0. The

@@ -5,8 +5,8 @@
 
 #include "renderer/kernels/kernels.hpp"
 #include "verify/stability/cases.hpp"
-#include "verify/stability/long_double.hpp"
 #include "verify/stability/naive.hpp"
+#include "verify/stability/vector_chunk.hpp"
 #include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
@@ -15,28 +15,7 @@ namespace {
 constexpr std::size_t kChunks = 196;     ///< of kChunk vectors: 1e5
 constexpr int kClimbs = 6;               ///< chunks about the worst vectors
 constexpr std::size_t kNaiveEvery = 16;  ///< the naive formula is slow, and bad enough on these
-constexpr int kHalvings = 64;            ///< that |L + V| may be below 1
 constexpr Precision kPrecisions[] = {Precision::kFloat32, Precision::kMixed, Precision::kFloat64};
-
-/// A chunk of vectors as the kernels take them, and what they truly point to.
-struct Chunk {
-  Triple directions[kChunk];
-  Vec3Chunk normal{}, to_eye{}, to_light{};
-  long double s[kChunk], n_dot_l[kChunk];
-  int halvings[kChunk];
-
-  template <class Draw>
-  void fill(LobeAngle angle, Draw draw) {
-    for (std::size_t i = 0; i < kChunk; ++i) {
-      directions[i] = draw();
-      const ScreenedVectors v = screen(angle, directions[i]);
-      const auto put = [i](Vec3Chunk& to, Vec3 a) { to.x[i] = a.x, to.y[i] = a.y, to.z[i] = a.z; };
-      put(normal, v.normal), put(to_eye, v.to_eye), put(to_light, v.to_light);
-      s[i] = v.s, n_dot_l[i] = v.n_dot_l;
-      halvings[i] = std::clamp(-std::ilogb(v.half_length), 0, kHalvings - 1);
-    }
-  }
-};
 
 /// The largest error seen, and where.
 struct Worst {

@@ -99,7 +99,8 @@ Rows vector_rows(LobeId lobe) {
         row.ours =
             judge(reflector.eval(at.normal, at.to_eye, at.to_light).r / coefficient, row.truth, 1);
         row.bound_of_peak = 2 * shading_error_bound(Precision::kFloat64, h, v.half_length);
-        row.within = is_within(row);
+        const double pdf = reflector.pdf(at.normal, at.to_eye, at.to_light);
+        row.within = is_within(row) && std::isfinite(pdf) && pdf >= 0;
         rows.push_back(row);
         if (!seen) continue;  // the kernels are given only what the camera sees
 
