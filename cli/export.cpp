@@ -7,6 +7,7 @@
 
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
+#include "cli/warnings.hpp"
 #include "core/files.hpp"
 
 namespace lobelia::cli {
@@ -30,6 +31,8 @@ void run(const Options& options) {
                                  join(normalisation_names()), find_normalisation);
   request.exponent = options.exponent;
   const std::string text = shader_text(request);
+  if (request.exponent)
+    warn_of({request.models.front(), request.lobe, request.normalisation, *request.exponent});
   if (options.output.empty())
     fmt::print("{}", text);
   else

@@ -55,9 +55,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kFooter);
   ExitCode exit_code = ExitCode::kSuccess;
-  for (const auto add : {add_render, add_plan, add_models, add_scene_format, add_export,
-                         add_reference, add_compare, add_profile, add_farm, add_gallery,
-                         add_verify})
+  for (const auto add :
+       {add_render, add_plan, add_models, add_scene_format, add_export, add_reference, add_compare,
+        add_profile, add_farm, add_gallery, add_verify})
     add(app, exit_code);
   // CLI11 would only say that a subcommand is missing.
   if (argc > 1 && argv[1][0] != '-') {

@@ -13,4 +13,9 @@ void warn_of(const Scene& scene) {
   for (const std::string& line : lines) fmt::print(stderr, "lobelia: warning: {}\n", line);
 }
 
+void warn_of(const Highlight& highlight) {
+  if (const std::string line = warning(highlight); !line.empty())
+    fmt::print(stderr, "lobelia: warning: {}\n", line);
+}
+
 }  // namespace lobelia::cli

@@ -7,5 +7,6 @@ namespace lobelia::cli {
 
 /// One line for each distinct thing about the scene's materials.
 void warn_of(const Scene& scene);
+void warn_of(const Highlight& highlight);
 
 }  // namespace lobelia::cli

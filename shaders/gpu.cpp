@@ -76,8 +76,11 @@ std::string normalisation_note(const Highlight& highlight) {
           ? ""
           : "\n// That is the distribution's; the one here is a quarter of it, because f_r = D / 4.";
   if (highlight.normalisation == Normalisation::kPaper)
-    return "The coefficient is the paper's, misprints included; it is meant to make this 1:\n//   " +
-           std::string(info(highlight.model).integral) + "." + quarter;
+    return fmt::format(
+               "The coefficient is the paper's, given for n = {:g} to {:g}, misprints included; it is\n"
+               "// meant to make this 1:\n//   {}.",
+               kPaperMinExponent, kPaperMaxExponent, info(highlight.model).integral) +
+           quarter;
   return "The energy is 1 at normal incidence: the coefficient makes this 1 for the lobe\n//   " +
          std::string(info(highlight.model).integral) + "." + quarter;
 }

@@ -39,6 +39,18 @@ TEST_F(ExportCommand, PrintsTheTextOrWritesItToAFile) {
   EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command)) << "how to get it again";
 }
 
+TEST_F(ExportCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndWritesIt) {
+  const auto exported = [&](const char* exponent) {
+    return run({"--language", "glsl", "phong_rdf", "--lobe", "cs16", "--normalisation", "paper",
+                "--exponent", exponent, "-o", "x.glsl"});
+  };
+  const ProcessResult outside = exported("2000");
+  EXPECT_EQ(outside.exit_code, 0);
+  EXPECT_THAT(outside.output_tail, HasSubstr("warning: exponent 2000: the paper gives"));
+  EXPECT_THAT(file("x.glsl"), HasSubstr("given for n = 16 to 1024"));
+  EXPECT_EQ(exported("64").output_tail, "");
+}
+
 TEST_F(ExportCommand, IsWhatTheReferenceRendersOfPovrayInclude) {
   const Scene scene =
       sphere_scene({"modified_phong", "gauss", "exact", 64}, {directional_at(45)}, 16);
