@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/files.hpp"
@@ -151,14 +152,14 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--exposure", viewing.exposure_stops,
                    "Exposure at which CIEDE2000 and FLIP look at the pictures")
       ->type_name("STOPS")
-      ->check(CLI::Range(-kMaxExposureStops, kMaxExposureStops))
+      ->check(between(-kMaxExposureStops, kMaxExposureStops))
       ->capture_default_str()
       ->group("Viewing");
   command
       ->add_option("--pixels-per-degree", viewing.pixels_per_degree,
                    "How many pixels of the display a degree of the viewer's eye sees, for FLIP")
       ->type_name("NUMBER")
-      ->check(CLI::Range(kMinPixelsPerDegree, kMaxPixelsPerDegree))
+      ->check(between(kMinPixelsPerDegree, kMaxPixelsPerDegree))
       ->capture_default_str()
       ->group("Viewing");
 

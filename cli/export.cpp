@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "cli/between.hpp"
 #include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/warnings.hpp"
@@ -60,7 +61,7 @@ void add_export(CLI::App& app, ExitCode&) {
       ->add_option("--exponent", options->exponent,
                    "A number for n, and the coefficient with it, in place of a parameter; needed "
                    "for the lobes whose coefficient has no closed form")
-      ->check(CLI::Range(kMinExponent, kMaxExponent));
+      ->check(between(kMinExponent, kMaxExponent));
   command->add_option("-o,--output", options->output, "File to write; otherwise standard output")
       ->type_name("FILE");
   command->footer(

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "reference_scenes/engine.hpp"
@@ -69,11 +70,11 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       ->required()
       ->type_name("DIR");
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")
-      ->check(CLI::Range(0, 1024))
+      ->check(between(0, 1024))
       ->capture_default_str();
   command
       ->add_option("--time-limit", options->time_limit, "Seconds an engine may take for a picture")
-      ->check(CLI::Range(0.1, 1e6))
+      ->check(between(0.1, 1e6))
       ->capture_default_str();
   command->add_flag("--again", options->again, "Make everything again, current or not");
   command->add_flag("-q,--quiet", options->quiet, "No progress");

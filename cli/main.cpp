@@ -46,6 +46,22 @@ int flushed(ExitCode code) {
   return int(code);
 }
 
+/// "" or the message about the first word that should be a subcommand and is none. CLI11 would only
+/// say that one is missing.
+std::string unknown_subcommand(CLI::App& app, int argc, char** argv) {
+  CLI::App* command = &app;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    std::vector<std::string_view> names;
+    for (const auto* sub : command->get_subcommands({})) names.push_back(sub->get_name());
+    if (names.empty()) break;
+    if (std::find(names.begin(), names.end(), argv[i]) == names.end())
+      return fmt::format("unknown subcommand '{}'; allowed: {}{}", printable(argv[i]), join(names),
+                         did_you_mean(argv[i], names));
+    command = command->get_subcommand(argv[i]);
+  }
+  return "";
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Lobelia renders specular highlights with all normalised models, renders the same\n"
@@ -59,15 +75,8 @@ int run(int argc, char** argv) {
        {add_render, add_plan, add_models, add_scene_format, add_export, add_reference, add_compare,
         add_profile, add_farm, add_gallery, add_verify})
     add(app, exit_code);
-  // CLI11 would only say that a subcommand is missing.
-  if (argc > 1 && argv[1][0] != '-') {
-    std::vector<std::string_view> names;
-    for (const auto* command : app.get_subcommands({})) names.push_back(command->get_name());
-    if (std::find(names.begin(), names.end(), argv[1]) == names.end())
-      return fail(ExitCode::kUsage,
-                  fmt::format("unknown subcommand '{}'; allowed: {}{}", printable(argv[1]),
-                              join(names), did_you_mean(argv[1], names)));
-  }
+  if (const std::string error = unknown_subcommand(app, argc, argv); !error.empty())
+    return fail(ExitCode::kUsage, error);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

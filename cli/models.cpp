@@ -3,6 +3,7 @@
 #include <memory>
 #include <numbers>
 
+#include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "core/record.hpp"
 #include "core/text.hpp"
@@ -102,7 +103,7 @@ void add_models(CLI::App& app, ExitCode&) {
   auto exponent = std::make_shared<double>(64);
   command->add_flag("--json", *json, "Print the catalogue as JSON");
   command->add_option("--exponent", *exponent, "Exponent n at which to measure")
-      ->check(CLI::Range(kMinExponent, kMaxExponent))
+      ->check(between(kMinExponent, kMaxExponent))
       ->capture_default_str();
   command->callback([json, exponent] { run(*json, *exponent); });
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/output_path.hpp"
 #include "cli/progress.hpp"
@@ -96,10 +97,10 @@ void add_reference(CLI::App& app, ExitCode&) {
                       "The engine's program, if not the one in $PATH");
   command
       ->add_option("--time-limit", options->time_limit, "Seconds after which the engine is stopped")
-      ->check(CLI::Range(0.1, 1e6))
+      ->check(between(0.1, 1e6))
       ->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")
-      ->check(CLI::Range(0, 1024))
+      ->check(between(0, 1024))
       ->capture_default_str();
   command->add_option("--log-dir", options->log_directory, "Directory for the engine's own output");
   command->add_option("--keep-input", options->keep_input,

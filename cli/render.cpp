@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/output_path.hpp"
 #include "cli/progress.hpp"
@@ -76,10 +77,10 @@ void add_render(CLI::App& app, ExitCode&) {
   command->add_option("--png", options->png, "Write a picture for the eye too (8 bits, sRGB)")
       ->type_name("FILE");
   command->add_option("--exposure", options->exposure, "Stops by which the --png is brightened")
-      ->check(CLI::Range(-100.0, 100.0))
+      ->check(between(-100.0, 100.0))
       ->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")
-      ->check(CLI::Range(0, 1024))
+      ->check(between(0, 1024))
       ->capture_default_str();
   command
       ->add_option("--effects", options->effects,

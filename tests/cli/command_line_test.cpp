@@ -10,8 +10,9 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kSubcommands[] = {"render",  "plan",    "models", "scene-format", "reference",
-                                        "compare", "profile", "farm",   "gallery",      "verify"};
+constexpr const char* kSubcommands[] = {"render",    "plan",    "models",  "scene-format",
+                                        "reference", "compare", "profile", "farm",
+                                        "gallery",   "verify",  "export"};
 
 TEST(Help, OfTheProgramNamesEverySubcommandAndTheExitCodes) {
   const TemporaryDirectory directory;
@@ -79,7 +80,11 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"farm", "missing.xml", "-o", "out"}, 3, "missing.xml"},
       {{"gallery", "no-such-directory"}, 3, "no-such-directory"},
       {{"verify"}, 2, "subcommand"},
-      {{"verify", "papers"}, 2, "verify --help"},
+      {{"verify", "papers"}, 2, "unknown subcommand 'papers'; allowed: paper, stability; did you"},
+      {{"verify", "stability", "--lobe", "cs15"}, 2, "--lobe 'cs15' is unknown"},
+      {{"models", "--exponent", "nan"}, 2, "allowed: 0.001 to 1e+08"},
+      {{"models", "--exponent", "1e9"}, 2, "'1e9' is out of range"},
+      {{"render", scene, "-o", "a.exr", "--exposure", "nan"}, 2, "allowed: -100 to 100"},
       {{"verify", "paper", "--json", "no/such/a.json"}, 4, "no/such/a.json: cannot write"},
       {{"verify", "paper", "--plots", text_exr}, 4, "text.exr"},
   };
