@@ -23,13 +23,18 @@ std::string range_of(const Parameter& p) {
 
 void print_catalogues() {
   fmt::print("{:<26}{:<28}{:<10}{:<6}{:<20}{}\n", "model", "title", "angle", "N.L", "normalised",
-             "coefficient");
+             "exact coefficient of any lobe, by its moments");
   for (const ModelId id : all_models()) {
     const ModelInfo& m = info(id);
     fmt::print("{:<26}{:<28}{:<10}{:<6}{:<20}{}\n", m.name, m.title, angle_name(m.angle),
                m.applies_cosine ? "yes" : "no", name(m.normalised), exact_formula(id));
-    fmt::print("{:<90}cosine lobe {}; paper {}; cs16 in the paper {}\n", "",
-               formulas(id).exact_cosine, formulas(id).paper_cosine, formulas(id).paper_cs16);
+  }
+  fmt::print("\n{:<26}{:<44}{:<44}{}\n", "coefficient", "cosine, exact", "cosine, paper",
+             "cs16, paper");
+  for (const ModelId id : all_models()) {
+    const CoefficientFormulas f = formulas(id);
+    fmt::print("{:<26}{:<44}{:<44}{}\n", info(id).name, f.exact_cosine, f.paper_cosine,
+               f.paper_cs16);
   }
   fmt::print("\n{:<20}{:<32}{:<46}{}\n", "lobe", "value, s = 1 - cos",
              "moments M_j = integral of value s^j, 0 to S", "source");

@@ -18,8 +18,8 @@ using HWY_NAMESPACE::Lobes;
 using HWY_NAMESPACE::Models;
 
 constexpr auto kModelInfos = map_types<ModelInfo>(Models{}, []<class M>() { return M::kInfo; });
-constexpr auto kModelFormulas =
-    map_types<CoefficientFormulas>(Models{}, []<class M>() { return M::kFormulas; });
+constexpr auto kModelTexts =
+    map_types<CoefficientTexts>(Models{}, []<class M>() { return M::kTexts; });
 constexpr auto kModelNames =
     map_types<std::string_view>(Models{}, []<class M>() { return M::kInfo.name; });
 constexpr std::string_view kNormalisationNames[] = {"exact", "paper"};
@@ -135,6 +135,26 @@ constexpr auto kModelIds = [] {
   return ids;
 }();
 
+/// A formula of a shader as people write it: "(2.0 * %pi%)" is "(2 pi)".
+std::string for_people(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+      {"exp2(-0.5 * n)", "2^(-n/2)"},
+      {"%pi%", "pi"},
+      {".0 * ", " "},
+      {" * ", " "},
+      {".0)", ")"},
+      {".0 -", " -"}};
+  std::string result;
+  while (!text.empty()) {
+    const auto* word = std::ranges::find_if(
+        kWords, [&](const auto& entry) { return text.starts_with(entry.first); });
+    const bool known = word != std::end(kWords);
+    result += known ? word->second : text.substr(0, 1);
+    text.remove_prefix(known ? word->first.size() : 1);
+  }
+  return result;
+}
+
 LobeParameters parameters(LobeId lobe, double exponent) { return {exponent, lobe.order}; }
 
 }  // namespace
@@ -157,7 +177,11 @@ std::string allowed_lobes() {
 }
 
 const ModelInfo& info(ModelId id) { return kModelInfos.at(id.index); }
-const CoefficientFormulas& formulas(ModelId id) { return kModelFormulas.at(id.index); }
+CoefficientFormulas formulas(ModelId id) {
+  const CoefficientTexts& texts = kModelTexts.at(id.index);
+  return {for_people(texts.exact_cosine), for_people(texts.paper_cosine),
+          for_people(texts.paper_cs16)};
+}
 std::string exact_formula(ModelId id) {
   const ModelUse& use = kModelUses.at(id.index);
   std::string sum;

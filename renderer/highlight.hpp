@@ -65,11 +65,11 @@ struct ModelInfo {
   std::string_view source;
 };
 
-/// Coefficients in words, of n.
+/// Coefficients as formulas of n, "(n + 1) / (2 pi)".
 struct CoefficientFormulas {
-  std::string_view exact_cosine;  ///< what the integral gives for the cosine lobe
-  std::string_view paper_cosine;  ///< as the paper prints it
-  std::string_view paper_cs16;    ///< as the paper prints it
+  std::string exact_cosine;  ///< what the integral gives for the cosine lobe
+  std::string paper_cosine;  ///< as the paper prints it
+  std::string paper_cs16;    ///< as the paper prints it
 };
 
 struct Highlight {
@@ -94,7 +94,7 @@ std::span<const std::string_view> normalisation_names();  ///< "exact", "paper"
 std::string allowed_lobes();
 
 const ModelInfo& info(ModelId id);
-const CoefficientFormulas& formulas(ModelId id);
+CoefficientFormulas formulas(ModelId id);
 /// The exact coefficient of any lobe by its moments M_j, the integrals of lobe s^j:
 /// "1/(2 pi (M0 - M1)), s = 0 to 1".
 std::string exact_formula(ModelId id);

@@ -32,8 +32,6 @@ struct BlinnPhongHeightfield {
     return n_dot_l;
   }
 
-  static constexpr CoefficientFormulas kFormulas{"(n + 2)/(2 pi)", "(n + 2)/(2 pi)",
-                                                 "(1.063 n + 1)/(2 pi)"};
   static double paper_cosine(double n) { return (n + 2) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return (1.063 * n + 1) / (2 * std::numbers::pi); }
   static constexpr CoefficientTexts kTexts{"(n + 2.0) / (2.0 * %pi%)", "(n + 2.0) / (2.0 * %pi%)",

@@ -33,8 +33,6 @@ struct BlinnPhongNdf {
     return n_dot_l;
   }
 
-  static constexpr CoefficientFormulas kFormulas{"(n + 1)/(2 pi)", "(n + 1)/(2 pi)",
-                                                 "1.063 n/(2 pi)"};
   static double paper_cosine(double n) { return (n + 1) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return 1.063 * n / (2 * std::numbers::pi); }
   static constexpr CoefficientTexts kTexts{"(n + 1.0) / (2.0 * %pi%)", "(n + 1.0) / (2.0 * %pi%)",

@@ -33,8 +33,6 @@ struct BlinnPhongRdf {
     return Real(1);
   }
 
-  static constexpr CoefficientFormulas kFormulas{
-      "(n + 2)/(4 pi (2 - 2^(-n/2)))", "(n + 2)/(4 pi (2 - 2^(-n/2)))", "(1.068 n + 0.96)/(8 pi)"};
   static double paper_cosine(double n) {
     return (n + 2) / (4 * std::numbers::pi * (2 - std::exp2(-n / 2)));
   }

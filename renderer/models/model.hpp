@@ -39,7 +39,8 @@ double exact_coefficient(const EnergyIntegral& energy, const auto& lobe) {
 }
 
 /// Coefficients as formulas of n in the language that GLSL, HLSL and OSL have in common, for
-/// `lobelia export`: those of the two columns of the paper, and the true one for cos^n.
+/// `lobelia export` and for people: those of the two columns of the paper, and the true one for cos^n.
+/// Their numbers have a decimal point, their products a sign.
 struct CoefficientTexts {
   std::string_view exact_cosine, paper_cosine, paper_cs16;
 };
@@ -52,7 +53,6 @@ concept Model = requires(double n_dot_l, double n) {
   { M::foreshortening(n_dot_l) } -> std::same_as<double>;
   /// 1; or 1/4 for a microfacet distribution D, because f_r = D F / 4.
   { M::kShare } -> std::convertible_to<double>;
-  { M::kFormulas } -> std::convertible_to<const CoefficientFormulas&>;
   /// The coefficients as the paper prints them, misprints included.
   { M::paper_cosine(n) } -> std::same_as<double>;
   { M::paper_cs16(n) } -> std::same_as<double>;

@@ -34,9 +34,6 @@ struct ModifiedBlinnPhong {
     return n_dot_l;
   }
 
-  static constexpr CoefficientFormulas kFormulas{"(n + 2)(n + 4)/(8 pi (2^(-n/2) + n))",
-                                                 "(n + 2)(n + 4)/(4 pi (2^(-n/2) + n))",
-                                                 "(1.027 n + 4.8)/(8 pi)"};
   static double paper_cosine(double n) {
     return (n + 2) * (n + 4) / (4 * std::numbers::pi * (std::exp2(-n / 2) + n));
   }

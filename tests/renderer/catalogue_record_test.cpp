@@ -74,5 +74,12 @@ TEST(CatalogueRecord, SaysInWordsTheCoefficientOfEachModel) {
   EXPECT_EQ(formulas, expected);
 }
 
+TEST(CatalogueRecord, HasTheTableOfThePaperAsPeopleWriteIt) {
+  const CoefficientFormulas row_4 = formulas(*find_model("modified_blinn_phong"));
+  EXPECT_EQ(row_4.exact_cosine, "(n + 2) (n + 4) / (8 pi (2^(-n/2) + n))");
+  EXPECT_EQ(row_4.paper_cosine, "(n + 2) (n + 4) / (4 pi (2^(-n/2) + n))");
+  EXPECT_EQ(row_4.paper_cs16, "(1.027 n + 4.8) / (8 pi)");
+}
+
 }  // namespace
 }  // namespace lobelia
