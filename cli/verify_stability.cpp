@@ -4,10 +4,10 @@
 
 #include <memory>
 
+#include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "core/files.hpp"
-#include "core/text.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/report.hpp"
 
@@ -21,14 +21,8 @@ struct Options {
 
 ExitCode run(const Options& options) {
   std::vector<LobeId> lobes = stability::lobes_under_test();
-  if (!options.lobe.empty()) {
-    const auto lobe = find_lobe(options.lobe);
-    if (!lobe)
-      throw Error(ExitCode::kUsage,
-                  fmt::format("--lobe '{}' is unknown; allowed: {}{}", printable(options.lobe),
-                              allowed_lobes(), did_you_mean(options.lobe, lobe_names())));
-    lobes = {*lobe};
-  }
+  if (!options.lobe.empty())
+    lobes = {chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe)};
   if (!options.json.empty()) require_writable(options.json);
   if (!options.pictures.empty()) {
     make_directories(options.pictures);
