@@ -7,6 +7,7 @@
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/warnings.hpp"
 #include "reference_scenes/engine.hpp"
 
 namespace lobelia::cli {
@@ -49,8 +50,7 @@ ExitCode run(const Options& options) {
   if (summary.foreign > 0)
     fmt::print(stderr, "lobelia: {}/cells also holds {} cells that are not of this grid\n",
                options.directory, summary.foreign);
-  for (const auto& warning : summary.warnings)
-    fmt::print(stderr, "lobelia: warning: {}\n", warning);
+  for (const auto& warning : summary.warnings) warn(warning);
   for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
   fmt::print("{} cells: {} pass, {} differ, {} failed{}; {} pictures rendered, {} kept\n",
              summary.cells, summary.pass, summary.differs, summary.failed,

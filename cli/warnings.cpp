@@ -6,16 +6,17 @@
 
 namespace lobelia::cli {
 
+void warn(std::string_view text) { fmt::print(stderr, "lobelia: warning: {}\n", text); }
+
 void warn_of(const Scene& scene) {
   std::set<std::string> lines;
   for (const Material& material : scene.materials) lines.insert(warning(material.highlight));
   lines.erase("");
-  for (const std::string& line : lines) fmt::print(stderr, "lobelia: warning: {}\n", line);
+  for (const std::string& line : lines) warn(line);
 }
 
 void warn_of(const Highlight& highlight) {
-  if (const std::string line = warning(highlight); !line.empty())
-    fmt::print(stderr, "lobelia: warning: {}\n", line);
+  if (const std::string line = warning(highlight); !line.empty()) warn(line);
 }
 
 }  // namespace lobelia::cli

@@ -1,6 +1,8 @@
 // Small things about text.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +14,13 @@ namespace lobelia {
 std::string closest(std::string_view word, std::span<const std::string_view> candidates);
 /// "; did you mean 'x'?" or "", to end an error message with.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
+/// The id, a position in `names`, of the entry that is `name`.
+template <class Id>
+std::optional<Id> find_id(std::span<const std::string_view> names, std::string_view name) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return Id{std::uint8_t(i)};
+  return std::nullopt;
+}
 /// "a, b, c"
 std::string join(std::span<const std::string_view> items, std::string_view separator = ", ");
 /// Parts between any of `separators`, trimmed of white space, empty ones dropped.

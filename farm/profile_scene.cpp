@@ -2,22 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "core/error.hpp"
 #include "renderer/highlight_map.hpp"
+#include "renderer/lobe_properties.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/reflector.hpp"
 
 namespace lobelia {
 namespace {
-
-/// 1 - cos(angle), without the cancellation near 0.
-double one_minus_cos(double angle) {
-  const double half_sine = std::sin(angle / 2);
-  return 2 * half_sine * half_sine;
-}
 
 void require_index(const char* what, int index, std::size_t count) {
   if (index < 0 || std::size_t(index) >= count)
@@ -48,21 +40,6 @@ Image analytic_image(const Scene& scene, int sphere_index) {
       pixel[0] = float(radiance.r), pixel[1] = float(radiance.g), pixel[2] = float(radiance.b);
     }
   return image;
-}
-
-double lobe_angle_at(const Highlight& highlight, double value) {
-  const bool reflection = info(highlight.model).angle == LobeAngle::kReflection;
-  double inside = 0, outside = reflection ? std::numbers::pi : std::numbers::pi / 2;
-  const auto lobe = [&](double angle) {
-    return lobe_value(highlight.lobe, one_minus_cos(angle), highlight.exponent);
-  };
-  if (lobe(outside) > value) return outside;
-  // Each step halves the interval; 64 use up a double.
-  for (int step = 0; step < 64; ++step) {
-    const double middle = (inside + outside) / 2;
-    (lobe(middle) > value ? inside : outside) = middle;
-  }
-  return outside;
 }
 
 Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images) {
@@ -99,10 +76,11 @@ Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages&
 
   const int material = scene.spheres[std::size_t(sphere)].material;
   const Highlight& highlight = scene.materials.at(std::size_t(material)).highlight;
+  const PreparedLobe lobe = prepare(highlight.lobe, highlight.exponent);
   const HighlightMap map = highlight_map(scene, light, sphere);
   const Profile profile =
-      measure_profile({map.angle, map.solid_angle, lobe_angle_at(highlight, kEpicentreLobe),
-                       lobe_angle_at(highlight, kBloomingLobe)},
+      measure_profile({map.angle, map.solid_angle, lobe_angle_at(lobe, kEpicentreLobe),
+                       lobe_angle_at(lobe, kBloomingLobe)},
                       all, pairs);
   const bool reflection = info(highlight.model).angle == LobeAngle::kReflection;
   return profile_record(profile, light, sphere, reflection ? "reflection" : "half_vector");

@@ -15,10 +15,6 @@ inline constexpr char kAnalyticName[] = "analytic";
 /// no shadows; 0 elsewhere. Evaluated in double, apart from the renderer's kernels.
 Image analytic_image(const Scene& scene, int sphere);
 
-/// Angle at which the lobe has fallen to `value`, in radians; the lobe's widest angle (half a turn
-/// about the mirror direction, a right angle about the normal) if it never does.
-double lobe_angle_at(const Highlight& highlight, double value);
-
 /// The record of the highlight of `light` on `sphere` in those pictures, which come in the order of
 /// the report. What other lights add by the formula is subtracted first, shadows not known. The formula is added in front as "analytic"; differences are of the first picture
 /// from each other one, and of each from the formula. Throws Error(kInput) if there is no such

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "renderer/lobe_properties.hpp"
 #include "renderer/reflector.hpp"
 
 namespace lobelia {
@@ -17,19 +18,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kSmallest = 1e-12;  ///< radians: no piece is narrower
 constexpr double kSame = 1e-9;       ///< a peak is one only if it stands out by more
-
-/// 1 - cos
-double versine(double angle) { return 2 * std::pow(std::sin(angle / 2), 2); }
-
-/// The angle at which a lobe has fallen to `value`, or a right angle.
-double angle_at(const PreparedLobe& lobe, double value) {
-  double low = -60, high = 0;  // log2 s; lobes are non-increasing
-  for (int i = 0; i < 50; ++i) {
-    const double middle = (low + high) / 2;
-    (lobe.value(std::exp2(middle)) > value ? low : high) = middle;
-  }
-  return 2 * std::asin(std::sqrt(std::exp2(high) / 2));
-}
 
 /// The integral of coefficient * lobe * (a factor of N.L) over all directions of the one vector while
 /// the other stays. Lobes treat the two alike, so it serves for light and for eye.
@@ -46,8 +34,8 @@ class HemisphereIntegral {
       : coefficient_(radiance_coefficient(h)),
         lobe_(prepare(h.lobe, h.exponent)),
         half_vector_(info(h.model).angle == LobeAngle::kHalfVector),
-        width_(angle_at(lobe_, 0.5)),
-        end_(angle_at(lobe_, 1e-20)) {}
+        width_(lobe_angle_at(lobe_, 0.5)),
+        end_(lobe_angle_at(lobe_, 1e-20)) {}
 
   double operator()(double incidence, auto&& factor) const {
     const double c = std::cos(incidence), e = std::sin(incidence);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
+
 namespace lobelia {
 namespace {
 constexpr std::string_view kNames[] = {"none", "schlick"};
@@ -10,9 +12,7 @@ constexpr std::string_view kNames[] = {"none", "schlick"};
 std::span<const std::string_view> fresnel_names() { return kNames; }
 std::string_view name(Fresnel fresnel) { return kNames[std::size_t(fresnel)]; }
 std::optional<Fresnel> find_fresnel(std::string_view name) {
-  for (std::size_t i = 0; i < std::size(kNames); ++i)
-    if (kNames[i] == name) return Fresnel(i);
-  return std::nullopt;
+  return find_id<Fresnel>(kNames, name);
 }
 
 Rgb fresnel_factor(Fresnel fresnel, Rgb reflectance, Vec3 to_eye, Vec3 to_light) {

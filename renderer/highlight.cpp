@@ -205,15 +205,11 @@ std::string_view name(NormalisedQuantity normalised) {
 }
 
 std::optional<ModelId> find_model(std::string_view name) {
-  for (const ModelId id : kModelIds)
-    if (info(id).name == name) return id;
-  return std::nullopt;
+  return find_id<ModelId>(kModelNames, name);
 }
 std::optional<LobeId> find_lobe(std::string_view name) { return lobe_table().find(name); }
 std::optional<Normalisation> find_normalisation(std::string_view name) {
-  for (std::size_t i = 0; i < std::size(kNormalisationNames); ++i)
-    if (kNormalisationNames[i] == name) return Normalisation(i);
-  return std::nullopt;
+  return find_id<Normalisation>(kNormalisationNames, name);
 }
 
 double radiance_coefficient(const Highlight& highlight) {

@@ -1,9 +1,20 @@
 // What a lobe looks like at one exponent, measured on the lobe itself.
 #pragma once
 
+#include <cmath>
+
 #include "renderer/highlight.hpp"
 
 namespace lobelia {
+
+/// 1 - cos of an angle, without cancellation.
+inline double versine(double angle) {
+  const double half_sine = std::sin(angle / 2);
+  return 2 * half_sine * half_sine;
+}
+
+/// The smallest angle, radians, at which the lobe is at most `value`; pi/2 if there is none before.
+double lobe_angle_at(const PreparedLobe& lobe, double value);
 
 struct LobeProperties {
   double half_width;  ///< angle at which it has fallen to half, radians; pi/2 if it nowhere does

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/text.hpp"
+
 namespace lobelia {
 namespace {
 
@@ -42,9 +44,7 @@ double modulus(const Highlight& highlight, double absolute, double relative) {
 std::span<const std::string_view> precision_names() { return kNames; }
 std::string_view name(Precision precision) { return kNames[std::size_t(precision)]; }
 std::optional<Precision> find_precision(std::string_view name) {
-  for (std::size_t i = 0; i < std::size(kNames); ++i)
-    if (kNames[i] == name) return Precision(i);
-  return std::nullopt;
+  return find_id<Precision>(kNames, name);
 }
 
 double shading_error_bound(Precision precision, const Highlight& highlight,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/version.hpp"
 #include "shaders/gpu.hpp"
 #include "shaders/names.hpp"
@@ -44,9 +45,7 @@ std::string command_of(const ShaderExport& request) {
 
 std::span<const std::string_view> shader_language_names() { return kNames; }
 std::optional<ShaderLanguage> find_shader_language(std::string_view name) {
-  for (std::size_t i = 0; i < std::size(kNames); ++i)
-    if (kNames[i] == name) return ShaderLanguage{std::uint8_t(i)};
-  return std::nullopt;
+  return find_id<ShaderLanguage>(kNames, name);
 }
 
 std::string shader_text(const ShaderExport& request) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "renderer/lobe_properties.hpp"
 #include "renderer/render.hpp"
 
 namespace lobelia {
@@ -32,16 +33,19 @@ Scene scene_with(std::string_view model, double exponent) {
 TEST(LobeAngle, IsWhereTheLobeHasFallenToTheValue) {
   const Scene scene = scene_with("phong_rdf", 16);
   const Highlight& highlight = scene.materials[0].highlight;
-  EXPECT_NEAR(lobe_angle_at(highlight, 0.5), std::acos(std::pow(0.5, 1.0 / 16)), 1e-12);
-  EXPECT_NEAR(lobe_angle_at(highlight, 1e-3), std::acos(std::pow(1e-3, 1.0 / 16)), 1e-12);
+  EXPECT_NEAR(lobe_angle_at(prepare(highlight.lobe, highlight.exponent), 0.5),
+              std::acos(std::pow(0.5, 1.0 / 16)), 1e-12);
+  EXPECT_NEAR(lobe_angle_at(prepare(highlight.lobe, highlight.exponent), 1e-3),
+              std::acos(std::pow(1e-3, 1.0 / 16)), 1e-12);
 }
 
 TEST(LobeAngle, OfALobeThatNeverFallsSoFarIsItsWidest) {
   Scene scene = scene_with("blinn_phong_ndf", 16);
   Highlight highlight = scene.materials[0].highlight;
   highlight.exponent = 1e-3;
-  EXPECT_LE(lobe_angle_at(highlight, 1e-3), std::numbers::pi / 2);
-  EXPECT_GT(lobe_angle_at(highlight, 1e-3), std::numbers::pi / 2 - 0.01);
+  EXPECT_LE(lobe_angle_at(prepare(highlight.lobe, highlight.exponent), 1e-3), std::numbers::pi / 2);
+  EXPECT_GT(lobe_angle_at(prepare(highlight.lobe, highlight.exponent), 1e-3),
+            std::numbers::pi / 2 - 0.01);
 }
 
 TEST(ProfileScene, OfEveryModelHasTheRenderersHighlightOnTheFormula) {

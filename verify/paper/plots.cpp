@@ -139,9 +139,7 @@ Chart albedos(Held held, Chart result) {
   int style = 1;
   for (const RowNumber number : {kPhong, kModifiedPhong, kBlinn, kModifiedBlinn, kNdf}) {
     const Row& row = kRows[number];
-    const Real coefficient = number == kModifiedBlinn
-                                 ? column::modified_blinn_phong_corrected(kExponent)
-                                 : row.cosine_column(kExponent);
+    const Real coefficient = true_cosine_column(row, kExponent);
     result.series.push_back(curve(std::string(row.title), style++, result.x, [&](Real x) {
       return albedo(row, Lobe::kCosine, kExponent, coefficient, double(radians(x)), held);
     }));

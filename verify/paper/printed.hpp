@@ -109,4 +109,11 @@ inline constexpr std::array<Row, 6> kRows = {{
      column::modified_phong, column::modified_phong_cs16},
 }};
 
+/// The cos^n column, the misprint of row 4 corrected.
+inline Real true_cosine_column(const Row& row, Real n) {
+  return row.cosine_column == column::modified_blinn_phong
+             ? column::modified_blinn_phong_corrected(n)
+             : row.cosine_column(n);
+}
+
 }  // namespace lobelia::paper

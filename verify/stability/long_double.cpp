@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "renderer/lobes/catalogue.hpp"
+#include "verify/definition.hpp"
 
 namespace lobelia::stability {
 namespace {
@@ -18,11 +18,6 @@ Long3 unit(Long3 a) { return 1 / std::sqrt(dot(a, a)) * a; }
 Long3 unit(Vec3 a) { return unit(Long3{a.x, a.y, a.z}); }
 Vec3 rounded(Long3 a) { return {double(a.x), double(a.y), double(a.z)}; }
 
-using Definition = long double (*)(LobeParameters, long double cosine);
-constexpr auto kDefinitions = map_types<Definition>(HWY_NAMESPACE::Lobes{}, []<class L>() {
-  return [](LobeParameters p, long double cosine) { return L(p).definition(cosine); };
-});
-
 }  // namespace
 
 ScreenedVectors screen(LobeAngle angle, const Triple& directions) {
@@ -37,7 +32,7 @@ ScreenedVectors screen(LobeAngle angle, const Triple& directions) {
 }
 
 long double screened_lobe(LobeId lobe, long double s, double exponent) {
-  return s < 1 ? kDefinitions.at(lobe.index)({exponent, lobe.order}, 1 - s) : 0;
+  return s < 1 ? lobe_definition(lobe, 1 - s, exponent) : 0;
 }
 
 }  // namespace lobelia::stability

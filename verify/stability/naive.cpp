@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <numbers>
 
-#include "renderer/lobes/catalogue.hpp"
+#include "verify/definition.hpp"
 #include "verify/stability/float3.hpp"
 
 namespace lobelia::stability::naive {
 namespace {
-
-using Definition = float (*)(LobeParameters, float cosine);
-constexpr auto kDefinitions = map_types<Definition>(HWY_NAMESPACE::Lobes{}, []<class L>() {
-  return [](LobeParameters p, float cosine) { return L(p).definition(cosine); };
-});
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
@@ -47,7 +42,7 @@ float by_quadrature(const Highlight& h) {
 }  // namespace
 
 float lobe(LobeId lobe, float cosine, double exponent) {
-  return cosine > 0 ? kDefinitions.at(lobe.index)({exponent, lobe.order}, cosine) : 0;
+  return cosine > 0 ? lobe_definition(lobe, cosine, exponent) : 0;
 }
 
 float unit_shape(const Highlight& highlight, Float3 n, Float3 v, Float3 l) {

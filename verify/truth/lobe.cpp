@@ -1,21 +1,13 @@
-#include "renderer/lobes/catalogue.hpp"
+#include "verify/definition.hpp"
 #include "verify/truth/big_lobe.hpp"
 #include "verify/truth/truth.hpp"
 
 namespace lobelia::truth {
-namespace {
-
-using Definition = Big (*)(LobeParameters, const Big& cosine);
-constexpr auto kDefinitions = map_types<Definition>(HWY_NAMESPACE::Lobes{}, []<class L>() {
-  return [](LobeParameters p, const Big& cosine) { return L(p).definition(cosine); };
-});
-
-}  // namespace
 
 Big lobe_of_cosine(LobeId lobe, const Big& cosine, double exponent) {
   if (cosine <= 0) return 0;
   // The cosine of two equal directions may come out a last digit above 1.
-  return kDefinitions.at(lobe.index)({exponent, lobe.order}, cosine < 1 ? cosine : Big(1));
+  return lobe_definition(lobe, cosine < 1 ? cosine : Big(1), exponent);
 }
 
 double lobe(LobeId lobe, double s, double exponent) {

@@ -15,15 +15,8 @@ constexpr char kWhere[] = "title and text: the models are energy-correct";
 constexpr double kRadian = std::numbers::pi / 180;
 constexpr Real kExponents[] = {16, 64, 256, 1024};
 
-/// The cos^n column, the misprint of row 4 corrected.
-Real true_coefficient(const Row& row, Real n) {
-  return row.cosine_column == column::modified_blinn_phong
-             ? column::modified_blinn_phong_corrected(n)
-             : row.cosine_column(n);
-}
-
 double reflected(const Row& row, Real n, double theta_degrees, Held held) {
-  return albedo(row, Lobe::kCosine, n, true_coefficient(row, n), theta_degrees * kRadian, held);
+  return albedo(row, Lobe::kCosine, n, true_cosine_column(row, n), theta_degrees * kRadian, held);
 }
 
 /// The largest albedo, and at how many degrees, over 0..89 and kExponents of the rows that `belongs`
