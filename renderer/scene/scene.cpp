@@ -5,6 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
+
 namespace lobelia {
 
 CameraFrame camera_frame(const Camera& camera, const Film& film) {
@@ -24,13 +27,49 @@ double inner_radius(const Sphere& sphere) {
   return std::max(0.0, sphere.radius * (1 - 1e-12) - 0x1p-48 * reach);
 }
 
+Rgb strength(const Light& light) {
+  struct Strength {
+    Rgb operator()(const DirectionalLight& l) const { return l.irradiance; }
+    Rgb operator()(const PointLight& l) const { return l.intensity; }
+    Rgb operator()(const SphereLight& l) const { return l.radiance; }
+    Rgb operator()(const RectangleLight& l) const { return l.radiance; }
+    Rgb operator()(const EnvironmentLight& l) const { return l.radiance; }
+  };
+  return std::visit(Strength{}, light);
+}
+
 Illumination illuminate(const Light& light, Vec3 point) {
   if (const auto* directional = std::get_if<DirectionalLight>(&light))
     return {-directional->direction, directional->irradiance,
             std::numeric_limits<double>::infinity()};
-  const auto& source = std::get<PointLight>(light);
-  const Vec3 way = source.position - point;
-  return {normalize(way), 1 / dot(way, way) * source.intensity, length(way)};
+  const auto* source = std::get_if<PointLight>(&light);
+  if (!source) throw Error(ExitCode::kInternal, "a light with a size has no single direction");
+  const Vec3 way = source->position - point;
+  return {normalize(way), 1 / dot(way, way) * source->intensity, length(way)};
+}
+
+std::string beyond_delta_lights(const Scene& scene) {
+  std::vector<std::string_view> found;
+  const auto add = [&](bool is_there, const char* what) {
+    if (is_there) found.emplace_back(what);
+  };
+  const auto any_light = [&](auto is_kind) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(), is_kind);
+  };
+  add(any_light([](const Light& l) { return std::holds_alternative<EnvironmentLight>(l); }),
+      "an environment light");
+  add(any_light([](const Light& l) {
+        return !is_delta(l) && !std::holds_alternative<EnvironmentLight>(l);
+      }),
+      "an area light");
+  add(!scene.planes.empty(), "a ground plane");
+  const auto any_material = [&](auto has) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(), has);
+  };
+  add(any_material([](const Material& m) { return !is_black(m.mirror_reflectance); }), "a mirror");
+  add(scene.depth.glossy > 0, "inter-reflection");
+  add(scene.camera.aperture_radius > 0, "depth of field");
+  return join(found);
 }
 
 }  // namespace lobelia

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "core/image.hpp"
 #include "core/vec.hpp"
+#include "renderer/filter.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/highlight.hpp"
 
@@ -16,11 +19,14 @@ namespace lobelia {
 /// A perspective camera. `origin`, `target` differ and `up` is not along the view.
 struct Camera {
   Vec3 origin, target, up;
-  double fov_degrees = 28;  ///< full horizontal angle of view, (0, 180)
+  double fov_degrees = 28;     ///< full horizontal angle of view, (0, 180)
+  double aperture_radius = 0;  ///< of a thin lens, >= 0; 0 is a pinhole
+  double focus_distance = 1;   ///< > 0; along the view, of the plane that is sharp
 };
 
 struct Film {
   int width = 256, height = 256;  ///< 1..kMaxImageSide each, at most kMaxImagePixels together
+  Filter filter = {};             ///< used only where sample_count > 1
 };
 
 struct Sampler {
@@ -39,13 +45,40 @@ struct PointLight {
   Rgb intensity;  ///< W/sr, >= 0; irradiance falls with the square of the distance
 };
 
-using Light = std::variant<DirectionalLight, PointLight>;
+/// A ball of light, the same radiance from every point of it, seen from outside. Lamps with a size are
+/// no bodies: light passes through them, and a ray that crosses one takes up its radiance.
+struct SphereLight {
+  Vec3 center;
+  double radius = 1;  ///< > 0
+  Rgb radiance;       ///< W/(m^2 sr), >= 0
+};
 
-/// What the light is as bright as: a directional light's irradiance, a point light's intensity.
-inline Rgb strength(const Light& light) {
-  const auto* directional = std::get_if<DirectionalLight>(&light);
-  return directional ? directional->irradiance : std::get<PointLight>(light).intensity;
+/// A rectangle with the corners center +- half_u +- half_v that shines to the side of
+/// half_u x half_v, the same radiance in every direction. half_u and half_v are perpendicular.
+struct RectangleLight {
+  Vec3 center, half_u, half_v;
+  Rgb radiance;  ///< W/(m^2 sr), >= 0
+};
+
+/// Light from everywhere, infinitely far away. An image holds it by latitude and longitude: the top row
+/// is +y, the middle column -z, and +x a quarter of the width to the right of it.
+struct EnvironmentLight {
+  Rgb radiance;                        ///< W/(m^2 sr), >= 0; scales the image if there is one
+  std::shared_ptr<const Image> image;  ///< scene-linear, finite, >= 0; null where it is constant
+  std::string file;                    ///< the image's, as the scene file names it
+};
+
+using Light =
+    std::variant<DirectionalLight, PointLight, SphereLight, RectangleLight, EnvironmentLight>;
+
+/// Whether light comes from a single direction at each point, so that one ray tells all.
+inline bool is_delta(const Light& light) {
+  return std::holds_alternative<DirectionalLight>(light) ||
+         std::holds_alternative<PointLight>(light);
 }
+
+/// What the light is as bright as: irradiance, intensity or radiance, by its kind.
+Rgb strength(const Light& light);
 
 struct Material {
   std::string id;            ///< from the file: untrusted text, for people only
@@ -53,6 +86,7 @@ struct Material {
   Rgb specular_reflectance;  ///< scales the highlight, each 0..1; F0 of Schlick's Fresnel factor
   Rgb diffuse_reflectance;   ///< Lambertian albedo beneath it, each 0..1
   Fresnel fresnel = Fresnel::kNone;
+  Rgb mirror_reflectance = {};  ///< of a perfect mirror on top, each 0..1; as F0, where Fresnel is
 };
 
 struct Sphere {
@@ -65,6 +99,22 @@ struct Sphere {
 /// rounding of its place.
 double inner_radius(const Sphere& sphere);
 
+/// An infinite plane, seen and lit from both sides.
+struct Plane {
+  Vec3 point, normal;  ///< normal of unit length
+  int material = 0;    ///< index into Scene::materials
+  int checker_material =
+      0;  ///< of every other square; the same as `material` where there is no checker
+  double checker_size =
+      1;  ///< side of a square, > 0; squares are aligned to tangents(normal) at `point`
+};
+
+/// How often light may go from surface to surface before it reaches the camera.
+struct Depth {
+  int mirror = 0;  ///< by mirrors, 0..64
+  int glossy = 0;  ///< by highlights and diffuse bases, 0..64
+};
+
 struct Scene {
   Camera camera;
   Film film;
@@ -72,6 +122,8 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Material> materials;
   std::vector<Sphere> spheres;
+  std::vector<Plane> planes;
+  Depth depth;
 };
 
 /// Right-handed orthonormal frame of the camera and the half-sizes of the picture at distance 1.
@@ -90,6 +142,11 @@ struct Illumination {
   Rgb irradiance;
   double distance = 0;
 };
+/// Of a directional or a point light; Error(kInternal) for one with a size.
 Illumination illuminate(const Light& light, Vec3 point);
+
+/// What of the scene only a renderer of areas of light, several reflections or lenses can show, in
+/// words ("an area light, a ground plane"); empty where every engine and every analysis can.
+std::string beyond_delta_lights(const Scene& scene);
 
 }  // namespace lobelia

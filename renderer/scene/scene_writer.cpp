@@ -31,6 +31,35 @@ std::string emitter(const PointLight& light) {
       text(light.position), text(light.intensity));
 }
 
+std::string emitter(const SphereLight& light) {
+  return fmt::format(
+      "  <emitter type=\"sphere\">\n"
+      "    <point name=\"center\" value=\"{}\"/>\n"
+      "    <float name=\"radius\" value=\"{}\"/>\n"
+      "    <rgb name=\"radiance\" value=\"{}\"/>\n"
+      "  </emitter>\n",
+      text(light.center), light.radius, text(light.radiance));
+}
+
+std::string emitter(const RectangleLight& light) {
+  return fmt::format(
+      "  <emitter type=\"rectangle\">\n"
+      "    <point name=\"center\" value=\"{}\"/>\n"
+      "    <vector name=\"half_u\" value=\"{}\"/>\n"
+      "    <vector name=\"half_v\" value=\"{}\"/>\n"
+      "    <rgb name=\"radiance\" value=\"{}\"/>\n"
+      "  </emitter>\n",
+      text(light.center), text(light.half_u), text(light.half_v), text(light.radiance));
+}
+
+std::string emitter(const EnvironmentLight& light) {
+  return fmt::format(
+      "  <emitter type=\"constant\">\n"
+      "    <rgb name=\"radiance\" value=\"{}\"/>\n"
+      "  </emitter>\n",
+      text(light.radiance));
+}
+
 std::string bsdf(const Material& material, std::size_t index) {
   const Highlight& h = material.highlight;
   return fmt::format(

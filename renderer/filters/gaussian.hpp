@@ -1,0 +1,16 @@
+// A Gaussian of standard deviation radius / 3, lowered to reach 0 at the radius (as Mitsuba's and
+// pbrt's); the default radius gives their standard deviation of half a pixel.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+namespace lobelia::filters {
+
+struct Gaussian {
+  static constexpr std::string_view kName = "gaussian";
+  static constexpr double kRadius = 1.5;
+  static double value(double x) { return std::exp(-4.5 * x * x) - std::exp(-4.5); }
+};
+
+}  // namespace lobelia::filters
