@@ -27,10 +27,16 @@ void run(const Options& options) {
     return;
   }
   for (const auto& effect : plan.effects)
-    fmt::print("{:<14}{:<5}{}\n", effect.name, effect.on ? "on" : "off", effect.reason);
-  fmt::print("{:<19}{}\n", "precision", plan.precision_reason);
-  fmt::print("camera rays   {}\nshadow rays   {}{}\n", plan.camera_rays,
-             plan.max_shadow_rays > 0 ? "at most " : "", plan.max_shadow_rays);
+    fmt::print("{:<15}{:<4}{}\n", effect.name, effect.on ? "on" : "off", effect.reason);
+  fmt::print("{:<19}{}\n{:<19}{}\n", "precision", plan.precision_reason, "kernel", plan.kernel);
+  const auto print = [](const char* kind, const char* at_most, std::uint64_t rays) {
+    fmt::print("{:<19}{}{}\n", kind, rays > 0 ? at_most : "", rays);
+  };
+  print("camera rays", plan.first_samples < scene.sampler.sample_count ? "at most " : "",
+        plan.camera_rays);
+  print("shadow rays", "at most ", plan.max_shadow_rays);
+  print("mirror rays", "at most ", plan.max_mirror_rays);
+  print("scattered rays", "at most ", plan.max_scattered_rays);
 }
 
 }  // namespace

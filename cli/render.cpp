@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
@@ -23,6 +24,8 @@ struct Options {
   double exposure = 0;
   std::string precision = "sufficient";
   int threads = 0;
+  std::optional<double> target_error, time_limit;
+  std::optional<int> max_samples;
   bool quiet = false;
   SceneOverrides overrides;
 };
@@ -49,6 +52,9 @@ void run(const Options& options) {
   render_options.effects =
       options.effects == "all" ? EffectPolicy::kAll : EffectPolicy::kAsCalledFor;
   render_options.precision = find_precision(options.precision);
+  render_options.target_error = options.target_error;
+  render_options.time_limit = options.time_limit;
+  render_options.max_samples = options.max_samples;
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
   const RenderResult result = render(scene, render_options);
   progress.clear();
@@ -59,8 +65,10 @@ void run(const Options& options) {
   write_record(record_path,
                render_record(scene, result, command_line(), output.filename().string()));
   if (!options.quiet)
-    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {}\n", options.output, result.image.width(),
-               result.image.height(), result.render_seconds, result.instruction_set);
+    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {}{}{}{}\n", options.output, scene.film.width,
+               scene.film.height, result.render_seconds, result.instruction_set,
+               result.error ? fmt::format(", error {:.2g}", *result.error) : "",
+               result.stop_reason.empty() ? "" : ", stopped ", result.stop_reason);
 }
 
 }  // namespace
@@ -93,11 +101,23 @@ void add_render(CLI::App& app, ExitCode&) {
                    "or with this one")
       ->check(CLI::IsMember({"sufficient", "float32", "mixed", "float64"}))
       ->capture_default_str();
+  command
+      ->add_option("--target-error", options->target_error,
+                   "Take samples until the picture's estimated relative error is this small")
+      ->check(between(1e-9, 1.0));
+  command
+      ->add_option("--time-limit", options->time_limit,
+                   "Take no more samples once rendering would take longer, seconds")
+      ->check(between(1e-3, 1e7));
+  command->add_option("--max-samples", options->max_samples, "Take at most so many rays a pixel")
+      ->check(between(1, 1 << 20));
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
       "One ray at each pixel's centre unless --samples says otherwise. The same scene gives\n"
-      "the same file, byte for byte, whatever the number of threads; times are in the record.\n\n"
+      "the same file, byte for byte, whatever the number of threads; times are in the record.\n"
+      "With --target-error or --time-limit a pixel takes 1, 2, 4, ... samples until one of the\n"
+      "limits is reached; the record says which.\n\n"
       "Example: lobelia render reference_scenes/scenes/head_on.xml --model modified_phong "
       "--exponent 128 -o out.exr");
   command->callback([options] { run(*options); });

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "renderer/scene/remarks.hpp"
+
 namespace lobelia::cli {
 
 void warn(std::string_view text) { fmt::print(stderr, "lobelia: warning: {}\n", text); }
@@ -13,6 +15,7 @@ void warn_of(const Scene& scene) {
   for (const Material& material : scene.materials) lines.insert(warning(material.highlight));
   lines.erase("");
   for (const std::string& line : lines) warn(line);
+  for (const std::string& line : remarks(scene)) warn(line);
 }
 
 void warn_of(const Highlight& highlight) {

@@ -4,22 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/frame.hpp"
+
 namespace lobelia {
 namespace {
 
 bool is_direction(Vec3 v) {
   const double m = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && m > 0;
-}
-
-/// A vector at an angle of s = 1 - cos from the unit vector `axis`, turned by `v` of a full turn.
-Vec3 about(Vec3 axis, double s, double v) {
-  // A frame without a square root or a special case but for -z (Duff et al. 2017).
-  const double sign = std::copysign(1.0, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
-  const Vec3 first{1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
-  const Vec3 second{b, sign + axis.y * axis.y * a, -axis.y};
-  const double sine = std::sqrt(s * (2 - s)), turn = 2 * std::numbers::pi * v;
-  return sine * std::cos(turn) * first + sine * std::sin(turn) * second + (1 - s) * axis;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "renderer/render_record.hpp"
 
 #include "core/version.hpp"
+#include "renderer/scene/remarks.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
@@ -9,10 +10,15 @@ namespace {
 /// Beyond it a scene is left out of its picture: readers of EXR headers expect small ones.
 constexpr std::size_t kMaxSceneAttribute = 64 << 10;
 
-Json effects_record(const Plan& plan) {
+/// With what each took, where a picture was made.
+Json effects_record(const Plan& plan, const Work* work) {
   Json effects = Json::array();
-  for (const auto& effect : plan.effects)
-    effects.push_back({{"name", effect.name}, {"on", effect.on}, {"reason", effect.reason}});
+  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+    const EffectDecision& effect = plan.effects[i];
+    Json entry{{"name", effect.name}, {"on", effect.on}, {"reason", effect.reason}};
+    if (work) entry["work"] = {{"unit", effect.work}, {"count", work->of_effect[i]}};
+    effects.push_back(std::move(entry));
+  }
   return effects;
 }
 
@@ -29,9 +35,13 @@ ImageMetadata render_metadata(const Scene& scene) {
 
 Json plan_record(const Plan& plan) {
   Json record = make_record("plan");
-  record["effects"] = effects_record(plan);
+  record["effects"] = effects_record(plan, nullptr);
   record["precision"] = plan.precision_reason;
-  record["expectedRays"] = {{"camera", plan.camera_rays}, {"shadowAtMost", plan.max_shadow_rays}};
+  record["kernel"] = plan.kernel;
+  record["expectedRays"] = {{"camera", plan.camera_rays},
+                            {"shadowAtMost", plan.max_shadow_rays},
+                            {"mirrorAtMost", plan.max_mirror_rays},
+                            {"scatteredAtMost", plan.max_scattered_rays}};
   return record;
 }
 
@@ -51,15 +61,22 @@ Json render_record(const Scene& scene, const RenderResult& result,
   record["engine"] = {{"name", "lobelia"}, {"version", kVersion}};
   record["command"] = command;
   record["image"] = {
-      {"file", image_file}, {"width", result.image.width()}, {"height", result.image.height()}};
+      {"file", image_file}, {"width", scene.film.width}, {"height", scene.film.height}};
   record["highlights"] = Json::array();
   for (const auto& material : scene.materials)
     record["highlights"].push_back(highlight_record(material.highlight));
-  record["samples"] = scene.sampler.sample_count;
+  record["samples"] = result.samples;
   record["seed"] = scene.sampler.seed;
-  record["plan"] = {{"effects", effects_record(result.plan)},
-                    {"precision", result.plan.precision_reason}};
-  record["rays"] = {{"camera", result.camera_rays}, {"shadow", result.shadow_rays}};
+  if (result.error) record["estimatedError"] = *result.error;
+  if (!result.stop_reason.empty()) record["stopped"] = result.stop_reason;
+  if (const auto lines = remarks(scene); !lines.empty()) record["remarks"] = lines;
+  record["plan"] = {{"effects", effects_record(result.plan, &result.work)},
+                    {"precision", result.plan.precision_reason},
+                    {"kernel", result.plan.kernel}};
+  record["rays"] = {{"camera", result.work.camera_rays},
+                    {"shadow", result.work.shadow_rays},
+                    {"mirror", result.work.mirror_rays},
+                    {"scattered", result.work.scattered_rays}};
   record["instructionSet"] = result.instruction_set;
   record["seconds"] = {{"plan", result.plan_seconds},
                        {"render", result.render_seconds},

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 namespace lobelia {
 
@@ -15,6 +16,15 @@ struct TypeList {
 template <class Result, class... Types, class F>
 constexpr std::array<Result, sizeof...(Types)> map_types(TypeList<Types...>, F f) {
   return {f.template operator()<Types>()...};
+}
+
+/// Where Type stands in the list.
+template <class Type, class... Types>
+constexpr std::size_t index_of(TypeList<Types...>) {
+  static_assert((std::is_same_v<Type, Types> || ...), "not in the list");
+  std::size_t index = 0;
+  (void)((std::is_same_v<Type, Types> || (++index, false)) || ...);
+  return index;
 }
 
 }  // namespace lobelia

@@ -14,7 +14,7 @@
 #include <hwy/foreach_target.h>  // includes this file again for each instruction set
 #include <hwy/highway.h>
 
-#include "renderer/kernels/lanes-inl.hpp"
+#include "renderer/kernels/chunk-inl.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "renderer/models/lobe_angle.hpp"
@@ -26,17 +26,6 @@ namespace {
 /// A point light nearer to a surface than this stands in it; the largest intensity at this distance
 /// times the largest coefficient is still finite in float32.
 constexpr double kTouching = 1e-9;
-
-HWY_INLINE Lanes3 load(const Vec3Chunk& from, std::size_t i) {
-  return {Lanes::load(from.x + i), Lanes::load(from.y + i), Lanes::load(from.z + i)};
-}
-HWY_INLINE void store(Lanes3 a, Vec3Chunk& to, std::size_t i) {
-  a.x.store(to.x + i);
-  a.y.store(to.y + i);
-  a.z.store(to.z + i);
-}
-HWY_INLINE Lanes3 broadcast(Vec3 a) { return {Lanes(a.x), Lanes(a.y), Lanes(a.z)}; }
-HWY_INLINE Lanes3 unit(Lanes3 a) { return Lanes(1.0) / sqrt(dot(a, a)) * a; }
 
 void trace(const CameraFrame& camera, const std::vector<Sphere>& spheres, std::size_t count,
            const double* u, const double* v, double* sphere, Vec3Chunk& point, Vec3Chunk& normal,

@@ -1,36 +1,68 @@
 // The plan: which effects a scene calls for, and why. Nothing else is simulated.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "renderer/plan/effect.hpp"
 #include "renderer/precision.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
 
-enum class EffectPolicy { kAsCalledFor, kAll };
+/// Up to so many spheres each pair of them and a light is looked at, to find who may shadow whom.
+inline constexpr std::size_t kMaxPairwiseSpheres = 1024;
+/// Up to so many spheres a ray is tested against each; beyond, Embree sorts them.
+inline constexpr std::size_t kMaxLoopSpheres = 24;
 
-struct EffectDecision {
-  std::string name;  ///< "shadows"
-  bool on = false;
-  std::string
-      reason;  ///< in words: "one sphere; a convex body cannot shadow itself beyond N.L <= 0"
+/// Who draws the directions towards a light with a size.
+enum class LightStrategy : std::uint8_t {
+  kLight,    ///< the light: the surface scatters evenly
+  kBoth,     ///< light and surface, weighted by the power heuristic (Veach 1997, section 9.2.4)
+  kSurface,  ///< the surface: the light is the same from everywhere
+};
+
+/// What may stand between a surface and a light.
+struct Occluders {
+  bool any_sphere = false;   ///< too many to say which
+  std::vector<int> spheres;  ///< else these
+  std::vector<int> planes;
+  bool empty() const { return !any_sphere && spheres.empty() && planes.empty(); }
 };
 
 struct Plan {
-  std::vector<EffectDecision> effects;
-  /// occluders[light][sphere]: the spheres that may stand between that sphere and that light.
-  std::vector<std::vector<std::vector<int>>> occluders;
-  bool diffuse = false;  ///< some lit material has a diffuse base
-  bool fresnel = false;  ///< some material has a Fresnel factor
-  /// precision[light][sphere]: how a highlight is shaded, and in words why.
+  std::vector<EffectDecision> effects;  ///< in the order of the catalogue
+  EffectPolicy policy = EffectPolicy::kAsCalledFor;
+
+  /// occluders[light][surface]: spheres first, then planes; or one entry for all (find_occluders).
+  std::vector<std::vector<Occluders>> occluders;
+  const Occluders& occluders_of(std::size_t light, std::size_t surface) const {
+    return occluders[light][std::min(surface, occluders[light].size() - 1)];
+  }
+  /// strategy[light][material]; of no meaning where is_delta(light).
+  std::vector<std::vector<LightStrategy>> strategy;
+
+  /// precision[light][sphere]: how a highlight is shaded as the camera sees it, and in words why. Empty
+  /// rows for lights with a size and beyond kMaxPairwiseSpheres: there any direction counts.
   std::vector<std::vector<Precision>> precision;
+  /// By material, for every other direction of light and eye.
+  std::vector<Precision> any_direction_precision;
   std::string precision_reason;
-  std::uint64_t camera_rays = 0;      ///< exactly
-  std::uint64_t max_shadow_rays = 0;  ///< at most: one per lit hit and light with occluders
+
+  int first_samples = 1;  ///< of each pixel; the rest only where these differ
+  std::string sample_reason;
+  Depth depth;         ///< of reflections that are traced
+  std::string kernel;  ///< which inner loops, in words
+
+  std::uint64_t camera_rays = 0;  ///< exactly, or at most where antialiasing chooses its pixels
+  /// At most.
+  std::uint64_t max_shadow_rays = 0, max_mirror_rays = 0, max_scattered_rays = 0;
+
+  template <class Effect>
+  bool on() const;  ///< plan/effects/catalogue.hpp
 };
 
 /// `precision` for every highlight, or for each the narrowest whose error bound allows it. That all

@@ -159,7 +159,7 @@ TEST(RenderCommand, WithoutTheImageModuleIsStillHelpful) {
                     "head_on.xml' && ./lobelia render '" + kScenes + "head_on.xml' -q -o x.exr",
                 directory.path());
   EXPECT_EQ(result.exit_code, 70);
-  EXPECT_THAT(result.output_tail, HasSubstr("camera rays   65536"));
+  EXPECT_THAT(result.output_tail, HasSubstr("camera rays        65536"));
   EXPECT_THAT(result.output_tail, HasSubstr("lobelia_image_io.so is neither beside the program"));
 }
 

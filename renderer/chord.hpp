@@ -1,0 +1,40 @@
+// A ray and a sphere, in double, with the operations of the kernels in their order: bit for bit the same.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// Where a ray of unit direction is nearest to a sphere's centre, and half of the chord, squared.
+struct Chord {
+  double along;
+  Vec3 off_axis;
+  double half_squared;  ///< the ray meets the sphere where it is positive
+
+  double half() const { return std::sqrt(std::max(0.0, half_squared)); }
+  double entry() const { return along - half(); }  ///< distance to where it enters
+};
+
+inline Chord chord_of(const Sphere& sphere, Vec3 origin, Vec3 direction) {
+  const Vec3 to_center = sphere.center - origin;
+  const double along = dot(to_center, direction);
+  const Vec3 off_axis = to_center - along * direction;
+  return {along, off_axis, sphere.radius * sphere.radius - dot(off_axis, off_axis)};
+}
+
+/// Whether the sphere is between the point and what is at `distance` in the direction `to_light`.
+inline bool blocks(const Sphere& sphere, double inner_radius, Vec3 point, Vec3 to_light,
+                   double distance) {
+  const Chord chord = chord_of(sphere, point, to_light);
+  if (!(chord.half_squared > 0)) return false;
+  // Not by the far end of the chord: where the point lies on this sphere too, that is at 0, and
+  // rounding would put it on either side.
+  const Vec3 to_center = sphere.center - point;
+  const bool inside = dot(to_center, to_center) < inner_radius * inner_radius;
+  return (inside || chord.along > 0) && chord.entry() < distance;
+}
+
+}  // namespace lobelia

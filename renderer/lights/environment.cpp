@@ -1,0 +1,117 @@
+#include "renderer/lights/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lobelia {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kEverywhere = 1 / (4 * kPi);
+
+double luminance(std::span<const float, 3> p) {
+  return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
+}
+
+/// Which step of a cumulative table u falls in, and where within it.
+struct Draw {
+  std::size_t step;
+  double within;
+};
+Draw draw(std::span<const double> cumulative, double u) {
+  const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, u);
+  const std::size_t step = std::size_t(above - cumulative.begin()) - 1;
+  const double width = cumulative[step + 1] - cumulative[step];
+  return {step, width > 0 ? std::clamp((u - cumulative[step]) / width, 0.0, 1.0) : 0.5};
+}
+
+/// Makes sums of weights a cumulative distribution; of zeros, an even one.
+void normalise(std::span<double> cumulative) {
+  const double total = cumulative.back();
+  for (std::size_t i = 0; i < cumulative.size(); ++i)
+    cumulative[i] = total > 0 ? cumulative[i] / total : double(i) / double(cumulative.size() - 1);
+}
+
+}  // namespace
+
+Environment::Environment(const EnvironmentLight& light) : light_(light) {
+  if (!light.image) return;
+  const Image& image = *light.image;
+  width_ = image.width(), height_ = image.height();
+  const std::size_t stride = std::size_t(width_) + 1;
+  columns_.assign(stride * std::size_t(height_), 0);
+  rows_.assign(std::size_t(height_) + 1, 0);
+  for (int y = 0; y < height_; ++y) {
+    double* row = columns_.data() + stride * std::size_t(y);
+    for (int x = 0; x < width_; ++x) {
+      // Interpolated, a direction takes light from the neighbours too: it must not be left out.
+      double sum = 0;
+      for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v)
+        for (const int u : {x - 1, x, x + 1})
+          sum += luminance(image.pixel((u + width_) % width_, v));
+      row[x + 1] = row[x] + sum;
+    }
+    rows_[std::size_t(y) + 1] = rows_[std::size_t(y)] + row[width_] * row_solid_angle(y);
+    normalise({row, stride});
+  }
+  normalise(rows_);
+}
+
+/// Of one pixel in it.
+double Environment::row_solid_angle(int row) const {
+  return 2 * kPi / width_ * (std::cos(kPi * row / height_) - std::cos(kPi * (row + 1) / height_));
+}
+
+Environment::Place Environment::place(Vec3 d) const {
+  const double turn = 0.5 + std::atan2(d.x, -d.z) / (2 * kPi);
+  // Not acos(y), which loses its digits at the poles.
+  const double down = std::atan2(std::hypot(d.x, d.z), d.y) / kPi;
+  return {turn * width_, down * height_};
+}
+
+Rgb Environment::radiance(Vec3 direction) const {
+  if (!light_.image) return light_.radiance;
+  const Place p = place(direction);
+  const double x = p.column - 0.5, y = p.row - 0.5, fx = x - std::floor(x), fy = y - std::floor(y);
+  const auto column = [&](double c) { return ((int(c) % width_) + width_) % width_; };
+  const auto row = [&](double r) { return std::clamp(int(r), 0, height_ - 1); };
+  const auto at = [&](double c, double r) {
+    const auto pixel = light_.image->pixel(column(c), row(r));
+    return Rgb{pixel[0], pixel[1], pixel[2]};
+  };
+  const double x0 = std::floor(x), y0 = std::floor(y);
+  return light_.radiance * ((1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x0 + 1, y0)) +
+                            fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1)));
+}
+
+double Environment::pdf(Vec3 direction) const {
+  if (!light_.image) return kEverywhere;
+  const Place p = place(direction);
+  const int x = std::clamp(int(p.column), 0, width_ - 1),
+            y = std::clamp(int(p.row), 0, height_ - 1);
+  const double* row = columns_.data() + (std::size_t(width_) + 1) * std::size_t(y);
+  return (rows_[std::size_t(y) + 1] - rows_[std::size_t(y)]) * (row[x + 1] - row[x]) /
+         row_solid_angle(y);
+}
+
+LightSample Environment::sample(double u, double v) const {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  if (!light_.image) {
+    const double c = 1 - 2 * u, s = std::sqrt(std::max(0.0, 1 - c * c)), turn = 2 * kPi * v;
+    return {{s * std::cos(turn), c, s * std::sin(turn)}, kFar, kEverywhere, light_.radiance};
+  }
+  const Draw row = draw(rows_, v);
+  const std::size_t stride = std::size_t(width_) + 1;
+  const Draw column = draw({columns_.data() + stride * row.step, stride}, u);
+  // Evenly in solid angle within the row: linear in the cosine.
+  const double top = std::cos(kPi * double(row.step) / height_);
+  const double bottom = std::cos(kPi * double(row.step + 1) / height_);
+  const double c = top + row.within * (bottom - top), s = std::sqrt(std::max(0.0, 1 - c * c));
+  const double turn = 2 * kPi * ((double(column.step) + column.within) / width_ - 0.5);
+  const Vec3 direction{s * std::sin(turn), c, -s * std::cos(turn)};
+  return {direction, kFar, pdf(direction), radiance(direction)};
+}
+
+}  // namespace lobelia

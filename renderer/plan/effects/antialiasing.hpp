@@ -1,0 +1,42 @@
+// Several rays a pixel, and where they are spent.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/plan/plan.hpp"
+#include "renderer/plan/sharpness.hpp"
+
+namespace lobelia::effects {
+
+struct Antialiasing {
+  static constexpr std::string_view kName = "antialiasing", kWork = "rays beyond a pixel's first",
+                                    kHides = "";
+  /// Samples that tell whether a pixel needs the rest: four by four, one in each cell.
+  static constexpr int kFirst = 16;
+
+  static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
+    const int samples = scene.sampler.sample_count;
+    plan.first_samples = samples;
+    if (samples == 1) return {kName, kWork, false, "one ray a pixel, through its centre"};
+    std::string reason =
+        fmt::format("{} rays a pixel were asked for, {} filter", samples, name(scene.film.filter));
+    const std::string everywhere = why_every_pixel(scene, plan);
+    if (samples <= kFirst)
+      plan.sample_reason = fmt::format("every pixel: {} are too few to choose pixels by", samples);
+    else if (policy == EffectPolicy::kAll)
+      plan.sample_reason = "every pixel: all effects were asked for";
+    else if (!everywhere.empty())
+      plan.sample_reason = "every pixel: " + everywhere;
+    else {
+      plan.first_samples = kFirst;
+      plan.sample_reason = fmt::format(
+          "{} everywhere, {} where these or a neighbour's differ: silhouettes, highlights, shadows",
+          kFirst, samples);
+    }
+    return {kName, kWork, true, reason + "; " + plan.sample_reason};
+  }
+};
+
+}  // namespace lobelia::effects

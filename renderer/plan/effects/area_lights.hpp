@@ -1,0 +1,31 @@
+// Lights with a size: soft shadows, soft highlights.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "renderer/plan/plan.hpp"
+
+namespace lobelia::effects {
+
+struct AreaLights {
+  static constexpr std::string_view kName = "area_lights", kWork = "light samples",
+                                    kHides =
+                                        "a shadow's edge may be missed by all of a few samples";
+
+  static bool is_one(const Light& light) {
+    return !is_delta(light) && !std::holds_alternative<EnvironmentLight>(light);
+  }
+
+  static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
+    const auto lights = std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
+      return is_one(l) && !is_black(strength(l));
+    });
+    return {kName, kWork, policy == EffectPolicy::kAll || lights > 0,
+            lights > 0 ? fmt::format("{} of {} lights have a size", lights, scene.lights.size())
+                       : "no light has a size"};
+  }
+};
+
+}  // namespace lobelia::effects

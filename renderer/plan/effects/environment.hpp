@@ -1,0 +1,29 @@
+// Light from everywhere, and what is seen where no surface is.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "renderer/plan/plan.hpp"
+
+namespace lobelia::effects {
+
+struct Environment {
+  static constexpr std::string_view kName = "environment", kWork = "directions",
+                                    kHides =
+                                        "a bright spot of it may be missed by all of a few samples";
+
+  static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
+    std::size_t constant = 0, images = 0;
+    for (const Light& light : scene.lights) {
+      const auto* environment = std::get_if<EnvironmentLight>(&light);
+      if (!environment || is_black(environment->radiance)) continue;
+      ++(environment->image ? images : constant);
+    }
+    const bool on = constant + images > 0;
+    return {kName, kWork, policy == EffectPolicy::kAll || on,
+            on ? fmt::format("{} of one radiance, {} with an image", constant, images)
+               : "no light comes from everywhere"};
+  }
+};
+
+}  // namespace lobelia::effects

@@ -1,0 +1,27 @@
+// Light that highlights and diffuse bases throw on other surfaces.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "renderer/plan/plan.hpp"
+
+namespace lobelia::effects {
+
+struct Glossy {
+  static constexpr std::string_view kName = "glossy", kWork = "scattered rays",
+                                    kHides = "a rare path may be missed by all of a few samples";
+
+  static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
+    const bool all = policy == EffectPolicy::kAll;
+    plan.depth.glossy = scene.depth.glossy;
+    if (scene.depth.glossy == 0)
+      return {kName, kWork, all, "no inter-reflection was asked for (glossy_depth is 0)"};
+    if (scene.spheres.size() + scene.planes.size() < 2) {
+      return {kName, kWork, all, "one convex body throws no light on itself"};
+    }
+    return {kName, kWork, true,
+            fmt::format("inter-reflection was asked for, up to {} times", scene.depth.glossy)};
+  }
+};
+
+}  // namespace lobelia::effects

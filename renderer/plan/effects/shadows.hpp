@@ -1,0 +1,39 @@
+// What stands between a surface and a light.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "renderer/plan/occlusion.hpp"
+#include "renderer/plan/plan.hpp"
+
+namespace lobelia::effects {
+
+struct Shadows {
+  static constexpr std::string_view kName = "shadows", kWork = "shadow rays", kHides = "";
+
+  static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
+    plan.occluders = find_occluders(scene, policy);
+    std::size_t pairs = 0;
+    bool uncounted = false;
+    for (const auto& row : plan.occluders)
+      for (const Occluders& o : row) {
+        pairs += o.spheres.size() + o.planes.size();
+        uncounted |= o.any_sphere;
+      }
+    const bool on = uncounted || pairs > 0;
+    if (scene.lights.empty()) return {kName, kWork, on, "there is no light"};
+    if (scene.spheres.size() + scene.planes.size() < 2)
+      return {kName, kWork, on,
+              "one convex body shadows itself only where N.L <= 0, which every model knows"};
+    if (uncounted)
+      return {kName, kWork, on,
+              fmt::format("{} spheres: too many to rule pairs of them out one by one",
+                          scene.spheres.size())};
+    if (!on) return {kName, kWork, on, "no surface can stand between another one and a light"};
+    return {kName, kWork, on,
+            fmt::format("{} pairs of a surface and another that may stand between it and a light",
+                        pairs)};
+  }
+};
+
+}  // namespace lobelia::effects

@@ -1,0 +1,120 @@
+#include "renderer/plan/occlusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lobelia {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A hair wider than the geometry, so that rounding never rules out a grazing occluder.
+constexpr double kWider = 1 + 1e-9;
+
+/// Where a light is: a ball that holds it, infinitely far away in one direction, or everywhere.
+struct Place {
+  enum { kBall, kFar, kEverywhere } kind;
+  Vec3 at;  ///< centre of the ball, or unit direction to it
+  double radius = 0;
+};
+
+Place place(const Light& light) {
+  struct Visitor {
+    Place operator()(const DirectionalLight& l) const { return {Place::kFar, -l.direction}; }
+    Place operator()(const PointLight& l) const { return {Place::kBall, l.position}; }
+    Place operator()(const SphereLight& l) const { return {Place::kBall, l.center, l.radius}; }
+    Place operator()(const RectangleLight& l) const {
+      return {Place::kBall, l.center, length(l.half_u + l.half_v)};
+    }
+    Place operator()(const EnvironmentLight&) const { return {Place::kEverywhere, {}}; }
+  };
+  return std::visit(Visitor{}, light);
+}
+
+/// What lies between a ball and a sphere is within the larger one's radius of the line between their
+/// centres: the occluder must reach it.
+bool may_occlude(const Place& light, const Sphere& receiver, const Sphere& occluder) {
+  if (light.kind == Place::kEverywhere) return true;
+  const Vec3 to_occluder = occluder.center - receiver.center;
+  Vec3 axis = light.at;
+  double axis_length = kInfinity, tube = receiver.radius;
+  if (light.kind == Place::kBall) {
+    const Vec3 way = light.at - receiver.center;
+    axis_length = length(way);
+    if (axis_length <= receiver.radius + light.radius) return true;  // they meet: rule nothing out
+    axis = normalize(way);
+    tube = std::max(tube, light.radius);
+  }
+  const double along = std::clamp(dot(to_occluder, axis), 0.0, axis_length);
+  return length(to_occluder - along * axis) <= (tube + occluder.radius) * kWider;
+}
+
+/// Above the plane is positive. Of a sphere, the nearest to the plane; 0 where it meets it.
+double side(const Plane& plane, Vec3 center, double radius) {
+  const double height = dot(center - plane.point, plane.normal);
+  const double reach = radius * kWider + 1e-12 * length(center - plane.point);
+  return std::abs(height) > reach ? height : 0;
+}
+
+/// Which side of the plane all of the light is on: 1, -1, or 0 where it is on both.
+int side(const Plane& plane, const Place& light) {
+  double height = 0;
+  if (light.kind == Place::kBall) height = side(plane, light.at, light.radius);
+  if (light.kind == Place::kFar) {
+    height = dot(light.at, plane.normal);
+    if (std::abs(height) < 1e-12) height = 0;
+  }
+  return (height > 0) - (height < 0);
+}
+
+bool may_occlude(const Place& light, const Sphere& receiver, const Plane& occluder) {
+  const int lit = side(occluder, light);
+  return lit == 0 || lit * side(occluder, receiver.center, receiver.radius) <= 0;
+}
+
+bool may_occlude(const Place& light, const Plane& receiver, const Sphere& occluder) {
+  const int lit = side(receiver, light);
+  return lit == 0 || lit * side(receiver, occluder.center, occluder.radius) >= 0;
+}
+
+Occluders occluders_of(const Scene& scene, const Place& light, std::size_t surface, bool all) {
+  Occluders found;
+  const std::size_t spheres = scene.spheres.size();
+  const bool is_sphere = surface < spheres;
+  const std::size_t plane = surface - spheres;
+  for (std::size_t k = 0; k < spheres; ++k) {
+    if (k == surface) continue;  // a convex body shadows itself only where N.L <= 0
+    if (all || (is_sphere ? may_occlude(light, scene.spheres[surface], scene.spheres[k])
+                          : may_occlude(light, scene.planes[plane], scene.spheres[k])))
+      found.spheres.push_back(int(k));
+  }
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    if (!is_sphere && k == plane) continue;
+    if (all || !is_sphere || may_occlude(light, scene.spheres[surface], scene.planes[k]))
+      found.planes.push_back(int(k));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, EffectPolicy policy) {
+  const bool all = policy == EffectPolicy::kAll;
+  const std::size_t surfaces = scene.spheres.size() + scene.planes.size();
+  std::vector<std::vector<Occluders>> found(scene.lights.size());
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    if (scene.spheres.size() > kMaxPairwiseSpheres) {
+      Occluders& any = found[l].emplace_back();
+      any.any_sphere = true;
+      for (std::size_t k = 0; k < scene.planes.size(); ++k) any.planes.push_back(int(k));
+      continue;
+    }
+    found[l].resize(surfaces);
+    if (is_black(strength(scene.lights[l])) && !all) continue;
+    const Place light = place(scene.lights[l]);
+    for (std::size_t s = 0; s < surfaces; ++s) found[l][s] = occluders_of(scene, light, s, all);
+  }
+  return found;
+}
+
+}  // namespace lobelia

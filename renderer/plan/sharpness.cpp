@@ -1,0 +1,65 @@
+#include "renderer/plan/sharpness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/lobe_properties.hpp"
+
+namespace lobelia {
+namespace {
+
+/// Smaller than so many pixels across, a thing may hide between the first samples.
+constexpr double kSmallest = 4;
+
+}  // namespace
+
+std::string why_every_pixel(const Scene& scene, const Plan& plan) {
+  for (const EffectDecision& effect : plan.effects)
+    if (effect.on && !effect.hides.empty()) return fmt::format("{}: {}", effect.name, effect.hides);
+  if (scene.spheres.size() > kMaxPairwiseSpheres) return "spheres may be smaller than a pixel";
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const double pixel = 2 * frame.half_width / scene.film.width;  // at distance 1
+  for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
+    const Sphere& sphere = scene.spheres[k];
+    const double distance = length(sphere.center - frame.origin);
+    if (sphere.radius < kSmallest * pixel * distance)
+      return fmt::format("sphere {} is only {:.1f} pixels across", k,
+                         2 * sphere.radius / (pixel * distance));
+    const Highlight& h = scene.materials[std::size_t(sphere.material)].highlight;
+    // From one pixel to the next the normal turns by so much where the sphere faces the camera, and the
+    // mirror direction twice; that is where a highlight looks smallest but for the silhouette.
+    const double turn = 2 * pixel * std::max(0.0, distance - sphere.radius) / sphere.radius;
+    const double across = 2 * lobe_angle_at(prepare(h.lobe, h.exponent), 0.5) / turn;
+    if (across < kSmallest)
+      return fmt::format("the highlight of sphere {} is only {:.1f} pixels across", k, across);
+  }
+  return "";
+}
+
+double peak_radiance(const Scene& scene) {
+  double reflected = 0, arriving = 0;
+  for (const Material& m : scene.materials)
+    reflected = std::max(
+        reflected,
+        radiance_coefficient(m.highlight) *
+                (m.fresnel == Fresnel::kNone ? max_component(m.specular_reflectance) : 1.0) +
+            std::numbers::inv_pi * max_component(m.diffuse_reflectance));
+  for (const Light& light : scene.lights) {
+    double nearest = 1;
+    if (const auto* point = std::get_if<PointLight>(&light)) {
+      nearest = 1e300;
+      for (const Sphere& sphere : scene.spheres) {
+        const double d = std::abs(length(point->position - sphere.center) - sphere.radius);
+        nearest = std::min(nearest, d * d);
+      }
+      nearest = std::max(nearest, 1e-18);
+    }
+    arriving += max_component(strength(light)) / nearest;
+  }
+  return reflected * arriving;
+}
+
+}  // namespace lobelia

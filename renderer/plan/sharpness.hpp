@@ -1,0 +1,18 @@
+// Whether a few samples of a pixel and its neighbours show all that is in it.
+#pragma once
+
+#include <string>
+
+#include "renderer/plan/plan.hpp"
+
+namespace lobelia {
+
+/// Why every pixel needs all its samples, in words; empty where a few tell whether it needs the rest.
+/// Asks the plan which effects are on that come before antialiasing.
+std::string why_every_pixel(const Scene& scene, const Plan& plan);
+
+/// Most radiance that the scene's lights can bring back from a surface, roughly: the scale of what is
+/// too little to see.
+double peak_radiance(const Scene& scene);
+
+}  // namespace lobelia

@@ -1,0 +1,15 @@
+// What is odd about a scene, though it can be rendered.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// In words, with what it means for the picture: no light, a camera inside a sphere or turned away from
+/// everything, a light inside a sphere. At most a few lines, whatever the number of spheres.
+std::vector<std::string> remarks(const Scene& scene);
+
+}  // namespace lobelia

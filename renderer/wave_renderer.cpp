@@ -1,0 +1,584 @@
+#include "renderer/wave_renderer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "renderer/chord.hpp"
+#include "renderer/frame.hpp"
+#include "renderer/kernels/wave.hpp"
+#include "renderer/lights/rectangle_light.hpp"
+#include "renderer/lights/sphere_light.hpp"
+#include "renderer/sobol.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// After so many reflections a path goes on only with a probability, by how much light it can bring.
+constexpr int kRouletteFrom = 4;
+
+/// Pairs of random numbers that a wave's rays take; 0 and 1 are the camera's, of the pixel and the lens.
+constexpr std::uint32_t kChoiceDimension = 2, kScatterDimension = 3, kDirectionDimension = 4,
+                        kLightDimension = 8;
+
+void copy(const Vec3Chunk& from, std::size_t i, Vec3Chunk& to, std::size_t j) {
+  to.x[j] = from.x[i];
+  to.y[j] = from.y[i];
+  to.z[j] = from.z[i];
+}
+Vec3 get(const Vec3Chunk& from, std::size_t i) { return {from.x[i], from.y[i], from.z[i]}; }
+void put(Vec3 v, Vec3Chunk& to, std::size_t i) { to.x[i] = v.x, to.y[i] = v.y, to.z[i] = v.z; }
+
+/// Veach's power heuristic with an exponent of 2: the weight of a draw of density `p` where another
+/// way would have drawn it with `q`.
+double power_heuristic(double p, double q) {
+  // Divided first, for either may be too large to be squared.
+  const double r = q / p;
+  return std::isfinite(r) ? 1 / (1 + r * r) : 0;
+}
+
+}  // namespace
+
+/// What shading needs of a material, computed once for the picture.
+struct WaveRenderer::PreparedMaterial {
+  Material material;
+  Reflector reflector;
+  Rgb specular;                    ///< reflectance times coefficient
+  Rgb grazing;                     ///< what Schlick's factor adds to it at grazing angles, at most
+  Rgb diffuse;                     ///< reflectance / pi
+  bool scatters_to_light = false;  ///< some light's directions are drawn by the surface
+
+  explicit PreparedMaterial(const Material& m) : material(m), reflector(m) {
+    const double coefficient = radiance_coefficient(m.highlight);
+    const Rgb f0 = m.specular_reflectance;
+    specular = coefficient * f0;
+    if (m.fresnel == Fresnel::kSchlick) grazing = coefficient * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b};
+    diffuse = std::numbers::inv_pi * m.diffuse_reflectance;
+  }
+};
+
+/// Hits that are shaded together.
+struct WaveRenderer::Group {
+  int material;
+  int surface;  ///< the same for all; -1 where they differ
+};
+
+/// Rays that have gone equally far.
+struct WaveRenderer::Wave {
+  enum class Kind { kCamera, kMirror, kScattered };
+  Kind kind = Kind::kCamera;
+  int level = 0;             ///< reflections so far
+  Depth left;                ///< how many more of each kind are traced
+  bool lights_only = false;  ///< to lights: what is met otherwise only hides them
+  std::uint32_t branch = 0;  ///< distinguishes the random numbers of a level's waves
+  std::size_t count = 0;
+  Vec3Chunk origin{}, direction{};
+  alignas(64) double leaves[kChunk]{};  ///< the surface where it starts; -1: none
+  alignas(64) double distance[kChunk]{}, surface[kChunk]{};
+  std::array<Rgb, kChunk> weight;
+  std::array<int, kChunk> slot;  ///< which camera ray it goes back to
+  // Of scattered rays: what they were drawn with, to weigh them against the lights' own draws.
+  std::array<double, kChunk> pdf;
+  std::array<int, kChunk> material;
+  // Filled where a surface is met.
+  Vec3Chunk point{}, normal{}, to_eye{};
+};
+
+struct WaveRenderer::Workspace {
+  Work work;
+  std::vector<std::unique_ptr<Wave>> waves;        ///< two for each level: mirrored, scattered
+  std::array<std::uint32_t, kChunk> pixel, index;  ///< of the camera rays
+  std::array<Rgb, kChunk> radiance;
+  alignas(64) double u[kChunk]{}, v[kChunk]{}, lens_u[kChunk]{}, lens_v[kChunk]{};
+  // The hits of one group, side by side.
+  std::array<int, kChunk> lane, slot, surface;
+  std::array<Rgb, kChunk> tint;
+  Vec3Chunk point{}, normal{}, to_eye{}, to_light{};
+  alignas(64) double falloff[kChunk]{}, distance[kChunk]{}, visible[kChunk]{}, pdf[kChunk]{};
+  alignas(64) double specular[kChunk]{}, n_dot_l[kChunk]{}, fresnel[kChunk]{};
+  std::array<Rgb, kChunk> weight;
+  std::array<int, kChunk> material;  ///< of the hits of a wave
+
+  Wave& wave_at(int level, Wave::Kind kind) {
+    return *waves[2 * std::size_t(level) + (kind == Wave::Kind::kScattered)];
+  }
+  /// An empty one.
+  Wave& new_wave(int level, Wave::Kind kind) {
+    const std::size_t at = 2 * std::size_t(level) + (kind == Wave::Kind::kScattered);
+    if (waves.size() <= at) waves.resize(at + 1);
+    if (!waves[at]) waves[at] = std::make_unique<Wave>();
+    waves[at]->kind = kind;
+    waves[at]->level = level;
+    waves[at]->count = 0;
+    return *waves[at];
+  }
+  sobol::Pair random(const Wave& wave, std::size_t lane_of_wave, std::uint32_t dimension) const {
+    const auto s = std::size_t(wave.slot[lane_of_wave]);
+    return sobol::pair(pixel[s], index[s], dimension ^ wave.branch);
+  }
+};
+
+void WaveRenderer::WorkspaceDeleter::operator()(Workspace* w) const { delete w; }
+WaveRenderer::WorkspacePointer WaveRenderer::make_workspace() {
+  return WorkspacePointer(new Workspace);
+}
+Work& WaveRenderer::work_of(Workspace& workspace) { return workspace.work; }
+
+WaveRenderer::~WaveRenderer() = default;
+
+WaveRenderer::WaveRenderer(const Scene& scene, const Plan& plan)
+    : scene_(scene),
+      plan_(plan),
+      frame_(camera_frame(scene.camera, scene.film)),
+      filter_(scene.film.filter),
+      one_by_one_(scene.spheres.size() <= kMaxLoopSpheres) {
+  for (const Material& m : scene.materials) materials_.emplace_back(m);
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    const auto* environment = std::get_if<EnvironmentLight>(&scene.lights[l]);
+    environments_.push_back(environment ? std::make_unique<Environment>(*environment) : nullptr);
+    if (is_delta(scene.lights[l])) continue;
+    any_sized_ = true;
+    for (std::size_t m = 0; m < materials_.size(); ++m)
+      if (plan.strategy[l][m] != LightStrategy::kLight) materials_[m].scatters_to_light = true;
+  }
+  for (const Plane& plane : scene.planes) {
+    const Tangents t = tangents(plane.normal);
+    plane_u_.push_back(t.first);
+    plane_v_.push_back(t.second);
+  }
+  if (!one_by_one_) accelerator_ = std::make_unique<Accelerator>(scene.spheres);
+}
+
+void WaveRenderer::render(std::span<const PixelSample> samples, std::span<SampleResult> results,
+                          Workspace& work) const {
+  camera_wave(samples, results, work);
+  for (std::size_t i = 0; i < samples.size(); ++i) results[i].radiance = work.radiance[i];
+}
+
+void WaveRenderer::camera_wave(std::span<const PixelSample> samples,
+                               std::span<SampleResult> results, Workspace& work) const {
+  const Film& film = scene_.film;
+  const std::size_t count = samples.size();
+  Wave& wave = work.new_wave(0, Wave::Kind::kCamera);
+  wave.count = count;
+  wave.left = plan_.depth;
+  wave.branch = 0;
+  const bool lens = plan_.on<effects::DepthOfField>();
+  const bool one = scene_.sampler.sample_count == 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PixelSample& s = samples[i];
+    work.pixel[i] = sobol::pixel_hash(
+        std::uint64_t(s.y) * std::uint64_t(film.width) + std::uint64_t(s.x), scene_.sampler.seed);
+    work.index[i] = s.index;
+    work.radiance[i] = {};
+    wave.slot[i] = int(i);
+    wave.weight[i] = {1, 1, 1};
+    wave.leaves[i] = -1;
+    double du = 0.5, dv = 0.5, weight = 1;
+    if (!one) {
+      const sobol::Pair r = sobol::pair(work.pixel[i], s.index, 0);
+      const auto x = filter_(r.u), y = filter_(r.v);
+      du += x.offset;
+      dv += y.offset;
+      weight = x.weight * y.weight;
+    }
+    results[i].weight = weight;
+    work.u[i] = (2 * (s.x + du) / film.width - 1) * frame_.half_width;
+    work.v[i] = (1 - 2 * (s.y + dv) / film.height) * frame_.half_height;
+    work.lens_u[i] = work.lens_v[i] = 0;
+    put(frame_.origin, wave.origin, i);
+    if (!lens) continue;
+    // A point of the disc, evenly by area.
+    const sobol::Pair r = sobol::pair(work.pixel[i], s.index, 1);
+    const double radius = scene_.camera.aperture_radius * std::sqrt(r.u);
+    const double turn = 2 * std::numbers::pi * r.v;
+    const double x = radius * std::cos(turn), y = radius * std::sin(turn);
+    put(frame_.origin + x * frame_.right + y * frame_.up, wave.origin, i);
+    work.lens_u[i] = x / scene_.camera.focus_distance;
+    work.lens_v[i] = y / scene_.camera.focus_distance;
+  }
+  wave_kernels().camera_rays(frame_, count, work.u, work.v, work.lens_u, work.lens_v,
+                             wave.direction);
+  work.work.camera_rays += count;
+  if (lens) work.work.of<effects::DepthOfField>() += count;
+  for (const PixelSample& s : samples)
+    if (s.index > 0) ++work.work.of<effects::Antialiasing>();
+  follow(wave, work);
+  for (std::size_t i = 0; i < count; ++i) results[i].surface = int(wave.surface[i]);
+}
+
+void WaveRenderer::follow(Wave& wave, Workspace& work) const {
+  trace(wave, work);
+  if (any_sized_) add_emitters(wave, work);
+  if (wave.lights_only) return;
+  // The waves that go on from here are filled while the groups are shaded.
+  Wave& mirrored = work.new_wave(wave.level + 1, Wave::Kind::kMirror);
+  Wave& scattered = work.new_wave(wave.level + 1, Wave::Kind::kScattered);
+  mirrored.left = {wave.left.mirror - 1, wave.left.glossy};
+  mirrored.lights_only = wave.left.mirror < 1;
+  mirrored.branch = sobol::hash(wave.branch + 1);
+  scattered.left = {wave.left.mirror, wave.left.glossy - 1};
+  scattered.lights_only = wave.left.glossy < 1;
+  scattered.branch = sobol::hash(wave.branch + 2);
+  shade(wave, work);
+  if (mirrored.count > 0) follow(mirrored, work);
+  if (scattered.count > 0) follow(scattered, work);
+}
+
+/// What each ray meets, and where.
+void WaveRenderer::trace(Wave& wave, Workspace& work) const {
+  const std::size_t count = wave.count;
+  if (accelerator_)
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto hit =
+          accelerator_->nearest(get(wave.origin, i), get(wave.direction, i), int(wave.leaves[i]));
+      wave.surface[i] = hit.sphere;
+      wave.distance[i] = hit.sphere < 0 ? kInfinity : hit.distance;
+    }
+  else
+    wave_kernels().nearest_sphere(scene_.spheres, count, wave.origin, wave.direction, wave.leaves,
+                                  wave.surface, wave.distance);
+  const double spheres = double(scene_.spheres.size());
+  for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
+    const Plane& plane = scene_.planes[k];
+    for (std::size_t i = 0; i < count; ++i) {
+      const double towards = dot(get(wave.direction, i), plane.normal);
+      const double t = dot(plane.point - get(wave.origin, i), plane.normal) / towards;
+      // Beyond kFarthest rays run along the plane: its horizon.
+      constexpr double kFarthest = 1e15;
+      if (!(t > 0 && t < wave.distance[i] && t < kFarthest)) continue;
+      if (wave.leaves[i] == spheres + double(k)) continue;
+      wave.distance[i] = t;
+      wave.surface[i] = spheres + double(k);
+    }
+    work.work.of<effects::Ground>() += count;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const int surface = int(wave.surface[i]);
+    if (surface < 0) continue;
+    const Vec3 origin = get(wave.origin, i), direction = get(wave.direction, i);
+    put(-1.0 * direction, wave.to_eye, i);
+    if (surface < int(spheres)) {
+      const Sphere& sphere = scene_.spheres[std::size_t(surface)];
+      const Chord chord = chord_of(sphere, origin, direction);
+      const Vec3 normal = (-1 / sphere.radius) * (chord.off_axis + chord.half() * direction);
+      put(normal, wave.normal, i);
+      put(sphere.center + sphere.radius * normal, wave.point, i);
+    } else {
+      const Plane& plane = scene_.planes[std::size_t(surface) - scene_.spheres.size()];
+      const Vec3 on = origin + wave.distance[i] * direction;
+      // Back onto the plane, from which a distant ray's rounding has led.
+      put(on - dot(on - plane.point, plane.normal) * plane.normal, wave.point, i);
+      put(dot(direction, plane.normal) < 0 ? plane.normal : -plane.normal, wave.normal, i);
+    }
+  }
+}
+
+/// The lights that rays cross on their way, or end in.
+void WaveRenderer::add_emitters(Wave& wave, Workspace& work) const {
+  const bool scattered = wave.kind == Wave::Kind::kScattered;
+  for (std::size_t l = 0; l < scene_.lights.size(); ++l) {
+    const Light& light = scene_.lights[l];
+    if (is_delta(light) || (is_black(strength(light)) && plan_.policy != EffectPolicy::kAll))
+      continue;
+    for (std::size_t i = 0; i < wave.count; ++i) {
+      const LightStrategy strategy =
+          scattered ? plan_.strategy[l][std::size_t(wave.material[i])] : LightStrategy::kSurface;
+      if (strategy == LightStrategy::kLight) continue;
+      const Vec3 origin = get(wave.origin, i), direction = get(wave.direction, i);
+      LightHit hit;
+      if (const Environment* environment = environments_[l].get()) {
+        if (wave.surface[i] >= 0) continue;
+        hit.radiance = environment->radiance(direction);
+        if (strategy == LightStrategy::kBoth) hit.pdf = environment->pdf(direction);
+        ++work.work.of<effects::Environment>();
+      } else {
+        if (const auto* ball = std::get_if<SphereLight>(&light))
+          hit = meet(*ball, origin, direction);
+        else
+          hit = meet(std::get<RectangleLight>(light), origin, direction);
+        ++work.work.of<effects::AreaLights>();
+        if (!(hit.pdf > 0 && hit.distance < wave.distance[i])) continue;
+      }
+      const double share =
+          strategy == LightStrategy::kBoth ? power_heuristic(wave.pdf[i], hit.pdf) : 1;
+      Rgb& sum = work.radiance[std::size_t(wave.slot[i])];
+      sum = sum + share * hit.radiance * wave.weight[i];
+    }
+  }
+}
+
+/// Group by group, so that the material, and where surfaces are few also what may shadow them, are the
+/// same for a whole run of lanes.
+void WaveRenderer::shade(Wave& wave, Workspace& work) const {
+  const int spheres = int(scene_.spheres.size());
+  // A key for each hit: surface and material, or the material alone.
+  const int materials = int(materials_.size());
+  std::array<int, kChunk> key;
+  int highest = -1;
+  for (std::size_t i = 0; i < wave.count; ++i) {
+    const int surface = int(wave.surface[i]);
+    key[i] = -1;
+    if (surface < 0) continue;
+    int material = 0;
+    if (surface < spheres) {
+      material = scene_.spheres[std::size_t(surface)].material;
+    } else {
+      const std::size_t k = std::size_t(surface - spheres);
+      const Plane& plane = scene_.planes[k];
+      material = plane.material;
+      if (plane.checker_material != plane.material) {
+        const Vec3 from = get(wave.point, i) - plane.point;
+        const double square = std::floor(dot(from, plane_u_[k]) / plane.checker_size) +
+                              std::floor(dot(from, plane_v_[k]) / plane.checker_size);
+        if (std::fmod(square, 2) != 0) material = plane.checker_material;
+      }
+    }
+    work.material[i] = material;
+    key[i] = one_by_one_ ? surface * materials + material : material;
+    highest = std::max(highest, key[i]);
+  }
+  for (int done = -1; done < highest;) {
+    int next = highest;
+    for (std::size_t i = 0; i < wave.count; ++i)
+      if (key[i] > done) next = std::min(next, key[i]);
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < wave.count; ++i) {
+      if (key[i] != next) continue;
+      copy(wave.point, i, work.point, hits);
+      copy(wave.normal, i, work.normal, hits);
+      copy(wave.to_eye, i, work.to_eye, hits);
+      work.weight[hits] = wave.weight[i];
+      work.slot[hits] = wave.slot[i];
+      work.surface[hits] = int(wave.surface[i]);
+      work.lane[hits++] = int(i);
+    }
+    shade_group(wave, {one_by_one_ ? next % materials : next, one_by_one_ ? next / materials : -1},
+                hits, work);
+    done = next;
+  }
+}
+
+void WaveRenderer::shade_group(Wave& wave, Group group, std::size_t hits, Workspace& work) const {
+  for (std::size_t l = 0; l < scene_.lights.size(); ++l)
+    if (is_delta(scene_.lights[l]))
+      light_delta(wave, group, l, hits, work);
+    else if (plan_.strategy[l][std::size_t(group.material)] != LightStrategy::kSurface)
+      light_sized(wave, group, l, hits, work);
+  const PreparedMaterial& material = materials_[std::size_t(group.material)];
+  const bool all = plan_.policy == EffectPolicy::kAll;
+  const bool is_mirror = all || !is_black(material.material.mirror_reflectance);
+  const bool mirrors = is_mirror && plan_.on<effects::Mirror>() &&
+                       (wave.left.mirror > 0 || any_sized_ || (all && wave.level == 0));
+  const bool scatters =
+      wave.left.glossy > 0 || material.scatters_to_light || (all && wave.level == 0);
+  const bool one_of_two = wave.level > 0 && mirrors && wave.left.glossy > 0;
+  if (mirrors) spawn_mirror(wave, group, one_of_two, hits, work);
+  if (scatters) spawn_scattered(wave, group, one_of_two, hits, work);
+}
+
+/// Takes from `falloff` what is hidden from the light.
+void WaveRenderer::find_visible(std::size_t light, Group group, std::size_t hits,
+                                Workspace& work) const {
+  std::size_t rays = 0;
+  if (group.surface >= 0) {
+    const Occluders& occluders = plan_.occluders_of(light, std::size_t(group.surface));
+    if (occluders.empty()) return;
+    rays = hits;
+    if (!occluders.spheres.empty()) {
+      kernels_.visibility(scene_.spheres, occluders.spheres, hits, work.point, work.to_light,
+                          work.distance, work.visible);
+      for (std::size_t i = 0; i < hits; ++i) work.falloff[i] *= work.visible[i];
+    }
+    hide_behind_planes(occluders.planes, group, hits, work);
+  } else {
+    for (std::size_t i = 0; i < hits; ++i) {
+      const int surface = work.surface[i];
+      const Occluders& occluders = plan_.occluders_of(light, std::size_t(surface));
+      if (occluders.empty()) continue;
+      ++rays;
+      if (accelerator_->blocked(get(work.point, i), get(work.to_light, i), work.distance[i],
+                                surface))
+        work.falloff[i] = 0;
+    }
+    // Every plane may hide something from every light; those that cannot are few to look at.
+    std::vector<int> planes(scene_.planes.size());
+    std::iota(planes.begin(), planes.end(), 0);
+    hide_behind_planes(planes, group, hits, work);
+  }
+  work.work.shadow_rays += rays;
+  work.work.of<effects::Shadows>() += rays;
+}
+
+void WaveRenderer::hide_behind_planes(const std::vector<int>& planes, Group group, std::size_t hits,
+                                      Workspace& work) const {
+  const int spheres = int(scene_.spheres.size());
+  for (const int k : planes) {
+    const Plane& plane = scene_.planes[std::size_t(k)];
+    for (std::size_t i = 0; i < hits; ++i) {
+      if ((group.surface >= 0 ? group.surface : work.surface[i]) == spheres + k) continue;
+      const double towards = dot(get(work.to_light, i), plane.normal);
+      const double t = dot(plane.point - get(work.point, i), plane.normal) / towards;
+      if (t > 0 && t < work.distance[i]) work.falloff[i] = 0;
+    }
+    work.work.of<effects::Ground>() += hits;
+  }
+}
+
+void WaveRenderer::light_delta(const Wave& wave, Group group, std::size_t light, std::size_t hits,
+                               Workspace& work) const {
+  kernels_.light(scene_.lights[light], hits, work.point, work.to_light, work.falloff,
+                 work.distance);
+  find_visible(light, group, hits, work);
+  const auto& row = plan_.precision[light];
+  const bool as_seen =
+      wave.level == 0 && group.surface >= 0 && std::size_t(group.surface) < row.size();
+  add_light(group,
+            as_seen ? row[std::size_t(group.surface)]
+                    : plan_.any_direction_precision[std::size_t(group.material)],
+            strength(scene_.lights[light]), nullptr, hits, work);
+}
+
+void WaveRenderer::light_sized(const Wave& wave, Group group, std::size_t light, std::size_t hits,
+                               Workspace& work) const {
+  const Rgb emitted = strength(scene_.lights[light]);
+  if (is_black(emitted) && plan_.policy != EffectPolicy::kAll) return;
+  const Environment* environment = environments_[light].get();
+  const bool both = plan_.strategy[light][std::size_t(group.material)] == LightStrategy::kBoth;
+  const Reflector& reflector = materials_[std::size_t(group.material)].reflector;
+  for (std::size_t i = 0; i < hits; ++i) {
+    const auto [u, v] =
+        work.random(wave, std::size_t(work.lane[i]), kLightDimension + std::uint32_t(light));
+    const LightSample drawn = sample_light(light, get(work.point, i), u, v);
+    const bool some = drawn.pdf > 0;
+    put(some ? drawn.to_light : get(work.normal, i), work.to_light, i);
+    work.falloff[i] = some ? 1 / drawn.pdf : 0;
+    work.distance[i] = drawn.distance;
+    work.tint[i] = drawn.radiance;
+    if (both && some && dot(get(work.normal, i), drawn.to_light) > 0)
+      work.falloff[i] *= power_heuristic(
+          drawn.pdf, reflector.pdf(get(work.normal, i), get(work.to_eye, i), drawn.to_light));
+  }
+  (environment ? work.work.of<effects::Environment>() : work.work.of<effects::AreaLights>()) +=
+      hits;
+  find_visible(light, group, hits, work);
+  add_light(group, plan_.any_direction_precision[std::size_t(group.material)], emitted,
+            environment && std::get<EnvironmentLight>(scene_.lights[light]).image ? work.tint.data()
+                                                                                  : nullptr,
+            hits, work);
+}
+
+LightSample WaveRenderer::sample_light(std::size_t light, Vec3 point, double u, double v) const {
+  if (environments_[light]) return environments_[light]->sample(u, v);
+  if (const auto* ball = std::get_if<SphereLight>(&scene_.lights[light]))
+    return sample(*ball, point, u, v);
+  return sample(std::get<RectangleLight>(scene_.lights[light]), point, u, v);
+}
+
+/// What the surface makes of the light along `to_light`, times `falloff`: highlight, Fresnel, diffuse.
+void WaveRenderer::add_light(Group group, Precision precision, Rgb emitted, const Rgb* tints,
+                             std::size_t hits, Workspace& work) const {
+  const PreparedMaterial& material = materials_[std::size_t(group.material)];
+  const Highlight& highlight = material.material.highlight;
+  const auto add = [&](std::size_t i, double factor, Rgb reflectance, Rgb constant) {
+    Rgb& sum = work.radiance[std::size_t(work.slot[i])];
+    sum = sum + factor * (tints ? reflectance * tints[i] : constant) * work.weight[i];
+  };
+  kernels_.shade(highlight, precision)(highlight, hits, work.normal, work.to_eye, work.to_light,
+                                       work.specular);
+  const Rgb specular = emitted * material.specular;
+  for (std::size_t i = 0; i < hits; ++i)
+    add(i, work.falloff[i] * work.specular[i], material.specular, specular);
+  const bool all = plan_.policy == EffectPolicy::kAll;
+  if (all || material.material.fresnel != Fresnel::kNone) {
+    const Rgb grazing = emitted * material.grazing;
+    kernels_.fresnel(hits, work.to_eye, work.to_light, work.fresnel);
+    for (std::size_t i = 0; i < hits; ++i)
+      add(i, work.falloff[i] * work.specular[i] * work.fresnel[i], material.grazing, grazing);
+    work.work.of<effects::Fresnel>() += hits;
+  }
+  if (all || !is_black(material.material.diffuse_reflectance)) {
+    const Rgb diffuse = emitted * material.diffuse;
+    kernels_.cosine(hits, work.normal, work.to_light, work.n_dot_l);
+    for (std::size_t i = 0; i < hits; ++i)
+      add(i, work.falloff[i] * work.n_dot_l[i], material.diffuse, diffuse);
+    work.work.of<effects::Diffuse>() += hits;
+  }
+}
+
+/// Whether a path that could go on both ways takes the mirror's. From the camera both are followed;
+/// after that one is drawn, lest the number of rays double with every reflection.
+bool WaveRenderer::takes_mirror(const Wave& wave, std::size_t lane, const Workspace& work) const {
+  return work.random(wave, lane, kChoiceDimension).u < 0.5;
+}
+
+void WaveRenderer::spawn_mirror(const Wave& wave, Group group, bool one_of_two, std::size_t hits,
+                                Workspace& work) const {
+  const Material& material = materials_[std::size_t(group.material)].material;
+  Wave& next = work.wave_at(wave.level + 1, Wave::Kind::kMirror);
+  const std::size_t before = next.count;
+  for (std::size_t i = 0; i < hits; ++i) {
+    const std::size_t lane = std::size_t(work.lane[i]);
+    if (one_of_two && !takes_mirror(wave, lane, work)) continue;
+    const Vec3 normal = get(work.normal, i), to_eye = get(work.to_eye, i);
+    const double n_dot_v = dot(normal, to_eye);
+    Rgb reflectance = material.mirror_reflectance;
+    if (material.fresnel == Fresnel::kSchlick) {
+      const double base = std::max(0.0, 1 - n_dot_v), share = base * base * base * base * base;
+      const Rgb f0 = reflectance;
+      reflectance = f0 + share * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b};
+    }
+    const std::size_t to = next.count++;
+    copy(work.point, i, next.origin, to);
+    put(normalize(2 * n_dot_v * normal - to_eye), next.direction, to);
+    next.leaves[to] = work.surface[i];
+    next.weight[to] = (one_of_two ? 2.0 : 1.0) * work.weight[i] * reflectance;
+    next.slot[to] = wave.slot[lane];
+  }
+  work.work.mirror_rays += next.count - before;
+  work.work.of<effects::Mirror>() += next.count - before;
+}
+
+void WaveRenderer::spawn_scattered(const Wave& wave, Group group, bool one_of_two, std::size_t hits,
+                                   Workspace& work) const {
+  const Reflector& reflector = materials_[std::size_t(group.material)].reflector;
+  Wave& next = work.wave_at(wave.level + 1, Wave::Kind::kScattered);
+  // Forced though nothing calls for it: the rays are traced and bring nothing.
+  const bool forced =
+      wave.left.glossy < 1 && !materials_[std::size_t(group.material)].scatters_to_light;
+  const std::size_t before = next.count;
+  for (std::size_t i = 0; i < hits; ++i) {
+    const std::size_t lane = std::size_t(work.lane[i]);
+    if (one_of_two && takes_mirror(wave, lane, work)) continue;
+    const sobol::Pair uv = work.random(wave, lane, kDirectionDimension);
+    const sobol::Pair choice = work.random(wave, lane, kScatterDimension);
+    const auto drawn =
+        reflector.sample(get(work.normal, i), get(work.to_eye, i), choice.u, uv.u, uv.v);
+    if (!drawn) continue;
+    Rgb weight = (forced       ? 0.0
+                  : one_of_two ? 2 / drawn->pdf
+                               : 1 / drawn->pdf) *
+                 work.weight[i] * drawn->radiance;
+    if (wave.level >= kRouletteFrom) {
+      const double survival = std::min(1.0, max_component(weight));
+      if (!(choice.v < survival)) continue;
+      weight = 1 / survival * weight;
+    }
+    const std::size_t to = next.count++;
+    copy(work.point, i, next.origin, to);
+    put(drawn->to_light, next.direction, to);
+    next.leaves[to] = work.surface[i];
+    next.weight[to] = weight;
+    next.slot[to] = wave.slot[lane];
+    next.pdf[to] = drawn->pdf;
+    next.material[to] = group.material;
+  }
+  work.work.scattered_rays += next.count - before;
+  if (wave.left.glossy > 0 || forced) work.work.of<effects::Glossy>() += next.count - before;
+}
+
+}  // namespace lobelia

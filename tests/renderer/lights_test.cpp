@@ -1,0 +1,168 @@
+// What lights with a size draw, against what a ray meets of them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "renderer/lights/environment.hpp"
+#include "renderer/lights/rectangle_light.hpp"
+#include "renderer/lights/sphere_light.hpp"
+#include "renderer/sobol.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Vec3 evenly(double u, double v) {
+  const double c = 1 - 2 * u, s = std::sqrt(std::max(0.0, 1 - c * c));
+  return {s * std::cos(2 * kPi * v), s * std::sin(2 * kPi * v), c};
+}
+
+/// The mean of (1, x, y, z, xy, yz, zx) over the light's solid angle, by its own draws and by looking in
+/// every direction.
+struct Moments {
+  double solid_angle = 0, of[6] = {};
+  void add(Vec3 d, double weight) {
+    solid_angle += weight;
+    const double products[] = {d.x, d.y, d.z, d.x * d.y, d.y * d.z, d.z * d.x};
+    for (int i = 0; i < 6; ++i) of[i] += weight * products[i];
+  }
+};
+
+template <class L>
+void expect_same_light(const L& light, Vec3 point, double allowed) {
+  constexpr std::uint32_t kDraws = 1 << 14, kLooks = 1 << 21;
+  Moments drawn, seen;
+  for (std::uint32_t k = 0; k < kDraws; ++k) {
+    const auto [u, v] = sobol::pair(1, k, 0);
+    const LightSample s = sample(light, point, u, v);
+    if (s.pdf == 0) continue;
+    drawn.add(s.to_light, 1 / s.pdf / kDraws);
+    EXPECT_NEAR(length(s.to_light), 1, 1e-14);
+    const LightHit met = meet(light, point, s.to_light);
+    if (met.pdf == 0) continue;  // at the very rim rounding may decide
+    EXPECT_NEAR(met.pdf / s.pdf, 1, 1e-9);
+    EXPECT_NEAR(met.distance / s.distance, 1, 1e-6);
+  }
+  for (std::uint32_t k = 0; k < kLooks; ++k) {
+    const auto [u, v] = sobol::pair(2, k, 0);
+    const Vec3 direction = evenly(u, v);
+    if (meet(light, point, direction).pdf > 0) seen.add(direction, 4 * kPi / kLooks);
+  }
+  EXPECT_NEAR(drawn.solid_angle, seen.solid_angle, allowed);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(drawn.of[i], seen.of[i], allowed) << i;
+}
+
+TEST(RectangleLight, DrawsEvenlyFromTheSolidAngleThatItIsSeenUnder) {
+  const RectangleLight light{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}};
+  for (const Vec3 point : {Vec3{0, 0, 1}, {3, 1, 0.2}, {0.3, 0.3, 1e-2}, {-2, 5, 1}, {1, 1, 1}})
+    expect_same_light(light, point, 3e-3);
+}
+
+TEST(RectangleLight, FarAwayIsItsAreaTimesTheCosine) {
+  const RectangleLight light{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}};
+  for (const double distance : {1e2, 1e4, 1e8}) {
+    const Vec3 point = distance * normalize(Vec3{1, 2, 3});
+    double sum = 0;
+    constexpr std::uint32_t kDraws = 1024;
+    for (std::uint32_t k = 0; k < kDraws; ++k) {
+      const auto [u, v] = sobol::pair(1, k, 0);
+      sum += 1 / sample(light, point, u, v).pdf / kDraws;
+    }
+    const double expected = 8 * normalize(Vec3{1, 2, 3}).z / (distance * distance);
+    EXPECT_NEAR(sum / expected, 1, 2 / distance);
+  }
+}
+
+TEST(RectangleLight, ShinesToOneSideOnly) {
+  const RectangleLight light{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}};
+  EXPECT_EQ(sample(light, {0, 0, -1}, 0.5, 0.5).pdf, 0);
+  EXPECT_EQ(meet(light, {0, 0, -1}, {0, 0, 1}).pdf, 0);
+  EXPECT_GT(meet(light, {0, 0, 1}, {0, 0, -1}).pdf, 0);
+  EXPECT_EQ(sample(light, {0, 0, 0}, 0.5, 0.5).pdf, 0);  // in its plane
+}
+
+TEST(SphereLight, DrawsEvenlyFromTheConeThatItFills) {
+  const SphereLight light{{0, 1, 0}, 1, {1, 1, 1}};
+  for (const Vec3 point : {Vec3{0, 0, 2}, {0, 2.01, 0}, {4, 1, 0}})
+    expect_same_light(light, point, 3e-3);
+}
+
+TEST(SphereLight, OfAnySizeAndDistanceFillsItsSolidAngle) {
+  for (const double radius : {1e-9, 1e-3, 1.0, 1e6})
+    for (const double ratio : {1 + 1e-9, 1.5, 1e3, 1e7}) {
+      const SphereLight light{{0, 0, 0}, radius, {1, 1, 1}};
+      const double distance = ratio * radius;
+      const LightSample s = sample(light, {distance, 0, 0}, 0.5, 0.25);
+      const double sine_squared = 1 / (ratio * ratio);
+      const double solid_angle = 2 * kPi * sine_squared / (1 + std::sqrt(1 - sine_squared));
+      EXPECT_NEAR(s.pdf * solid_angle, 1, 1e-9) << radius << ' ' << ratio;
+      EXPECT_GE(s.distance, (distance - radius) * (1 - 1e-6) - 1e-12);
+      EXPECT_LE(s.distance, distance);
+    }
+}
+
+TEST(SphereLight, IsDarkFromInside) {
+  const SphereLight light{{0, 0, 0}, 1, {1, 1, 1}};
+  EXPECT_EQ(sample(light, {0, 0.5, 0}, 0.5, 0.5).pdf, 0);
+  EXPECT_EQ(meet(light, {0, 0.5, 0}, {0, 1, 0}).pdf, 0);
+}
+
+EnvironmentLight with_image(int width, int height, const std::function<float(int, int)>& value) {
+  auto image = std::make_shared<Image>(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (float& c : image->pixel(x, y)) c = value(x, y);
+  return {{1, 1, 1}, image, ""};
+}
+
+TEST(EnvironmentImage, IsWhereTheConventionSays) {
+  // A bright pixel in each place that the convention names.
+  const auto brightest_direction = [](int x, int y) {
+    return Environment(
+        with_image(64, 32, [=](int u, int v) { return u == x && v == y ? 1.0f : 0.0f; }));
+  };
+  const double half_pixel = kPi / 64;
+  const Vec3 middle{std::sin(half_pixel), 0, -std::cos(half_pixel)};
+  EXPECT_GT(brightest_direction(32, 16).radiance(middle).r, 0.4);
+  EXPECT_GT(brightest_direction(48, 16).radiance({1, 0, 0}).r, 0.2);
+  EXPECT_GT(brightest_direction(16, 16).radiance({-1, 0, 0}).r, 0.2);
+  EXPECT_GT(brightest_direction(0, 16).radiance({0, 0, 1}).r, 0.2);
+  EXPECT_GT(brightest_direction(5, 0).radiance(normalize({-0.03, 1, 0.05})).r, 0.2);
+  EXPECT_GT(brightest_direction(5, 31).radiance(normalize({-0.03, -1, 0.05})).r, 0.2);
+}
+
+TEST(EnvironmentImage, DrawsItsBrightDirectionsWithoutBias) {
+  const Environment environment(with_image(64, 32, [](int x, int y) {
+    return x == 10 && y == 5 ? 100.0f : x < 20 ? 0.1f : 0.0f;
+  }));
+  Rgb by_draws, by_looks;
+  double solid_angle = 0;
+  constexpr std::uint32_t kDraws = 1 << 20;
+  for (std::uint32_t k = 0; k < kDraws; ++k) {
+    const auto [u, v] = sobol::pair(3, k, 0);
+    const LightSample s = environment.sample(u, v);
+    ASSERT_GT(s.pdf, 0);
+    ASSERT_NEAR(environment.pdf(s.to_light) / s.pdf, 1, 1e-9);
+    by_draws = by_draws + 1 / s.pdf / kDraws * s.radiance;
+    by_looks = by_looks + 4 * kPi / kDraws * environment.radiance(evenly(u, v));
+    solid_angle += 1 / s.pdf / kDraws;
+  }
+  EXPECT_NEAR(by_draws.r, by_looks.r, 2e-3 * by_looks.r);
+  // It draws only from what shines: nothing of the dark half but the rim that interpolation lights.
+  EXPECT_NEAR(solid_angle, 4 * kPi * 22 / 64, 0.05);
+}
+
+TEST(EnvironmentImage, OfOnePixelOrBlackIsNoSpecialCase) {
+  const Environment one(with_image(1, 1, [](int, int) { return 2.0f; }));
+  EXPECT_NEAR(one.radiance({0.6, 0.8, 0}).g, 2, 1e-6);
+  EXPECT_NEAR(one.pdf({0.6, 0.8, 0}), 1 / (4 * kPi), 1e-12);
+  const Environment black(with_image(8, 4, [](int, int) { return 0.0f; }));
+  EXPECT_GT(black.sample(0.3, 0.7).pdf, 0);
+  EXPECT_EQ(black.sample(0.3, 0.7).radiance.r, 0);
+}
+
+}  // namespace
+}  // namespace lobelia
