@@ -1,4 +1,4 @@
-// Mitchell and Netravali 1988 with B = C = 1/3: sharper than a Gaussian, by being negative from half of
+// Mitchell and Netravali 1988 with B = C = 1/3: sharper than a Gaussian, by being negative from 4/7 of
 // its radius on. A picture may overshoot beside an edge, below 0 too.
 #pragma once
 

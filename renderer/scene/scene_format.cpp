@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "core/text.hpp"
+#include "renderer/filter.hpp"
 #include "renderer/fresnel.hpp"
+#include "renderer/scene/sphere_lattice.hpp"
 
 namespace lobelia {
 namespace {
@@ -25,9 +29,44 @@ std::string table(const ElementFormat& format) {
   return text;
 }
 
+/// The views of an ElementFormat need a home for what is not known when compiling.
+struct FilterTables {
+  std::vector<std::string> defaults;
+  std::vector<Parameter> parameters;
+  std::vector<ElementFormat> formats;
+
+  FilterTables() {
+    const auto names = filter_names();
+    defaults.reserve(names.size());
+    parameters.reserve(names.size());
+    for (const std::string_view name : names) {
+      defaults.push_back(fmt::format("{}", find_filter(name)->radius));
+      parameters.push_back(
+          {"radius", ParameterType::kFloat, defaults.back(), 0.1, 16, "pixels", "half its width"});
+      formats.push_back({"rfilter", name, "", std::span(&parameters.back(), 1)});
+    }
+  }
+};
+
 }  // namespace
 
+std::span<const ElementFormat> filter_formats() {
+  static const FilterTables tables;
+  return tables.formats;
+}
+
+std::span<const ElementFormat> material_formats() {
+  static const std::vector<ElementFormat> formats = [] {
+    std::vector<ElementFormat> result;
+    for (const auto& model : models())
+      result.push_back({"bsdf", model.name, model.title, kHighlightParameters});
+    return result;
+  }();
+  return formats;
+}
+
 std::string string_choices(const Parameter& p) {
+  if (p.name == "filename") return "a picture in the scene file's directory or below it";
   if (p.name == "lobe") return allowed_lobes();
   if (p.name == "fresnel") return join(fresnel_names());
   if (p.name == "normalisation") return join(normalisation_names());
@@ -67,16 +106,39 @@ std::string scene_format_document() {
       "three (linear Rec. 709). Right-handed; units and directions: "
       "[conventions](conventions.md).\n"
       "Every error is reported with its line and column, all of them in one run. Limits: {} MiB,\n"
-      "{} emitters, {} shapes, {} materials, {} pixels. No DOCTYPE and no entities.\n\n"
-      "`<scene version=>` holds one `<sensor>`, any `<emitter>`, `<shape>` and `<bsdf id=>`. The\n"
-      "sensor holds `<transform name=\"to_world\">` with one `<lookat origin= target= up=/>`, and\n"
-      "may hold one `<film>` and one `<sampler>`.\n",
+      "{} emitters, {} spheres, {} planes, {} materials, {} pixels. No DOCTYPE and no entities.\n\n"
+      "`<scene version=>` holds one `<sensor>`, any `<emitter>`, `<shape>` and `<bsdf id=>`, and\n"
+      "may hold one `<integrator>`. The sensor holds `<transform name=\"to_world\">` with one\n"
+      "`<lookat origin= target= up=/>`, and may hold one `<film>`, which may hold one `<rfilter>`,\n"
+      "and one `<sampler>`. A shape holds one `<bsdf>` or `<ref id=>`, or a plane two of them, which\n"
+      "then alternate as a checker.\n",
       kSceneFormatVersion, kSceneFormatVersion, kMaxSceneBytes >> 20, kMaxLights, kMaxSpheres,
-      kMaxMaterials, kMaxImagePixels);
-  for (const auto& format : {kPerspective, kFilm, kSampler, kDirectional, kPoint, kSphere})
-    text += table(format);
+      kMaxPlanes, kMaxMaterials, kMaxImagePixels);
+  for (const auto& format : {kPerspective, kThinLens, kFilm}) text += table(format);
+  Parameter radius = filter_formats().front().parameters.front();
+  radius.default_value = "see below";
   text +=
-      table({"bsdf", "MODEL", "a material: a highlight over a diffuse base", kHighlightParameters});
+      table({"rfilter", "FILTER",
+             "how much a sample counts, by its distance from the pixel's centre; inside the film",
+             std::span(&radius, 1)});
+  text +=
+      "\nWithout it every sample of a pixel counts the same. FILTER, and the radius that is its "
+      "default:\n\n";
+  for (const auto& filter : filter_formats())
+    text += fmt::format("- `{}`: {}\n", filter.type, filter.parameters.front().default_value);
+  text += table(kSampler) + table(kIntegrator);
+  text += fmt::format(
+      "\nWithout this element `mirror_depth` is {} where a material has a `mirror_reflectance`,\n"
+      "and else 0.\n",
+      kDefaultMirrorDepth);
+  for (const auto& format : kEmitters) text += table(format);
+  text +=
+      "\nSeveral of the last two add up. The picture of an envmap lies in the directory of the scene\n"
+      "file or below it; its values are finite and not negative.\n";
+  for (const auto& format : kShapes) text += table(format);
+  text += "\n" + lattice_rule();
+  text += table({"bsdf", "MODEL", "a material: a mirror over a highlight over a diffuse base",
+                 kHighlightParameters});
   text += "\nMODEL is one of:\n\n";
   for (const auto& model : models()) text += fmt::format("- `{}`: {}\n", model.name, model.title);
   return text;

@@ -13,16 +13,27 @@
 namespace lobelia {
 
 inline constexpr std::string_view kSceneFormatVersion = "1";
-inline constexpr std::size_t kMaxSceneBytes = 16u << 20;
+inline constexpr std::size_t kMaxSceneBytes = 64u << 20;
 inline constexpr int kMaxLights = 64;
-inline constexpr int kMaxSpheres = 1024;
+inline constexpr int kMaxSpheres = 1 << 22;  ///< with those of lattices
+inline constexpr int kMaxPlanes = 16;
 inline constexpr int kMaxMaterials = 1024;
+inline constexpr int kMaxDepth = 64;
+/// Of reflections by mirrors, where a scene has a mirror and does not say how often.
+inline constexpr int kDefaultMirrorDepth = 8;
 
 inline constexpr double kFar = 1e9;        ///< bound of every coordinate and length
-inline constexpr double kBrightest = 1e9;  ///< bound of every irradiance and intensity
+inline constexpr double kNear = 1e-9;      ///< the least length of what has a size
+inline constexpr double kBrightest = 1e9;  ///< bound of every irradiance, intensity and radiance
 
-inline constexpr Parameter kPerspectiveParameters[] = {
-    {"fov", ParameterType::kFloat, "", 1e-3, 179, "degrees", "full horizontal angle of view"},
+inline constexpr Parameter kFieldOfView{"fov",     ParameterType::kFloat,          "", 1e-3, 179,
+                                        "degrees", "full horizontal angle of view"};
+inline constexpr Parameter kPerspectiveParameters[] = {kFieldOfView};
+inline constexpr Parameter kThinLensParameters[] = {
+    kFieldOfView,
+    {"aperture_radius", ParameterType::kFloat, "0", 0, kFar, "", "of the lens; 0 is a pinhole"},
+    {"focus_distance", ParameterType::kFloat, "", kNear, kFar, "",
+     "along the view, of the plane that is sharp"},
 };
 inline constexpr Parameter kFilmParameters[] = {
     {"width", ParameterType::kInteger, "256", 1, kMaxImageSide, "pixels", "width of the picture"},
@@ -44,9 +55,51 @@ inline constexpr Parameter kPointParameters[] = {
     {"intensity", ParameterType::kRgb, "1", 0, kBrightest, "W/sr",
      "irradiance is intensity / distance^2"},
 };
+inline constexpr Parameter kRadiance{"radiance",   ParameterType::kRgb,          "1", 0, kBrightest,
+                                     "W/(m^2 sr)", "the same in every direction"};
 inline constexpr Parameter kSphereParameters[] = {
     {"center", ParameterType::kPoint, "0, 0, 0", -kFar, kFar, "", "its centre"},
-    {"radius", ParameterType::kFloat, "1", 1e-9, kFar, "", "its radius"},
+    {"radius", ParameterType::kFloat, "1", kNear, kFar, "", "its radius"},
+};
+inline constexpr Parameter kSphereLightParameters[] = {kSphereParameters[0], kSphereParameters[1],
+                                                       kRadiance};
+inline constexpr Parameter kRectangleParameters[] = {
+    {"center", ParameterType::kPoint, "0, 0, 0", -kFar, kFar, "", "its centre"},
+    {"half_u", ParameterType::kVector, "", -kFar, kFar, "", "from the centre to a side"},
+    {"half_v", ParameterType::kVector, "", -kFar, kFar, "",
+     "to the next side; perpendicular to half_u; it shines to the side of half_u x half_v"},
+    kRadiance,
+};
+inline constexpr Parameter kConstantParameters[] = {kRadiance};
+inline constexpr Parameter kEnvmapParameters[] = {
+    {"filename", ParameterType::kString, "", 0, 0, "",
+     "by latitude and longitude: the top row is +y, the middle column -z, +x to the right of it"},
+    {"radiance", ParameterType::kRgb, "1", 0, kBrightest, "W/(m^2 sr)", "scales the picture"},
+};
+inline constexpr Parameter kIntegratorParameters[] = {
+    {"mirror_depth", ParameterType::kInteger, "0", 0, kMaxDepth, "",
+     "how often light may go on by a mirror"},
+    {"glossy_depth", ParameterType::kInteger, "0", 0, kMaxDepth, "",
+     "how often by a highlight or a diffuse base"},
+};
+inline constexpr Parameter kPlaneParameters[] = {
+    {"point", ParameterType::kPoint, "0, 0, 0", -kFar, kFar, "", "on the plane"},
+    {"normal", ParameterType::kVector, "0, 1, 0", -kFar, kFar, "", "to either side"},
+    {"checker_size", ParameterType::kFloat, "1", kNear, kFar, "",
+     "side of a square, where it has two materials"},
+};
+inline constexpr int kMaxLatticeSide = 1024;
+inline constexpr Parameter kLatticeParameters[] = {
+    {"columns", ParameterType::kInteger, "", 1, kMaxLatticeSide, "spheres", "along x"},
+    {"rows", ParameterType::kInteger, "1", 1, kMaxLatticeSide, "spheres", "along y"},
+    {"layers", ParameterType::kInteger, "1", 1, kMaxLatticeSide, "spheres", "along z"},
+    {"step", ParameterType::kVector, "", 0, kFar, "",
+     "from centre to centre along x, y, z; over 0 where there is more than one sphere"},
+    {"center", ParameterType::kPoint, "0, 0, 0", -kFar, kFar, "", "of the whole lattice"},
+    {"radius", ParameterType::kFloat, "1", kNear, kFar, "", "of each sphere"},
+    {"jitter", ParameterType::kFloat, "0", 0, 1, "",
+     "moves each centre along x, y, z by up to this part of step / 2 - radius"},
+    {"seed", ParameterType::kInteger, "0", 0, 9007199254740992.0, "", "chooses the moves"},
 };
 inline constexpr Parameter kHighlightParameters[] = {
     {"lobe", ParameterType::kString, "cosine", 0, 0, "", "shape of the highlight"},
@@ -57,6 +110,7 @@ inline constexpr Parameter kHighlightParameters[] = {
      "schlick: the specular reflectance is that at normal incidence, and grows to 1"},
     {"specular_reflectance", ParameterType::kRgb, "1", 0, 1, "", "scales the highlight"},
     {"diffuse_reflectance", ParameterType::kRgb, "0", 0, 1, "", "Lambertian albedo beneath it"},
+    {"mirror_reflectance", ParameterType::kRgb, "0", 0, 1, "", "of a perfect mirror on top"},
 };
 
 /// An element <tag type="type">.
@@ -67,6 +121,8 @@ struct ElementFormat {
 
 inline constexpr ElementFormat kPerspective{"sensor", "perspective", "the camera",
                                             kPerspectiveParameters};
+inline constexpr ElementFormat kThinLens{"sensor", "thinlens", "a camera with a lens, and its blur",
+                                         kThinLensParameters};
 inline constexpr ElementFormat kFilm{"film", "hdrfilm", "size of the picture; inside the sensor",
                                      kFilmParameters};
 inline constexpr ElementFormat kSampler{"sampler", "independent", "rays a pixel; inside the sensor",
@@ -74,7 +130,31 @@ inline constexpr ElementFormat kSampler{"sampler", "independent", "rays a pixel;
 inline constexpr ElementFormat kDirectional{"emitter", "directional", "parallel light",
                                             kDirectionalParameters};
 inline constexpr ElementFormat kPoint{"emitter", "point", "a light in a point", kPointParameters};
+inline constexpr ElementFormat kSphereLight{"emitter", "sphere",
+                                            "a ball of light, which other light passes through",
+                                            kSphereLightParameters};
+inline constexpr ElementFormat kRectangle{
+    "emitter", "rectangle", "a rectangle that shines to one side", kRectangleParameters};
+inline constexpr ElementFormat kConstant{"emitter", "constant",
+                                         "the same light from everywhere, infinitely far away",
+                                         kConstantParameters};
+inline constexpr ElementFormat kEnvmap{"emitter", "envmap", "light from everywhere, by a picture",
+                                       kEnvmapParameters};
+inline constexpr ElementFormat kEmitters[] = {kDirectional, kPoint,    kSphereLight,
+                                              kRectangle,   kConstant, kEnvmap};
 inline constexpr ElementFormat kSphere{"shape", "sphere", "a sphere", kSphereParameters};
+inline constexpr ElementFormat kPlane{"shape", "plane", "an infinite plane, plain or a checker",
+                                      kPlaneParameters};
+inline constexpr ElementFormat kLattice{"shape", "sphere_lattice",
+                                        "columns x rows x layers spheres", kLatticeParameters};
+inline constexpr ElementFormat kShapes[] = {kSphere, kPlane, kLattice};
+inline constexpr ElementFormat kIntegrator{"integrator", "path", "how far light is followed",
+                                           kIntegratorParameters};
+
+/// <rfilter type="FILTER"> for every filter of the catalogue; its radius defaults to its source's.
+std::span<const ElementFormat> filter_formats();
+/// <bsdf type="MODEL"> for every model.
+std::span<const ElementFormat> material_formats();
 
 /// What a string parameter may be, as a message or a table lists it; "" for a number.
 std::string string_choices(const Parameter& parameter);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/text.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -53,11 +56,16 @@ std::string emitter(const RectangleLight& light) {
 }
 
 std::string emitter(const EnvironmentLight& light) {
+  const std::string picture =
+      light.image
+          ? fmt::format("    <string name=\"filename\" value=\"{}\"/>\n", escape_markup(light.file))
+          : "";
   return fmt::format(
-      "  <emitter type=\"constant\">\n"
+      "  <emitter type=\"{}\">\n"
+      "{}"
       "    <rgb name=\"radiance\" value=\"{}\"/>\n"
       "  </emitter>\n",
-      text(light.radiance));
+      light.image ? kEnvmap.type : kConstant.type, picture, text(light.radiance));
 }
 
 std::string bsdf(const Material& material, std::size_t index) {
@@ -70,34 +78,92 @@ std::string bsdf(const Material& material, std::size_t index) {
       "    <string name=\"fresnel\" value=\"{}\"/>\n"
       "    <rgb name=\"specular_reflectance\" value=\"{}\"/>\n"
       "    <rgb name=\"diffuse_reflectance\" value=\"{}\"/>\n"
+      "{}"
       "  </bsdf>\n",
       info(h.model).name, index, info(h.lobe).name, name(h.normalisation), h.exponent,
       name(material.fresnel), text(material.specular_reflectance),
-      text(material.diffuse_reflectance));
+      text(material.diffuse_reflectance),
+      is_black(material.mirror_reflectance)
+          ? ""
+          : fmt::format("    <rgb name=\"mirror_reflectance\" value=\"{}\"/>\n",
+                        text(material.mirror_reflectance)));
+}
+
+std::string plane_shape(const Plane& plane) {
+  return fmt::format(
+      "  <shape type=\"plane\">\n"
+      "    <point name=\"point\" value=\"{}\"/>\n"
+      "    <vector name=\"normal\" value=\"{}\"/>\n"
+      "    <float name=\"checker_size\" value=\"{}\"/>\n"
+      "    <ref id=\"material_{}\"/>\n"
+      "{}"
+      "  </shape>\n",
+      text(plane.point), text(plane.normal), plane.checker_size, plane.material,
+      plane.checker_material == plane.material
+          ? ""
+          : fmt::format("    <ref id=\"material_{}\"/>\n", plane.checker_material));
+}
+
+// What a scene does without is not written: the text of a plain scene names only what it has.
+
+std::string lens(const Camera& camera) {
+  if (camera.aperture_radius == 0 && camera.focus_distance == Camera{}.focus_distance) return "";
+  return fmt::format(
+      "    <float name=\"aperture_radius\" value=\"{}\"/>\n"
+      "    <float name=\"focus_distance\" value=\"{}\"/>\n",
+      camera.aperture_radius, camera.focus_distance);
+}
+
+std::string filter(Filter filter) {
+  if (filter == Filter{}) return "";
+  return fmt::format(
+      "      <rfilter type=\"{}\">\n"
+      "        <float name=\"radius\" value=\"{}\"/>\n"
+      "      </rfilter>\n",
+      name(filter), filter.radius);
+}
+
+std::string integrator(const Scene& scene) {
+  const auto is_mirror = [](const Material& m) { return !is_black(m.mirror_reflectance); };
+  // With a mirror the reader has a default of its own.
+  if (scene.depth.mirror == 0 && scene.depth.glossy == 0 &&
+      std::none_of(scene.materials.begin(), scene.materials.end(), is_mirror))
+    return "";
+  return fmt::format(
+      "  <integrator type=\"path\">\n"
+      "    <integer name=\"mirror_depth\" value=\"{}\"/>\n"
+      "    <integer name=\"glossy_depth\" value=\"{}\"/>\n"
+      "  </integrator>\n",
+      scene.depth.mirror, scene.depth.glossy);
 }
 
 }  // namespace
 
 std::string scene_to_xml(const Scene& scene) {
+  const std::string lens_text = lens(scene.camera);
   std::string xml = fmt::format(
       "<scene version=\"{}\">\n"
-      "  <sensor type=\"perspective\">\n"
+      "  <sensor type=\"{}\">\n"
       "    <float name=\"fov\" value=\"{}\"/>\n"
+      "{}"
       "    <transform name=\"to_world\">\n"
       "      <lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>\n"
       "    </transform>\n"
       "    <film type=\"hdrfilm\">\n"
       "      <integer name=\"width\" value=\"{}\"/>\n"
       "      <integer name=\"height\" value=\"{}\"/>\n"
+      "{}"
       "    </film>\n"
       "    <sampler type=\"independent\">\n"
       "      <integer name=\"sample_count\" value=\"{}\"/>\n"
       "      <integer name=\"seed\" value=\"{}\"/>\n"
       "    </sampler>\n"
       "  </sensor>\n",
-      kSceneFormatVersion, scene.camera.fov_degrees, text(scene.camera.origin),
-      text(scene.camera.target), text(scene.camera.up), scene.film.width, scene.film.height,
+      kSceneFormatVersion, lens_text.empty() ? kPerspective.type : kThinLens.type,
+      scene.camera.fov_degrees, lens_text, text(scene.camera.origin), text(scene.camera.target),
+      text(scene.camera.up), scene.film.width, scene.film.height, filter(scene.film.filter),
       scene.sampler.sample_count, scene.sampler.seed);
+  xml += integrator(scene);
   for (const auto& light : scene.lights)
     xml += std::visit([](const auto& l) { return emitter(l); }, light);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) xml += bsdf(scene.materials[i], i);
@@ -109,6 +175,7 @@ std::string scene_to_xml(const Scene& scene) {
         "    <ref id=\"material_{}\"/>\n"
         "  </shape>\n",
         text(sphere.center), sphere.radius, sphere.material);
+  for (const auto& plane : scene.planes) xml += plane_shape(plane);
   return xml + "</scene>\n";
 }
 

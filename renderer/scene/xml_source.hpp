@@ -23,6 +23,7 @@ class XmlSource {
   void error(pugi::xml_attribute where, pugi::xml_node of, const std::string& message);
   /// So many errors that further ones are only counted: not worth a long search for suggestions.
   bool full() const;
+  bool has_errors() const { return !errors_.empty(); }
   /// Throws Error(kInput) with the errors noted, one a line in the file's order, if there is any.
   void throw_if_errors() const;
 
