@@ -75,7 +75,10 @@ AxisValue parse_exponent(const std::string& text, const fs::path&) {
 /// A scene file whose lights replace those of the grid's scene.
 AxisValue parse_light(const std::string& text, const fs::path& directory) {
   const fs::path file = directory / text;
-  const auto lights = read_scene(file).lights;
+  const Scene scene_of_lights = read_scene(file);
+  if (const std::string picture = picture_of(scene_of_lights); !picture.empty())
+    throw std::runtime_error(fmt::format("{}: {}", printable(text), picture));
+  const auto lights = scene_of_lights.lights;
   std::string label = file.stem().string();
   std::replace(label.begin(), label.end(), '_', ' ');
   return {text, label, file_token(file.stem().string()),
@@ -90,6 +93,16 @@ constexpr AxisKind kAxisKinds[] = {
 };
 
 }  // namespace
+
+std::string picture_of(const Scene& scene) {
+  for (const Light& light : scene.lights)
+    if (const auto* sky = std::get_if<EnvironmentLight>(&light); sky && sky->image)
+      return fmt::format(
+          "the scene takes light from the picture '{}', and a cell keeps nothing but its scene file; "
+          "allowed in a grid: every other light",
+          printable(sky->file));
+  return "";
+}
 
 std::span<const AxisKind> axis_kinds() { return kAxisKinds; }
 

@@ -29,4 +29,8 @@ struct AxisKind {
 
 std::span<const AxisKind> axis_kinds();
 
+/// Why a cell cannot have this scene's lights, as a sentence: one of them is in a file of its own.
+/// Empty if it can.
+std::string picture_of(const Scene& scene);
+
 }  // namespace lobelia

@@ -7,6 +7,7 @@
 #include "farm/agreement.hpp"
 #include "farm/profile_scene.hpp"
 #include "renderer/edge_map.hpp"
+#include "renderer/pixel_ray.hpp"
 #include "renderer/render_record.hpp"
 
 namespace lobelia {
@@ -68,7 +69,8 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   }
   const Image& ours = pictures.front().second;
   const double exposure = cell_exposure(ours);
-  const auto edges = edge_map(cell.scene);
+  // Only a comparison asks for it, and engines are compared only where it can be made.
+  const auto edges = pictures.size() > 1 ? edge_map(cell.scene) : std::vector<std::uint8_t>();
 
   Json record = make_record("cell");
   record["id"] = cell.id;
@@ -90,7 +92,8 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
     record["comparisons"].push_back(entry);
     if (verdict != Verdict::kPass && status == "pass") status = "differs";
   }
-  if (!cell.scene.lights.empty() && !cell.scene.spheres.empty()) {
+  if (!cell.scene.lights.empty() && !cell.scene.spheres.empty() &&
+      beyond_single_rays(cell.scene).empty()) {
     NamedImages named;
     for (const auto& [engine, image] : pictures) named.emplace_back(engine, &image);
     write_record(store.file("profile.json"), profile_scene(cell.scene, 0, 0, named));

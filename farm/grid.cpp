@@ -48,7 +48,10 @@ class GridReader {
     if (grid_.axes.empty()) source_.error(root, "the grid has no <axis>; it needs one");
     check_size(root);
     source_.throw_if_errors();
-    if (film_) grid_.scene.film = *film_;
+    if (film_) {
+      grid_.scene.film.width = film_->width;  // the filter stays the scene's
+      grid_.scene.film.height = film_->height;
+    }
     return std::move(grid_);
   }
 
@@ -77,6 +80,8 @@ class GridReader {
     if (file.empty()) return;
     try {
       grid_.scene = read_scene(directory_ / file);
+      if (const std::string picture = picture_of(grid_.scene); !picture.empty())
+        source_.error(node.attribute("file"), node, picture);
     } catch (const Error& error) {
       source_.error(node.attribute("file"), node, error.what());
     }
@@ -172,9 +177,10 @@ class GridReader {
     }
     // Every cell holds its scene.
     const Scene& scene = grid_.scene;
-    const std::size_t parts = scene.spheres.size() + scene.materials.size() + scene.lights.size();
+    const std::size_t parts =
+        scene.spheres.size() + scene.planes.size() + scene.materials.size() + scene.lights.size();
     if (count * parts > kMaxParts)
-      source_.error(root, fmt::format("{} cells of {} spheres, materials and lights each; allowed: "
+      source_.error(root, fmt::format("{} cells of {} shapes, materials and lights each; allowed: "
                                       "{} in all",
                                       count, parts, kMaxParts));
   }

@@ -45,6 +45,12 @@ Image analytic_image(const Scene& scene, int sphere_index) {
 Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images) {
   require_index("light", light, scene.lights.size());
   require_index("sphere", sphere, scene.spheres.size());
+  if (!is_delta(scene.lights[std::size_t(light)]))
+    throw Error(ExitCode::kInput,
+                fmt::format("light {} is an area or an environment; a highlight's profile is of a "
+                            "directional or a point light",
+                            light));
+  require_single_rays(scene, "a highlight's profile");
   for (const auto& [name, image] : images)
     if (image->width() != scene.film.width || image->height() != scene.film.height)
       throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, the scene's film {} x {}",

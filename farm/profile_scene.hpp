@@ -18,7 +18,8 @@ Image analytic_image(const Scene& scene, int sphere);
 /// The record of the highlight of `light` on `sphere` in those pictures, which come in the order of
 /// the report. What other lights add by the formula is subtracted first, shadows not known. The formula is added in front as "analytic"; differences are of the first picture
 /// from each other one, and of each from the formula. Throws Error(kInput) if there is no such
-/// light or sphere, or if a picture has not the size of the scene's film.
+/// light or sphere, if the scene has what a single ray a pixel does not tell, or if a picture has not the
+/// size of the scene's film.
 Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images);
 
 }  // namespace lobelia

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "renderer/pixel_ray.hpp"
 
 namespace lobelia {
 namespace {
@@ -21,6 +22,12 @@ bool inside(Vec3 point, const Sphere& sphere) {
 }  // namespace
 
 std::string why_not_comparable(const Scene& scene) {
+  if (const std::string found = beyond_delta_lights(scene); !found.empty())
+    return fmt::format("the scenes of reference engines hold none of these yet: {}", found);
+  if (scene.spheres.size() > kMaxSpheresByRay)
+    return fmt::format(
+        "the scene has {} spheres; of more than {} no edges can be told, and nothing be compared",
+        scene.spheres.size(), kMaxSpheresByRay);
   if (scene.sampler.sample_count > 1)
     return fmt::format(
         "reference engines render one ray per pixel centre; this scene asks for {} samples per "

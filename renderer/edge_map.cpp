@@ -30,6 +30,7 @@ Situation situation_of(const Scene& scene, const CameraFrame& frame, int x, int 
 }  // namespace
 
 std::vector<std::uint8_t> edge_map(const Scene& scene) {
+  require_single_rays(scene, "silhouettes, terminators and shadow edges");
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
   const int width = scene.film.width, height = scene.film.height;
   std::vector<Situation> situations;

@@ -14,6 +14,7 @@ double angle_between(Vec3 a, Vec3 b) { return 2 * std::atan2(length(a - b), leng
 }  // namespace
 
 HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
+  require_single_rays(scene, "the angles of a highlight");
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
   const int width = scene.film.width, height = scene.film.height;
   const std::size_t pixels = std::size_t(width) * height;

@@ -16,6 +16,7 @@ struct HighlightMap {
   std::vector<double> solid_angle;  ///< of the pixel as seen from the camera, steradian; never NaN
 };
 
+/// Throws Error(kInput) for a scene in which a single ray a pixel does not tell.
 HighlightMap highlight_map(const Scene& scene, int light, int sphere);
 
 }  // namespace lobelia

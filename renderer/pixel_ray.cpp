@@ -1,7 +1,11 @@
 #include "renderer/pixel_ray.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
+
+#include "core/error.hpp"
 
 namespace lobelia {
 namespace {
@@ -21,6 +25,21 @@ Chord chord_of(const Sphere& sphere, Vec3 origin, Vec3 direction) {
 }
 
 }  // namespace
+
+std::string beyond_single_rays(const Scene& scene) {
+  std::string found = beyond_delta_lights(scene);
+  if (scene.spheres.size() > kMaxSpheresByRay)
+    found += fmt::format("{}over {} spheres", found.empty() ? "" : ", ", kMaxSpheresByRay);
+  return found;
+}
+
+void require_single_rays(const Scene& scene, std::string_view what) {
+  if (const std::string found = beyond_single_rays(scene); !found.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("{} can be told of a scene of up to {} spheres under directional and "
+                            "point lights; this one has more: {}",
+                            what, kMaxSpheresByRay, found));
+}
 
 Vec3 centre_ray(const CameraFrame& frame, const Film& film, int x, int y) {
   const double u = (2 * (x + 0.5) / film.width - 1) * frame.half_width;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "renderer/scene/scene.hpp"
 
@@ -12,6 +14,14 @@ struct Hit {
   int sphere;
   Vec3 point, normal;
 };
+
+/// Every sphere is looked at for every ray: with more of them it would take hours.
+inline constexpr std::size_t kMaxSpheresByRay = 1024;
+
+/// What of the scene a single ray through each pixel does not tell, in words; empty if it tells all.
+std::string beyond_single_rays(const Scene& scene);
+/// Throws Error(kInput) where there is such a thing; `what`, "edges", is what was asked for.
+void require_single_rays(const Scene& scene, std::string_view what);
 
 /// From the camera through the centre of pixel (x, y), to the film at distance 1; not normalised.
 Vec3 centre_ray(const CameraFrame& frame, const Film& film, int x, int y);

@@ -28,6 +28,8 @@ ImageMetadata render_metadata(const Scene& scene) {
   ImageMetadata metadata{{"Software", kNameAndVersion},
                          {"lobelia:samples", std::to_string(scene.sampler.sample_count)},
                          {"lobelia:seed", std::to_string(scene.sampler.seed)}};
+  // A sphere takes over 64 bytes: a crowd's text is not even made.
+  if (scene.spheres.size() > kMaxSceneAttribute / 64) return metadata;
   if (std::string xml = scene_to_xml(scene); xml.size() <= kMaxSceneAttribute)
     metadata.emplace_back("lobelia:scene", std::move(xml));
   return metadata;

@@ -121,6 +121,33 @@ TEST(ProfileScene, RefusesWhatTheSceneDoesNotHave) {
   EXPECT_EQ(code(0, 0, turned), ExitCode::kInput) << "as many pixels, another shape";
 }
 
+TEST(ProfileScene, SaysWhichScenesHaveNoProfile) {
+  const Scene scene = scene_with("phong_rdf", 16);
+  const Image image = analytic_image(scene, 0);
+  const auto message = [&](const Scene& changed, int light) -> std::string {
+    try {
+      profile_scene(changed, light, 0, {{"a", &image}});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kInput);
+      return error.what();
+    }
+    return "";
+  };
+  Scene area = scene;
+  area.lights.push_back(SphereLight{});
+  EXPECT_EQ(message(area, 1),
+            "light 1 is an area or an environment; a highlight's profile is of a directional or a "
+            "point light");
+  EXPECT_EQ(message(area, 0),
+            "a highlight's profile can be told of a scene of up to 1024 spheres under directional "
+            "and point lights; this one has more: an area light");
+  Scene crowd = scene;
+  crowd.spheres.resize(1025, crowd.spheres.front());
+  EXPECT_EQ(message(crowd, 0),
+            "a highlight's profile can be told of a scene of up to 1024 spheres under directional "
+            "and point lights; this one has more: over 1024 spheres");
+}
+
 TEST(ProfileScene, OfOneLightDoesNotSeeTheHighlightOfTheOther) {
   Scene alone = scene_with("phong_rdf", 64), both = alone;
   both.lights.push_back(DirectionalLight{normalize({0.6, -0.3, -1}), {7, 7, 7}});

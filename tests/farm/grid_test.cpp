@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/image_io.hpp"
 
 namespace lobelia {
 namespace {
@@ -36,6 +37,42 @@ TEST(SphereGrid, HasEveryModelNormalisationExponentAndLight) {
   for (const auto& cell : cells) ids.insert(cell.id);
   EXPECT_EQ(ids.size(), cells.size());
   EXPECT_EQ(grid.engines, (std::vector<std::string>{"povray", "blender"}));
+}
+
+TEST(Grid, HasNoSceneThatIsLitByAPicture) {
+  const TemporaryDirectory directory;
+  write_exr(directory.path() / "sky.exr", Image(2, 1), {});
+  write_file(
+      directory.path() / "s.xml",
+      std::string_view(
+          "<scene version=\"1\"><sensor type=\"perspective\"><float name=\"fov\" value=\"28\"/>"
+          "<transform name=\"to_world\"><lookat origin=\"0,0,5\" target=\"0,0,0\" up=\"0,1,0\"/>"
+          "</transform></sensor><emitter type=\"envmap\">"
+          "<string name=\"filename\" value=\"sky.exr\"/></emitter></scene>"));
+  const std::string file = (directory.path() / "s.xml").string();
+  const std::string axis = "<axis name=\"exponent\" values=\"16\"/>";
+  EXPECT_THAT(error_of("<scene file=\"" + file + "\"/>" + axis),
+              testing::HasSubstr("takes light from the picture 'sky.exr'"));
+  EXPECT_THAT(error_of(kScene + "<axis name=\"light\" values=\"" + file + "\"/>"),
+              testing::HasSubstr("takes light from the picture 'sky.exr'"));
+}
+
+TEST(Grid, LeavesTheFilterToTheScene) {
+  const TemporaryDirectory directory;
+  write_file(
+      directory.path() / "s.xml",
+      std::string_view(
+          "<scene version=\"1\"><sensor type=\"perspective\"><float name=\"fov\" value=\"28\"/>"
+          "<transform name=\"to_world\"><lookat origin=\"0,0,5\" target=\"0,0,0\" up=\"0,1,0\"/>"
+          "</transform><film type=\"hdrfilm\"><rfilter type=\"tent\"/></film></sensor></scene>"));
+  write_file(
+      directory.path() / "g.xml",
+      std::string_view("<grid version=\"1\"><scene file=\"s.xml\"/><film width=\"7\" height=\"9\"/>"
+                       "<axis name=\"exponent\" values=\"16\"/></grid>"));
+  const Film film = read_grid(directory.path() / "g.xml").scene.film;
+  EXPECT_EQ(film.width, 7);
+  EXPECT_EQ(film.height, 9);
+  EXPECT_EQ(film.filter, find_filter("tent"));
 }
 
 TEST(Cells, CarryTheValuesOfTheirAxesIntoTheScene) {

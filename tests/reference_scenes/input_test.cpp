@@ -11,6 +11,7 @@
 #include "core/text.hpp"
 #include "reference_scenes/blender/blender_input.hpp"
 #include "reference_scenes/engine.hpp"
+#include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/povray/povray_input.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/render.hpp"
@@ -157,6 +158,37 @@ TEST(NotComparable, SaysWhy) {
   Scene wide = scene;
   wide.spheres.push_back({{1e9, 0, 0}, 1, 0});
   EXPECT_THAT(why_not_comparable(wide), HasSubstr("precision"));
+}
+
+TEST(NotComparable, NamesWhatNoEngineIsAskedForYet) {
+  const Scene scene = sphere_scene(kExpressed, {point_light()}, 16);
+  const auto why = [&](auto change) {
+    Scene changed = scene;
+    change(changed);
+    return why_not_comparable(changed);
+  };
+  const std::string none = "the scenes of reference engines hold none of these yet: ";
+  EXPECT_EQ(why([](Scene& s) { s.lights.push_back(SphereLight{}); }), none + "an area light");
+  EXPECT_EQ(why([](Scene& s) { s.lights.push_back(RectangleLight{}); }), none + "an area light");
+  EXPECT_EQ(why([](Scene& s) { s.lights.push_back(EnvironmentLight{}); }),
+            none + "an environment light");
+  EXPECT_EQ(why([](Scene& s) {
+              s.planes.push_back({{0, -1, 0}, {0, 1, 0}});
+            }),
+            none + "a ground plane");
+  EXPECT_EQ(why([](Scene& s) {
+              s.materials[0].mirror_reflectance = {0.1, 0, 0};
+            }),
+            none + "a mirror");
+  EXPECT_EQ(why([](Scene& s) { s.depth.glossy = 1; }), none + "inter-reflection");
+  EXPECT_EQ(why([](Scene& s) { s.camera.aperture_radius = 0.1; }), none + "depth of field");
+  EXPECT_EQ(why([](Scene& s) { s.spheres.resize(1025, s.spheres.front()); }),
+            "the scene has 1025 spheres; of more than 1024 no edges can be told, and nothing be "
+            "compared");
+  Scene with_light = scene;
+  with_light.lights.push_back(EnvironmentLight{});
+  for (const EngineInfo& engine : engine_infos())
+    EXPECT_THROW(keep_engine_input(engine.name, with_light, "no_such_directory"), Error);
 }
 
 TEST(BlenderInput, RefusesWhatBlenderWouldEnlarge) {

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "core/error.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
@@ -46,6 +47,30 @@ TEST(EdgeMap, OfNothingIsEmpty) {
   Scene scene = canonical("head_on");
   scene.spheres.clear();
   EXPECT_EQ(count(edge_map(scene)), 0);
+}
+
+TEST(EdgeMap, RefusesASceneInWhichASingleRayDoesNotTell) {
+  const auto message = [](auto change) -> std::string {
+    Scene scene = canonical("head_on");
+    change(scene);
+    try {
+      edge_map(scene);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kInput);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(
+      message([](Scene& s) {
+        s.lights.push_back(EnvironmentLight{});
+        s.planes.push_back({});
+      }),
+      "silhouettes, terminators and shadow edges can be told of a scene of up to 1024 spheres "
+      "under directional and point lights; this one has more: an environment light, a ground "
+      "plane");
+  EXPECT_NE(message([](Scene& s) { s.spheres.resize(1025, s.spheres.front()); }), "");
+  EXPECT_EQ(message([](Scene& s) { s.spheres.resize(1024, {{0, 0, -1e6}, 1, 0}); }), "");
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
@@ -150,13 +149,8 @@ TEST(SceneShapes, AHundredThousandSpheresAreReadInTimeProportionalToTheirNumber)
   for (int i = 0; i < 100000; ++i)
     body += shape("sphere", given("point", "center", std::to_string(i) + ", 0, 0.5") +
                                 given("float", "radius", "0.25"));
-  const auto seconds = [](const std::string& text) {
-    const auto start = std::chrono::steady_clock::now();
-    parse_scene(text, "s.xml");
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  // 0.2 s on one core of 2023. Quadratic behaviour would be minutes.
-  EXPECT_LT(seconds(scene(body)), 20);
+  // 0.2 s on one core of 2023; quadratic behaviour would run into the time limit of this program.
+  EXPECT_EQ(parse_scene(scene(body), "s.xml").spheres.size(), 100000u);
   // The same with an error in every one.
   std::string wrong = kMaterial;
   for (int i = 0; i < 100000; ++i) wrong += shape("sphere", "", "<ref id=\"n\"/>");

@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "core/error.hpp"
 #include "verify/stability/float3.hpp"
 #include "verify/stability/naive.hpp"
 
@@ -19,6 +20,8 @@ float meet(const Sphere& sphere, Float3 origin, Float3 direction) {
 
 struct Tracer {
   explicit Tracer(const Scene& s) : scene(s) {
+    if (const std::string found = beyond_delta_lights(scene); !found.empty())
+      throw Error(ExitCode::kInternal, "the naive renderer does not know: " + found);
     for (const Material& material : scene.materials)
       coefficients.push_back(coefficient(material.highlight));
   }

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <tuple>
 
+#include "core/error.hpp"
 #include "verify/truth/big_lobe.hpp"
 #include "verify/truth/truth.hpp"
 
@@ -113,6 +114,8 @@ struct Picture::Pixels {
 };
 
 Picture::Picture(const Scene& scene) : pixels_(std::make_unique<Pixels>()) {
+  if (const std::string found = beyond_delta_lights(scene); !found.empty())
+    throw Error(ExitCode::kInternal, "the truth of 50 digits does not know: " + found);
   const Frame frame(scene);
   const Big3 origin(scene.camera.origin);
   const Film& film = scene.film;
