@@ -6,6 +6,7 @@ OUT    ?= out/gallery
 GRID   ?= reference_scenes/grids/sphere_grid.xml
 JOBS   ?= $(shell nproc)
 SETUP  ?= yes
+FUZZ_SECONDS ?= 60
 
 # SETUP=no: for systems whose packages have other names than Debian's.
 setup     = $(if $(filter no,$(SETUP)),@:,@scripts/setup)
@@ -13,14 +14,14 @@ configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery test build bench lint clean
+.PHONY: help gallery test build bench fuzz lint clean
 .NOTPARALLEL:
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## /make \1\t/p' Makefile | expand -t 16
 	@echo
 	@echo 'Variables: PRESET (release, dev, asan, tsan, ci), OUT (where the gallery goes), JOBS,'
-	@echo 'GRID (a grid file), SETUP=no (look for no missing packages)'
+	@echo 'GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS'
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
 	$(setup) build engines
@@ -43,6 +44,12 @@ bench: ## builds and runs the benchmarks
 	$(setup) build
 	$(configure)
 	$(build) --target run_bench
+
+fuzz: ## looks for scene files that break the reader, FUZZ_SECONDS long (60); needs Clang
+	$(setup) build fuzz
+	cmake --preset fuzz
+	cmake --build --preset fuzz --parallel "$(JOBS)"
+	@scripts/fuzz build/fuzz "$(FUZZ_SECONDS)"
 
 lint: ## checks the layout of the source, and for common mistakes with TIDY=yes (minutes)
 	$(setup) build lint
