@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "renderer/scene/scene_format.hpp"
@@ -23,6 +24,31 @@ TEST(CanonicalScenes, AllReadAndWriteBackToTheSameScene) {
     EXPECT_EQ(scene_to_xml(parse_scene(xml, "again")), xml) << entry.path();
   }
   EXPECT_GE(count, 6);
+}
+
+TEST(EffectScenes, ReadAndWriteBackAndHaveWhatTheirNamesSay) {
+  const std::filesystem::path directory = kRoot + "/reference_scenes/scenes/effects";
+  const std::map<std::string, std::string> beyond = {
+      {"area_light", "an area light, a ground plane"},
+      {"rectangle_light", "an area light, a ground plane"},
+      {"environment", "an environment light, a ground plane"},
+      {"environment_map", "an environment light"},
+      {"mirrors", "a ground plane, a mirror"},
+      {"depth_of_field", "a ground plane, depth of field"},
+      {"crowd", ""},
+  };
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    if (entry.path().extension() != ".xml") continue;
+    ++count;
+    const Scene scene = read_scene(entry.path());
+    EXPECT_EQ(beyond_delta_lights(scene), beyond.at(entry.path().stem().string()));
+    EXPECT_EQ(scene.film.width, 256) << entry.path();
+    again(scene, directory);
+  }
+  EXPECT_EQ(count, beyond.size());
+  EXPECT_EQ(read_scene(directory / "mirrors.xml").depth.mirror, 5);
+  EXPECT_EQ(read_scene(directory / "crowd.xml").spheres.size(), 10164u);
 }
 
 TEST(SceneWriter, KeepsEveryDigit) {
