@@ -53,6 +53,7 @@ std::vector<pugi::xml_node> ElementReader::elements(pugi::xml_node parent) {
 void ElementReader::expect_tag(pugi::xml_node node, Tags allowed) {
   if (std::find(allowed.begin(), allowed.end(), std::string_view(node.name())) != allowed.end())
     return;
+  if (source_.full()) return source_.count_error();
   const std::span<const std::string_view> tags(allowed.begin(), allowed.size());
   source_.error(node, fmt::format("unknown element <{}> in <{}>; allowed: {}{}",
                                   printable(node.name()), printable(node.parent().name()),
@@ -168,6 +169,7 @@ Values::Value ElementReader::default_of(const Parameter& parameter) {
 }
 
 void ElementReader::unknown_child(pugi::xml_node node, Tags nested) {
+  if (source_.full()) return source_.count_error();
   std::vector<std::string_view> allowed(std::begin(kParameterTags), std::end(kParameterTags));
   allowed.insert(allowed.end(), nested.begin(), nested.end());
   source_.error(node, fmt::format("unknown element <{}> in <{}>; allowed: {}{}",

@@ -75,6 +75,10 @@ void XmlSource::check_attributes(pugi::xml_node node,
   for (const auto attribute : node.attributes()) {
     const std::string_view name = attribute.name();
     if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
+    if (full()) {
+      count_error();
+      continue;
+    }
     const std::span<const std::string_view> names(allowed.begin(), allowed.size());
     error(attribute, node,
           fmt::format("<{}> has no attribute '{}'; allowed: {}{}", node.name(), printable(name),

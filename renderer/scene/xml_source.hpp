@@ -23,6 +23,8 @@ class XmlSource {
   void error(pugi::xml_attribute where, pugi::xml_node of, const std::string& message);
   /// So many errors that further ones are only counted: not worth a long search for suggestions.
   bool full() const;
+  /// Counts an error that is not worth a message, because there are enough.
+  void count_error() { ++error_count_; }
   bool has_errors() const { return !errors_.empty(); }
   /// Throws Error(kInput) with the errors noted, one a line in the file's order, if there is any.
   void throw_if_errors() const;
