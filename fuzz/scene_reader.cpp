@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "fuzz/same_scene.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::fuzz {
@@ -35,7 +36,9 @@ void check_scene_reader(std::string_view text) {
   const auto again = read(written);
   if (!again) throw std::logic_error("what was written cannot be read:\n" + written);
   if (const std::string second = scene_to_xml(*again); second != written)
-    throw std::logic_error("what was written reads as another scene:\n" + written + "\n" + second);
+    throw std::logic_error("what was written is written again as:\n" + written + "\n" + second);
+  if (!same_scene(*scene, *again))
+    throw std::logic_error("what was written reads as another scene:\n" + written);
 }
 
 }  // namespace lobelia::fuzz

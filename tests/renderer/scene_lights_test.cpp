@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -103,6 +105,18 @@ TEST(SceneLights, ARectangleAlmostPerpendicularIsReadAsItIsWritten) {
                                                        given("vector", "half_v", "9e-7,1,0"))),
                         "s.xml"));
   EXPECT_EQ(std::get<RectangleLight>(s.lights[0]).half_v, (Vec3{9e-7, 1, 0}));
+}
+
+TEST(SceneLights, ADirectionIsMadeAUnitVectorOnceAndThenKept) {
+  for (int i = 0; i < 30; ++i) {
+    std::string body;
+    for (int k = 0; k < 64; ++k)
+      body += emitter("directional", given("vector", "direction",
+                                           fmt::format("{}, {}, {}", i - 7.3, k / 3.7, i * k + 1)));
+    const Scene s = again(parse_scene(scene(body), "s.xml"));
+    for (const Light& light : s.lights)
+      EXPECT_NEAR(length(std::get<DirectionalLight>(light).direction), 1, 1e-15);
+  }
 }
 
 TEST_F(EnvironmentMap, IsReadFromTheScenesDirectoryAndWrittenByItsName) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "fuzz/same_scene.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
@@ -46,11 +47,12 @@ inline std::string error_of(const std::string& text, const std::filesystem::path
   return "it was read";
 }
 
-/// The scene written down and read again; its text must be the same.
+/// The scene written down and read again; scene and text must be the same.
 inline Scene again(const Scene& scene, const std::filesystem::path& directory = {}) {
   const std::string xml = scene_to_xml(scene);
   Scene back = parse_scene(xml, "again.xml", directory);
   EXPECT_EQ(scene_to_xml(back), xml);
+  EXPECT_TRUE(fuzz::same_scene(scene, back)) << xml;
   return back;
 }
 

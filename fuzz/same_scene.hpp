@@ -1,0 +1,89 @@
+// Whether two scenes are the same but for the names of their materials. The text that we write would
+// not tell: what the writer forgets, it forgets twice.
+#pragma once
+
+#include <algorithm>
+#include <tuple>
+#include <variant>
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia::fuzz {
+
+// Structured bindings name every field, so that a new one does not compile until it stands here too.
+
+inline auto fields(const Camera& c) {
+  const auto& [origin, target, up, fov, aperture, focus] = c;
+  return std::tie(origin, target, up, fov, aperture, focus);
+}
+inline auto fields(const Film& f) {
+  const auto& [width, height, filter] = f;
+  return std::tie(width, height, filter);
+}
+inline auto fields(const Sampler& s) {
+  const auto& [samples, seed] = s;
+  return std::tie(samples, seed);
+}
+inline auto fields(const DirectionalLight& l) {
+  const auto& [direction, irradiance] = l;
+  return std::tie(direction, irradiance);
+}
+inline auto fields(const PointLight& l) {
+  const auto& [position, intensity] = l;
+  return std::tie(position, intensity);
+}
+inline auto fields(const SphereLight& l) {
+  const auto& [center, radius, radiance] = l;
+  return std::tie(center, radius, radiance);
+}
+inline auto fields(const RectangleLight& l) {
+  const auto& [center, half_u, half_v, radiance] = l;
+  return std::tie(center, half_u, half_v, radiance);
+}
+inline auto fields(const EnvironmentLight& l) {
+  const auto& [radiance, image, file] = l;  // another object with the same values is the same
+  return std::make_tuple(radiance, image != nullptr, file);
+}
+inline auto fields(const Highlight& h) {
+  const auto& [model, lobe, normalisation, exponent] = h;
+  return std::tie(model, lobe, normalisation, exponent);
+}
+inline auto fields(const Material& m) {
+  const auto& [id, highlight, specular, diffuse, fresnel, mirror] = m;
+  return std::tuple_cat(fields(highlight), std::tie(specular, diffuse, fresnel, mirror));
+}
+inline auto fields(const Sphere& s) {
+  const auto& [center, radius, material] = s;
+  return std::tie(center, radius, material);
+}
+inline auto fields(const Plane& p) {
+  const auto& [point, normal, material, checker_material, checker_size] = p;
+  return std::tie(point, normal, material, checker_material, checker_size);
+}
+inline auto fields(const Depth& d) {
+  const auto& [mirror, glossy] = d;
+  return std::tie(mirror, glossy);
+}
+
+inline bool same_light(const Light& a, const Light& b) {
+  return a.index() == b.index() &&
+         std::visit(
+             [&](const auto& one) {
+               return fields(one) == fields(std::get<std::decay_t<decltype(one)>>(b));
+             },
+             a);
+}
+
+inline bool same_scene(const Scene& a, const Scene& b) {
+  const auto equal = [](const auto& x, const auto& y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                      [](const auto& p, const auto& q) { return fields(p) == fields(q); });
+  };
+  const auto& [camera, film, sampler, lights, materials, spheres, planes, depth] = a;
+  return fields(camera) == fields(b.camera) && fields(film) == fields(b.film) &&
+         fields(sampler) == fields(b.sampler) && fields(depth) == fields(b.depth) &&
+         equal(materials, b.materials) && equal(spheres, b.spheres) && equal(planes, b.planes) &&
+         std::equal(lights.begin(), lights.end(), b.lights.begin(), b.lights.end(), same_light);
+}
+
+}  // namespace lobelia::fuzz
