@@ -115,6 +115,14 @@ TEST_F(FarmTest, ASceneWithNothingInItAndOneThatIsAlmostBlackAreCellsToo) {
   EXPECT_EQ(cell_record("n16")["exposureStops"], 100);
 }
 
+TEST_F(FarmTest, ACellWithMoreThanASingleRayTellsHasNoProfile) {
+  Grid mirror = grid("16");
+  mirror.scene.materials[0].mirror_reflectance = {0.5, 0.5, 0.5};
+  EXPECT_EQ(run_farm(mirror, out(), {}).unchecked, 1u);
+  EXPECT_FALSE(cell_record("n16").contains("profile"));
+  EXPECT_FALSE(fs::exists(in_cell("n16", "profile.json")));
+}
+
 TEST_F(FarmTest, AnInterruptedAgainIsTakenUpWhereItStopped) {
   const Grid two = grid("16, 32");
   run_farm(two, out(), {});
