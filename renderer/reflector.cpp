@@ -16,11 +16,6 @@ bool is_direction(Vec3 v) {
 
 }  // namespace
 
-/// Unit vectors, both above the horizon.
-struct Reflector::Directions {
-  Vec3 normal, to_eye, to_light;
-};
-
 std::optional<Reflector::Directions> Reflector::above_horizon(Vec3 normal, Vec3 to_eye,
                                                               Vec3 to_light) {
   if (!is_direction(normal) || !is_direction(to_eye) || !is_direction(to_light))
@@ -32,6 +27,8 @@ std::optional<Reflector::Directions> Reflector::above_horizon(Vec3 normal, Vec3 
 
 Reflector::Reflector(const Material& material)
     : material_(material),
+      has_highlight_(!is_black(material.specular_reflectance) ||
+                     material.fresnel != Fresnel::kNone),
       lobe_(prepare(material.highlight.lobe, material.highlight.exponent)),
       coefficient_(radiance_coefficient(material.highlight)) {}
 
@@ -51,55 +48,70 @@ double Reflector::specular_share(double n_dot_v) const {
   return specular + diffuse > 0 ? specular / (specular + diffuse) : 1;
 }
 
-Rgb Reflector::eval(const Directions& d) const {
+Rgb Reflector::eval(const Directions& d, double s) const {
   const double n_dot_l = dot(d.normal, d.to_light);
-  const double value = coefficient_ * lobe_.value(one_minus_cos(d)) *
-                       foreshortening(material_.highlight.model, n_dot_l);
+  const Rgb diffuse = n_dot_l * std::numbers::inv_pi * material_.diffuse_reflectance;
+  if (!has_highlight_) return diffuse;
+  const double value =
+      coefficient_ * lobe_.value(s) * foreshortening(material_.highlight.model, n_dot_l);
   return value * fresnel_factor(material_.fresnel, material_.specular_reflectance, d.to_eye,
                                 d.to_light) +
-         n_dot_l * std::numbers::inv_pi * material_.diffuse_reflectance;
+         diffuse;
 }
 
-double Reflector::pdf(const Directions& d) const {
+double Reflector::pdf(const Directions& d, double s) const {
   const double share = specular_share(dot(d.normal, d.to_eye));
-  double specular = lobe_.density(std::min(1.0, one_minus_cos(d))) / (2 * std::numbers::pi);
-  // From half vectors to directions: dL = 4 (V.H) dH, V.H = |L + V| / 2.
-  if (info(material_.highlight.model).angle == LobeAngle::kHalfVector)
-    specular /= 2 * length(d.to_eye + d.to_light);
+  double specular = 0;
+  if (share > 0) {
+    specular = lobe_.density(std::min(1.0, s)) / (2 * std::numbers::pi);
+    // From half vectors to directions: dL = 4 (V.H) dH, V.H = |L + V| / 2.
+    if (info(material_.highlight.model).angle == LobeAngle::kHalfVector)
+      specular /= 2 * length(d.to_eye + d.to_light);
+  }
   return share * specular + (1 - share) * dot(d.normal, d.to_light) * std::numbers::inv_pi;
 }
 
 Rgb Reflector::eval(Vec3 normal, Vec3 to_eye, Vec3 to_light) const {
   const auto d = above_horizon(normal, to_eye, to_light);
-  return d ? eval(*d) : Rgb{};
+  return d ? eval(*d, one_minus_cos(*d)) : Rgb{};
 }
 
 double Reflector::pdf(Vec3 normal, Vec3 to_eye, Vec3 to_light) const {
   const auto d = above_horizon(normal, to_eye, to_light);
-  return d ? pdf(*d) : 0;
+  return d ? pdf_above(*d) : 0;
+}
+
+double Reflector::pdf_above(const Directions& d) const {
+  return pdf(d, has_highlight_ ? one_minus_cos(d) : 0);
 }
 
 std::optional<ReflectorSample> Reflector::sample(Vec3 normal, Vec3 to_eye, double choice, double u,
                                                  double v) const {
   const auto here = above_horizon(normal, to_eye, normal);
-  if (!here) return std::nullopt;
+  return here ? sample_above(here->normal, here->to_eye, choice, u, v) : std::nullopt;
+}
+
+std::optional<ReflectorSample> Reflector::sample_above(Vec3 normal, Vec3 to_eye, double choice,
+                                                       double u, double v) const {
+  const double n_dot_v = dot(normal, to_eye);
   Vec3 to_light;
-  if (choice < specular_share(dot(here->normal, here->to_eye))) {
+  if (choice < specular_share(n_dot_v)) {
     const double s = lobe_.sample(u);
     if (info(material_.highlight.model).angle == LobeAngle::kReflection) {
-      const Vec3 mirrored = 2 * dot(here->normal, here->to_eye) * here->normal - here->to_eye;
-      to_light = about(mirrored, s, v);
+      to_light = about(2 * n_dot_v * normal - to_eye, s, v);
     } else {
-      const Vec3 half = about(here->normal, s, v);
-      to_light = 2 * dot(half, here->to_eye) * half - here->to_eye;
+      const Vec3 half = about(normal, s, v);
+      to_light = 2 * dot(half, to_eye) * half - to_eye;
     }
   } else {
     // Malley's method: a point of the disc, lifted. N.L = sqrt(1 - u).
-    to_light = about(here->normal, u / (1 + std::sqrt(1 - u)), v);
+    to_light = about(normal, u / (1 + std::sqrt(1 - u)), v);
   }
-  const auto d = above_horizon(normal, to_eye, to_light);
-  if (!d) return std::nullopt;
-  const ReflectorSample drawn{d->to_light, eval(*d), pdf(*d)};
+  to_light = 1 / std::sqrt(dot(to_light, to_light)) * to_light;
+  const Directions d{normal, to_eye, to_light};
+  if (!(dot(normal, to_light) > 0)) return std::nullopt;
+  const double s = has_highlight_ ? one_minus_cos(d) : 0;
+  const ReflectorSample drawn{to_light, eval(d, s), pdf(d, s)};
   // A pdf may underflow to 0 far from the lobe, where no draw is expected.
   if (!(drawn.pdf > 0)) return std::nullopt;
   return drawn;

@@ -37,15 +37,24 @@ class Reflector {
   /// 1 less the draws that lead nowhere.
   double pdf(Vec3 normal, Vec3 to_eye, Vec3 to_light) const;
 
+  /// Unit vectors, eye and light above the horizon.
+  struct Directions {
+    Vec3 normal, to_eye, to_light;
+  };
+  /// The same of directions that are known to be such, at a fraction of the time.
+  double pdf_above(const Directions& directions) const;
+  std::optional<ReflectorSample> sample_above(Vec3 normal, Vec3 to_eye, double choice, double u,
+                                              double v) const;
+
  private:
-  struct Directions;
   static std::optional<Directions> above_horizon(Vec3 normal, Vec3 to_eye, Vec3 to_light);
   double one_minus_cos(const Directions& d) const;
   double specular_share(double n_dot_v) const;
-  Rgb eval(const Directions& d) const;
-  double pdf(const Directions& d) const;
+  Rgb eval(const Directions& d, double s) const;
+  double pdf(const Directions& d, double s) const;
 
   Material material_;
+  bool has_highlight_;
   PreparedLobe lobe_;
   double coefficient_;
 };

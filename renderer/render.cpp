@@ -13,6 +13,7 @@
 
 #include "core/interrupt.hpp"
 #include "core/threads.hpp"
+#include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/plan/sharpness.hpp"
 #include "renderer/tile.hpp"
@@ -44,6 +45,10 @@ class Render {
     result_.plan_seconds = seconds_since(start);
     started_ = Clock::now();
     ThreadLimit(options_.threads).run([&] {
+      if (options_.allow_fused && FusedRenderer::can_render(scene_, result_.plan)) {
+        fused();
+        return;
+      }
       const WaveRenderer renderer(scene_, result_.plan);
       tiles_ = std::make_unique<TileRenderer>(scene_, result_.plan, renderer);
       if (options_.target_error || options_.time_limit)
@@ -79,34 +84,64 @@ class Render {
     });
   }
 
-  /// Every tile with all its samples; bands of rows one after the other if a sink takes them.
+  /// f(y0, y1, rgb) makes rows y0..y1 - 1 of the picture: all of them, or if a sink takes them, bands of
+  /// them one after the other, each while the one before is taken.
+  template <class F>
+  void in_bands(const F& f) {
+    const int rows = sink_ ? std::min(band_rows(scene_.film), height()) : height();
+    if (!sink_) {
+      result_.image = Image(width(), height());
+      f(0, height(), result_.image.values().data());
+      return;
+    }
+    std::vector<float> buffers[2];
+    oneapi::tbb::task_group writing;
+    for (int y0 = 0, band = 0; y0 < height() && !interrupted(); y0 += rows, ++band) {
+      const int y1 = std::min(height(), y0 + rows);
+      std::vector<float>& buffer = buffers[band % 2];
+      buffer.resize(std::size_t(3) * std::size_t(width()) * std::size_t(y1 - y0));
+      f(y0, y1, buffer.data());
+      if (interrupted()) break;
+      writing.wait();
+      writing.run([this, y0, y1, &buffer] { (*sink_)(y0, y1 - y0, buffer.data()); });
+    }
+    writing.wait();
+  }
+
+  /// One ray a pixel, everything in one kernel.
+  void fused() {
+    const FusedRenderer renderer(scene_, result_.plan);
+    std::atomic<int> done{0};
+    in_bands([&](int y0, int y1, float* rgb) {
+      oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(y0, y1, 8),
+                                [&](const oneapi::tbb::blocked_range<int>& rows) {
+                                  if (interrupted()) return;
+                                  renderer.render_rows(rows.begin(), rows.end(),
+                                                       rgb + std::size_t(3) * std::size_t(width()) *
+                                                                 std::size_t(rows.begin() - y0));
+                                  report(double(done += rows.end() - rows.begin()) / height());
+                                });
+    });
+    result_.samples = 1;
+    result_.work += renderer.work();
+    if (options_.target_error || options_.time_limit)
+      result_.stop_reason = "after one sample a pixel: nothing in the scene is random";
+  }
+
+  /// Every tile with all its samples.
   void at_once() {
     const int samples = all_samples();
-    const int rows = sink_ ? std::min(band_rows(scene_.film), height()) : height();
     const std::size_t across = std::size_t((width() + kTileSide - 1) / kTileSide);
     std::vector<Spread> spread(across * std::size_t((height() + kTileSide - 1) / kTileSide));
-    std::vector<float> buffers[2];
-    if (!sink_) result_.image = Image(width(), height());
     std::atomic<std::int64_t> pixels{0};
-    oneapi::tbb::task_group writing;
-    for (int y0 = 0, band = 0; y0 < height(); y0 += rows, ++band) {
-      const int y1 = std::min(height(), y0 + rows);
-      float* to = result_.image.values().data();
-      if (sink_) {
-        buffers[band % 2].resize(std::size_t(3) * std::size_t(width()) * std::size_t(y1 - y0));
-        to = buffers[band % 2].data();
-      }
+    in_bands([&](int y0, int y1, float* rgb) {
       for_tiles(y0, y1, [&](const Tile& tile, WaveRenderer::Workspace& workspace) {
         spread[std::size_t(tile.y / kTileSide) * across + std::size_t(tile.x / kTileSide)] =
-            tiles_->render(tile, samples, to, y0, workspace);
+            tiles_->render(tile, samples, rgb, y0, workspace);
         report(double(pixels += std::int64_t{tile.width} * tile.height) /
                (double(width()) * height()));
       });
-      if (!sink_ || interrupted()) continue;
-      writing.wait();
-      writing.run([this, y0, y1, to] { (*sink_)(y0, y1 - y0, to); });
-    }
-    writing.wait();
+    });
     result_.samples = samples;
     Spread sum;
     for (const Spread& s : spread) sum += s;

@@ -20,7 +20,8 @@ using RowSink = std::function<void(int y, int rows, const float* rgb)>;
 struct RenderOptions {
   int threads = 0;  ///< 0: all processors
   EffectPolicy effects = EffectPolicy::kAsCalledFor;
-  std::optional<Precision> precision;       ///< none: what the plan finds sufficient
+  std::optional<Precision> precision;  ///< none: what the plan finds sufficient
+  bool allow_fused = true;  ///< where a picture is simple enough; it makes no difference to it
   std::function<void(double)> on_progress;  ///< fraction done, from any thread, not in order
 
   /// Where one of these two is given, samples are taken in rounds, each as many as all before, until

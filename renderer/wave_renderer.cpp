@@ -18,6 +18,7 @@ namespace lobelia {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Sphere kUnitSphere{};
 /// After so many reflections a path goes on only with a probability, by how much light it can bring.
 constexpr int kRouletteFrom = 4;
 
@@ -33,6 +34,10 @@ void copy(const Vec3Chunk& from, std::size_t i, Vec3Chunk& to, std::size_t j) {
 Vec3 get(const Vec3Chunk& from, std::size_t i) { return {from.x[i], from.y[i], from.z[i]}; }
 void put(Vec3 v, Vec3Chunk& to, std::size_t i) { to.x[i] = v.x, to.y[i] = v.y, to.z[i] = v.z; }
 
+/// From the camera a path that could go on both ways does; after that one is drawn, lest the number of
+/// rays double with every reflection.
+bool takes_mirror(double random) { return random < 0.5; }
+
 /// Veach's power heuristic with an exponent of 2: the weight of a draw of density `p` where another
 /// way would have drawn it with `q`.
 double power_heuristic(double p, double q) {
@@ -47,9 +52,10 @@ double power_heuristic(double p, double q) {
 struct WaveRenderer::PreparedMaterial {
   Material material;
   Reflector reflector;
-  Rgb specular;                    ///< reflectance times coefficient
-  Rgb grazing;                     ///< what Schlick's factor adds to it at grazing angles, at most
-  Rgb diffuse;                     ///< reflectance / pi
+  Rgb specular;  ///< reflectance times coefficient
+  Rgb grazing;   ///< what Schlick's factor adds to it at grazing angles, at most
+  Rgb diffuse;   ///< reflectance / pi
+  bool has_highlight;
   bool scatters_to_light = false;  ///< some light's directions are drawn by the surface
 
   explicit PreparedMaterial(const Material& m) : material(m), reflector(m) {
@@ -58,6 +64,7 @@ struct WaveRenderer::PreparedMaterial {
     specular = coefficient * f0;
     if (m.fresnel == Fresnel::kSchlick) grazing = coefficient * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b};
     diffuse = std::numbers::inv_pi * m.diffuse_reflectance;
+    has_highlight = m.fresnel != Fresnel::kNone || !is_black(f0);
   }
 };
 
@@ -76,7 +83,7 @@ struct WaveRenderer::Wave {
   bool lights_only = false;  ///< to lights: what is met otherwise only hides them
   std::uint32_t branch = 0;  ///< distinguishes the random numbers of a level's waves
   std::size_t count = 0;
-  Vec3Chunk origin{}, direction{};
+  Vec3Chunk origin{}, to_eye{};         ///< rays run opposite to `to_eye`
   alignas(64) double leaves[kChunk]{};  ///< the surface where it starts; -1: none
   alignas(64) double distance[kChunk]{}, surface[kChunk]{};
   std::array<Rgb, kChunk> weight;
@@ -85,7 +92,7 @@ struct WaveRenderer::Wave {
   std::array<double, kChunk> pdf;
   std::array<int, kChunk> material;
   // Filled where a surface is met.
-  Vec3Chunk point{}, normal{}, to_eye{};
+  Vec3Chunk point{}, normal{};
 };
 
 struct WaveRenderer::Workspace {
@@ -93,9 +100,12 @@ struct WaveRenderer::Workspace {
   std::vector<std::unique_ptr<Wave>> waves;        ///< two for each level: mirrored, scattered
   std::array<std::uint32_t, kChunk> pixel, index;  ///< of the camera rays
   std::array<Rgb, kChunk> radiance;
+  Vec3Chunk center{};
+  alignas(64) double radius[kChunk]{};
   alignas(64) double u[kChunk]{}, v[kChunk]{}, lens_u[kChunk]{}, lens_v[kChunk]{};
   // The hits of one group, side by side.
   std::array<int, kChunk> lane, slot, surface;
+  std::array<std::uint32_t, kChunk> hit_pixel, hit_index;
   std::array<Rgb, kChunk> tint;
   Vec3Chunk point{}, normal{}, to_eye{}, to_light{};
   alignas(64) double falloff[kChunk]{}, distance[kChunk]{}, visible[kChunk]{}, pdf[kChunk]{};
@@ -116,10 +126,12 @@ struct WaveRenderer::Workspace {
     waves[at]->count = 0;
     return *waves[at];
   }
-  sobol::Pair random(const Wave& wave, std::size_t lane_of_wave, std::uint32_t dimension) const {
-    const auto s = std::size_t(wave.slot[lane_of_wave]);
-    return sobol::pair(pixel[s], index[s], dimension ^ wave.branch);
+  /// A pair of random numbers for each hit, in random_u and random_v.
+  void draw(const Wave& wave, std::size_t hits, std::uint32_t dimension) {
+    wave_kernels().random(hits, hit_pixel.data(), hit_index.data(), dimension ^ wave.branch,
+                          random_u, random_v);
   }
+  alignas(64) double random_u[kChunk]{}, random_v[kChunk]{};
 };
 
 void WaveRenderer::WorkspaceDeleter::operator()(Workspace* w) const { delete w; }
@@ -168,7 +180,7 @@ void WaveRenderer::camera_wave(std::span<const PixelSample> samples,
   wave.left = plan_.depth;
   wave.branch = 0;
   const bool lens = plan_.on<effects::DepthOfField>();
-  const bool one = scene_.sampler.sample_count == 1;
+  const WaveKernels& kernels = wave_kernels();
   for (std::size_t i = 0; i < count; ++i) {
     const PixelSample& s = samples[i];
     work.pixel[i] = sobol::pixel_hash(
@@ -178,31 +190,41 @@ void WaveRenderer::camera_wave(std::span<const PixelSample> samples,
     wave.slot[i] = int(i);
     wave.weight[i] = {1, 1, 1};
     wave.leaves[i] = -1;
-    double du = 0.5, dv = 0.5, weight = 1;
-    if (!one) {
-      const sobol::Pair r = sobol::pair(work.pixel[i], s.index, 0);
-      const auto x = filter_(r.u), y = filter_(r.v);
-      du += x.offset;
-      dv += y.offset;
-      weight = x.weight * y.weight;
-    }
-    results[i].weight = weight;
-    work.u[i] = (2 * (s.x + du) / film.width - 1) * frame_.half_width;
-    work.v[i] = (1 - 2 * (s.y + dv) / film.height) * frame_.half_height;
-    work.lens_u[i] = work.lens_v[i] = 0;
+    results[i].weight = 1;
     put(frame_.origin, wave.origin, i);
-    if (!lens) continue;
-    // A point of the disc, evenly by area.
-    const sobol::Pair r = sobol::pair(work.pixel[i], s.index, 1);
-    const double radius = scene_.camera.aperture_radius * std::sqrt(r.u);
-    const double turn = 2 * std::numbers::pi * r.v;
-    const double x = radius * std::cos(turn), y = radius * std::sin(turn);
-    put(frame_.origin + x * frame_.right + y * frame_.up, wave.origin, i);
-    work.lens_u[i] = x / scene_.camera.focus_distance;
-    work.lens_v[i] = y / scene_.camera.focus_distance;
   }
-  wave_kernels().camera_rays(frame_, count, work.u, work.v, work.lens_u, work.lens_v,
-                             wave.direction);
+  const auto film_u = [&](double x) { return (2 * x / film.width - 1) * frame_.half_width; };
+  const auto film_v = [&](double y) { return (1 - 2 * y / film.height) * frame_.half_height; };
+  if (scene_.sampler.sample_count == 1) {
+    for (std::size_t i = 0; i < count; ++i) {
+      work.u[i] = film_u(samples[i].x + 0.5);
+      work.v[i] = film_v(samples[i].y + 0.5);
+    }
+  } else {
+    kernels.random(count, work.pixel.data(), work.index.data(), 0, work.u, work.v);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto x = filter_(work.u[i]), y = filter_(work.v[i]);
+      results[i].weight = x.weight * y.weight;
+      work.u[i] = film_u(samples[i].x + (0.5 + x.offset));
+      work.v[i] = film_v(samples[i].y + (0.5 + y.offset));
+    }
+  }
+  if (lens) {
+    kernels.random(count, work.pixel.data(), work.index.data(), 1, work.lens_u, work.lens_v);
+    for (std::size_t i = 0; i < count; ++i) {
+      // A point of the disc, evenly by area.
+      const double radius = scene_.camera.aperture_radius * std::sqrt(work.lens_u[i]);
+      const double turn = 2 * std::numbers::pi * work.lens_v[i];
+      const double x = radius * std::cos(turn), y = radius * std::sin(turn);
+      put(frame_.origin + x * frame_.right + y * frame_.up, wave.origin, i);
+      work.lens_u[i] = x / scene_.camera.focus_distance;
+      work.lens_v[i] = y / scene_.camera.focus_distance;
+    }
+  } else {
+    std::fill_n(work.lens_u, count, 0.0);
+    std::fill_n(work.lens_v, count, 0.0);
+  }
+  kernels.camera_rays(frame_, count, work.u, work.v, work.lens_u, work.lens_v, wave.to_eye);
   work.work.camera_rays += count;
   if (lens) work.work.of<effects::DepthOfField>() += count;
   for (const PixelSample& s : samples)
@@ -231,50 +253,52 @@ void WaveRenderer::follow(Wave& wave, Workspace& work) const {
 
 /// What each ray meets, and where.
 void WaveRenderer::trace(Wave& wave, Workspace& work) const {
-  const std::size_t count = wave.count;
+  const std::size_t count = wave.count, spheres = scene_.spheres.size();
   if (accelerator_)
     for (std::size_t i = 0; i < count; ++i) {
       const auto hit =
-          accelerator_->nearest(get(wave.origin, i), get(wave.direction, i), int(wave.leaves[i]));
+          accelerator_->nearest(get(wave.origin, i), -get(wave.to_eye, i), int(wave.leaves[i]));
       wave.surface[i] = hit.sphere;
       wave.distance[i] = hit.sphere < 0 ? kInfinity : hit.distance;
     }
   else
-    wave_kernels().nearest_sphere(scene_.spheres, count, wave.origin, wave.direction, wave.leaves,
+    wave_kernels().nearest_sphere(scene_.spheres, count, wave.origin, wave.to_eye, wave.leaves,
                                   wave.surface, wave.distance);
-  const double spheres = double(scene_.spheres.size());
   for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
     const Plane& plane = scene_.planes[k];
+    const double index = double(spheres + k);
     for (std::size_t i = 0; i < count; ++i) {
-      const double towards = dot(get(wave.direction, i), plane.normal);
-      const double t = dot(plane.point - get(wave.origin, i), plane.normal) / towards;
+      const double away = dot(get(wave.to_eye, i), plane.normal);
+      const double t = dot(get(wave.origin, i) - plane.point, plane.normal) / away;
       // Beyond kFarthest rays run along the plane: its horizon.
       constexpr double kFarthest = 1e15;
-      if (!(t > 0 && t < wave.distance[i] && t < kFarthest)) continue;
-      if (wave.leaves[i] == spheres + double(k)) continue;
+      if (!(t > 0 && t < wave.distance[i] && t < kFarthest) || wave.leaves[i] == index) continue;
       wave.distance[i] = t;
-      wave.surface[i] = spheres + double(k);
+      wave.surface[i] = index;
     }
     work.work.of<effects::Ground>() += count;
   }
+  // Lanes that meet no sphere are computed too, with any sphere.
+  bool any = false;
   for (std::size_t i = 0; i < count; ++i) {
-    const int surface = int(wave.surface[i]);
-    if (surface < 0) continue;
-    const Vec3 origin = get(wave.origin, i), direction = get(wave.direction, i);
-    put(-1.0 * direction, wave.to_eye, i);
-    if (surface < int(spheres)) {
-      const Sphere& sphere = scene_.spheres[std::size_t(surface)];
-      const Chord chord = chord_of(sphere, origin, direction);
-      const Vec3 normal = (-1 / sphere.radius) * (chord.off_axis + chord.half() * direction);
-      put(normal, wave.normal, i);
-      put(sphere.center + sphere.radius * normal, wave.point, i);
-    } else {
-      const Plane& plane = scene_.planes[std::size_t(surface) - scene_.spheres.size()];
-      const Vec3 on = origin + wave.distance[i] * direction;
-      // Back onto the plane, from which a distant ray's rounding has led.
-      put(on - dot(on - plane.point, plane.normal) * plane.normal, wave.point, i);
-      put(dot(direction, plane.normal) < 0 ? plane.normal : -plane.normal, wave.normal, i);
-    }
+    const bool met = wave.surface[i] >= 0 && wave.surface[i] < double(spheres);
+    any |= met;
+    const Sphere& sphere = met ? scene_.spheres[std::size_t(wave.surface[i])] : kUnitSphere;
+    put(sphere.center, work.center, i);
+    work.radius[i] = sphere.radius;
+  }
+  if (any)
+    wave_kernels().surface(count, wave.origin, wave.to_eye, work.center, work.radius, wave.point,
+                           wave.normal);
+  if (scene_.planes.empty()) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (wave.surface[i] < double(spheres)) continue;
+    const Plane& plane = scene_.planes[std::size_t(wave.surface[i]) - spheres];
+    const Vec3 to_eye = get(wave.to_eye, i);
+    const Vec3 on = get(wave.origin, i) - wave.distance[i] * to_eye;
+    // Back onto the plane, from which a distant ray's rounding has led.
+    put(on - dot(on - plane.point, plane.normal) * plane.normal, wave.point, i);
+    put(dot(to_eye, plane.normal) > 0 ? plane.normal : -plane.normal, wave.normal, i);
   }
 }
 
@@ -289,7 +313,7 @@ void WaveRenderer::add_emitters(Wave& wave, Workspace& work) const {
       const LightStrategy strategy =
           scattered ? plan_.strategy[l][std::size_t(wave.material[i])] : LightStrategy::kSurface;
       if (strategy == LightStrategy::kLight) continue;
-      const Vec3 origin = get(wave.origin, i), direction = get(wave.direction, i);
+      const Vec3 origin = get(wave.origin, i), direction = -get(wave.to_eye, i);
       LightHit hit;
       if (const Environment* environment = environments_[l].get()) {
         if (wave.surface[i] >= 0) continue;
@@ -333,9 +357,9 @@ void WaveRenderer::shade(Wave& wave, Workspace& work) const {
       material = plane.material;
       if (plane.checker_material != plane.material) {
         const Vec3 from = get(wave.point, i) - plane.point;
-        const double square = std::floor(dot(from, plane_u_[k]) / plane.checker_size) +
-                              std::floor(dot(from, plane_v_[k]) / plane.checker_size);
-        if (std::fmod(square, 2) != 0) material = plane.checker_material;
+        const double half_square = 0.5 * (std::floor(dot(from, plane_u_[k]) / plane.checker_size) +
+                                          std::floor(dot(from, plane_v_[k]) / plane.checker_size));
+        if (half_square != std::floor(half_square)) material = plane.checker_material;
       }
     }
     work.material[i] = material;
@@ -354,6 +378,8 @@ void WaveRenderer::shade(Wave& wave, Workspace& work) const {
       copy(wave.to_eye, i, work.to_eye, hits);
       work.weight[hits] = wave.weight[i];
       work.slot[hits] = wave.slot[i];
+      work.hit_pixel[hits] = work.pixel[std::size_t(wave.slot[i])];
+      work.hit_index[hits] = work.index[std::size_t(wave.slot[i])];
       work.surface[hits] = int(wave.surface[i]);
       work.lane[hits++] = int(i);
     }
@@ -450,10 +476,10 @@ void WaveRenderer::light_sized(const Wave& wave, Group group, std::size_t light,
   const Environment* environment = environments_[light].get();
   const bool both = plan_.strategy[light][std::size_t(group.material)] == LightStrategy::kBoth;
   const Reflector& reflector = materials_[std::size_t(group.material)].reflector;
+  work.draw(wave, hits, kLightDimension + std::uint32_t(light));
   for (std::size_t i = 0; i < hits; ++i) {
-    const auto [u, v] =
-        work.random(wave, std::size_t(work.lane[i]), kLightDimension + std::uint32_t(light));
-    const LightSample drawn = sample_light(light, get(work.point, i), u, v);
+    const LightSample drawn =
+        sample_light(light, get(work.point, i), work.random_u[i], work.random_v[i]);
     const bool some = drawn.pdf > 0;
     put(some ? drawn.to_light : get(work.normal, i), work.to_light, i);
     work.falloff[i] = some ? 1 / drawn.pdf : 0;
@@ -461,7 +487,8 @@ void WaveRenderer::light_sized(const Wave& wave, Group group, std::size_t light,
     work.tint[i] = drawn.radiance;
     if (both && some && dot(get(work.normal, i), drawn.to_light) > 0)
       work.falloff[i] *= power_heuristic(
-          drawn.pdf, reflector.pdf(get(work.normal, i), get(work.to_eye, i), drawn.to_light));
+          drawn.pdf,
+          reflector.pdf_above({get(work.normal, i), get(work.to_eye, i), drawn.to_light}));
   }
   (environment ? work.work.of<effects::Environment>() : work.work.of<effects::AreaLights>()) +=
       hits;
@@ -488,12 +515,14 @@ void WaveRenderer::add_light(Group group, Precision precision, Rgb emitted, cons
     Rgb& sum = work.radiance[std::size_t(work.slot[i])];
     sum = sum + factor * (tints ? reflectance * tints[i] : constant) * work.weight[i];
   };
-  kernels_.shade(highlight, precision)(highlight, hits, work.normal, work.to_eye, work.to_light,
-                                       work.specular);
-  const Rgb specular = emitted * material.specular;
-  for (std::size_t i = 0; i < hits; ++i)
-    add(i, work.falloff[i] * work.specular[i], material.specular, specular);
   const bool all = plan_.policy == EffectPolicy::kAll;
+  if (all || material.has_highlight) {
+    kernels_.shade(highlight, precision)(highlight, hits, work.normal, work.to_eye, work.to_light,
+                                         work.specular);
+    const Rgb specular = emitted * material.specular;
+    for (std::size_t i = 0; i < hits; ++i)
+      add(i, work.falloff[i] * work.specular[i], material.specular, specular);
+  }
   if (all || material.material.fresnel != Fresnel::kNone) {
     const Rgb grazing = emitted * material.grazing;
     kernels_.fresnel(hits, work.to_eye, work.to_light, work.fresnel);
@@ -510,20 +539,14 @@ void WaveRenderer::add_light(Group group, Precision precision, Rgb emitted, cons
   }
 }
 
-/// Whether a path that could go on both ways takes the mirror's. From the camera both are followed;
-/// after that one is drawn, lest the number of rays double with every reflection.
-bool WaveRenderer::takes_mirror(const Wave& wave, std::size_t lane, const Workspace& work) const {
-  return work.random(wave, lane, kChoiceDimension).u < 0.5;
-}
-
 void WaveRenderer::spawn_mirror(const Wave& wave, Group group, bool one_of_two, std::size_t hits,
                                 Workspace& work) const {
   const Material& material = materials_[std::size_t(group.material)].material;
   Wave& next = work.wave_at(wave.level + 1, Wave::Kind::kMirror);
   const std::size_t before = next.count;
+  if (one_of_two) work.draw(wave, hits, kChoiceDimension);
   for (std::size_t i = 0; i < hits; ++i) {
-    const std::size_t lane = std::size_t(work.lane[i]);
-    if (one_of_two && !takes_mirror(wave, lane, work)) continue;
+    if (one_of_two && !takes_mirror(work.random_u[i])) continue;
     const Vec3 normal = get(work.normal, i), to_eye = get(work.to_eye, i);
     const double n_dot_v = dot(normal, to_eye);
     Rgb reflectance = material.mirror_reflectance;
@@ -534,10 +557,10 @@ void WaveRenderer::spawn_mirror(const Wave& wave, Group group, bool one_of_two, 
     }
     const std::size_t to = next.count++;
     copy(work.point, i, next.origin, to);
-    put(normalize(2 * n_dot_v * normal - to_eye), next.direction, to);
+    put(normalize(to_eye - 2 * n_dot_v * normal), next.to_eye, to);
     next.leaves[to] = work.surface[i];
     next.weight[to] = (one_of_two ? 2.0 : 1.0) * work.weight[i] * reflectance;
-    next.slot[to] = wave.slot[lane];
+    next.slot[to] = work.slot[i];
   }
   work.work.mirror_rays += next.count - before;
   work.work.of<effects::Mirror>() += next.count - before;
@@ -551,13 +574,20 @@ void WaveRenderer::spawn_scattered(const Wave& wave, Group group, bool one_of_tw
   const bool forced =
       wave.left.glossy < 1 && !materials_[std::size_t(group.material)].scatters_to_light;
   const std::size_t before = next.count;
+  std::array<bool, kChunk> skipped{};
+  if (one_of_two) {
+    work.draw(wave, hits, kChoiceDimension);
+    for (std::size_t i = 0; i < hits; ++i) skipped[i] = takes_mirror(work.random_u[i]);
+  }
+  work.draw(wave, hits, kScatterDimension);
+  std::array<double, kChunk> choice, roulette;
+  std::copy_n(work.random_u, hits, choice.begin());
+  std::copy_n(work.random_v, hits, roulette.begin());
+  work.draw(wave, hits, kDirectionDimension);
   for (std::size_t i = 0; i < hits; ++i) {
-    const std::size_t lane = std::size_t(work.lane[i]);
-    if (one_of_two && takes_mirror(wave, lane, work)) continue;
-    const sobol::Pair uv = work.random(wave, lane, kDirectionDimension);
-    const sobol::Pair choice = work.random(wave, lane, kScatterDimension);
-    const auto drawn =
-        reflector.sample(get(work.normal, i), get(work.to_eye, i), choice.u, uv.u, uv.v);
+    if (skipped[i]) continue;
+    const auto drawn = reflector.sample_above(get(work.normal, i), get(work.to_eye, i), choice[i],
+                                              work.random_u[i], work.random_v[i]);
     if (!drawn) continue;
     Rgb weight = (forced       ? 0.0
                   : one_of_two ? 2 / drawn->pdf
@@ -565,15 +595,15 @@ void WaveRenderer::spawn_scattered(const Wave& wave, Group group, bool one_of_tw
                  work.weight[i] * drawn->radiance;
     if (wave.level >= kRouletteFrom) {
       const double survival = std::min(1.0, max_component(weight));
-      if (!(choice.v < survival)) continue;
+      if (!(roulette[i] < survival)) continue;
       weight = 1 / survival * weight;
     }
     const std::size_t to = next.count++;
     copy(work.point, i, next.origin, to);
-    put(drawn->to_light, next.direction, to);
+    put(-drawn->to_light, next.to_eye, to);
     next.leaves[to] = work.surface[i];
     next.weight[to] = weight;
-    next.slot[to] = wave.slot[lane];
+    next.slot[to] = work.slot[i];
     next.pdf[to] = drawn->pdf;
     next.material[to] = group.material;
   }

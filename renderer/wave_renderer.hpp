@@ -68,7 +68,6 @@ class WaveRenderer {
                  Workspace& work) const;
   void hide_behind_planes(const std::vector<int>& planes, Group group, std::size_t hits,
                           Workspace& work) const;
-  bool takes_mirror(const Wave& wave, std::size_t lane, const Workspace& work) const;
   void spawn_mirror(const Wave& wave, Group group, bool one_of_two, std::size_t hits,
                     Workspace& work) const;
   void spawn_scattered(const Wave& wave, Group group, bool one_of_two, std::size_t hits,

@@ -20,8 +20,6 @@ HWY_INLINE void store(Lanes3 a, Vec3Chunk& to, std::size_t i) {
   a.y.store(to.y + i);
   a.z.store(to.z + i);
 }
-HWY_INLINE Lanes3 broadcast(Vec3 a) { return {Lanes(a.x), Lanes(a.y), Lanes(a.z)}; }
-HWY_INLINE Lanes3 unit(Lanes3 a) { return Lanes(1.0) / sqrt(dot(a, a)) * a; }
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

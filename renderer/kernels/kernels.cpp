@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "renderer/kernels/chunk-inl.hpp"
+#include "renderer/kernels/geometry-inl.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "renderer/models/lobe_angle.hpp"
@@ -22,49 +23,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace {
-
-/// A point light nearer to a surface than this stands in it; the largest intensity at this distance
-/// times the largest coefficient is still finite in float32.
-constexpr double kTouching = 1e-9;
-
-void trace(const CameraFrame& camera, const std::vector<Sphere>& spheres, std::size_t count,
-           const double* u, const double* v, double* sphere, Vec3Chunk& point, Vec3Chunk& normal,
-           Vec3Chunk& to_eye) {
-  const Lanes3 origin = broadcast(camera.origin), forward = broadcast(camera.forward);
-  const Lanes3 right = broadcast(camera.right), up = broadcast(camera.up);
-  const hn::ScalableTag<double> d;
-  for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    const Lanes3 direction = unit(forward + Lanes::load(u + i) * right + Lanes::load(v + i) * up);
-    Lanes nearest(std::numeric_limits<double>::infinity()), index(-1.0);
-    Lanes3 n = broadcast({}), p = broadcast({});
-    for (std::size_t k = 0; k < spheres.size(); ++k) {
-      const Lanes3 center = broadcast(spheres[k].center);
-      const Lanes radius(spheres[k].radius);
-      // The foot of the perpendicular from the centre on the ray, then half the chord: no
-      // difference of squares of large numbers, so a small or distant sphere stays round.
-      const Lanes3 to_center = center - origin;
-      const Lanes along = dot(to_center, direction);
-      const Lanes3 off_axis = to_center - along * direction;
-      const Lanes half_chord_squared = radius * radius - dot(off_axis, off_axis);
-      const Lanes half_chord = sqrt(positive_part(half_chord_squared));
-      const Lanes t = along - half_chord;
-      const auto hit = hn::And(hn::Gt(half_chord_squared.v, hn::Zero(d)),
-                               hn::And(hn::Gt(t.v, hn::Zero(d)), hn::Lt(t.v, nearest.v)));
-      const Lanes3 n_here = Lanes(-1 / spheres[k].radius) * (off_axis + half_chord * direction);
-      const Lanes3 p_here = center + radius * n_here;
-      const auto choose = [&](Lanes& old, Lanes now)
-                              HWY_ATTR { old = Lanes(hn::IfThenElse(hit, now.v, old.v)); };
-      choose(nearest, t);
-      choose(index, Lanes(double(k)));
-      choose(n.x, n_here.x), choose(n.y, n_here.y), choose(n.z, n_here.z);
-      choose(p.x, p_here.x), choose(p.y, p_here.y), choose(p.z, p_here.z);
-    }
-    index.store(sphere + i);
-    store(p, point, i);
-    store(n, normal, i);
-    store(-1.0 * direction, to_eye, i);
-  }
-}
 
 void light(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Chunk& to_light,
            double* falloff, double* distance) {
@@ -78,12 +36,11 @@ void light(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Ch
   }
   const Lanes3 position = broadcast(std::get<PointLight>(light).position);
   for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    const Lanes3 way = position - load(point, i);
-    const Lanes squared = dot(way, way), length = sqrt(squared);
-    // A light in the surface itself has no direction; left dark, as one inside the sphere is.
-    const Lanes apart = squared - Lanes(kTouching * kTouching);
-    store(where_less(Lanes(0.0), apart, Lanes(1.0) / length) * way, to_light, i);
-    where_less(Lanes(0.0), apart, Lanes(1.0) / squared).store(falloff + i);
+    Lanes3 l;
+    Lanes weight, length;
+    to_point_light(position, load(point, i), l, weight, length);
+    store(l, to_light, i);
+    weight.store(falloff + i);
     length.store(distance + i);
   }
 }
@@ -176,10 +133,7 @@ void lobe32(const Highlight& highlight, std::size_t count, const float* s, float
 void fresnel(std::size_t count, const Vec3Chunk& to_eye, const Vec3Chunk& to_light,
              double* weight) {
   for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    const Lanes3 sum = load(to_eye, i) + load(to_light, i);
-    const Lanes base = positive_part(Lanes(1.0) - Lanes(0.5) * sqrt(dot(sum, sum)));
-    const Lanes square = base * base;
-    (square * square * base).store(weight + i);
+    schlick_weight(load(to_eye, i), load(to_light, i)).store(weight + i);
   }
 }
 
@@ -215,8 +169,8 @@ KernelTable::LobeValue find_lobe32(LobeId lobe) {
 }  // namespace
 
 const KernelTable& kernel_table() {
-  static const KernelTable table{trace,       light,   visibility, find_shade,
-                                 find_lobe32, fresnel, cosine,     hwy::TargetName(HWY_TARGET)};
+  static const KernelTable table{
+      light, visibility, find_shade, find_lobe32, fresnel, cosine, hwy::TargetName(HWY_TARGET)};
   return table;
 }
 

@@ -22,12 +22,6 @@ struct Vec3Chunk {
 /// Kernels run over whole registers: lanes from `count` up to the next multiple of 16 are computed too,
 /// from whatever stands there, and are to be ignored.
 struct KernelTable {
-  /// Camera rays through film positions (u, v) at distance 1 (multiples of right and up): the
-  /// nearest sphere in front (its index, or -1), the point, the unit normal, the unit vector to the eye.
-  void (*trace)(const CameraFrame& camera, const std::vector<Sphere>& spheres, std::size_t count,
-                const double* u, const double* v, double* sphere, Vec3Chunk& point,
-                Vec3Chunk& normal, Vec3Chunk& to_eye);
-
   /// to_light, and the factor on the light's irradiance or intensity (1, or 1/distance^2).
   void (*light)(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Chunk& to_light,
                 double* falloff, double* distance);

@@ -50,7 +50,9 @@ struct LanesOf {
   friend HWY_INLINE LanesOf operator-(LanesOf a) { return LanesOf(hn::Neg(a.v)); }
 
   friend HWY_INLINE LanesOf sqrt(LanesOf a) { return LanesOf(hn::Sqrt(a.v)); }
-  friend HWY_INLINE LanesOf positive_part(LanesOf a) { return LanesOf(hn::ZeroIfNegative(a.v)); }
+  friend HWY_INLINE LanesOf positive_part(LanesOf a) {
+    return LanesOf(hn::Max(a.v, hn::Zero(D())));
+  }
   friend HWY_INLINE LanesOf where_less(LanesOf a, LanesOf b, LanesOf value) {
     return LanesOf(hn::IfThenElseZero(hn::Lt(a.v, b.v), value.v));
   }
@@ -121,9 +123,29 @@ HWY_INLINE void widen(Lanes32 a, Lanes& low, Lanes& high) {
   high = Lanes(hn::PromoteTo(wide, hn::UpperHalf(half, a.v)));
 }
 
+/// 1 / sqrt(a), within 1.5 units in the last place, for a from 1e-30 to 1e30: from the float32 value by a
+/// step of third order. In half the time of float64's root and division, which unit vectors would wait for.
+HWY_INLINE Lanes inverse_sqrt(Lanes a) {
+  const hn::ScalableTag<double> d;
+  const hn::Rebind<float, hn::ScalableTag<double>> narrower;
+  const auto start = hn::Div(hn::Set(narrower, 1.0f), hn::Sqrt(hn::DemoteTo(narrower, a.v)));
+  const auto y = hn::PromoteTo(d, start);
+  const auto rest = hn::NegMulAdd(hn::Mul(a.v, y), y, hn::Set(d, 1.0));
+  const auto share = hn::MulAdd(rest, hn::Set(d, 0.375), hn::Set(d, 0.5));
+  return Lanes(hn::MulAdd(hn::Mul(y, rest), share, y));
+}
+
 template <class T>
 struct Lanes3Of {
   LanesOf<T> x, y, z;
+  Lanes3Of() = default;
+  HWY_INLINE Lanes3Of(LanesOf<T> x_, LanesOf<T> y_, LanesOf<T> z_) : x(x_), y(y_), z(z_) {}
+  // Register by register: GCC 12 copies a structure of them as bytes, through memory.
+  HWY_INLINE Lanes3Of(const Lanes3Of& a) : x(a.x), y(a.y), z(a.z) {}
+  HWY_INLINE Lanes3Of& operator=(const Lanes3Of& a) {
+    x = a.x, y = a.y, z = a.z;
+    return *this;
+  }
   friend HWY_INLINE Lanes3Of operator+(Lanes3Of a, Lanes3Of b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
   }
@@ -133,8 +155,20 @@ struct Lanes3Of {
   friend HWY_INLINE Lanes3Of operator*(LanesOf<T> k, Lanes3Of a) {
     return {k * a.x, k * a.y, k * a.z};
   }
+  // Fused where the processor can: half of the instructions, and a rounding less.
   friend HWY_INLINE LanesOf<T> dot(Lanes3Of a, Lanes3Of b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    return LanesOf<T>(hn::MulAdd(a.z.v, b.z.v, hn::MulAdd(a.y.v, b.y.v, hn::Mul(a.x.v, b.x.v))));
+  }
+  /// k a + b
+  friend HWY_INLINE Lanes3Of add_scaled(LanesOf<T> k, Lanes3Of a, Lanes3Of b) {
+    return {LanesOf<T>(hn::MulAdd(k.v, a.x.v, b.x.v)), LanesOf<T>(hn::MulAdd(k.v, a.y.v, b.y.v)),
+            LanesOf<T>(hn::MulAdd(k.v, a.z.v, b.z.v))};
+  }
+  /// b - k a
+  friend HWY_INLINE Lanes3Of subtract_scaled(LanesOf<T> k, Lanes3Of a, Lanes3Of b) {
+    return {LanesOf<T>(hn::NegMulAdd(k.v, a.x.v, b.x.v)),
+            LanesOf<T>(hn::NegMulAdd(k.v, a.y.v, b.y.v)),
+            LanesOf<T>(hn::NegMulAdd(k.v, a.z.v, b.z.v))};
   }
 };
 using Lanes3 = Lanes3Of<double>;

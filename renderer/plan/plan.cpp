@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
 
@@ -145,6 +146,15 @@ void decide_effects(TypeList<E...>, const Scene& scene, EffectPolicy policy, Pla
   (plan.effects.push_back(decide<E>(scene, policy, plan)), ...);
 }
 
+std::string kernel_text(const Scene& scene, const Plan& plan) {
+  if (FusedRenderer::can_render(scene, plan)) return FusedRenderer::kernel_text();
+  const std::size_t spheres = scene.spheres.size();
+  return fmt::format("waves of {} rays, {}; {}", kChunk, kernels().instruction_set,
+                     spheres > kMaxLoopSpheres
+                         ? fmt::format("Embree over {} spheres", spheres)
+                         : fmt::format("every ray against each of {} spheres", spheres));
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision> precision) {
@@ -158,11 +168,7 @@ Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision>
   }
   decide_precision(scene, precision, plan);
   expect_rays(scene, plan);
-  plan.kernel =
-      fmt::format("waves of {} rays, {}; {}", kChunk, kernels().instruction_set,
-                  scene.spheres.size() > kMaxLoopSpheres
-                      ? fmt::format("Embree over {} spheres", scene.spheres.size())
-                      : fmt::format("every ray against each of {} spheres", scene.spheres.size()));
+  plan.kernel = kernel_text(scene, plan);
   return plan;
 }
 

@@ -57,7 +57,7 @@ struct Plan {
   Depth depth;         ///< of reflections that are traced
   std::string kernel;  ///< which inner loops, in words
 
-  std::uint64_t camera_rays = 0;  ///< exactly, or at most where antialiasing chooses its pixels
+  std::uint64_t camera_rays = 0;  ///< at most: where every pixel needs all its samples
   /// At most.
   std::uint64_t max_shadow_rays = 0, max_mirror_rays = 0, max_scattered_rays = 0;
 

@@ -129,7 +129,8 @@ TEST(Render, WithEveryEffectForcedIsTheSameBitForBit) {
 TEST(Render, TracesNoShadowRayWhereThePlanHasShadowsOff) {
   for (const char* name : kCanonical) {
     const RenderResult result = render(canonical(name), {});
-    EXPECT_EQ(result.work.camera_rays, result.plan.camera_rays);
+    EXPECT_LE(result.work.camera_rays, result.plan.camera_rays);
+    EXPECT_GT(result.work.camera_rays, 0u);
     EXPECT_LE(result.work.shadow_rays, result.plan.max_shadow_rays);
     EXPECT_EQ(result.work.shadow_rays > 0, std::string(name) == "two_spheres") << name;
   }

@@ -1,0 +1,182 @@
+#include "renderer/fused.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "renderer/kernels/kernels.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::size_t kMostSpheres = 16;
+
+int down_to_block(int x) { return x / kFusedBlock * kFusedBlock; }
+
+FusedSphere prepare(const Scene& scene, const Plan& plan, std::size_t index) {
+  const Sphere& sphere = scene.spheres[index];
+  const Material& material = scene.materials[sphere.material];
+  FusedSphere result;
+  result.eye = scene.camera.origin;
+  result.center = sphere.center;
+  result.radius = sphere.radius;
+  result.highlight = material.highlight;
+  if (!scene.lights.empty()) result.precision = plan.precision[0][index];
+  // A term that adds 0 to every pixel changes none.
+  result.diffuse = !is_black(material.diffuse_reflectance);
+  result.fresnel = material.fresnel == Fresnel::kSchlick;
+  const double coefficient = radiance_coefficient(material.highlight);
+  const Rgb f0 = material.specular_reflectance;
+  const Rgb specular = coefficient * f0;
+  const Rgb grazing = coefficient * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b};
+  const Rgb diffuse = std::numbers::inv_pi * material.diffuse_reflectance;
+  for (const Light& light : scene.lights) {
+    const auto* directional = std::get_if<DirectionalLight>(&light);
+    const Rgb emitted = strength(light);
+    result.lights.push_back(
+        {directional != nullptr,
+         directional ? -directional->direction : std::get<PointLight>(light).position,
+         emitted * specular, emitted * grazing, emitted * diffuse});
+  }
+  return result;
+}
+
+}  // namespace
+
+bool FusedRenderer::can_render(const Scene& scene, const Plan& plan) {
+  if (plan.policy == EffectPolicy::kAll || scene.sampler.sample_count != 1 ||
+      scene.spheres.size() > kMostSpheres || !beyond_delta_lights(scene).empty())
+    return false;
+  for (const auto& by_sphere : plan.occluders)
+    for (const auto& occluders : by_sphere)
+      if (!occluders.empty()) return false;
+  // A sphere's kernel is of one precision.
+  for (const auto& by_sphere : plan.precision)
+    if (by_sphere != plan.precision[0]) return false;
+  return true;
+}
+
+FusedRenderer::FusedRenderer(const Scene& scene, const Plan& plan)
+    : width_(scene.film.width),
+      height_(scene.film.height),
+      frame_(camera_frame(scene.camera, scene.film)),
+      lights_(scene.lights.size()) {
+  columns_.resize(std::size_t(down_to_block(width_ + kFusedBlock - 1)));
+  for (std::size_t x = 0; x < columns_.size(); ++x)
+    columns_[x] = (2 * (int(x) + 0.5) / width_ - 1) * frame_.half_width;
+  for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
+    const Sphere& sphere = scene.spheres[i];
+    const Vec3 to_center = sphere.center - frame_.origin;
+    Outline outline{dot(to_center, frame_.forward), dot(to_center, frame_.right),
+                    dot(to_center, frame_.up), 0, false};
+    // A hair wider than the sphere; rounding is far below it but for an eye close to the surface.
+    const double reach = dot(to_center, to_center), radius = sphere.radius * (1 + 1e-6);
+    outline.tangent_squared = reach - radius * radius;
+    outline.whole_rows = !(outline.tangent_squared > 1e-6 * reach);
+    const FusedSphere prepared = prepare(scene, plan, i);
+    bodies_.push_back({outline,
+                       {sphere.center, sphere.radius, false},
+                       make_fused_kernel(prepared),
+                       prepared.diffuse,
+                       prepared.fresnel});
+  }
+}
+
+/// The ray of (u, v) meets the sphere where (c.d)^2 > |d|^2 K, d = forward + u right + v up, c the way to
+/// the centre and K the square of the tangent from the eye: between the two roots of a quadratic in u.
+PixelSpan FusedRenderer::span(const Outline& outline, double v) const {
+  const PixelSpan whole{0, width_};
+  if (outline.whole_rows) return whole;
+  const double a = outline.ahead + v * outline.above, b = outline.aside;
+  const double k = outline.tangent_squared, rest = k - b * b, stretch = 1 + v * v;
+  // The outline is no ellipse: it reaches to the side of the eye or behind it.
+  if (!(rest > 1e-6 * k)) return whole;
+  // A quarter of the discriminant over K; more than a tiny and distant sphere's rounding is added.
+  const double room = a * a - stretch * rest + 1e-12 * (a * a + stretch * k);
+  if (room < 0 || a < 0) return {0, 0};
+  const double middle = a * b / rest, half = std::sqrt(k * room) / rest;
+  const auto column = [&](double u) { return (u / frame_.half_width + 1) * width_ / 2 - 0.5; };
+  const auto clamped = [&](double x) { return int(std::clamp(x, 0.0, double(width_))); };
+  return {clamped(std::floor(column(middle - half)) - 1),
+          clamped(std::ceil(column(middle + half)) + 2)};
+}
+
+void FusedRenderer::render_rows(int y0, int y1, float* rgb) const {
+  for (int y = y0; y < y1; ++y) render_row(y, rgb + std::size_t(y - y0) * 3 * width_);
+}
+
+void FusedRenderer::render_row(int y, float* rgb) const {
+  const double v = (1 - 2 * (y + 0.5) / height_) * frame_.half_height;
+  const FusedRow row{frame_.forward, frame_.right, v * frame_.up, columns_.data(), rgb};
+  std::array<PixelSpan, kMostSpheres> spans;
+  std::array<int, kMostSpheres> order;
+  int count = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const PixelSpan exact = span(bodies_[i].outline, v);
+    if (exact.begin >= exact.end) continue;
+    spans[i] = {down_to_block(exact.begin),
+                std::min(width_, down_to_block(exact.end + kFusedBlock - 1))};
+    order[count++] = int(i);
+  }
+  // Few, and nearly in order from row to row.
+  std::sort(order.begin(), order.begin() + count,
+            [&](int i, int j) { return spans[i].begin < spans[j].begin; });
+  int done = 0;
+  for (int first = 0, next; first < count; first = next) {
+    PixelSpan all = spans[order[first]];
+    for (next = first + 1; next < count && spans[order[next]].begin < all.end; ++next)
+      all.end = std::max(all.end, spans[order[next]].end);
+    std::fill(rgb + 3 * done, rgb + 3 * all.begin, 0.0f);
+    render_group(row, order.data() + first, next - first, spans.data(), all);
+    done = all.end;
+  }
+  std::fill(rgb + 3 * done, rgb + 3 * width_, 0.0f);
+}
+
+/// Spheres whose pixels may overlap; one alone overwrites.
+void FusedRenderer::render_group(const FusedRow& row, const int* spheres, int count,
+                                 const PixelSpan* spans, PixelSpan all) const {
+  if (count > 1) std::fill(row.rgb + 3 * all.begin, row.rgb + 3 * all.end, 0.0f);
+  std::array<FusedRival, kMostSpheres> rivals;
+  for (int i = 0; i < count; ++i) {
+    std::size_t others = 0;
+    for (int j = 0; j < count; ++j) {
+      if (j == i) continue;
+      rivals[others] = bodies_[spheres[j]].rival;
+      rivals[others++].wins_ties = spheres[j] < spheres[i];
+    }
+    const PixelSpan own = spans[spheres[i]];
+    const Body& body = bodies_[spheres[i]];
+    body.kernel->render(row, own.begin, own.end, {rivals.data(), others});
+    const std::uint64_t rays = std::uint64_t(own.end - own.begin);
+    rays_.fetch_add(rays, std::memory_order_relaxed);
+    if (body.diffuse) diffuse_.fetch_add(rays * lights_, std::memory_order_relaxed);
+    if (body.fresnel) fresnel_.fetch_add(rays * lights_, std::memory_order_relaxed);
+  }
+}
+
+Work FusedRenderer::work() const {
+  Work work;
+  work.camera_rays = rays_;
+  work.of<effects::Diffuse>() = diffuse_;
+  work.of<effects::Fresnel>() = fresnel_;
+  return work;
+}
+
+std::string FusedRenderer::kernel_text() {
+  return fmt::format(
+      "fused: ray, sphere, lights and pixel in one loop over the pixels that a sphere "
+      "can cover, {}",
+      kernels().instruction_set);
+}
+
+std::unique_ptr<const FusedKernel> make_fused_kernel(const FusedSphere& sphere) {
+  if (sphere.diffuse)
+    return sphere.fresnel ? make_fused_diffuse_fresnel(sphere) : make_fused_diffuse(sphere);
+  return sphere.fresnel ? make_fused_fresnel(sphere) : make_fused_plain(sphere);
+}
+
+}  // namespace lobelia
