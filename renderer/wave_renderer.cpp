@@ -5,13 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <optional>
 
 #include "renderer/chord.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/kernels/wave.hpp"
-#include "renderer/lights/rectangle_light.hpp"
-#include "renderer/lights/sphere_light.hpp"
 #include "renderer/sobol.hpp"
 
 namespace lobelia {
@@ -104,14 +102,17 @@ struct WaveRenderer::Workspace {
   alignas(64) double radius[kChunk]{};
   alignas(64) double u[kChunk]{}, v[kChunk]{}, lens_u[kChunk]{}, lens_v[kChunk]{};
   // The hits of one group, side by side.
-  std::array<int, kChunk> lane, slot, surface;
+  std::array<int, kChunk> slot, surface;
   std::array<std::uint32_t, kChunk> hit_pixel, hit_index;
   std::array<Rgb, kChunk> tint;
   Vec3Chunk point{}, normal{}, to_eye{}, to_light{};
   alignas(64) double falloff[kChunk]{}, distance[kChunk]{}, visible[kChunk]{}, pdf[kChunk]{};
   alignas(64) double specular[kChunk]{}, n_dot_l[kChunk]{}, fresnel[kChunk]{};
   std::array<Rgb, kChunk> weight;
-  std::array<int, kChunk> material;  ///< of the hits of a wave
+  std::vector<int> keys;  ///< of the groups of a wave, and their sizes and places
+  std::vector<std::size_t> group_size, group_begin, group_next;
+  DrawnChunk drawn;
+  MetChunk met;
 
   Wave& wave_at(int level, Wave::Kind kind) {
     return *waves[2 * std::size_t(level) + (kind == Wave::Kind::kScattered)];
@@ -152,6 +153,8 @@ WaveRenderer::WaveRenderer(const Scene& scene, const Plan& plan)
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
     const auto* environment = std::get_if<EnvironmentLight>(&scene.lights[l]);
     environments_.push_back(environment ? std::make_unique<Environment>(*environment) : nullptr);
+    const auto* rectangle = std::get_if<RectangleLight>(&scene.lights[l]);
+    rectangles_.push_back(rectangle ? std::optional(PreparedRectangle(*rectangle)) : std::nullopt);
     if (is_delta(scene.lights[l])) continue;
     any_sized_ = true;
     for (std::size_t m = 0; m < materials_.size(); ++m)
@@ -264,18 +267,10 @@ void WaveRenderer::trace(Wave& wave, Workspace& work) const {
   else
     wave_kernels().nearest_sphere(scene_.spheres, count, wave.origin, wave.to_eye, wave.leaves,
                                   wave.surface, wave.distance);
+  const WaveKernels& kernels = wave_kernels();
   for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
-    const Plane& plane = scene_.planes[k];
-    const double index = double(spheres + k);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double away = dot(get(wave.to_eye, i), plane.normal);
-      const double t = dot(get(wave.origin, i) - plane.point, plane.normal) / away;
-      // Beyond kFarthest rays run along the plane: its horizon.
-      constexpr double kFarthest = 1e15;
-      if (!(t > 0 && t < wave.distance[i] && t < kFarthest) || wave.leaves[i] == index) continue;
-      wave.distance[i] = t;
-      wave.surface[i] = index;
-    }
+    kernels.nearest_plane(scene_.planes[k], double(spheres + k), count, wave.origin, wave.to_eye,
+                          wave.leaves, wave.surface, wave.distance);
     work.work.of<effects::Ground>() += count;
   }
   // Lanes that meet no sphere are computed too, with any sphere.
@@ -288,18 +283,11 @@ void WaveRenderer::trace(Wave& wave, Workspace& work) const {
     work.radius[i] = sphere.radius;
   }
   if (any)
-    wave_kernels().surface(count, wave.origin, wave.to_eye, work.center, work.radius, wave.point,
-                           wave.normal);
-  if (scene_.planes.empty()) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (wave.surface[i] < double(spheres)) continue;
-    const Plane& plane = scene_.planes[std::size_t(wave.surface[i]) - spheres];
-    const Vec3 to_eye = get(wave.to_eye, i);
-    const Vec3 on = get(wave.origin, i) - wave.distance[i] * to_eye;
-    // Back onto the plane, from which a distant ray's rounding has led.
-    put(on - dot(on - plane.point, plane.normal) * plane.normal, wave.point, i);
-    put(dot(to_eye, plane.normal) > 0 ? plane.normal : -plane.normal, wave.normal, i);
-  }
+    kernels.surface(count, wave.origin, wave.to_eye, work.center, work.radius, wave.point,
+                    wave.normal);
+  for (std::size_t k = 0; k < scene_.planes.size(); ++k)
+    kernels.plane_surface(scene_.planes[k], double(spheres + k), count, wave.origin, wave.to_eye,
+                          wave.surface, wave.distance, wave.point, wave.normal);
 }
 
 /// The lights that rays cross on their way, or end in.
@@ -309,29 +297,34 @@ void WaveRenderer::add_emitters(Wave& wave, Workspace& work) const {
     const Light& light = scene_.lights[l];
     if (is_delta(light) || (is_black(strength(light)) && plan_.policy != EffectPolicy::kAll))
       continue;
+    const Environment* environment = environments_[l].get();
+    if (!environment) {
+      if (rectangles_[l])
+        light_kernels().meet_rectangle(*rectangles_[l], wave.count, wave.origin, wave.to_eye,
+                                       scattered, work.met);
+      else
+        light_kernels().meet_sphere(std::get<SphereLight>(light), wave.count, wave.origin,
+                                    wave.to_eye, scattered, work.met);
+      work.work.of<effects::AreaLights>() += wave.count;
+    }
     for (std::size_t i = 0; i < wave.count; ++i) {
+      if (environment ? wave.surface[i] >= 0 : !(work.met.distance[i] < wave.distance[i])) continue;
       const LightStrategy strategy =
           scattered ? plan_.strategy[l][std::size_t(wave.material[i])] : LightStrategy::kSurface;
       if (strategy == LightStrategy::kLight) continue;
-      const Vec3 origin = get(wave.origin, i), direction = -get(wave.to_eye, i);
-      LightHit hit;
-      if (const Environment* environment = environments_[l].get()) {
-        if (wave.surface[i] >= 0) continue;
-        hit.radiance = environment->radiance(direction);
-        if (strategy == LightStrategy::kBoth) hit.pdf = environment->pdf(direction);
+      Rgb radiance = strength(light);
+      double pdf = 0;
+      if (environment) {
+        const Vec3 direction = -get(wave.to_eye, i);
+        radiance = environment->radiance(direction);
+        if (strategy == LightStrategy::kBoth) pdf = environment->pdf(direction);
         ++work.work.of<effects::Environment>();
-      } else {
-        if (const auto* ball = std::get_if<SphereLight>(&light))
-          hit = meet(*ball, origin, direction);
-        else
-          hit = meet(std::get<RectangleLight>(light), origin, direction);
-        ++work.work.of<effects::AreaLights>();
-        if (!(hit.pdf > 0 && hit.distance < wave.distance[i])) continue;
+      } else if (scattered) {
+        pdf = work.met.pdf[i];
       }
-      const double share =
-          strategy == LightStrategy::kBoth ? power_heuristic(wave.pdf[i], hit.pdf) : 1;
+      const double share = strategy == LightStrategy::kBoth ? power_heuristic(wave.pdf[i], pdf) : 1;
       Rgb& sum = work.radiance[std::size_t(wave.slot[i])];
-      sum = sum + share * hit.radiance * wave.weight[i];
+      sum = sum + share * radiance * wave.weight[i];
     }
   }
 }
@@ -340,13 +333,16 @@ void WaveRenderer::add_emitters(Wave& wave, Workspace& work) const {
 /// same for a whole run of lanes.
 void WaveRenderer::shade(Wave& wave, Workspace& work) const {
   const int spheres = int(scene_.spheres.size());
-  // A key for each hit: surface and material, or the material alone.
+  // A key for each hit: surface and material, or the material alone; and the few that there are.
   const int materials = int(materials_.size());
-  std::array<int, kChunk> key;
-  int highest = -1;
+  std::array<int, kChunk> group_of;
+  std::vector<int>& keys = work.keys;
+  keys.clear();
+  work.group_size.clear();
+  std::size_t last = 0;
   for (std::size_t i = 0; i < wave.count; ++i) {
+    group_of[i] = -1;
     const int surface = int(wave.surface[i]);
-    key[i] = -1;
     if (surface < 0) continue;
     int material = 0;
     if (surface < spheres) {
@@ -362,30 +358,42 @@ void WaveRenderer::shade(Wave& wave, Workspace& work) const {
         if (half_square != std::floor(half_square)) material = plane.checker_material;
       }
     }
-    work.material[i] = material;
-    key[i] = one_by_one_ ? surface * materials + material : material;
-    highest = std::max(highest, key[i]);
-  }
-  for (int done = -1; done < highest;) {
-    int next = highest;
-    for (std::size_t i = 0; i < wave.count; ++i)
-      if (key[i] > done) next = std::min(next, key[i]);
-    std::size_t hits = 0;
-    for (std::size_t i = 0; i < wave.count; ++i) {
-      if (key[i] != next) continue;
-      copy(wave.point, i, work.point, hits);
-      copy(wave.normal, i, work.normal, hits);
-      copy(wave.to_eye, i, work.to_eye, hits);
-      work.weight[hits] = wave.weight[i];
-      work.slot[hits] = wave.slot[i];
-      work.hit_pixel[hits] = work.pixel[std::size_t(wave.slot[i])];
-      work.hit_index[hits] = work.index[std::size_t(wave.slot[i])];
-      work.surface[hits] = int(wave.surface[i]);
-      work.lane[hits++] = int(i);
+    const int key = one_by_one_ ? surface * materials + material : material;
+    if (last >= keys.size() || keys[last] != key) {
+      last = std::size_t(std::find(keys.begin(), keys.end(), key) - keys.begin());
+      if (last == keys.size()) {
+        keys.push_back(key);
+        work.group_size.push_back(0);
+      }
     }
-    shade_group(wave, {one_by_one_ ? next % materials : next, one_by_one_ ? next / materials : -1},
+    group_of[i] = int(last);
+    ++work.group_size[last];
+  }
+  // The lanes of each group, one group after the other.
+  std::vector<std::size_t>& begin = work.group_begin;
+  begin.assign(keys.size() + 1, 0);
+  for (std::size_t g = 0; g < keys.size(); ++g) begin[g + 1] = begin[g] + work.group_size[g];
+  std::array<int, kChunk> lanes;
+  std::vector<std::size_t>& next = work.group_next;
+  next.assign(begin.begin(), begin.end());
+  for (std::size_t i = 0; i < wave.count; ++i)
+    if (group_of[i] >= 0) lanes[next[std::size_t(group_of[i])]++] = int(i);
+  for (std::size_t g = 0; g < keys.size(); ++g) {
+    const std::size_t hits = work.group_size[g];
+    for (std::size_t j = 0; j < hits; ++j) {
+      const std::size_t i = std::size_t(lanes[begin[g] + j]);
+      copy(wave.point, i, work.point, j);
+      copy(wave.normal, i, work.normal, j);
+      copy(wave.to_eye, i, work.to_eye, j);
+      work.weight[j] = wave.weight[i];
+      work.slot[j] = wave.slot[i];
+      work.hit_pixel[j] = work.pixel[std::size_t(wave.slot[i])];
+      work.hit_index[j] = work.index[std::size_t(wave.slot[i])];
+      work.surface[j] = int(wave.surface[i]);
+    }
+    const int key = keys[g];
+    shade_group(wave, {one_by_one_ ? key % materials : key, one_by_one_ ? key / materials : -1},
                 hits, work);
-    done = next;
   }
 }
 
@@ -415,12 +423,16 @@ void WaveRenderer::find_visible(std::size_t light, Group group, std::size_t hits
     const Occluders& occluders = plan_.occluders_of(light, std::size_t(group.surface));
     if (occluders.empty()) return;
     rays = hits;
-    if (!occluders.spheres.empty()) {
+    if (occluders.spheres.empty())
+      std::fill_n(work.visible, hits, 1.0);
+    else
       kernels_.visibility(scene_.spheres, occluders.spheres, hits, work.point, work.to_light,
                           work.distance, work.visible);
-      for (std::size_t i = 0; i < hits; ++i) work.falloff[i] *= work.visible[i];
-    }
-    hide_behind_planes(occluders.planes, group, hits, work);
+    for (const int k : occluders.planes)
+      wave_kernels().plane_hides(scene_.planes[std::size_t(k)], hits, work.point, work.to_light,
+                                 work.distance, work.visible);
+    work.work.of<effects::Ground>() += hits * occluders.planes.size();
+    for (std::size_t i = 0; i < hits; ++i) work.falloff[i] *= work.visible[i];
   } else {
     for (std::size_t i = 0; i < hits; ++i) {
       const int surface = work.surface[i];
@@ -431,26 +443,21 @@ void WaveRenderer::find_visible(std::size_t light, Group group, std::size_t hits
                                 surface))
         work.falloff[i] = 0;
     }
-    // Every plane may hide something from every light; those that cannot are few to look at.
-    std::vector<int> planes(scene_.planes.size());
-    std::iota(planes.begin(), planes.end(), 0);
-    hide_behind_planes(planes, group, hits, work);
+    hide_behind_planes(hits, work);
   }
   work.work.shadow_rays += rays;
   work.work.of<effects::Shadows>() += rays;
 }
 
-void WaveRenderer::hide_behind_planes(const std::vector<int>& planes, Group group, std::size_t hits,
-                                      Workspace& work) const {
-  const int spheres = int(scene_.spheres.size());
-  for (const int k : planes) {
-    const Plane& plane = scene_.planes[std::size_t(k)];
-    for (std::size_t i = 0; i < hits; ++i) {
-      if ((group.surface >= 0 ? group.surface : work.surface[i]) == spheres + k) continue;
-      const double towards = dot(get(work.to_light, i), plane.normal);
-      const double t = dot(plane.point - get(work.point, i), plane.normal) / towards;
-      if (t > 0 && t < work.distance[i]) work.falloff[i] = 0;
-    }
+/// Of hits on any surface.
+void WaveRenderer::hide_behind_planes(std::size_t hits, Workspace& work) const {
+  for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
+    std::fill_n(work.visible, hits, 1.0);
+    wave_kernels().plane_hides(scene_.planes[k], hits, work.point, work.to_light, work.distance,
+                               work.visible);
+    const int own = int(scene_.spheres.size() + k);
+    for (std::size_t i = 0; i < hits; ++i)
+      if (work.surface[i] != own) work.falloff[i] *= work.visible[i];
     work.work.of<effects::Ground>() += hits;
   }
 }
@@ -477,19 +484,14 @@ void WaveRenderer::light_sized(const Wave& wave, Group group, std::size_t light,
   const bool both = plan_.strategy[light][std::size_t(group.material)] == LightStrategy::kBoth;
   const Reflector& reflector = materials_[std::size_t(group.material)].reflector;
   work.draw(wave, hits, kLightDimension + std::uint32_t(light));
-  for (std::size_t i = 0; i < hits; ++i) {
-    const LightSample drawn =
-        sample_light(light, get(work.point, i), work.random_u[i], work.random_v[i]);
-    const bool some = drawn.pdf > 0;
-    put(some ? drawn.to_light : get(work.normal, i), work.to_light, i);
-    work.falloff[i] = some ? 1 / drawn.pdf : 0;
-    work.distance[i] = drawn.distance;
-    work.tint[i] = drawn.radiance;
-    if (both && some && dot(get(work.normal, i), drawn.to_light) > 0)
-      work.falloff[i] *= power_heuristic(
-          drawn.pdf,
-          reflector.pdf_above({get(work.normal, i), get(work.to_eye, i), drawn.to_light}));
-  }
+  sample_light(light, hits, work);
+  if (both)
+    for (std::size_t i = 0; i < hits; ++i) {
+      const Vec3 normal = get(work.normal, i), to_light = get(work.to_light, i);
+      if (work.falloff[i] > 0 && dot(normal, to_light) > 0)
+        work.falloff[i] *= power_heuristic(
+            1 / work.falloff[i], reflector.pdf_above({normal, get(work.to_eye, i), to_light}));
+    }
   (environment ? work.work.of<effects::Environment>() : work.work.of<effects::AreaLights>()) +=
       hits;
   find_visible(light, group, hits, work);
@@ -499,11 +501,30 @@ void WaveRenderer::light_sized(const Wave& wave, Group group, std::size_t light,
             hits, work);
 }
 
-LightSample WaveRenderer::sample_light(std::size_t light, Vec3 point, double u, double v) const {
-  if (environments_[light]) return environments_[light]->sample(u, v);
-  if (const auto* ball = std::get_if<SphereLight>(&scene_.lights[light]))
-    return sample(*ball, point, u, v);
-  return sample(std::get<RectangleLight>(scene_.lights[light]), point, u, v);
+/// Directions to a light with a size: to_light, distance, and falloff, the inverse of their density.
+void WaveRenderer::sample_light(std::size_t light, std::size_t hits, Workspace& work) const {
+  if (const Environment* environment = environments_[light].get()) {
+    for (std::size_t i = 0; i < hits; ++i) {
+      const LightSample drawn = environment->sample(work.random_u[i], work.random_v[i]);
+      put(drawn.to_light, work.to_light, i);
+      work.falloff[i] = 1 / drawn.pdf;
+      work.distance[i] = kInfinity;
+      work.tint[i] = drawn.radiance;
+    }
+    return;
+  }
+  if (rectangles_[light])
+    light_kernels().sample_rectangle(*rectangles_[light], hits, work.point, work.random_u,
+                                     work.random_v, work.drawn);
+  else
+    light_kernels().sample_sphere(std::get<SphereLight>(scene_.lights[light]), hits, work.point,
+                                  work.random_u, work.random_v, work.drawn);
+  for (std::size_t i = 0; i < hits; ++i) {
+    const bool some = work.drawn.inverse_pdf[i] > 0;
+    put(get(some ? work.drawn.to_light : work.normal, i), work.to_light, i);
+    work.falloff[i] = some ? work.drawn.inverse_pdf[i] : 0;
+    work.distance[i] = work.drawn.distance[i];
+  }
 }
 
 /// What the surface makes of the light along `to_light`, times `falloff`: highlight, Fresnel, diffuse.
@@ -584,10 +605,21 @@ void WaveRenderer::spawn_scattered(const Wave& wave, Group group, bool one_of_tw
   std::copy_n(work.random_u, hits, choice.begin());
   std::copy_n(work.random_v, hits, roulette.begin());
   work.draw(wave, hits, kDirectionDimension);
+  const PreparedMaterial& material = materials_[std::size_t(group.material)];
+  if (!material.has_highlight)
+    wave_kernels().scatter_evenly(hits, work.normal, work.random_u, work.random_v, work.to_light);
   for (std::size_t i = 0; i < hits; ++i) {
     if (skipped[i]) continue;
-    const auto drawn = reflector.sample_above(get(work.normal, i), get(work.to_eye, i), choice[i],
-                                              work.random_u[i], work.random_v[i]);
+    const Vec3 normal = get(work.normal, i);
+    std::optional<ReflectorSample> drawn;
+    if (material.has_highlight) {
+      drawn = reflector.sample_above(normal, get(work.to_eye, i), choice[i], work.random_u[i],
+                                     work.random_v[i]);
+    } else {
+      const Vec3 to_light = get(work.to_light, i);
+      const double cosine = dot(normal, to_light);
+      if (cosine > 0) drawn = {to_light, cosine * material.diffuse, cosine * std::numbers::inv_pi};
+    }
     if (!drawn) continue;
     Rgb weight = (forced       ? 0.0
                   : one_of_two ? 2 / drawn->pdf

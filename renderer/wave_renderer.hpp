@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "renderer/accelerator.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/kernels/kernels.hpp"
+#include "renderer/kernels/lights.hpp"
 #include "renderer/lights/environment.hpp"
 #include "renderer/reflector.hpp"
 #include "renderer/work.hpp"
@@ -66,13 +68,12 @@ class WaveRenderer {
   void find_visible(std::size_t light, Group group, std::size_t hits, Workspace& work) const;
   void add_light(Group group, Precision precision, Rgb emitted, const Rgb* tints, std::size_t hits,
                  Workspace& work) const;
-  void hide_behind_planes(const std::vector<int>& planes, Group group, std::size_t hits,
-                          Workspace& work) const;
+  void hide_behind_planes(std::size_t hits, Workspace& work) const;
   void spawn_mirror(const Wave& wave, Group group, bool one_of_two, std::size_t hits,
                     Workspace& work) const;
   void spawn_scattered(const Wave& wave, Group group, bool one_of_two, std::size_t hits,
                        Workspace& work) const;
-  LightSample sample_light(std::size_t light, Vec3 point, double u, double v) const;
+  void sample_light(std::size_t light, std::size_t hits, Workspace& work) const;
 
   const Scene& scene_;
   const Plan& plan_;
@@ -80,9 +81,10 @@ class WaveRenderer {
   CameraFrame frame_;
   FilterSampler filter_;
   std::vector<PreparedMaterial> materials_;
-  std::vector<std::unique_ptr<Environment>> environments_;  ///< by light; null for others
-  std::vector<Vec3> plane_u_, plane_v_;                     ///< of each plane's checker
-  std::unique_ptr<Accelerator> accelerator_;                ///< null where a loop is faster
+  std::vector<std::unique_ptr<Environment>> environments_;    ///< by light; null for others
+  std::vector<std::optional<PreparedRectangle>> rectangles_;  ///< by light; none for others
+  std::vector<Vec3> plane_u_, plane_v_;                       ///< of each plane's checker
+  std::unique_ptr<Accelerator> accelerator_;                  ///< null where a loop is faster
   bool one_by_one_;  ///< surfaces are shaded each by itself, so that each has its own occluders
   bool any_sized_ = false;
 };

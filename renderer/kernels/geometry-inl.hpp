@@ -49,6 +49,18 @@ HWY_INLINE Lanes3 normal_of_chord(Lanes minus_inverse_radius, Lanes3 to_eye, Lan
   return minus_inverse_radius * subtract_scaled(half, to_eye, off_axis);
 }
 
+/// A unit vector at an angle, given by sine and cosine, from the unit vector `axis`, turned about it by
+/// `turn` radians. As about() of renderer/frame.hpp.
+HWY_INLINE Lanes3 about(Lanes3 axis, Lanes sine, Lanes cosine, Lanes turn) {
+  const hn::ScalableTag<double> d;
+  const Lanes sign(hn::CopySignToAbs(hn::Set(d, 1.0), axis.z.v));
+  const Lanes a = Lanes(-1.0) / (sign + axis.z), b = axis.x * axis.y * a;
+  const Lanes3 first(Lanes(1.0) + sign * axis.x * axis.x * a, sign * b, -(sign * axis.x));
+  const Lanes3 second(b, sign + axis.y * axis.y * a, -axis.y);
+  const Lanes x = sine * Lanes(hn::Cos(d, turn.v)), y = sine * Lanes(hn::Sin(d, turn.v));
+  return add_scaled(x, first, add_scaled(y, second, cosine * axis));
+}
+
 /// From a point on a sphere to a point light: the unit vector, 1 / distance^2, and the distance.
 HWY_INLINE void to_point_light(Lanes3 position, Lanes3 point, Lanes3& to_light, Lanes& falloff,
                                Lanes& distance) {

@@ -12,12 +12,4 @@ struct LightSample {
   Rgb radiance;         ///< that arrives along it
 };
 
-/// What a ray from a point meets of a light.
-struct LightHit {
-  double distance = 0;
-  double pdf =
-      0;  ///< with which sampling would have drawn this direction; 0 where the light is missed
-  Rgb radiance;
-};
-
 }  // namespace lobelia

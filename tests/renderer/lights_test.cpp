@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 
+#include "renderer/kernels/lights.hpp"
 #include "renderer/lights/environment.hpp"
-#include "renderer/lights/rectangle_light.hpp"
-#include "renderer/lights/sphere_light.hpp"
 #include "renderer/sobol.hpp"
 
 namespace lobelia {
@@ -18,6 +18,58 @@ constexpr double kPi = std::numbers::pi;
 Vec3 evenly(double u, double v) {
   const double c = 1 - 2 * u, s = std::sqrt(std::max(0.0, 1 - c * c));
   return {s * std::cos(2 * kPi * v), s * std::sin(2 * kPi * v), c};
+}
+
+struct LightHit {
+  double distance = 0, pdf = 0;  ///< 0 where it is missed
+};
+
+// One at a time, by the kernels.
+void look(const SphereLight& light, const Vec3Chunk& point, const Vec3Chunk& to_eye,
+          MetChunk& met) {
+  light_kernels().meet_sphere(light, 1, point, to_eye, true, met);
+}
+void look(const RectangleLight& light, const Vec3Chunk& point, const Vec3Chunk& to_eye,
+          MetChunk& met) {
+  light_kernels().meet_rectangle(PreparedRectangle(light), 1, point, to_eye, true, met);
+}
+
+struct Buffers {
+  Vec3Chunk point{}, to_eye{};
+  DrawnChunk drawn;
+  MetChunk met;
+};
+Buffers& buffers() {
+  static const std::unique_ptr<Buffers> all = std::make_unique<Buffers>();
+  return *all;
+}
+void put(Vec3 v, Vec3Chunk& to) { to.x[0] = v.x, to.y[0] = v.y, to.z[0] = v.z; }
+
+template <class L>
+LightSample sample(const L& light, Vec3 point, double u, double v) {
+  Buffers& b = buffers();
+  put(point, b.point);
+  // A whole register is read.
+  alignas(64) double us[16]{u}, vs[16]{v};
+  if constexpr (std::is_same_v<L, SphereLight>)
+    light_kernels().sample_sphere(light, 1, b.point, us, vs, b.drawn);
+  else
+    light_kernels().sample_rectangle(PreparedRectangle(light), 1, b.point, us, vs, b.drawn);
+  const double inverse = b.drawn.inverse_pdf[0];
+  return {{b.drawn.to_light.x[0], b.drawn.to_light.y[0], b.drawn.to_light.z[0]},
+          b.drawn.distance[0],
+          inverse > 0 ? 1 / inverse : 0,
+          light.radiance};
+}
+
+template <class L>
+LightHit meet(const L& light, Vec3 point, Vec3 direction) {
+  Buffers& b = buffers();
+  put(point, b.point);
+  put(-direction, b.to_eye);
+  look(light, b.point, b.to_eye, b.met);
+  if (std::isinf(b.met.distance[0])) return {};
+  return {b.met.distance[0], b.met.pdf[0]};
 }
 
 /// The mean of (1, x, y, z, xy, yz, zx) over the light's solid angle, by its own draws and by looking in
