@@ -89,16 +89,17 @@ void TileRenderer::take(std::span<const PixelSample> pixels, int first, int last
                         WaveRenderer::Workspace& workspace, const Take& take_result) const {
   std::array<PixelSample, kChunk> samples;
   std::array<SampleResult, kChunk> results;
-  const std::size_t all = pixels.size() * std::size_t(last - first);
+  const std::size_t each = std::size_t(last - first), all = pixels.size() * each;
   for (std::size_t begin = 0; begin < all; begin += kChunk) {
     const std::size_t count = std::min(kChunk, all - begin);
     for (std::size_t i = 0; i < count; ++i) {
-      samples[i] = pixels[(begin + i) % pixels.size()];
-      samples[i].index = std::uint32_t(std::size_t(first) + (begin + i) / pixels.size());
+      // A pixel's samples side by side: most of them meet the same surface.
+      samples[i] = pixels[(begin + i) / each];
+      samples[i].index = std::uint32_t(std::size_t(first) + (begin + i) % each);
     }
     renderer_.render({samples.data(), count}, {results.data(), count}, workspace);
     for (std::size_t i = 0; i < count; ++i)
-      take_result((begin + i) % pixels.size(), int(samples[i].index), results[i]);
+      take_result((begin + i) / each, int(samples[i].index), results[i]);
   }
 }
 
