@@ -10,6 +10,7 @@
 #include "cli/scene_overrides.hpp"
 #include "cli/warnings.hpp"
 #include "core/colour.hpp"
+#include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "renderer/render.hpp"
@@ -38,6 +39,22 @@ void require_png(const std::filesystem::path& png, const std::filesystem::path& 
   require_writable(png);
 }
 
+/// Rows are packed and written while the next ones are rendered. A picture for the eye too is kept whole.
+RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
+                              const Options& options) {
+  if (!options.png.empty()) {
+    RenderResult result = render(scene, how);
+    write_exr(options.output, result.image, render_metadata(scene));
+    write_png(options.png, to_display(result.image, options.exposure));
+    return result;
+  }
+  ExrWriter writer(options.output, scene.film.width, scene.film.height, render_metadata(scene));
+  RenderResult result = render(
+      scene, how, [&](int y, int rows, const float* rgb) { writer.write_rows(y, rows, rgb); });
+  writer.finish();
+  return result;
+}
+
 void run(const Options& options) {
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
@@ -56,11 +73,9 @@ void run(const Options& options) {
   render_options.time_limit = options.time_limit;
   render_options.max_samples = options.max_samples;
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
-  const RenderResult result = render(scene, render_options);
+  const RenderResult result = render_and_write(scene, render_options, options);
   progress.clear();
 
-  write_exr(options.output, result.image, render_metadata(scene));
-  if (!options.png.empty()) write_png(options.png, to_display(result.image, options.exposure));
   const std::filesystem::path output(options.output);
   write_record(record_path,
                render_record(scene, result, command_line(), output.filename().string()));

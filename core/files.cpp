@@ -90,27 +90,51 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   return text;
 }
 
-void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  const fs::path target = final_target(path);
-  const fs::path part = temporary_name(target);
-  FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
-  if (file.fd < 0) output_error(path, errno);
-  const auto fail = [&](int error) {
-    ::unlink(part.c_str());
-    output_error(path, error);
-  };
+PartFile::PartFile(const fs::path& path)
+    : path_(path), target_(final_target(path)), part_(temporary_name(target_)) {
+  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd_ < 0) output_error(path, errno);
+}
+
+PartFile::~PartFile() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(part_.c_str());
+}
+
+void PartFile::fail(int error) {
+  if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+  ::unlink(part_.c_str());
+  output_error(path_, error);
+}
+
+void PartFile::append(std::span<const std::uint8_t> bytes) {
+  write_at(size_, bytes);
+  size_ += bytes.size();
+}
+
+void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t n = ::write(file.fd, bytes.data() + done, bytes.size() - done);
+    const ssize_t n = ::pwrite(fd_, bytes.data() + done, bytes.size() - done, off_t(offset + done));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail(errno);
     done += std::size_t(n);
   }
+}
+
+void PartFile::finish() {
   // Without it a full disk may be noticed only after the rename.
-  if (::fsync(file.fd) != 0 && errno != EINVAL) fail(errno);
-  const int closed = ::close(std::exchange(file.fd, -1));
+  if (::fsync(fd_) != 0 && errno != EINVAL) fail(errno);
+  const int closed = ::close(std::exchange(fd_, -1));
   if (closed != 0) fail(errno);
-  if (::rename(part.c_str(), target.c_str()) != 0) fail(errno);
+  if (::rename(part_.c_str(), target_.c_str()) != 0) fail(errno);
+}
+
+void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
+  PartFile file(path);
+  file.append(bytes);
+  file.finish();
 }
 
 void write_file(const fs::path& path, std::string_view text) {

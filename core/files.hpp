@@ -17,6 +17,28 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes
 void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// A file in the making, for what is too large or too slow to be written at once: under a temporary name
+/// beside `path`, which it gets by finish(). Without that nothing is left behind. Throws as write_file does.
+class PartFile {
+ public:
+  explicit PartFile(const std::filesystem::path& path);
+  ~PartFile();
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+  void append(std::span<const std::uint8_t> bytes);
+  /// Over what is there already.
+  void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
+  std::uint64_t size() const { return size_; }
+  /// Flushes to the disk, then renames.
+  void finish();
+
+ private:
+  [[noreturn]] void fail(int error);
+  std::filesystem::path path_, target_, part_;
+  int fd_ = -1;
+  std::uint64_t size_ = 0;
+};
+
 /// Throws Error(kOutput) unless a file could be created at `path`; asked before long work starts.
 void require_writable(const std::filesystem::path& path);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/vec.hpp"
+#include "core/zeroed_memory.hpp"
 
 namespace lobelia {
 
@@ -39,7 +40,7 @@ class Image {
 
  private:
   int width_ = 0, height_ = 0;
-  std::vector<float> values_;
+  std::vector<float, ZeroedMemory<float>> values_;
 };
 
 /// Display-encoded 8-bit RGB (sRGB), for people to look at. Same layout as Image.

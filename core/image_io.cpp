@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io_module.hpp"
 
@@ -37,7 +38,9 @@ const ImageIoTable& module() {
 Image read_image(const fs::path& path) { return module().read_image(path); }
 
 void write_exr(const fs::path& path, const Image& image, const ImageMetadata& metadata) {
-  write_file(path, module().encode_exr(image, metadata));
+  ExrWriter writer(path, image.width(), image.height(), metadata);
+  writer.write_rows(0, image.height(), image.values().data());
+  writer.finish();
 }
 
 void write_png(const fs::path& path, const DisplayImage& image) {

@@ -1,4 +1,4 @@
-// Reading and writing pictures, by OpenImageIO.
+// Reading and writing pictures; all but the writing of EXR by OpenImageIO.
 //
 // OpenImageIO brings some 260 shared libraries and 0.2 s to every process that links it, so it lives
 // in a module of its own (image_io_module.cpp) that is loaded at the first picture.
@@ -15,8 +15,8 @@ namespace lobelia {
 /// Throws Error(kInput): missing, not a picture, truncated, over kMaxImageSide or kMaxImagePixels.
 Image read_image(const std::filesystem::path& path);
 
-/// Writes a float32 OpenEXR with ZIP compression. The bytes depend on the arguments alone.
-/// Throws Error(kOutput); never leaves a partial file under `path`.
+/// Writes a float32 OpenEXR with ZIP compression, by ExrWriter (core/exr_writer.hpp): the bytes depend on
+/// the arguments alone. Throws Error(kOutput); never leaves a partial file under `path`.
 void write_exr(const std::filesystem::path& path, const Image& image,
                const ImageMetadata& metadata);
 

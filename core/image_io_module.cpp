@@ -84,16 +84,6 @@ std::vector<std::uint8_t> encode(const char* extension, OIIO::ImageSpec spec, OI
   return bytes;
 }
 
-std::vector<std::uint8_t> encode_exr(const Image& image, const ImageMetadata& metadata) {
-  OIIO::ImageSpec spec(image.width(), image.height(), 3, OIIO::TypeDesc::FLOAT);
-  spec.attribute("compression", "zip");
-  spec.attribute("oiio:ColorSpace", "Linear");
-  // OpenImageIO would write the time of day, and the same picture would be another file each second.
-  spec.attribute("DateTime", "1970:01:01 00:00:00");
-  for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  return encode("exr", spec, OIIO::TypeDesc::FLOAT, image.values().data());
-}
-
 std::vector<std::uint8_t> encode_png(const DisplayImage& image) {
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
@@ -105,5 +95,4 @@ std::vector<std::uint8_t> encode_png(const DisplayImage& image) {
 
 extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
-const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::encode_exr,
-                                                      lobelia::encode_png};
+const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::encode_png};

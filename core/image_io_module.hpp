@@ -8,7 +8,6 @@ namespace lobelia {
 /// The functions of image_io.hpp, found by name in the module.
 struct ImageIoTable {
   Image (*read_image)(const std::filesystem::path&);
-  std::vector<std::uint8_t> (*encode_exr)(const Image&, const ImageMetadata&);
   std::vector<std::uint8_t> (*encode_png)(const DisplayImage&);
 };
 

@@ -155,7 +155,7 @@ class Render {
     Frame frame(width(), height());
     int done = 0;
     while (done < most && !interrupted()) {
-      int next = std::min(most, done == 0 ? 1 : 2 * done);
+      int next = std::min(most, more_than(done));
       if (options_.time_limit && done > 0) {
         const double elapsed = seconds_since(started_), left = *options_.time_limit - elapsed;
         const int affordable = int(std::min(1e9, left / (elapsed / done)));
@@ -195,6 +195,16 @@ class Render {
       (*sink_)(0, height(), image.values().data());
     else
       result_.image = std::move(image);
+  }
+
+  /// As many again; fewer where the error, which falls about as the power 0.7 of the samples, will be
+  /// reached before.
+  int more_than(int done) const {
+    if (done == 0) return 1;
+    double growth = 2;
+    if (options_.target_error && done >= 8)
+      growth = std::clamp(std::pow(*result_.error / *options_.target_error, 1 / 0.7), 1.25, 2.0);
+    return int(std::ceil(growth * done));
   }
 
   double progress(int done, int most) const {

@@ -61,12 +61,23 @@ struct Stretch {
   Vectors sum;  ///< red, green, blue, where there are several lights
 };
 
+/// to_eye_of_ray (geometry-inl.hpp) in two loops, up to the division and from there on.
 inline void trace_rays(const FusedRow& row, int begin, int count, Stretch& stretch) {
   const Lanes3 forward = broadcast(row.forward), right = broadcast(row.right);
   const Lanes3 v_up = broadcast(row.v_up);
   const double* columns = row.columns + begin;
-  for (int i = 0; i < count; i += int(Lanes::count()))
-    stretch.to_eye.store(i, to_eye_of_ray(forward, Lanes::load(columns + i), right, v_up));
+  const Starts floats;
+  for (int i = 0; i < count; i += int(Lanes::count())) {
+    const Lanes3 along = add_scaled(Lanes::load(columns + i), right, forward) + v_up;
+    const Lanes squared = dot(along, along);
+    stretch.s.store(i, squared);
+    hn::StoreU(start_of_inverse_sqrt(squared), floats, stretch.s32 + i);
+  }
+  for (int i = 0; i < count; i += int(Lanes::count())) {
+    const Lanes3 along = add_scaled(Lanes::load(columns + i), right, forward) + v_up;
+    const Lanes scale = refine_inverse_sqrt(stretch.s.load(i), hn::LoadU(floats, stretch.s32 + i));
+    stretch.to_eye.store(i, -scale * along);
+  }
 }
 
 template <bool kRivals>

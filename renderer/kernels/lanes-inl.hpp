@@ -125,15 +125,18 @@ HWY_INLINE void widen(Lanes32 a, Lanes& low, Lanes& high) {
 
 /// 1 / sqrt(a), within 1.5 units in the last place, for a from 1e-30 to 1e30: from the float32 value by a
 /// step of third order. In half the time of float64's root and division, which unit vectors would wait for.
-HWY_INLINE Lanes inverse_sqrt(Lanes a) {
+using Starts = hn::Rebind<float, hn::ScalableTag<double>>;
+HWY_INLINE hn::Vec<Starts> start_of_inverse_sqrt(Lanes a) {
+  return hn::Div(hn::Set(Starts(), 1.0f), hn::Sqrt(hn::DemoteTo(Starts(), a.v)));
+}
+HWY_INLINE Lanes refine_inverse_sqrt(Lanes a, hn::Vec<Starts> start) {
   const hn::ScalableTag<double> d;
-  const hn::Rebind<float, hn::ScalableTag<double>> narrower;
-  const auto start = hn::Div(hn::Set(narrower, 1.0f), hn::Sqrt(hn::DemoteTo(narrower, a.v)));
   const auto y = hn::PromoteTo(d, start);
   const auto rest = hn::NegMulAdd(hn::Mul(a.v, y), y, hn::Set(d, 1.0));
   const auto share = hn::MulAdd(rest, hn::Set(d, 0.375), hn::Set(d, 0.5));
   return Lanes(hn::MulAdd(hn::Mul(y, rest), share, y));
 }
+HWY_INLINE Lanes inverse_sqrt(Lanes a) { return refine_inverse_sqrt(a, start_of_inverse_sqrt(a)); }
 
 template <class T>
 struct Lanes3Of {

@@ -43,25 +43,27 @@ Environment::Environment(const EnvironmentLight& light) : light_(light) {
   const std::size_t stride = std::size_t(width_) + 1;
   columns_.assign(stride * std::size_t(height_), 0);
   rows_.assign(std::size_t(height_) + 1, 0);
+  for (int y = 0; y <= height_; ++y) cosines_.push_back(std::cos(kPi * y / height_));
+  std::vector<double> row(stride);
   for (int y = 0; y < height_; ++y) {
-    double* row = columns_.data() + stride * std::size_t(y);
     for (int x = 0; x < width_; ++x) {
       // Interpolated, a direction takes light from the neighbours too: it must not be left out.
       double sum = 0;
       for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v)
         for (const int u : {x - 1, x, x + 1})
           sum += luminance(image.pixel((u + width_) % width_, v));
-      row[x + 1] = row[x] + sum;
+      row[std::size_t(x) + 1] = row[std::size_t(x)] + sum;
     }
-    rows_[std::size_t(y) + 1] = rows_[std::size_t(y)] + row[width_] * row_solid_angle(y);
-    normalise({row, stride});
+    rows_[std::size_t(y) + 1] = rows_[std::size_t(y)] + row.back() * row_solid_angle(y);
+    normalise(row);
+    std::copy(row.begin(), row.end(), columns_.begin() + std::ptrdiff_t(stride * std::size_t(y)));
   }
   normalise(rows_);
 }
 
 /// Of one pixel in it.
 double Environment::row_solid_angle(int row) const {
-  return 2 * kPi / width_ * (std::cos(kPi * row / height_) - std::cos(kPi * (row + 1) / height_));
+  return 2 * kPi / width_ * (cosines_[std::size_t(row)] - cosines_[std::size_t(row) + 1]);
 }
 
 Environment::Place Environment::place(Vec3 d) const {
@@ -72,28 +74,38 @@ Environment::Place Environment::place(Vec3 d) const {
 }
 
 Rgb Environment::radiance(Vec3 direction) const {
-  if (!light_.image) return light_.radiance;
-  const Place p = place(direction);
+  return light_.image ? at(place(direction)) : light_.radiance;
+}
+
+/// Interpolated.
+Rgb Environment::at(Place p) const {
   const double x = p.column - 0.5, y = p.row - 0.5, fx = x - std::floor(x), fy = y - std::floor(y);
-  const auto column = [&](double c) { return ((int(c) % width_) + width_) % width_; };
+  const auto column = [&](double c) {
+    const int i = int(c);
+    return i < 0 ? i + width_ : i >= width_ ? i - width_ : i;
+  };
   const auto row = [&](double r) { return std::clamp(int(r), 0, height_ - 1); };
-  const auto at = [&](double c, double r) {
+  const auto pixel_at = [&](double c, double r) {
     const auto pixel = light_.image->pixel(column(c), row(r));
     return Rgb{pixel[0], pixel[1], pixel[2]};
   };
   const double x0 = std::floor(x), y0 = std::floor(y);
-  return light_.radiance * ((1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x0 + 1, y0)) +
-                            fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1)));
+  return light_.radiance * ((1 - fy) * ((1 - fx) * pixel_at(x0, y0) + fx * pixel_at(x0 + 1, y0)) +
+                            fy * ((1 - fx) * pixel_at(x0, y0 + 1) + fx * pixel_at(x0 + 1, y0 + 1)));
 }
 
 double Environment::pdf(Vec3 direction) const {
   if (!light_.image) return kEverywhere;
   const Place p = place(direction);
-  const int x = std::clamp(int(p.column), 0, width_ - 1),
-            y = std::clamp(int(p.row), 0, height_ - 1);
-  const double* row = columns_.data() + (std::size_t(width_) + 1) * std::size_t(y);
-  return (rows_[std::size_t(y) + 1] - rows_[std::size_t(y)]) * (row[x + 1] - row[x]) /
-         row_solid_angle(y);
+  return pdf(std::size_t(std::clamp(int(p.column), 0, width_ - 1)),
+             std::size_t(std::clamp(int(p.row), 0, height_ - 1)));
+}
+
+/// Even within a pixel.
+double Environment::pdf(std::size_t column, std::size_t row) const {
+  const double* cumulative = columns_.data() + (std::size_t(width_) + 1) * row;
+  return (rows_[row + 1] - rows_[row]) * (cumulative[column + 1] - cumulative[column]) /
+         row_solid_angle(int(row));
 }
 
 LightSample Environment::sample(double u, double v) const {
@@ -106,12 +118,13 @@ LightSample Environment::sample(double u, double v) const {
   const std::size_t stride = std::size_t(width_) + 1;
   const Draw column = draw({columns_.data() + stride * row.step, stride}, u);
   // Evenly in solid angle within the row: linear in the cosine.
-  const double top = std::cos(kPi * double(row.step) / height_);
-  const double bottom = std::cos(kPi * double(row.step + 1) / height_);
+  const double top = cosines_[row.step], bottom = cosines_[row.step + 1];
   const double c = top + row.within * (bottom - top), s = std::sqrt(std::max(0.0, 1 - c * c));
-  const double turn = 2 * kPi * ((double(column.step) + column.within) / width_ - 0.5);
+  const double x = double(column.step) + column.within;
+  const double turn = 2 * kPi * (x / width_ - 0.5);
   const Vec3 direction{s * std::sin(turn), c, -s * std::cos(turn)};
-  return {direction, kFar, pdf(direction), radiance(direction)};
+  const Place place{x, std::acos(std::clamp(c, -1.0, 1.0)) / kPi * height_};
+  return {direction, kFar, pdf(column.step, row.step), at(place)};
 }
 
 }  // namespace lobelia

@@ -22,12 +22,16 @@ class Environment {
     double column, row;  ///< in pixels; centres are at halves
   };
   Place place(Vec3 direction) const;
+  Rgb at(Place place) const;
+  double pdf(std::size_t column, std::size_t row) const;
   double row_solid_angle(int row) const;
 
   EnvironmentLight light_;
   int width_ = 0, height_ = 0;
   std::vector<double> rows_;     ///< cumulative, 0 to 1
   std::vector<double> columns_;  ///< of each row, cumulative, 0 to 1; width + 1 each
+  std::vector<double>
+      cosines_;  ///< of the angle from +y at which each row begins, and the last ends
 };
 
 }  // namespace lobelia

@@ -14,7 +14,7 @@
 namespace lobelia {
 
 /// Up to so many spheres each pair of them and a light is looked at, to find who may shadow whom.
-inline constexpr std::size_t kMaxPairwiseSpheres = 1024;
+inline constexpr std::size_t kMaxPairwiseSpheres = 256;
 /// Up to so many spheres a ray is tested against each; beyond, Embree sorts them.
 inline constexpr std::size_t kMaxLoopSpheres = 24;
 

@@ -152,15 +152,19 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
 }
 
 TEST(RenderCommand, WithoutTheImageModuleIsStillHelpful) {
-  // The module is loaded only for pictures: help and plans need none of its 260 libraries.
+  // The module is loaded only to read pictures and for PNGs: help, plans and EXRs need none of its 260
+  // libraries.
   const TemporaryDirectory directory;
-  const auto result =
-      run_shell("cp \"$LOBELIA\" ./lobelia && ./lobelia plan '" + kScenes +
-                    "head_on.xml' && ./lobelia render '" + kScenes + "head_on.xml' -q -o x.exr",
-                directory.path());
+  const auto result = run_shell("cp \"$LOBELIA\" ./lobelia && ./lobelia plan '" + kScenes +
+                                    "head_on.xml' && ./lobelia render '" + kScenes +
+                                    "head_on.xml' -q -o x.exr && ./lobelia render '" + kScenes +
+                                    "head_on.xml' -q -o y.exr --png y.png",
+                                directory.path());
   EXPECT_EQ(result.exit_code, 70);
   EXPECT_THAT(result.output_tail, HasSubstr("camera rays        65536"));
   EXPECT_THAT(result.output_tail, HasSubstr("lobelia_image_io.so is neither beside the program"));
+  EXPECT_TRUE(std::filesystem::exists(directory.path() / "x.exr"));
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "y.png"));
 }
 
 }  // namespace

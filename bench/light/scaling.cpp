@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "bench/light/measure.hpp"
+#include "bench/light/scenes.hpp"
+#include "bench/light/sections.hpp"
+#include "core/threads.hpp"
+#include "renderer/accelerator.hpp"
+#include "renderer/plan/plan.hpp"
+
+namespace lobelia::bench {
+namespace {
+
+/// From so much of the processors' sum on, they do not wait for a thing that they share.
+constexpr double kGoodEfficiency = 0.8;
+
+/// The part of the picture that spheres cover, by some of its pixels.
+double coverage(const Scene& scene, const Accelerator& accelerator) {
+  constexpr int kGrid = 64;
+  const CameraFrame f = camera_frame(scene.camera, scene.film);
+  int hits = 0;
+  for (int j = 0; j < kGrid; ++j)
+    for (int i = 0; i < kGrid; ++i) {
+      const double u = (2 * (i + 0.5) / kGrid - 1) * f.half_width;
+      const double v = (1 - 2 * (j + 0.5) / kGrid) * f.half_height;
+      if (accelerator.nearest(f.origin, normalize(f.forward + u * f.right + v * f.up), -1).sphere >=
+          0)
+        ++hits;
+    }
+  return double(hits) / (kGrid * kGrid);
+}
+
+struct CrowdTimes {
+  std::vector<double> plan, build, render;  ///< seconds; the first and last without the second
+  double coverage = 0;
+};
+
+void measure_once(const Scene& scene, int threads, CrowdTimes& times) {
+  const bool sorted = scene.spheres.size() > kMaxLoopSpheres;
+  const auto begun = std::chrono::steady_clock::now();
+  std::optional<Accelerator> accelerator;
+  ThreadLimit(threads).run([&] { accelerator.emplace(scene.spheres); });
+  const double build =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  if (times.render.empty()) times.coverage = coverage(scene, *accelerator);
+  accelerator.reset();
+  RenderOptions options;
+  options.threads = threads;
+  const RenderResult result = render_timed(scene, 1, 0, options).result;
+  times.plan.push_back(result.plan_seconds);
+  times.build.push_back(sorted ? build : 0);
+  times.render.push_back(result.render_seconds - times.build.back());
+}
+
+}  // namespace
+
+void measure_crowd() {
+  constexpr int kSide = 512;
+  constexpr double kRays = double(kSide) * kSide;
+  std::vector<Scene> scenes;
+  for (int decade = 0; decade <= kDecades; ++decade) scenes.push_back(crowd(decade, kSide));
+  std::vector<CrowdTimes> all(scenes.size()), one(scenes.size());
+  for (int repeat = 0; repeat < 5; ++repeat)
+    for (std::size_t d = 0; d < scenes.size(); ++d) {
+      measure_once(scenes[d], 0, all[d]);
+      if (repeat < 3 && (d == 3 || d == kDecades)) measure_once(scenes[d], 1, one[d]);
+    }
+
+  fmt::print(
+      "\nCrowd: spheres in the same cube, a ray meets as many on the average; {} x {}, one sample, "
+      "one lamp with shadows, {} threads, median of 5\n",
+      kSide, kSide, processors());
+  fmt::print("{:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>14} {:>10}\n", "spheres", "covered", "plan s",
+             "build s", "render s", "in all s", "ns a ray", "increment");
+  std::vector<double> ns;
+  for (std::size_t d = 0; d < scenes.size(); ++d) {
+    const double plan = median(all[d].plan), build = median(all[d].build);
+    const double render = median(all[d].render);
+    ns.push_back(1e9 * render / kRays);
+    fmt::print("{:>10} {:>8.0f}% {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>14.0f}",
+               scenes[d].spheres.size(), 100 * all[d].coverage, plan, build, render,
+               plan + build + render, ns.back());
+    fmt::print("{}\n", d == 0 ? "" : fmt::format(" {:>10.0f}", ns[d] - ns[d - 1]));
+  }
+  fmt::print(
+      "(to {} spheres each is tried; beyond, Embree's hierarchy is built, timed by itself)\n",
+      kMaxLoopSpheres);
+  const double first = ns[3] - ns[2], last = ns[kDecades] - ns[kDecades - 1];
+  fmt::print(
+      "each factor of ten costs {:.0f} ns more from 100 to 1000, {:.0f} ns from 1e5 to 1e6: ratio "
+      "{:.1f} (a logarithm: 1; in proportion: 1000); first decade {:.0f} ns\n",
+      first, last, last / first, ns[1] - ns[0]);
+  const double speedup = median(one[kDecades].render) / median(all[kDecades].render);
+  const double speedup_small = median(one[3].render) / median(all[3].render);
+  fmt::print("{} threads are {:.2f} times as fast as one at 1e6 spheres, {:.2f} at 1000: {}\n",
+             processors(), speedup, speedup_small,
+             speedup > kGoodEfficiency * speedup_small
+                 ? "not what the processors share, but each ray's own steps and waits"
+                 : "memory, which they share, limits the large one");
+  const double build_share =
+      median(all[kDecades].build) /
+      (median(all[kDecades].plan) + median(all[kDecades].build) + median(all[kDecades].render));
+  fmt::print("building is {:.0f} % of a first picture of 1e6\n", 100 * build_share);
+}
+
+void measure_threads() {
+  const Scene scene = below_rectangle(256);
+  constexpr int kSamples = 64, kRepeats = 5;
+  std::vector<int> counts;
+  for (int n = 1; n < processors(); n *= 2) counts.push_back(n);
+  counts.push_back(processors());
+  std::vector<std::vector<double>> seconds(counts.size());
+  for (int repeat = 0; repeat < kRepeats; ++repeat)
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      RenderOptions options;
+      options.threads = counts[i];
+      seconds[i].push_back(render_timed(scene, kSamples, 1, options).seconds);
+    }
+  fmt::print("\nThreads: sphere below a rectangle, 256 x 256, {} samples, median of {}\n", kSamples,
+             kRepeats);
+  fmt::print("{:>10} {:>10} {:>10} {:>12}\n", "threads", "s", "speed-up", "efficiency");
+  double efficiency = 1;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double speedup = median(seconds[0]) / median(seconds[i]);
+    efficiency = speedup / counts[i];
+    fmt::print("{:>10} {:>10.4f} {:>10.2f} {:>11.0f}%\n", counts[i], median(seconds[i]), speedup,
+               100 * efficiency);
+  }
+  fmt::print("limited by {}\n",
+             efficiency > kGoodEfficiency
+                 ? "compute"
+                 : "what the processors share: memory, power, or other programs");
+}
+
+}  // namespace lobelia::bench

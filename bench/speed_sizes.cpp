@@ -1,0 +1,148 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "bench/sections.hpp"
+#include "bench/timing.hpp"
+#include "core/exr_writer.hpp"
+#include "core/files.hpp"
+#include "core/image_io.hpp"
+#include "renderer/render.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia::bench {
+namespace {
+
+std::string scene_file(const char* name) {
+  return std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml";
+}
+
+struct Child {
+  double seconds = 0, processor_seconds = 0, peak_mebibytes = 0;
+};
+
+Child run(const std::vector<std::string>& arguments) {
+  std::vector<char*> pointers;
+  for (const auto& a : arguments) pointers.push_back(const_cast<char*>(a.c_str()));
+  pointers.push_back(nullptr);
+  Child result;
+  rusage usage{};
+  int status = 0;
+  result.seconds = seconds_of([&] {
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+      ::execv(pointers[0], pointers.data());
+      ::_exit(127);
+    }
+    ::wait4(pid, &status, 0, &usage);
+  });
+  if (status != 0) {
+    fmt::print(stderr, "{} failed\n", arguments[0]);
+    std::exit(EXIT_FAILURE);
+  }
+  const auto seconds = [](timeval t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  result.processor_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  result.peak_mebibytes = double(usage.ru_maxrss) / 1024;
+  return result;
+}
+
+}  // namespace
+
+void sizes(const std::string& program) {
+  const TemporaryDirectory directory;
+  const std::string output = (directory.path() / "a.exr").string();
+  fmt::print(
+      "\nWhole commands, from start to file: lobelia render head_on.xml, all processors; median of 5\n");
+  fmt::print("{:>8}{:>10}{:>12}{:>14}{:>12}{:>12}{:>10}\n", "side", "s", "Mpixel/s", "processor s",
+             "peak MiB", "picture MiB", "file MiB");
+  double start_up = 0, last = 0, render_seconds = 0, write_seconds = 0;
+  for (const int side : {16, 256, 512, 1024, 2048, 4096, 8192}) {
+    std::vector<double> seconds;
+    Child child;
+    const int rounds = side > 2048 ? 3 : 5;
+    for (int round = 0; round < rounds; ++round) {
+      child = run({program, "render", scene_file("head_on"), "--width", std::to_string(side),
+                   "--height", std::to_string(side), "-q", "-o", output});
+      seconds.push_back(child.seconds);
+    }
+    const Times t = summary(seconds);
+    if (side == 16) start_up = t.median;
+    last = t.median;
+    fmt::print("{:>8}{:>10.3f}{:>12.1f}{:>14.3f}{:>12.0f}{:>12.1f}{:>10.2f}\n", side, t.median,
+               1e-6 * side * side / t.median, child.processor_seconds, child.peak_mebibytes,
+               12.0 * side * side / (1 << 20),
+               double(std::filesystem::file_size(output)) / (1 << 20));
+  }
+  Scene scene = read_scene(scene_file("head_on"));
+  scene.film.width = scene.film.height = 8192;
+  const RenderResult result = render(scene, {});
+  render_seconds = result.render_seconds;
+  write_seconds = seconds_of([&] { write_exr(output, result.image, {}); });
+  fmt::print(
+      "Limit: start-up for small pictures ({:.0f} ms at 16 x 16); at 8192 x 8192 {} ({:.2f} s of {:.2f} s; rendering "
+      "takes {:.2f} s).\n",
+      1e3 * start_up, write_seconds > render_seconds ? "packing and writing the file" : "rendering",
+      std::max(write_seconds, render_seconds), last, render_seconds);
+}
+
+void exr() {
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = directory.path() / "a.exr";
+  struct Kind {
+    const char* name;
+    ExrOptions options;
+    bool is_usual = false;
+  };
+  const Kind kinds[] = {{"none", {ExrCompression::kNone, 1}, true},
+                        {"zips, level 1", {ExrCompression::kZips, 1}, true},
+                        {"zips, level 6", {ExrCompression::kZips, 6}},
+                        {"zip, level 1", {ExrCompression::kZip, 1}, true},
+                        {"zip, level 2", {ExrCompression::kZip, 2}},
+                        {"zip, level 4", {ExrCompression::kZip, 4}},
+                        {"zip, level 6", {ExrCompression::kZip, 6}, true},
+                        {"zip, level 9", {ExrCompression::kZip, 9}},
+                        {"piz", {ExrCompression::kPiz, 1}, true}};
+  fmt::print(
+      "\nWriting an EXR, flushed to the disk, all processors; median of 5 interleaved rounds\n");
+  fmt::print("{:<14}{:>6}  {:<16}{:>9}{:>9}{:>10}{:>10}\n", "picture", "side", "compression", "ms",
+             "spread", "MiB", "of raw");
+  double none = 0, chosen = 0;
+  for (const char* name : {"head_on", "two_spheres"})
+    for (const int side : {1024, 4096}) {
+      Scene scene = read_scene(scene_file(name));
+      scene.film.width = scene.film.height = side;
+      const Image image = render(scene, {}).image;
+      std::vector<std::function<void()>> cases;
+      // The large ones with what is worth its time: nothing, rows, and ZIP at the least and the usual level.
+      std::vector<Kind> tried;
+      for (const Kind& kind : kinds)
+        if (side <= 1024 || kind.is_usual) tried.push_back(kind);
+      for (const Kind& kind : tried)
+        cases.push_back([&] {
+          ExrWriter writer(path, side, side, {}, kind.options);
+          writer.write_rows(0, side, image.values().data());
+          writer.finish();
+        });
+      const auto times = interleaved(cases, side > 1024 ? 3 : 5);
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        cases[i]();
+        const double bytes = double(std::filesystem::file_size(path));
+        fmt::print("{:<14}{:>6}  {:<16}{:>9.1f}{:>8.0f}%{:>10.2f}{:>9.1f}%\n", name, side,
+                   tried[i].name, 1e3 * times[i].median, 100 * times[i].spread, bytes / (1 << 20),
+                   100 * bytes / (12.0 * side * side));
+      }
+      none = times[0].median;
+      chosen = times[side > 1024 ? 2 : 3].median;
+    }
+  fmt::print(
+      "Limit: {}. The last picture unpacked takes {:.0f} ms, packed by zip at level 1 {:.0f} ms.\n",
+      chosen < none ? "the disk where pictures are not packed, packing where they are" : "packing",
+      1e3 * none, 1e3 * chosen);
+}
+
+}  // namespace lobelia::bench

@@ -1,0 +1,48 @@
+// Writing an OpenEXR picture row by row, as it is rendered: memory for a few rows, whatever the size.
+//
+// By the OpenEXR library itself, not through OpenImageIO: opening that takes longer than rendering most
+// pictures does (docs/decisions/0005).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "core/image.hpp"
+
+namespace lobelia {
+
+enum class ExrCompression : std::uint8_t {
+  kNone,
+  kZips,  ///< each row by itself
+  kZip,   ///< 16 rows at a time
+  kPiz,   ///< wavelets, 32 rows at a time
+};
+
+struct ExrOptions {
+  ExrCompression compression = ExrCompression::kZip;
+  int zip_level = 1;  ///< 1..9; why 1, docs/decisions/0005
+};
+
+/// The bytes depend on pixels, metadata and options alone: not on the number of threads, nor on how many
+/// rows come at a time. Throws Error(kOutput); without finish() nothing is left behind.
+class ExrWriter {
+ public:
+  /// Scene-linear float32, Rec. 709. The metadata become string attributes.
+  ExrWriter(const std::filesystem::path& path, int width, int height, const ImageMetadata& metadata,
+            ExrOptions options = {});
+  ~ExrWriter();
+
+  /// `count` rows of 3 * width floats, from row y0 on. Rows come in order, each once.
+  void write_rows(int y0, int count, const float* rgb);
+
+  /// After the last row.
+  void finish();
+
+ private:
+  struct State;
+  int width_, height_, next_row_ = 0;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,49 @@
+#include "core/zeroed_memory.hpp"
+
+#include <sys/mman.h>
+
+#include <cstdint>
+#include <cstdlib>
+
+namespace lobelia {
+namespace {
+
+constexpr std::size_t kLargePage = std::size_t{2} << 20;
+
+/// From here on in pages of our own; below, large ones would be mostly empty.
+constexpr std::size_t kLarge = 2 * kLargePage;
+
+std::size_t in_large_pages(std::size_t bytes) {
+  return (bytes + kLargePage - 1) / kLargePage * kLargePage;
+}
+
+}  // namespace
+
+void* allocate_zeroed(std::size_t bytes) {
+  if (bytes < kLarge || bytes > SIZE_MAX - 2 * kLargePage) {
+    void* memory = std::calloc(bytes, 1);
+    if (!memory) throw std::bad_alloc();
+    return memory;
+  }
+  // A page more, of which what lies before and behind the first whole large page is given back.
+  const std::size_t size = in_large_pages(bytes), reserved = size + kLargePage;
+  void* memory =
+      ::mmap(nullptr, reserved, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  auto* begin = static_cast<std::byte*>(memory);
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(begin) % kLargePage;
+  if (before > 0) ::munmap(begin, before);
+  begin += before;
+  ::munmap(begin + size, reserved - size - before);
+  ::madvise(begin, size, MADV_HUGEPAGE);  // a wish: without it the memory is as good, but slower
+  return begin;
+}
+
+void free_zeroed(void* memory, std::size_t bytes) {
+  if (bytes < kLarge)
+    std::free(memory);
+  else
+    ::munmap(memory, in_large_pages(bytes));
+}
+
+}  // namespace lobelia

@@ -1,0 +1,98 @@
+#include "core/exr_writer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <random>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/image_io.hpp"
+#include "core/threads.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Half of it smooth, half of it noise of every exponent, which no packing makes smaller.
+Image picture(int width, int height) {
+  Image image(width, height);
+  std::mt19937 random(1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (float& v : image.pixel(x, y))
+        v = y < height / 2 ? float(x) * 0.25f : std::bit_cast<float>(std::uint32_t(random()));
+  return image;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+  return a.width() == b.width() && a.height() == b.height() &&
+         std::equal(a.values().begin(), a.values().end(), b.values().begin(), [](float x, float y) {
+           return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+         });
+}
+
+std::string write(const fs::path& path, const Image& image, int batch, ExrOptions options = {}) {
+  ExrWriter writer(path, image.width(), image.height(), {{"Software", "test"}}, options);
+  for (int y = 0; y < image.height(); y += batch)
+    writer.write_rows(y, std::min(batch, image.height() - y), image.pixel(0, y).data());
+  writer.finish();
+  return read_file(path, 1 << 26);
+}
+
+TEST(ExrWriter, AnotherReaderFindsEveryBitWhateverSizeAndCompression) {
+  const TemporaryDirectory directory;
+  for (const int width : {1, 2, 3, 37, 300})
+    for (const int height : {1, 2, 15, 16, 17, 50})
+      for (const auto compression : {ExrCompression::kNone, ExrCompression::kZips,
+                                     ExrCompression::kZip, ExrCompression::kPiz})
+        for (const int level : {1, 6}) {
+          const Image image = picture(width, height);
+          write(directory.path() / "a.exr", image, 7, {compression, level});
+          EXPECT_TRUE(same_bits(read_image(directory.path() / "a.exr"), image))
+              << width << " x " << height << ", " << int(compression);
+        }
+}
+
+TEST(ExrWriter, TheBytesAreTheSameHoweverManyRowsComeAtATimeAndThreadsWork) {
+  const TemporaryDirectory directory;
+  const Image image = picture(64, 107);
+  const fs::path path = directory.path() / "a.exr";
+  write_exr(path, image, {{"Software", "test"}});
+  const std::string expected = read_file(path, 1 << 26);
+  for (const int batch : {1, 3, 15, 16, 17, 32, 50, 107})
+    for (const int threads : {1, 4}) {
+      std::string bytes;
+      ThreadLimit(threads).run([&] { bytes = write(path, image, batch); });
+      EXPECT_TRUE(bytes == expected) << batch << " rows, " << threads << " threads";
+    }
+}
+
+TEST(ExrWriter, LeavesNothingBehindUnlessFinished) {
+  const TemporaryDirectory directory;
+  const Image image = picture(20, 40);
+  {
+    ExrWriter writer(directory.path() / "a.exr", 20, 40, {});
+    writer.write_rows(0, 20, image.values().data());
+    EXPECT_FALSE(fs::exists(directory.path() / "a.exr"));
+    EXPECT_THROW(writer.finish(), Error);
+    EXPECT_THROW(writer.write_rows(21, 1, image.values().data()), Error);
+    EXPECT_THROW(writer.write_rows(20, 21, image.values().data()), Error);
+  }
+  EXPECT_TRUE(fs::is_empty(directory.path()));
+  EXPECT_THROW(ExrWriter(directory.path() / "no" / "a.exr", 1, 1, {}), Error);
+  EXPECT_TRUE(fs::is_empty(directory.path()));
+}
+
+TEST(ExrWriter, ALongNameOfAnAttributeIsReadable) {
+  const TemporaryDirectory directory;
+  const fs::path path = directory.path() / "a.exr";
+  const Image image = picture(4, 4);
+  write_exr(path, image, {{std::string(100, 'n'), "value"}});
+  EXPECT_TRUE(same_bits(read_image(path), image));
+  EXPECT_THROW(write_exr(path, image, {{std::string(256, 'n'), "value"}}), Error);
+}
+
+}  // namespace
+}  // namespace lobelia
