@@ -315,9 +315,9 @@ void WaveRenderer::add_emitters(Wave& wave, Workspace& work) const {
       Rgb radiance = strength(light);
       double pdf = 0;
       if (environment) {
-        const Vec3 direction = -get(wave.to_eye, i);
-        radiance = environment->radiance(direction);
-        if (strategy == LightStrategy::kBoth) pdf = environment->pdf(direction);
+        const Environment::Look seen = environment->look(-get(wave.to_eye, i));
+        radiance = seen.radiance;
+        pdf = seen.pdf;
         ++work.work.of<effects::Environment>();
       } else if (scattered) {
         pdf = work.met.pdf[i];

@@ -15,6 +15,12 @@ class Environment {
 
   Rgb radiance(Vec3 direction) const;
   double pdf(Vec3 direction) const;
+  /// Both, for the price of one.
+  struct Look {
+    Rgb radiance;
+    double pdf;
+  };
+  Look look(Vec3 direction) const;
   LightSample sample(double u, double v) const;
 
  private:
