@@ -6,7 +6,8 @@ target_compile_options(lobelia_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
-  # A compiler that fuses a*b+c on some processors only would make the picture depend on them.
+  # Kernels say themselves where a*b+c is fused (Highway's MulAdd); elsewhere a compiler that does it on
+  # some processors only would make results depend on them.
   -ffp-contract=off)
 # SSE4.2 is the least that the kernels are written for (docs/decisions/0002); below it Highway would add
 # a target without registers. Every x86 processor since 2009 has it.
