@@ -60,9 +60,10 @@ double Frame::error(int done, int next) const {
   Spread spread;
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const Rgb mean = sums_[i].mean(next);
-    // mean - kept = (next - done) / next (new - kept): the difference of two halves where they are
-    // equally many, and as much of it as matters where they are not.
-    const Rgb apart = double(next) / (next - done) * difference(mean, kept_[i]);
+    // With `more` samples added to `done`, mean - kept has more / done times the variance of the mean;
+    // half of `apart` has that of the mean.
+    const double more = next - done;
+    const Rgb apart = 2 * std::sqrt(done / more) * difference(mean, kept_[i]);
     spread += {squared(apart), squared(mean)};
   }
   return spread.error();
