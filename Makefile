@@ -14,7 +14,7 @@ configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery test build bench fuzz lint clean
+.PHONY: help gallery test sanitize build bench fuzz lint clean
 .NOTPARALLEL:
 
 help: ## this list
@@ -34,6 +34,15 @@ test: ## builds everything and runs the test suite
 	$(configure)
 	$(build)
 	ctest --preset "$(PRESET)" --parallel "$(JOBS)"
+
+sanitize: ## runs the suite in the presets asan and tsan, without engines and browsers
+	$(setup) build
+	cmake --preset asan
+	cmake --build --preset asan --parallel "$(JOBS)"
+	ctest --preset asan --parallel "$(JOBS)" --label-exclude 'engines|browser'
+	cmake --preset tsan
+	cmake --build --preset tsan --parallel "$(JOBS)" --target threaded_tests
+	ctest --preset tsan --parallel "$(JOBS)" --label-regex threads
 
 build: ## builds everything into build/release
 	$(setup) build
