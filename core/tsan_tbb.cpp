@@ -159,8 +159,7 @@ void deallocate(d1::small_object_pool& pool, void* memory, std::size_t bytes,
 }
 
 void* cache_aligned_allocate(std::size_t bytes) {
-  static auto* next =
-      original<void*(std::size_t)>("_ZN3tbb6detail2r122cache_aligned_allocateEm");
+  static auto* next = original<void*(std::size_t)>("_ZN3tbb6detail2r122cache_aligned_allocateEm");
   void* memory = next(bytes);
   __tsan_acquire(memory);
   return memory;
