@@ -507,7 +507,7 @@ void WaveRenderer::sample_light(std::size_t light, std::size_t hits, Workspace& 
     for (std::size_t i = 0; i < hits; ++i) {
       const LightSample drawn = environment->sample(work.random_u[i], work.random_v[i]);
       put(drawn.to_light, work.to_light, i);
-      work.falloff[i] = 1 / drawn.pdf;
+      work.falloff[i] = drawn.pdf > 0 ? 1 / drawn.pdf : 0;  // a density may underflow
       work.distance[i] = kInfinity;
       work.tint[i] = drawn.radiance;
     }
