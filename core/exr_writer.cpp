@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <exception>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -106,8 +108,13 @@ struct ExrWriter::State {
 ExrWriter::ExrWriter(const std::filesystem::path& path, int width, int height,
                      const ImageMetadata& metadata, ExrOptions options)
     : width_(width), height_(height), state_(new State{Stream(path), nullptr}) {
-  const int threads = oneapi::tbb::this_task_arena::max_concurrency();
-  if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+  // OpenEXR's pool is one for the process, and must not change while another writer uses it.
+  static const int pool = [] {
+    const int processors = std::max(1, int(std::thread::hardware_concurrency()));
+    Imf::setGlobalThreadCount(processors);
+    return processors;
+  }();
+  const int threads = std::min(pool, oneapi::tbb::this_task_arena::max_concurrency());
   state_->guarded([&] {
     state_->output = std::make_unique<Imf::OutputFile>(
         state_->stream, header(width, height, metadata, options), threads);
