@@ -71,15 +71,6 @@ Scene in_engine_units(Scene scene) {
   return scene;
 }
 
-double nearest_surface(const PointLight& light, const std::vector<Sphere>& spheres) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Sphere& sphere : spheres) {
-    const double distance = length(light.position - sphere.center) - sphere.radius;
-    if (distance > 0) nearest = std::min(nearest, distance);
-  }
-  return std::isfinite(nearest) ? nearest : 1.0;
-}
-
 double extent(const Scene& scene) {
   double farthest = std::max(1.0, length(scene.camera.origin));
   for (const Sphere& sphere : scene.spheres)

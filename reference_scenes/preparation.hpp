@@ -17,9 +17,6 @@ std::string why_not_comparable(const Scene& scene);
 /// a scene that is there already keeps its numbers, bit for bit.
 Scene in_engine_units(Scene scene);
 
-/// Distance from `light` to the nearest surface that it can light; 1 if it can light none.
-double nearest_surface(const PointLight& light, const std::vector<Sphere>& spheres);
-
 /// The greatest distance from the origin of anything in the scene, and at least 1.
 double extent(const Scene& scene);
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/plan/sharpness.hpp"
+#include "renderer/peak_bound.hpp"
 
 namespace lobelia {
 namespace {
@@ -56,7 +56,6 @@ void Frame::keep(const Tile& tile, int done) {
 }
 
 double Frame::error(int done, int next) const {
-  if (done == 0) return 1;
   Spread spread;
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const Rgb mean = sums_[i].mean(next);
@@ -82,7 +81,7 @@ TileRenderer::TileRenderer(const Scene& scene, const Plan& plan, const WaveRende
       random_(std::any_of(scene.lights.begin(), scene.lights.end(),
                           [](const Light& l) { return !is_delta(l); }) ||
               plan.depth.glossy > 0 || scene.camera.aperture_radius > 0),
-      too_little_(kBlack * peak_radiance(scene)) {}
+      too_little_(kBlack * peak_bound(scene, scene.lights)) {}
 
 /// Samples first..last - 1 of all pixels, a chunk at a time; take_result(pixel, sample, result).
 template <class Take>

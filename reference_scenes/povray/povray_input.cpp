@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string_view>
 
 #include "reference_scenes/preparation.hpp"
+#include "renderer/peak_bound.hpp"
 #include "shaders/povray.hpp"
 
 namespace lobelia {
@@ -87,28 +87,6 @@ PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const P
 }
 
 }  // namespace
-
-double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
-  double reflected = 0;  // of unit irradiance, over all spheres
-  for (const Sphere& sphere : scene.spheres) {
-    const Material& material = scene.materials.at(std::size_t(sphere.material));
-    const double specular =
-        material.fresnel == Fresnel::kNone ? max_component(material.specular_reflectance) : 1;
-    reflected =
-        std::max(reflected, radiance_coefficient(material.highlight) * specular +
-                                max_component(material.diffuse_reflectance) / std::numbers::pi);
-  }
-  double irradiance = 0;
-  for (const Light& light : lights) {
-    if (const auto* point = std::get_if<PointLight>(&light)) {
-      const double distance = nearest_surface(*point, scene.spheres);
-      irradiance += max_component(point->intensity) / (distance * distance);
-    } else {
-      irradiance += max_component(std::get<DirectionalLight>(light).irradiance);
-    }
-  }
-  return reflected * irradiance;
-}
 
 PovrayInput povray_input(const Scene& scene) {
   PovrayInput input;

@@ -27,7 +27,4 @@ struct PovrayInput {
 /// `scene` is in engine units (preparation.hpp).
 PovrayInput povray_input(const Scene& scene);
 
-/// Greatest radiance that the given lights can bring to the picture, from above.
-double peak_bound(const Scene& scene, const std::vector<Light>& lights);
-
 }  // namespace lobelia

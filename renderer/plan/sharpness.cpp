@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "renderer/lobe_properties.hpp"
 
@@ -37,29 +36,6 @@ std::string why_every_pixel(const Scene& scene, const Plan& plan) {
       return fmt::format("the highlight of sphere {} is only {:.1f} pixels across", k, across);
   }
   return "";
-}
-
-double peak_radiance(const Scene& scene) {
-  double reflected = 0, arriving = 0;
-  for (const Material& m : scene.materials)
-    reflected = std::max(
-        reflected,
-        radiance_coefficient(m.highlight) *
-                (m.fresnel == Fresnel::kNone ? max_component(m.specular_reflectance) : 1.0) +
-            std::numbers::inv_pi * max_component(m.diffuse_reflectance));
-  for (const Light& light : scene.lights) {
-    double nearest = 1;
-    if (const auto* point = std::get_if<PointLight>(&light)) {
-      nearest = 1e300;
-      for (const Sphere& sphere : scene.spheres) {
-        const double d = std::abs(length(point->position - sphere.center) - sphere.radius);
-        nearest = std::min(nearest, d * d);
-      }
-      nearest = std::max(nearest, 1e-18);
-    }
-    arriving += max_component(strength(light)) / nearest;
-  }
-  return reflected * arriving;
 }
 
 }  // namespace lobelia

@@ -11,8 +11,4 @@ namespace lobelia {
 /// Asks the plan which effects are on that come before antialiasing.
 std::string why_every_pixel(const Scene& scene, const Plan& plan);
 
-/// Most radiance that the scene's lights can bring back from a surface, roughly: the scale of what is
-/// too little to see.
-double peak_radiance(const Scene& scene);
-
 }  // namespace lobelia

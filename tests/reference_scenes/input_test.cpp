@@ -14,6 +14,7 @@
 #include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/povray/povray_input.hpp"
 #include "reference_scenes/preparation.hpp"
+#include "renderer/peak_bound.hpp"
 #include "renderer/render.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 

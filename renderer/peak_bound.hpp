@@ -1,0 +1,14 @@
+// How bright a picture may get.
+#pragma once
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// Distance from `light` to the nearest surface that it can light; 1 if it can light none.
+double nearest_surface(const PointLight& light, const std::vector<Sphere>& spheres);
+
+/// Greatest radiance that the given lights can bring to the picture, from above.
+double peak_bound(const Scene& scene, const std::vector<Light>& lights);
+
+}  // namespace lobelia
