@@ -27,8 +27,7 @@ std::optional<Reflector::Directions> Reflector::above_horizon(Vec3 normal, Vec3 
 
 Reflector::Reflector(const Material& material)
     : material_(material),
-      has_highlight_(!is_black(material.specular_reflectance) ||
-                     material.fresnel != Fresnel::kNone),
+      has_highlight_(has_highlight(material)),
       lobe_(prepare(material.highlight.lobe, material.highlight.exponent)),
       coefficient_(radiance_coefficient(material.highlight)) {}
 
@@ -41,6 +40,7 @@ double Reflector::one_minus_cos(const Directions& d) const {
 
 /// How many of the draws follow the highlight: as much as it is of the reflectance at this angle.
 double Reflector::specular_share(double n_dot_v) const {
+  if (!has_highlight_) return 0;
   const double base = std::max(0.0, 1 - n_dot_v), weight = base * base * base * base * base;
   double specular = max_component(material_.specular_reflectance);
   if (material_.fresnel == Fresnel::kSchlick) specular += (1 - specular) * weight;

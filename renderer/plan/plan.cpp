@@ -103,9 +103,7 @@ LightStrategy strategy_of(const Light& light, const Material& material, EffectPo
   if (policy == EffectPolicy::kAll) return LightStrategy::kBoth;
   const auto* environment = std::get_if<EnvironmentLight>(&light);
   if (environment && !environment->image) return LightStrategy::kSurface;
-  const bool highlight =
-      !is_black(material.specular_reflectance) || material.fresnel != Fresnel::kNone;
-  return highlight || environment ? LightStrategy::kBoth : LightStrategy::kLight;
+  return has_highlight(material) || environment ? LightStrategy::kBoth : LightStrategy::kLight;
 }
 
 /// At most: every camera ray meets a surface, and every ray after it.

@@ -89,6 +89,11 @@ struct Material {
   Rgb mirror_reflectance = {};  ///< of a perfect mirror on top, each 0..1; as F0, where Fresnel is
 };
 
+/// Whether there is a highlight at all: with Schlick's factor there is, even of a black one.
+inline bool has_highlight(const Material& material) {
+  return !is_black(material.specular_reflectance) || material.fresnel != Fresnel::kNone;
+}
+
 struct Sphere {
   Vec3 center;
   double radius = 1;  ///< > 0

@@ -1,4 +1,7 @@
 // sample() draws as pdf() says, for every model and lobe, from normal incidence to grazing.
+#include <array>
+#include <numbers>
+
 #include "tests/renderer/laws/chi_square.hpp"
 
 namespace lobelia {
@@ -34,6 +37,22 @@ TEST(EverySampler, DrawsAHighlightAsOftenAsItsPdfSays) {
 
 TEST(EverySampler, DrawsAHighlightOverADiffuseBaseAsOftenAsItsPdfSays) {
   expect_draws_as_the_pdf_says(highlights(every_model(), kSampledExponents), true);
+}
+
+TEST(EverySampler, DrawsABlackSurfaceEvenlyAndSaysSo) {
+  for (const Highlight& h : highlights(every_model(), std::array{16.0})) {
+    Material black = material(h, false);
+    black.specular_reflectance = {};
+    const Reflector reflector(black);
+    const Vec3 normal{0, 0, 1}, to_eye = normalize({0.6, 0, 0.8});
+    for (const double u : {0.1, 0.5, 0.9}) {
+      const auto drawn = reflector.sample(normal, to_eye, 0.5, u, 0.3);
+      ASSERT_TRUE(drawn) << text(h);
+      const double expected = drawn->to_light.z / std::numbers::pi;
+      EXPECT_NEAR(drawn->pdf, expected, 1e-12) << text(h);
+      EXPECT_NEAR(reflector.pdf(normal, to_eye, drawn->to_light), expected, 1e-12) << text(h);
+    }
+  }
 }
 
 /// Of the draws of one material against the pdf of another.
