@@ -15,7 +15,6 @@
 #include "core/threads.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
-#include "renderer/plan/sharpness.hpp"
 #include "renderer/tile.hpp"
 
 namespace lobelia {
@@ -150,8 +149,8 @@ class Render {
 
   /// All pixels with some samples, then with as many again, until it is enough.
   void in_rounds() {
-    const int most = options_.max_samples.value_or(
-        options_.target_error ? kMostSamples : scene_.sampler.sample_count);
+    const int most =
+        options_.target_error ? options_.max_samples.value_or(kMostSamples) : all_samples();
     Frame frame(width(), height());
     int done = 0;
     while (done < most && !interrupted()) {
@@ -169,7 +168,7 @@ class Render {
       for_tiles(0, height(), [&](const Tile& tile, WaveRenderer::Workspace& workspace) {
         tiles_->add(tile, done, next, frame, workspace);
       });
-      result_.error = frame.error(done, next);
+      if (done > 0) result_.error = frame.error(done, next);
       done = next;
       report(progress(done, most));
       if (!tiles_->is_random() && scene_.sampler.sample_count == 1) {

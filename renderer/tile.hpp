@@ -42,7 +42,7 @@ class Frame {
   PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
   /// Keeps what the first `done` samples came to, then says how far the next ones are from it.
   void keep(const Tile& tile, int done);
-  /// After samples done..next - 1 were added to the `done` that were kept.
+  /// After samples done..next - 1 were added to the `done` that were kept; done > 0.
   double error(int done, int next) const;
   void resolve(Image& image, int samples) const;
 
