@@ -1,5 +1,6 @@
 // Which of very many spheres a ray meets: Embree's bounding volume hierarchy over them, and our own test of
-// ray and sphere in double, so that the answer is that of a loop over all of them, bit for bit.
+// ray and sphere in double (renderer/chord.hpp), so that the answer is that of a loop of it over all, bit for
+// bit.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// A ray and a sphere, in double, with the operations of the kernels in their order: bit for bit the same.
+// A ray and a sphere, one at a time, in double: the formulas of the kernels, without their fused products.
 #pragma once
 
 #include <algorithm>

@@ -50,10 +50,9 @@ double power_heuristic(double p, double q) {
 struct WaveRenderer::PreparedMaterial {
   Material material;
   Reflector reflector;
-  Rgb specular;  ///< reflectance times coefficient
-  Rgb grazing;   ///< what Schlick's factor adds to it at grazing angles, at most
-  Rgb diffuse;   ///< reflectance / pi
-  bool has_highlight;
+  Rgb specular;                    ///< reflectance times coefficient
+  Rgb grazing;                     ///< what Schlick's factor adds to it at grazing angles, at most
+  Rgb diffuse;                     ///< reflectance / pi
   bool scatters_to_light = false;  ///< some light's directions are drawn by the surface
 
   explicit PreparedMaterial(const Material& m) : material(m), reflector(m) {
@@ -62,7 +61,6 @@ struct WaveRenderer::PreparedMaterial {
     specular = coefficient * f0;
     if (m.fresnel == Fresnel::kSchlick) grazing = coefficient * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b};
     diffuse = std::numbers::inv_pi * m.diffuse_reflectance;
-    has_highlight = m.fresnel != Fresnel::kNone || !is_black(f0);
   }
 };
 
@@ -106,7 +104,7 @@ struct WaveRenderer::Workspace {
   std::array<std::uint32_t, kChunk> hit_pixel, hit_index;
   std::array<Rgb, kChunk> tint;
   Vec3Chunk point{}, normal{}, to_eye{}, to_light{};
-  alignas(64) double falloff[kChunk]{}, distance[kChunk]{}, visible[kChunk]{}, pdf[kChunk]{};
+  alignas(64) double falloff[kChunk]{}, distance[kChunk]{}, visible[kChunk]{};
   alignas(64) double specular[kChunk]{}, n_dot_l[kChunk]{}, fresnel[kChunk]{};
   std::array<Rgb, kChunk> weight;
   std::vector<int> keys;  ///< of the groups of a wave, and their sizes and places
@@ -537,7 +535,7 @@ void WaveRenderer::add_light(Group group, Precision precision, Rgb emitted, cons
     sum = sum + factor * (tints ? reflectance * tints[i] : constant) * work.weight[i];
   };
   const bool all = plan_.policy == EffectPolicy::kAll;
-  if (all || material.has_highlight) {
+  if (all || has_highlight(material.material)) {
     kernels_.shade(highlight, precision)(highlight, hits, work.normal, work.to_eye, work.to_light,
                                          work.specular);
     const Rgb specular = emitted * material.specular;
@@ -570,15 +568,12 @@ void WaveRenderer::spawn_mirror(const Wave& wave, Group group, bool one_of_two, 
     if (one_of_two && !takes_mirror(work.random_u[i])) continue;
     const Vec3 normal = get(work.normal, i), to_eye = get(work.to_eye, i);
     const double n_dot_v = dot(normal, to_eye);
-    Rgb reflectance = material.mirror_reflectance;
-    if (material.fresnel == Fresnel::kSchlick) {
-      const double base = std::max(0.0, 1 - n_dot_v), share = base * base * base * base * base;
-      const Rgb f0 = reflectance;
-      reflectance = f0 + share * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b};
-    }
+    const Vec3 mirrored = normalize(2 * n_dot_v * normal - to_eye);
+    const Rgb reflectance =
+        fresnel_factor(material.fresnel, material.mirror_reflectance, to_eye, mirrored);
     const std::size_t to = next.count++;
     copy(work.point, i, next.origin, to);
-    put(normalize(to_eye - 2 * n_dot_v * normal), next.to_eye, to);
+    put(-mirrored, next.to_eye, to);
     next.leaves[to] = work.surface[i];
     next.weight[to] = (one_of_two ? 2.0 : 1.0) * work.weight[i] * reflectance;
     next.slot[to] = work.slot[i];
@@ -589,32 +584,34 @@ void WaveRenderer::spawn_mirror(const Wave& wave, Group group, bool one_of_two, 
 
 void WaveRenderer::spawn_scattered(const Wave& wave, Group group, bool one_of_two, std::size_t hits,
                                    Workspace& work) const {
-  const Reflector& reflector = materials_[std::size_t(group.material)].reflector;
+  const PreparedMaterial& material = materials_[std::size_t(group.material)];
+  const bool highlight = has_highlight(material.material);
+  const bool roulette = wave.level >= kRouletteFrom;
   Wave& next = work.wave_at(wave.level + 1, Wave::Kind::kScattered);
   // Forced though nothing calls for it: the rays are traced and bring nothing.
-  const bool forced =
-      wave.left.glossy < 1 && !materials_[std::size_t(group.material)].scatters_to_light;
+  const bool forced = wave.left.glossy < 1 && !material.scatters_to_light;
   const std::size_t before = next.count;
   std::array<bool, kChunk> skipped{};
   if (one_of_two) {
     work.draw(wave, hits, kChoiceDimension);
     for (std::size_t i = 0; i < hits; ++i) skipped[i] = takes_mirror(work.random_u[i]);
   }
-  work.draw(wave, hits, kScatterDimension);
-  std::array<double, kChunk> choice, roulette;
-  std::copy_n(work.random_u, hits, choice.begin());
-  std::copy_n(work.random_v, hits, roulette.begin());
+  std::array<double, kChunk> choice, chance;  // between highlight and base; to go on
+  if (highlight || roulette) {
+    work.draw(wave, hits, kScatterDimension);
+    std::copy_n(work.random_u, hits, choice.begin());
+    std::copy_n(work.random_v, hits, chance.begin());
+  }
   work.draw(wave, hits, kDirectionDimension);
-  const PreparedMaterial& material = materials_[std::size_t(group.material)];
-  if (!material.has_highlight)
+  if (!highlight)
     wave_kernels().scatter_evenly(hits, work.normal, work.random_u, work.random_v, work.to_light);
   for (std::size_t i = 0; i < hits; ++i) {
     if (skipped[i]) continue;
     const Vec3 normal = get(work.normal, i);
     std::optional<ReflectorSample> drawn;
-    if (material.has_highlight) {
-      drawn = reflector.sample_above(normal, get(work.to_eye, i), choice[i], work.random_u[i],
-                                     work.random_v[i]);
+    if (highlight) {
+      drawn = material.reflector.sample_above(normal, get(work.to_eye, i), choice[i],
+                                              work.random_u[i], work.random_v[i]);
     } else {
       const Vec3 to_light = get(work.to_light, i);
       const double cosine = dot(normal, to_light);
@@ -625,9 +622,9 @@ void WaveRenderer::spawn_scattered(const Wave& wave, Group group, bool one_of_tw
                   : one_of_two ? 2 / drawn->pdf
                                : 1 / drawn->pdf) *
                  work.weight[i] * drawn->radiance;
-    if (wave.level >= kRouletteFrom) {
+    if (roulette) {
       const double survival = std::min(1.0, max_component(weight));
-      if (!(roulette[i] < survival)) continue;
+      if (!(chance[i] < survival)) continue;
       weight = 1 / survival * weight;
     }
     const std::size_t to = next.count++;
