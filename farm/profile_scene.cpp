@@ -28,7 +28,7 @@ Image analytic_image(const Scene& scene, int sphere_index) {
   Image image(scene.film.width, scene.film.height);
   for (int y = 0; y < scene.film.height; ++y)
     for (int x = 0; x < scene.film.width; ++x) {
-      const Vec3 ray = normalize(centre_ray(frame, scene.film, x, y));
+      const Vec3 ray = normalize(centre_ray(frame, x, y));
       const auto hit = nearest_hit(scene, frame.origin, ray);
       if (!hit || hit->sphere != sphere_index) continue;
       Rgb radiance;

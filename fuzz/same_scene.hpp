@@ -13,8 +13,8 @@ namespace lobelia::fuzz {
 // Structured bindings name every field, so that a new one does not compile until it stands here too.
 
 inline auto fields(const Camera& c) {
-  const auto& [origin, target, up, fov, aperture, focus] = c;
-  return std::tie(origin, target, up, fov, aperture, focus);
+  const auto& [origin, target, up, fov, aperture, focus, offset_x, offset_y] = c;
+  return std::tie(origin, target, up, fov, aperture, focus, offset_x, offset_y);
 }
 inline auto fields(const Film& f) {
   const auto& [width, height, filter] = f;
@@ -29,8 +29,8 @@ inline auto fields(const DirectionalLight& l) {
   return std::tie(direction, irradiance);
 }
 inline auto fields(const PointLight& l) {
-  const auto& [position, intensity] = l;
-  return std::tie(position, intensity);
+  const auto& [position, intensity, normal] = l;
+  return std::tie(position, intensity, normal);
 }
 inline auto fields(const SphereLight& l) {
   const auto& [center, radius, radiance] = l;

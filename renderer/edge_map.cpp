@@ -15,7 +15,7 @@ struct Situation {
 };
 
 Situation situation_of(const Scene& scene, const CameraFrame& frame, int x, int y) {
-  const Vec3 direction = normalize(centre_ray(frame, scene.film, x, y));
+  const Vec3 direction = normalize(centre_ray(frame, x, y));
   const auto hit = nearest_hit(scene, frame.origin, direction);
   if (!hit) return {};
   Situation situation{hit->sphere, 0};

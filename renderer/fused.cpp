@@ -50,6 +50,9 @@ bool FusedRenderer::can_render(const Scene& scene, const Plan& plan) {
   if (plan.policy == EffectPolicy::kAll || scene.sampler.sample_count != 1 ||
       scene.spheres.size() > kMostSpheres || !beyond_delta_lights(scene).empty())
     return false;
+  for (const Light& light : scene.lights)
+    if (const auto* point = std::get_if<PointLight>(&light); point && has_normal(*point))
+      return false;
   for (const auto& by_sphere : plan.occluders)
     for (const auto& occluders : by_sphere)
       if (!occluders.empty()) return false;
@@ -65,8 +68,7 @@ FusedRenderer::FusedRenderer(const Scene& scene, const Plan& plan)
       frame_(camera_frame(scene.camera, scene.film)),
       lights_(scene.lights.size()) {
   columns_.resize(std::size_t(down_to_block(width_ + kFusedBlock - 1)));
-  for (std::size_t x = 0; x < columns_.size(); ++x)
-    columns_[x] = (2 * (int(x) + 0.5) / width_ - 1) * frame_.half_width;
+  for (std::size_t x = 0; x < columns_.size(); ++x) columns_[x] = frame_.film_u(int(x) + 0.5);
   for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
     const Sphere& sphere = scene.spheres[i];
     const Vec3 to_center = sphere.center - frame_.origin;
@@ -98,7 +100,9 @@ PixelSpan FusedRenderer::span(const Outline& outline, double v) const {
   const double room = a * a - stretch * rest + 1e-12 * (a * a + stretch * k);
   if (room < 0 || a < 0) return {0, 0};
   const double middle = a * b / rest, half = std::sqrt(k * room) / rest;
-  const auto column = [&](double u) { return (u / frame_.half_width + 1) * width_ / 2 - 0.5; };
+  const auto column = [&](double u) {
+    return ((u - frame_.shift_u) / frame_.half_width + 1) * width_ / 2 - 0.5;
+  };
   const auto clamped = [&](double x) { return int(std::clamp(x, 0.0, double(width_))); };
   return {clamped(std::floor(column(middle - half)) - 1),
           clamped(std::ceil(column(middle + half)) + 2)};
@@ -109,7 +113,7 @@ void FusedRenderer::render_rows(int y0, int y1, float* rgb) const {
 }
 
 void FusedRenderer::render_row(int y, float* rgb) const {
-  const double v = (1 - 2 * (y + 0.5) / height_) * frame_.half_height;
+  const double v = frame_.film_v(y + 0.5);
   const FusedRow row{frame_.forward, frame_.right, v * frame_.up, columns_.data(), rgb};
   std::array<PixelSpan, kMostSpheres> spans;
   std::array<int, kMostSpheres> order;

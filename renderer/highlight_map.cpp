@@ -28,7 +28,7 @@ HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t i = std::size_t(y) * width + x;
-      const Vec3 ray = centre_ray(frame, scene.film, x, y);
+      const Vec3 ray = centre_ray(frame, x, y);
       const double distance = length(ray);
       map.solid_angle[i] = pixel_area / (distance * distance * distance);
       const Vec3 direction = normalize(ray);

@@ -41,10 +41,8 @@ void require_single_rays(const Scene& scene, std::string_view what) {
                             what, kMaxSpheresByRay, found));
 }
 
-Vec3 centre_ray(const CameraFrame& frame, const Film& film, int x, int y) {
-  const double u = (2 * (x + 0.5) / film.width - 1) * frame.half_width;
-  const double v = (1 - 2 * (y + 0.5) / film.height) * frame.half_height;
-  return frame.forward + u * frame.right + v * frame.up;
+Vec3 centre_ray(const CameraFrame& frame, int x, int y) {
+  return frame.forward + frame.film_u(x + 0.5) * frame.right + frame.film_v(y + 0.5) * frame.up;
 }
 
 std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) {

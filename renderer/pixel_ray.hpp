@@ -24,7 +24,7 @@ std::string beyond_single_rays(const Scene& scene);
 void require_single_rays(const Scene& scene, std::string_view what);
 
 /// From the camera through the centre of pixel (x, y), to the film at distance 1; not normalised.
-Vec3 centre_ray(const CameraFrame& frame, const Film& film, int x, int y);
+Vec3 centre_ray(const CameraFrame& frame, int x, int y);
 
 /// The nearest sphere along a ray of unit direction.
 std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction);

@@ -194,20 +194,18 @@ void WaveRenderer::camera_wave(std::span<const PixelSample> samples,
     results[i].weight = 1;
     put(frame_.origin, wave.origin, i);
   }
-  const auto film_u = [&](double x) { return (2 * x / film.width - 1) * frame_.half_width; };
-  const auto film_v = [&](double y) { return (1 - 2 * y / film.height) * frame_.half_height; };
   if (scene_.sampler.sample_count == 1) {
     for (std::size_t i = 0; i < count; ++i) {
-      work.u[i] = film_u(samples[i].x + 0.5);
-      work.v[i] = film_v(samples[i].y + 0.5);
+      work.u[i] = frame_.film_u(samples[i].x + 0.5);
+      work.v[i] = frame_.film_v(samples[i].y + 0.5);
     }
   } else {
     kernels.random(count, work.pixel.data(), work.index.data(), 0, work.u, work.v);
     for (std::size_t i = 0; i < count; ++i) {
       const auto x = filter_(work.u[i]), y = filter_(work.v[i]);
       results[i].weight = x.weight * y.weight;
-      work.u[i] = film_u(samples[i].x + (0.5 + x.offset));
-      work.v[i] = film_v(samples[i].y + (0.5 + y.offset));
+      work.u[i] = frame_.film_u(samples[i].x + (0.5 + x.offset));
+      work.v[i] = frame_.film_v(samples[i].y + (0.5 + y.offset));
     }
   }
   if (lens) {

@@ -34,12 +34,15 @@ void light(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Ch
     }
     return;
   }
-  const Lanes3 position = broadcast(std::get<PointLight>(light).position);
+  const auto& source = std::get<PointLight>(light);
+  const Lanes3 position = broadcast(source.position), normal = broadcast(source.normal);
+  const bool falls_with_cosine = has_normal(source);
   for (std::size_t i = 0; i < count; i += Lanes::count()) {
     Lanes3 l;
     Lanes weight, length;
     to_point_light(position, load(point, i), l, weight, length);
     store(l, to_light, i);
+    if (falls_with_cosine) weight = weight * positive_part(Lanes(0.0) - dot(normal, l));
     weight.store(falloff + i);
     length.store(distance + i);
   }

@@ -197,4 +197,9 @@ Vec3 ElementReader::direction(pugi::xml_node element, const Values& values, std:
   return {0, 0, 1};
 }
 
+Vec3 ElementReader::direction_or_none(const Values& values, std::string_view name) {
+  const Vec3 vector = values.vec3(name);
+  return length(vector) > 0 ? unit(vector) : Vec3{};
+}
+
 }  // namespace lobelia

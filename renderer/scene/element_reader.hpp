@@ -79,6 +79,8 @@ class ElementReader {
   bool once(pugi::xml_node node, int& count);
   /// A vector that must have a direction, as a unit vector.
   Vec3 direction(pugi::xml_node element, const Values& values, std::string_view name);
+  /// The same of one that may be zero, and stays so.
+  static Vec3 direction_or_none(const Values& values, std::string_view name);
 
   /// What `find` knows by the value's name.
   template <class Id, class Find>

@@ -12,7 +12,8 @@ std::optional<Light> LightReader::read(pugi::xml_node node) {
   if (!format) return std::nullopt;
   const Values values = reader_.read_parameters(node, format->parameters, {});
   if (format->type == kPoint.type)
-    return PointLight{values.vec3("position"), values.rgb("intensity")};
+    return PointLight{values.vec3("position"), values.rgb("intensity"),
+                      reader_.direction_or_none(values, "normal")};
   if (format->type == kSphereLight.type)
     return SphereLight{values.vec3("center"), values.number("radius"), values.rgb("radiance")};
   if (format->type == kRectangle.type) return rectangle(node, values);

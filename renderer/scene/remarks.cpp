@@ -24,7 +24,8 @@ bool may_be_seen(const Scene& scene, const CameraFrame& frame, const Sphere& sph
   const Vec3 way = sphere.center - frame.origin;
   const double distance = length(way);
   if (distance <= sphere.radius + scene.camera.aperture_radius) return true;
-  const double corner = std::atan(std::hypot(frame.half_width, frame.half_height));
+  const double corner = std::atan(std::hypot(frame.half_width + std::abs(frame.shift_u),
+                                             frame.half_height + std::abs(frame.shift_v)));
   const double widening = std::asin(std::min(1.0, sphere.radius / distance));
   // A lens sees a little more; as much as it moves the sphere.
   const double lens = std::asin(std::min(1.0, scene.camera.aperture_radius / distance));

@@ -18,6 +18,10 @@ CameraFrame camera_frame(const Camera& camera, const Film& film) {
   frame.up = cross(frame.right, frame.forward);
   frame.half_width = std::tan(camera.fov_degrees * std::numbers::pi / 360);
   frame.half_height = frame.half_width * film.height / film.width;
+  frame.shift_u = -2 * camera.principal_point_offset_x * frame.half_width;
+  frame.shift_v = -2 * camera.principal_point_offset_y * frame.half_height;
+  frame.width = film.width;
+  frame.height = film.height;
   return frame;
 }
 
@@ -44,8 +48,9 @@ Illumination illuminate(const Light& light, Vec3 point) {
             std::numeric_limits<double>::infinity()};
   const auto* source = std::get_if<PointLight>(&light);
   if (!source) throw Error(ExitCode::kInternal, "a light with a size has no single direction");
-  const Vec3 way = source->position - point;
-  return {normalize(way), 1 / dot(way, way) * source->intensity, length(way)};
+  const Vec3 way = source->position - point, to_light = normalize(way);
+  const double towards = has_normal(*source) ? std::max(0.0, -dot(source->normal, to_light)) : 1;
+  return {to_light, towards / dot(way, way) * source->intensity, length(way)};
 }
 
 std::string beyond_delta_lights(const Scene& scene) {

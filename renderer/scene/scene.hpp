@@ -22,6 +22,9 @@ struct Camera {
   double fov_degrees = 28;     ///< full horizontal angle of view, (0, 180)
   double aperture_radius = 0;  ///< of a thin lens, >= 0; 0 is a pinhole
   double focus_distance = 1;   ///< > 0; along the view, of the plane that is sharp
+  /// Where the view from origin to target meets the film: how far right of its centre, in widths, and
+  /// above it, in heights; -10..10 each.
+  double principal_point_offset_x = 0, principal_point_offset_y = 0;
 };
 
 struct Film {
@@ -43,7 +46,12 @@ struct DirectionalLight {
 struct PointLight {
   Vec3 position;
   Rgb intensity;  ///< W/sr, >= 0; irradiance falls with the square of the distance
+  /// Unit vector: of a point of a surface, whose intensity falls with the cosine to it, 0 behind. Zero: the
+  /// same in every direction.
+  Vec3 normal = {};
 };
+
+inline bool has_normal(const PointLight& light) { return dot(light.normal, light.normal) > 0; }
 
 /// A ball of light, the same radiance from every point of it, seen from outside. Lamps with a size are
 /// no bodies: light passes through them, and a ray that crosses one takes up its radiance.
@@ -132,11 +140,16 @@ struct Scene {
 };
 
 /// Right-handed orthonormal frame of the camera and the half-sizes of the picture at distance 1.
-/// The ray of pixel (i, j), j down, at offset (u, v) in the pixel, starts at origin and runs along
-///   forward + (2 (i + u) / width - 1) half_width right + (1 - 2 (j + v) / height) half_height up.
+/// The ray through (x, y) of the film, in pixels from its upper left corner, starts at origin and runs along
+/// forward + film_u(x) right + film_v(y) up.
 struct CameraFrame {
   Vec3 origin, right, up, forward;
   double half_width = 0, half_height = 0;
+  double shift_u = 0, shift_v = 0;  ///< of the film's centre
+  int width = 1, height = 1;        ///< of the film, pixels
+
+  double film_u(double x) const { return (2 * x / width - 1) * half_width + shift_u; }
+  double film_v(double y) const { return (1 - 2 * y / height) * half_height + shift_v; }
 };
 CameraFrame camera_frame(const Camera& camera, const Film& film);
 

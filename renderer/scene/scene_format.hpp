@@ -28,12 +28,30 @@ inline constexpr double kBrightest = 1e9;  ///< bound of every irradiance, inten
 
 inline constexpr Parameter kFieldOfView{"fov",     ParameterType::kFloat,          "", 1e-3, 179,
                                         "degrees", "full horizontal angle of view"};
-inline constexpr Parameter kPerspectiveParameters[] = {kFieldOfView};
+inline constexpr double kMostOffset = 10;
+inline constexpr Parameter kOffsetX{
+    "principal_point_offset_x",
+    ParameterType::kFloat,
+    "0",
+    -kMostOffset,
+    kMostOffset,
+    "film widths",
+    "how far right of the film's centre the view from origin to target meets it"};
+inline constexpr Parameter kOffsetY{"principal_point_offset_y",
+                                    ParameterType::kFloat,
+                                    "0",
+                                    -kMostOffset,
+                                    kMostOffset,
+                                    "film heights",
+                                    "how far above it"};
+inline constexpr Parameter kPerspectiveParameters[] = {kFieldOfView, kOffsetX, kOffsetY};
 inline constexpr Parameter kThinLensParameters[] = {
     kFieldOfView,
     {"aperture_radius", ParameterType::kFloat, "0", 0, kFar, "", "of the lens; 0 is a pinhole"},
     {"focus_distance", ParameterType::kFloat, "", kNear, kFar, "",
      "along the view, of the plane that is sharp"},
+    kOffsetX,
+    kOffsetY,
 };
 inline constexpr Parameter kFilmParameters[] = {
     {"width", ParameterType::kInteger, "256", 1, kMaxImageSide, "pixels", "width of the picture"},
@@ -54,6 +72,8 @@ inline constexpr Parameter kPointParameters[] = {
     {"position", ParameterType::kPoint, "", -kFar, kFar, "", "where the light stands"},
     {"intensity", ParameterType::kRgb, "1", 0, kBrightest, "W/sr",
      "irradiance is intensity / distance^2"},
+    {"normal", ParameterType::kVector, "0, 0, 0", -kFar, kFar, "",
+     "of a point of a surface: the intensity falls with the cosine to it; 0, 0, 0 shines everywhere"},
 };
 inline constexpr Parameter kRadiance{"radiance",   ParameterType::kRgb,          "1", 0, kBrightest,
                                      "W/(m^2 sr)", "the same in every direction"};

@@ -66,6 +66,8 @@ class SceneReader {
     const Values values =
         reader_.read_parameters(node, format->parameters, {"transform", "film", "sampler"});
     scene_.camera.fov_degrees = values.number("fov");
+    scene_.camera.principal_point_offset_x = values.number("principal_point_offset_x");
+    scene_.camera.principal_point_offset_y = values.number("principal_point_offset_y");
     if (format->type == kThinLens.type) {
       scene_.camera.aperture_radius = values.number("aperture_radius");
       scene_.camera.focus_distance = values.number("focus_distance");

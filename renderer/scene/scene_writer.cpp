@@ -30,8 +30,12 @@ std::string emitter(const PointLight& light) {
       "  <emitter type=\"point\">\n"
       "    <point name=\"position\" value=\"{}\"/>\n"
       "    <rgb name=\"intensity\" value=\"{}\"/>\n"
+      "{}"
       "  </emitter>\n",
-      text(light.position), text(light.intensity));
+      text(light.position), text(light.intensity),
+      has_normal(light)
+          ? fmt::format("    <vector name=\"normal\" value=\"{}\"/>\n", text(light.normal))
+          : "");
 }
 
 std::string emitter(const SphereLight& light) {
@@ -114,6 +118,14 @@ std::string lens(const Camera& camera) {
       camera.aperture_radius, camera.focus_distance);
 }
 
+std::string principal_point(const Camera& camera) {
+  if (camera.principal_point_offset_x == 0 && camera.principal_point_offset_y == 0) return "";
+  return fmt::format(
+      "    <float name=\"principal_point_offset_x\" value=\"{}\"/>\n"
+      "    <float name=\"principal_point_offset_y\" value=\"{}\"/>\n",
+      camera.principal_point_offset_x, camera.principal_point_offset_y);
+}
+
 std::string filter(Filter filter) {
   if (filter == Filter{}) return "";
   return fmt::format(
@@ -145,7 +157,7 @@ std::string scene_to_xml(const Scene& scene) {
       "<scene version=\"{}\">\n"
       "  <sensor type=\"{}\">\n"
       "    <float name=\"fov\" value=\"{}\"/>\n"
-      "{}"
+      "{}{}"
       "    <transform name=\"to_world\">\n"
       "      <lookat origin=\"{}\" target=\"{}\" up=\"{}\"/>\n"
       "    </transform>\n"
@@ -160,9 +172,9 @@ std::string scene_to_xml(const Scene& scene) {
       "    </sampler>\n"
       "  </sensor>\n",
       kSceneFormatVersion, lens_text.empty() ? kPerspective.type : kThinLens.type,
-      scene.camera.fov_degrees, lens_text, text(scene.camera.origin), text(scene.camera.target),
-      text(scene.camera.up), scene.film.width, scene.film.height, filter(scene.film.filter),
-      scene.sampler.sample_count, scene.sampler.seed);
+      scene.camera.fov_degrees, lens_text, principal_point(scene.camera), text(scene.camera.origin),
+      text(scene.camera.target), text(scene.camera.up), scene.film.width, scene.film.height,
+      filter(scene.film.filter), scene.sampler.sample_count, scene.sampler.seed);
   xml += integrator(scene);
   for (const auto& light : scene.lights)
     xml += std::visit([](const auto& l) { return emitter(l); }, light);

@@ -69,7 +69,7 @@ TEST(DiffuseBase, AddsItsAlbedoByPiTimesTheCosineToEveryModel) {
 /// The picture, one ray through the centre of each pixel, by the reflector.
 Rgb radiance_at(const Scene& scene, const CameraFrame& camera,
                 const std::vector<Reflector>& reflectors, int x, int y) {
-  const Vec3 ray = normalize(centre_ray(camera, scene.film, x, y));
+  const Vec3 ray = normalize(centre_ray(camera, x, y));
   const auto hit = nearest_hit(scene, camera.origin, ray);
   Rgb sum;
   if (!hit) return sum;

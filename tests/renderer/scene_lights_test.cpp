@@ -72,6 +72,17 @@ TEST(SceneLights, EveryKindIsReadAndWrittenToTheLastDigit) {
   EXPECT_EQ(std::get<EnvironmentLight>(s.lights[4]).radiance, (Rgb{1, 1, 1}));
 }
 
+TEST(SceneLights, APointMayBeOneOfASurface) {
+  const std::string position = given("point", "position", "1, 2, 3");
+  const Scene s =
+      again(parse_scene(scene(emitter("point", position) +
+                              emitter("point", position + given("vector", "normal", "0, -3, 4"))),
+                        "s.xml"));
+  ASSERT_EQ(s.lights.size(), 2u);
+  EXPECT_FALSE(has_normal(std::get<PointLight>(s.lights[0])));
+  EXPECT_EQ(std::get<PointLight>(s.lights[1]).normal, (Vec3{0, -0.6, 0.8}));
+}
+
 TEST(SceneLights, EveryErrorHasItsPlace) {
   const std::string u = given("vector", "half_u", "1,0,0");
   const BadScene bad[] = {

@@ -26,6 +26,19 @@ TEST(SceneLens, IsReadAndWrittenToTheLastDigit) {
   EXPECT_EQ(with_sensor(kSensor).camera.aperture_radius, 0);
 }
 
+TEST(SceneCamera, MayHaveItsFilmAside) {
+  const std::string offsets = given("float", "principal_point_offset_x", "0.25") +
+                              given("float", "principal_point_offset_y", "-0.1");
+  for (const auto& type : {"perspective", "thinlens"}) {
+    const std::string lens =
+        type == std::string("thinlens") ? given("float", "focus_distance", "2") : std::string();
+    const Camera camera = with_sensor(sensor(type, offsets + lens)).camera;
+    EXPECT_EQ(camera.principal_point_offset_x, 0.25);
+    EXPECT_EQ(camera.principal_point_offset_y, -0.1);
+  }
+  EXPECT_EQ(with_sensor(kSensor).camera.principal_point_offset_x, 0);
+}
+
 TEST(SceneFilter, OfEveryNameIsReadAndWrittenWithItsOwnRadiusOrAGivenOne) {
   int count = 0;
   for (const std::string_view name : filter_names()) {
@@ -76,7 +89,8 @@ TEST(SceneSettings, EveryErrorHasItsPlace) {
       {scene("", sensor("thinlens", given("float", "focus_distance", "0"))),
        "s.xml:2:180: focus_distance '0' is out of range; allowed: 1e-09 to 1e+09"},
       {scene("", sensor("perspective", given("float", "aperture_radius", "1"))),
-       "s.xml:2:160: <sensor> has no parameter 'aperture_radius'; allowed: fov"},
+       "s.xml:2:160: <sensor> has no parameter 'aperture_radius'; allowed: fov, "
+       "principal_point_offset_x, principal_point_offset_y"},
       {scene("", sensor("perspective", film(filter("boxx")))),
        "s.xml:2:183: unknown rfilter type 'boxx'; allowed: box, tent, gaussian, blackman_harris, "
        "mitchell; did you mean 'box'?"},

@@ -30,7 +30,7 @@ struct Quadratic {
 /// The frame of docs/conventions.md from the camera's own numbers.
 struct Frame {
   Big3 forward, right, up;
-  Big half_width, half_height;
+  Big half_width, half_height, shift_u, shift_v;
   explicit Frame(const Scene& scene) {
     const Camera& camera = scene.camera;
     forward = normalize(Big3(camera.target) - Big3(camera.origin));
@@ -38,6 +38,8 @@ struct Frame {
     up = cross(right, forward);
     half_width = tan(Big(camera.fov_degrees) * boost::math::constants::pi<Big>() / 360);
     half_height = half_width * scene.film.height / scene.film.width;
+    shift_u = -2 * half_width * camera.principal_point_offset_x;
+    shift_v = -2 * half_height * camera.principal_point_offset_y;
   }
 };
 
@@ -96,10 +98,13 @@ struct Picture::Pixels {
     if (const auto* directional = std::get_if<DirectionalLight>(&source)) {
       to_light = normalize(Big(-1) * Big3(directional->direction));
     } else {
-      const Big3 way = Big3(std::get<PointLight>(source).position) - point;
+      const auto& lamp = std::get<PointLight>(source);
+      const Big3 way = Big3(lamp.position) - point;
       distance = sqrt(dot(way, way));
-      falloff = double(1 / dot(way, way));
       to_light = Big(1 / distance) * way;
+      const Big towards = has_normal(lamp) ? Big(-dot(Big3(lamp.normal), to_light)) : Big(1);
+      if (towards <= 0) return;
+      falloff = double(towards / dot(way, way));
     }
     const Big n_dot_l = dot(normal, to_light);
     if (n_dot_l <= 0 || is_shadowed(scene, sphere[pixel], point, to_light, distance)) return;
@@ -121,8 +126,8 @@ Picture::Picture(const Scene& scene) : pixels_(std::make_unique<Pixels>()) {
   const Film& film = scene.film;
   for (int y = 0; y < film.height; ++y)
     for (int x = 0; x < film.width; ++x) {
-      const Big u = (Big(2 * x + 1) / film.width - 1) * frame.half_width;
-      const Big v = (1 - Big(2 * y + 1) / film.height) * frame.half_height;
+      const Big u = (Big(2 * x + 1) / film.width - 1) * frame.half_width + frame.shift_u;
+      const Big v = (1 - Big(2 * y + 1) / film.height) * frame.half_height + frame.shift_v;
       const Big3 direction = normalize(frame.forward + u * frame.right + v * frame.up);
       Big t;
       const int sphere = nearest_sphere(scene, origin, direction, t);

@@ -84,6 +84,16 @@ TEST(Fused, AnySizeOfPictureIsTheSame) {
     }
 }
 
+TEST(Fused, AFilmAsideIsTheSame) {
+  for (const double x : {-0.31, 0.0, 0.77})
+    for (const double y : {-2.0, 0.0, 0.4}) {
+      Scene scene = one_sphere(75, 41);
+      scene.camera.principal_point_offset_x = x;
+      scene.camera.principal_point_offset_y = y;
+      EXPECT_EQ(difference(scene), "") << x << ", " << y;
+    }
+}
+
 TEST(Fused, ASphereAnywhereIsTheSame) {
   int shown = 0;
   for (const double radius : {1e-9, 1e-3, 0.3, 1.0, 4.0, 4.9999, 5.0, 5.5, 100.0})
