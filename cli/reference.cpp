@@ -12,7 +12,6 @@
 #include "core/image_io.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/keep_input.hpp"
-#include "reference_scenes/preparation.hpp"
 #include "reference_scenes/reference_metadata.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -24,17 +23,25 @@ struct Options {
   std::string scene, engine, output, program, log_directory, keep_input;
   int threads = 0;
   double time_limit = 600;
+  int points = ReferenceOptions{}.points;
+  std::uint64_t point_seed = 0;
   bool quiet = false;
   SceneOverrides overrides;
 };
 
-ReferenceResult render_one(Engine& engine, const Scene& scene, const Options& options) {
+ReferenceOptions reference_options(const Options& options) {
   ReferenceOptions reference;
   reference.threads = options.threads;
   reference.time_limit = std::chrono::duration<double>(options.time_limit);
   reference.log_directory = options.log_directory;
+  reference.points = options.points;
+  reference.seed = options.point_seed;
+  return reference;
+}
+
+ReferenceResult render_one(Engine& engine, const Scene& scene, const Options& options) {
   ReferenceResult result;
-  engine.render(std::span(&scene, 1), reference,
+  engine.render(std::span(&scene, 1), reference_options(options),
                 [&](std::size_t, ReferenceResult done) { result = std::move(done); });
   return result;
 }
@@ -43,12 +50,14 @@ void run(const Options& options) {
   const auto engine = make_engine(options.engine, options.program);
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
-  if (const std::string why = why_not_comparable(scene); !why.empty())
-    throw Error(ExitCode::kInput, fmt::format("{}: {}", options.scene, why));
+  if (const std::string why = engine->why_not(scene); !why.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: not comparable, because {}", options.scene, why));
   warn_of(scene);
   const auto record_path = checked_record_path(options.output);
   if (!options.log_directory.empty()) make_directories(options.log_directory);
-  if (!options.keep_input.empty()) keep_engine_input(options.engine, scene, options.keep_input);
+  if (!options.keep_input.empty())
+    keep_engine_input(options.engine, scene, reference_options(options), options.keep_input);
 
   const EngineInfo& engine_info = engine->info();
   ProgressLine progress(!options.quiet);
@@ -98,6 +107,14 @@ void add_reference(CLI::App& app, ExitCode&) {
   command
       ->add_option("--time-limit", options->time_limit, "Seconds after which the engine is stopped")
       ->check(between(0.1, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--points", options->points,
+          "Points of each light with a size, of the lens and of the pixel; a multiple of 16")
+      ->check(between(kReplicates, 1 << 20))
+      ->capture_default_str();
+  command->add_option("--point-seed", options->point_seed, "Chooses those points")
       ->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")
       ->check(between(0, 1024))

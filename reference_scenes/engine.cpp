@@ -10,7 +10,7 @@
 #include "reference_scenes/blender/blender.hpp"
 #include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/povray/povray.hpp"
-#include "reference_scenes/preparation.hpp"
+#include "reference_scenes/replicates.hpp"
 
 namespace lobelia {
 namespace {
@@ -52,13 +52,20 @@ std::unique_ptr<Engine> make_engine(std::string_view name, const std::filesystem
   return entry(name).make(program);
 }
 
-void keep_engine_input(std::string_view engine, const Scene& scene,
+void keep_engine_input(std::string_view engine, const Scene& scene, const ReferenceOptions& options,
                        const std::filesystem::path& directory) {
   const CatalogueEntry& found = entry(engine);
-  if (const std::string why = why_not_comparable(scene); !why.empty())
+  if (const std::string why = found.make({})->why_not(scene); !why.empty())
     throw Error(ExitCode::kInput, why);
   make_directories(directory);
-  found.keep_input(scene, directory);
+  if (!needs_replicates(scene)) return found.keep_input(scene, directory);
+  const auto all = replicates(scene, kReplicates, options.points / kReplicates, options.seed);
+  for (std::size_t r = 0; r < all.size(); ++r)
+    for (std::size_t p = 0; p < all[r].size(); ++p) {
+      const auto part = directory / fmt::format("set{}-{}", r, p);
+      make_directories(part);
+      found.keep_input(all[r][p].scene, part);
+    }
 }
 
 }  // namespace lobelia

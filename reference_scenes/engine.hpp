@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -33,14 +34,22 @@ struct ReferenceOptions {
   int threads = 0;                                                      ///< 0: all processors
   std::chrono::duration<double> time_limit = std::chrono::minutes(10);  ///< for each picture
   std::filesystem::path log_directory;  ///< receives the engine's own output; empty: dropped
+  /// Points of every light with a size, of the lens and of the pixel, where a scene has such; a multiple
+  /// of kReplicates.
+  int points = 256;
+  std::uint64_t seed = 0;  ///< of those points
 };
+
+/// Independent estimates, whose scatter tells the error of their mean.
+inline constexpr int kReplicates = 16;
 
 /// One picture, or why there is none. `image` has the gain and every other trick taken out again.
 struct ReferenceResult {
   Image image;
-  std::string error;  ///< empty on success
-  Json record;        ///< kind "reference": engine, version, witness (native or expressed), command
-                      ///< lines, passes, seconds
+  Image standard_error;  ///< of the image where it is an average (replicates.hpp); otherwise empty
+  std::string error;     ///< empty on success
+  Json record;  ///< kind "reference": engine, version, witness (native or expressed), command
+                ///< lines, passes, seconds
 };
 
 class Engine {
@@ -49,12 +58,24 @@ class Engine {
   virtual const EngineInfo& info() const = 0;
   /// Looks for the program and asks its version; slow the first time, remembered afterwards.
   virtual const EngineStatus& status() = 0;
-  /// Renders every scene, each once, in any order, several at a time if the engine likes; calls
-  /// `on_result(index, result)` for each, never two at once. One scene's failure is its result and
+  /// Why this engine cannot show a scene, as a sentence; empty if it can.
+  std::string why_not(const Scene& scene) const;
+
+  using OnResult = std::function<void(std::size_t, ReferenceResult)>;
+  /// Renders every scene, in any order; calls `on_result(index, result)` for each, never two at once.
+  /// A scene that needs_replicates() is the average of many. One scene's failure is its result and
   /// nothing else's. Throws Error(kEngine) if the engine is not available and Error(kInterrupted)
   /// on Ctrl-C.
-  virtual void render(std::span<const Scene> scenes, const ReferenceOptions& options,
-                      const std::function<void(std::size_t, ReferenceResult)>& on_result) = 0;
+  void render(std::span<const Scene> scenes, const ReferenceOptions& options,
+              const OnResult& on_result);
+
+ protected:
+  /// The same of scenes of which a single ray through each pixel's centre tells all, under lamps without
+  /// a size.
+  virtual std::string why_not_simple(const Scene& scene) const = 0;
+  /// The same of such scenes, each once, several at a time if the engine likes.
+  virtual void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
+                             const OnResult& on_result) = 0;
 };
 
 /// The catalogue: the engines' names, and an engine by name (with `program` in place of the one in

@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <string_view>
 
-#include "renderer/scene/scene.hpp"
+#include "reference_scenes/engine.hpp"
 
 namespace lobelia {
 
-/// Writes the input files and a script with the command that renders them into `directory`.
-void keep_engine_input(std::string_view engine, const Scene& scene,
+/// Writes the input files and a script with the command that renders them into `directory`; of a scene
+/// that is an average of many, each into a directory setR-P of its own: the mean over P is one estimate.
+void keep_engine_input(std::string_view engine, const Scene& scene, const ReferenceOptions& options,
                        const std::filesystem::path& directory);
 
 }  // namespace lobelia

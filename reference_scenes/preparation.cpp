@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,18 +22,25 @@ bool inside(Vec3 point, const Sphere& sphere) {
 
 }  // namespace
 
+bool has_mirror(const Scene& scene) {
+  return scene.depth.mirror > 0 &&
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return !is_black(m.mirror_reflectance); });
+}
+
 std::string why_not_comparable(const Scene& scene) {
-  if (const std::string found = beyond_delta_lights(scene); !found.empty())
-    return fmt::format("the scenes of reference engines hold none of these yet: {}", found);
+  if (scene.depth.glossy > 0)
+    return "light that goes on by highlights and diffuse bases is in no engine what it is here: "
+           "POV-Ray gathers it for diffuse surfaces alone, and Cycles has none of the models to draw "
+           "directions by (a glossy_depth of 0 is comparable)";
+  const bool sized_light = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                       [](const Light& l) { return !is_delta(l); });
+  if (sized_light && has_mirror(scene))
+    return "a mirror shows a light that has a size, and the engines' lamps cannot be seen";
   if (scene.spheres.size() > kMaxSpheresByRay)
     return fmt::format(
         "the scene has {} spheres; of more than {} no edges can be told, and nothing be compared",
         scene.spheres.size(), kMaxSpheresByRay);
-  if (scene.sampler.sample_count > 1)
-    return fmt::format(
-        "reference engines render one ray per pixel centre; this scene asks for {} samples per "
-        "pixel (a sample_count of 1 is comparable)",
-        scene.sampler.sample_count);
   for (const Sphere& sphere : scene.spheres)
     if (inside(scene.camera.origin, sphere))
       return "the camera is inside a sphere, where engines disagree on which side is outside";
@@ -67,6 +75,10 @@ Scene in_engine_units(Scene scene) {
       point->position = place(point->position);
       point->intensity = scale * scale * point->intensity;  // irradiance stays as it was
     }
+  for (Plane& plane : scene.planes) {
+    plane.point = place(plane.point);
+    plane.checker_size *= scale;
+  }
   if (scene.lights.empty()) scene.lights.push_back(DirectionalLight{{0, 0, -1}, {}});
   return scene;
 }

@@ -9,7 +9,11 @@
 
 namespace lobelia {
 
-/// Why no engine can be asked for this scene, as a sentence; empty if one can.
+/// Whether a mirror is to be followed.
+bool has_mirror(const Scene& scene);
+
+/// Why no engine can be asked for this scene, as a sentence; empty if some can. Those that cannot have
+/// reasons of their own (Engine::why_not).
 std::string why_not_comparable(const Scene& scene);
 
 /// The same picture in the engines' units: the first sphere's centre is the origin and the smallest

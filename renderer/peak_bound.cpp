@@ -7,35 +7,47 @@
 
 namespace lobelia {
 
-double nearest_surface(const PointLight& light, const std::vector<Sphere>& spheres) {
+double nearest_surface(const PointLight& light, const Scene& scene) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Sphere& sphere : spheres) {
+  for (const Sphere& sphere : scene.spheres) {
     const double distance = length(light.position - sphere.center) - sphere.radius;
+    if (distance > 0) nearest = std::min(nearest, distance);
+  }
+  for (const Plane& plane : scene.planes) {
+    const double distance = std::abs(dot(light.position - plane.point, plane.normal));
     if (distance > 0) nearest = std::min(nearest, distance);
   }
   return std::isfinite(nearest) ? nearest : 1.0;
 }
 
 double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
-  double reflected = 0;  // of unit irradiance, over all spheres
-  for (const Sphere& sphere : scene.spheres) {
-    const Material& material = scene.materials.at(std::size_t(sphere.material));
-    const double specular =
-        material.fresnel == Fresnel::kNone ? max_component(material.specular_reflectance) : 1;
-    reflected =
-        std::max(reflected, radiance_coefficient(material.highlight) * specular +
-                                max_component(material.diffuse_reflectance) / std::numbers::pi);
+  double reflected = 0, mirrored = 0;  // of unit irradiance, and of unit radiance, by any surface
+  const auto add = [&](int index) {
+    const Material& m = scene.materials.at(std::size_t(index));
+    const bool schlick = m.fresnel != Fresnel::kNone;
+    const double specular = schlick ? 1 : max_component(m.specular_reflectance);
+    reflected = std::max(reflected, radiance_coefficient(m.highlight) * specular +
+                                        max_component(m.diffuse_reflectance) / std::numbers::pi);
+    const double mirror = max_component(m.mirror_reflectance);
+    mirrored = std::max(mirrored, schlick && mirror > 0 ? 1 : mirror);
+  };
+  for (const Sphere& sphere : scene.spheres) add(sphere.material);
+  for (const Plane& plane : scene.planes) {
+    add(plane.material);
+    add(plane.checker_material);
   }
   double irradiance = 0;
   for (const Light& light : lights) {
     if (const auto* point = std::get_if<PointLight>(&light)) {
-      const double distance = nearest_surface(*point, scene.spheres);
+      const double distance = nearest_surface(*point, scene);
       irradiance += max_component(point->intensity) / (distance * distance);
     } else {
       irradiance += max_component(strength(light));
     }
   }
-  return reflected * irradiance;
+  double sum = 1, power = 1;  // over the mirrors that show one another
+  for (int i = 0; i < scene.depth.mirror; ++i) sum += power *= mirrored;
+  return reflected * irradiance * sum;
 }
 
 }  // namespace lobelia

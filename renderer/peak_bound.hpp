@@ -6,9 +6,9 @@
 namespace lobelia {
 
 /// Distance from `light` to the nearest surface that it can light; 1 if it can light none.
-double nearest_surface(const PointLight& light, const std::vector<Sphere>& spheres);
+double nearest_surface(const PointLight& light, const Scene& scene);
 
-/// Greatest radiance that the given lights can bring to the picture, from above.
+/// Greatest radiance that the given lights can bring to the picture, straight or by mirrors, from above.
 double peak_bound(const Scene& scene, const std::vector<Light>& lights);
 
 }  // namespace lobelia

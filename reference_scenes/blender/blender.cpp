@@ -63,8 +63,8 @@ Json job_json(const ReferenceOptions& options) {
 Image read_passes(const fs::path& directory, const std::string& name, const Scene& scene,
                   std::size_t passes) {
   std::vector<Image> images;
-  for (std::size_t light = 0; light < passes; ++light) {
-    const fs::path file = directory / fmt::format("{}-{}.exr", name, light);
+  for (std::size_t pass = 0; pass < passes; ++pass) {
+    const fs::path file = directory / fmt::format("{}-{}.exr", name, pass);
     images.push_back(read_image(file));
     if (images.back().width() != scene.film.width || images.back().height() != scene.film.height)
       throw Error(ExitCode::kEngine, "another size than was asked for");
@@ -92,18 +92,13 @@ class BlenderRun {
 
   /// Puts the scene in line, or says at once why not.
   void accept(std::size_t index) {
-    std::string error = why_not_comparable(scenes_[index]);
-    if (error.empty()) {
-      try {
-        inputs_[index] = blender_input(in_engine_units(scenes_[index]), name_of(index));
-      } catch (const Error& refused) {
-        error = refused.what();
-      }
-    }
-    if (error.empty())
+    try {
+      inputs_[index] = blender_input(in_engine_units(scenes_[index]), name_of(index));
       waiting_.push_back(index);
-    else
-      on_result_(index, {{}, error, reference_record(kBlenderInfo, status_, scenes_[index])});
+    } catch (const Error& refused) {
+      on_result_(index,
+                 {{}, {}, refused.what(), reference_record(kBlenderInfo, status_, scenes_[index])});
+    }
   }
 
   /// Starts Blender once for all that wait. Whatever happens, fewer wait afterwards.
@@ -166,7 +161,7 @@ class BlenderRun {
 
   void succeed(std::size_t index, double seconds) {
     ReferenceResult result;
-    const std::size_t passes = inputs_[index]["lights"].size();
+    const std::size_t passes = inputs_[index]["passes"].size();
     try {
       result.image = read_passes(directory_.path(), name_of(index), scenes_[index], passes);
     } catch (const std::exception& error) {
@@ -176,7 +171,7 @@ class BlenderRun {
     result.record = reference_record(kBlenderInfo, status_, scenes_[index]);
     result.record["witness"] = "expressed";
     result.record["method"] =
-        "shader nodes as the colour of a surface under a real lamp, one pass per light";
+        "shader nodes as the colour of a surface under a real lamp, one pass per light and reflection";
     result.record["passes"] = passes;
     result.record["engineCommands"] = Json::array({command_});
     result.record["seconds"] = {{"total", seconds}};
@@ -184,7 +179,7 @@ class BlenderRun {
   }
 
   void fail(std::size_t index, const std::string& why) {
-    finish(index, {{}, why, reference_record(kBlenderInfo, status_, scenes_[index])});
+    finish(index, {{}, {}, why, reference_record(kBlenderInfo, status_, scenes_[index])});
   }
 
   void finish(std::size_t index, ReferenceResult result) {
@@ -220,9 +215,10 @@ class Blender final : public Engine {
     return status_;
   }
 
-  void render(std::span<const Scene> scenes, const ReferenceOptions& options,
-              const std::function<void(std::size_t, ReferenceResult)>& on_result) override {
-    require_available(kBlenderInfo, status());
+ protected:
+  std::string why_not_simple(const Scene&) const override { return {}; }
+  void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
+                     const OnResult& on_result) override {
     BlenderRun(scenes, options, status_, on_result).run();
   }
 

@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "reference_scenes/preparation.hpp"
+#include "renderer/frame.hpp"
 
 namespace lobelia {
 namespace {
@@ -28,26 +30,46 @@ Json light_json(const Light& light) {
   if (const auto* point = std::get_if<PointLight>(&light))
     return {{"kind", "point"},
             {"position", to_json(point->position)},
-            {"intensity", to_json(point->intensity)}};
+            {"intensity", to_json(point->intensity)},
+            {"normal", to_json(point->normal)}};
   const auto& directional = std::get<DirectionalLight>(light);
   return {{"kind", "directional"},
           {"direction", to_json(directional.direction)},
           {"irradiance", to_json(directional.irradiance)}};
 }
 
-Json sphere_json(const Sphere& sphere, const Material& material) {
+Json material_json(const Material& material) {
   const Highlight& highlight = material.highlight;
   require_known(kModels, info(highlight.model).name);
   if (highlight.lobe.order == 0) require_known(kLobes, info(highlight.lobe).name);
-  return {{"center", to_json(sphere.center)},
-          {"radius", sphere.radius},
-          {"model", info(highlight.model).name},
+  return {{"model", info(highlight.model).name},
           {"lobe", info(highlight.lobe).name},
           {"normalisation", name(highlight.normalisation)},
           {"exponent", highlight.exponent},
           {"fresnel", name(material.fresnel)},
           {"specular", to_json(material.specular_reflectance)},
-          {"diffuse", to_json(material.diffuse_reflectance)}};
+          {"diffuse", to_json(material.diffuse_reflectance)},
+          {"mirror", to_json(material.mirror_reflectance)}};
+}
+
+Json plane_json(const Plane& plane) {
+  const Tangents along = tangents(plane.normal);
+  return {{"point", to_json(plane.point)},
+          {"u", to_json(along.first)},
+          {"v", to_json(along.second)},
+          {"material", plane.material},
+          {"checkerMaterial", plane.checker_material},
+          {"checkerSize", plane.checker_size}};
+}
+
+/// A picture for each light, straight and by each number of mirrors: Cycles would choose at random between
+/// a mirror and what it lies on.
+Json passes_json(const Scene& scene) {
+  Json passes = Json::array();
+  for (std::size_t light = 0; light < scene.lights.size(); ++light)
+    for (int mirrors = 0; mirrors <= (has_mirror(scene) ? scene.depth.mirror : 0); ++mirrors)
+      passes.push_back({{"light", light}, {"mirrors", mirrors}});
+  return passes;
 }
 
 }  // namespace
@@ -56,20 +78,30 @@ Json blender_input(const Scene& scene, const std::string& name) {
   if (std::min(scene.film.width, scene.film.height) < kSmallestSide)
     throw Error(ExitCode::kEngine,
                 fmt::format("Blender renders no picture below {0} x {0} pixels", kSmallestSide));
-  Json lights = Json::array(), spheres = Json::array();
+  Json lights = Json::array(), materials = Json::array(), spheres = Json::array(),
+       planes = Json::array();
   for (const Light& light : scene.lights) lights.push_back(light_json(light));
+  for (const Material& material : scene.materials) materials.push_back(material_json(material));
   for (const Sphere& sphere : scene.spheres)
-    spheres.push_back(sphere_json(sphere, scene.materials.at(std::size_t(sphere.material))));
+    spheres.push_back({{"center", to_json(sphere.center)},
+                       {"radius", sphere.radius},
+                       {"material", sphere.material}});
+  for (const Plane& plane : scene.planes) planes.push_back(plane_json(plane));
+  const Camera& camera = scene.camera;
   return {{"name", name},
           {"width", scene.film.width},
           {"height", scene.film.height},
           {"camera",
-           {{"origin", to_json(scene.camera.origin)},
-            {"target", to_json(scene.camera.target)},
-            {"up", to_json(scene.camera.up)},
-            {"fovDegrees", scene.camera.fov_degrees}}},
+           {{"origin", to_json(camera.origin)},
+            {"target", to_json(camera.target)},
+            {"up", to_json(camera.up)},
+            {"fovDegrees", camera.fov_degrees},
+            {"offset", {camera.principal_point_offset_x, camera.principal_point_offset_y}}}},
           {"lights", lights},
-          {"spheres", spheres}};
+          {"materials", materials},
+          {"spheres", spheres},
+          {"planes", planes},
+          {"passes", passes_json(scene)}};
 }
 
 }  // namespace lobelia

@@ -5,15 +5,20 @@
 job.json (numbers and enumerations only):
     {"threads": 2, "secondsPerScene": 600, "secondsPerProcess": 600, "scenes": [
       {"name": "scene0", "width": 256, "height": 256,
-       "camera": {"origin": [..], "target": [..], "up": [..], "fovDegrees": 28},
+       "camera": {"origin": [..], "target": [..], "up": [..], "fovDegrees": 28, "offset": [0, 0]},
        "lights": [{"kind": "directional", "direction": [..], "irradiance": [r, g, b]},
-                  {"kind": "point", "position": [..], "intensity": [r, g, b]}],
-       "spheres": [{"center": [..], "radius": 1, "model": "phong_rdf", "lobe": "cosine",
-                    "normalisation": "exact", "exponent": 64, "fresnel": "none",
-                    "specular": [r, g, b], "diffuse": [r, g, b]}]}]}
+                  {"kind": "point", "position": [..], "intensity": [r, g, b], "normal": [..]}],
+       "materials": [{"model": "phong_rdf", "lobe": "cosine", "normalisation": "exact",
+                      "exponent": 64, "fresnel": "none",
+                      "specular": [r, g, b], "diffuse": [r, g, b], "mirror": [r, g, b]}],
+       "spheres": [{"center": [..], "radius": 1, "material": 0}],
+       "planes": [{"point": [..], "u": [..], "v": [..],
+                   "material": 0, "checkerMaterial": 0, "checkerSize": 1}],
+       "passes": [{"light": 0, "mirrors": 0}]}]}
 
-Each light is a picture of its own, NAME-LIGHT.exr (float32, beside job.json); whoever asked for
-them adds them up, in more digits than a renderer would. What happens is told in lines
+Each pass is a picture of its own, NAME-PASS.exr (float32, beside job.json): what comes from one light
+by so many mirrors. Whoever asked for them adds them up, in more digits than a renderer would. What
+happens is told in lines
 
     lobelia: begin NAME
     lobelia: done NAME SECONDS
@@ -128,9 +133,9 @@ def exact(model, lobe, n):
     return 1 / (2 * math.pi * factor * integral(integrand, end))
 
 
-def coefficient_of(sphere):
-    model, lobe, n = sphere["model"], sphere["lobe"], sphere["exponent"]
-    if sphere["normalisation"] == "paper":
+def coefficient_of(material):
+    model, lobe, n = material["model"], material["lobe"], material["exponent"]
+    if material["normalisation"] == "paper":
         return {"cosine": cosine_paper, "cs16": cs16_paper}[lobe](model, n)
     return exact(model, lobe, n)
 
@@ -217,70 +222,133 @@ class Nodes:
         # Every lobe ends at 90 degrees.
         return self.math("MULTIPLY", value, self.math("LESS_THAN", s, 1.0))
 
-    def fresnel(self, kind, reflectance, to_eye, to_light):
-        """The colour of the highlight: F0, or Schlick's F0 + (1 - F0)(1 - V.H)^5; V.H is half the
-        length of L + V."""
+    def fresnel(self, kind, reflectance, cosine):
+        """The colour of the highlight or mirror: F0, or Schlick's F0 + (1 - F0)(1 - cosine)^5."""
         if kind == "none":
             return self.constant(reflectance)
         if kind != "schlick":
             raise KeyError(kind)
-        both = self.vector("LENGTH", self.vector("ADD", to_light, to_eye))
-        base = self.math("MAXIMUM", self.math("SUBTRACT", 1.0, self.math("MULTIPLY", 0.5, both)), 0.0)
+        base = self.math("MAXIMUM", self.math("SUBTRACT", 1.0, cosine), 0.0)
         square = self.math("MULTIPLY", base, base)
         weight = self.math("MULTIPLY", self.math("MULTIPLY", square, square), base)
         rest = self.constant([1 - c for c in reflectance])
         return self.vector("ADD", self.vector("SCALE", rest, scale=weight), tuple(reflectance))
 
+    def choose(self, condition, a, b):
+        """Of vectors: a where condition is 1, b where it is 0."""
+        other = self.math("SUBTRACT", 1.0, condition)
+        return self.vector("ADD", self.vector("SCALE", a, scale=condition),
+                           self.vector("SCALE", b, scale=other))
 
-def highlight_material(sphere, light, lamp):
-    """A diffuse surface (radiance: colour/pi times N.L times the lamp's light) whose colour at each
-    point is what the highlight of the one `light` asks for. The lamp is real: horizon, shadow, N.L
-    and the light that arrives are Cycles' own. (A surface that shines with the finished radiance
-    is not closer to the truth, and sees no shadow.)"""
-    model, n = sphere["model"], sphere["exponent"]
-    material = bpy.data.materials.new("highlight")
-    material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    nodes = Nodes(tree)
 
-    geometry = nodes.new("ShaderNodeNewGeometry")
-    normal = geometry.outputs["Normal"]
-    to_eye = geometry.outputs["Incoming"]
-    if light["kind"] == "point":
-        offset = nodes.vector("SUBTRACT", tuple(light["position"]), geometry.outputs["Position"])
-        to_light = nodes.vector("NORMALIZE", offset)
-    else:
-        # The lamp's own direction as Blender rounded it: a different rounding would not cancel in
-        # lobe/N.L * N.L, which is 2e-4 of the peak where N.L is 1e-3.
-        to_light = nodes.constant(lamp.matrix_world.col[2][:3])
-    n_dot_l = nodes.vector("DOT_PRODUCT", normal, to_light)
+class Surface(Nodes):
+    """A material in which one lamp and any number of mirrors can be seen. It is a diffuse surface
+    (radiance: colour/pi times N.L times the lamp's light) whose colour at each point is what the
+    highlight asks for. The lamp is real: horizon, shadow, N.L and the light that arrives are Cycles'
+    own. (A surface that shines with the finished radiance is not closer to the truth, and sees no
+    shadow.)"""
 
-    if model in REFLECTION_MODELS:
-        twice = nodes.math("MULTIPLY", 2.0, nodes.vector("DOT_PRODUCT", normal, to_eye))
-        mirrored = nodes.vector("SUBTRACT", nodes.vector("SCALE", normal, scale=twice), to_eye)
-        s = nodes.one_minus_cos(mirrored, to_light)
-    elif model in HALF_VECTOR_MODELS:
-        half = nodes.vector("NORMALIZE", nodes.vector("ADD", to_light, to_eye))
-        s = nodes.one_minus_cos(normal, half)
-    else:
-        raise KeyError(model)
-    lobe = nodes.lobe(sphere["lobe"], s, n)
+    def __init__(self, light, lamp):
+        self.material = bpy.data.materials.new("surface")
+        self.material.use_nodes = True
+        super().__init__(self.material.node_tree)
+        self.tree.nodes.clear()
+        geometry = self.new("ShaderNodeNewGeometry")
+        self.position = geometry.outputs["Position"]
+        self.normal = geometry.outputs["Normal"]  # of a plane, the one towards the eye
+        self.to_eye = geometry.outputs["Incoming"]
+        self.falloff = None
+        if light["kind"] == "point":
+            offset = self.vector("SUBTRACT", tuple(light["position"]), self.position)
+            self.to_light = self.vector("NORMALIZE", offset)
+            if any(light["normal"]):  # a lamp has no cosine of its own
+                towards = self.vector("DOT_PRODUCT", self.to_light,
+                                      tuple(-c for c in light["normal"]))
+                self.falloff = self.math("MAXIMUM", towards, 0.0)
+        else:
+            # The lamp's own direction as Blender rounded it: a different rounding would not cancel
+            # in lobe/N.L * N.L, which is 2e-4 of the peak where N.L is 1e-3.
+            self.to_light = self.constant(lamp.matrix_world.col[2][:3])
 
-    # Radiance = (specular lobe + diffuse/pi) N.L E, where an RDF's lobe is without the N.L.
-    weight = lobe
-    if model in RDF_MODELS:
-        # What Cycles multiplies is divided out; where N.L <= 0 it shows black in any case.
-        weight = nodes.math("DIVIDE", lobe, nodes.math("MAXIMUM", n_dot_l, 1e-7))
-    weight = nodes.math("MULTIPLY", math.pi * coefficient_of(sphere), weight)
-    specular = nodes.fresnel(sphere["fresnel"], sphere["specular"], to_eye, to_light)
-    color = nodes.vector("ADD", nodes.vector("SCALE", specular, scale=weight),
-                         tuple(sphere["diffuse"]))
-    surface = nodes.new("ShaderNodeBsdfDiffuse")
-    nodes.feed(surface.inputs["Color"], color)
-    output = nodes.new("ShaderNodeOutputMaterial")
-    tree.links.new(surface.outputs[0], output.inputs["Surface"])
-    return material
+    def highlight(self, material):
+        """The colour of a diffuse surface that looks like the material's highlight and base."""
+        model, n = material["model"], material["exponent"]
+        if model in REFLECTION_MODELS:
+            twice = self.math("MULTIPLY", 2.0, self.vector("DOT_PRODUCT", self.normal, self.to_eye))
+            mirrored = self.vector("SUBTRACT", self.vector("SCALE", self.normal, scale=twice),
+                                   self.to_eye)
+            s = self.one_minus_cos(mirrored, self.to_light)
+        elif model in HALF_VECTOR_MODELS:
+            half = self.vector("NORMALIZE", self.vector("ADD", self.to_light, self.to_eye))
+            s = self.one_minus_cos(self.normal, half)
+        else:
+            raise KeyError(model)
+
+        # Radiance = (specular lobe + diffuse/pi) N.L E, where an RDF's lobe is without the N.L.
+        weight = self.lobe(material["lobe"], s, n)
+        if model in RDF_MODELS:
+            # What Cycles multiplies is divided out; where N.L <= 0 it shows black in any case.
+            n_dot_l = self.vector("DOT_PRODUCT", self.normal, self.to_light)
+            weight = self.math("DIVIDE", weight, self.math("MAXIMUM", n_dot_l, 1e-7))
+        weight = self.math("MULTIPLY", math.pi * coefficient_of(material), weight)
+        # V.H is half the length of L + V.
+        both = self.vector("LENGTH", self.vector("ADD", self.to_light, self.to_eye))
+        specular = self.fresnel(material["fresnel"], material["specular"],
+                                self.math("MULTIPLY", 0.5, both))
+        return self.vector("ADD", self.vector("SCALE", specular, scale=weight),
+                           tuple(material["diffuse"]))
+
+    def mirror(self, material):
+        if not any(material["mirror"]):
+            return self.constant((0, 0, 0))
+        cosine = self.vector("DOT_PRODUCT", self.normal, self.to_eye)
+        return self.fresnel(material["fresnel"], material["mirror"], cosine)
+
+    def finish(self, color, mirror, mirrors):
+        """The base as seen by so many mirrors: before, a surface is a mirror and nothing else."""
+        if self.falloff is not None:
+            color = self.vector("SCALE", color, scale=self.falloff)
+        base = self.new("ShaderNodeBsdfDiffuse")
+        self.feed(base.inputs["Color"], color)
+        shader = base.outputs[0]
+        if mirrors > 0:
+            glossy = self.new("ShaderNodeBsdfGlossy")
+            if "SHARP" in glossy.bl_rna.properties["distribution"].enum_items:
+                glossy.distribution = "SHARP"  # until Blender 3.6
+            glossy.inputs["Roughness"].default_value = 0
+            self.feed(glossy.inputs["Color"], mirror)
+            depth = self.new("ShaderNodeLightPath").outputs["Ray Depth"]
+            mix = self.new("ShaderNodeMixShader")
+            self.feed(mix.inputs[0], self.math("LESS_THAN", depth, mirrors - 0.5))
+            self.feed(mix.inputs[1], shader)
+            self.feed(mix.inputs[2], glossy.outputs[0])
+            shader = mix.outputs[0]
+        output = self.new("ShaderNodeOutputMaterial")
+        self.tree.links.new(shader, output.inputs["Surface"])
+        return self.material
+
+
+def sphere_material(job, sphere, light, lamp, mirrors):
+    surface = Surface(light, lamp)
+    material = job["materials"][sphere["material"]]
+    return surface.finish(surface.highlight(material), surface.mirror(material), mirrors)
+
+
+def plane_material(job, plane, light, lamp, mirrors):
+    surface = Surface(light, lamp)
+    first = job["materials"][plane["material"]]
+    color, mirror = surface.highlight(first), surface.mirror(first)
+    if plane["checkerMaterial"] != plane["material"]:
+        from_point = surface.vector("SUBTRACT", surface.position, tuple(plane["point"]))
+        squares = [surface.math("FLOOR", surface.math(
+            "DIVIDE", surface.vector("DOT_PRODUCT", from_point, tuple(plane[axis])),
+            plane["checkerSize"])) for axis in ("u", "v")]
+        half = surface.math("MULTIPLY", 0.5, surface.math("ADD", *squares))
+        is_odd = surface.math("GREATER_THAN", surface.math("FRACT", half), 0.25)
+        second = job["materials"][plane["checkerMaterial"]]
+        color = surface.choose(is_odd, surface.highlight(second), color)
+        mirror = surface.choose(is_odd, surface.mirror(second), mirror)
+    return surface.finish(color, mirror, mirrors)
 
 
 # ---- The scene -----------------------------------------------------------------------------------
@@ -294,6 +362,10 @@ def minus(a, b):
     return [x - y for x, y in zip(a, b)]
 
 
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
 def cross(a, b):
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
@@ -302,7 +374,7 @@ def towards_light(light):
     return [-c for c in unit(light["direction"])]
 
 
-def empty_scene(width, height, threads):
+def empty_scene(width, height, threads, mirrors):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
@@ -315,7 +387,9 @@ def empty_scene(width, height, threads):
     cycles.pixel_filter_type = "GAUSSIAN"
     cycles.filter_width = 0.01
     cycles.seed = 0
-    cycles.max_bounces = 0
+    # No more reflections than a pass asks for, and none left out at random.
+    cycles.max_bounces = cycles.glossy_bounces = cycles.min_light_bounces = mirrors
+    cycles.diffuse_bounces = 0
     # All of these are on by default and change single pixels: noise removal, clamping of bright
     # light, blurring, and a random choice whether a dim light is worth its shadow ray.
     cycles.use_adaptive_sampling = False
@@ -346,7 +420,7 @@ def empty_scene(width, height, threads):
     return scene
 
 
-def add_camera(scene, camera):
+def add_camera(scene, camera, width, height):
     """From the vectors themselves: columns right, up, -forward, eye."""
     forward = unit(minus(camera["target"], camera["origin"]))
     right = unit(cross(forward, camera["up"]))
@@ -357,6 +431,9 @@ def add_camera(scene, camera):
     half_width = math.tan(math.radians(camera["fovDegrees"]) / 2)
     data.lens = max(1.0, 16 / half_width)  # mm; Blender takes no shorter one
     data.sensor_width = 2 * data.lens * half_width
+    # Blender moves the picture the other way, and counts both in widths.
+    data.shift_x = -camera["offset"][0]
+    data.shift_y = -camera["offset"][1]*height/width
     data.clip_start, data.clip_end = 0.01, 1e6
     thing = bpy.data.objects.new("camera", data)
     scene.collection.objects.link(thing)
@@ -417,13 +494,39 @@ def add_sphere(scene, sphere, material):
     thing.modifiers.new("sphere", "NODES").node_group = group
 
 
-def render_light(job, light, threads, file_name):
-    scene = empty_scene(job["width"], job["height"], threads)
-    add_camera(scene, job["camera"])
+def add_plane(scene, plane, eye, material):
+    """Squares within squares around the point below the eye, each ten times the last, to beyond what
+    a pixel of the horizon shows: a single large one would be uneven where it is seen from near."""
+    u, v = plane["u"], plane["v"]
+    offset = minus(eye, plane["point"])
+    middle = [p + dot(offset, u)*a + dot(offset, v)*b for p, a, b in zip(plane["point"], u, v)]
+    corners, faces = [], [(0, 1, 2, 3)]
+    for ring in range(7):
+        half = 10.0**ring
+        corners += [[m + half*(x*a + y*b) for m, a, b in zip(middle, u, v)]
+                    for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        inner, outer = 4*(ring - 1), 4*ring
+        if ring > 0:
+            faces += [(inner + i, outer + i, outer + (i + 1) % 4, inner + (i + 1) % 4)
+                      for i in range(4)]
+    mesh = bpy.data.meshes.new("plane")
+    mesh.from_pydata(corners, [], faces)
+    mesh.materials.append(material)
+    scene.collection.objects.link(bpy.data.objects.new("plane", mesh))
+
+
+def render_pass(job, index, threads, file_name):
+    light = job["lights"][job["passes"][index]["light"]]
+    mirrors = job["passes"][index]["mirrors"]
+    scene = empty_scene(job["width"], job["height"], threads, mirrors)
+    add_camera(scene, job["camera"], job["width"], job["height"])
     lamp = add_lamp(scene, light)
     bpy.context.view_layer.update()  # computes the lamp's matrix
     for sphere in job["spheres"]:
-        add_sphere(scene, sphere, highlight_material(sphere, light, lamp))
+        add_sphere(scene, sphere, sphere_material(job, sphere, light, lamp, mirrors))
+    for plane in job["planes"]:
+        add_plane(scene, plane, job["camera"]["origin"],
+                  plane_material(job, plane, light, lamp, mirrors))
     scene.render.filepath = file_name
     bpy.ops.render.render(write_still=True)
 
@@ -449,9 +552,9 @@ def main():
         begun = time.monotonic()
         signal.setitimer(signal.ITIMER_REAL, job["secondsPerScene"])
         try:
-            for index, light in enumerate(scene["lights"]):
+            for index in range(len(scene["passes"])):
                 picture = os.path.join(os.path.dirname(job_file), "%s-%d.exr" % (name, index))
-                render_light(scene, light, job["threads"], picture)
+                render_pass(scene, index, job["threads"], picture)
         except Exception as error:  # one scene's failure is not the next one's
             tell("failed", name, type(error).__name__, " ".join(str(error).split()))
         else:

@@ -90,8 +90,10 @@ class Povray final : public Engine {
     return status_;
   }
 
-  void render(std::span<const Scene> scenes, const ReferenceOptions& options,
-              const std::function<void(std::size_t, ReferenceResult)>& on_result) override;
+ protected:
+  std::string why_not_simple(const Scene& scene) const override { return why_not_in_povray(scene); }
+  void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
+                     const OnResult& on_result) override;
 
  private:
   PassResult run_pass(const std::string& stem, const PovrayPass& pass, const Film& film,
@@ -167,9 +169,8 @@ ReferenceResult finish(Job& job, Json record) {
   return result;
 }
 
-void Povray::render(std::span<const Scene> scenes, const ReferenceOptions& options,
-                    const std::function<void(std::size_t, ReferenceResult)>& on_result) {
-  require_available(kPovrayInfo, status());
+void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
+                           const OnResult& on_result) {
   const TemporaryDirectory directory;
   directory_ = directory.path();
 
@@ -177,16 +178,10 @@ void Povray::render(std::span<const Scene> scenes, const ReferenceOptions& optio
   std::vector<WorkItem> work;
   std::map<std::string, std::string> includes;  // of all jobs: a name always has the same text
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    std::string error = why_not_comparable(scenes[i]);
-    if (error.empty()) {
-      try {
-        jobs[i].input = povray_input(in_engine_units(scenes[i]));
-      } catch (const Error& refused) {
-        error = refused.what();
-      }
-    }
-    if (!error.empty()) {
-      on_result(i, {{}, error, reference_record(kPovrayInfo, status_, scenes[i])});
+    try {
+      jobs[i].input = povray_input(in_engine_units(scenes[i]));
+    } catch (const Error& refused) {
+      on_result(i, {{}, {}, refused.what(), reference_record(kPovrayInfo, status_, scenes[i])});
       continue;
     }
     includes.merge(jobs[i].input.includes);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "reference_scenes/preparation.hpp"
+#include "renderer/frame.hpp"
 #include "renderer/peak_bound.hpp"
 #include "shaders/povray.hpp"
 
@@ -31,6 +32,7 @@ bool is_grey(Rgb c) { return c.r == c.g && c.g == c.b; }
 /// POV-Ray's highlights are these two with the lobe cos^n, in the colour of the lamp. (Of these two
 /// the paper prints the exact coefficient.) They have no Fresnel factor.
 bool is_native(const Material& material) {
+  if (!has_highlight(material)) return true;
   const std::string_view model = info(material.highlight.model).name;
   return (model == "phong_rdf" || model == "blinn_phong_rdf") &&
          info(material.highlight.lobe).name == "cosine" && material.fresnel == Fresnel::kNone &&
@@ -38,29 +40,86 @@ bool is_native(const Material& material) {
 }
 
 std::string light_text(const Light& light, const Scene& scene) {
-  if (const auto* point = std::get_if<PointLight>(&light))
+  if (const auto* point = std::get_if<PointLight>(&light)) {
+    const double nearest = nearest_surface(*point, scene);
+    if (has_normal(*point))
+      return fmt::format("Lobelia_Surface_Light({}, {}, {}, {})\n", sdl(point->position),
+                         sdl(point->normal), sdl(point->intensity), sdl(nearest));
     return fmt::format("Lobelia_Point_Light({}, {}, {})\n", sdl(point->position),
-                       sdl(point->intensity), sdl(nearest_surface(*point, scene.spheres)));
+                       sdl(point->intensity), sdl(nearest));
+  }
   const auto& directional = std::get<DirectionalLight>(light);
+  // In front of all that is seen of an endless plane, and not beyond POV-Ray's farthest ray, 1e7.
+  const double far = scene.planes.empty() ? 1000 * extent(scene) : 1e6;
   return fmt::format("Lobelia_Directional_Light({}, {}, {})\n", sdl(directional.direction),
-                     sdl(directional.irradiance), sdl(1000 * extent(scene)));
+                     sdl(directional.irradiance), sdl(far));
 }
 
-std::string native_sphere_text(const Sphere& sphere, const Material& material) {
-  const bool phong = info(material.highlight.model).angle == LobeAngle::kReflection;
-  return fmt::format("Lobelia_Native_Sphere({}, {}, {}, {}, {}, {})\n", sdl(sphere.center),
-                     sdl(sphere.radius), phong ? "Lobelia_Native_Phong" : "Lobelia_Native_Specular",
+std::string native_texture(const Material& material) {
+  const char* which = !has_highlight(material) ? "Lobelia_Native_None"
+                      : info(material.highlight.model).angle == LobeAngle::kReflection
+                          ? "Lobelia_Native_Phong"
+                          : "Lobelia_Native_Specular";
+  return fmt::format("Lobelia_Native_Texture({}, {}, {}, {}, {})", which,
                      sdl(material.highlight.exponent), sdl(material.specular_reflectance.r),
-                     sdl(material.diffuse_reflectance));
+                     sdl(material.diffuse_reflectance), sdl(material.mirror_reflectance));
 }
 
-std::string sphere_text(const Sphere& sphere, const Material& material) {
+std::string expressed_texture(const Material& material) {
   const PovrayNames names = povray_names(material.highlight);
   const std::string exponent = sdl(material.highlight.exponent);
-  return fmt::format("Lobelia_Sphere({}, {}, {}, {}({}), {}, {}, {}, {}, {})\n", sdl(sphere.center),
-                     sdl(sphere.radius), names.pattern, names.coefficient, exponent, exponent,
-                     names.brilliance, material.fresnel == Fresnel::kSchlick ? 1 : 0,
+  return fmt::format("Lobelia_Texture({}, {}({}), {}, {}, {}, {}, {})", names.pattern,
+                     names.coefficient, exponent, exponent, names.brilliance,
+                     material.fresnel == Fresnel::kSchlick ? 1 : 0,
                      sdl(material.specular_reflectance), sdl(material.diffuse_reflectance));
+}
+
+/// Declares a texture for the surface whose normal was declared last; returns its name.
+std::string declare_texture(PovrayPass& pass, const Material& material, int& count) {
+  const std::string name = fmt::format("Lobelia_Texture_{}", count++);
+  pass.scene +=
+      fmt::format("#declare {} = {}\n", name,
+                  is_native(material) ? native_texture(material) : expressed_texture(material));
+  return name;
+}
+
+void add_surfaces(PovrayPass& pass, const Scene& scene) {
+  int textures = 0;
+  const auto texture = [&](int material) {
+    return declare_texture(pass, scene.materials.at(std::size_t(material)), textures);
+  };
+  for (const Sphere& sphere : scene.spheres) {
+    const std::string place = fmt::format("{}, {}", sdl(sphere.center), sdl(sphere.radius));
+    pass.scene += fmt::format("Lobelia_Sphere_Normal({})\n", place);
+    pass.scene += fmt::format("Lobelia_Sphere({}, {})\n", place, texture(sphere.material));
+  }
+  for (const Plane& plane : scene.planes) {
+    const std::string place = fmt::format("{}, {}", sdl(plane.point), sdl(plane.normal));
+    pass.scene += fmt::format("Lobelia_Plane_Normal({})\n", place);
+    const std::string first = texture(plane.material);
+    if (plane.checker_material == plane.material) {
+      pass.scene += fmt::format("Lobelia_Plane({}, {})\n", place, first);
+      continue;
+    }
+    const std::string second = texture(plane.checker_material);
+    const Tangents along = tangents(plane.normal);
+    pass.scene += fmt::format("Lobelia_Checker({}, {}, {}, {}, {}, {})\n", place, sdl(along.first),
+                              sdl(along.second), sdl(plane.checker_size), first, second);
+  }
+}
+
+/// The materials of all surfaces.
+std::vector<const Material*> materials_in_use(const Scene& scene) {
+  std::vector<const Material*> used;
+  const auto add = [&](int material) {
+    used.push_back(&scene.materials.at(std::size_t(material)));
+  };
+  for (const Sphere& sphere : scene.spheres) add(sphere.material);
+  for (const Plane& plane : scene.planes) {
+    add(plane.material);
+    add(plane.checker_material);
+  }
+  return used;
 }
 
 PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const PovrayInput& input) {
@@ -73,35 +132,41 @@ PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const P
   pass.scene = "#version 3.7;\n";
   for (const auto& include : input.includes)
     pass.scene += fmt::format("#include \"{}\"\n", include.first);
-  pass.scene += fmt::format("Lobelia_Begin({})\n", sdl(pass.gain));
-  pass.scene += fmt::format("Lobelia_Camera({}, {}, {}, {}, {}/{})\n", sdl(scene.camera.origin),
-                            sdl(scene.camera.target), sdl(scene.camera.up),
-                            sdl(scene.camera.fov_degrees), scene.film.width, scene.film.height);
+  pass.scene += fmt::format("Lobelia_Begin({}, {})\n", sdl(pass.gain),
+                            has_mirror(scene) ? scene.depth.mirror : 0);
+  const Camera& camera = scene.camera;
+  pass.scene += fmt::format(
+      "Lobelia_Camera({}, {}, {}, {}, {}/{}, {}, {})\n", sdl(camera.origin), sdl(camera.target),
+      sdl(camera.up), sdl(camera.fov_degrees), scene.film.width, scene.film.height,
+      sdl(camera.principal_point_offset_x), sdl(camera.principal_point_offset_y));
   for (const Light& light : lights) pass.scene += light_text(light, scene);
-  for (const Sphere& sphere : scene.spheres) {
-    const Material& material = scene.materials.at(std::size_t(sphere.material));
-    pass.scene +=
-        input.native ? native_sphere_text(sphere, material) : sphere_text(sphere, material);
-  }
+  add_surfaces(pass, scene);
   return pass;
 }
 
 }  // namespace
 
+std::string why_not_in_povray(const Scene& scene) {
+  if (has_mirror(scene) && !std::ranges::all_of(materials_in_use(scene),
+                                                [](const Material* m) { return is_native(*m); }))
+    return "a highlight that POV-Ray does not have itself is a function of the camera's place there, "
+           "and a mirror shows it from another";
+  return {};
+}
+
 PovrayInput povray_input(const Scene& scene) {
   PovrayInput input;
-  input.native = std::ranges::all_of(scene.spheres, [&](const Sphere& sphere) {
-    return is_native(scene.materials.at(std::size_t(sphere.material)));
-  });
+  const auto used = materials_in_use(scene);
+  input.native = std::ranges::all_of(used, [](const Material* m) { return is_native(*m); });
   input.includes["lobelia_scene.inc"] = embedded::lobelia_scene_inc;
   if (input.native) {
     input.passes.push_back(pass_of(scene, scene.lights, input));
     return input;
   }
-  for (const Sphere& sphere : scene.spheres) {
-    const Highlight& highlight = scene.materials.at(std::size_t(sphere.material)).highlight;
-    input.includes[povray_names(highlight).file] = povray_text(std::span(&highlight, 1));
-  }
+  for (const Material* material : used)
+    if (!is_native(*material))
+      input.includes[povray_names(material->highlight).file] =
+          povray_text(std::span(&material->highlight, 1));
   for (const Light& light : scene.lights) input.passes.push_back(pass_of(scene, {light}, input));
   return input;
 }

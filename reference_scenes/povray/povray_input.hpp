@@ -24,6 +24,10 @@ struct PovrayInput {
   std::map<std::string, std::string> includes;  ///< file name and text; beside the .pov files
 };
 
+/// Why POV-Ray cannot show this scene of single rays and lamps without a size, as a sentence; empty if
+/// it can.
+std::string why_not_in_povray(const Scene& scene);
+
 /// `scene` is in engine units (preparation.hpp).
 PovrayInput povray_input(const Scene& scene);
 

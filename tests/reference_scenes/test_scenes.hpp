@@ -62,6 +62,58 @@ inline Scene shadow_scene(const HighlightChoice& choice, std::vector<Light> ligh
   return scene;
 }
 
+/// A ball on a checker, in its own shadow; `mirrors` share the light with highlights that POV-Ray has itself.
+inline Scene ground_scene(const HighlightChoice& choice, std::vector<Light> lights, int size) {
+  Scene scene = sphere_scene(choice, std::move(lights), size);
+  scene.camera = {{0.3, 1.6, 5.2}, {0, -0.1, 0}, {0, 1, 0}, 36};
+  scene.film.height = size * 3 / 4;
+  scene.materials[0].specular_reflectance = {0.5, 0.4, 0.6};
+  scene.materials[0].diffuse_reflectance = {0.3, 0.2, 0.1};
+  scene.materials.push_back({"light", highlight_of(choice), {0.4, 0.4, 0.4}, {0.7, 0.6, 0.5}});
+  scene.materials.push_back(
+      {"dark", highlight_of({"phong_rdf", "cosine", "exact", 20}), {}, {0.1, 0.1, 0.2}});
+  scene.planes = {{{0, -1, 0}, {0, 1, 0}, 1, 2, 0.75}, {{0, 0, -4}, {0, 0, 1}, 1, 1, 1}};
+  return scene;
+}
+
+/// Two balls and a floor that show one another.
+inline Scene mirror_scene(const HighlightChoice& choice, std::vector<Light> lights, int size) {
+  Scene scene = ground_scene(choice, std::move(lights), size);
+  for (Material& material : scene.materials)
+    material.specular_reflectance = material.specular_reflectance.r * kWhite;
+  scene.materials[0].mirror_reflectance = {0.6, 0.5, 0.4};
+  scene.materials[1].mirror_reflectance = {0.3, 0.3, 0.3};
+  scene.spheres.push_back({{1.6, -0.5, 0.8}, 0.5, 0});
+  scene.depth.mirror = 3;
+  return scene;
+}
+
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+
+/// Lights with a size, a lens, several rays a pixel: each alone, and all at once.
+inline std::vector<NamedScene> soft_scenes(const HighlightChoice& choice, int size) {
+  const Light sun = directional_at(50, {2, 1.5, 1});
+  const Light ball = SphereLight{{2, 2.5, 2.5}, 0.6, {20, 16, 12}};
+  const Light window = RectangleLight{{-2, 2, 2}, {0.5, 0, 0.5}, {0, -0.6, 0}, {9, 12, 15}};
+  const Light sky = EnvironmentLight{{0.5, 0.7, 1}, {}, {}};
+  std::vector<NamedScene> scenes = {{"a ball of light", ground_scene(choice, {ball}, size)},
+                                    {"a window", ground_scene(choice, {window, sun}, size)},
+                                    {"the sky", ground_scene(choice, {sky}, size)},
+                                    {"several rays a pixel", ground_scene(choice, {sun}, size)},
+                                    {"a lens", ground_scene(choice, {sun}, size)},
+                                    {"all", ground_scene(choice, {ball, sun, window, sky}, size)}};
+  for (const std::size_t i : {3, 5}) scenes[i].scene.sampler.sample_count = 16;
+  scenes[3].scene.film.filter = *find_filter("mitchell");
+  for (const std::size_t i : {4, 5}) {
+    scenes[i].scene.camera.aperture_radius = 0.1;
+    scenes[i].scene.camera.focus_distance = 4;
+  }
+  return scenes;
+}
+
 struct Difference {
   double of_peak = 0;  ///< greatest |a - b| over the peak of `truth`, without the outliers
   double relative =

@@ -1,0 +1,139 @@
+// Scenes with lights of some size, lenses and several rays a pixel, as averages of what engines render.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "reference_scenes/engine.hpp"
+#include "reference_scenes/engine_program.hpp"
+#include "reference_scenes/preparation.hpp"
+#include "reference_scenes/replicates.hpp"
+
+namespace lobelia {
+namespace {
+
+/// One scene that was asked for, and what the engine is asked for it.
+struct Request {
+  std::vector<Replicate> replicates;  ///< of a plain scene, one of one
+  std::vector<std::vector<ReferenceResult>> parts;
+  std::size_t unfinished = 0;
+  bool average = false;
+};
+
+struct Place {
+  std::size_t request, replicate, part;
+};
+
+/// The weighted mean of a replicate's pictures, and the lights themselves.
+std::vector<double> estimate(const Scene& scene, const Replicate& replicate,
+                             const std::vector<ReferenceResult>& parts) {
+  std::vector<double> sum(parts.front().image.values().size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double weight = replicate[p].weight / double(parts.size());
+    const Image lights = emitted(scene, replicate[p].scene);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += weight * (double(parts[p].image.values()[i]) + double(lights.values()[i]));
+  }
+  return sum;
+}
+
+ReferenceResult average(const Scene& scene, Request& request, const ReferenceOptions& options) {
+  ReferenceResult result;
+  double seconds = 0;
+  std::size_t pictures = 0, passes = 0;
+  for (auto& replicate : request.parts)
+    for (ReferenceResult& part : replicate) {
+      if (!part.error.empty()) {
+        if (result.error.empty()) result.error = part.error;
+        continue;
+      }
+      seconds += part.record.at("seconds").at("total").get<double>();
+      passes += part.record.at("passes").get<std::size_t>();
+      ++pictures;
+    }
+  result.record = request.parts.front().front().record;
+  if (!result.error.empty()) return result;
+  std::vector<double> sum, squares;
+  for (std::size_t r = 0; r < request.parts.size(); ++r) {
+    const auto values = estimate(scene, request.replicates[r], request.parts[r]);
+    sum.resize(values.size());
+    squares.resize(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      sum[i] += values[i];
+      squares[i] += values[i] * values[i];
+    }
+    request.parts[r].clear();
+  }
+  const double n = double(request.parts.size());
+  result.image = Image(scene.film.width, scene.film.height);
+  result.standard_error = Image(scene.film.width, scene.film.height);
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const double mean = sum[i] / n, variance = std::max(0.0, squares[i] / n - mean * mean);
+    result.image.values()[i] = float(mean);
+    result.standard_error.values()[i] = float(std::sqrt(variance / (n - 1)));
+  }
+  Json& record = result.record;
+  record["method"] = fmt::format(
+      "{}; the mean of {} pictures in {} independent sets, {} points of each light with a size, of the "
+      "lens and of the pixel in all; such lights themselves, where the camera sees them, by Lobelia",
+      record.at("method").get<std::string>(), pictures, kReplicates, options.points);
+  record["passes"] = passes;
+  record["points"] = options.points;
+  record["seed"] = options.seed;
+  record["seconds"] = {{"total", seconds}};
+  // All alike but for the names of files.
+  if (record.at("engineCommands").size() > 1)
+    record["engineCommands"] = Json::array({record["engineCommands"].front()});
+  return result;
+}
+
+}  // namespace
+
+std::string Engine::why_not(const Scene& scene) const {
+  if (std::string why = why_not_comparable(scene); !why.empty()) return why;
+  return why_not_simple(scene);
+}
+
+void Engine::render(std::span<const Scene> scenes, const ReferenceOptions& options,
+                    const OnResult& on_result) {
+  require_available(info(), status());
+  if (options.points < kReplicates || options.points % kReplicates != 0)
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} points; allowed: multiples of {}", options.points, kReplicates));
+  std::vector<Request> requests(scenes.size());
+  std::vector<Scene> simple;
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (std::string why = why_not(scenes[i]); !why.empty()) {
+      on_result(i, {{}, {}, why, reference_record(info(), status(), scenes[i])});
+      continue;
+    }
+    Request& request = requests[i];
+    request.average = needs_replicates(scenes[i]);
+    if (request.average)
+      request.replicates =
+          replicates(scenes[i], kReplicates, options.points / kReplicates, options.seed);
+    else
+      request.replicates.push_back({{scenes[i], 1}});
+    for (std::size_t r = 0; r < request.replicates.size(); ++r) {
+      request.parts.emplace_back(request.replicates[r].size());
+      for (std::size_t p = 0; p < request.replicates[r].size(); ++p) {
+        simple.push_back(request.replicates[r][p].scene);
+        places.push_back({i, r, p});
+        ++request.unfinished;
+      }
+    }
+  }
+  render_simple(simple, options, [&](std::size_t index, ReferenceResult part) {
+    const auto [i, r, p] = places[index];
+    Request& request = requests[i];
+    request.parts[r][p] = std::move(part);
+    if (--request.unfinished > 0) return;
+    on_result(
+        i, request.average ? average(scenes[i], request, options) : std::move(request.parts[0][0]));
+    request = {};
+  });
+}
+
+}  // namespace lobelia

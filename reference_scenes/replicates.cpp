@@ -1,0 +1,211 @@
+#include "reference_scenes/replicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "renderer/lights/environment.hpp"
+#include "renderer/pixel_ray.hpp"
+#include "renderer/sobol.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// The points of one replicate.
+class Points {
+ public:
+  explicit Points(std::uint32_t replicate) : replicate_(replicate) {}
+  /// Starts the next point.
+  void next() {
+    ++index_;
+    dimension_ = 0;
+  }
+  /// Its next two coordinates, in [0, 1).
+  sobol::Pair operator()() { return sobol::pair(replicate_, index_, dimension_++); }
+
+ private:
+  std::uint32_t replicate_, index_ = ~0u, dimension_ = 0;
+};
+
+Vec3 on_unit_sphere(double u, double v) {
+  const double z = 1 - 2 * u, r = std::sqrt(std::max(0.0, 1 - z * z)), turn = 2 * kPi * v;
+  return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+/// A point of the light as a lamp that, on the average over all points, is the light.
+Light lamp(const Light& light, const Environment* environment, Points& points) {
+  if (is_delta(light)) return light;
+  const auto [u, v] = points();
+  if (const auto* ball = std::get_if<SphereLight>(&light)) {
+    const Vec3 normal = on_unit_sphere(u, v);
+    const double area = 4 * kPi * ball->radius * ball->radius;
+    return PointLight{ball->center + ball->radius * normal, area * ball->radiance, normal};
+  }
+  if (const auto* r = std::get_if<RectangleLight>(&light)) {
+    const Vec3 normal = cross(r->half_u, r->half_v);  // a quarter of the area long
+    return PointLight{r->center + (2 * u - 1) * r->half_u + (2 * v - 1) * r->half_v,
+                      4 * length(normal) * r->radiance, normalize(normal)};
+  }
+  const LightSample sample = environment->sample(u, v);
+  if (!(sample.pdf > 0)) return DirectionalLight{{0, 0, -1}, {}};
+  return DirectionalLight{-sample.to_light, 1 / sample.pdf * sample.radiance};
+}
+
+std::vector<std::unique_ptr<Environment>> environments(const Scene& scene) {
+  std::vector<std::unique_ptr<Environment>> result;
+  for (const Light& light : scene.lights) {
+    const auto* e = std::get_if<EnvironmentLight>(&light);
+    result.push_back(e ? std::make_unique<Environment>(*e) : nullptr);
+  }
+  return result;
+}
+
+bool camera_varies(const Scene& scene) {
+  return scene.sampler.sample_count > 1 || scene.camera.aperture_radius > 0;
+}
+
+/// A pinhole at a point of the lens, its film moved so that the plane of focus stays where it is.
+void look_through(const Scene& scene, Points& points, Camera& camera) {
+  const auto [u, v] = points();
+  const double radius = scene.camera.aperture_radius * std::sqrt(u), turn = 2 * kPi * v;
+  const double x = radius * std::cos(turn), y = radius * std::sin(turn);
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const Vec3 aside = x * frame.right + y * frame.up;
+  camera.origin = camera.origin + aside;
+  camera.target = camera.target + aside;
+  camera.principal_point_offset_x += x / (2 * camera.focus_distance * frame.half_width);
+  camera.principal_point_offset_y += y / (2 * camera.focus_distance * frame.half_height);
+  camera.aperture_radius = 0;
+}
+
+/// Every pixel's ray through the same place of the filter.
+double move_film(const Film& film, const FilterSampler& filter, Points& points, Camera& camera) {
+  const auto [u, v] = points();
+  const auto x = filter(u), y = filter(v);
+  camera.principal_point_offset_x -= x.offset / film.width;
+  camera.principal_point_offset_y += y.offset / film.height;  // rows count downwards
+  return x.weight * y.weight;
+}
+
+/// Everything but camera and lights.
+Scene without_softness(const Scene& scene) {
+  Scene simple = scene;
+  simple.sampler.sample_count = 1;
+  simple.film.filter = {};
+  simple.lights.clear();
+  return simple;
+}
+
+Light dimmed(Light light, double factor) {
+  auto* point = std::get_if<PointLight>(&light);
+  Rgb& strength = point ? point->intensity : std::get<DirectionalLight>(light).irradiance;
+  strength = factor * strength;
+  return light;
+}
+
+}  // namespace
+
+bool needs_replicates(const Scene& scene) {
+  return camera_varies(scene) || std::any_of(scene.lights.begin(), scene.lights.end(),
+                                             [](const Light& l) { return !is_delta(l); });
+}
+
+std::vector<Replicate> replicates(const Scene& scene, int count, int points, std::uint64_t seed) {
+  const auto skies = environments(scene);
+  const FilterSampler filter(scene.film.filter);
+  std::vector<Replicate> result;
+  for (int r = 0; r < count; ++r) {
+    Points next(sobol::pixel_hash(std::uint64_t(r), seed));
+    Replicate& replicate = result.emplace_back();
+    if (camera_varies(scene)) {
+      for (int p = 0; p < points; ++p) {
+        next.next();
+        SimpleScene simple{without_softness(scene)};
+        if (scene.camera.aperture_radius > 0) look_through(scene, next, simple.scene.camera);
+        if (scene.sampler.sample_count > 1)
+          simple.weight = move_film(scene.film, filter, next, simple.scene.camera);
+        for (std::size_t l = 0; l < scene.lights.size(); ++l)
+          simple.scene.lights.push_back(lamp(scene.lights[l], skies[l].get(), next));
+        replicate.push_back(std::move(simple));
+      }
+      continue;
+    }
+    SimpleScene simple{without_softness(scene)};
+    for (const Light& light : scene.lights)
+      if (is_delta(light)) simple.scene.lights.push_back(light);
+    for (int p = 0; p < points; ++p) {
+      next.next();
+      for (std::size_t l = 0; l < scene.lights.size(); ++l)
+        if (!is_delta(scene.lights[l]))
+          simple.scene.lights.push_back(
+              dimmed(lamp(scene.lights[l], skies[l].get(), next), 1.0 / points));
+    }
+    replicate.push_back(std::move(simple));
+  }
+  return result;
+}
+
+namespace {
+
+/// Distance to the nearest surface along a ray of unit direction; infinite where there is none.
+double distance_to_surface(const Scene& scene, Vec3 origin, Vec3 direction) {
+  double nearest = std::numeric_limits<double>::infinity();
+  if (const auto hit = nearest_hit(scene, origin, direction)) nearest = length(hit->point - origin);
+  for (const Plane& plane : scene.planes) {
+    const double t = dot(plane.point - origin, plane.normal) / dot(direction, plane.normal);
+    if (t > 0) nearest = std::min(nearest, t);
+  }
+  return nearest;
+}
+
+/// Distance to where a ray enters the ball or crosses the rectangle from its bright side.
+double distance_to_light(const Light& light, Vec3 origin, Vec3 direction) {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  if (const auto* ball = std::get_if<SphereLight>(&light)) {
+    const Vec3 way = ball->center - origin;
+    const double b = dot(way, direction), c = dot(way, way) - ball->radius * ball->radius;
+    const double discriminant = b * b - c;
+    return c > 0 && b > 0 && discriminant > 0 ? b - std::sqrt(discriminant) : kNowhere;
+  }
+  const auto& r = std::get<RectangleLight>(light);
+  const Vec3 normal = cross(r.half_u, r.half_v);
+  const double against = -dot(direction, normal);
+  if (!(against > 0)) return kNowhere;
+  const double t = dot(origin - r.center, normal) / against;
+  const Vec3 from = origin + t * direction - r.center;
+  const bool within = std::abs(dot(from, r.half_u)) <= dot(r.half_u, r.half_u) &&
+                      std::abs(dot(from, r.half_v)) <= dot(r.half_v, r.half_v);
+  return t > 0 && within ? t : kNowhere;
+}
+
+}  // namespace
+
+Image emitted(const Scene& scene, const Scene& simple) {
+  const CameraFrame frame = camera_frame(simple.camera, simple.film);
+  const auto skies = environments(scene);
+  Image image(simple.film.width, simple.film.height);
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const Vec3 direction = normalize(centre_ray(frame, x, y));
+      const double surface = distance_to_surface(simple, frame.origin, direction);
+      Rgb sum;
+      for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        const Light& light = scene.lights[l];
+        if (is_delta(light)) continue;
+        if (skies[l] ? std::isinf(surface)
+                     : distance_to_light(light, frame.origin, direction) < surface)
+          sum = sum + (skies[l] ? skies[l]->radiance(direction) : strength(light));
+      }
+      const auto pixel = image.pixel(x, y);
+      pixel[0] = float(sum.r);
+      pixel[1] = float(sum.g);
+      pixel[2] = float(sum.b);
+    }
+  return image;
+}
+
+}  // namespace lobelia
