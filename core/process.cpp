@@ -12,9 +12,12 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <future>
+
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
+#include "core/write_limit.hpp"
 
 extern char** environ;
 
@@ -125,9 +128,15 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     throw Error(ExitCode::kEngine, fmt::format("no pipe: {}", std::strerror(errno)));
   const auto started = Clock::now();
   OutputSink sink(options);
+  bool writes_limited = false;
   pid_t pid = 0;
   try {
-    pid = start(arguments, options, ends[1]);
+    // The limit holds for the thread that sets it and for what that starts: a thread for this alone.
+    pid = options.writable.empty() ? start(arguments, options, ends[1])
+                                   : std::async(std::launch::async, [&] {
+                                       writes_limited = limit_writes_to(options.writable);
+                                       return start(arguments, options, ends[1]);
+                                     }).get();
   } catch (...) {
     ::close(ends[0]);
     ::close(ends[1]);
@@ -147,6 +156,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   } guard{pid, ends[0]};
   const InterruptibleGroup interruptible(pid);
 
+  if (options.on_start) options.on_start(writes_limited);
   ProcessResult result;
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started); };
   const auto stop = [&](bool& flag) {

@@ -13,9 +13,12 @@ namespace lobelia {
 struct ProcessOptions {
   std::filesystem::path working_directory;  ///< empty: ours
   std::vector<std::string> environment;     ///< "NAME=value", in place of ours or besides
-  std::filesystem::path log;                ///< receives stdout and stderr; empty: dropped
+  std::filesystem::path writable;  ///< the only place where it may write; empty: wherever we may
+  std::filesystem::path log;       ///< receives stdout and stderr; empty: dropped
   std::chrono::duration<double> timeout = std::chrono::hours(1);
   std::function<void(std::string_view)> on_line;  ///< called with each line of output, if set
+  /// Called once it runs, if set: whether the kernel holds it to `writable` (core/write_limit.hpp).
+  std::function<void(bool writes_limited)> on_start;
 };
 
 struct ProcessResult {

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
+
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/write_limit.hpp"
 
 namespace lobelia {
 namespace {
@@ -77,6 +80,33 @@ TEST(Process, WritesItsOutputToTheLog) {
   options.log = directory.path() / "log";
   run_process(shell("echo hello"), options);
   EXPECT_EQ(read_file(options.log, 100), "hello\n");
+}
+
+TEST(Process, WritesNowhereButWhereItMay) {
+  const TemporaryDirectory own, other;
+  write_file(other.path() / "there", "as it was");
+  ProcessOptions options;
+  options.working_directory = own.path();
+  options.writable = own.path();
+  bool limited = false;
+  options.on_start = [&](bool writes_limited) { limited = writes_limited; };
+  options.environment = {"OTHER=" + other.path().string()};
+  const auto result = run_process(
+      shell(
+          "echo mine > mine; mkdir d; mv mine d; cp d/mine d/copy; echo x > /dev/null && echo null is free; "
+          "echo x > \"$OTHER/new\"; echo x >> \"$OTHER/there\"; rm -f \"$OTHER/there\"; "
+          "mkdir \"$OTHER/d\"; mv d/copy \"$OTHER\"; ln -s x \"$OTHER/link\"; "
+          "ln -s \"$OTHER/there\" way-out; (echo x > way-out); cat way-out"),
+      options);
+  EXPECT_EQ(read_file(own.path() / "d/mine", 100), "mine\n");
+  EXPECT_THAT(result.output_tail, testing::HasSubstr("null is free\n"));
+  const bool can_limit = std::async(std::launch::async, limit_writes_to, own.path()).get();
+  EXPECT_EQ(limited, can_limit);
+  if (!can_limit) GTEST_SKIP() << "this kernel has no Landlock to limit writing with";
+  EXPECT_TRUE(result.output_tail.ends_with("as it was")) << "reading is free";
+  EXPECT_EQ(read_file(other.path() / "there", 100), "as it was");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(other.path()), {}), 1);
+  write_file(other.path() / "ours", "we are not limited ourselves");
 }
 
 TEST(Process, ManyLinesAreAllSeenAndTheTailIsBounded) {
