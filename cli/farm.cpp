@@ -6,16 +6,16 @@
 
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
+#include "cli/engine_programs.hpp"
 #include "cli/progress.hpp"
 #include "cli/warnings.hpp"
-#include "reference_scenes/engine.hpp"
 
 namespace lobelia::cli {
 namespace {
 
 struct Options {
   std::string grid, directory;
-  std::map<std::string, std::string> programs;
+  EnginePrograms programs;
   int threads = 0;
   double time_limit = 600;
   bool again = false, quiet = false;
@@ -25,8 +25,7 @@ ExitCode run(const Options& options) {
   const Grid grid = read_grid(options.grid);
   ProgressLine line(!options.quiet);
   FarmOptions farm_options;
-  for (const auto& [engine, program] : options.programs)
-    if (!program.empty()) farm_options.programs[engine] = program;
+  farm_options.programs = options.programs.given();
   farm_options.threads = options.threads;
   farm_options.time_limit = std::chrono::duration<double>(options.time_limit);
   farm_options.again = options.again;
@@ -78,11 +77,7 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_flag("--again", options->again, "Make everything again, current or not");
   command->add_flag("-q,--quiet", options->quiet, "No progress");
-  for (const auto& engine : engine_infos())
-    command
-        ->add_option(fmt::format("--{}", engine.name), options->programs[std::string(engine.name)],
-                     fmt::format("Program to use for {}", engine.title))
-        ->type_name("PATH");
+  options->programs.add_to(*command);
   command->footer(
       "What is there and current is kept: a second run does only what is missing. Ctrl-C leaves\n"
       "nothing half-written. An engine that is not installed is left out, as the records say.\n\n"

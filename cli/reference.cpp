@@ -4,6 +4,7 @@
 
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
+#include "cli/engine_programs.hpp"
 #include "cli/output_path.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_overrides.hpp"
@@ -20,12 +21,13 @@ namespace lobelia::cli {
 namespace {
 
 struct Options {
-  std::string scene, engine, output, program, log_directory, keep_input;
+  std::string scene, engine, output, log_directory, keep_input;
   int threads = 0;
   double time_limit = 600;
   int points = ReferenceOptions{}.points;
   std::uint64_t point_seed = 0;
   bool quiet = false;
+  EnginePrograms programs;
   SceneOverrides overrides;
 };
 
@@ -47,7 +49,7 @@ ReferenceResult render_one(Engine& engine, const Scene& scene, const Options& op
 }
 
 void run(const Options& options) {
-  const auto engine = make_engine(options.engine, options.program);
+  const auto engine = make_engine(options.engine, options.programs.of(options.engine));
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
   if (const std::string why = engine->why_not(scene); !why.empty())
@@ -88,6 +90,14 @@ std::string engine_list() {
   return list;
 }
 
+/// What a picture of each is worth, as the catalogue says it.
+std::string engine_words() {
+  std::string words;
+  for (const EngineInfo& engine : engine_infos())
+    words += fmt::format("{}\n  {}\n  {}\n", engine.title, engine.witness, engine.precision);
+  return words;
+}
+
 }  // namespace
 
 void add_reference(CLI::App& app, ExitCode&) {
@@ -102,8 +112,7 @@ void add_reference(CLI::App& app, ExitCode&) {
                    "Picture to write, OUT.exr; its record goes to OUT.json")
       ->required()
       ->type_name("OUT.exr");
-  command->add_option("--program", options->program,
-                      "The engine's program, if not the one in $PATH");
+  options->programs.add_to(*command);
   command
       ->add_option("--time-limit", options->time_limit, "Seconds after which the engine is stopped")
       ->check(between(0.1, 1e6))
@@ -125,13 +134,8 @@ void add_reference(CLI::App& app, ExitCode&) {
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
-      "POV-Ray draws the Phong RDF and the Blinn-Phong RDF by its own phong and specular (the "
-      "record\n"
-      "says \"native\"); every other model, and all in Cycles, is written in the engine's own "
-      "language\n"
-      "(\"expressed\"). One ray at each pixel's centre. POV-Ray's pictures are half float: 5e-4 of "
-      "the\n"
-      "value.\n\n"
+      engine_words() +
+      "Each takes one ray at a pixel's centre. lobelia engines says which are here.\n\n"
       "Example: lobelia reference reference_scenes/scenes/oblique_45.xml --engine povray "
       "-o povray.exr");
   command->callback([options] { run(*options); });

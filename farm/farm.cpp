@@ -231,7 +231,7 @@ class Farm {
     const std::string file = here.name + ".exr";
     Json command{"lobelia", "reference", "scene.xml", "--engine", here.name, "-o", file};
     if (const auto program = options_.programs.find(here.name); program != options_.programs.end())
-      command.insert(command.end(), {"--program", program->second.string()});
+      command.insert(command.end(), {"--" + here.name, program->second.string()});
     result.record["command"] = std::move(command);
     result.record["image"] = {
         {"file", file}, {"width", result.image.width()}, {"height", result.image.height()}};

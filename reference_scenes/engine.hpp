@@ -18,9 +18,13 @@
 namespace lobelia {
 
 struct EngineInfo {
-  std::string_view name;          ///< "povray", as on the command line and in file names
-  std::string_view title;         ///< "POV-Ray"
-  std::string_view install_hint;  ///< "sudo apt-get install povray"
+  std::string_view name;                ///< "povray", as on the command line and in file names
+  std::string_view title;               ///< "POV-Ray"
+  std::string_view install_hint;        ///< "sudo apt-get install povray"
+  std::string_view supported_versions;  ///< "3.7 or 3.8"
+  std::string_view witness;    ///< which models it shades itself, and which are expressed in it
+  std::string_view precision;  ///< of its pictures
+  std::string_view effects;    ///< that scenes for it may have
 };
 
 struct EngineStatus {

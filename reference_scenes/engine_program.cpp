@@ -68,7 +68,7 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
                              engine.title);
   else if (!is_supported(status.version, probe))
     status.why = fmt::format("'{}' is {} {}; what can be driven is {}", status.program.string(),
-                             engine.title, status.version, probe.supported);
+                             engine.title, status.version, engine.supported_versions);
   else
     status.available = true;
   return status;

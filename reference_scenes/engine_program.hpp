@@ -15,8 +15,7 @@ namespace lobelia {
 struct EngineProbe {
   std::string_view program;         ///< as in $PATH
   std::string_view version_prefix;  ///< what stands before the version in `--version`: "Blender "
-  std::string_view supported;       ///< "3.4 to 4.x"
-  bool (*supports)(int major, int minor) = nullptr;
+  bool (*supports)(int major, int minor) = nullptr;  ///< EngineInfo::supported_versions
 };
 
 /// Looks for the program (`program` if not empty) and runs it with --version.

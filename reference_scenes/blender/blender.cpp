@@ -29,7 +29,7 @@ constexpr char kJobFile[] = "job.json";
 constexpr int kSigAlrm = 14;
 
 /// The node groups' and point primitives' interface that render_scenes.py uses.
-constexpr EngineProbe kProbe{"blender", "Blender ", "3.4 to 4.x", [](int major, int minor) {
+constexpr EngineProbe kProbe{"blender", "Blender ", [](int major, int minor) {
                                return major == 4 || (major == 3 && minor >= 4);
                              }};
 

@@ -8,8 +8,15 @@
 
 namespace lobelia {
 
-inline constexpr EngineInfo kBlenderInfo{"blender", "Blender Cycles",
-                                         "sudo apt-get install blender"};
+inline constexpr EngineInfo kBlenderInfo{
+    .name = "blender",
+    .title = "Blender Cycles",
+    .install_hint = "sudo apt-get install blender",
+    .supported_versions = "3.4 to 4.x",
+    .witness = "native: none; expressed: all, in shader nodes",
+    .precision = "float32 throughout: 2.0e-5 of the peak, measured",
+    .effects = "spheres, directional and point lights, their shadows",
+};
 
 std::unique_ptr<Engine> make_blender(const std::filesystem::path& program);
 

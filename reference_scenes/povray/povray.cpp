@@ -27,8 +27,9 @@ constexpr int kProcessesPerProcessor = 4;
 constexpr std::size_t kLargePixels = 1 << 20;
 constexpr std::uint64_t kMaxLogBytes = 16 << 20;
 
-constexpr EngineProbe kProbe{"povray", "POV-Ray ", "3.7 or 3.8",
-                             [](int major, int minor) { return major == 3 && minor >= 7; }};
+constexpr EngineProbe kProbe{"povray", "POV-Ray ", [](int major, int minor) {
+                               return major == 3 && (minor == 7 || minor == 8);
+                             }};
 
 /// Relative to the directory of the scenes, where POV-Ray runs. Everything that decides over the
 /// picture is said, because a povray.ini of the user is read first.

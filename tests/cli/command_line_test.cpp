@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 constexpr const char* kSubcommands[] = {"render",    "plan",    "models",  "scene-format",
                                         "reference", "compare", "profile", "farm",
-                                        "gallery",   "verify",  "export"};
+                                        "gallery",   "verify",  "export",  "engines"};
 
 TEST(Help, OfTheProgramNamesEverySubcommandAndTheExitCodes) {
   const TemporaryDirectory directory;
@@ -78,7 +78,7 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
        "this one has more: an area light, a ground plane"},
       {{"profile", text_exr, "--scene", scene}, 3, "text.exr"},
       {{"reference", scene, "--engine", "maya", "-o", "a.exr"}, 2, "maya"},
-      {{"reference", scene, "--engine", "povray", "--program", "/no/such", "-o", "a.exr"},
+      {{"reference", scene, "--engine", "povray", "--povray", "/no/such", "-o", "a.exr"},
        5,
        "/no/such"},
       {{"farm", "missing.xml", "-o", "out"}, 3, "missing.xml"},
@@ -106,8 +106,8 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
 
 TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
   const TemporaryDirectory directory;
-  for (const char* command :
-       {"models", "models --json", "scene-format", "verify paper", "--help", "farm --help"}) {
+  for (const char* command : {"models", "models --json", "engines", "engines --json",
+                              "scene-format", "verify paper", "--help", "farm --help"}) {
     const auto result =
         run_shell(std::string("\"$LOBELIA\" ") + command + " >/dev/full", directory.path());
     EXPECT_EQ(result.exit_code, 4) << command << result.output_tail;

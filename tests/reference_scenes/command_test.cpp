@@ -39,7 +39,7 @@ class ReferenceCommand : public testing::Test {
 
 TEST_F(ReferenceCommand, MissingEngineIsExitCode5AndLeavesNothing) {
   const auto result =
-      run({"--engine", "povray", "--program", "/nowhere/povray", "-o", "picture.exr"});
+      run({"--engine", "povray", "--povray", "/nowhere/povray", "-o", "picture.exr"});
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_THAT(result.output_tail, HasSubstr("sudo apt-get install povray"));
   EXPECT_THAT(files(), IsEmpty());
@@ -67,7 +67,7 @@ TEST_F(ReferenceCommand, KeepsWhatTheEngineIsGiven) {
   const fs::path kept = directory_.path() / "kept";
   // The engine itself may be missing: what it would be given is written first.
   for (const std::string engine : {"povray", "blender"})
-    run({"--engine", engine, "--program", "/nowhere/" + engine, "-o", "a.exr", "--model",
+    run({"--engine", engine, "--" + engine, "/nowhere/" + engine, "-o", "a.exr", "--model",
          "modified_phong", "--keep-input", "kept"});
   for (const char* file : {"lobelia_scene.inc", "lobelia_modified_phong_cosine.inc", "pass0.pov",
                            "pass1.pov", "povray.sh", "render_scenes.py", "job.json", "blender.sh"})

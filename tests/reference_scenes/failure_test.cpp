@@ -80,9 +80,22 @@ TEST_P(FakeEngine, MissingIsSaidWithHowToInstall) {
 TEST_P(FakeEngine, AnotherProgramIsNotTakenForIt) {
   EXPECT_THAT(unavailable_because(program("", "GNU grep 3.8")),
               HasSubstr("does not answer --version"));
-  EXPECT_THAT(
-      unavailable_because(program("", GetParam() == "povray" ? "POV-Ray 3.6.1" : "Blender 2.83.0")),
-      HasSubstr("what can be driven is"));
+}
+
+TEST_P(FakeEngine, OfAVersionThatCannotBeDrivenIsRefusedWithThatAndTheOnesThatCan) {
+  const bool povray = GetParam() == "povray";
+  const std::string answer = povray ? "POV-Ray " : "Blender ";
+  for (const std::string version :
+       povray ? std::vector{"3.6.1", "3.9.0", "4.0.0"} : std::vector{"2.83.0", "3.3.21", "5.0.0"}) {
+    const std::string why = unavailable_because(program("", answer + version));
+    EXPECT_THAT(why, HasSubstr((povray ? " is POV-Ray " : " is Blender Cycles ") + version));
+    EXPECT_THAT(why, HasSubstr(povray ? "what can be driven is 3.7 or 3.8"
+                                      : "what can be driven is 3.4 to 4.x"));
+  }
+  for (const std::string version :
+       povray ? std::vector{"3.7.0", "3.8.0-beta.2"} : std::vector{"3.4.0", "4.5.2 LTS"})
+    EXPECT_TRUE(make_engine(GetParam(), program("", answer + version))->status().available)
+        << version;
 }
 
 TEST_P(FakeEngine, VersionIsRead) {

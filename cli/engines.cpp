@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/engine_programs.hpp"
+#include "core/text.hpp"
+#include "reference_scenes/engine.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+  EnginePrograms programs;
+  bool json = false;
+};
+
+Json engine_record(const EngineInfo& engine, const EngineStatus& status) {
+  Json record{{"name", engine.name}, {"title", engine.title}, {"available", status.available}};
+  if (!status.program.empty()) record["program"] = status.program.string();
+  if (!status.version.empty()) record["version"] = status.version;
+  if (!status.available) record["why"] = status.why;
+  record["supportedVersions"] = engine.supported_versions;
+  record["witness"] = engine.witness;
+  record["precision"] = engine.precision;
+  record["effects"] = engine.effects;
+  record["install"] = engine.install_hint;
+  return record;
+}
+
+void print_engine(const EngineInfo& engine, const EngineStatus& status) {
+  fmt::print("{} (--engine {})\n", engine.title, engine.name);
+  const auto row = [](std::string_view what, std::string_view text) {
+    fmt::print("  {:<12}{}\n", what, text);
+  };
+  if (status.available) {
+    row("found", printable(status.program.string(), 400));
+    row("version",
+        fmt::format("{} (what can be driven is {})", status.version, engine.supported_versions));
+  } else {
+    row("not usable", printable(status.why, 2000));
+    row("to install", engine.install_hint);
+    row("versions", engine.supported_versions);
+  }
+  row("witness", engine.witness);
+  row("precision", engine.precision);
+  row("effects", engine.effects);
+}
+
+ExitCode run(const Options& options) {
+  Json record = make_record("engines");
+  record["engines"] = Json::array();
+  std::vector<std::string> problems;
+  for (const EngineInfo& info : engine_infos()) {
+    const auto engine = make_engine(info.name, options.programs.of(std::string(info.name)));
+    const EngineStatus& status = engine->status();
+    if (options.json)
+      record["engines"].push_back(engine_record(info, status));
+    else
+      print_engine(info, status);
+    if (!status.available)
+      problems.push_back(printable(fmt::format("{}: {}", info.title, status.why), 2000));
+  }
+  if (options.json) fmt::print("{}", record_text(record));
+  for (const auto& problem : problems) fmt::print(stderr, "lobelia: {}\n", problem);
+  return problems.empty() ? ExitCode::kSuccess : ExitCode::kEngine;
+}
+
+}  // namespace
+
+void add_engines(CLI::App& app, ExitCode& exit_code) {
+  auto* command = app.add_subcommand(
+      "engines", "List the reference engines: which are here, what they can do, how to get them");
+  auto options = std::make_shared<Options>();
+  options->programs.add_to(*command);
+  command->add_flag("--json", options->json, "Print the list as JSON");
+  command->footer(
+      "Exit codes: 0 all of them can be driven, 5 one is missing, of another version or no such\n"
+      "engine.\n\n"
+      "Example: lobelia engines --blender /opt/blender/blender");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lobelia::cli
