@@ -166,7 +166,8 @@ TEST_F(FarmTest, AnEngineThatFailsIsThatCellsResultAndNothingElses) {
   FarmOptions options;
   options.programs = {{"povray", script("povray",
                                         "echo 'POV-Ray 3.7.0.10' >&2\n"
-                                        "case \"$*\" in *version*) exit 0;; esac\nexit 3\n")}};
+                                        "case \"$*\" in *version*) exit 0;; esac\n"
+                                        "echo out of memory\nexit 3\n")}};
   const WithoutPrograms nothing_in_path;
   const FarmSummary summary = run_farm(grid("16, 32", kBothEngines), out(), options);
   EXPECT_EQ(summary.failed, 2u);
@@ -174,6 +175,9 @@ TEST_F(FarmTest, AnEngineThatFailsIsThatCellsResultAndNothingElses) {
   const Json record = cell_record("n16");
   EXPECT_EQ(record["status"], "failed");
   EXPECT_EQ(record["problems"][0]["engine"], "povray");
+  for (const char* cell : {"n16", "n32"})
+    EXPECT_THAT(read_file(in_cell(cell, "povray.log"), 1 << 16),
+                testing::HasSubstr("out of memory"));
   EXPECT_EQ(record["images"].size(), 1u) << "our own picture is there all the same";
   // And it is tried again, because a failure is not a result to keep.
   EXPECT_EQ(run_farm(grid("16, 32", kBothEngines), out(), options).failed, 2u);

@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <regex>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/blender/blender_input.hpp"
 #include "reference_scenes/engine.hpp"
@@ -16,11 +19,13 @@
 #include "reference_scenes/preparation.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/render.hpp"
+#include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 
 namespace lobelia {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -43,6 +48,42 @@ TEST(EngineInput, IsNumbersAndOurOwnNamesWhateverTheMaterialIsCalled) {
     const std::string job = blender_input(scene, "scene0").dump();
     EXPECT_THAT(job, Not(HasSubstr("passwd")));
     EXPECT_THAT(job, Not(HasSubstr("import")));
+  }
+}
+
+TEST(EngineInput, HasNoWordOfASceneFileNorOfItsName) {
+  const std::string words[] = {"h0stile\"} #include \"/etc/passwd\"", "h0stile */ #write (F, 1)",
+                               "h0stile\n#declare Gain = 0;",
+                               "h0stile\"\"\"'''; __import__('os').system('id')",
+                               "h0stile \\u0022 \xc3\xa9\xe2\x80\xae \xe2\x80\xa8 $(id) `id`"};
+  const fs::path original = fs::path(LOBELIA_SOURCE_DIR) / "reference_scenes/scenes/two_lights.xml";
+  const TemporaryDirectory directory;
+  for (const std::string& word : words) {
+    SCOPED_TRACE(word);
+    const std::string id = std::regex_replace(escape_markup(word), std::regex("\n"), "&#10;");
+    std::string text = read_file(original, 1 << 16);
+    text = std::regex_replace(text, std::regex("\"highlight\""), "\"@\"");
+    text = std::regex_replace(text, std::regex("<(emitter|shape) "), "<!-- # --><$1 id=\"@\" ");
+    for (const auto& [mark, by] : {std::pair{'#', word}, {'@', id}})
+      for (auto at = text.find(mark); at != text.npos; at = text.find(mark, at + by.size()))
+        text.replace(at, 1, by);
+    std::string name = word;
+    std::ranges::replace(name, '/', '_');
+    const fs::path file = directory.path() / (name + ".xml");
+    write_file(file, text);
+    const Scene scene = read_scene(file);
+    ASSERT_EQ(scene.materials[0].id, word);
+    for (const EngineInfo& engine : engine_infos()) {
+      const TemporaryDirectory kept;
+      keep_engine_input(engine.name, scene, kept.path());
+      std::size_t files = 0;
+      for (const auto& entry : fs::directory_iterator(kept.path())) {
+        ++files;
+        EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("h0stile")));
+        EXPECT_THAT(read_file(entry.path(), 1 << 20), Not(HasSubstr("h0stile"))) << entry.path();
+      }
+      EXPECT_GE(files, 3u);
+    }
   }
 }
 
