@@ -44,8 +44,8 @@ for lobe in cosine cs16; do
       wall "$engine" "$lobelia" reference "$work/scene.xml" --engine "$engine" "${size[@]}" --threads 1 -q -o "$work/$engine.exr"
       case $engine in
         povray)
-          command=$(grep '^povray' "$work/povray.in/povray.sh" | sed 's/-GS/+GS/; s/+WT[0-9]*/+WT1/; s/#.*//')
-          (cd "$work/povray.in" && eval "$command") >"$work/log" 2>&1
+          sed -i 's/^Statistic_Console=off/Statistic_Console=on/' "$work"/povray.in/*.ini
+          (cd "$work/povray.in" && sh povray.sh) >"$work/log" 2>&1
           sed -n 's/.*Trace Time.*(\([0-9.]*\) seconds).*/\1/p' "$work/log" >>"$work/povray.trace" ;;
         blender)
           sed -i 's/"threads": *[0-9]*/"threads": 1/' "$work/blender.in/job.json"

@@ -29,11 +29,9 @@ std::string without_directory(std::string message, const fs::path& directory) {
 }
 
 /// The record's facts that are printed as they stand, in this order where they are there.
-constexpr const char* kFacts[][2] = {{"method", "Method"},
-                                     {"samples", "Samples per pixel"},
-                                     {"rays", "Rays"},
-                                     {"instructionSet", "Instruction set"},
-                                     {"passes", "Passes"}};
+constexpr const char* kFacts[][2] = {{"method", "Method"}, {"samples", "Samples per pixel"},
+                                     {"rays", "Rays"},     {"instructionSet", "Instruction set"},
+                                     {"passes", "Passes"}, {"engineOptions", "Options"}};
 
 void read_engine_record(const Json& record, CellImage& image) {
   const Fields fields(record, image.record);

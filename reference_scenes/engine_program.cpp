@@ -82,7 +82,7 @@ void require_available(const EngineInfo& engine, const EngineStatus& status) {
 
 std::vector<std::string> private_home(const std::filesystem::path& directory) {
   std::vector<std::string> environment;
-  for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"})
+  for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "TMPDIR", "TMP", "TEMP"})
     environment.push_back(fmt::format("{}={}", name, directory.string()));
   return environment;
 }

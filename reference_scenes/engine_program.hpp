@@ -26,7 +26,7 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
 void require_available(const EngineInfo& engine, const EngineStatus& status);
 
 /// Environment in which an engine finds no settings of the user's, which might alter its pictures, and
-/// leaves no caches of its own behind.
+/// leaves no caches or temporary files of its own behind.
 std::vector<std::string> private_home(const std::filesystem::path& directory);
 
 /// Of an engine's output the words that say most about a failure, in one line.

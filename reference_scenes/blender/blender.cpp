@@ -115,6 +115,8 @@ class BlenderRun {
     const std::size_t waited = waiting_.size();
     ProcessOptions process;
     process.working_directory = directory_.path();
+    process.writable = directory_.path();
+    process.on_start = [&](bool writes_limited) { writes_limited_ = writes_limited; };
     process.environment = private_home(directory_.path());
     // It starts no scene after one time limit, and each scene has an alarm of its own; this is for
     // a Blender that never comes to that.
@@ -174,6 +176,7 @@ class BlenderRun {
         "shader nodes as the colour of a surface under a real lamp, one pass per light and reflection";
     result.record["passes"] = passes;
     result.record["engineCommands"] = Json::array({command_});
+    result.record["writesLimited"] = writes_limited_;
     result.record["seconds"] = {{"total", seconds}};
     finish(index, std::move(result));
   }
@@ -199,6 +202,7 @@ class BlenderRun {
   std::deque<std::size_t> waiting_;
   std::optional<std::size_t> current_;  ///< begun and not done
   std::string command_, log_;           ///< of the process at work, since the last scene
+  bool writes_limited_ = false;         ///< likewise
 };
 
 class Blender final : public Engine {

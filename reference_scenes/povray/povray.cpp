@@ -16,6 +16,7 @@
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/povray/povray_input.hpp"
+#include "reference_scenes/povray/povray_options.hpp"
 #include "reference_scenes/preparation.hpp"
 
 namespace lobelia {
@@ -31,25 +32,10 @@ constexpr EngineProbe kProbe{"povray", "POV-Ray ", [](int major, int minor) {
                                return major == 3 && (minor == 7 || minor == 8);
                              }};
 
-/// Relative to the directory of the scenes, where POV-Ray runs. Everything that decides over the
-/// picture is said, because a povray.ini of the user is read first.
-std::vector<std::string> povray_arguments(const std::string& program, const std::string& stem,
-                                          const Film& film, int threads) {
-  return {program, fmt::format("+I{}.pov", stem), fmt::format("+O{}.exr", stem),
-          "+FE",  // OpenEXR: always half float
-          fmt::format("+W{}", film.width), fmt::format("+H{}", film.height),
-          "-A",  // no anti-aliasing: the ray goes through the middle of the pixel
-          "-J", "+Q9", "-UA",
-          "-D",  // no window
-          "-P",
-          "-C",  // never continue an older picture
-          // No chatter, but not -GA, which would hide errors too.
-          "-GD", "-GR", "-GS", "-V", fmt::format("+WT{}", threads)};
-}
-
 struct PassResult {
   Image image;
   std::string error, command;
+  bool writes_limited = false;
   double seconds = 0;
 };
 
@@ -57,6 +43,7 @@ struct PassResult {
 struct Job {
   PovrayInput input;
   Film film;
+  std::vector<std::string> options;
   std::vector<PassResult> passes;
   std::size_t unfinished = 0;
 };
@@ -97,23 +84,27 @@ class Povray final : public Engine {
                      const OnResult& on_result) override;
 
  private:
-  PassResult run_pass(const std::string& stem, const PovrayPass& pass, const Film& film,
-                      int threads, const ReferenceOptions& options) const;
+  PassResult run_pass(const std::string& stem, const Job& job, const PovrayPass& pass,
+                      const ReferenceOptions& options) const;
   std::string joined_logs(std::size_t index, const std::vector<PassResult>& passes) const;
 
   fs::path wanted_program_, directory_;
+  std::vector<std::string> environment_;
   EngineStatus status_;
   bool probed_ = false;
 };
 
-PassResult Povray::run_pass(const std::string& stem, const PovrayPass& pass, const Film& film,
-                            int threads, const ReferenceOptions& options) const {
+PassResult Povray::run_pass(const std::string& stem, const Job& job, const PovrayPass& pass,
+                            const ReferenceOptions& options) const {
   PassResult result;
   write_file(directory_ / (stem + ".pov"), pass.scene);
-  const auto arguments = povray_arguments(status_.program.string(), stem, film, threads);
+  write_povray_ini(directory_, stem, pass.gain, job.options);
+  const std::vector<std::string> arguments{status_.program.string(), stem + ".ini"};
   ProcessOptions process;
   process.working_directory = directory_;
-  process.environment = private_home(directory_);
+  process.writable = directory_;
+  process.on_start = [&](bool writes_limited) { result.writes_limited = writes_limited; };
+  process.environment = environment_;
   process.timeout = options.time_limit;
   process.log = directory_ / (stem + ".log");
   const ProcessResult ended = run_process(arguments, process);
@@ -127,7 +118,7 @@ PassResult Povray::run_pass(const std::string& stem, const PovrayPass& pass, con
     result.error = fmt::format("POV-Ray wrote no picture: {}", last_words(ended.output_tail));
   } else {
     try {
-      result.image = read_pass(picture, film, pass.gain);
+      result.image = read_pass(picture, job.film, pass.gain);
     } catch (const Error& error) {
       result.error = fmt::format("POV-Ray's picture cannot be used: {}", error.what());
     }
@@ -150,11 +141,13 @@ std::string Povray::joined_logs(std::size_t index, const std::vector<PassResult>
 ReferenceResult finish(Job& job, Json record) {
   ReferenceResult result;
   double seconds = 0;
+  bool writes_limited = true;
   Json commands = Json::array();
   std::vector<Image> images;
   for (PassResult& pass : job.passes) {
     if (result.error.empty()) result.error = pass.error;
     seconds += pass.seconds;
+    writes_limited = writes_limited && pass.writes_limited;
     commands.push_back(pass.command);
     images.push_back(std::move(pass.image));
   }
@@ -163,6 +156,8 @@ ReferenceResult finish(Job& job, Json record) {
                                       : "pattern function under a real lamp, one pass per light";
   record["passes"] = job.passes.size();
   record["engineCommands"] = std::move(commands);
+  record["engineOptions"] = job.options;
+  record["writesLimited"] = writes_limited;
   record["seconds"] = {{"total", seconds}};
   result.record = std::move(record);
   if (result.error.empty()) result.image = sum_of(images);
@@ -174,6 +169,7 @@ void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions
                            const OnResult& on_result) {
   const TemporaryDirectory directory;
   directory_ = directory.path();
+  environment_ = povray_home(directory_, status_.version);
 
   std::vector<Job> jobs(scenes.size());
   std::vector<WorkItem> work;
@@ -206,6 +202,7 @@ void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions
   std::atomic<bool> stop{false};
   std::mutex mutex;  // of the jobs' bookkeeping, on_result and the first failure
   std::exception_ptr failure;
+  for (Job& job : jobs) job.options = povray_options(job.film, threads_each);
   const auto run = [&] {
     try {
       for (std::size_t i; !stop && (i = next++) < work.size();) {
@@ -213,7 +210,7 @@ void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions
         const auto [index, pass] = work[i];
         Job& job = jobs[index];
         const std::string stem = pass_stem(index, pass);
-        PassResult result = run_pass(stem, job.input.passes[pass], job.film, threads_each, options);
+        PassResult result = run_pass(stem, job, job.input.passes[pass], options);
         const std::scoped_lock lock(mutex);
         job.passes[pass] = std::move(result);
         if (--job.unfinished > 0 || stop) continue;
@@ -242,14 +239,12 @@ std::unique_ptr<Engine> make_povray(const fs::path& program) {
 void keep_povray_input(const Scene& scene, const fs::path& directory) {
   const PovrayInput input = povray_input(in_engine_units(scene));
   for (const auto& [file, text] : input.includes) write_file(directory / file, text);
-  std::string commands =
-      "# Each picture is so many times too bright; divided by that, they add up.\n";
+  std::string commands;
   for (std::size_t p = 0; p < input.passes.size(); ++p) {
     const std::string stem = fmt::format("pass{}", p);
     write_file(directory / (stem + ".pov"), input.passes[p].scene);
-    commands +=
-        fmt::format("{}  # {}\n", shell_join(povray_arguments("povray", stem, scene.film, 1)),
-                    exact_text(input.passes[p].gain));
+    write_povray_ini(directory, stem, input.passes[p].gain, povray_options(scene.film, 1));
+    commands += fmt::format("povray {}.ini\n", stem);
   }
   write_file(directory / "povray.sh", commands);
 }

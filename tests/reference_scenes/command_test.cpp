@@ -69,8 +69,9 @@ TEST_F(ReferenceCommand, KeepsWhatTheEngineIsGiven) {
   for (const std::string engine : {"povray", "blender"})
     run({"--engine", engine, "--" + engine, "/nowhere/" + engine, "-o", "a.exr", "--model",
          "modified_phong", "--keep-input", "kept"});
-  for (const char* file : {"lobelia_scene.inc", "lobelia_modified_phong_cosine.inc", "pass0.pov",
-                           "pass1.pov", "povray.sh", "render_scenes.py", "job.json", "blender.sh"})
+  for (const char* file :
+       {"lobelia_scene.inc", "lobelia_modified_phong_cosine.inc", "pass0.pov", "pass1.pov",
+        "pass0.ini", "pass1.ini", "povray.sh", "render_scenes.py", "job.json", "blender.sh"})
     EXPECT_TRUE(fs::exists(kept / file)) << file;
 }
 

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <future>
 #include <map>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/image_io.hpp"
+#include "core/write_limit.hpp"
 #include "reference_scenes/engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 
@@ -62,6 +65,24 @@ class FakeEngine : public testing::TestWithParam<std::string> {
       EXPECT_THAT(error.what(), HasSubstr("sudo apt-get install"));
     }
     return engine->status().why;
+  }
+
+  /// Both engines' part played to the end: every scene gets a picture of 16 x 16, but for the
+  /// second, where `bad` is run instead; $picture is where its picture should go.
+  std::string second_scene(const std::string& bad) {
+    const std::string good = (directory_.path() / "good.exr").string();
+    write_exr(good, Image(16, 16), {});
+    const std::string play = fmt::format(
+        "case $name in scene1*) echo of the second; {} ;; *) cp '{}' \"$picture\" ;; esac\n", bad,
+        good);
+    if (GetParam() == "povray") return "name=${1%.ini}\npicture=$name.exr\n" + play;
+    return R"(for job; do :; done
+              for name in $(grep -o 'scene[0-9]*"' "$job" | tr -d '"'); do
+                echo "lobelia: begin $name"
+                picture=${job%job.json}$name-0.exr
+                )" +
+           play + R"(echo "lobelia: done $name 1"
+              done)";
   }
 
   /// The script's first scene, as the real one tells it.
@@ -128,12 +149,80 @@ TEST_P(FakeEngine, NoPictureIsAnError) {
 }
 
 TEST_P(FakeEngine, TextInPlaceOfAPictureIsAnError) {
-  const std::string pov = R"(for a; do case $a in +O*) echo text > "${a#+O}";; esac; done)";
+  const std::string pov = R"(echo text > "${1%.ini}.exr")";
   const std::string blender = std::string(kBeginFirst) + R"(
     echo text > "${job%job.json}$name-0.exr"
     echo "lobelia: done $name 1")";
   EXPECT_THAT(errors_of(GetParam() == "povray" ? pov : blender).at(0),
               HasSubstr("picture cannot be used"));
+}
+
+TEST_P(FakeEngine, FailureIsTheResultOfItsSceneWithItsLogAndNothingElses) {
+  const std::string large = (directory_.path() / "large.exr").string();
+  write_exr(large, Image(16, 17), {});
+  const bool povray = GetParam() == "povray";
+  const std::pair<std::string, std::string> failures[] = {
+      {"kill -SEGV $$", "was ended by signal 11"},
+      {"sleep 60", "was stopped after 2 s"},
+      {"exit 3", "stopped with exit code 3"},
+      {"exit 0", povray ? "wrote no picture" : "stopped with exit code 0"},
+      {":", povray ? "wrote no picture" : "picture cannot be used"},
+      {"head -c 9999 /dev/urandom > \"$picture\"", "picture cannot be used"},
+      {fmt::format("head -c 400 '{}' > \"$picture\"", large), "picture cannot be used"},
+      {fmt::format("cp '{}' \"$picture\"", large), "another size"}};
+  for (const auto& [bad, error] : failures) {
+    SCOPED_TRACE(bad);
+    const auto engine = make_engine(GetParam(), program(second_scene(bad)));
+    const std::vector<Scene> scenes(
+        3, sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
+    ReferenceOptions options;
+    options.time_limit = std::chrono::seconds(2);
+    options.log_directory = directory_.path();
+    std::map<std::size_t, ReferenceResult> results;
+    engine->render(scenes, options, [&](std::size_t index, ReferenceResult result) {
+      results[index] = std::move(result);
+    });
+    ASSERT_EQ(results.size(), 3u);
+    for (const std::size_t good : {0, 2}) {
+      EXPECT_EQ(results[good].error, "");
+      EXPECT_EQ(results[good].image.pixel_count(), 256u);
+    }
+    EXPECT_THAT(results[1].error, HasSubstr(error));
+    EXPECT_EQ(results[1].image.pixel_count(), 0u);
+    for (const int scene : {0, 1, 2}) {
+      const fs::path log = directory_.path() / fmt::format("{}-{}.log", GetParam(), scene);
+      EXPECT_EQ(read_file(log, 1 << 20).find("of the second") != std::string::npos, scene == 1);
+      fs::remove(log);
+    }
+  }
+}
+
+TEST_P(FakeEngine, WritesNothingOutsideItsOwnDirectory) {
+  const fs::path outside = directory_.path() / "outside";
+  const auto engine = make_engine(
+      GetParam(), program(fmt::format("echo x > '{}'\n", outside.string()) + second_scene(":")));
+  const Scene scene = sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16);
+  bool limited = false;
+  engine->render(std::span(&scene, 1), {}, [&](std::size_t, ReferenceResult result) {
+    ASSERT_EQ(result.error, "") << "its own directory is free";
+    limited = result.record.at("writesLimited");
+  });
+  const bool can_limit = std::async(std::launch::async, limit_writes_to, directory_.path()).get();
+  EXPECT_EQ(limited, can_limit) << "what the record says";
+  if (!can_limit) GTEST_SKIP() << "this kernel has no Landlock to limit writing with";
+  EXPECT_FALSE(fs::exists(outside));
+}
+
+TEST_P(FakeEngine, FindsNoSettingsButOurs) {
+  errors_of(
+      "echo \"[$HOME] [$TMPDIR] [$XDG_CONFIG_HOME]\"; pwd; cat \"$POVINI\" .povray/*/*; exit 1");
+  const std::string log = read_file(directory_.path() / (GetParam() + "-0.log"), 1 << 20);
+  const auto begin = log.find('[') + 1;
+  const std::string own = log.substr(begin, log.find(']') - begin);
+  EXPECT_THAT(log, HasSubstr(fmt::format("[{0}] [{0}] [{0}]\n{0}\n", own)));
+  if (GetParam() != "povray") return;
+  EXPECT_THAT(log, HasSubstr("In place of the system's and the user's"));
+  EXPECT_THAT(log, HasSubstr("[File I/O Security]\nrestricted\n[Shellout Security]\nforbidden\n"));
 }
 
 TEST_P(FakeEngine, FailureOfTheReceiverEndsTheWork) {
