@@ -15,7 +15,9 @@ inline constexpr EngineInfo kBlenderInfo{
     .supported_versions = "3.4 to 4.x",
     .witness = "native: none; expressed: all, in shader nodes",
     .precision = "float32 throughout: 2.0e-5 of the peak, measured",
-    .effects = "spheres, directional and point lights, their shadows",
+    .effects =
+        "spheres, planes and checkers, directional and point lights, shadows, mirrors; as averages: lights "
+        "with a size, the sky, depth of field, antialiasing",
 };
 
 std::unique_ptr<Engine> make_blender(const std::filesystem::path& program);

@@ -17,7 +17,9 @@ inline constexpr EngineInfo kPovrayInfo{
         "native: Phong (RDF) and Blinn-Phong (RDF) with cos^n, grey and without Fresnel; "
         "expressed: all else, in its language",
     .precision = "half float, which rounds by up to 4.9e-4 of the value",
-    .effects = "spheres, directional and point lights, their shadows",
+    .effects =
+        "spheres, planes and checkers, directional and point lights, shadows, mirrors where all is native; "
+        "as averages: lights with a size, the sky, depth of field, antialiasing",
 };
 
 std::unique_ptr<Engine> make_povray(const std::filesystem::path& program);

@@ -75,7 +75,7 @@ TEST(EngineInput, HasNoWordOfASceneFileNorOfItsName) {
     ASSERT_EQ(scene.materials[0].id, word);
     for (const EngineInfo& engine : engine_infos()) {
       const TemporaryDirectory kept;
-      keep_engine_input(engine.name, scene, kept.path());
+      keep_engine_input(engine.name, scene, {}, kept.path());
       std::size_t files = 0;
       for (const auto& entry : fs::directory_iterator(kept.path())) {
         ++files;

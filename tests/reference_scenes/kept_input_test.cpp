@@ -57,7 +57,7 @@ TEST_P(KeptInput, RendersToOurOwnRunsPictureBitForBit) {
                     [&](std::size_t, ReferenceResult result) { ours = std::move(result); });
     ASSERT_EQ(ours.error, "");
     const TemporaryDirectory directory;
-    keep_engine_input(GetParam(), scene, directory.path());
+    keep_engine_input(GetParam(), scene, {}, directory.path());
     ProcessOptions options;
     options.working_directory = directory.path();
     // Through cd, because Blender believes $PWD.

@@ -10,7 +10,7 @@ namespace lobelia {
 class OurselvesAsAnEngine final : public Engine {
  public:
   const EngineInfo& info() const override {
-    static constexpr EngineInfo kInfo{"lobelia", "Lobelia", ""};
+    static constexpr EngineInfo kInfo{"lobelia", "Lobelia", "", "", "", "", ""};
     return kInfo;
   }
   const EngineStatus& status() override {
