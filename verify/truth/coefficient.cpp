@@ -9,7 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "verify/truth/big_lobe.hpp"
+#include "verify/truth/big.hpp"
+#include "verify/truth/highlight.hpp"
 #include "verify/truth/truth.hpp"
 
 namespace lobelia::truth {

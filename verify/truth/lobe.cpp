@@ -1,17 +1,21 @@
 #include "verify/definition.hpp"
-#include "verify/truth/big_lobe.hpp"
+#include "verify/truth/big.hpp"
+#include "verify/truth/highlight.hpp"
 #include "verify/truth/truth.hpp"
 
 namespace lobelia::truth {
 
-Big lobe_of_cosine(LobeId lobe, const Big& cosine, double exponent) {
+template <class Real>
+Real lobe_of_cosine(LobeId lobe, const Real& cosine, double exponent) {
   if (cosine <= 0) return 0;
   // The cosine of two equal directions may come out a last digit above 1.
-  return lobe_definition(lobe, cosine < 1 ? cosine : Big(1), exponent);
+  return lobe_definition(lobe, cosine < 1 ? cosine : Real(1), exponent);
 }
+template double lobe_of_cosine(LobeId, const double&, double);
+template Big lobe_of_cosine(LobeId, const Big&, double);
 
 double lobe(LobeId lobe, double s, double exponent) {
-  return double(lobe_of_cosine(lobe, 1 - Big(s), exponent));
+  return double(lobe_of_cosine(lobe, Big(1 - Big(s)), exponent));
 }
 
 double one_minus_cos(double angle) {

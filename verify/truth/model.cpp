@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "verify/truth/big_lobe.hpp"
+#include "verify/truth/highlight.hpp"
 
 namespace lobelia::truth {
 namespace {
@@ -26,12 +26,6 @@ const ModelRow& model_row(ModelId model) {
   if (row == std::end(kRows))
     throw Error(ExitCode::kInternal, "verify/truth/model.cpp has no row for the model " + name);
   return *row;
-}
-
-Big lobe_cosine(LobeAngle angle, const Big3& normal, const Big3& to_eye, const Big3& to_light) {
-  if (angle == LobeAngle::kReflection)
-    return 2 * dot(normal, to_eye) * dot(normal, to_light) - dot(to_eye, to_light);
-  return dot(normal, normalize(to_light + to_eye));
 }
 
 }  // namespace lobelia::truth

@@ -1,13 +1,15 @@
-// Lobes and models in 50 digits, for the .cpp files of verify/truth/.
+// Lobes and models for any type of number, for the .cpp files of verify/truth/.
 #pragma once
 
 #include "renderer/highlight.hpp"
-#include "verify/truth/big.hpp"
+#include "verify/truth/vector.hpp"
 
 namespace lobelia::truth {
 
-/// The lobe's textbook definition of the cosine of its angle; 0 from a right angle on.
-Big lobe_of_cosine(LobeId lobe, const Big& cosine, double exponent);
+/// The lobe's textbook definition of the cosine of its angle; 0 from a right angle on. Of double and of 50
+/// digits.
+template <class Real>
+Real lobe_of_cosine(LobeId lobe, const Real& cosine, double exponent);
 
 /// A model as its row of the paper's table says it, written out again.
 struct ModelRow {
@@ -22,6 +24,12 @@ struct ModelRow {
 const ModelRow& model_row(ModelId model);
 
 /// Cosine of the angle that the model's lobe sees, for unit vectors.
-Big lobe_cosine(LobeAngle angle, const Big3& normal, const Big3& to_eye, const Big3& to_light);
+template <class Real>
+Real lobe_cosine(LobeAngle angle, const Vector<Real>& normal, const Vector<Real>& to_eye,
+                 const Vector<Real>& to_light) {
+  if (angle == LobeAngle::kReflection)
+    return 2 * dot(normal, to_eye) * dot(normal, to_light) - dot(to_eye, to_light);
+  return dot(normal, normalize(to_light + to_eye));
+}
 
 }  // namespace lobelia::truth
