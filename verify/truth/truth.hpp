@@ -19,6 +19,10 @@ double one_minus_cos(double angle);
 /// radiance_coefficient of the exact normalisation: one over the paper's integral over the angle.
 double coefficient(ModelId model, LobeId lobe, double exponent);
 
+/// The same of the normalisation that the highlight has: exact, or as the paper prints it. Throws
+/// Error(kInput) for a lobe of which it prints none.
+double coefficient(const Highlight& highlight);
+
 /// Lobe times foreshortening: the highlight's share of its peak, for vectors of any length but 0.
 /// 0 where the light is not above the horizon.
 double shape(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light);
