@@ -95,7 +95,9 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   if (!cell.scene.lights.empty() && !cell.scene.spheres.empty() &&
       beyond_single_rays(cell.scene).empty()) {
     NamedImages named;
-    for (const auto& [engine, image] : pictures) named.emplace_back(engine, &image);
+    // The profile draws the formula under that name already.
+    for (const auto& [engine, image] : pictures)
+      if (engine != kAnalyticName) named.emplace_back(engine, &image);
     write_record(store.file("profile.json"), profile_scene(cell.scene, 0, 0, named));
     record["profile"] = "profile.json";
   }

@@ -50,6 +50,7 @@ std::string why_no_picture(const EngineEntry& engine, const CellData& cell) {
 std::string witness_words(const CellImage& image) {
   if (image.witness == "native") return "its own shading of this model";
   if (image.witness == "expressed") return "the model written in its language";
+  if (image.witness == "analytic") return "the formulas, pixel by pixel";
   return image.witness;
 }
 

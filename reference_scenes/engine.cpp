@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "reference_scenes/analytic/analytic.hpp"
 #include "reference_scenes/blender/blender.hpp"
 #include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/povray/povray.hpp"
@@ -25,6 +26,7 @@ struct CatalogueEntry {
 constexpr CatalogueEntry kCatalogue[] = {
     {kPovrayInfo, make_povray, keep_povray_input},
     {kBlenderInfo, make_blender, keep_blender_input},
+    {kAnalyticInfo, make_analytic, keep_analytic_input},
 };
 
 constexpr auto kInfos = [] {

@@ -42,6 +42,7 @@ struct ReferenceOptions {
   /// of kReplicates.
   int points = 256;
   std::uint64_t seed = 0;  ///< of those points
+  bool fine = false;  ///< the engine's finer arithmetic or number format, where it has one
 };
 
 /// Independent estimates, whose scatter tells the error of their mean.
@@ -52,7 +53,7 @@ struct ReferenceResult {
   Image image;
   Image standard_error;  ///< of the image where it is an average (replicates.hpp); otherwise empty
   std::string error;     ///< empty on success
-  Json record;  ///< kind "reference": engine, version, witness (native or expressed), command
+  Json record;  ///< kind "reference": engine, version, witness (native, expressed or analytic), command
                 ///< lines, passes, seconds
 };
 

@@ -42,6 +42,15 @@ TEST_F(FarmTest, WritesEveryFileThatTheRecordsPromise) {
   }
 }
 
+TEST_F(FarmTest, HoldsEveryCellToTheFormulasPerPixelWithoutAnyProgram) {
+  const WithoutPrograms none;
+  const FarmSummary summary = run_farm(grid("16, 1e6", "<engine name=\"analytic\"/>"), out(), {});
+  EXPECT_EQ(summary.pass, 2u);
+  const Json profile = read_record(in_cell("n16", "profile.json"), "profile");
+  EXPECT_EQ(profile["curve"].size(), 4u) << "the formula's curve stands there once";
+  EXPECT_EQ(read_record(in_cell("n16", "analytic.json"), "reference")["witness"], "analytic");
+}
+
 TEST_F(FarmTest, ACellsSceneRendersToTheCellsPicture) {
   run_farm(grid("16"), out(), {});
   const int status = std::system(fmt::format("cd '{}' && '{}' render scene.xml -q -o again.exr",

@@ -112,7 +112,7 @@ TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
       {"<axis name=\"exponent\" values=\"1\"/><axis name=\"exponent\" values=\"2\"/>",
        "a second axis 'exponent'"},
       {"<engine name=\"povry\"/>",
-       "unknown engine 'povry'; allowed: povray, blender; did you mean "
+       "unknown engine 'povry'; allowed: povray, blender, analytic; did you mean "
        "'povray'?"},
       {"<film width=\"0\" height=\"9\"/>", "width '0'; allowed: whole numbers from 1 to 32768"},
       {"<film width=\"32768\" height=\"32768\"/>", "pixels; allowed: "},

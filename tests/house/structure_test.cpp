@@ -32,7 +32,7 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"compare", {"core"}},
     {"verify", {"core", "renderer"}},
     {"shaders", {"core", "renderer"}},
-    {"reference_scenes", {"core", "renderer", "shaders"}},
+    {"reference_scenes", {"core", "renderer", "shaders", "verify"}},
     {"farm", {"core", "renderer", "compare", "reference_scenes"}},
     {"cost", {"core", "renderer", "compare"}},
     {"gallery", {"core"}},

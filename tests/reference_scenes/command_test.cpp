@@ -75,6 +75,15 @@ TEST_F(ReferenceCommand, KeepsWhatTheEngineIsGiven) {
     EXPECT_TRUE(fs::exists(kept / file)) << file;
 }
 
+TEST_F(ReferenceCommand, FormulasPerPixelNeedNoProgramAndTakeNone) {
+  EXPECT_EQ(run({"--engine", "analytic", "--program", "/bin/true", "-o", "a.exr"}).exit_code, 2);
+  EXPECT_THAT(files(), IsEmpty());
+  ASSERT_EQ(run({"--engine", "analytic", "-o", "picture.exr"}).exit_code, 0);
+  const Json record = read_record(directory_.path() / "picture.json", "reference");
+  EXPECT_EQ(record.at("witness"), "analytic");
+  EXPECT_EQ(record.at("engineCommands").size(), 0u);
+}
+
 class RealReferenceCommand : public ReferenceCommand,
                              public testing::WithParamInterface<std::string> {
  protected:

@@ -249,9 +249,10 @@ TEST(EngineCatalogue, FindsByNameAndSuggests) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kUsage);
-    EXPECT_STREQ(error.what(),
-                 "no reference engine 'blander'; there are: povray, blender; did you mean "
-                 "'blender'?");
+    EXPECT_STREQ(
+        error.what(),
+        "no reference engine 'blander'; there are: povray, blender, analytic; did you mean "
+        "'blender'?");
   }
 }
 

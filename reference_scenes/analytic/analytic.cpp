@@ -1,0 +1,99 @@
+#include "reference_scenes/analytic/analytic.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/interrupt.hpp"
+#include "core/threads.hpp"
+#include "core/version.hpp"
+#include "reference_scenes/engine_program.hpp"
+#include "renderer/scene/scene_io.hpp"
+#include "verify/truth/evaluation.hpp"
+
+namespace lobelia {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Image to_image(const std::vector<Rgb>& radiance, const Film& film) {
+  Image image(film.width, film.height);
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    float* const pixel = image.values().data() + 3 * i;
+    pixel[0] = float(radiance[i].r);
+    pixel[1] = float(radiance[i].g);
+    pixel[2] = float(radiance[i].b);
+  }
+  return image;
+}
+
+class Analytic final : public Engine {
+ public:
+  const EngineInfo& info() const override { return kAnalyticInfo; }
+  const EngineStatus& status() override { return status_; }
+
+ protected:
+  std::string why_not_simple(const Scene& scene) const override {
+    return truth::why_not_evaluated(scene);
+  }
+  void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
+                     const OnResult& on_result) override {
+    ThreadLimit limit(options.threads);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      ReferenceResult result;
+      limit.run([&] { result = render_one(scenes[i], options); });
+      throw_if_interrupted();
+      on_result(i, std::move(result));
+    }
+  }
+
+ private:
+  ReferenceResult render_one(const Scene& scene, const ReferenceOptions& options) const {
+    ReferenceResult result;
+    result.record = reference_record(kAnalyticInfo, status_, scene);
+    const auto began = Clock::now();
+    const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - began); };
+    std::atomic<bool> too_late = false;
+    const auto picture =
+        truth::evaluate(scene, options.fine ? truth::Digits::kFifty : truth::Digits::kDouble, [&] {
+          if (elapsed() > options.time_limit) too_late = true;
+          return too_late || interrupted();
+        });
+    if (too_late) {
+      result.error = fmt::format("{} was stopped after {:.6g} s, the time limit of a picture",
+                                 kAnalyticInfo.title, options.time_limit.count());
+      return result;
+    }
+    result.image = to_image(picture, scene.film);
+    result.record["witness"] = "analytic";
+    result.record["method"] = fmt::format(
+        "textbook formulas in {}, one ray per pixel centre, none of the renderer's kernels",
+        options.fine ? "50 digits" : "double precision");
+    result.record["passes"] = 1;
+    result.record["engineCommands"] = Json::array();
+    result.record["seconds"] = {{"total", elapsed().count()}};
+    return result;
+  }
+
+  const EngineStatus status_{true, {}, kVersion, {}};
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_analytic(const std::filesystem::path& program) {
+  if (!program.empty())
+    throw Error(ExitCode::kUsage,
+                "the engine 'analytic' is part of lobelia; there is no program to name");
+  return std::make_unique<Analytic>();
+}
+
+void keep_analytic_input(const Scene& scene, const std::filesystem::path& directory) {
+  write_file(directory / "scene.xml", scene_to_xml(scene));
+  write_file(directory / "analytic.sh",
+             "lobelia reference scene.xml --engine analytic -o analytic.exr\n");
+}
+
+}  // namespace lobelia
