@@ -8,10 +8,11 @@ namespace lobelia::cli {
 
 void EnginePrograms::add_to(CLI::App& command) {
   for (const EngineInfo& engine : engine_infos())
-    command
-        .add_option(fmt::format("--{}", engine.name), typed_[std::string(engine.name)],
-                    fmt::format("Program to use for {}, if not the one in $PATH", engine.title))
-        ->type_name("PATH");
+    if (engine.is_program)
+      command
+          .add_option(fmt::format("--{}", engine.name), typed_[std::string(engine.name)],
+                      fmt::format("Program to use for {}, if not the one in $PATH", engine.title))
+          ->type_name("PATH");
 }
 
 std::map<std::string, std::filesystem::path> EnginePrograms::given() const {

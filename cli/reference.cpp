@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "cli/between.hpp"
+#include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
 #include "cli/output_path.hpp"
@@ -26,13 +29,37 @@ struct Options {
   double time_limit = 600;
   int points = ReferenceOptions{}.points;
   std::uint64_t point_seed = 0;
+  std::string precision, witness{kWitnessNames[0]}, standard_error;
   bool quiet = false;
   EnginePrograms programs;
   SceneOverrides overrides;
 };
 
-ReferenceOptions reference_options(const Options& options) {
+bool is_fine(const EngineInfo& engine, const std::string& precision) {
+  std::vector<std::string_view> names{engine.plain};
+  if (!engine.fine.empty()) names.push_back(engine.fine);
+  if (precision.empty()) return false;
+  return chosen(precision, fmt::format("--precision of {}", engine.name), names, join(names),
+                [&](const std::string& name) -> std::optional<bool> {
+                  if (name == engine.plain) return false;
+                  return name == engine.fine && !name.empty() ? std::optional(true) : std::nullopt;
+                });
+}
+
+Witness witness_of(const std::string& typed) {
+  const std::span<const std::string_view> names(kWitnessNames);
+  return chosen(typed, "--witness", names, join(names),
+                [&](const std::string& name) -> std::optional<Witness> {
+                  const auto found = std::ranges::find(names, name);
+                  if (found == names.end()) return std::nullopt;
+                  return Witness(found - names.begin());
+                });
+}
+
+ReferenceOptions reference_options(const EngineInfo& engine, const Options& options) {
   ReferenceOptions reference;
+  reference.fine = is_fine(engine, options.precision);
+  reference.witness = witness_of(options.witness);
   reference.threads = options.threads;
   reference.time_limit = std::chrono::duration<double>(options.time_limit);
   reference.log_directory = options.log_directory;
@@ -41,34 +68,42 @@ ReferenceOptions reference_options(const Options& options) {
   return reference;
 }
 
-ReferenceResult render_one(Engine& engine, const Scene& scene, const Options& options) {
+ReferenceResult render_one(Engine& engine, const Scene& scene, const ReferenceOptions& options) {
   ReferenceResult result;
-  engine.render(std::span(&scene, 1), reference_options(options),
+  engine.render(std::span(&scene, 1), options,
                 [&](std::size_t, ReferenceResult done) { result = std::move(done); });
   return result;
 }
 
 void run(const Options& options) {
   const auto engine = make_engine(options.engine, options.programs.of(options.engine));
+  const ReferenceOptions reference = reference_options(engine->info(), options);
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
-  if (const std::string why = engine->why_not(scene); !why.empty())
+  if (const std::string why = engine->why_not(scene, reference); !why.empty())
     throw Error(ExitCode::kInput,
                 fmt::format("{}: not comparable, because {}", options.scene, why));
   warn_of(scene);
   const auto record_path = checked_record_path(options.output);
   if (!options.log_directory.empty()) make_directories(options.log_directory);
   if (!options.keep_input.empty())
-    keep_engine_input(options.engine, scene, reference_options(options), options.keep_input);
+    keep_engine_input(options.engine, scene, reference, options.keep_input);
 
   const EngineInfo& engine_info = engine->info();
   ProgressLine progress(!options.quiet);
   progress.show(0, fmt::format("{} at work", engine_info.title));
-  ReferenceResult result = render_one(*engine, scene, options);
+  ReferenceResult result = render_one(*engine, scene, reference);
   progress.clear();
   if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
 
   write_exr(options.output, result.image, reference_metadata(scene, result.record));
+  if (!options.standard_error.empty()) {
+    // Of a picture that is no average there is no error to know.
+    const Image none(result.image.width(), result.image.height());
+    write_exr(options.standard_error,
+              result.standard_error.pixel_count() > 0 ? result.standard_error : none,
+              reference_metadata(scene, result.record));
+  }
   const std::filesystem::path output(options.output);
   Json& record = result.record;
   record["command"] = command_line();
@@ -123,6 +158,20 @@ void add_reference(CLI::App& app, ExitCode&) {
           "Points of each light with a size, of the lens and of the pixel; a multiple of 16")
       ->check(between(kReplicates, 1 << 20))
       ->capture_default_str();
+  command->add_option(
+      "--precision", options->precision,
+      "Number format of the engine: half or float (povray), float (blender), double or "
+      "fifty_digits (analytic); the first if not given");
+  command
+      ->add_option("--witness", options->witness,
+                   "Whose highlights: the engine's own (native), formulas in the engine's language "
+                   "(expressed), or what is usual (any)")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--standard-error", options->standard_error,
+          "Picture of the error of each value where lights with a size, lens or pixel are averaged")
+      ->type_name("ERROR.exr");
   command->add_option("--point-seed", options->point_seed, "Chooses those points")
       ->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")

@@ -90,9 +90,10 @@ ReferenceResult average(const Scene& scene, Request& request, const ReferenceOpt
 
 }  // namespace
 
-std::string Engine::why_not(const Scene& scene) const {
+std::string Engine::why_not(const Scene& scene, const ReferenceOptions& options) const {
   if (std::string why = why_not_comparable(scene); !why.empty()) return why;
-  return why_not_simple(scene);
+  if (!needs_replicates(scene)) return why_not_simple(scene, options);
+  return why_not_simple(replicates(scene, 1, 1, options.seed)[0][0].scene, options);
 }
 
 void Engine::render(std::span<const Scene> scenes, const ReferenceOptions& options,
@@ -105,7 +106,7 @@ void Engine::render(std::span<const Scene> scenes, const ReferenceOptions& optio
   std::vector<Scene> simple;
   std::vector<Place> places;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    if (std::string why = why_not(scenes[i]); !why.empty()) {
+    if (std::string why = why_not(scenes[i], options); !why.empty()) {
       on_result(i, {{}, {}, why, reference_record(info(), status(), scenes[i])});
       continue;
     }

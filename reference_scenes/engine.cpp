@@ -57,7 +57,7 @@ std::unique_ptr<Engine> make_engine(std::string_view name, const std::filesystem
 void keep_engine_input(std::string_view engine, const Scene& scene, const ReferenceOptions& options,
                        const std::filesystem::path& directory) {
   const CatalogueEntry& found = entry(engine);
-  if (const std::string why = found.make({})->why_not(scene); !why.empty())
+  if (const std::string why = found.make({})->why_not(scene, options); !why.empty())
     throw Error(ExitCode::kInput, why);
   make_directories(directory);
   if (!needs_replicates(scene)) return found.keep_input(scene, directory);

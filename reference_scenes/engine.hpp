@@ -25,7 +25,14 @@ struct EngineInfo {
   std::string_view witness;    ///< which models it shades itself, and which are expressed in it
   std::string_view precision;  ///< of its pictures
   std::string_view effects;    ///< that scenes for it may have
+  std::string_view plain,
+      fine = {};           ///< names of its number formats; `fine` empty: it has one only
+  bool is_program = true;  ///< to be looked for
 };
+
+/// Whose shading of a highlight it is: the engine's own, or our formula in the engine's language.
+enum class Witness { kAny, kNative, kExpressed };
+inline constexpr std::string_view kWitnessNames[] = {"any", "native", "expressed"};
 
 struct EngineStatus {
   bool available = false;
@@ -42,7 +49,8 @@ struct ReferenceOptions {
   /// of kReplicates.
   int points = 256;
   std::uint64_t seed = 0;  ///< of those points
-  bool fine = false;  ///< the engine's finer arithmetic or number format, where it has one
+  bool fine = false;       ///< in the finer of the engine's number formats, if it has two
+  Witness witness = Witness::kAny;
 };
 
 /// Independent estimates, whose scatter tells the error of their mean.
@@ -53,8 +61,9 @@ struct ReferenceResult {
   Image image;
   Image standard_error;  ///< of the image where it is an average (replicates.hpp); otherwise empty
   std::string error;     ///< empty on success
-  Json record;  ///< kind "reference": engine, version, witness (native, expressed or analytic), command
-                ///< lines, passes, seconds
+  Json
+      record;  ///< kind "reference": engine, version, witness (native, expressed or analytic), command
+               ///< lines, passes, seconds
 };
 
 class Engine {
@@ -64,7 +73,7 @@ class Engine {
   /// Looks for the program and asks its version; slow the first time, remembered afterwards.
   virtual const EngineStatus& status() = 0;
   /// Why this engine cannot show a scene, as a sentence; empty if it can.
-  std::string why_not(const Scene& scene) const;
+  std::string why_not(const Scene& scene, const ReferenceOptions& options) const;
 
   using OnResult = std::function<void(std::size_t, ReferenceResult)>;
   /// Renders every scene, in any order; calls `on_result(index, result)` for each, never two at once.
@@ -77,7 +86,7 @@ class Engine {
  protected:
   /// The same of scenes of which a single ray through each pixel's centre tells all, under lamps without
   /// a size.
-  virtual std::string why_not_simple(const Scene& scene) const = 0;
+  virtual std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const = 0;
   /// The same of such scenes, each once, several at a time if the engine likes.
   virtual void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
                              const OnResult& on_result) = 0;

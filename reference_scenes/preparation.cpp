@@ -41,6 +41,10 @@ std::string why_not_comparable(const Scene& scene) {
     return fmt::format(
         "the scene has {} spheres; of more than {} no edges can be told, and nothing be compared",
         scene.spheres.size(), kMaxSpheresByRay);
+  return {};
+}
+
+std::string why_not_for_programs(const Scene& scene) {
   for (const Sphere& sphere : scene.spheres)
     if (inside(scene.camera.origin, sphere))
       return "the camera is inside a sphere, where engines disagree on which side is outside";

@@ -16,6 +16,9 @@ bool has_mirror(const Scene& scene);
 /// reasons of their own (Engine::why_not).
 std::string why_not_comparable(const Scene& scene);
 
+/// Why none of the engines that are programs can, though formulas may.
+std::string why_not_for_programs(const Scene& scene);
+
 /// The same picture in the engines' units: the first sphere's centre is the origin and the smallest
 /// radius lies in [1, 2); a scene without lights has a black one. The factor is a power of two, so
 /// a scene that is there already keeps its numbers, bit for bit.

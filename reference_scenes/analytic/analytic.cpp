@@ -36,7 +36,7 @@ class Analytic final : public Engine {
   const EngineStatus& status() override { return status_; }
 
  protected:
-  std::string why_not_simple(const Scene& scene) const override {
+  std::string why_not_simple(const Scene& scene, const ReferenceOptions&) const override {
     return truth::why_not_evaluated(scene);
   }
   void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,

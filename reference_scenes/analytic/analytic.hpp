@@ -19,6 +19,9 @@ inline constexpr EngineInfo kAnalyticInfo{
     .effects =
         "spheres, planes and checkers, directional and point lights, shadows, mirrors; as averages: lights "
         "with a size, the sky, depth of field, antialiasing",
+    .plain = "double",
+    .fine = "fifty_digits",
+    .is_program = false,
 };
 
 /// Throws Error(kUsage) if a program is named: there is none.

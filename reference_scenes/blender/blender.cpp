@@ -220,7 +220,9 @@ class Blender final : public Engine {
   }
 
  protected:
-  std::string why_not_simple(const Scene&) const override { return {}; }
+  std::string why_not_simple(const Scene& scene, const ReferenceOptions&) const override {
+    return why_not_for_programs(scene);
+  }
   void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
                      const OnResult& on_result) override {
     BlenderRun(scenes, options, status_, on_result).run();

@@ -18,6 +18,7 @@ inline constexpr EngineInfo kBlenderInfo{
     .effects =
         "spheres, planes and checkers, directional and point lights, shadows, mirrors; as averages: lights "
         "with a size, the sky, depth of field, antialiasing",
+    .plain = "float",
 };
 
 std::unique_ptr<Engine> make_blender(const std::filesystem::path& program);

@@ -79,7 +79,9 @@ class Povray final : public Engine {
   }
 
  protected:
-  std::string why_not_simple(const Scene& scene) const override { return why_not_in_povray(scene); }
+  std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const override {
+    return why_not_in_povray(scene, options);
+  }
   void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
                      const OnResult& on_result) override;
 

@@ -20,6 +20,8 @@ inline constexpr EngineInfo kPovrayInfo{
     .effects =
         "spheres, planes and checkers, directional and point lights, shadows, mirrors where all is native; "
         "as averages: lights with a size, the sky, depth of field, antialiasing",
+    .plain = "half",
+    .fine = "float",
 };
 
 std::unique_ptr<Engine> make_povray(const std::filesystem::path& program);

@@ -146,7 +146,8 @@ PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const P
 
 }  // namespace
 
-std::string why_not_in_povray(const Scene& scene) {
+std::string why_not_in_povray(const Scene& scene, const ReferenceOptions&) {
+  if (std::string why = why_not_for_programs(scene); !why.empty()) return why;
   if (has_mirror(scene) && !std::ranges::all_of(materials_in_use(scene),
                                                 [](const Material* m) { return is_native(*m); }))
     return "a highlight that POV-Ray does not have itself is a function of the camera's place there, "

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/scene/scene.hpp"
+#include "reference_scenes/engine.hpp"
 
 namespace lobelia {
 
@@ -26,7 +26,7 @@ struct PovrayInput {
 
 /// Why POV-Ray cannot show this scene of single rays and lamps without a size, as a sentence; empty if
 /// it can.
-std::string why_not_in_povray(const Scene& scene);
+std::string why_not_in_povray(const Scene& scene, const ReferenceOptions& options);
 
 /// `scene` is in engine units (preparation.hpp).
 PovrayInput povray_input(const Scene& scene);

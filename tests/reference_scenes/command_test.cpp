@@ -51,10 +51,17 @@ TEST_F(ReferenceCommand, UnknownEngineIsExitCode2) {
   EXPECT_THAT(result.output_tail, HasSubstr("did you mean 'povray'?"));
 }
 
-TEST_F(ReferenceCommand, SamplesAreExitCode3) {
-  const auto result = run({"--engine", "povray", "--samples", "4", "-o", "picture.exr"});
+TEST_F(ReferenceCommand, WhatTheEngineCannotShowIsExitCode3) {
+  const auto result = run({"--engine", "blender", "--precision", "float", "--witness", "native",
+                           "-o", "picture.exr", "--model", "modified_phong"});
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.output_tail, HasSubstr("one ray per pixel centre"));
+  EXPECT_THAT(result.output_tail, HasSubstr("not comparable, because"));
+}
+
+TEST_F(ReferenceCommand, APrecisionThatTheEngineDoesNotHaveIsExitCode2) {
+  const auto result = run({"--engine", "povray", "--precision", "double", "-o", "picture.exr"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.output_tail, HasSubstr("allowed: half, float"));
 }
 
 TEST_F(ReferenceCommand, UnwritableOutputIsExitCode4) {

@@ -193,10 +193,11 @@ TEST(NotComparable, SaysWhy) {
   EXPECT_EQ(why_not_comparable(scene), "");
   Scene inside = scene;
   inside.camera.origin = {0, 0, 0.5};
-  EXPECT_THAT(why_not_comparable(inside), HasSubstr("inside a sphere"));
+  EXPECT_THAT(why_not_for_programs(inside), HasSubstr("inside a sphere"));
   Scene wide = scene;
   wide.spheres.push_back({{1e9, 0, 0}, 1, 0});
-  EXPECT_THAT(why_not_comparable(wide), HasSubstr("precision"));
+  EXPECT_THAT(why_not_for_programs(wide), HasSubstr("precision"));
+  EXPECT_EQ(make_engine("analytic", {})->why_not(wide, {}), "") << "formulas know no size";
 }
 
 TEST(NotComparable, IsWhatNoEngineHas) {
@@ -228,10 +229,10 @@ TEST(NotComparable, IsAMirrorThatShowsAPatternOfTheCamerasPlace) {
   for (const HighlightChoice& choice : {kExpressed, kNative}) {
     Scene scene = mirror_scene(choice, {point_light()}, 16);
     const bool native = choice.model == kNative.model;
-    EXPECT_EQ(povray->why_not(scene).empty(), native);
-    EXPECT_EQ(blender->why_not(scene), "");
+    EXPECT_EQ(povray->why_not(scene, {}).empty(), native);
+    EXPECT_EQ(blender->why_not(scene, {}), "");
     scene.depth.mirror = 0;
-    EXPECT_EQ(povray->why_not(scene), "") << "nothing is followed by it";
+    EXPECT_EQ(povray->why_not(scene, {}), "") << "nothing is followed by it";
   }
 }
 

@@ -10,7 +10,7 @@ namespace lobelia {
 class OurselvesAsAnEngine final : public Engine {
  public:
   const EngineInfo& info() const override {
-    static constexpr EngineInfo kInfo{"lobelia", "Lobelia", "", "", "", "", ""};
+    static constexpr EngineInfo kInfo{"lobelia", "Lobelia", "", "", "", "", "", "float"};
     return kInfo;
   }
   const EngineStatus& status() override {
@@ -19,7 +19,7 @@ class OurselvesAsAnEngine final : public Engine {
   }
 
  protected:
-  std::string why_not_simple(const Scene&) const override { return {}; }
+  std::string why_not_simple(const Scene&, const ReferenceOptions&) const override { return {}; }
   void render_simple(std::span<const Scene> scenes, const ReferenceOptions&,
                      const OnResult& on_result) override {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
