@@ -33,7 +33,9 @@ void print_engine(const EngineInfo& engine, const EngineStatus& status) {
   const auto row = [](std::string_view what, std::string_view text) {
     fmt::print("  {:<12}{}\n", what, text);
   };
-  if (status.available) {
+  if (!engine.is_program) {
+    row("found", fmt::format("part of lobelia {}", status.version));
+  } else if (status.available) {
     row("found", printable(status.program.string(), 400));
     row("version",
         fmt::format("{} (what can be driven is {})", status.version, engine.supported_versions));

@@ -19,7 +19,8 @@ namespace {
 struct CatalogueEntry {
   EngineInfo info;
   std::unique_ptr<Engine> (*make)(const std::filesystem::path& program);
-  void (*keep_input)(const Scene& scene, const std::filesystem::path& directory);
+  void (*keep_input)(const Scene& scene, const ReferenceOptions& options,
+                     const std::filesystem::path& directory);
 };
 
 /// An engine is one line here.
@@ -60,13 +61,13 @@ void keep_engine_input(std::string_view engine, const Scene& scene, const Refere
   if (const std::string why = found.make({})->why_not(scene, options); !why.empty())
     throw Error(ExitCode::kInput, why);
   make_directories(directory);
-  if (!needs_replicates(scene)) return found.keep_input(scene, directory);
+  if (!needs_replicates(scene)) return found.keep_input(scene, options, directory);
   const auto all = replicates(scene, kReplicates, options.points / kReplicates, options.seed);
   for (std::size_t r = 0; r < all.size(); ++r)
     for (std::size_t p = 0; p < all[r].size(); ++p) {
       const auto part = directory / fmt::format("set{}-{}", r, p);
       make_directories(part);
-      found.keep_input(all[r][p].scene, part);
+      found.keep_input(all[r][p].scene, options, part);
     }
 }
 

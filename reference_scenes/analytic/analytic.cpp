@@ -90,10 +90,13 @@ std::unique_ptr<Engine> make_analytic(const std::filesystem::path& program) {
   return std::make_unique<Analytic>();
 }
 
-void keep_analytic_input(const Scene& scene, const std::filesystem::path& directory) {
+void keep_analytic_input(const Scene& scene, const ReferenceOptions& options,
+                         const std::filesystem::path& directory) {
   write_file(directory / "scene.xml", scene_to_xml(scene));
-  write_file(directory / "analytic.sh",
-             "lobelia reference scene.xml --engine analytic -o analytic.exr\n");
+  write_file(
+      directory / "analytic.sh",
+      fmt::format("lobelia reference scene.xml --engine analytic --precision {} -o analytic.exr\n",
+                  options.fine ? kAnalyticInfo.fine : kAnalyticInfo.plain));
 }
 
 }  // namespace lobelia

@@ -28,6 +28,7 @@ inline constexpr EngineInfo kAnalyticInfo{
 std::unique_ptr<Engine> make_analytic(const std::filesystem::path& program);
 
 /// Writes the scene and the command that evaluates it into `directory`, which exists.
-void keep_analytic_input(const Scene& scene, const std::filesystem::path& directory);
+void keep_analytic_input(const Scene& scene, const ReferenceOptions& options,
+                         const std::filesystem::path& directory);
 
 }  // namespace lobelia

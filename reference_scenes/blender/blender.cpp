@@ -88,12 +88,13 @@ class BlenderRun {
   }
 
  private:
+  bool native() const { return options_.witness == Witness::kNative; }
   std::string name_of(std::size_t index) const { return fmt::format("scene{}", index); }
 
   /// Puts the scene in line, or says at once why not.
   void accept(std::size_t index) {
     try {
-      inputs_[index] = blender_input(in_engine_units(scenes_[index]), name_of(index));
+      inputs_[index] = blender_input(in_engine_units(scenes_[index]), name_of(index), native());
       waiting_.push_back(index);
     } catch (const Error& refused) {
       on_result_(index,
@@ -171,9 +172,13 @@ class BlenderRun {
       return;
     }
     result.record = reference_record(kBlenderInfo, status_, scenes_[index]);
-    result.record["witness"] = "expressed";
+    result.record["witness"] = native() ? "native" : "expressed";
     result.record["method"] =
-        "shader nodes as the colour of a surface under a real lamp, one pass per light and reflection";
+        native()
+            ? "Cycles' Ashikhmin-Shirley closure, its geometry term taken out by its colour, under a "
+              "real lamp, one pass per light and reflection"
+            : "shader nodes as the colour of a surface under a real lamp, one pass per light and "
+              "reflection";
     result.record["passes"] = passes;
     result.record["engineCommands"] = Json::array({command_});
     result.record["writesLimited"] = writes_limited_;
@@ -220,7 +225,10 @@ class Blender final : public Engine {
   }
 
  protected:
-  std::string why_not_simple(const Scene& scene, const ReferenceOptions&) const override {
+  std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const override {
+    if (options.witness == Witness::kNative && !is_native_in_blender(scene))
+      return "Cycles has highlights of its own only with the distribution of Ashikhmin and Shirley: cos^n "
+             "of the half-vector angle, here on spheres";
     return why_not_for_programs(scene);
   }
   void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
@@ -240,9 +248,11 @@ std::unique_ptr<Engine> make_blender(const fs::path& program) {
   return std::make_unique<Blender>(program);
 }
 
-void keep_blender_input(const Scene& scene, const fs::path& directory) {
+void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
+                        const fs::path& directory) {
   Json job = job_json({});
-  job["scenes"].push_back(blender_input(in_engine_units(scene), "scene0"));
+  job["scenes"].push_back(
+      blender_input(in_engine_units(scene), "scene0", options.witness == Witness::kNative));
   write_file(directory / kScriptFile, embedded::render_scenes_py);
   write_file(directory / kJobFile, job.dump(2) + "\n");
   write_file(directory / "blender.sh", shell_join(blender_arguments("blender", "")) + "\n");

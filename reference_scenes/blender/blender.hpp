@@ -13,7 +13,9 @@ inline constexpr EngineInfo kBlenderInfo{
     .title = "Blender Cycles",
     .install_hint = "sudo apt-get install blender",
     .supported_versions = "3.4 to 4.x",
-    .witness = "native: none; expressed: all, in shader nodes",
+    .witness =
+        "expressed: all, in shader nodes; native (if asked for): half-vector models with cos^n, by the "
+        "Ashikhmin-Shirley closure",
     .precision = "float32 throughout: 2.0e-5 of the peak, measured",
     .effects =
         "spheres, planes and checkers, directional and point lights, shadows, mirrors; as averages: lights "
@@ -24,6 +26,7 @@ inline constexpr EngineInfo kBlenderInfo{
 std::unique_ptr<Engine> make_blender(const std::filesystem::path& program);
 
 /// Writes what Blender is given for `scene` into `directory`, which exists.
-void keep_blender_input(const Scene& scene, const std::filesystem::path& directory);
+void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
+                        const std::filesystem::path& directory);
 
 }  // namespace lobelia

@@ -74,7 +74,16 @@ Json passes_json(const Scene& scene) {
 
 }  // namespace
 
-Json blender_input(const Scene& scene, const std::string& name) {
+bool is_native_in_blender(const Scene& scene) {
+  if (!scene.planes.empty()) return false;
+  return std::ranges::all_of(scene.spheres, [&](const Sphere& sphere) {
+    const Material& material = scene.materials.at(std::size_t(sphere.material));
+    const Highlight& h = material.highlight;
+    return info(h.model).angle == LobeAngle::kHalfVector && info(h.lobe).name == "cosine";
+  });
+}
+
+Json blender_input(const Scene& scene, const std::string& name, bool native) {
   if (std::min(scene.film.width, scene.film.height) < kSmallestSide)
     throw Error(ExitCode::kEngine,
                 fmt::format("Blender renders no picture below {0} x {0} pixels", kSmallestSide));
@@ -101,6 +110,7 @@ Json blender_input(const Scene& scene, const std::string& name) {
           {"materials", materials},
           {"spheres", spheres},
           {"planes", planes},
+          {"native", native},
           {"passes", passes_json(scene)}};
 }
 

@@ -9,8 +9,11 @@
 
 namespace lobelia {
 
-/// One entry of the job's "scenes". `scene` is in engine units (preparation.hpp); `name` is ours.
-/// Throws Error(kEngine) for what Blender cannot render.
-Json blender_input(const Scene& scene, const std::string& name);
+/// Whether Cycles' own closure has all highlights.
+bool is_native_in_blender(const Scene& scene);
+
+/// One entry of the job's "scenes". `scene` is in engine units (preparation.hpp); `name` is ours; `native` is
+/// for scenes of which is_native_in_blender. Throws Error(kEngine) for what Blender cannot render.
+Json blender_input(const Scene& scene, const std::string& name, bool native = false);
 
 }  // namespace lobelia

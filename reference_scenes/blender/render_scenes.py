@@ -14,9 +14,9 @@ job.json (numbers and enumerations only):
        "spheres": [{"center": [..], "radius": 1, "material": 0}],
        "planes": [{"point": [..], "u": [..], "v": [..],
                    "material": 0, "checkerMaterial": 0, "checkerSize": 1}],
-       "passes": [{"light": 0, "mirrors": 0}]}]}
+       "native": false, "passes": [{"light": 0, "mirrors": 0}]}]}
 
-Each pass is a picture of its own, NAME-PASS.exr (float32, beside job.json): what comes from one light
+Native highlights are Cycles' own closure, others are nodes. Each pass is a picture of its own, NAME-PASS.exr (float32, beside job.json): what comes from one light
 by so many mirrors. Whoever asked for them adds them up, in more digits than a renderer would. What
 happens is told in lines
 
@@ -298,19 +298,49 @@ class Surface(Nodes):
         return self.vector("ADD", self.vector("SCALE", specular, scale=weight),
                            tuple(material["diffuse"]))
 
+    def closure(self, material):
+        """The highlight by Cycles' own closure of Ashikhmin and Shirley, whose distribution is cos^n
+        of the half-vector angle. Under a unit sun it shows
+            (n + 1)/(8 pi) (N.H)^n N.L / ((H.V) max(N.L, N.V)):
+        its colour takes out that geometry term, and puts in what the model has."""
+        model, n = material["model"], material["exponent"]
+        if model not in HALF_VECTOR_MODELS or material["lobe"] != "cosine":
+            raise KeyError(model + " " + material["lobe"])
+        glossy = self.new("ShaderNodeBsdfGlossy")
+        glossy.distribution = "ASHIKHMIN_SHIRLEY"
+        glossy.inputs["Roughness"].default_value = (2/(n + 2))**0.25
+        n_dot_l = self.vector("DOT_PRODUCT", self.normal, self.to_light)
+        n_dot_v = self.vector("DOT_PRODUCT", self.normal, self.to_eye)
+        both = self.vector("LENGTH", self.vector("ADD", self.to_light, self.to_eye))
+        h_dot_v = self.math("MULTIPLY", 0.5, both)
+        weight = self.math("MULTIPLY", h_dot_v, self.math("MAXIMUM", n_dot_l, n_dot_v))
+        if model in RDF_MODELS:
+            weight = self.math("DIVIDE", weight, self.math("MAXIMUM", n_dot_l, 1e-7))
+        weight = self.math("MULTIPLY", coefficient_of(material)*8*math.pi/(n + 1), weight)
+        color = self.fresnel(material["fresnel"], material["specular"], h_dot_v)
+        if self.falloff is not None:
+            weight = self.math("MULTIPLY", weight, self.falloff)
+        self.feed(glossy.inputs["Color"], self.vector("SCALE", color, scale=weight))
+        return glossy.outputs[0]
+
     def mirror(self, material):
         if not any(material["mirror"]):
             return self.constant((0, 0, 0))
         cosine = self.vector("DOT_PRODUCT", self.normal, self.to_eye)
         return self.fresnel(material["fresnel"], material["mirror"], cosine)
 
-    def finish(self, color, mirror, mirrors):
+    def finish(self, color, mirror, mirrors, closure=None):
         """The base as seen by so many mirrors: before, a surface is a mirror and nothing else."""
         if self.falloff is not None:
             color = self.vector("SCALE", color, scale=self.falloff)
         base = self.new("ShaderNodeBsdfDiffuse")
         self.feed(base.inputs["Color"], color)
         shader = base.outputs[0]
+        if closure is not None:
+            both = self.new("ShaderNodeAddShader")
+            self.feed(both.inputs[0], shader)
+            self.feed(both.inputs[1], closure)
+            shader = both.outputs[0]
         if mirrors > 0:
             glossy = self.new("ShaderNodeBsdfGlossy")
             if "SHARP" in glossy.bl_rna.properties["distribution"].enum_items:
@@ -331,6 +361,9 @@ class Surface(Nodes):
 def sphere_material(job, sphere, light, lamp, mirrors):
     surface = Surface(light, lamp)
     material = job["materials"][sphere["material"]]
+    if job["native"]:
+        return surface.finish(surface.constant(material["diffuse"]), surface.mirror(material), mirrors,
+                              surface.closure(material))
     return surface.finish(surface.highlight(material), surface.mirror(material), mirrors)
 
 

@@ -34,7 +34,8 @@ constexpr EngineProbe kProbe{"povray", "POV-Ray ", [](int major, int minor) {
 
 struct PassResult {
   Image image;
-  std::string error, command;
+  std::string error;
+  std::vector<std::string> commands;
   bool writes_limited = false;
   double seconds = 0;
 };
@@ -55,6 +56,9 @@ struct WorkItem {
 std::string pass_stem(std::size_t scene, std::size_t pass) {
   return fmt::format("scene{}-pass{}", scene, pass);
 }
+
+/// Of the pass that shows what this one's picture rounds off.
+std::string rest_of(const std::string& stem) { return stem + "-rest"; }
 
 Image read_pass(const fs::path& file, const Film& film, double gain) {
   Image image = read_image(file);
@@ -88,6 +92,8 @@ class Povray final : public Engine {
  private:
   PassResult run_pass(const std::string& stem, const Job& job, const PovrayPass& pass,
                       const ReferenceOptions& options) const;
+  PassResult run_pov(const std::string& stem, const Job& job, const PovrayPass& pass,
+                     const ReferenceOptions& options) const;
   std::string joined_logs(std::size_t index, const std::vector<PassResult>& passes) const;
 
   fs::path wanted_program_, directory_;
@@ -96,10 +102,9 @@ class Povray final : public Engine {
   bool probed_ = false;
 };
 
-PassResult Povray::run_pass(const std::string& stem, const Job& job, const PovrayPass& pass,
-                            const ReferenceOptions& options) const {
+PassResult Povray::run_pov(const std::string& stem, const Job& job, const PovrayPass& pass,
+                           const ReferenceOptions& options) const {
   PassResult result;
-  write_file(directory_ / (stem + ".pov"), pass.scene);
   write_povray_ini(directory_, stem, pass.gain, job.options);
   const std::vector<std::string> arguments{status_.program.string(), stem + ".ini"};
   ProcessOptions process;
@@ -111,7 +116,7 @@ PassResult Povray::run_pass(const std::string& stem, const Job& job, const Povra
   process.log = directory_ / (stem + ".log");
   const ProcessResult ended = run_process(arguments, process);
   if (ended.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
-  result.command = shell_join(arguments);
+  result.commands.push_back(shell_join(arguments));
   result.seconds = ended.seconds;
   const fs::path picture = directory_ / (stem + ".exr");
   if (ended.exit_code != 0 || ended.timed_out) {
@@ -125,22 +130,48 @@ PassResult Povray::run_pass(const std::string& stem, const Job& job, const Povra
       result.error = fmt::format("POV-Ray's picture cannot be used: {}", error.what());
     }
   }
+  return result;
+}
+
+/// The pass, and where it was asked for a second one that shows what half floats left out of the first.
+PassResult Povray::run_pass(const std::string& stem, const Job& job, const PovrayPass& pass,
+                            const ReferenceOptions& options) const {
+  const std::string coarse = stem + ".exr", rest = rest_of(stem);
+  write_file(directory_ / (stem + ".pov"), pass.scene());
+  PassResult result = run_pov(stem, job, pass, options);
+  if (options.fine && result.error.empty()) {
+    write_file(directory_ / (rest + ".pov"), pass.rest(coarse));
+    const PassResult left = run_pov(rest, job, pass, options);
+    result.error = left.error;
+    result.commands.push_back(left.commands.front());
+    result.seconds += left.seconds;
+    result.writes_limited = result.writes_limited && left.writes_limited;
+    if (left.error.empty())
+      for (std::size_t i = 0; i < result.image.values().size(); ++i)
+        result.image.values()[i] += 2 * left.image.values()[i];
+  }
   std::error_code ignored;
-  fs::remove(picture, ignored);  // of many large pictures only those at work lie on the disk
+  for (const std::string& picture : {coarse, rest + ".exr"})
+    fs::remove(directory_ / picture,
+               ignored);  // of many large ones only those at work lie on the disk
   return result;
 }
 
 std::string Povray::joined_logs(std::size_t index, const std::vector<PassResult>& passes) const {
   std::string text;
   for (std::size_t p = 0; p < passes.size(); ++p) {
-    const fs::path log = directory_ / (pass_stem(index, p) + ".log");
-    text += "$ " + passes[p].command + "\n";
-    if (fs::exists(log)) text += read_file(log, kMaxLogBytes);
+    std::string stem = pass_stem(index, p);
+    for (const std::string& command : passes[p].commands) {
+      const fs::path log = directory_ / (stem + ".log");
+      text += "$ " + command + "\n";
+      if (fs::exists(log)) text += read_file(log, kMaxLogBytes);
+      stem = rest_of(stem);
+    }
   }
   return text;
 }
 
-ReferenceResult finish(Job& job, Json record) {
+ReferenceResult finish(Job& job, bool fine, Json record) {
   ReferenceResult result;
   double seconds = 0;
   bool writes_limited = true;
@@ -150,12 +181,16 @@ ReferenceResult finish(Job& job, Json record) {
     if (result.error.empty()) result.error = pass.error;
     seconds += pass.seconds;
     writes_limited = writes_limited && pass.writes_limited;
-    commands.push_back(pass.command);
+    for (const std::string& command : pass.commands) commands.push_back(command);
     images.push_back(std::move(pass.image));
   }
   record["witness"] = job.input.native ? "native" : "expressed";
   record["method"] = job.input.native ? "POV-Ray's own highlight under its own lamps"
                                       : "pattern function under a real lamp, one pass per light";
+  if (fine)
+    record["method"] =
+        record["method"].get<std::string>() +
+        "; twice, the second time less the first picture, for what half floats round off";
   record["passes"] = job.passes.size();
   record["engineCommands"] = std::move(commands);
   record["engineOptions"] = job.options;
@@ -178,7 +213,7 @@ void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions
   std::map<std::string, std::string> includes;  // of all jobs: a name always has the same text
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     try {
-      jobs[i].input = povray_input(in_engine_units(scenes[i]));
+      jobs[i].input = povray_input(in_engine_units(scenes[i]), options);
     } catch (const Error& refused) {
       on_result(i, {{}, {}, refused.what(), reference_record(kPovrayInfo, status_, scenes[i])});
       continue;
@@ -217,7 +252,8 @@ void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions
         job.passes[pass] = std::move(result);
         if (--job.unfinished > 0 || stop) continue;
         write_engine_log(options, kPovrayInfo, index, joined_logs(index, job.passes));
-        on_result(index, finish(job, reference_record(kPovrayInfo, status_, scenes[index])));
+        on_result(index,
+                  finish(job, options.fine, reference_record(kPovrayInfo, status_, scenes[index])));
       }
     } catch (...) {
       const std::scoped_lock lock(mutex);
@@ -238,15 +274,23 @@ std::unique_ptr<Engine> make_povray(const fs::path& program) {
   return std::make_unique<Povray>(program);
 }
 
-void keep_povray_input(const Scene& scene, const fs::path& directory) {
-  const PovrayInput input = povray_input(in_engine_units(scene));
+void keep_povray_input(const Scene& scene, const ReferenceOptions& options,
+                       const fs::path& directory) {
+  const PovrayInput input = povray_input(in_engine_units(scene), options);
   for (const auto& [file, text] : input.includes) write_file(directory / file, text);
   std::string commands;
   for (std::size_t p = 0; p < input.passes.size(); ++p) {
     const std::string stem = fmt::format("pass{}", p);
-    write_file(directory / (stem + ".pov"), input.passes[p].scene);
-    write_povray_ini(directory, stem, input.passes[p].gain, povray_options(scene.film, 1));
-    commands += fmt::format("povray {}.ini\n", stem);
+    const auto keep = [&](const std::string& name, const std::string& text) {
+      write_file(directory / (name + ".pov"), text);
+      write_povray_ini(directory, name, input.passes[p].gain, povray_options(scene.film, 1));
+      commands += fmt::format("povray {}.ini\n", name);
+    };
+    keep(stem, input.passes[p].scene());
+    if (options.fine) {
+      commands += fmt::format("# Twice this one's picture is to be added to {}.exr.\n", stem);
+      keep(rest_of(stem), input.passes[p].rest(stem + ".exr"));
+    }
   }
   write_file(directory / "povray.sh", commands);
 }

@@ -16,7 +16,9 @@ inline constexpr EngineInfo kPovrayInfo{
     .witness =
         "native: Phong (RDF) and Blinn-Phong (RDF) with cos^n, grey and without Fresnel; "
         "expressed: all else, in its language",
-    .precision = "half float, which rounds by up to 4.9e-4 of the value",
+    .precision =
+        "half: rounds by up to 4.9e-4 of the value; float: by a second pass, which shows what the first "
+        "rounded off",
     .effects =
         "spheres, planes and checkers, directional and point lights, shadows, mirrors where all is native; "
         "as averages: lights with a size, the sky, depth of field, antialiasing",
@@ -27,6 +29,7 @@ inline constexpr EngineInfo kPovrayInfo{
 std::unique_ptr<Engine> make_povray(const std::filesystem::path& program);
 
 /// Writes what POV-Ray is given for `scene` into `directory`, which exists.
-void keep_povray_input(const Scene& scene, const std::filesystem::path& directory);
+void keep_povray_input(const Scene& scene, const ReferenceOptions& options,
+                       const std::filesystem::path& directory);
 
 }  // namespace lobelia

@@ -39,6 +39,11 @@ bool is_native(const Material& material) {
          is_grey(material.specular_reflectance);
 }
 
+/// Whether POV-Ray's own shading is used; `expressed` leaves it only what has no highlight at all.
+bool by_itself(const Material& material, bool expressed) {
+  return !has_highlight(material) || (!expressed && is_native(material));
+}
+
 std::string light_text(const Light& light, const Scene& scene) {
   if (const auto* point = std::get_if<PointLight>(&light)) {
     const double nearest = nearest_surface(*point, scene);
@@ -75,37 +80,40 @@ std::string expressed_texture(const Material& material) {
 }
 
 /// Declares a texture for the surface whose normal was declared last; returns its name.
-std::string declare_texture(PovrayPass& pass, const Material& material, int& count) {
+std::string declare_texture(std::string& scene, const Material& material, bool expressed,
+                            int& count) {
   const std::string name = fmt::format("Lobelia_Texture_{}", count++);
-  pass.scene +=
-      fmt::format("#declare {} = {}\n", name,
-                  is_native(material) ? native_texture(material) : expressed_texture(material));
+  scene += fmt::format(
+      "#declare {} = {}\n", name,
+      by_itself(material, expressed) ? native_texture(material) : expressed_texture(material));
   return name;
 }
 
-void add_surfaces(PovrayPass& pass, const Scene& scene) {
+std::string surfaces_text(const Scene& scene, bool expressed) {
+  std::string text;
   int textures = 0;
   const auto texture = [&](int material) {
-    return declare_texture(pass, scene.materials.at(std::size_t(material)), textures);
+    return declare_texture(text, scene.materials.at(std::size_t(material)), expressed, textures);
   };
   for (const Sphere& sphere : scene.spheres) {
     const std::string place = fmt::format("{}, {}", sdl(sphere.center), sdl(sphere.radius));
-    pass.scene += fmt::format("Lobelia_Sphere_Normal({})\n", place);
-    pass.scene += fmt::format("Lobelia_Sphere({}, {})\n", place, texture(sphere.material));
+    text += fmt::format("Lobelia_Sphere_Normal({})\n", place);
+    text += fmt::format("Lobelia_Sphere({}, {})\n", place, texture(sphere.material));
   }
   for (const Plane& plane : scene.planes) {
     const std::string place = fmt::format("{}, {}", sdl(plane.point), sdl(plane.normal));
-    pass.scene += fmt::format("Lobelia_Plane_Normal({})\n", place);
+    text += fmt::format("Lobelia_Plane_Normal({})\n", place);
     const std::string first = texture(plane.material);
     if (plane.checker_material == plane.material) {
-      pass.scene += fmt::format("Lobelia_Plane({}, {})\n", place, first);
+      text += fmt::format("Lobelia_Plane({}, {})\n", place, first);
       continue;
     }
     const std::string second = texture(plane.checker_material);
     const Tangents along = tangents(plane.normal);
-    pass.scene += fmt::format("Lobelia_Checker({}, {}, {}, {}, {}, {})\n", place, sdl(along.first),
-                              sdl(along.second), sdl(plane.checker_size), first, second);
+    text += fmt::format("Lobelia_Checker({}, {}, {}, {}, {}, {})\n", place, sdl(along.first),
+                        sdl(along.second), sdl(plane.checker_size), first, second);
   }
+  return text;
 }
 
 /// The materials of all surfaces.
@@ -122,53 +130,68 @@ std::vector<const Material*> materials_in_use(const Scene& scene) {
   return used;
 }
 
-PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const PovrayInput& input) {
+PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const PovrayInput& input,
+                   bool expressed) {
   PovrayPass pass;
   const double bound = peak_bound(scene, lights);
   if (bound > 0)
     pass.gain = std::exp2(std::clamp(std::floor(std::log2(kHighestHalf / bound)),
                                      -double(kMaxGainStops), double(kMaxGainStops)));
   // What is not said in the scene itself would be rounded to six digits by the command line.
-  pass.scene = "#version 3.7;\n";
+  pass.view = "#version 3.7;\n";
   for (const auto& include : input.includes)
-    pass.scene += fmt::format("#include \"{}\"\n", include.first);
-  pass.scene += fmt::format("Lobelia_Begin({}, {})\n", sdl(pass.gain),
-                            has_mirror(scene) ? scene.depth.mirror : 0);
+    pass.view += fmt::format("#include \"{}\"\n", include.first);
+  pass.view += fmt::format("Lobelia_Begin({}, {})\n", sdl(pass.gain),
+                           has_mirror(scene) ? scene.depth.mirror : 0);
   const Camera& camera = scene.camera;
-  pass.scene += fmt::format(
+  pass.view += fmt::format(
       "Lobelia_Camera({}, {}, {}, {}, {}/{}, {}, {})\n", sdl(camera.origin), sdl(camera.target),
       sdl(camera.up), sdl(camera.fov_degrees), scene.film.width, scene.film.height,
       sdl(camera.principal_point_offset_x), sdl(camera.principal_point_offset_y));
-  for (const Light& light : lights) pass.scene += light_text(light, scene);
-  add_surfaces(pass, scene);
+  for (const Light& light : lights) pass.surfaces += light_text(light, scene);
+  pass.surfaces += surfaces_text(scene, expressed);
   return pass;
+}
+
+bool all_by_itself(const Scene& scene, bool expressed) {
+  return std::ranges::all_of(materials_in_use(scene),
+                             [&](const Material* m) { return by_itself(*m, expressed); });
 }
 
 }  // namespace
 
-std::string why_not_in_povray(const Scene& scene, const ReferenceOptions&) {
+std::string PovrayPass::rest(const std::string& coarse) const {
+  return fmt::format("{}Lobelia_Take_Away(\"{}\")\n{}", view, coarse, surfaces);
+}
+
+std::string why_not_in_povray(const Scene& scene, const ReferenceOptions& options) {
   if (std::string why = why_not_for_programs(scene); !why.empty()) return why;
-  if (has_mirror(scene) && !std::ranges::all_of(materials_in_use(scene),
-                                                [](const Material* m) { return is_native(*m); }))
+  if (options.witness == Witness::kNative && !all_by_itself(scene, false))
+    return "POV-Ray has itself only the highlights of Phong (RDF) and Blinn-Phong (RDF) with cos^n, grey "
+           "and without Fresnel";
+  if (!has_mirror(scene)) return {};
+  if (options.fine)
+    return "what POV-Ray's half floats round off in a mirror it cannot take away again";
+  if (!all_by_itself(scene, options.witness == Witness::kExpressed))
     return "a highlight that POV-Ray does not have itself is a function of the camera's place there, "
            "and a mirror shows it from another";
   return {};
 }
 
-PovrayInput povray_input(const Scene& scene) {
+PovrayInput povray_input(const Scene& scene, const ReferenceOptions& options) {
+  const bool expressed = options.witness == Witness::kExpressed;
   PovrayInput input;
-  const auto used = materials_in_use(scene);
-  input.native = std::ranges::all_of(used, [](const Material* m) { return is_native(*m); });
+  input.native = all_by_itself(scene, expressed);
   input.includes["lobelia_scene.inc"] = embedded::lobelia_scene_inc;
-  if (input.native) {
-    input.passes.push_back(pass_of(scene, scene.lights, input));
-    return input;
-  }
-  for (const Material* material : used)
-    if (!is_native(*material))
+  for (const Material* material : materials_in_use(scene))
+    if (!by_itself(*material, expressed))
       input.includes[povray_names(material->highlight).file] =
           povray_text(std::span(&material->highlight, 1));
-  for (const Light& light : scene.lights) input.passes.push_back(pass_of(scene, {light}, input));
+  if (input.native)
+    input.passes.push_back(pass_of(scene, scene.lights, input, expressed));
+  else
+    for (const Light& light : scene.lights)
+      input.passes.push_back(pass_of(scene, {light}, input, expressed));
   return input;
 }
 

@@ -12,8 +12,12 @@
 namespace lobelia {
 
 struct PovrayPass {
-  std::string scene;  ///< the .pov file
-  double gain = 1;    ///< its picture is this many times too bright; a power of two
+  std::string view, surfaces;  ///< the .pov file, before and after the place for rest()
+  double gain = 1;             ///< its picture is this many times too bright; a power of two
+
+  std::string scene() const { return view + surfaces; }
+  /// A scene that shows half of what its picture, the file `coarse` beside it, has rounded off.
+  std::string rest(const std::string& coarse) const;
 };
 
 struct PovrayInput {
@@ -29,6 +33,6 @@ struct PovrayInput {
 std::string why_not_in_povray(const Scene& scene, const ReferenceOptions& options);
 
 /// `scene` is in engine units (preparation.hpp).
-PovrayInput povray_input(const Scene& scene);
+PovrayInput povray_input(const Scene& scene, const ReferenceOptions& options = {});
 
 }  // namespace lobelia

@@ -40,11 +40,14 @@ class Agreement : public testing::TestWithParam<std::string> {
   }
 
   void expect_agreement(const std::vector<NamedScene>& named, int outliers = kAllowedOutliers) {
+    expect_agreement(named, {}, tolerance_of(GetParam()), outliers);
+  }
+  void expect_agreement(const std::vector<NamedScene>& named, const ReferenceOptions& options,
+                        Tolerance tolerance, int outliers) {
     std::vector<Scene> scenes;
     for (const NamedScene& one : named) scenes.push_back(one.scene);
     std::size_t results = 0;
-    const Tolerance tolerance = tolerance_of(GetParam());
-    engine_->render(scenes, {}, [&](std::size_t index, ReferenceResult result) {
+    engine_->render(scenes, options, [&](std::size_t index, ReferenceResult result) {
       ++results;
       SCOPED_TRACE(named[index].name);
       ASSERT_EQ(result.error, "");
@@ -197,6 +200,47 @@ TEST_P(Agreement, OfTheCanonicalScenes) {
   }
   ASSERT_GE(scenes.size(), 6u);
   expect_agreement(scenes);
+}
+
+TEST_P(Agreement, OfTheOtherWitnessToTheSameModel) {
+  ReferenceOptions options;
+  std::vector<NamedScene> scenes;
+  const bool povray = GetParam() == "povray";
+  options.witness = povray ? Witness::kExpressed : Witness::kNative;
+  for (const ModelInfo& model : models())
+    for (const double exponent : {16.0, 1024.0}) {
+      Scene scene =
+          shadow_scene({model.name, "cosine", "exact", exponent}, {directional_at(45)}, 64);
+      scene.materials[1].highlight.model = scene.materials[0].highlight.model;
+      scenes.push_back({fmt::format("{} n={}", model.name, exponent), scene});
+    }
+  std::erase_if(scenes, [&](const NamedScene& named) {
+    const std::string why = engine_->why_not(named.scene, options);
+    EXPECT_EQ(why.empty(), povray || info(named.scene.materials[0].highlight.model).angle ==
+                                         LobeAngle::kHalfVector)
+        << named.name << ": " << why;
+    return !why.empty();
+  });
+  ASSERT_GE(scenes.size(), 8u);
+  // Cycles' closure raises a float32 cosine to the power.
+  expect_agreement(scenes, options, povray ? tolerance_of("povray") : Tolerance{0, 2e-4},
+                   kAllowedOutliers);
+}
+
+TEST_P(Agreement, OfTheFinerNumberFormat) {
+  ReferenceOptions options;
+  options.fine = true;
+  if (engine_->info().fine.empty()) GTEST_SKIP() << "it has one number format";
+  std::vector<NamedScene> scenes;
+  for (const ModelInfo& model : models()) {
+    scenes.push_back(
+        {std::string(model.name), shadow_scene({model.name, "cosine", "exact", 64},
+                                               {directional_at(45), point_light({2, 4, 8})}, 64)});
+    scenes.push_back({std::string(model.name) + " on the ground",
+                      ground_scene({model.name, "cs16", "exact", 64}, {directional_at(45)}, 64)});
+  }
+  // Ours is rounded to float32 too.
+  expect_agreement(scenes, options, {5e-7, 1e-7}, 3 + kCheckerOutliers);
 }
 
 TEST_P(Agreement, OfPlanesAndCheckersAndLampsThatShineWithACosine) {

@@ -43,7 +43,7 @@ TEST(EngineInput, IsNumbersAndOurOwnNamesWhateverTheMaterialIsCalled) {
         R"((#declare Lobelia_Texture_[0-9]+ = )?)"
         R"(Lobelia_[A-Za-z_]+\(([-+0-9.e<>, /]|Lobelia_[A-Za-z0-9_]+(\([-+0-9.e]+\))?)*\))");
     for (const PovrayPass& pass : povray_input(scene).passes)
-      for (const std::string& line : split(pass.scene, "\n"))
+      for (const std::string& line : split(pass.scene(), "\n"))
         EXPECT_TRUE(std::regex_match(line, allowed)) << line;
     const std::string job = blender_input(scene, "scene0").dump();
     EXPECT_THAT(job, Not(HasSubstr("passwd")));
@@ -74,6 +74,7 @@ TEST(EngineInput, HasNoWordOfASceneFileNorOfItsName) {
     const Scene scene = read_scene(file);
     ASSERT_EQ(scene.materials[0].id, word);
     for (const EngineInfo& engine : engine_infos()) {
+      if (!engine.is_program) continue;
       const TemporaryDirectory kept;
       keep_engine_input(engine.name, scene, {}, kept.path());
       std::size_t files = 0;
@@ -93,7 +94,7 @@ TEST(EngineInput, HasEveryNumberInFull) {
   Scene scene = sphere_scene(kExpressed, {PointLight{{2, third, 3}, {tenths, 1, third}}}, 64);
   scene.camera.origin = {tenths, third, 5};
   scene.materials[0].highlight.exponent = 100 * third;
-  const std::string pov = povray_input(scene).passes.at(0).scene;
+  const std::string pov = povray_input(scene).passes.at(0).scene();
   const std::string job = blender_input(scene, "scene0").dump();
   for (const double value : {third, tenths, 100 * third}) {
     EXPECT_THAT(pov, HasSubstr(exact_text(value)));
