@@ -10,8 +10,8 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/text.hpp"
-#include "renderer/edge_map.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "verify/truth/evaluation.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -68,7 +68,7 @@ ExitCode run(Options options) {
     options.comparison.limits.push_back(parse_limit(text));
   if (!options.tolerance.empty()) options.comparison.tolerance = parse_tolerance(options.tolerance);
   if (!options.scene.empty())
-    options.comparison.tolerance->edges = edge_map(read_scene(options.scene));
+    options.comparison.tolerance->edges = truth::edge_ring(read_scene(options.scene));
   check_options(options.comparison);
   const bool json_to_file = !options.json.empty() && options.json != "-";
   if (json_to_file) require_writable(options.json);

@@ -9,7 +9,7 @@
 
 namespace lobelia {
 
-/// For an engine of reference_scenes, and the edge_map of the scene. Pixels beyond it count as outliers; up to three are allowed, on
+/// For an engine of reference_scenes, and the edge_ring of the scene. Pixels beyond it count as outliers; up to three are allowed, on
 /// the edges of the scene only, because a silhouette or a terminator may fall on the other side of a
 /// pixel's centre.
 ///

@@ -74,6 +74,7 @@ class Farm {
         progress_(options, cells_.size() * (2 + grid.engines.size())) {
     for (const auto& cell : cells_) stores_.emplace_back(directory, cell);
     problems_.resize(cells_.size());
+    not_comparable_.resize(cells_.size());
     status_.assign(cells_.size(), "missing");
   }
 
@@ -180,11 +181,20 @@ class Farm {
         continue;
       }
       std::vector<std::size_t>& todo = todos[e];
-      for (const std::size_t i : unfinished)
-        if (options_.again || !stores_[i].has_current_image(engines_[e].name, "reference",
-                                                            stores_[i].inputs(engines_[e].version)))
+      std::size_t refused = 0;
+      for (const std::size_t i : unfinished) {
+        if (const std::string why = engines_[e].engine->why_not(cells_[i].scene, {});
+            !why.empty()) {
+          not_comparable_[i].push_back({engines_[e].name, why});
+          ++refused;
+        } else if (options_.again ||
+                   !stores_[i].has_current_image(engines_[e].name, "reference",
+                                                 stores_[i].inputs(engines_[e].version))) {
           todo.push_back(i);
-      kept_pictures(unfinished.size() - todo.size());
+        }
+      }
+      progress_.skip(refused);
+      kept_pictures(unfinished.size() - todo.size() - refused);
       progress_.expect(engines_[e].name, todo.size());
     }
     {
@@ -207,6 +217,7 @@ class Farm {
   void render_with(EngineHere& here, const std::vector<std::size_t>& todo) {
     std::vector<Scene> scenes;
     for (const std::size_t i : todo) scenes.push_back(cells_[i].scene);
+    if (scenes.empty()) return;
     ReferenceOptions options;
     options.threads = options_.threads;
     options.time_limit = options_.time_limit;
@@ -251,7 +262,8 @@ class Farm {
             stores_[i].has_current_image(here.name, "reference", stores_[i].inputs(here.version)))
           references.push_back(here.name);
       try {
-        status_[i] = finish_cell(stores_[i], references, problems_[i], cell_inputs(i));
+        status_[i] =
+            finish_cell(stores_[i], references, not_comparable_[i], problems_[i], cell_inputs(i));
       } catch (const Error& error) {
         // A disk that is full ends the farm; whatever is wrong with this cell is its own result.
         if (error.code() == ExitCode::kOutput) throw;
@@ -349,8 +361,9 @@ class Farm {
   const FarmOptions& options_;
   const std::vector<Cell> cells_;
   std::vector<CellStore> stores_;
-  std::vector<std::vector<CellProblem>> problems_;  ///< by cell
-  std::vector<std::string> status_;                 ///< by cell
+  std::vector<std::vector<CellProblem>> not_comparable_;  ///< by cell
+  std::vector<std::vector<CellProblem>> problems_;        ///< by cell
+  std::vector<std::string> status_;                       ///< by cell
   std::vector<EngineHere> engines_;
   ProgressCounter progress_;
   std::mutex mutex_;

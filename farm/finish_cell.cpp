@@ -6,9 +6,9 @@
 #include "core/image_io.hpp"
 #include "farm/agreement.hpp"
 #include "farm/profile_scene.hpp"
-#include "renderer/edge_map.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render_record.hpp"
+#include "verify/truth/evaluation.hpp"
 
 namespace lobelia {
 namespace {
@@ -56,7 +56,8 @@ std::pair<Json, Verdict> compare_with(const CellStore& store, const std::string&
 }  // namespace
 
 std::string finish_cell(const CellStore& store, const std::vector<std::string>& references,
-                        std::vector<CellProblem>& problems, const Json& inputs) {
+                        std::vector<CellProblem> not_comparable, std::vector<CellProblem>& problems,
+                        const Json& inputs) {
   const Cell& cell = store.cell();
   std::vector<std::pair<std::string, Image>> pictures;
   pictures.emplace_back(kOurs, read_or_discard(store, kOurs));
@@ -69,14 +70,23 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   }
   const Image& ours = pictures.front().second;
   const double exposure = cell_exposure(ours);
-  // Only a comparison asks for it, and engines are compared only where it can be made.
-  const auto edges = pictures.size() > 1 ? edge_map(cell.scene) : std::vector<std::uint8_t>();
+  // A tolerance for each pixel is one of pictures without noise.
+  const bool judged = truth::why_not_evaluated(cell.scene).empty();
+  if (!judged)
+    for (const auto& engine : references)
+      not_comparable.push_back(
+          {engine,
+           "its picture is an average with noise, and no tolerance of single pixels judges that"});
+  const auto edges =
+      judged && pictures.size() > 1 ? truth::edge_ring(cell.scene) : std::vector<std::uint8_t>();
 
   Json record = make_record("cell");
   record["id"] = cell.id;
   record["axes"] = Json::object();
   for (const auto& [name, value] : cell.axes) record["axes"][name] = value;
-  std::string status = !problems.empty() ? "failed" : pictures.size() > 1 ? "pass" : "unchecked";
+  std::string status = !problems.empty()               ? "failed"
+                       : judged && pictures.size() > 1 ? "pass"
+                                                       : "unchecked";
   record["status"] = status;  // keeps its place near the top
   if (!cell.scene.spheres.empty())
     record["highlight"] = highlight_record(
@@ -87,7 +97,7 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   for (const auto& [engine, image] : pictures) {
     write_png(store.file(engine + ".png"), to_display(image, exposure));
     record["images"].push_back(image_entry(engine));
-    if (engine == kOurs) continue;
+    if (engine == kOurs || !judged) continue;
     const auto [entry, verdict] = compare_with(store, engine, ours, image, exposure, edges);
     record["comparisons"].push_back(entry);
     if (verdict != Verdict::kPass && status == "pass") status = "differs";
@@ -101,6 +111,9 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
     write_record(store.file("profile.json"), profile_scene(cell.scene, 0, 0, named));
     record["profile"] = "profile.json";
   }
+  record["notComparable"] = Json::array();
+  for (const auto& one : not_comparable)
+    record["notComparable"].push_back({{"engine", one.engine}, {"because", one.message}});
   record["problems"] = Json::array();
   for (const auto& problem : problems)
     record["problems"].push_back({{"engine", problem.engine}, {"message", problem.message}});

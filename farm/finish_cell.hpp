@@ -16,9 +16,11 @@ struct CellProblem {
 
 /// Compares our picture with each of `references` (engines whose pictures are there) and writes
 /// cell.json. Returns the cell's status: "pass", "differs", "failed" (if there are problems) or
-/// "unchecked" (no reference). A reference that cannot be read is a problem, added to `problems`;
+/// "unchecked" (nothing to compare with). `not_comparable` is of engines that cannot show the scene; those
+/// whose pictures have noise are added to it. A reference that cannot be read is a problem, added to `problems`;
 /// throws Error(kInput) if ours cannot. What cannot be read is discarded, to be made again.
 std::string finish_cell(const CellStore& store, const std::vector<std::string>& references,
-                        std::vector<CellProblem>& problems, const Json& inputs);
+                        std::vector<CellProblem> not_comparable, std::vector<CellProblem>& problems,
+                        const Json& inputs);
 
 }  // namespace lobelia

@@ -135,6 +135,9 @@ void read_cell_record(const fs::path& directory, const Json& record, CellData& c
   for (const Fields& problem : fields.objects("problems")) {
     cell.problems.push_back({problem.text("engine"), problem.text("message")});
   }
+  for (const Fields& one : fields.objects("notComparable")) {
+    cell.not_comparable.push_back({one.text("engine"), one.text("because")});
+  }
   for (const Fields& image : fields.objects("images")) {
     cell.images.push_back(read_image(directory, image));
   }

@@ -76,6 +76,7 @@ struct CellData {
   std::vector<CellComparison> comparisons;
   ProfileData profile;
   std::vector<CellProblem> problems;
+  std::vector<CellProblem> not_comparable;  ///< the message says because of what
   bool has_scene = false;
 
   const CellImage* find_image(const std::string& engine) const;

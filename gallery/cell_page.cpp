@@ -87,6 +87,11 @@ void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
     if (!problem.engine.empty()) html.element("strong", farm.engine_title(problem.engine) + ": ");
     html.text(problem.message);
   }
+  for (const CellProblem& one : cell.not_comparable) {
+    const Tag line(html, "p");
+    html.element("strong", farm.engine_title(one.engine) + ": ");
+    html.text("not comparable, because " + one.message + ".");
+  }
   if (cell.status == CellStatus::kMissing && !farm.command.empty()) {
     html.element("p", "The same command takes the farm up again where it stopped:");
     write_command(html, farm.command);

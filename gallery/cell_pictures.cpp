@@ -43,6 +43,9 @@ std::string why_no_picture(const EngineEntry& engine, const CellData& cell) {
   for (const CellProblem& problem : cell.problems) {
     if (problem.engine == engine.name) return engine.title + " made no picture: " + problem.message;
   }
+  for (const CellProblem& one : cell.not_comparable) {
+    if (one.engine == engine.name) return "Not comparable, because " + one.message + ".";
+  }
   if (const CellImage* image = cell.find_image(engine.name)) return image->png.why_not;
   return engine.title + " has not made this picture.";
 }

@@ -34,6 +34,9 @@ std::vector<std::string> reasons_of(const FarmData& farm, const CellData& cell) 
     const std::string who = problem.engine.empty() ? "" : farm.engine_title(problem.engine) + ": ";
     reasons.push_back(who + problem.message);
   }
+  for (const CellProblem& one : cell.not_comparable) {
+    reasons.push_back(farm.engine_title(one.engine) + ": not comparable, because " + one.message);
+  }
   for (const CellComparison& comparison : cell.comparisons) {
     const std::string pair = farm.engine_title(comparison.b) + " · ";
     if (!comparison.problem.empty()) reasons.push_back(pair + comparison.problem);

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"
@@ -20,6 +22,9 @@ struct Request {
   std::size_t unfinished = 0;
   bool average = false;
 };
+
+/// Of one scene, from many parts; the rest says the same again.
+constexpr std::size_t kMostLog = 1 << 20;
 
 struct Place {
   std::size_t request, replicate, part;
@@ -126,9 +131,22 @@ void Engine::render(std::span<const Scene> scenes, const ReferenceOptions& optio
       }
     }
   }
-  render_simple(simple, options, [&](std::size_t index, ReferenceResult part) {
+  // An engine numbers what it is asked for; whoever asked knows other numbers.
+  const TemporaryDirectory logs;
+  ReferenceOptions for_parts = options;
+  if (!options.log_directory.empty()) for_parts.log_directory = logs.path();
+  std::map<std::size_t, std::string> texts;
+  render_simple(simple, for_parts, [&](std::size_t index, ReferenceResult part) {
     const auto [i, r, p] = places[index];
     Request& request = requests[i];
+    if (!options.log_directory.empty()) {
+      std::string& text = texts[i];
+      if (text.size() < kMostLog) text += read_engine_log(for_parts, info(), index);
+      if (request.unfinished == 1) {
+        write_engine_log(options, info(), i, text);
+        texts.erase(i);
+      }
+    }
     request.parts[r][p] = std::move(part);
     if (--request.unfinished > 0) return;
     on_result(

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include <cctype>
 
 #include "core/error.hpp"
@@ -119,10 +121,25 @@ std::string describe_failure(const EngineInfo& engine, const ProcessResult& resu
   return fmt::format("{} {}{}{}", engine.title, how, words.empty() ? "" : ": ", words);
 }
 
+namespace {
+std::filesystem::path log_file(const ReferenceOptions& options, const EngineInfo& engine,
+                               std::size_t index) {
+  return options.log_directory / fmt::format("{}-{}.log", engine.name, index);
+}
+}  // namespace
+
 void write_engine_log(const ReferenceOptions& options, const EngineInfo& engine, std::size_t index,
                       const std::string& text) {
-  if (!options.log_directory.empty())
-    write_file(options.log_directory / fmt::format("{}-{}.log", engine.name, index), text);
+  if (!options.log_directory.empty()) write_file(log_file(options, engine, index), text);
+}
+
+std::string read_engine_log(const ReferenceOptions& options, const EngineInfo& engine,
+                            std::size_t index) {
+  const std::filesystem::path file = log_file(options, engine, index);
+  if (!std::filesystem::exists(file)) return {};
+  std::string text = read_file(file, std::numeric_limits<std::uint32_t>::max());
+  std::filesystem::remove(file);
+  return text;
 }
 
 Json reference_record(const EngineInfo& engine, const EngineStatus& status, const Scene& scene) {

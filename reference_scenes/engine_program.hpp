@@ -41,6 +41,10 @@ std::string describe_failure(const EngineInfo& engine, const ProcessResult& resu
 void write_engine_log(const ReferenceOptions& options, const EngineInfo& engine, std::size_t index,
                       const std::string& text);
 
+/// What write_engine_log wrote, and takes it away; empty if nothing.
+std::string read_engine_log(const ReferenceOptions& options, const EngineInfo& engine,
+                            std::size_t index);
+
 /// The record of kind "reference", as far as both engines fill it alike.
 Json reference_record(const EngineInfo& engine, const EngineStatus& status, const Scene& scene);
 

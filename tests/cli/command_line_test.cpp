@@ -75,7 +75,7 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
       {{"compare", "a.exr", "b.exr", "--tolerance", "1,1,1", "--scene",
         kScenes + "effects/area_light.xml"},
        3,
-       "this one has more: an area light, a ground plane"},
+       "this scene has a light with a size"},
       {{"profile", text_exr, "--scene", scene}, 3, "text.exr"},
       {{"reference", scene, "--engine", "maya", "-o", "a.exr"}, 2, "maya"},
       {{"reference", scene, "--engine", "povray", "--povray", "/no/such", "-o", "a.exr"},

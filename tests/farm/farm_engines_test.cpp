@@ -5,8 +5,8 @@
 #include "farm/agreement.hpp"
 #include "farm_fixture.hpp"
 #include "reference_scenes/engine.hpp"
-#include "renderer/edge_map.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
+#include "verify/truth/evaluation.hpp"
 
 namespace lobelia {
 namespace {
@@ -50,7 +50,7 @@ TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
   }
   for (const char* engine : {"povray", "blender"}) {
     ComparisonOptions options;
-    options.tolerance = agreement(engine, edge_map(scene));
+    options.tolerance = agreement(engine, truth::edge_ring(scene));
     const Image reference = read_image(in_cell("n16", std::string(engine) + ".exr"));
     const Comparison comparison = compare(broken, reference, options);
     EXPECT_EQ(comparison.value("outliers"), 3) << engine;

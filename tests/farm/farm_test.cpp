@@ -51,6 +51,30 @@ TEST_F(FarmTest, HoldsEveryCellToTheFormulasPerPixelWithoutAnyProgram) {
   EXPECT_EQ(read_record(in_cell("n16", "analytic.json"), "reference")["witness"], "analytic");
 }
 
+TEST_F(FarmTest, SaysWhyAnEngineCannotShowACellAndJudgesNoAverageByItsPixels) {
+  const auto effects = fs::path(LOBELIA_SOURCE_DIR) / "reference_scenes" / "scenes" / "effects";
+  const auto file = directory_.path() / "effects.xml";
+  write_file(file,
+             fmt::format("<grid version=\"1\" title=\"Effects\">"
+                         "<scene file=\"{0}/mirrors.xml\"/><film width=\"16\" height=\"16\"/>"
+                         "<axis name=\"light\" values=\"{0}/mirrors.xml, {0}/area_light.xml\"/>"
+                         "<engine name=\"analytic\"/></grid>",
+                         effects.string()));
+  const FarmSummary summary = run_farm(read_grid(file), out(), {});
+  EXPECT_EQ(summary.problems, std::vector<std::string>());
+  EXPECT_EQ(summary.pass, 0u);
+  EXPECT_EQ(summary.unchecked, 2u);
+  const Json sized = cell_record("area_light"), mirrors = cell_record("mirrors");
+  ASSERT_EQ(sized["notComparable"].size(), 1u);
+  EXPECT_EQ(sized["notComparable"][0]["engine"], "analytic");
+  EXPECT_THAT(sized["notComparable"][0]["because"].get<std::string>(),
+              testing::HasSubstr("lamps cannot be seen"));
+  ASSERT_EQ(mirrors["notComparable"].size(), 1u);
+  EXPECT_THAT(mirrors["notComparable"][0]["because"].get<std::string>(),
+              testing::HasSubstr("an average with noise"));
+  EXPECT_EQ(mirrors["images"].size(), 2u) << "it is shown all the same";
+}
+
 TEST_F(FarmTest, ACellsSceneRendersToTheCellsPicture) {
   run_farm(grid("16"), out(), {});
   const int status = std::system(fmt::format("cd '{}' && '{}' render scene.xml -q -o again.exr",

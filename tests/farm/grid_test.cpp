@@ -36,7 +36,7 @@ TEST(SphereGrid, HasEveryModelNormalisationExponentAndLight) {
   std::set<std::string> ids;
   for (const auto& cell : cells) ids.insert(cell.id);
   EXPECT_EQ(ids.size(), cells.size());
-  EXPECT_EQ(grid.engines, (std::vector<std::string>{"povray", "blender"}));
+  EXPECT_EQ(grid.engines, (std::vector<std::string>{"analytic", "povray", "blender"}));
 }
 
 TEST(Grid, HasNoSceneThatIsLitByAPicture) {

@@ -33,7 +33,7 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"verify", {"core", "renderer"}},
     {"shaders", {"core", "renderer"}},
     {"reference_scenes", {"core", "renderer", "shaders", "verify"}},
-    {"farm", {"core", "renderer", "compare", "reference_scenes"}},
+    {"farm", {"core", "renderer", "compare", "verify", "reference_scenes"}},
     {"cost", {"core", "renderer", "compare"}},
     {"gallery", {"core"}},
     {"cli",

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "renderer/edge_map.hpp"
+#include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
 #include "verify/stability/sphere_scenes.hpp"
 
@@ -306,15 +306,33 @@ TEST(EdgeRing, HasTheSilhouetteThatAMirrorShowsAsFarAsMirrorsAreFollowed) {
   EXPECT_GT(ring_size(scene), 8);
 }
 
-TEST(EdgeRing, IsTheRenderersEdgeMapWhereThereAreSpheresAlone) {
-  const Scene scene = shadow_scene(kPhong, {directional_at(30), point_light()}, 64);
-  const auto ring = truth::edge_ring(scene), map = edge_map(scene);
-  ASSERT_EQ(ring.size(), map.size());
-  EXPECT_GT(std::count(map.begin(), map.end(), 1), 100);
-  // But for the frame of the picture, beyond which the map does not look.
-  for (int y = 1; y < scene.film.height - 1; ++y)
-    for (int x = 1; x < scene.film.width - 1; ++x)
-      EXPECT_EQ(ring[std::size_t(y) * 64 + x], map[std::size_t(y) * 64 + x]) << x << ", " << y;
+Scene canonical(const std::string& name) {
+  Scene scene =
+      read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
+  scene.film = {128, 128};
+  return scene;
+}
+
+TEST(EdgeRing, OfASphereLitFromTheCameraIsOneAboutItsSilhouette) {
+  const auto edges = truth::edge_ring(canonical("head_on"));
+  // Radius of the silhouette: tan(asin(1/5)) / tan(14 degrees) of half the picture.
+  const double radius = 64 * 0.204124 / 0.249328;
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) {
+      const double r = std::hypot(x - 63.5, y - 63.5);
+      if (std::abs(r - radius) > 2.5) {
+        EXPECT_EQ(edges[std::size_t(128 * y + x)], 0) << x << " " << y;
+      }
+    }
+  EXPECT_GT(std::count(edges.begin(), edges.end(), 1), int(2 * 3.14 * radius));
+}
+
+TEST(EdgeRing, GrowsByTerminatorAndByShadowEdge) {
+  EXPECT_GT(ring_size(canonical("grazing_80")), ring_size(canonical("head_on")));
+  Scene scene = canonical("two_spheres");
+  const auto with = ring_size(scene);
+  scene.spheres[1].center = {3, 3, -20};  // still in view, no longer in the way of the light
+  EXPECT_LT(ring_size(scene), with);
 }
 
 TEST(Evaluation, RefusesWhatItDoesNotKnowInWords) {
