@@ -30,7 +30,7 @@ struct Tolerance {
   double of_peak = 0;   ///< share of the reference's brightest value
   std::int64_t allowed_outliers = 0;
   /// By pixel, 1 where an outlier may lie (silhouettes, terminators, shadow edges: see edge_ring in
-  /// renderer/); none may lie elsewhere. Empty: they may lie anywhere.
+  /// verify/); none may lie elsewhere. Empty: they may lie anywhere.
   std::vector<std::uint8_t> edges = {};
 };
 
