@@ -85,6 +85,7 @@ void run(const Options& options) {
                 fmt::format("{}: not comparable, because {}", options.scene, why));
   warn_of(scene);
   const auto record_path = checked_record_path(options.output);
+  if (!options.standard_error.empty()) require_writable(options.standard_error);
   if (!options.log_directory.empty()) make_directories(options.log_directory);
   if (!options.keep_input.empty())
     keep_engine_input(options.engine, scene, reference, options.keep_input);
@@ -173,6 +174,7 @@ void add_reference(CLI::App& app, ExitCode&) {
           "Picture of the error of each value where lights with a size, lens or pixel are averaged")
       ->type_name("ERROR.exr");
   command->add_option("--point-seed", options->point_seed, "Chooses those points")
+      ->check(between(0, 1 << 30))
       ->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")
       ->check(between(0, 1024))
