@@ -20,7 +20,8 @@ std::size_t in_large_pages(std::size_t bytes) {
 }  // namespace
 
 void* allocate_zeroed(std::size_t bytes) {
-  if (bytes < kLarge || bytes > SIZE_MAX - 2 * kLargePage) {
+  if (bytes > SIZE_MAX - 2 * kLargePage) throw std::bad_alloc();
+  if (bytes < kLarge) {
     void* memory = std::calloc(bytes, 1);
     if (!memory) throw std::bad_alloc();
     return memory;
