@@ -31,14 +31,14 @@ struct Place {
 };
 
 /// The weighted mean of a replicate's pictures, and the lights themselves.
-std::vector<double> estimate(const Scene& scene, const Replicate& replicate,
+std::vector<double> estimate(const SizedLights& lights, const Replicate& replicate,
                              const std::vector<ReferenceResult>& parts) {
   std::vector<double> sum(parts.front().image.values().size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const double weight = replicate[p].weight / double(parts.size());
-    const Image lights = emitted(scene, replicate[p].scene);
+    const Image seen = lights.seen_in(replicate[p].scene);
     for (std::size_t i = 0; i < sum.size(); ++i)
-      sum[i] += weight * (double(parts[p].image.values()[i]) + double(lights.values()[i]));
+      sum[i] += weight * (double(parts[p].image.values()[i]) + double(seen.values()[i]));
   }
   return sum;
 }
@@ -59,9 +59,10 @@ ReferenceResult average(const Scene& scene, Request& request, const ReferenceOpt
     }
   result.record = request.parts.front().front().record;
   if (!result.error.empty()) return result;
+  const SizedLights lights(scene);
   std::vector<double> sum, squares;
   for (std::size_t r = 0; r < request.parts.size(); ++r) {
-    const auto values = estimate(scene, request.replicates[r], request.parts[r]);
+    const auto values = estimate(lights, request.replicates[r], request.parts[r]);
     sum.resize(values.size());
     squares.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {

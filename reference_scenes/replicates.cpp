@@ -184,21 +184,24 @@ double distance_to_light(const Light& light, Vec3 origin, Vec3 direction) {
 
 }  // namespace
 
-Image emitted(const Scene& scene, const Scene& simple) {
-  const CameraFrame frame = camera_frame(simple.camera, simple.film);
-  const auto skies = environments(scene);
+SizedLights::SizedLights(const Scene& scene) : lights_(scene.lights), skies_(environments(scene)) {}
+SizedLights::~SizedLights() = default;
+
+Image SizedLights::seen_in(const Scene& simple) const {
   Image image(simple.film.width, simple.film.height);
+  if (std::all_of(lights_.begin(), lights_.end(), is_delta)) return image;
+  const CameraFrame frame = camera_frame(simple.camera, simple.film);
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) {
       const Vec3 direction = normalize(centre_ray(frame, x, y));
       const double surface = distance_to_surface(simple, frame.origin, direction);
       Rgb sum;
-      for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-        const Light& light = scene.lights[l];
-        if (is_delta(light)) continue;
-        if (skies[l] ? std::isinf(surface)
-                     : distance_to_light(light, frame.origin, direction) < surface)
-          sum = sum + (skies[l] ? skies[l]->radiance(direction) : strength(light));
+      for (std::size_t l = 0; l < lights_.size(); ++l) {
+        const Environment* sky = skies_[l].get();
+        if (is_delta(lights_[l])) continue;
+        if (sky ? std::isinf(surface)
+                : distance_to_light(lights_[l], frame.origin, direction) < surface)
+          sum = sum + (sky ? sky->radiance(direction) : strength(lights_[l]));
       }
       const auto pixel = image.pixel(x, y);
       pixel[0] = float(sum.r);

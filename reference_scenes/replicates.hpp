@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/image.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
+
+class Environment;
 
 /// Whether a single ray through each pixel's centre under lamps without a size does not tell it all.
 bool needs_replicates(const Scene& scene);
@@ -25,11 +28,21 @@ using Replicate = std::vector<SimpleScene>;
 /// `count` independent estimates. In each, `points` points are spread over every light, the lens and the
 /// filter by Sobol's sequence, scrambled for each replicate anew (renderer/sobol.hpp). Where only lights
 /// vary, one scene has all points as its lamps. The lights themselves, as the camera sees them, are not in
-/// it: see emitted().
+/// it: see SizedLights.
 std::vector<Replicate> replicates(const Scene& scene, int count, int points, std::uint64_t seed);
 
-/// What the camera sees of lights with a size in the scene's view, one ray through each pixel's centre,
-/// behind no surface: engines' lamps cannot be seen. `simple` says from where, `scene` which lights.
-Image emitted(const Scene& scene, const Scene& simple);
+/// The lights of a scene that have a size, as its camera sees them: engines' lamps cannot be seen.
+class SizedLights {
+ public:
+  explicit SizedLights(const Scene& scene);
+  ~SizedLights();
+
+  /// In the view of one of the scene's simple ones, one ray through each pixel's centre, behind no surface.
+  Image seen_in(const Scene& simple) const;
+
+ private:
+  std::vector<Light> lights_;
+  std::vector<std::unique_ptr<Environment>> skies_;  ///< by light; null for others
+};
 
 }  // namespace lobelia
