@@ -60,13 +60,14 @@ double integrate(const ModelRow& model, LobeId lobe, double exponent) {
   // cos^n of a small n rises steeply from the right angle: the last piece from there, with points that
   // crowd at its end.
   thread_local boost::math::quadrature::tanh_sinh<Big> corner;
-  const auto from_right_angle = [&](const Big& y) {
-    const Big right_angle = boost::math::constants::half_pi<Big>();
+  // In parts of the piece: over less than 1, Boost's least step underflows.
+  const Big piece = ends.back() - ends[ends.size() - 2];
+  const auto from_right_angle = [&](const Big& part) {
+    const Big right_angle = boost::math::constants::half_pi<Big>(), y = piece * part;
     const Big c = sin(y);
     return integrand(c, cos(y), model.lobe_of_half_angle ? Big(cos((right_angle - y) / 2)) : c);
   };
-  sum +=
-      corner.integrate(from_right_angle, Big(0), ends.back() - ends[ends.size() - 2], Big(1e-22));
+  sum += piece * corner.integrate(from_right_angle, Big(0), Big(1), Big(1e-22));
   return normalised(sum);
 }
 
