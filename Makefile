@@ -39,8 +39,8 @@ sanitize: ## runs the suite in the presets asan and tsan, without engines and br
 	$(setup) build
 	cmake --preset asan
 	cmake --build --preset asan --parallel "$(JOBS)"
-	# Up to three times: the leak sanitizer itself crashes ("Tracer caught signal 11") now and then, where a
-	# thread of oneTBB ends while it looks. What it finds it finds each time.
+# Up to three times: the leak sanitizer itself crashes ("Tracer caught signal 11") now and then, where a
+# thread of oneTBB ends while it looks. What it finds it finds each time.
 	ctest --preset asan --parallel "$(JOBS)" --label-exclude 'engines|browser' --repeat until-pass:3
 	cmake --preset tsan
 	cmake --build --preset tsan --parallel "$(JOBS)" --target threaded_tests
