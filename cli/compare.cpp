@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "cli/between.hpp"
@@ -24,9 +25,10 @@ struct Options {
 };
 
 MetricLimit parse_limit(const std::string& text) {
-  const std::size_t equals = text.find('=');
+  // The last one: an id may have one of its own, as relmse.eps=0.01 has.
+  const std::size_t equals = text.rfind('=');
   MetricLimit limit{text.substr(0, equals), 0};
-  if (equals == std::string::npos || !parse_number(text.substr(equals + 1), limit.maximum))
+  if (equals == std::string::npos || !parse_number(text.substr(equals + 1), limit.limit))
     throw Error(
         ExitCode::kUsage,
         fmt::format("--fail {}: expected METRIC=LIMIT, for example rmse=0.001", printable(text)));
@@ -58,7 +60,10 @@ void print_table(const Options& options, const Comparison& comparison) {
   if (comparison.verdict != Verdict::kNonFinite)
     for (const LimitResult& limit : comparison.limits)
       fmt::print("  {:<16}{:>14.6g}  {} {:g}\n", limit.metric, limit.value,
-                 limit.pass ? "is within" : "is OVER", limit.limit);
+                 std::isnan(limit.value) ? "was NOT MEASURED; the limit is"
+                 : limit.pass            ? "is within"
+                                         : "is OUTSIDE",
+                 limit.limit);
   fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite ? "" : "\n",
              verdict_name(comparison.verdict));
 }
@@ -98,7 +103,7 @@ ExitCode run(Options options) {
 std::string footer() {
   std::string defaults;
   for (const MetricLimit& limit : default_limits())
-    defaults += fmt::format("{}{} {:g}", defaults.empty() ? "" : ", ", limit.metric, limit.maximum);
+    defaults += fmt::format("{}{} {:g}", defaults.empty() ? "" : ", ", limit.metric, limit.limit);
   return fmt::format(
       "Metrics that a limit can be set on:\n"
       "  {}\n"
@@ -127,8 +132,9 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   command->add_option("B", options->b, "Reference picture, of the same size")->required();
 
   command
-      ->add_option("--fail", options->fail,
-                   "Verdict 'differs' if METRIC is over LIMIT; may be given again")
+      ->add_option(
+          "--fail", options->fail,
+          "Verdict 'differs' if METRIC is over LIMIT (a likeness, such as psnr: below it); may be given again")
       ->type_name("METRIC=LIMIT")
       ->expected(1)
       ->take_all()

@@ -42,7 +42,7 @@ std::vector<MetricValue> measure_all(const MetricInput& input) {
   std::vector<MetricValue> results;
   std::vector<double> values;
   for (const Metric* metric : metrics()) {
-    if (metric->needs_tolerance && !input.tolerance) continue;
+    if (!is_measurable(*metric, input)) continue;
     values.assign(metric->outputs.size(), 0.0);
     metric->measure(input, values);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -94,7 +94,7 @@ void check_options(const ComparisonOptions& options) {
   const std::vector<std::string_view> names = limit_names();
   for (const MetricLimit& limit : options.limits) {
     const MetricOutput* output = find_metric_output(limit.metric);
-    if (!output || output->kind != OutputKind::kError)
+    if (!output || output->better == Better::kNeither)
       throw Error(ExitCode::kUsage, fmt::format("no metric '{}' to set a limit on{}; there are {}",
                                                 printable(limit.metric),
                                                 did_you_mean(limit.metric, names), join(names)));
@@ -104,7 +104,8 @@ void check_options(const ComparisonOptions& options) {
         (!options.tolerance || options.tolerance->edges.empty()))
       throw Error(ExitCode::kUsage,
                   "a limit on 'outliers.off_edge' needs a tolerance and a scene that has edges");
-    require_range(fmt::format("the limit on {}", limit.metric), limit.maximum, 0, kLargest);
+    const double least = output->better == Better::kHigher ? -kLargest : 0;
+    require_range(fmt::format("the limit on {}", limit.metric), limit.limit, least, kLargest);
   }
   if (options.tolerance) {
     require_range("the relative tolerance", options.tolerance->relative, 0, kLargest);
@@ -144,9 +145,9 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   bool pass = true;
   for (const MetricLimit& limit : limits) {
     const double value = result.value(limit.metric);
-    // Written so that a NaN fails.
-    const bool within = value <= limit.maximum;
-    result.limits.push_back({limit.metric, limit.maximum, value, within});
+    const MetricOutput* output = find_metric_output(limit.metric);
+    const bool within = output && is_within(*output, value, limit.limit);
+    result.limits.push_back({limit.metric, limit.limit, value, within});
     pass = pass && within;
   }
   result.verdict = !finite ? Verdict::kNonFinite : pass ? Verdict::kPass : Verdict::kDiffers;

@@ -15,8 +15,8 @@
 namespace lobelia {
 
 struct MetricLimit {
-  std::string metric;  ///< id of an error of the catalogue
-  double maximum = 0;  ///< the largest value that passes
+  std::string metric;  ///< id of an output of the catalogue that is no fact
+  double limit = 0;    ///< the last value that passes, see Better
 };
 
 struct ComparisonOptions {

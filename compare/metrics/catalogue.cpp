@@ -1,8 +1,15 @@
 #include "compare/metrics/catalogue.hpp"
 
+#include <cmath>
+
 // One line per metric: a file of that name in this directory defines `const Metric <name>_metric`.
 #define LOBELIA_METRICS(METRIC) \
+  METRIC(mae)                   \
+  METRIC(mse)                   \
   METRIC(rmse)                  \
+  METRIC(psnr)                  \
+  METRIC(drift)                 \
+  METRIC(relmse)                \
   METRIC(max_abs)               \
   METRIC(max_rel_peak)          \
   METRIC(ciede2000)             \
@@ -22,18 +29,49 @@ std::span<const Metric* const> metrics() {
   return kMetrics;
 }
 
-const MetricOutput* find_metric_output(std::string_view id) {
+const Metric* find_metric(std::string_view id) {
   for (const Metric* metric : metrics())
+    for (const MetricOutput& output : metric->outputs)
+      if (output.id == id) return metric;
+  return nullptr;
+}
+
+const MetricOutput* find_metric_output(std::string_view id) {
+  if (const Metric* metric = find_metric(id))
     for (const MetricOutput& output : metric->outputs)
       if (output.id == id) return &output;
   return nullptr;
+}
+
+bool is_measurable(const Metric& metric, const MetricInput& input) {
+  switch (metric.needs) {
+    case Needs::kNothing:
+      return true;
+    case Needs::kTolerance:
+      return input.tolerance != nullptr;
+  }
+  return false;
+}
+
+bool is_within(const MetricOutput& output, double value, double limit) {
+  switch (output.better) {
+    case Better::kLower:
+      return value <= limit;
+    case Better::kNearZero:
+      return std::abs(value) <= limit;
+    case Better::kHigher:
+      return value >= limit;
+    case Better::kNeither:
+      break;
+  }
+  return false;
 }
 
 std::vector<std::string_view> limit_names() {
   std::vector<std::string_view> names;
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs)
-      if (output.kind == OutputKind::kError) names.push_back(output.id);
+      if (output.better != Better::kNeither) names.push_back(output.id);
   return names;
 }
 

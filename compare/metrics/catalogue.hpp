@@ -11,8 +11,15 @@ namespace lobelia {
 
 std::span<const Metric* const> metrics();
 
-/// The output of that id, or null.
+/// The metric that has the output of that id, or null; and the output.
+const Metric* find_metric(std::string_view id);
 const MetricOutput* find_metric_output(std::string_view id);
+
+/// Whether the metric can be measured of that input; where not, it is left out of the results.
+bool is_measurable(const Metric& metric, const MetricInput& input);
+
+/// Whether a value passes a limit. False if either is NaN.
+bool is_within(const MetricOutput& output, double value, double limit);
 
 /// Ids on which a limit may be set, in the order of the catalogue.
 std::vector<std::string_view> limit_names();

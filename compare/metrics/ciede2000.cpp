@@ -30,9 +30,9 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kPercentile = 0.95;
 
 constexpr MetricOutput kOutputs[] = {
-    {"ciede2000.mean", OutputKind::kError, true, "CIEDE2000 colour difference, mean"},
-    {"ciede2000.p95", OutputKind::kError, true, "95 % of the pixels do not exceed this"},
-    {"ciede2000.max", OutputKind::kError, true, "the largest of all pixels"}};
+    {"ciede2000.mean", Better::kLower, true, "CIEDE2000 colour difference, mean"},
+    {"ciede2000.p95", Better::kLower, true, "95 % of the pixels do not exceed this"},
+    {"ciede2000.max", Better::kLower, true, "the largest of all pixels"}};
 
 double squared(double x) { return x * x; }
 
@@ -131,6 +131,7 @@ double ciede2000(Lab a, Lab b) {
 }
 
 extern const Metric ciede2000_metric;
-constinit const Metric ciede2000_metric{kOutputs, false, measure};
+constinit const Metric ciede2000_metric{kOutputs, Family::kColour, Needs::kNothing,
+                                        "Sharma, Wu, Dalal 2005", measure};
 
 }  // namespace lobelia

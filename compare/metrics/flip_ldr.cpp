@@ -39,8 +39,8 @@ const float kFeatureScale = 1.0f / std::sqrt(2.0f);
 constexpr int kRowsPerTask = 32;
 
 constexpr MetricOutput kOutputs[] = {
-    {"flip.ldr.mean", OutputKind::kError, true, "LDR-FLIP, mean"},
-    {"flip.ldr.max", OutputKind::kError, true, "LDR-FLIP, the largest of all pixels"}};
+    {"flip.ldr.mean", Better::kLower, true, "LDR-FLIP, mean"},
+    {"flip.ldr.max", Better::kLower, true, "LDR-FLIP, the largest of all pixels"}};
 
 float colour_error(float distance, float largest) {
   const float knee = kKnee * largest;
@@ -89,6 +89,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 }  // namespace
 
 extern const Metric flip_ldr_metric;
-constinit const Metric flip_ldr_metric{kOutputs, false, measure};
+constinit const Metric flip_ldr_metric{kOutputs, Family::kVisibility, Needs::kNothing,
+                                       "Andersson et al. 2020; FLIP 1.6", measure};
 
 }  // namespace lobelia

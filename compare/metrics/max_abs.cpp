@@ -13,9 +13,9 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"max_abs", OutputKind::kError, true, "largest error of an RGB value"},
-    {"max_abs.x", OutputKind::kFact, true, "its column"},
-    {"max_abs.y", OutputKind::kFact, true, "its row, from the top"}};
+    {"max_abs", Better::kLower, true, "largest error of an RGB value"},
+    {"max_abs.x", Better::kNeither, true, "its column"},
+    {"max_abs.y", Better::kNeither, true, "its row, from the top"}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
@@ -37,6 +37,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 }  // namespace
 
 extern const Metric max_abs_metric;
-constinit const Metric max_abs_metric{kOutputs, false, measure};
+constinit const Metric max_abs_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                      measure};
 
 }  // namespace lobelia

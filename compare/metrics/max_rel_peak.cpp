@@ -16,8 +16,8 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"peak", OutputKind::kFact, false, "brightest RGB value of the reference"},
-    {"max_rel_peak", OutputKind::kError, false, "largest error as a share of that"}};
+    {"peak", Better::kNeither, false, "brightest RGB value of the reference"},
+    {"max_rel_peak", Better::kLower, false, "largest error as a share of that"}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
@@ -34,6 +34,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 }  // namespace
 
 extern const Metric max_rel_peak_metric;
-constinit const Metric max_rel_peak_metric{kOutputs, false, measure};
+constinit const Metric max_rel_peak_metric{kOutputs, Family::kRadiance, Needs::kNothing,
+                                           "ours: max_abs by the reference's peak", measure};
 
 }  // namespace lobelia

@@ -40,24 +40,45 @@ struct MetricInput {
   const Image& b;
   DisplayLight shown_a, shown_b;
   double pixels_per_degree;
-  const Tolerance* tolerance;  ///< null if none was asked for
+  const Tolerance* tolerance = nullptr;  ///< null if none was asked for
 };
 
-enum class OutputKind : std::uint8_t {
-  kError,  ///< 0 for equal pictures, never negative, larger is worse: a limit may be set on it
-  kFact,   ///< a place or a scale, to read an error by
+/// Which way a number is to go: what a limit on it means, and what equal pictures have.
+enum class Better : std::uint8_t {
+  kLower,     ///< an error, never negative; equal pictures have 0; a limit is the most that passes
+  kNearZero,  ///< a signed error; equal pictures have 0; a limit is the most that its size may be
+  kHigher,    ///< a likeness; equal pictures have `best`; a limit is the least that passes
+  kNeither,   ///< a fact, a place or a scale, to read an error by: no limit may be set on it
+};
+
+/// What a metric looks at. Metrics of one family mostly agree; where two families disagree, that says
+/// what kind of difference it is (compare/disagreement.hpp).
+enum class Family : std::uint8_t {
+  kRadiance,    ///< scene-linear values
+  kColour,      ///< colours of single pixels, as shown
+  kStructure,   ///< correlation within windows, as shown
+  kVisibility,  ///< what an eye notices at a viewing distance
+};
+
+/// What has to be there for a metric to be measured; otherwise it is left out of the results.
+enum class Needs : std::uint8_t {
+  kNothing,
+  kTolerance,
 };
 
 struct MetricOutput {
   std::string_view id;  ///< "ciede2000.p95": key in the record, name on the command line
-  OutputKind kind;
+  Better better;
   bool symmetric;  ///< does not change when a and b are exchanged
   std::string_view meaning;
+  double best = 0;  ///< the value of equal pictures, unless it is a fact
 };
 
 struct Metric {
   std::span<const MetricOutput> outputs;
-  bool needs_tolerance;  ///< left out where no tolerance was asked for
+  Family family;
+  Needs needs;
+  std::string_view source;  ///< where its formula stands, in short: its file has the contract
   /// Fills one value per output, in their order.
   void (*measure)(const MetricInput& input, std::span<double> values);
 };

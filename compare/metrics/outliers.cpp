@@ -16,8 +16,8 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"outliers", OutputKind::kError, false, "pixels outside the tolerance"},
-    {"outliers.off_edge", OutputKind::kError, false, "of these, away from the edges of the scene"}};
+    {"outliers", Better::kLower, false, "pixels outside the tolerance"},
+    {"outliers.off_edge", Better::kLower, false, "of these, away from the edges of the scene"}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
@@ -41,6 +41,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 }  // namespace
 
 extern const Metric outliers_metric;
-constinit const Metric outliers_metric{kOutputs, true, measure};
+constinit const Metric outliers_metric{kOutputs, Family::kRadiance, Needs::kTolerance,
+                                       "idiff -fail, -failpercent", measure};
 
 }  // namespace lobelia

@@ -7,27 +7,23 @@
 // Differs:      the sum is in double; a float32 sum loses a percent on a large picture.
 #include <cmath>
 
+#include "compare/metrics/mean_square.hpp"
 #include "compare/metrics/metric.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"rmse", OutputKind::kError, true, "root mean square error of all RGB values"}};
+    {"rmse", Better::kLower, true, "root mean square error of all RGB values"}};
 
 void measure(const MetricInput& input, std::span<double> values) {
-  const std::span<const float> a = input.a.values(), b = input.b.values();
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double difference = double(a[i]) - double(b[i]);
-    sum += difference * difference;
-  }
-  values[0] = a.empty() ? 0 : std::sqrt(sum / double(a.size()));
+  values[0] = std::sqrt(mean_square_error(input.a, input.b));
 }
 
 }  // namespace
 
 extern const Metric rmse_metric;
-constinit const Metric rmse_metric{kOutputs, false, measure};
+constinit const Metric rmse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                   measure};
 
 }  // namespace lobelia

@@ -27,11 +27,31 @@ std::vector<std::pair<Image, Image>> pairs() {
   return list;
 }
 
-std::vector<double> measure(const Metric& metric, const Image& a, const Image& b) {
+/// Every output of a metric; empty where it cannot be measured of that pair.
+std::vector<double> measure(const Metric& metric, const MetricInput& input) {
+  if (!is_measurable(metric, input)) return {};
   std::vector<double> values(metric.outputs.size(), -7.0);
-  metric.measure(testing::input(a, b, &kTolerance), values);
+  metric.measure(input, values);
   return values;
 }
+
+std::vector<double> measure(const Metric& metric, const Image& a, const Image& b) {
+  return measure(metric, testing::input(a, b, &kTolerance));
+}
+
+double measure(std::string_view id, const Image& a, const Image& b) {
+  const Metric* metric = find_metric(id);
+  return measure(*metric, a, b).at(std::size_t(find_metric_output(id) - metric->outputs.data()));
+}
+
+/// How far a value is from that of equal pictures; larger is worse for every output that is judged.
+double badness(const MetricOutput& output, double value) {
+  return output.better == Better::kHigher     ? -value
+         : output.better == Better::kNearZero ? std::abs(value)
+                                              : value;
+}
+
+bool is_judged(const MetricOutput& output) { return output.better != Better::kNeither; }
 
 TEST(MetricCatalogue, IsNotEmptyAndHasUniqueIdsWithMeanings) {
   std::set<std::string_view> ids;
@@ -43,40 +63,41 @@ TEST(MetricCatalogue, IsNotEmptyAndHasUniqueIdsWithMeanings) {
       EXPECT_EQ(find_metric_output(output.id), &output);
     }
   }
-  for (const char* id :
-       {"rmse", "max_abs", "max_abs.x", "max_abs.y", "peak", "max_rel_peak", "ciede2000.mean",
-        "ciede2000.p95", "ciede2000.max", "flip.ldr.mean", "outliers"})
+  for (const char* id : {"mae", "mse", "rmse", "psnr", "drift", "relmse.eps=0.01", "max_abs",
+                         "max_abs.x", "max_abs.y", "peak", "max_rel_peak", "ciede2000.mean",
+                         "ciede2000.p95", "ciede2000.max", "flip.ldr.mean", "outliers"})
     EXPECT_TRUE(ids.count(id)) << id << " is promised by docs/records.md";
   EXPECT_EQ(find_metric_output("no such metric"), nullptr);
 }
 
-TEST(MetricLaws, APictureHasNoErrorAgainstItself) {
+TEST(MetricLaws, APictureComparedWithItselfHasTheBestValue) {
   int checked = 0;
   for (const auto& [a, b] : pairs())
     for (const Image* image : {&a, &b})
       for (const Metric* metric : metrics()) {
         const std::vector<double> values = measure(*metric, *image, *image);
         for (std::size_t i = 0; i < values.size(); ++i)
-          if (metric->outputs[i].kind == OutputKind::kError) {
-            EXPECT_EQ(values[i], 0) << metric->outputs[i].id;
+          if (is_judged(metric->outputs[i])) {
+            EXPECT_EQ(values[i], metric->outputs[i].best) << metric->outputs[i].id;
             ++checked;
           }
       }
   EXPECT_GT(checked, 60);
 }
 
-TEST(MetricLaws, DifferentPicturesHaveAPositiveError) {
-  // Of each metric at least one output sees the difference of each pair; none is negative or NaN.
+TEST(MetricLaws, DifferentPicturesHaveAWorseValue) {
+  // Of each metric at least one output sees the difference of each pair; none is better or NaN.
   for (const auto& [a, b] : pairs())
     for (const Metric* metric : metrics()) {
-      double largest = 0;
       const std::vector<double> values = measure(*metric, a, b);
-      for (std::size_t i = 0; i < values.size(); ++i)
-        if (metric->outputs[i].kind == OutputKind::kError) {
-          EXPECT_GE(values[i], 0) << metric->outputs[i].id;
-          largest = std::max(largest, values[i]);
-        }
-      EXPECT_GT(largest, 0) << metric->outputs[0].id << ", " << a.width() << " x " << a.height();
+      bool seen = values.empty();
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const MetricOutput& output = metric->outputs[i];
+        if (!is_judged(output)) continue;
+        EXPECT_GE(badness(output, values[i]), badness(output, output.best)) << output.id;
+        seen |= badness(output, values[i]) > badness(output, output.best);
+      }
+      EXPECT_TRUE(seen) << metric->outputs[0].id << ", " << a.width() << " x " << a.height();
     }
 }
 
@@ -99,10 +120,9 @@ TEST(MetricLaws, AMetricThatIsNotCalledSymmetricIsNot) {
       bool changed = false;
       const Image dim = testing::flat(8, 8, 0.0015f, 0, 0), bright = testing::flat(8, 8, 1, 0, 0);
       const Tolerance half{0.9985, 0, 0, std::vector<std::uint8_t>(8 * 8, 0)};
-      std::vector<double> forth(metric->outputs.size()), back(forth);
-      metric->measure(testing::input(dim, bright, &half), forth);
-      metric->measure(testing::input(bright, dim, &half), back);
-      changed = forth[i] != back[i];
+      const std::vector<double> forth = measure(*metric, testing::input(dim, bright, &half));
+      const std::vector<double> back = measure(*metric, testing::input(bright, dim, &half));
+      changed = forth.at(i) != back.at(i);
       EXPECT_TRUE(changed) << metric->outputs[i].id;
     }
 }
@@ -116,8 +136,9 @@ TEST(MetricLaws, ALargerErrorIsNeverRatedLower) {
       const Metric& metric = *metrics()[k];
       const std::vector<double> values = measure(metric, picture, reference);
       for (std::size_t i = 0; i < values.size() && !before[k].empty(); ++i)
-        if (metric.outputs[i].kind == OutputKind::kError) {
-          EXPECT_GE(values[i], before[k][i]) << metric.outputs[i].id << " at peak " << peak;
+        if (is_judged(metric.outputs[i])) {
+          EXPECT_GE(badness(metric.outputs[i], values[i]), badness(metric.outputs[i], before[k][i]))
+              << metric.outputs[i].id << " at peak " << peak;
         }
       before[k] = values;
     }
@@ -135,7 +156,7 @@ TEST(MetricLaws, TheNumberOfThreadsDoesNotChangeABit) {
 
 TEST(Rmse, IsTheRootOfTheMeanSquareOverAllChannels) {
   const Image a = testing::flat(5, 4, 1, 2, 3), b = testing::flat(5, 4, 1, 2, 6);
-  EXPECT_DOUBLE_EQ(measure(*metrics()[0], a, b)[0], std::sqrt(9.0 / 3));
+  EXPECT_DOUBLE_EQ(measure("rmse", a, b), std::sqrt(9.0 / 3));
 }
 
 TEST(Rmse, KeepsItsDigitsOnAPictureWhereAFloatSumWouldStall) {
@@ -143,20 +164,64 @@ TEST(Rmse, KeepsItsDigitsOnAPictureWhereAFloatSumWouldStall) {
   const Image a = testing::flat(4096, 2048, 0, 0, 0);
   const float step = 1.0f / 8192;
   const Image b = testing::flat(4096, 2048, step, step, step);
-  EXPECT_DOUBLE_EQ(measure(*metrics()[0], a, b)[0], step);
+  EXPECT_DOUBLE_EQ(measure("rmse", a, b), step);
 }
 
 TEST(MaxAbs, SaysWhichPixel) {
   const Image a = testing::flat(9, 7, 0.5f, 0.5f, 0.5f);
   Image b = a;
   b.pixel(6, 2)[1] = 0.75f;
-  EXPECT_THAT(measure(*metrics()[1], a, b), ::testing::ElementsAre(0.25, 6, 2));
+  EXPECT_THAT(measure(*find_metric("max_abs"), a, b), ::testing::ElementsAre(0.25, 6, 2));
 }
 
 TEST(MaxRelPeak, IsInfiniteAgainstABlackReference) {
   const Image black = testing::flat(4, 4, 0, 0, 0), grey = testing::flat(4, 4, 0.1f, 0.1f, 0.1f);
-  EXPECT_TRUE(std::isinf(measure(*metrics()[2], grey, black)[1]));
-  EXPECT_FLOAT_EQ(float(measure(*metrics()[2], black, grey)[1]), 1.0f);
+  EXPECT_TRUE(std::isinf(measure("max_rel_peak", grey, black)));
+  EXPECT_FLOAT_EQ(float(measure("max_rel_peak", black, grey)), 1.0f);
+}
+
+TEST(Mae, IsTheMeanOverAllChannels) {
+  const Image a = testing::flat(5, 4, 1, 2, 3), b = testing::flat(5, 4, 1, 1, 5);
+  EXPECT_DOUBLE_EQ(measure("mae", a, b), 1);
+  EXPECT_DOUBLE_EQ(measure("mse", a, b), 5.0 / 3);
+}
+
+TEST(Psnr, IsInDecibelsOfTheReferencesPeak) {
+  const Image a = testing::flat(5, 4, 2, 2, 2), b = testing::flat(5, 4, 2.5f, 1.5f, 1.5f);
+  EXPECT_DOUBLE_EQ(measure("psnr", a, b), 20 * std::log10(2.5 / 0.5));
+  EXPECT_DOUBLE_EQ(measure("psnr", b, a), 20 * std::log10(2.0 / 0.5));
+  const Image black = testing::flat(5, 4, 0, 0, 0);
+  EXPECT_EQ(measure("psnr", a, black), -std::numeric_limits<double>::infinity());
+}
+
+TEST(Drift, HasTheSignOfWhatIsTooBright) {
+  const Image dim = testing::flat(5, 4, 1, 1, 1), bright = testing::flat(5, 4, 1, 1, 1.75f);
+  EXPECT_DOUBLE_EQ(measure("drift", bright, dim), 0.25);
+  EXPECT_DOUBLE_EQ(measure("drift", dim, bright), -0.25);
+}
+
+TEST(Drift, DoesNotSeeWhatCancels) {
+  EXPECT_EQ(measure("drift", testing::flat(5, 4, 1, 0, 2), testing::flat(5, 4, 0, 1, 2)), 0);
+}
+
+TEST(Relmse, WeighsEachValueByTheReferences) {
+  const Image a = testing::flat(5, 4, 1, 2, 3), b = testing::flat(5, 4, 1, 1, 0);
+  EXPECT_DOUBLE_EQ(measure("relmse.eps=0.01", a, b), (1 / 1.01 + 9 / 0.01) / 3);
+}
+
+TEST(Limits, PassAsTheDirectionSaysAndNeverANaN) {
+  const MetricOutput error{"", Better::kLower, true, ""}, sign{"", Better::kNearZero, true, ""},
+      likeness{"", Better::kHigher, true, ""}, fact{"", Better::kNeither, true, ""};
+  EXPECT_TRUE(is_within(error, 1, 1));
+  EXPECT_FALSE(is_within(error, 1.1, 1));
+  EXPECT_TRUE(is_within(sign, -1, 1));
+  EXPECT_FALSE(is_within(sign, -1.1, 1));
+  EXPECT_TRUE(is_within(likeness, 1, 1));
+  EXPECT_FALSE(is_within(likeness, 0.9, 1));
+  EXPECT_FALSE(is_within(fact, 0, 1));
+  for (const MetricOutput* output : {&error, &sign, &likeness})
+    for (const auto& [value, limit] : {std::pair{1.0, std::nan("")}, {std::nan(""), 1.0}})
+      EXPECT_FALSE(is_within(*output, value, limit));
 }
 
 TEST(DisplayLight, IsExposedAndClipped) {

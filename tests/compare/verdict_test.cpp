@@ -70,6 +70,19 @@ TEST(Verdict, FollowsTheLimitsOfTheUser) {
   EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers) << "one limit is enough";
 }
 
+TEST(Verdict, FollowsALimitBelowAndALimitOnASize) {
+  const Image a = testing::flat(8, 8, 0.5f, 0.5f, 0.5f), b = testing::flat(8, 8, 1, 0.5f, 0.5f);
+  ComparisonOptions options;
+  options.limits = {{"psnr", 10}, {"drift", 0.17}};  // 10.8 dB, -1/6
+  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass);
+  options.limits = {{"psnr", 11}};
+  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers);
+  options.limits = {{"drift", 0.16}};
+  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kDiffers);
+  options.limits = {{"psnr", -5}};
+  EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass) << "a ratio may be below 1";
+}
+
 TEST(Verdict, OfADefaultComparisonSeesAWrongNormalisationAndPassesHalfFloatRounding) {
   const Image reference = testing::highlight(128, 128, 10, 1.0);
   EXPECT_EQ(compare(testing::highlight(128, 128, 10, 1.0005), reference, {}).verdict,

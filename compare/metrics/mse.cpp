@@ -1,0 +1,27 @@
+// Mean square error.
+//
+// Source:       textbook.
+// Formula:      sum (a - b)^2 / (3 N) over the R, G and B values of all N pixels; rmse is its root.
+// Input:        scene-linear values, neither exposed nor clipped.
+// Agrees with:  the square of the "RMS error" of `idiff`, to the float32 digits it prints.
+// Differs:      the sum is in double.
+#include "compare/metrics/mean_square.hpp"
+#include "compare/metrics/metric.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr MetricOutput kOutputs[] = {
+    {"mse", Better::kLower, true, "mean square error of all RGB values"}};
+
+void measure(const MetricInput& input, std::span<double> values) {
+  values[0] = mean_square_error(input.a, input.b);
+}
+
+}  // namespace
+
+extern const Metric mse_metric;
+constinit const Metric mse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                  measure};
+
+}  // namespace lobelia

@@ -1,0 +1,37 @@
+// Peak signal-to-noise ratio, in decibels.
+//
+// Source:       textbook.
+// Formula:      10 log10( peak^2 / mse ), peak = the brightest RGB value of the reference b, which
+//               the record holds as `peak`; infinite for equal pictures, -infinite for others
+//               against a reference without a positive value.
+// Input:        scene-linear values, neither exposed nor clipped.
+// Differs:      `idiff` and tools for 8 bits take 1 (or 255) as the peak, whatever the picture
+//               holds: theirs is ours - 20 log10(peak). Without a display there is no other white
+//               than the picture's own.
+#include <cmath>
+#include <limits>
+
+#include "compare/metrics/mean_square.hpp"
+#include "compare/metrics/metric.hpp"
+#include "compare/metrics/peak.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+constexpr MetricOutput kOutputs[] = {
+    {"psnr", Better::kHigher, false, "reference's peak over rmse, in decibels", kInfinity}};
+
+void measure(const MetricInput& input, std::span<double> values) {
+  const double error = mean_square_error(input.a, input.b), peak = peak_value(input.b);
+  values[0] = error == 0 ? kInfinity : 20 * std::log10(peak) - 10 * std::log10(error);
+}
+
+}  // namespace
+
+extern const Metric psnr_metric;
+constinit const Metric psnr_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                   measure};
+
+}  // namespace lobelia
