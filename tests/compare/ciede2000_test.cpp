@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "compare/compare.hpp"
 #include "tests/compare/pictures.hpp"
 
@@ -61,6 +63,19 @@ TEST(Ciede2000, AgreesWithThe34PairsOfSharma) {
   }
 }
 
+TEST(Ciede2000, TakesThePlainMeanOfHuesThatAreOppositeWhateverRoundingMakesOfThem) {
+  // Opposite in decimal numbers; in binary the angles are a little more or less than 180 apart.
+  for (int degrees = 1; degrees < 180; ++degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Lab a{50, 2.49 * std::cos(angle), 2.49 * std::sin(angle)};
+    const Lab b{50, -2 * a.a, -2 * a.b};
+    const double turn = 1e-7;  // clearly on this side of the tie
+    const Lab less{50, -4.98 * std::cos(angle - turn), -4.98 * std::sin(angle - turn)};
+    EXPECT_NEAR(ciede2000(a, b), ciede2000(b, a), 1e-12) << degrees;
+    EXPECT_NEAR(ciede2000(a, b), ciede2000(a, less), 1e-5) << degrees;
+  }
+}
+
 TEST(Ciede2000, OfBlackAndWhiteIs100) {
   EXPECT_NEAR(ciede2000(lab_from_display({0, 0, 0}), lab_from_display({1, 1, 1})), 100, 1e-9);
 }
@@ -95,6 +110,24 @@ TEST(Ciede2000, PercentileIsTheValueThatNineteenPixelsInTwentyDoNotExceed) {
   const Comparison comparison = compare(picture, reference, {});
   EXPECT_GT(comparison.value("ciede2000.p95"), 10);
   EXPECT_LT(comparison.value("ciede2000.p95"), comparison.value("ciede2000.max"));
+}
+
+TEST(Ciede2000, PercentilesAreTheNearestRankOfTheSortedPixels) {
+  // 200 greys, each farther from white than the one before, in an order that is not sorted.
+  const Image reference = testing::flat(200, 1, 1, 1, 1);
+  Image picture = reference;
+  std::vector<double> sorted;
+  for (int i = 0; i < 200; ++i) {
+    const int x = i * 77 % 200;
+    for (float& value : picture.pixel(x, 0)) value = 1 - float(i) / 256;
+    const double grey = double(picture.pixel(x, 0)[0]);
+    sorted.push_back(ciede2000(lab_from_display({grey, grey, grey}), lab_from_display({1, 1, 1})));
+  }
+  const Comparison comparison = compare(picture, reference, {});
+  EXPECT_EQ(comparison.value("ciede2000.p50"), sorted[99]);
+  EXPECT_EQ(comparison.value("ciede2000.p95"), sorted[189]);
+  EXPECT_EQ(comparison.value("ciede2000.p99"), sorted[197]);
+  EXPECT_EQ(comparison.value("ciede2000.max"), sorted[199]);
 }
 
 TEST(Ciede2000, LooksAtTheExposedPicture) {
