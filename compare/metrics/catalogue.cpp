@@ -13,6 +13,7 @@
   METRIC(max_abs)               \
   METRIC(max_rel_peak)          \
   METRIC(ciede2000)             \
+  METRIC(delta_e_itp)           \
   METRIC(flip_ldr)              \
   METRIC(outliers)
 

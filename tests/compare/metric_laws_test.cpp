@@ -63,10 +63,27 @@ TEST(MetricCatalogue, IsNotEmptyAndHasUniqueIdsWithMeanings) {
       EXPECT_EQ(find_metric_output(output.id), &output);
     }
   }
-  for (const char* id :
-       {"mae", "mse", "rmse", "psnr", "drift", "relmse.eps=0.01", "max_abs", "max_abs.x",
-        "max_abs.y", "peak", "max_rel_peak", "ciede2000.mean", "ciede2000.p50", "ciede2000.p99",
-        "ciede2000.p95", "ciede2000.max", "flip.ldr.mean", "outliers"})
+  for (const char* id : {"mae",
+                         "mse",
+                         "rmse",
+                         "psnr",
+                         "drift",
+                         "relmse.eps=0.01",
+                         "max_abs",
+                         "max_abs.x",
+                         "max_abs.y",
+                         "peak",
+                         "max_rel_peak",
+                         "ciede2000.mean",
+                         "ciede2000.p50",
+                         "ciede2000.p99",
+                         "ciede2000.p95",
+                         "ciede2000.max",
+                         "delta_e_itp.mean",
+                         "delta_e_itp.p95",
+                         "delta_e_itp.max",
+                         "flip.ldr.mean",
+                         "outliers"})
     EXPECT_TRUE(ids.count(id)) << id << " is promised by docs/records.md";
   EXPECT_EQ(find_metric_output("no such metric"), nullptr);
 }

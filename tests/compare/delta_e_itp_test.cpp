@@ -1,0 +1,108 @@
+#include "compare/metrics/delta_e_itp.hpp"
+
+#include <gtest/gtest.h>
+
+#include "compare/compare.hpp"
+#include "tests/compare/pictures.hpp"
+
+namespace lobelia {
+namespace {
+
+struct Pair {
+  double ictcp_a[3], ictcp_b[3];
+  double difference;
+};
+
+// From the tests of the package colour-science, function delta_E_ITP: I, Ct and Cp of the colours that
+// are named beside them, and the differences, to ten digits.
+constexpr Pair kPublished[] = {
+    {{0.4885468072, -0.04739350675, 0.07475401302},  // dark skin
+     {0.4899203231, -0.04567508203, 0.07361341775},
+     1.426572247},
+    {{0.7538438727, 0, -6.25e-16},  // white
+     {0.7538912244, 0.001930922514, -0.0003599955951},
+     0.7426668055},
+    {{0.1596179061, 0, -1.21e-16},  // black
+     {0.1603575152, 0.02881444889, -0.009908665843},
+     12.60096264},
+    {{0.5965650331, -0.2083210482, 0.3699729716},  // red
+     {0.596263079, -0.1629742033, 0.3617767026},
+     17.36012552},
+    {{0.7055787513, -0.4063731514, -0.07278767382},  // green
+     {0.7046946082, -0.3771037586, -0.07141626753},
+     10.60227327},
+    {{0.5180652611, 0.2932420978, -0.1873112695},  // blue
+     {0.5167090868, 0.298191609, -0.1824609953},
+     4.040270489},
+    {{0.7223275939, -0.01290632441, -0.1139004748},  // cyan
+     {0.7215329274, -0.007863821961, -0.1106683944},
+     3.00633812},
+    {{0.6401125212, 0.280225698, 0.1665590804},  // magenta
+     {0.640473651, 0.2819981563, 0.1654050172},
+     1.07944277},
+    {{0.7413041405, -0.3638807621, 0.04959414794},  // yellow
+     {0.7412815181, -0.3299076141, 0.04545287368},
+     12.5885645},
+};
+
+TEST(DeltaEItp, AgreesWithPublishedPairs) {
+  for (const Pair& pair : kPublished) {
+    const auto itp = [](const double(&ictcp)[3]) { return Itp{ictcp[0], ictcp[1] / 2, ictcp[2]}; };
+    // The colours are rounded to 1e-10, six numbers of them, times 720; measured: 3.6e-8.
+    EXPECT_NEAR(delta_e_itp(itp(pair.ictcp_a), itp(pair.ictcp_b)), pair.difference, 1e-7);
+  }
+}
+
+struct Shown {
+  Rgb a, b;
+  double difference;
+};
+
+// From light to difference: the formulas of BT.2087-0, BT.2100-2 and BT.2124-0 in Python's decimal
+// module with 50 digits, the powers by Decimal's own **; 17 digits of the result.
+constexpr Shown kByDecimals[] = {
+    {{0, 0, 0}, {1, 1, 1}, 418.09546806170778},
+    {{0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}, 48.870419159761610},
+    {{1, 0, 0}, {0, 1, 0}, 256.67222031390030},
+    {{0, 0, 1}, {0, 0, 0}, 297.65864619844702},
+    {{0.5, 0.25, 0.125}, {0.5, 0.25, 0.1328125}, 2.0675666925249892},
+};
+
+TEST(DeltaEItp, AgreesWithTheFormulasIn50Digits) {
+  // A rounding of PQ's powers is 4e-15, times 720 and the weights of Ct and Cp; measured: 2e-11.
+  for (const Shown& pair : kByDecimals)
+    EXPECT_NEAR(delta_e_itp(itp_from_display(pair.a), itp_from_display(pair.b)), pair.difference,
+                1e-10);
+}
+
+TEST(DeltaEItp, PutsWhiteAt203CandelasWhichIs58PerCentOfPq) {
+  const Itp white = itp_from_display({1, 1, 1});
+  EXPECT_NEAR(white.i, 0.580688881041607837, 1e-14);
+  EXPECT_NEAR(white.t, 0, 1e-14);
+  EXPECT_NEAR(white.p, 0, 1e-14);
+  EXPECT_DOUBLE_EQ(pq_signal(203), white.i);
+  EXPECT_DOUBLE_EQ(pq_signal(10000), 1);
+  EXPECT_NEAR(pq_signal(100), 0.5080784215173948, 1e-14);
+}
+
+TEST(DeltaEItp, LooksAtTheExposedPicture) {
+  const Image a = testing::flat(8, 8, 0.2f, 0.2f, 0.2f), b = testing::flat(8, 8, 0.4f, 0.4f, 0.4f);
+  ComparisonOptions options;
+  EXPECT_GT(compare(a, b, options).value("delta_e_itp.mean"), 10);
+  options.viewing.exposure_stops = 3;
+  EXPECT_EQ(compare(a, b, options).value("delta_e_itp.max"), 0);
+}
+
+TEST(DeltaEItp, PercentileLeavesOutOnePixelInTwenty) {
+  const Image reference = testing::flat(100, 1, 0, 0, 0);
+  Image picture = reference;
+  for (int x = 0; x < 5; ++x) picture.pixel(x, 0)[0] = 1;
+  EXPECT_EQ(compare(picture, reference, {}).value("delta_e_itp.p95"), 0);
+  picture.pixel(5, 0)[0] = 0.5;
+  const Comparison comparison = compare(picture, reference, {});
+  EXPECT_GT(comparison.value("delta_e_itp.p95"), 10);
+  EXPECT_LT(comparison.value("delta_e_itp.p95"), comparison.value("delta_e_itp.max"));
+}
+
+}  // namespace
+}  // namespace lobelia
