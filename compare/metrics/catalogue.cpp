@@ -1,5 +1,6 @@
 #include "compare/metrics/catalogue.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 // One line per metric: a file of that name in this directory defines `const Metric <name>_metric`.
@@ -14,6 +15,8 @@
   METRIC(max_rel_peak)          \
   METRIC(ciede2000)             \
   METRIC(delta_e_itp)           \
+  METRIC(ssim)                  \
+  METRIC(ms_ssim)               \
   METRIC(flip_ldr)              \
   METRIC(outliers)
 
@@ -50,6 +53,10 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
       return true;
     case Needs::kTolerance:
       return input.tolerance != nullptr;
+    case Needs::kOneWindow:
+      return std::min(input.a.width(), input.a.height()) >= kSsimSide;
+    case Needs::kFiveScales:
+      return std::min(input.a.width(), input.a.height()) >= kMsSsimSide;
   }
   return false;
 }

@@ -64,7 +64,12 @@ enum class Family : std::uint8_t {
 enum class Needs : std::uint8_t {
   kNothing,
   kTolerance,
+  kOneWindow,   ///< sides of at least kSsimSide
+  kFiveScales,  ///< sides of at least kMsSsimSide
 };
+
+/// What a window of SSIM takes, and what five halvings of the picture leave it.
+inline constexpr int kSsimSide = 11, kMsSsimSide = 176;
 
 struct MetricOutput {
   std::string_view id;  ///< "ciede2000.p95": key in the record, name on the command line

@@ -24,6 +24,7 @@ std::vector<std::pair<Image, Image>> pairs() {
   list.emplace_back(testing::noise(1, 1, 3, 0.1f), testing::noise(1, 1, 4, 0.1f));
   list.emplace_back(testing::noise(70, 1, 5, 30.0f), testing::noise(70, 1, 6, 30.0f));
   list.emplace_back(testing::flat(3, 50, -1, 0.2f, 0), testing::flat(3, 50, 0.1f, 0.2f, 0.3f));
+  list.emplace_back(testing::highlight(200, 180, 20, 1.0), testing::highlight(200, 180, 22, 0.9));
   return list;
 }
 
@@ -82,6 +83,8 @@ TEST(MetricCatalogue, IsNotEmptyAndHasUniqueIdsWithMeanings) {
                          "delta_e_itp.mean",
                          "delta_e_itp.p95",
                          "delta_e_itp.max",
+                         "ssim",
+                         "ms_ssim",
                          "flip.ldr.mean",
                          "outliers"})
     EXPECT_TRUE(ids.count(id)) << id << " is promised by docs/records.md";
@@ -146,10 +149,10 @@ TEST(MetricLaws, AMetricThatIsNotCalledSymmetricIsNot) {
 }
 
 TEST(MetricLaws, ALargerErrorIsNeverRatedLower) {
-  const Image reference = testing::highlight(64, 64, 20, 1.0);
+  const Image reference = testing::highlight(192, 192, 20, 1.0);
   std::vector<std::vector<double>> before(metrics().size());
   for (const double peak : {0.999, 0.99, 0.95, 0.8}) {
-    const Image picture = testing::highlight(64, 64, 20, peak);
+    const Image picture = testing::highlight(192, 192, 20, peak);
     for (std::size_t k = 0; k < metrics().size(); ++k) {
       const Metric& metric = *metrics()[k];
       const std::vector<double> values = measure(metric, picture, reference);

@@ -10,7 +10,7 @@ namespace lobelia {
 namespace {
 
 TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
-  const Image a = testing::highlight(32, 32, 10, 1.0), b = testing::highlight(32, 32, 10, 1.1);
+  const Image a = testing::highlight(180, 180, 10, 1.0), b = testing::highlight(180, 180, 10, 1.1);
   ComparisonOptions options;
   options.viewing.exposure_stops = -1;
   options.limits = {{"rmse", 1}};

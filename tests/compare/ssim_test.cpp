@@ -1,0 +1,143 @@
+// SSIM and MS-SSIM against the formulas as double loops over windows.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "compare/compare.hpp"
+#include "compare/metrics/luma.hpp"
+#include "tests/compare/pictures.hpp"
+
+namespace lobelia {
+namespace {
+
+Image grey_code(int width, int height, int code) {
+  const double value = code / 255.0;
+  const auto light =
+      float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+  return testing::flat(width, height, light, light, light);
+}
+
+/// {mean of l c s, mean of c s} with 121 weights a window and deviations from the mean.
+std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b) {
+  double weights[11][11], total = 0, lcs = 0, cs = 0;
+  for (int j = 0; j < 11; ++j)
+    for (int i = 0; i < 11; ++i)
+      total += weights[j][i] = std::exp(-((i - 5) * (i - 5) + (j - 5) * (j - 5)) / 4.5);
+  const auto mean = [&](int x, int y, auto value) {
+    double sum = 0;
+    for (int j = 0; j < 11; ++j)
+      for (int i = 0; i < 11; ++i) sum += weights[j][i] / total * value(x + i, y + j);
+    return sum;
+  };
+  const int across = a.width - 10, down = a.height - 10;
+  for (int y = 0; y < down; ++y)
+    for (int x = 0; x < across; ++x) {
+      const auto va = [&](int i, int j) { return double(a.row(j)[i]); };
+      const auto vb = [&](int i, int j) { return double(b.row(j)[i]); };
+      const double ma = mean(x, y, va), mb = mean(x, y, vb);
+      const auto product = [&](auto u, double mu, auto v, double mv) {
+        return mean(x, y, [&](int i, int j) { return (u(i, j) - mu) * (v(i, j) - mv); });
+      };
+      const double contrast = (2 * product(va, ma, vb, mb) + 0.0009) /
+                              (product(va, ma, va, ma) + product(vb, mb, vb, mb) + 0.0009);
+      cs += contrast;
+      lcs += contrast * (2 * ma * mb + 0.0001) / (ma * ma + mb * mb + 0.0001);
+    }
+  return {lcs / (across * down), cs / (across * down)};
+}
+
+LumaPlane shown_luma(const Image& image) { return luma(DisplayLight(image, 0)); }
+
+TEST(Ssim, OfTwoGreysIsThePublishedValue) {
+  const Comparison comparison = compare(grey_code(64, 64, 128), grey_code(64, 64, 160), {});
+  EXPECT_NEAR(comparison.value("ssim"), 0.975614, 5e-7);
+  const double x = 128 / 255.0, y = 160 / 255.0;
+  EXPECT_NEAR(comparison.value("ssim"), (2 * x * y + 1e-4) / (x * x + y * y + 1e-4), 1e-7);
+}
+
+TEST(Ssim, AgreesWithADoubleLoopOverTheWindows) {
+  for (const auto& [width, height] : {std::pair{40, 33}, std::pair{11, 90}, std::pair{11, 11}}) {
+    const Image a = testing::noise(width, height, 1, 1.2f), b = testing::noise(width, height, 2, 1);
+    EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(shown_luma(a), shown_luma(b))[0], 1e-12)
+        << width << " x " << height;
+  }
+}
+
+TEST(Ssim, OfTheNegativeOfAPatternIsNegative) {
+  const Image a = testing::noise(40, 40, 1, 1.0f);
+  Image b = a;
+  for (float& value : b.values()) value = 1 - value;
+  EXPECT_LT(compare(a, b, {}).value("ssim"), -0.5);
+}
+
+TEST(Ssim, FallsAsThePictureIsBlurredOrShifted) {
+  const Image reference = testing::noise(64, 64, 1, 1.0f);
+  double before = 1;
+  for (const int radius : {1, 2, 3}) {
+    Image blurred = reference;
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x)
+        for (std::size_t c = 0; c < 3; ++c) {
+          float sum = 0;
+          for (int dx = -radius; dx <= radius; ++dx)
+            sum += reference.pixel(std::clamp(x + dx, 0, 63), y)[c];
+          blurred.pixel(x, y)[c] = sum / float(2 * radius + 1);
+        }
+    const double value = compare(blurred, reference, {}).value("ssim");
+    EXPECT_LT(value, before) << radius;
+    before = value;
+  }
+}
+
+TEST(Ssim, IsLeftOutWhereThereIsNoRoomForAWindow) {
+  for (const auto& [width, height] : {std::pair{10, 200}, std::pair{200, 10}}) {
+    const Image image = testing::flat(width, height, 1, 1, 1);
+    ComparisonOptions options;
+    options.limits = {{"ssim", 0.5}};
+    const Comparison comparison = compare(image, image, options);
+    EXPECT_TRUE(std::isnan(comparison.value("ssim")));
+    EXPECT_FALSE(comparison_record(comparison, "a", "b")["metrics"].contains("ssim"));
+    EXPECT_EQ(comparison.verdict, Verdict::kDiffers) << "what was not measured does not pass";
+  }
+}
+
+TEST(MsSsim, IsTheProductOfThePowersOfItsScales) {
+  // Odd at every scale: 179, 90, 45, 23, 12.
+  const Image a = testing::highlight(179, 179, 20, 1), b = testing::highlight(179, 179, 30, 0.8);
+  LumaPlane la = shown_luma(a), lb = shown_luma(b);
+  double expected = 1;
+  for (const double weight : {0.0448, 0.2856, 0.3001, 0.2363, 0.1333}) {
+    const bool last = weight == 0.1333;
+    expected *= std::pow(plain_ssim(la, lb)[last ? 0 : 1], weight);
+    la = half_size(la);
+    lb = half_size(lb);
+  }
+  EXPECT_LT(expected, 0.99);
+  EXPECT_NEAR(compare(a, b, {}).value("ms_ssim"), expected, 1e-12);
+}
+
+TEST(MsSsim, OfTwoGreysIsTheLuminanceTermOfTheCoarsestScale) {
+  const Comparison comparison = compare(grey_code(176, 176, 128), grey_code(176, 176, 160), {});
+  EXPECT_NEAR(comparison.value("ms_ssim"), std::pow(comparison.value("ssim"), 0.1333), 1e-9);
+}
+
+TEST(MsSsim, IsLeftOutBelow176Pixels) {
+  const Image small = testing::flat(175, 400, 1, 1, 1), enough = testing::flat(176, 400, 1, 1, 1);
+  EXPECT_TRUE(std::isnan(compare(small, small, {}).value("ms_ssim")));
+  EXPECT_EQ(compare(enough, enough, {}).value("ms_ssim"), 1);
+}
+
+TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
+  EXPECT_NEAR(shown_luma(grey_code(1, 1, 128)).values[0], 128 / 255.0, 1e-7);
+  EXPECT_NEAR(shown_luma(testing::flat(1, 1, 0, 1, 0)).values[0], 0.7152, 1e-7);
+}
+
+TEST(Luma, HalfTheSizeHasTheMeansAndRepeatsAnOddBorder) {
+  const LumaPlane plane{3, 3, {0, 1, 2, 3, 4, 5, 6, 7, 8}};
+  const LumaPlane half = half_size(plane);
+  EXPECT_EQ(half.width, 2);
+  EXPECT_EQ(half.values, (std::vector<float>{2, 3.5, 6.5, 8}));
+}
+
+}  // namespace
+}  // namespace lobelia
