@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "compare/metrics/flip_exposures.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/text.hpp"
@@ -18,7 +21,7 @@ namespace lobelia::cli {
 namespace {
 
 struct Options {
-  std::string a, b, json, tolerance, scene, difference_picture;
+  std::string a, b, json, tolerance, exposures, scene, difference_picture;
   std::vector<std::string> fail;
   double difference_scale = 0;
   ComparisonOptions comparison;
@@ -49,6 +52,29 @@ Tolerance parse_tolerance(const std::string& text) {
   return tolerance;
 }
 
+constexpr std::string_view kAutomatic = "auto";
+
+HdrExposures parse_exposures(const std::string& text) {
+  // Of an automatic range the numbers come from the reference, once it is read.
+  if (text == kAutomatic) return {0, 0, 2, true};
+  const std::vector<std::string> parts = split(text, ",");
+  HdrExposures range;
+  long long count = 0;
+  if (parts.size() != 3 || !parse_number(parts[0], range.start_stops) ||
+      !parse_number(parts[1], range.stop_stops) || !parse_integer(parts[2], count))
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("--exposures {}: expected START,STOP,COUNT, for example -6,2,9, or auto",
+                    printable(text)));
+  range.count = int(std::clamp<long long>(count, 0, kMaxHdrExposures + 1));
+  return range;
+}
+
+bool is_finite(const Image& image) {
+  return std::all_of(image.values().begin(), image.values().end(),
+                     [](float value) { return std::isfinite(value); });
+}
+
 void print_table(const Options& options, const Comparison& comparison) {
   fmt::print("a  {}\nb  {}  (the reference)\n\n", options.a, options.b);
   if (comparison.verdict == Verdict::kNonFinite)
@@ -72,6 +98,8 @@ ExitCode run(Options options) {
   for (const std::string& text : options.fail)
     options.comparison.limits.push_back(parse_limit(text));
   if (!options.tolerance.empty()) options.comparison.tolerance = parse_tolerance(options.tolerance);
+  std::optional<HdrExposures>& exposures = options.comparison.viewing.hdr_exposures;
+  if (!options.exposures.empty()) exposures = parse_exposures(options.exposures);
   if (!options.scene.empty())
     options.comparison.tolerance->edges = truth::edge_ring(read_scene(options.scene));
   check_options(options.comparison);
@@ -80,6 +108,8 @@ ExitCode run(Options options) {
   if (!options.difference_picture.empty()) require_writable(options.difference_picture);
 
   const Image a = read_image(options.a), b = read_image(options.b);
+  // One that is not finite is a verdict, and nothing is measured.
+  if (exposures && exposures->automatic && is_finite(b)) exposures = automatic_exposures(b);
   const Comparison comparison = compare(a, b, options.comparison);
   if (!options.difference_picture.empty()) {
     // Without a scale the largest difference is white; one that is not finite is magenta anyway.
@@ -155,11 +185,19 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->group("Verdict");
 
   command
-      ->add_option("--exposure", viewing.exposure_stops,
-                   "Exposure at which CIEDE2000 and FLIP look at the pictures")
+      ->add_option(
+          "--exposure", viewing.exposure_stops,
+          "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted")
       ->type_name("STOPS")
       ->check(between(-kMaxExposureStops, kMaxExposureStops))
       ->capture_default_str()
+      ->group("Viewing");
+  command
+      ->add_option(
+          "--exposures", options->exposures,
+          "Measure HDR-FLIP over COUNT exposures from START to STOP, in stops, shown through "
+          "the ACES curve; with auto over the range that the reference alone suggests")
+      ->type_name("START,STOP,COUNT|auto")
       ->group("Viewing");
   command
       ->add_option("--pixels-per-degree", viewing.pixels_per_degree,

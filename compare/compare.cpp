@@ -38,6 +38,14 @@ void require_range(std::string_view what, double value, double min, double max) 
                 fmt::format("{} is {}; it must lie in [{}, {}]", what, value, min, max));
 }
 
+/// What an option has to give before the metric can be measured; empty if nothing.
+std::string_view what_is_missing(const Metric& metric, const ComparisonOptions& options) {
+  if (metric.needs == Needs::kTolerance && !options.tolerance) return "a tolerance";
+  if (metric.needs == Needs::kHdrExposures && !options.viewing.hdr_exposures)
+    return "a range of exposures";
+  return {};
+}
+
 std::vector<MetricValue> measure_all(const MetricInput& input) {
   std::vector<MetricValue> results;
   std::vector<double> values;
@@ -91,6 +99,11 @@ void check_options(const ComparisonOptions& options) {
                 kMaxExposureStops);
   require_range("pixels per degree", options.viewing.pixels_per_degree, kMinPixelsPerDegree,
                 kMaxPixelsPerDegree);
+  if (const auto& range = options.viewing.hdr_exposures) {
+    require_range("the first exposure", range->start_stops, -kMaxExposureStops, kMaxExposureStops);
+    require_range("the last exposure", range->stop_stops, range->start_stops, kMaxExposureStops);
+    require_range("the number of exposures", range->count, 2, kMaxHdrExposures);
+  }
   const std::vector<std::string_view> names = limit_names();
   for (const MetricLimit& limit : options.limits) {
     const MetricOutput* output = find_metric_output(limit.metric);
@@ -98,8 +111,9 @@ void check_options(const ComparisonOptions& options) {
       throw Error(ExitCode::kUsage, fmt::format("no metric '{}' to set a limit on{}; there are {}",
                                                 printable(limit.metric),
                                                 did_you_mean(limit.metric, names), join(names)));
-    if (limit.metric == kOutliers && !options.tolerance)
-      throw Error(ExitCode::kUsage, "a limit on 'outliers' needs a tolerance");
+    if (const std::string_view missing = what_is_missing(*find_metric(limit.metric), options);
+        !missing.empty())
+      throw Error(ExitCode::kUsage, fmt::format("a limit on '{}' needs {}", limit.metric, missing));
     if (limit.metric == kOutliersOffEdge &&
         (!options.tolerance || options.tolerance->edges.empty()))
       throw Error(ExitCode::kUsage,
@@ -131,9 +145,10 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   const bool finite = result.nonfinite_a == 0 && result.nonfinite_b == 0;
   if (finite) {
     const double stops = options.viewing.exposure_stops;
-    result.metrics = measure_all({a, b, DisplayLight(a, stops), DisplayLight(b, stops),
-                                  options.viewing.pixels_per_degree,
-                                  options.tolerance ? &*options.tolerance : nullptr});
+    result.metrics = measure_all(
+        {a, b, DisplayLight(a, stops), DisplayLight(b, stops), options.viewing.pixels_per_degree,
+         options.tolerance ? &*options.tolerance : nullptr,
+         options.viewing.hdr_exposures ? &*options.viewing.hdr_exposures : nullptr});
   }
 
   std::vector<MetricLimit> limits = options.limits;

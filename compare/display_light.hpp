@@ -2,18 +2,29 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/image.hpp"
 #include "core/vec.hpp"
 
 namespace lobelia {
 
-/// Display-referred linear light of a scene-linear picture: value * 2^exposure_stops, clipped to
-/// [0, 1]. Linear, not sRGB-encoded: a type of its own, so that a metric for shown light cannot be
+/// How the range of a scene comes to fit into [0, 1].
+enum class ToneCurve : std::uint8_t {
+  kClip,  ///< what is brighter than white is white
+  kAces,  ///< K. Narkowicz's fit of the ACES reference curve, 2015, for 0.6 times the light, in float32
+};
+
+/// (c0 x^2 + c1 x + c2) / (c3 x^2 + c4 x + c5), with NVIDIA's FLIP tool's constants and their roundings.
+inline constexpr float kAces[6] = {0.6f * 0.6f * 2.51f, 0.6f * 0.03f, 0.0f,
+                                   0.6f * 0.6f * 2.43f, 0.6f * 0.59f, 0.14f};
+
+/// Display-referred linear light of a scene-linear picture: value * 2^exposure_stops through a tone
+/// curve to [0, 1]. Linear, not sRGB-encoded: a type of its own, so that a metric for shown light cannot be
 /// fed scene values, nor encoded ones. A view: the picture must outlive it.
 class DisplayLight {
  public:
-  DisplayLight(const Image& image, double exposure_stops);
+  DisplayLight(const Image& image, double exposure_stops, ToneCurve curve = ToneCurve::kClip);
 
   int width() const { return image_->width(); }
   int height() const { return image_->height(); }
@@ -23,6 +34,7 @@ class DisplayLight {
 
  private:
   const Image* image_;
+  ToneCurve curve_;
   double gain_;
 };
 

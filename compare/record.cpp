@@ -11,6 +11,12 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
   record["nonfinite"] = {{"a", comparison.nonfinite_a}, {"b", comparison.nonfinite_b}};
   record["viewing"] = {{"exposureStops", comparison.viewing.exposure_stops},
                        {"pixelsPerDegree", comparison.viewing.pixels_per_degree}};
+  if (const auto& range = comparison.viewing.hdr_exposures)
+    record["viewing"]["hdrExposures"] = {{"startStops", range->start_stops},
+                                         {"stopStops", range->stop_stops},
+                                         {"count", range->count},
+                                         {"automatic", range->automatic},
+                                         {"toneCurve", "aces"}};
   record["metrics"] = Json::object();
   for (const MetricValue& metric : comparison.metrics)
     record["metrics"][std::string(metric.id)] = number_or_name(metric.value);

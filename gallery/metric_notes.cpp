@@ -57,6 +57,10 @@ constexpr Entry kEntries[] = {
      MetricUnit::kPlain},
     {"flip.ldr.max", "LDR-FLIP, largest", "The pixel where a person would notice most.",
      MetricUnit::kPlain},
+    {"flip.hdr.mean", "HDR-FLIP, mean",
+     "The same at the exposure that shows each pixel’s difference best.", MetricUnit::kPlain},
+    {"flip.hdr.max", "HDR-FLIP, largest", "The pixel where a person would notice most.",
+     MetricUnit::kPlain},
     {"outliers", "Pixels beyond the tolerance",
      "A few pixels may be: on the silhouette and on the terminator rounding decides what a ray "
      "hits.",

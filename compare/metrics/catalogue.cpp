@@ -18,6 +18,7 @@
   METRIC(ssim)                  \
   METRIC(ms_ssim)               \
   METRIC(flip_ldr)              \
+  METRIC(flip_hdr)              \
   METRIC(outliers)
 
 namespace lobelia {
@@ -53,6 +54,8 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
       return true;
     case Needs::kTolerance:
       return input.tolerance != nullptr;
+    case Needs::kHdrExposures:
+      return input.hdr_exposures != nullptr;
     case Needs::kOneWindow:
       return std::min(input.a.width(), input.a.height()) >= kSsimSide;
     case Needs::kFiveScales:

@@ -15,75 +15,24 @@
 // Why the error map is float32, unlike every other metric: in a flat area the feature difference is
 // the square root of rounding noise, some 1e-4 in the tool, and moves the error by up to 5e-5. More
 // precision removes the noise but also the agreement.
-#include <oneapi/tbb/parallel_for.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "compare/metrics/flip_filters.hpp"
+#include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/metric.hpp"
 
 namespace lobelia {
 namespace {
 
-// Section 4.1.4: the share of the largest colour distance, and the error that it is mapped to,
-// above which distances are compressed.
-constexpr float kKnee = 0.4f, kErrorAtKnee = 0.95f;
-// Section 4.2.2: exponent of the feature difference, and 1/sqrt(2), which brings it to [0, 1].
-constexpr float kFeatureExponent = 0.5f;
-const float kFeatureScale = 1.0f / std::sqrt(2.0f);
-
-// Rows filtered at once: enough that the filter's radius around them costs little, few enough that
-// their planes stay in the cache and every processor has some.
-constexpr int kRowsPerTask = 32;
-
 constexpr MetricOutput kOutputs[] = {
     {"flip.ldr.mean", Better::kLower, true, "LDR-FLIP, mean"},
     {"flip.ldr.max", Better::kLower, true, "LDR-FLIP, the largest of all pixels"}};
 
-float colour_error(float distance, float largest) {
-  const float knee = kKnee * largest;
-  if (distance < knee) return distance * (kErrorAtKnee / knee);
-  return kErrorAtKnee + ((distance - knee) / (largest - knee)) * (1.0f - kErrorAtKnee);
-}
-
-float feature_difference(const FlipRows& a, const FlipRows& b, std::size_t i) {
-  const float edge = std::abs(a.edge[i] - b.edge[i]);
-  const float point = std::abs(a.point[i] - b.point[i]);
-  return std::pow(kFeatureScale * std::max(edge, point), kFeatureExponent);
-}
-
 void measure(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
-  const float largest_distance = flip_largest_distance();
-  const int width = input.shown_a.width(), height = input.shown_a.height();
-  std::vector<double> row_sum(std::size_t(height), 0.0), row_max(row_sum);
-  const int tasks = (height + kRowsPerTask - 1) / kRowsPerTask;
-  oneapi::tbb::parallel_for(0, tasks, [&](int task) {
-    const int first = task * kRowsPerTask, last = std::min(height, first + kRowsPerTask);
-    const FlipRows a = flip_filter_rows(input.shown_a, filters, first, last);
-    const FlipRows b = flip_filter_rows(input.shown_b, filters, first, last);
-    for (int row = first; row < last; ++row) {
-      double sum = 0, largest = 0;
-      for (int x = 0; x < width; ++x) {
-        const std::size_t i = std::size_t(row - first) * std::size_t(width) + std::size_t(x);
-        const float colour =
-            colour_error(flip_distance(a.colour[i], b.colour[i]), largest_distance);
-        const double error = std::pow(colour, 1.0f - feature_difference(a, b, i));
-        sum += error;
-        largest = std::max(largest, error);
-      }
-      row_sum[std::size_t(row)] = sum;
-      row_max[std::size_t(row)] = largest;
-    }
-  });
-  // In order of the rows: the sum must not depend on the number of threads.
-  double sum = 0, largest = 0;
-  for (const double row : row_sum) sum += row;
-  for (const double row : row_max) largest = std::max(largest, row);
-  values[0] = sum / double(std::max<std::size_t>(input.shown_a.pixel_count(), 1));
-  values[1] = largest;
+  const FlipPooled pooled =
+      flip_pooled(input.shown_a.width(), input.shown_a.height(), [&](int first, int last) {
+        return flip_error_rows(input.shown_a, input.shown_b, filters, first, last);
+      });
+  values[0] = pooled.mean;
+  values[1] = pooled.max;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,10 +19,19 @@ inline constexpr double kDefaultPixelsPerDegree = 3840 * std::numbers::pi / 180;
 inline constexpr double kMinPixelsPerDegree = 5, kMaxPixelsPerDegree = 1000;
 inline constexpr double kMaxExposureStops = 100;
 
+/// The exposures that HDR-FLIP looks at, evenly spaced.
+struct HdrExposures {
+  double start_stops = 0, stop_stops = 0;
+  int count = 2;
+  bool automatic = false;  ///< chosen from the reference, see automatic_exposures()
+};
+inline constexpr int kMaxHdrExposures = 100;
+
 /// How the pictures are looked at. One for a whole set of comparisons, and in every record.
 struct Viewing {
   double exposure_stops = 0;
   double pixels_per_degree = kDefaultPixelsPerDegree;
+  std::optional<HdrExposures> hdr_exposures = {};  ///< without them there is no HDR-FLIP
 };
 
 /// A pixel is an outlier if |a - b| > relative * |b| + of_peak * peak in any of its channels.
@@ -41,6 +51,7 @@ struct MetricInput {
   DisplayLight shown_a, shown_b;
   double pixels_per_degree;
   const Tolerance* tolerance = nullptr;  ///< null if none was asked for
+  const HdrExposures* hdr_exposures = nullptr;
 };
 
 /// Which way a number is to go: what a limit on it means, and what equal pictures have.
@@ -64,6 +75,7 @@ enum class Family : std::uint8_t {
 enum class Needs : std::uint8_t {
   kNothing,
   kTolerance,
+  kHdrExposures,
   kOneWindow,   ///< sides of at least kSsimSide
   kFiveScales,  ///< sides of at least kMsSsimSide
 };

@@ -1,8 +1,10 @@
-// LDR-FLIP against values of NVIDIA's tool.
+// LDR-FLIP and HDR-FLIP against values of NVIDIA's tool.
 #include <gtest/gtest.h>
 
 #include "compare/compare.hpp"
+#include "compare/metrics/flip_exposures.hpp"
 #include "compare/metrics/flip_filters.hpp"
+#include "core/error.hpp"
 #include "tests/compare/pictures.hpp"
 
 namespace lobelia {
@@ -113,6 +115,79 @@ TEST(Flip, ComesOutTheSameWhereverATaskOfRowsEnds) {
   for (std::size_t i = 0; i < part.edge.size(); ++i) {
     EXPECT_EQ(part.edge[i], whole.edge[37 * 20 + i]);
     EXPECT_EQ(part.colour[i].y, whole.colour[37 * 20 + i].y);
+  }
+}
+
+TEST(HdrFlip, AgreesWithTheReferenceToolOnConstants) {
+  const Image reference = testing::flat(64, 64, 0.25f, 0.25f, 0.25f);
+  const Image picture = testing::flat(64, 64, 0.5f, 0.5f, 0.5f);
+  ComparisonOptions options;
+  const HdrExposures automatic = automatic_exposures(reference);
+  EXPECT_NEAR(automatic.start_stops, 3.083297, 5e-7);
+  EXPECT_EQ(automatic.start_stops, automatic.stop_stops);
+  EXPECT_EQ(automatic.count, 2);
+  options.viewing.hdr_exposures = automatic;
+  const Comparison comparison = compare(picture, reference, options);
+  EXPECT_NEAR(comparison.value("flip.hdr.mean"), 0.14483313, 1e-8);
+  EXPECT_NEAR(comparison.value("flip.hdr.max"), 0.14483313, 1e-8);
+  // The same range in the seven digits that are printed: off by 3.1e-7, as a root is taken of noise.
+  options.viewing.hdr_exposures = HdrExposures{3.083297, 3.083297, 2};
+  EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"), 0.14483313, 1e-6);
+}
+
+TEST(HdrFlip, AgreesWithTheReferenceToolOnARamp) {
+  const auto ramp = [](float factor) {
+    Image image(64, 64);
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x)
+        for (float& value : image.pixel(x, y)) value = factor * std::exp2(float(x / 4 - 8));
+    return image;
+  };
+  const Image reference = ramp(1), picture = ramp(1.25f);
+  ComparisonOptions options;
+  options.viewing.hdr_exposures = automatic_exposures(reference);
+  EXPECT_NEAR(options.viewing.hdr_exposures->start_stops, -5.916703, 5e-7);
+  EXPECT_NEAR(options.viewing.hdr_exposures->stop_stops, 1.083297, 5e-7);
+  EXPECT_EQ(options.viewing.hdr_exposures->count, 7);
+  EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"), 0.21011607, 1e-8);
+}
+
+TEST(HdrFlip, IsLeftOutWithoutARangeOfExposures) {
+  const Image image = testing::flat(8, 8, 1, 1, 1);
+  EXPECT_TRUE(std::isnan(compare(image, image, {}).value("flip.hdr.mean")));
+}
+
+TEST(HdrFlip, SeesWhatIsTooBrightForOneExposure) {
+  const Image a = testing::flat(32, 32, 50, 50, 50), b = testing::flat(32, 32, 100, 100, 100);
+  ComparisonOptions options;
+  options.viewing.hdr_exposures = HdrExposures{-8, 0, 9};
+  const Comparison comparison = compare(a, b, options);
+  EXPECT_EQ(comparison.value("flip.ldr.mean"), 0);
+  EXPECT_GT(comparison.value("flip.hdr.mean"), 0.1);
+}
+
+TEST(HdrFlip, IsTheSameForHugeAndNegativeValuesAsForWhiteAndBlack) {
+  const Image black = testing::flat(16, 16, 0, 0, 0),
+              white = testing::flat(16, 16, 1e9f, 1e9f, 1e9f);
+  const Image huge = testing::flat(16, 16, 3e38f, 3e38f, 3e38f);
+  const Image negative = testing::flat(16, 16, -1, -1, -1);
+  ComparisonOptions options;
+  options.viewing.hdr_exposures = HdrExposures{0, 4, 2};
+  const double expected = compare(black, white, options).value("flip.hdr.mean");
+  EXPECT_EQ(compare(negative, huge, options).value("flip.hdr.mean"), expected);
+}
+
+TEST(HdrFlip, RefusesAnAutomaticRangeOfASphereOverBlackInWords) {
+  Image image = testing::flat(8, 8, 0, 0, 0);
+  for (int x = 0; x < 8; ++x) image.pixel(x, 0)[1] = 2;
+  try {
+    automatic_exposures(image);
+    FAIL() << "it was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    EXPECT_STREQ(error.what(),
+                 "the automatic range of exposures is infinite, as half of the reference's pixels "
+                 "are black (its median luminance is 0); give a fixed range");
   }
 }
 

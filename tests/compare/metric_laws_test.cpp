@@ -86,6 +86,9 @@ TEST(MetricCatalogue, IsNotEmptyAndHasUniqueIdsWithMeanings) {
                          "ssim",
                          "ms_ssim",
                          "flip.ldr.mean",
+                         "flip.ldr.max",
+                         "flip.hdr.mean",
+                         "flip.hdr.max",
                          "outliers"})
     EXPECT_TRUE(ids.count(id)) << id << " is promised by docs/records.md";
   EXPECT_EQ(find_metric_output("no such metric"), nullptr);

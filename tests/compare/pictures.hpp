@@ -43,6 +43,8 @@ inline Image highlight(int width, int height, double sharpness, double peak) {
   return image;
 }
 
+inline constexpr HdrExposures kHdrExposures{-2, 2, 3};
+
 inline MetricInput input(const Image& a, const Image& b, const Tolerance* tolerance = nullptr,
                          double exposure_stops = 0) {
   return {a,
@@ -50,7 +52,8 @@ inline MetricInput input(const Image& a, const Image& b, const Tolerance* tolera
           DisplayLight(a, exposure_stops),
           DisplayLight(b, exposure_stops),
           kDefaultPixelsPerDegree,
-          tolerance};
+          tolerance,
+          &kHdrExposures};
 }
 
 }  // namespace lobelia::testing

@@ -13,6 +13,7 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
   const Image a = testing::highlight(180, 180, 10, 1.0), b = testing::highlight(180, 180, 10, 1.1);
   ComparisonOptions options;
   options.viewing.exposure_stops = -1;
+  options.viewing.hdr_exposures = HdrExposures{-2, 1.5, 3};
   options.limits = {{"rmse", 1}};
   options.tolerance = Tolerance{0.5, 0.25, 7};
   const Json record = comparison_record(compare(a, b, options), "a.exr", "b.exr");
@@ -24,6 +25,11 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
   EXPECT_EQ(record["nonfinite"], (Json{{"a", 0}, {"b", 0}}));
   EXPECT_EQ(record["viewing"]["exposureStops"], -1.0);
   EXPECT_EQ(record["viewing"]["pixelsPerDegree"], kDefaultPixelsPerDegree);
+  EXPECT_EQ(record["viewing"]["hdrExposures"], (Json{{"startStops", -2.0},
+                                                     {"stopStops", 1.5},
+                                                     {"count", 3},
+                                                     {"automatic", false},
+                                                     {"toneCurve", "aces"}}));
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs)
       EXPECT_TRUE(record["metrics"][std::string(output.id)].is_number()) << output.id;

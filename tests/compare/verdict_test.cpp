@@ -163,6 +163,11 @@ TEST(Comparison, RefusesOptionsOutOfRange) {
   refused([](ComparisonOptions& o) { o.limits = {{"rmse", -1}}; });
   refused([&](ComparisonOptions& o) { o.limits = {{"rmse", nan}}; });
   refused([](ComparisonOptions& o) { o.limits = {{"outliers", 1}}; });
+  refused([](ComparisonOptions& o) { o.limits = {{"flip.hdr.mean", 1}}; });
+  refused([](ComparisonOptions& o) { o.viewing.hdr_exposures = HdrExposures{1, 0, 2}; });
+  refused([](ComparisonOptions& o) { o.viewing.hdr_exposures = HdrExposures{0, 1, 1}; });
+  refused([](ComparisonOptions& o) { o.viewing.hdr_exposures = HdrExposures{0, 1, 101}; });
+  refused([&](ComparisonOptions& o) { o.viewing.hdr_exposures = HdrExposures{nan, 1, 3}; });
   refused([](ComparisonOptions& o) { o.tolerance = Tolerance{-1, 0, 0}; });
   refused([](ComparisonOptions& o) { o.tolerance = Tolerance{0, 0, -1}; });
   check_options({});

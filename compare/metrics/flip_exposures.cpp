@@ -1,0 +1,60 @@
+#include "compare/metrics/flip_exposures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "compare/display_light.hpp"
+#include "core/error.hpp"
+
+namespace lobelia {
+namespace {
+
+/// What the largest and the median luminance are brought to by the tone curve.
+constexpr float kShown = 0.85f;
+
+/// The light that the tone curve shows as that, in the tool's order of operations.
+float light_shown_as(float shown) {
+  const float a = kAces[0] - shown * kAces[3], b = kAces[1] - shown * kAces[4],
+              c = kAces[2] - shown * kAces[5];
+  const float half = -0.5f * (b / a);
+  return half + std::sqrt(half * half - c / a);
+}
+
+}  // namespace
+
+HdrExposures automatic_exposures(const Image& reference) {
+  const std::span<const float> values = reference.values();
+  std::vector<float> luminances;
+  luminances.reserve(reference.pixel_count());
+  for (std::size_t i = 0; i < values.size(); i += 3)
+    luminances.push_back(0.2126f * values[i] + 0.7152f * values[i + 1] + 0.0722f * values[i + 2]);
+  if (luminances.empty()) throw Error(ExitCode::kInput, "the pictures have no pixels");
+  if (!std::all_of(luminances.begin(), luminances.end(), [](float l) { return std::isfinite(l); }))
+    throw Error(ExitCode::kInput,
+                "the automatic range of exposures needs a reference without a NaN or an infinity");
+  const float largest = *std::max_element(luminances.begin(), luminances.end());
+  // The upper one of two in the middle, as the tool takes it.
+  const auto middle = luminances.begin() + std::ptrdiff_t(luminances.size() / 2);
+  std::nth_element(luminances.begin(), middle, luminances.end());
+  if (!(*middle > 0))
+    throw Error(
+        ExitCode::kInput,
+        "the automatic range of exposures is infinite, as half of the reference's pixels are "
+        "black (its median luminance is 0); give a fixed range");
+  const float light = light_shown_as(kShown);
+  const float start = std::log2(light / largest), stop = std::log2(light / *middle);
+  const HdrExposures exposures{start, stop, std::max(2, int(std::ceil(stop - start))), true};
+  if (exposures.count > kMaxHdrExposures || !(std::abs(start) <= kMaxExposureStops) ||
+      !(std::abs(stop) <= kMaxExposureStops))
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("the automatic range of exposures, {:.4g} to {:.4g} stops, is too wide or "
+                    "too far; give a fixed range",
+                    start, stop));
+  return exposures;
+}
+
+}  // namespace lobelia

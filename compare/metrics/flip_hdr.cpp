@@ -1,0 +1,66 @@
+// HDR-FLIP: the difference that a person sees when two pictures of high dynamic range are shown in turn
+// at whatever exposure shows it best, 0 to 1.
+//
+// Source:       P. Andersson, J. Nilsson, P. Shirley, T. Akenine-Moeller, "Visualizing Errors in
+//               Rendered High Dynamic Range Images", Eurographics 2021 Short Papers.
+// Formula:      per pixel the largest LDR-FLIP (flip_ldr.cpp) over a range of exposures, evenly
+//               spaced in stops, each shown through the ACES curve of display_light.hpp. mean and max
+//               over all pixels.
+// Input:        scene-linear values; what is below 0 counts as 0. The exposure of the viewing
+//               condition is not applied: the range takes its place, and stands in the record.
+// Left out:     where no range is given. A figure depends on its range, so one for a whole set of
+//               pairs is to be named; automatic_exposures() takes the tool's for one reference.
+// Agrees with:  NVIDIA's tool, version 1.6, its mean taken in double, in all eight digits of the means
+//               on the pictures of the test, and in its automatic ranges.
+// Differs:      the mean is summed in double. The tool's curve gives a NaN for values over 1.8e19,
+//               whose square is infinite, and light for negative ones; ours white and black.
+#include <algorithm>
+
+#include "compare/metrics/flip_error.hpp"
+#include "compare/metrics/metric.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr MetricOutput kOutputs[] = {
+    {"flip.hdr.mean", Better::kLower, true, "HDR-FLIP, mean"},
+    {"flip.hdr.max", Better::kLower, true, "HDR-FLIP, the largest of all pixels"}};
+
+/// As the tool spaces them, in float32.
+std::vector<float> exposure_stops(const HdrExposures& range) {
+  const auto start = float(range.start_stops), stop = float(range.stop_stops);
+  const float step = (stop - start) / float(range.count - 1);
+  std::vector<float> stops;
+  for (int i = 0; i < range.count; ++i) stops.push_back(start + float(i) * step);
+  // Equal ones, of a reference whose largest luminance is its median, show the same.
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+  return stops;
+}
+
+void measure(const MetricInput& input, std::span<double> values) {
+  const FlipFilters filters(float(input.pixels_per_degree));
+  const std::vector<float> stops = exposure_stops(*input.hdr_exposures);
+  const FlipPooled pooled =
+      flip_pooled(input.a.width(), input.a.height(), [&](int first, int last) {
+        std::vector<float> largest;
+        for (const float stop : stops) {
+          const DisplayLight a(input.a, double(stop), ToneCurve::kAces);
+          const DisplayLight b(input.b, double(stop), ToneCurve::kAces);
+          const std::vector<float> errors = flip_error_rows(a, b, filters, first, last);
+          largest.resize(errors.size(), 0.0f);
+          for (std::size_t i = 0; i < errors.size(); ++i)
+            largest[i] = std::max(largest[i], errors[i]);
+        }
+        return largest;
+      });
+  values[0] = pooled.mean;
+  values[1] = pooled.max;
+}
+
+}  // namespace
+
+extern const Metric flip_hdr_metric;
+constinit const Metric flip_hdr_metric{kOutputs, Family::kVisibility, Needs::kHdrExposures,
+                                       "Andersson et al. 2021; FLIP 1.6", measure};
+
+}  // namespace lobelia
