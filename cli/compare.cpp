@@ -100,8 +100,11 @@ ExitCode run(Options options) {
   if (!options.tolerance.empty()) options.comparison.tolerance = parse_tolerance(options.tolerance);
   std::optional<HdrExposures>& exposures = options.comparison.viewing.hdr_exposures;
   if (!options.exposures.empty()) exposures = parse_exposures(options.exposures);
-  if (!options.scene.empty())
-    options.comparison.tolerance->edges = truth::edge_ring(read_scene(options.scene));
+  if (!options.scene.empty()) {
+    const Scene scene = read_scene(options.scene);
+    options.comparison.mask = truth::surface_mask(scene);
+    if (options.comparison.tolerance) options.comparison.tolerance->edges = truth::edge_ring(scene);
+  }
   check_options(options.comparison);
   const bool json_to_file = !options.json.empty() && options.json != "-";
   if (json_to_file) require_writable(options.json);
@@ -169,19 +172,19 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->expected(1)
       ->take_all()
       ->group("Verdict");
-  auto* tolerance =
-      command
-          ->add_option(
-              "--tolerance", options->tolerance,
-              "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
-              "any channel; verdict 'differs' if there are more than COUNT")
-          ->type_name("REL,PEAK,COUNT")
-          ->group("Verdict");
   command
-      ->add_option("--scene", options->scene,
-                   "With --tolerance: outliers may lie only on the silhouettes, terminators and "
-                   "shadow edges of this scene")
-      ->needs(tolerance)
+      ->add_option(
+          "--tolerance", options->tolerance,
+          "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
+          "any channel; verdict 'differs' if there are more than COUNT")
+      ->type_name("REL,PEAK,COUNT")
+      ->group("Verdict");
+  command
+      ->add_option(
+          "--scene", options->scene,
+          "Measure errors on the pixels that see a surface of this scene as well (ids in "
+          ".mask); with --tolerance, outliers may lie only on its silhouettes, terminators "
+          "and shadow edges")
       ->group("Verdict");
 
   command

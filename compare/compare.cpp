@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -43,6 +44,7 @@ std::string_view what_is_missing(const Metric& metric, const ComparisonOptions& 
   if (metric.needs == Needs::kTolerance && !options.tolerance) return "a tolerance";
   if (metric.needs == Needs::kHdrExposures && !options.viewing.hdr_exposures)
     return "a range of exposures";
+  if (metric.needs == Needs::kMask && options.mask.empty()) return "a mask";
   return {};
 }
 
@@ -132,14 +134,20 @@ void check_options(const ComparisonOptions& options) {
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {
   check_options(options);
   require_same_size(a, b);
-  if (options.tolerance && !options.tolerance->edges.empty() &&
-      options.tolerance->edges.size() != a.pixel_count())
-    throw Error(ExitCode::kInput, fmt::format("the pictures have {} pixels, the scene {}",
-                                              a.pixel_count(), options.tolerance->edges.size()));
+  const auto require_pixels = [&](std::string_view what, std::size_t count) {
+    if (count != 0 && count != a.pixel_count())
+      throw Error(ExitCode::kInput, fmt::format("the pictures have {} pixels, the {} {}",
+                                                a.pixel_count(), what, count));
+  };
+  if (options.tolerance) require_pixels("scene", options.tolerance->edges.size());
+  require_pixels("mask", options.mask.size());
 
   Comparison result;
   result.viewing = options.viewing;
   result.tolerance = options.tolerance;
+  if (!options.mask.empty())
+    result.mask_pixels = std::count_if(options.mask.begin(), options.mask.end(),
+                                       [](std::uint8_t inside) { return inside != 0; });
   result.nonfinite_a = count_nonfinite_pixels(a);
   result.nonfinite_b = count_nonfinite_pixels(b);
   const bool finite = result.nonfinite_a == 0 && result.nonfinite_b == 0;
@@ -148,7 +156,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     result.metrics = measure_all(
         {a, b, DisplayLight(a, stops), DisplayLight(b, stops), options.viewing.pixels_per_degree,
          options.tolerance ? &*options.tolerance : nullptr,
-         options.viewing.hdr_exposures ? &*options.viewing.hdr_exposures : nullptr});
+         options.viewing.hdr_exposures ? &*options.viewing.hdr_exposures : nullptr, options.mask});
   }
 
   std::vector<MetricLimit> limits = options.limits;

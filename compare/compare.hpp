@@ -23,6 +23,9 @@ struct ComparisonOptions {
   Viewing viewing;
   std::vector<MetricLimit> limits;
   std::optional<Tolerance> tolerance;
+  /// By pixel in reading order, not 0 where it is inside: errors are measured there as well, under
+  /// ids that end in .mask. Empty for none.
+  std::vector<std::uint8_t> mask = {};
 };
 
 /// The limits where neither limits nor a tolerance were asked for.
@@ -54,6 +57,7 @@ struct Comparison {
   std::vector<MetricValue> metrics;  ///< in the catalogue's order; empty if something is not finite
   std::vector<LimitResult> limits;   ///< that the verdict was made of
   std::optional<Tolerance> tolerance;
+  std::optional<std::int64_t> mask_pixels;  ///< inside the mask, if there was one
 
   /// The value of a metric, or NaN if it was not measured.
   double value(std::string_view id) const;

@@ -17,6 +17,7 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
                                          {"count", range->count},
                                          {"automatic", range->automatic},
                                          {"toneCurve", "aces"}};
+  if (comparison.mask_pixels) record["mask"] = {{"pixels", *comparison.mask_pixels}};
   record["metrics"] = Json::object();
   for (const MetricValue& metric : comparison.metrics)
     record["metrics"][std::string(metric.id)] = number_or_name(metric.value);

@@ -65,6 +65,14 @@ constexpr Entry kEntries[] = {
      "A few pixels may be: on the silhouette and on the terminator rounding decides what a ray "
      "hits.",
      MetricUnit::kCount},
+    {"mae.mask", "Mean difference, inside the mask", "Of the pixels that see a surface.",
+     MetricUnit::kRadiance},
+    {"rmse.mask", "Root mean square difference, inside the mask",
+     "Of the pixels that see a surface.", MetricUnit::kRadiance},
+    {"drift.mask", "Mean difference with its sign, inside the mask",
+     "Of the pixels that see a surface.", MetricUnit::kRadiance},
+    {"max_abs.mask", "Largest difference, inside the mask", "Of the pixels that see a surface.",
+     MetricUnit::kRadiance},
 };
 
 }  // namespace

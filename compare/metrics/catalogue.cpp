@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-// One line per metric: a file of that name in this directory defines `const Metric <name>_metric`.
+// One line per metric: a file of that name in this directory defines `const Metric <name>_metric`, and
+// the same inside a mask as <name>_mask_metric.
 #define LOBELIA_METRICS(METRIC) \
   METRIC(mae)                   \
   METRIC(mse)                   \
@@ -19,7 +20,11 @@
   METRIC(ms_ssim)               \
   METRIC(flip_ldr)              \
   METRIC(flip_hdr)              \
-  METRIC(outliers)
+  METRIC(outliers)              \
+  METRIC(mae_mask)              \
+  METRIC(rmse_mask)             \
+  METRIC(drift_mask)            \
+  METRIC(max_abs_mask)
 
 namespace lobelia {
 
@@ -54,6 +59,8 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
       return true;
     case Needs::kTolerance:
       return input.tolerance != nullptr;
+    case Needs::kMask:
+      return std::any_of(input.mask.begin(), input.mask.end(), [](auto inside) { return inside; });
     case Needs::kHdrExposures:
       return input.hdr_exposures != nullptr;
     case Needs::kOneWindow:

@@ -3,27 +3,32 @@
 // Source:       textbook (mean bias error).
 // Formula:      sum (a - b) / (3 N) over the R, G and B values of all N pixels: positive where `a` is
 //               too bright. Noise cancels here, a wrong normalisation does not.
-// Input:        scene-linear values, neither exposed nor clipped.
+// Input:        scene-linear values, neither exposed nor clipped; with the suffix .mask those of the
+//               pixels inside the mask alone.
 // Limit:        on its size: --fail drift=0.01 asks for |drift| <= 0.01.
-#include "compare/metrics/metric.hpp"
+#include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
     {"drift", Better::kNearZero, false, "signed mean of a - b over all RGB values"}};
+constexpr MetricOutput kMaskOutputs[] = {
+    {"drift.mask", Better::kNearZero, false, "the same inside the mask"}};
 
+template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {
-  const std::span<const float> a = input.a.values(), b = input.b.values();
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += double(a[i]) - double(b[i]);
-  values[0] = a.empty() ? 0 : sum / double(a.size());
+  values[0] = mean_over<part>(input, [](double a, double b) { return a - b; });
 }
 
 }  // namespace
 
 extern const Metric drift_metric;
 constinit const Metric drift_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                    measure};
+                                    measure<Part::kPicture>};
+
+extern const Metric drift_mask_metric;
+constinit const Metric drift_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask, "textbook",
+                                         measure<Part::kMask>};
 
 }  // namespace lobelia

@@ -2,30 +2,35 @@
 //
 // Source:       textbook.
 // Formula:      sum |a - b| / (3 N) over the R, G and B values of all N pixels.
-// Input:        scene-linear values, neither exposed nor clipped.
+// Input:        scene-linear values, neither exposed nor clipped; with the suffix .mask those of the
+//               pixels inside the mask alone.
 // Agrees with:  `idiff` ("Mean error"), to the float32 digits it prints.
 // Differs:      the sum is in double.
 #include <cmath>
 
-#include "compare/metrics/metric.hpp"
+#include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
     {"mae", Better::kLower, true, "mean absolute error of all RGB values"}};
+constexpr MetricOutput kMaskOutputs[] = {
+    {"mae.mask", Better::kLower, true, "the same inside the mask"}};
 
+template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {
-  const std::span<const float> a = input.a.values(), b = input.b.values();
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(double(a[i]) - double(b[i]));
-  values[0] = a.empty() ? 0 : sum / double(a.size());
+  values[0] = mean_over<part>(input, [](double a, double b) { return std::abs(a - b); });
 }
 
 }  // namespace
 
 extern const Metric mae_metric;
 constinit const Metric mae_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                  measure};
+                                  measure<Part::kPicture>};
+
+extern const Metric mae_mask_metric;
+constinit const Metric mae_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask, "textbook",
+                                       measure<Part::kMask>};
 
 }  // namespace lobelia

@@ -3,11 +3,13 @@
 // Source:       textbook.
 // Formula:      max |a - b| over the R, G and B values of all pixels; the first such pixel in
 //               reading order, x to the right, y down, from 0. Equal pictures: 0 at (0, 0).
-// Input:        scene-linear values, neither exposed nor clipped.
+// Input:        scene-linear values, neither exposed nor clipped; with the suffix .mask those of the
+//               pixels inside the mask alone.
 // Agrees with:  `idiff` ("Max error"), to the float32 digits it prints.
+#include <algorithm>
 #include <cmath>
 
-#include "compare/metrics/metric.hpp"
+#include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
 namespace {
@@ -16,28 +18,36 @@ constexpr MetricOutput kOutputs[] = {
     {"max_abs", Better::kLower, true, "largest error of an RGB value"},
     {"max_abs.x", Better::kNeither, true, "its column"},
     {"max_abs.y", Better::kNeither, true, "its row, from the top"}};
+constexpr MetricOutput kMaskOutputs[] = {
+    {"max_abs.mask", Better::kLower, true, "largest error of an RGB value inside the mask"},
+    {"max_abs.mask.x", Better::kNeither, true, "its column"},
+    {"max_abs.mask.y", Better::kNeither, true, "its row, from the top"}};
 
+template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {
-  const std::span<const float> a = input.a.values(), b = input.b.values();
   double largest = 0;
   std::size_t where = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double difference = std::abs(double(a[i]) - double(b[i]));
+  for_each_value<part>(input, [&](double a, double b, std::size_t pixel) {
+    const double difference = std::abs(a - b);
     if (difference > largest) {
       largest = difference;
-      where = i / 3;
+      where = pixel;
     }
-  }
-  const std::size_t width = std::size_t(input.a.width());
+  });
+  const std::size_t width = std::size_t(std::max(input.a.width(), 1));
   values[0] = largest;
-  values[1] = a.empty() ? 0 : double(where % width);
-  values[2] = a.empty() ? 0 : double(where / width);
+  values[1] = double(where % width);
+  values[2] = double(where / width);
 }
 
 }  // namespace
 
 extern const Metric max_abs_metric;
 constinit const Metric max_abs_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                      measure};
+                                      measure<Part::kPicture>};
+
+extern const Metric max_abs_mask_metric;
+constinit const Metric max_abs_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
+                                           "textbook", measure<Part::kMask>};
 
 }  // namespace lobelia

@@ -52,6 +52,8 @@ struct MetricInput {
   double pixels_per_degree;
   const Tolerance* tolerance = nullptr;  ///< null if none was asked for
   const HdrExposures* hdr_exposures = nullptr;
+  /// By pixel, not 0 where it is inside; empty if none was given.
+  std::span<const std::uint8_t> mask = {};
 };
 
 /// Which way a number is to go: what a limit on it means, and what equal pictures have.
@@ -75,6 +77,7 @@ enum class Family : std::uint8_t {
 enum class Needs : std::uint8_t {
   kNothing,
   kTolerance,
+  kMask,  ///< one with a pixel in it
   kHdrExposures,
   kOneWindow,   ///< sides of at least kSsimSide
   kFiveScales,  ///< sides of at least kMsSsimSide

@@ -5,8 +5,7 @@
 // Input:        scene-linear values, neither exposed nor clipped.
 // Agrees with:  the square of the "RMS error" of `idiff`, to the float32 digits it prints.
 // Differs:      the sum is in double.
-#include "compare/metrics/mean_square.hpp"
-#include "compare/metrics/metric.hpp"
+#include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
 namespace {
@@ -15,7 +14,7 @@ constexpr MetricOutput kOutputs[] = {
     {"mse", Better::kLower, true, "mean square error of all RGB values"}};
 
 void measure(const MetricInput& input, std::span<double> values) {
-  values[0] = mean_square_error(input.a, input.b);
+  values[0] = mean_square_error<Part::kPicture>(input);
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/metrics/mean_square.hpp"
 #include "compare/metrics/metric.hpp"
 #include "compare/metrics/peak.hpp"
+#include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
 namespace {
@@ -24,7 +24,7 @@ constexpr MetricOutput kOutputs[] = {
     {"psnr", Better::kHigher, false, "reference's peak over rmse, in decibels", kInfinity}};
 
 void measure(const MetricInput& input, std::span<double> values) {
-  const double error = mean_square_error(input.a, input.b), peak = peak_value(input.b);
+  const double error = mean_square_error<Part::kPicture>(input), peak = peak_value(input.b);
   values[0] = error == 0 ? kInfinity : 20 * std::log10(peak) - 10 * std::log10(error);
 }
 

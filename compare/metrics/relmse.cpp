@@ -9,7 +9,7 @@
 // Input:        scene-linear values, neither exposed nor clipped.
 // Differs:      some divide a pixel's squared error by its squared mean over the channels; here each
 //               channel has its own denominator.
-#include "compare/metrics/metric.hpp"
+#include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
 namespace {
@@ -20,13 +20,8 @@ constexpr MetricOutput kOutputs[] = {
     {"relmse.eps=0.01", Better::kLower, false, "mean of (a - b)^2 / (b^2 + 0.01)"}};
 
 void measure(const MetricInput& input, std::span<double> values) {
-  const std::span<const float> a = input.a.values(), b = input.b.values();
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double reference = b[i], difference = double(a[i]) - reference;
-    sum += difference * difference / (reference * reference + kEpsilon);
-  }
-  values[0] = a.empty() ? 0 : sum / double(a.size());
+  values[0] = mean_over<Part::kPicture>(
+      input, [](double a, double b) { return (a - b) * (a - b) / (b * b + kEpsilon); });
 }
 
 }  // namespace

@@ -2,28 +2,35 @@
 //
 // Source:       textbook.
 // Formula:      sqrt( sum (a - b)^2 / (3 N) ) over the R, G and B values of all N pixels.
-// Input:        scene-linear values, neither exposed nor clipped.
+// Input:        scene-linear values, neither exposed nor clipped; with the suffix .mask those of the
+//               pixels inside the mask alone.
 // Agrees with:  `idiff` and `oiiotool --diff` ("RMS error"), to the float32 digits they print.
 // Differs:      the sum is in double; a float32 sum loses a percent on a large picture.
 #include <cmath>
 
-#include "compare/metrics/mean_square.hpp"
-#include "compare/metrics/metric.hpp"
+#include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
     {"rmse", Better::kLower, true, "root mean square error of all RGB values"}};
+constexpr MetricOutput kMaskOutputs[] = {
+    {"rmse.mask", Better::kLower, true, "the same inside the mask"}};
 
+template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {
-  values[0] = std::sqrt(mean_square_error(input.a, input.b));
+  values[0] = std::sqrt(mean_square_error<part>(input));
 }
 
 }  // namespace
 
 extern const Metric rmse_metric;
 constinit const Metric rmse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                   measure};
+                                   measure<Part::kPicture>};
+
+extern const Metric rmse_mask_metric;
+constinit const Metric rmse_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask, "textbook",
+                                        measure<Part::kMask>};
 
 }  // namespace lobelia

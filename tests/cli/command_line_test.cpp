@@ -133,14 +133,29 @@ TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
   EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr"}).exit_code, 1);
   EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9"}).exit_code, 0);
   EXPECT_EQ(compare({"head_on.exr", "large.exr"}).exit_code, 3);
-  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--scene", kScenes + "head_on.xml"}).exit_code,
-            2)
-      << "--scene says where outliers may lie, and there is no tolerance";
   // The pictures are 64 x 64, the scene's film 256 x 256.
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--tolerance", "0,0,3", "--scene",
                      kScenes + "head_on.xml"})
                 .exit_code,
             3);
+  const auto masked = [&](const std::string& limit) {
+    return compare({"large.exr", "large.exr", "--scene", kScenes + "head_on.xml", "--fail", limit});
+  };
+  EXPECT_EQ(masked("max_abs.mask=0").exit_code, 0);
+  EXPECT_THAT(masked("max_abs.mask=0").output_tail, HasSubstr("rmse.mask"));
+  EXPECT_EQ(compare({"large.exr", "large.exr", "--fail", "max_abs.mask=0"}).exit_code, 2);
+  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "psnr=-100"}).exit_code, 0);
+  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "relmse.eps=0.01=0"}).exit_code, 1);
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--fail", "flip.hdr.mean=0"}).exit_code, 2);
+  EXPECT_EQ(
+      compare({"head_on.exr", "head_on.exr", "--exposures", "-4,2,7", "--fail", "flip.hdr.max=0"})
+          .exit_code,
+      0);
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--exposures", "2,1,7"}).exit_code, 2);
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--exposures", "often"}).exit_code, 2);
+  const auto automatic = compare({"head_on.exr", "head_on.exr", "--exposures", "auto"});
+  EXPECT_EQ(automatic.exit_code, 3) << "a sphere over black";
+  EXPECT_THAT(automatic.output_tail, HasSubstr("median luminance is 0"));
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--fail", "rsme=1"}).exit_code, 2);
   EXPECT_THAT(compare({"head_on.exr", "head_on.exr", "--json", "-"}).output_tail,
               HasSubstr("\"schemaVersion\": 1"));

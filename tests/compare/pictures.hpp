@@ -47,13 +47,15 @@ inline constexpr HdrExposures kHdrExposures{-2, 2, 3};
 
 inline MetricInput input(const Image& a, const Image& b, const Tolerance* tolerance = nullptr,
                          double exposure_stops = 0) {
+  static const std::vector<std::uint8_t> everywhere(std::size_t{1} << 23, 1);
   return {a,
           b,
           DisplayLight(a, exposure_stops),
           DisplayLight(b, exposure_stops),
           kDefaultPixelsPerDegree,
           tolerance,
-          &kHdrExposures};
+          &kHdrExposures,
+          std::span(everywhere).first(a.pixel_count())};
 }
 
 }  // namespace lobelia::testing

@@ -14,6 +14,8 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
   ComparisonOptions options;
   options.viewing.exposure_stops = -1;
   options.viewing.hdr_exposures = HdrExposures{-2, 1.5, 3};
+  options.mask.assign(a.pixel_count(), 0);
+  options.mask[7] = options.mask[90] = 1;
   options.limits = {{"rmse", 1}};
   options.tolerance = Tolerance{0.5, 0.25, 7};
   const Json record = comparison_record(compare(a, b, options), "a.exr", "b.exr");
@@ -30,6 +32,7 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
                                                      {"count", 3},
                                                      {"automatic", false},
                                                      {"toneCurve", "aces"}}));
+  EXPECT_EQ(record["mask"], (Json{{"pixels", 2}}));
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs)
       EXPECT_TRUE(record["metrics"][std::string(output.id)].is_number()) << output.id;

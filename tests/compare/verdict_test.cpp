@@ -164,6 +164,7 @@ TEST(Comparison, RefusesOptionsOutOfRange) {
   refused([&](ComparisonOptions& o) { o.limits = {{"rmse", nan}}; });
   refused([](ComparisonOptions& o) { o.limits = {{"outliers", 1}}; });
   refused([](ComparisonOptions& o) { o.limits = {{"flip.hdr.mean", 1}}; });
+  refused([](ComparisonOptions& o) { o.limits = {{"rmse.mask", 1}}; });
   refused([](ComparisonOptions& o) { o.viewing.hdr_exposures = HdrExposures{1, 0, 2}; });
   refused([](ComparisonOptions& o) { o.viewing.hdr_exposures = HdrExposures{0, 1, 1}; });
   refused([](ComparisonOptions& o) { o.viewing.hdr_exposures = HdrExposures{0, 1, 101}; });
@@ -171,6 +172,43 @@ TEST(Comparison, RefusesOptionsOutOfRange) {
   refused([](ComparisonOptions& o) { o.tolerance = Tolerance{-1, 0, 0}; });
   refused([](ComparisonOptions& o) { o.tolerance = Tolerance{0, 0, -1}; });
   check_options({});
+}
+
+TEST(Mask, HasErrorsOfItsOwn) {
+  const Image b = testing::flat(4, 2, 1, 1, 1);
+  Image a = b;
+  a.pixel(0, 0)[0] = 4;  // outside
+  a.pixel(2, 1)[0] = 1.75f;
+  a.pixel(3, 1)[2] = 0.5f;
+  ComparisonOptions options;
+  options.mask = {0, 0, 0, 0, 0, 0, 1, 255};
+  const Comparison comparison = compare(a, b, options);
+  EXPECT_EQ(comparison.mask_pixels, 2);
+  EXPECT_DOUBLE_EQ(comparison.value("mae.mask"), 1.25 / 6);
+  EXPECT_DOUBLE_EQ(comparison.value("drift.mask"), 0.25 / 6);
+  EXPECT_DOUBLE_EQ(comparison.value("rmse.mask"), std::sqrt((0.5625 + 0.25) / 6));
+  EXPECT_EQ(comparison.value("max_abs.mask"), 0.75);
+  EXPECT_EQ(comparison.value("max_abs.mask.x"), 2);
+  EXPECT_EQ(comparison.value("max_abs.mask.y"), 1);
+  EXPECT_EQ(comparison.value("max_abs"), 3);
+}
+
+TEST(Mask, WithoutAPixelMeasuresNothingAndPassesNothing) {
+  const Image image = testing::flat(2, 2, 1, 1, 1);
+  ComparisonOptions options;
+  options.mask.assign(4, 0);
+  options.limits = {{"mae.mask", 1}};
+  const Comparison comparison = compare(image, image, options);
+  EXPECT_EQ(comparison.mask_pixels, 0);
+  EXPECT_TRUE(std::isnan(comparison.value("mae.mask")));
+  EXPECT_EQ(comparison.verdict, Verdict::kDiffers);
+}
+
+TEST(Mask, OfAnotherSizeIsRefused) {
+  const Image image = testing::flat(2, 2, 1, 1, 1);
+  ComparisonOptions options;
+  options.mask.assign(5, 1);
+  EXPECT_EQ(error_of([&] { compare(image, image, options); }).code(), ExitCode::kInput);
 }
 
 TEST(DifferencePicture, ShowsTheErrorAsAShareOfWhite) {

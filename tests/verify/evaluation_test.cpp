@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
 #include "verify/stability/sphere_scenes.hpp"
@@ -356,6 +357,27 @@ TEST(Evaluation, LeavesRowsBlackOnceItIsToldToStop) {
   for (const Rgb& pixel :
        truth::evaluate(hall_scene(kPhong, 8), Digits::kFifty, [] { return true; }))
     EXPECT_EQ(pixel, Rgb{});
+}
+
+TEST(SurfaceMask, IsWhereTheRayThroughThePixelMeetsASphere) {
+  Scene scene = sphere_scene(kPhong, {directional_at(30)}, 33);
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const auto mask = truth::surface_mask(scene);
+  int inside = 0;
+  for (int y = 0; y < 33; ++y)
+    for (int x = 0; x < 33; ++x) {
+      const bool hit =
+          nearest_hit(scene, scene.camera.origin, normalize(centre_ray(frame, x, y))).has_value();
+      EXPECT_EQ(mask[std::size_t(33 * y + x)] != 0, hit) << x << ", " << y;
+      inside += hit;
+    }
+  EXPECT_GT(inside, 100);
+  EXPECT_LT(inside, 1000);
+}
+
+TEST(SurfaceMask, HasPlanesToo) {
+  const auto mask = truth::surface_mask(plane_scene());
+  EXPECT_EQ(std::count(mask.begin(), mask.end(), 1), 81);
 }
 
 }  // namespace

@@ -29,4 +29,8 @@ std::vector<Rgb> evaluate(const Scene& scene, Digits digits,
 /// else. Throws as evaluate() does.
 std::vector<std::uint8_t> edge_ring(const Scene& scene);
 
+/// By pixel in reading order, 1 where the ray through its centre meets a sphere or a plane. Lights, a lens and
+/// samples make no difference; throws Error(kInput) for more than kMaxSpheresByRay spheres.
+std::vector<std::uint8_t> surface_mask(const Scene& scene);
+
 }  // namespace lobelia::truth

@@ -1,0 +1,42 @@
+// Errors of RGB values, over the whole picture or inside the mask that a comparison was given.
+#pragma once
+
+#include <cstddef>
+
+#include "compare/metrics/metric.hpp"
+
+namespace lobelia {
+
+enum class Part { kPicture, kMask };
+
+/// Calls visit(a, b, pixel) with the RGB values of the part in reading order; returns how many.
+template <Part part, class Visit>
+std::size_t for_each_value(const MetricInput& input, Visit visit) {
+  const std::span<const float> a = input.a.values(), b = input.b.values();
+  std::size_t count = 0;
+  for (std::size_t pixel = 0; pixel < a.size() / 3; ++pixel) {
+    if constexpr (part == Part::kMask)
+      if (input.mask[pixel] == 0) continue;
+    for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
+      visit(double(a[i]), double(b[i]), pixel);
+    count += 3;
+  }
+  return count;
+}
+
+/// Mean of error(a, b), summed in double, as a float32 sum loses a percent on a large picture; 0 for a
+/// part without pixels.
+template <Part part, class Error>
+double mean_over(const MetricInput& input, Error error) {
+  double sum = 0;
+  const std::size_t count =
+      for_each_value<part>(input, [&](double a, double b, std::size_t) { sum += error(a, b); });
+  return count == 0 ? 0 : sum / double(count);
+}
+
+template <Part part>
+double mean_square_error(const MetricInput& input) {
+  return mean_over<part>(input, [](double a, double b) { return (a - b) * (a - b); });
+}
+
+}  // namespace lobelia
