@@ -90,6 +90,8 @@ void print_table(const Options& options, const Comparison& comparison) {
                  : limit.pass            ? "is within"
                                          : "is OUTSIDE",
                  limit.limit);
+  for (const std::string& sentence : comparison.disagreement)
+    fmt::print("  metrics disagree: {}\n", sentence);
   fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite ? "" : "\n",
              verdict_name(comparison.verdict));
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/disagreement.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -173,6 +174,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     result.limits.push_back({limit.metric, limit.limit, value, within});
     pass = pass && within;
   }
+  result.disagreement = disagreements(result.limits);
   result.verdict = !finite ? Verdict::kNonFinite : pass ? Verdict::kPass : Verdict::kDiffers;
   return result;
 }

@@ -56,6 +56,8 @@ struct Comparison {
   Viewing viewing;
   std::vector<MetricValue> metrics;  ///< in the catalogue's order; empty if something is not finite
   std::vector<LimitResult> limits;   ///< that the verdict was made of
+  /// Sentences: which limits say opposite things, see disagreements(). The verdict does not depend on it.
+  std::vector<std::string> disagreement;
   std::optional<Tolerance> tolerance;
   std::optional<std::int64_t> mask_pixels;  ///< inside the mask, if there was one
 

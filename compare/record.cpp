@@ -27,6 +27,7 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
                                 {"limit", limit.limit},
                                 {"value", number_or_name(limit.value)},
                                 {"pass", limit.pass}});
+  record["disagreement"] = comparison.disagreement;
   if (comparison.tolerance)
     record["tolerance"] = {{"relative", comparison.tolerance->relative},
                            {"ofPeak", comparison.tolerance->of_peak},

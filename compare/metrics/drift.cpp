@@ -14,7 +14,7 @@ namespace {
 constexpr MetricOutput kOutputs[] = {
     {"drift", Better::kNearZero, false, "signed mean of a - b over all RGB values"}};
 constexpr MetricOutput kMaskOutputs[] = {
-    {"drift.mask", Better::kNearZero, false, "the same inside the mask"}};
+    {"drift.mask", Better::kNearZero, false, "signed mean of a - b inside the mask"}};
 
 template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {

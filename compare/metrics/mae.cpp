@@ -16,7 +16,7 @@ namespace {
 constexpr MetricOutput kOutputs[] = {
     {"mae", Better::kLower, true, "mean absolute error of all RGB values"}};
 constexpr MetricOutput kMaskOutputs[] = {
-    {"mae.mask", Better::kLower, true, "the same inside the mask"}};
+    {"mae.mask", Better::kLower, true, "mean absolute error inside the mask"}};
 
 template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {

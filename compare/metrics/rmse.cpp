@@ -16,7 +16,7 @@ namespace {
 constexpr MetricOutput kOutputs[] = {
     {"rmse", Better::kLower, true, "root mean square error of all RGB values"}};
 constexpr MetricOutput kMaskOutputs[] = {
-    {"rmse.mask", Better::kLower, true, "the same inside the mask"}};
+    {"rmse.mask", Better::kLower, true, "root mean square error inside the mask"}};
 
 template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {
