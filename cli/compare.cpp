@@ -165,6 +165,16 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   Viewing& viewing = options->comparison.viewing;
   command->add_option("A", options->a, "Picture to judge")->required();
   command->add_option("B", options->b, "Reference picture, of the same size")->required();
+  command
+      ->add_flag_callback(
+          "--list-metrics",
+          [] {
+            fmt::print("{}", metrics_document());
+            throw CLI::Success();
+          },
+          "List the metrics: id, family, direction, meaning, source (docs/metrics.md)")
+      ->trigger_on_parse()  // before A and B are asked for
+      ->group("Output");
 
   command
       ->add_option(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,5 +24,8 @@ bool is_within(const MetricOutput& output, double value, double limit);
 
 /// Ids on which a limit may be set, in the order of the catalogue.
 std::vector<std::string_view> limit_names();
+
+/// docs/metrics.md, by `lobelia compare --list-metrics`.
+std::string metrics_document();
 
 }  // namespace lobelia

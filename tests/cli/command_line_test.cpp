@@ -106,8 +106,9 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
 
 TEST(StandardOutput, ThatCannotBeWrittenIsAnError) {
   const TemporaryDirectory directory;
-  for (const char* command : {"models", "models --json", "engines", "engines --json",
-                              "scene-format", "verify paper", "--help", "farm --help"}) {
+  for (const char* command :
+       {"models", "models --json", "engines", "engines --json", "scene-format",
+        "compare --list-metrics", "verify paper", "--help", "farm --help"}) {
     const auto result =
         run_shell(std::string("\"$LOBELIA\" ") + command + " >/dev/full", directory.path());
     EXPECT_EQ(result.exit_code, 4) << command << result.output_tail;
