@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/math/distributions/students_t.hpp>
-#include <cmath>
-
+#include "reference_scenes/replicate_statistics.hpp"
 #include "tests/reference_scenes/ourselves.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 
@@ -31,46 +29,21 @@ Image converged(Scene scene) {
   return render(scene, {}).image;
 }
 
-double rms(const Image& a, const Image& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.values().size(); ++i)
-    sum += std::pow(double(a.values()[i]) - double(b.values()[i]), 2);
-  return std::sqrt(sum / double(a.values().size()));
-}
-
 TEST(Replicates, AverageToThePictureWithinTheirOwnNoiseAndComeNearerWithMorePoints) {
   for (NamedScene& named : soft_scenes({"modified_phong", "cosine", "exact", 8}, 16)) {
     SCOPED_TRACE(named.name);
     // With one ray a pixel there is no antialiasing to average; ours has it as soon as it samples.
     if (named.scene.sampler.sample_count == 1) named.scene.sampler.sample_count = 4;
     const Image truth = converged(named.scene);
-    const double peak = *std::ranges::max_element(truth.values());
     double before = 1e9;
     for (const int points : {256, 4096}) {
       const ReferenceResult result = average(named.scene, points);
-      // Independent estimates of each pixel, whose differences from the truth have a t-distribution.
-      const boost::math::students_t t(kReplicates - 1);
-      const double pixels = double(truth.pixel_count());
-      const double limit = boost::math::quantile(
-          boost::math::complement(t, (1 - std::pow(1 - 1e-3, 1 / (3 * pixels))) / 2));
-      std::size_t beyond = 0, of_twenty = 0, random = 0;
-      for (std::size_t i = 0; i < truth.values().size(); ++i) {
-        // An edge that one point in a thousand sees may be seen by none, which would be no error.
-        const double error = std::max(double(result.standard_error.values()[i]), peak / points / 4);
-        const double apart = double(result.image.values()[i]) - double(truth.values()[i]);
-        // Where nothing varies there is rounding alone.
-        const double rounding = 1e-4 * double(truth.values()[i]) + 1e-6;
-        if (std::abs(apart) <= rounding) continue;
-        ++random;
-        if (std::abs(apart) - rounding > limit * error) ++beyond;
-        if (std::abs(apart) > boost::math::quantile(t, 0.975) * error) ++of_twenty;
-      }
+      const ReplicateStatistics s = replicate_statistics(result, truth, points, 1e-4);
       // Neighbours share their points, so a few may fall out together.
-      EXPECT_LE(beyond, 3u) << "of " << random << " at " << points << " points";
-      EXPECT_LT(double(of_twenty), 0.25 * double(random) + 5) << points << " points";
-      const double apart = rms(result.image, truth);
-      EXPECT_LT(apart, before / 2.5) << points << " points";
-      before = apart;
+      EXPECT_LE(s.beyond, 3u) << "of " << s.random << " at " << points << " points";
+      EXPECT_LT(double(s.of_twenty), 0.25 * double(s.random) + 5) << points << " points";
+      EXPECT_LT(s.rms, before / 2.5) << points << " points";
+      before = s.rms;
     }
   }
 }
