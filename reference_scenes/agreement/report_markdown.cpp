@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include "reference_scenes/agreement/report.hpp"
+
+namespace lobelia::agreement {
+namespace {
+
+constexpr char kHead[] = R"(# The references, compared
+
+<!-- Made by `lobelia verify references --markdown`; `make references` makes it again. -->
+
+How far every witness is from the analytic picture: the formulas of [conventions](conventions.md) evaluated
+pixel by pixel in double, in 50 digits from n = 1e5 on, with geometry of their own
+([decision 9](decisions/0009-the-formulas-are-an-engine.md)). *Lobelia* is `lobelia render`. An engine is a
+witness in two ways: *native*, its own shading of a model; *expressed*, the formula in its language. POV-Ray
+writes half floats; *float* is the same in finer numbers.
+
+)";
+
+std::string columns(const std::vector<std::string>& words) {
+  std::string line = "|";
+  for (const std::string& word : words) line += word.empty() ? " |" : fmt::format(" {} |", word);
+  return line + "\n";
+}
+
+std::string section(const Table& table, std::string_view level = "##") {
+  std::string text = fmt::format("\n{} {}\n\n", level, table.title);
+  if (table.rows.empty()) return text + "None.\n";
+  text += table.lead + "\n\n" + columns(table.head);
+  text += "|" + [&] {
+    std::string rule;
+    for (std::size_t i = 0; i < table.head.size(); ++i) rule += "---|";
+    return rule;
+  }() + "\n";
+  for (const auto& row : table.rows) text += columns(row);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> markdown_headings() {
+  std::vector<std::string> headings;
+  for (const auto table : {headline_table, miss_table, lobe_table, model_table, effect_table,
+                           soft_table, refusal_table})
+    headings.push_back("## " + table({}).title);
+  return headings;
+}
+
+std::string markdown_columns() { return columns(headline_table({}).head); }
+
+std::string report_markdown(const Agreement& agreement, std::string_view command) {
+  std::string text = kHead;
+  text += fmt::format(
+      "`{}`: pictures {} pixels wide, of the whole sphere below n = {:g} and from there on "
+      "of the highlight alone, so that it is resolved. ",
+      command, agreement.scope.size, kCloseUpExponent);
+  for (const EngineHere& engine : agreement.engines)
+    text += engine.status.available
+                ? fmt::format("{} is {}. ", engine.info.title, engine.status.version)
+                : fmt::format("{} was not there. ", engine.info.title);
+  text += "**" + verdict_sentence(agreement) + ".**\n";
+  text += fmt::format(R"(
+| column | |
+|---|---|
+| max, RMS | of the difference, over the peak of the analytic picture; RMS over the lit pixels |
+| relative | largest difference over the value, where the value is above {} of the peak |
+| ring | pixels beside a silhouette, a terminator, a shadow's or a checker's edge, where a rounding decides over a pixel's whole value; they are left out of the columns before. Most in one picture |
+| over | of these, farther off than {} of the peak; at most 3 may be, {} beside checkers |
+| target | what the largest difference of a picture is held to |
+)",
+                      short_number(kRelativeFrom), short_number(kRingOfPeak), kCheckerRing);
+  for (const auto table : {headline_table, miss_table, lobe_table, model_table, effect_table,
+                           soft_table, refusal_table})
+    text += section(table(agreement));
+  return text;
+}
+
+}  // namespace lobelia::agreement
