@@ -35,8 +35,8 @@ inline constexpr double kRingOfPeak = 1e-3;
 /// Edges of far squares of a checker are met within the rounding of float32 by the dozen.
 inline constexpr int kCheckerRing = 12;
 
-/// From this exponent on a highlight is too small for a picture of the whole sphere. Its middle half, where it
-/// is above half of its peak, is then 4 pixels wide or more (at kSmallSize, of cos^n, to n = 1e6: 2.6).
+/// From this exponent on a highlight is too small for a picture of the whole sphere. In the close-up what is
+/// above half of its peak is a sixth of the picture wide or more.
 inline constexpr double kCloseUpExponent = 1024;
 
 std::vector<Case> highlight_cases(const Scope& scope);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reference_scenes/agreement/report.hpp"
 
 namespace lobelia::agreement {
@@ -23,8 +25,8 @@ std::string columns(const std::vector<std::string>& words) {
   return line + "\n";
 }
 
-std::string section(const Table& table, std::string_view level = "##") {
-  std::string text = fmt::format("\n{} {}\n\n", level, table.title);
+std::string section(const Table& table) {
+  std::string text = fmt::format("\n## {}\n\n", table.title);
   if (table.rows.empty()) return text + "None.\n";
   text += table.lead + "\n\n" + columns(table.head);
   text += "|" + [&] {
@@ -33,6 +35,23 @@ std::string section(const Table& table, std::string_view level = "##") {
     return rule;
   }() + "\n";
   for (const auto& row : table.rows) text += columns(row);
+  return text;
+}
+
+/// Of each witness with something that missed its target.
+std::string reasons(const Agreement& agreement) {
+  std::string text;
+  const auto add = [&](const WitnessKind& witness) {
+    const bool missed = std::ranges::any_of(agreement.rows, [&](const Row& row) {
+      return row.witness.name == witness.name && row.verdict == Verdict::kMissed;
+    });
+    const std::string_view why = known_reason(witness);
+    if (missed)
+      text += fmt::format("\n*{}*: {}\n", witness.title,
+                          why.empty() ? "the reason is not known." : why);
+  };
+  add(kOurs);
+  for (const WitnessKind& witness : witnesses()) add(witness);
   return text;
 }
 
@@ -70,8 +89,10 @@ std::string report_markdown(const Agreement& agreement, std::string_view command
 )",
                       short_number(kRelativeFrom), short_number(kRingOfPeak), kCheckerRing);
   for (const auto table : {headline_table, miss_table, lobe_table, model_table, effect_table,
-                           soft_table, refusal_table})
+                           soft_table, refusal_table}) {
     text += section(table(agreement));
+    if (table == miss_table) text += reasons(agreement);
+  }
   return text;
 }
 

@@ -31,6 +31,8 @@ struct Target {
 };
 /// Nothing where no one has said how near it should come.
 std::optional<Target> target_of(const WitnessKind& witness, double exponent);
+/// Why a witness is farther off than its target where it is, as far as it is known; or empty.
+std::string_view known_reason(const WitnessKind& witness);
 /// "4.9e-4", "0", "inf"
 std::string short_number(double value);
 /// "4.9e-4 of the value"

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "reference_scenes/agreement/report.hpp"
+#include "reference_scenes/agreement/table_parts.hpp"
+
+namespace lobelia::agreement {
+namespace {
+
+bool relative_counts(const WitnessKind& witness) {
+  const auto target = target_of(witness, 1);
+  return target && target->relative;
+}
+
+/// By witness, then by what `name_of` says of a case; a column for each exponent.
+Table worst_table(const Agreement& agreement, const std::string& title, const std::string& what,
+                  const std::function<std::string(const Case&)>& name_of) {
+  std::vector<double> exponents;
+  for (const Case& one : agreement.cases)
+    if (one.group == Group::kHighlight) exponents.push_back(one.highlight.exponent);
+  std::ranges::sort(exponents);
+  exponents.erase(std::ranges::unique(exponents).begin(), exponents.end());
+
+  Ordered<Ordered<std::map<double, Worst>>> by_witness;
+  std::map<std::string, bool> relative;
+  for (const Row& row : agreement.rows) {
+    const Case& one = agreement.cases[row.index];
+    if (one.group != Group::kHighlight || !is_shown(row)) continue;
+    const std::string witness(row.witness.title);
+    by_witness[witness][name_of(one)][one.highlight.exponent].add(row);
+    relative[witness] = relative_counts(row.witness);
+  }
+  Table table{title,
+              "The largest difference over all lights: of the value where the target is of the "
+              "value, otherwise of the peak.",
+              {"witness", what, "of the"},
+              {}};
+  for (const double n : exponents) table.head.push_back("n = " + exponent_text(n));
+  for (auto& [witness, by_name] : by_witness.entries)
+    for (auto& [name, by_exponent] : by_name.entries) {
+      std::vector<std::string> words{witness, name, relative[witness] ? "value" : "peak"};
+      for (const double n : exponents) {
+        const auto found = by_exponent.find(n);
+        if (found == by_exponent.end()) {
+          words.push_back("");
+          continue;
+        }
+        const Worst& worst = found->second;
+        if (worst.failed > 0) {
+          words.push_back("FAILED");
+          continue;
+        }
+        words.push_back(short_number(relative[witness] ? worst.figures.max_relative
+                                                       : worst.figures.max_of_peak) +
+                        (worst.missed > 0 ? " MISSED" : ""));
+      }
+      table.rows.push_back(std::move(words));
+    }
+  return table;
+}
+
+std::string lobe_words(const HighlightChoice& h) {
+  return fmt::format("{}{}", h.lobe, h.normalisation == "paper" ? ", paper" : "");
+}
+
+}  // namespace
+
+Table headline_table(const Agreement& agreement) {
+  Table table{"Highlights",
+              "The worst over models, lobes and lights; max, RMS and ring max are of the peak.",
+              {"witness", "n"},
+              {}};
+  append(table.head, kFigureHead);
+  append(table.head, {"target", "verdict"});
+  struct Line {
+    Worst worst;
+    std::string target;
+  };
+  Ordered<std::map<double, Line>> lines;
+  for (const Row& row : agreement.rows) {
+    const Case& one = agreement.cases[row.index];
+    if (one.group != Group::kHighlight || !is_shown(row)) continue;
+    Line& line = lines[std::string(row.witness.title)][range_of(one.highlight.exponent)];
+    line.worst.add(row);
+    if (const auto target = target_of(row.witness, one.highlight.exponent))
+      line.target = target_text(*target);
+  }
+  for (const auto& [witness, by_range] : lines.entries)
+    for (const auto& [range, line] : by_range) {
+      std::vector<std::string> words{witness, range_text(range)};
+      append(words, figure_words(line.worst));
+      append(words, {line.target, verdict_text(line.worst, !line.target.empty())});
+      table.rows.push_back(std::move(words));
+    }
+  return table;
+}
+
+Table lobe_table(const Agreement& agreement) {
+  return worst_table(agreement, "By lobe", "lobe",
+                     [](const Case& one) { return lobe_words(one.highlight); });
+}
+
+Table model_table(const Agreement& agreement) {
+  return worst_table(agreement, "By model", "model", [](const Case& one) {
+    return std::string(info(*find_model(one.highlight.model)).title);
+  });
+}
+
+}  // namespace lobelia::agreement
