@@ -14,7 +14,7 @@ configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery test sanitize build bench fuzz lint clean
+.PHONY: help gallery references test sanitize build bench fuzz lint clean
 .NOTPARALLEL:
 
 help: ## this list
@@ -28,6 +28,12 @@ gallery: ## builds, renders the sphere grid with every engine, compares, writes 
 	$(configure)
 	$(build) --target lobelia lobelia_image_io
 	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)"
+
+references: ## measures how far ours and every engine are from the formulas, into out/references (20 minutes)
+	$(setup) build engines
+	$(configure)
+	$(build) --target lobelia lobelia_image_io
+	"build/$(PRESET)/bin/lobelia" verify references -o out/references
 
 test: ## builds everything and runs the test suite
 	$(setup) build engines browser

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "reference_scenes/agreement/cases.hpp"
 

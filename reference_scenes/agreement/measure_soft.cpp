@@ -1,7 +1,7 @@
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
-#include "core/interrupt.hpp"
 #include "reference_scenes/agreement/agreement.hpp"
 #include "renderer/render.hpp"
 

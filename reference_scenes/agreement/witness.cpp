@@ -47,13 +47,13 @@ constexpr Reason kReasons[] = {
     {"povray_native_float", kTwoHalves},
     {"povray_expressed_float", kTwoHalves},
     {"blender_expressed",
-     "Cycles has the place of a point in float32, some 1e-7 of the radius off, more where it is seen at a "
-     "grazing angle. The normal is as far off, and a lobe falls by up to 0.6 sqrt(n) of its peak per "
-     "radian of an angle that is twice the normal's: 4e-5 at n = 1e5. Lobes with a steeper flank, grazing "
-     "views and a camera farther away, which is 5 radii off in pictures of the whole sphere, add to it."},
+     "Cycles has the place of a point in float32, some 1e-7 of the sphere's radius off, and more where it is "
+     "seen at a grazing angle, on a small sphere or from afar (5 radii in pictures of the whole sphere). The "
+     "normal is as far off, the lobe's angle up to twice as far, and a lobe falls by up to 0.6 sqrt(n) of "
+     "its peak per radian: 4e-5 at n = 1e5, before any of these."},
     {"blender_native",
-     "Cycles' closure takes the n-th power of N.H, and a float32 below 1 is 6e-8 from the next: n times "
-     "that is 6e-3 of the value at n = 1e5. So far off, it is off in the ring, too."},
+     "Cycles' closure takes the n-th power of N.H, and a float32 below 1 is 6e-8 from the next: for each "
+     "rounding n times that, 6e-3 of the value at n = 1e5. So far off, it is off in the ring, too."},
 };
 
 }  // namespace
