@@ -101,7 +101,8 @@ TEST(ComparisonSchema, DoesNotHoldForABrokenRecord) {
     EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
   };
   for (const auto& [key, value] : good.items())
-    if (key != "tolerance" && key != "mask" && key != "disagreement") broken([&](Plain& r) { r.erase(key); });
+    if (key != "tolerance" && key != "mask" && key != "disagreement")
+      broken([&](Plain& r) { r.erase(key); });
   broken([](Plain& r) { r["verdict"] = "fine"; });
   broken([](Plain& r) { r["kind"] = "render"; });
   broken([](Plain& r) { r["schemaVersion"] = 2; });

@@ -157,7 +157,7 @@ TEST(Analytic, IsStoppedByTheTimeLimit) {
 TEST(Analytic, KeepsTheSceneAsItsInput) {
   const TemporaryDirectory directory;
   const Scene scene = hall_scene(kChoice, 16);
-  keep_analytic_input(scene, directory.path());
+  keep_analytic_input(scene, {}, directory.path());
   EXPECT_EQ(scene_to_xml(read_scene(directory.path() / "scene.xml")), scene_to_xml(scene));
   EXPECT_TRUE(std::filesystem::exists(directory.path() / "analytic.sh"));
 }
