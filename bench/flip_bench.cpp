@@ -1,0 +1,110 @@
+// LDR-FLIP and HDR-FLIP of a pair of 1920 x 1080, and beside them the same filters without separation: a
+// double loop over each pixel's window, on a crop, as the whole would take minutes.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "compare/metrics/catalogue.hpp"
+#include "compare/metrics/flip_filters.hpp"
+#include "core/threads.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr HdrExposures kEightExposures{-4, 3, 8};
+
+/// A highlight that is 16 at its peak, with noise on it: nowhere flat, so that no pixel is cheap.
+Image picture(int width, int height, unsigned seed, float noise) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double u = double(x) / width - 0.5, v = double(y) / height - 0.5;
+      const double light = 0.05 + 16 * std::exp(-40 * (u * u + v * v));
+      for (float& value : image.pixel(x, y)) {
+        seed = seed * 1664525u + 1013904223u;
+        value = float(light) * (1 + noise * (float(seed >> 8) / float(1 << 24) - 0.5f));
+      }
+    }
+  return image;
+}
+
+void measure(benchmark::State& state, const char* id, int width, int height) {
+  const Image a = picture(width, height, 1, 0.2f), b = picture(width, height, 2, 0.1f);
+  const Metric* metric = find_metric(id);
+  std::vector<double> values(metric->outputs.size());
+  ThreadLimit threads{int(state.range(0))};
+  for (auto _ : state) {
+    threads.run([&] {
+      metric->measure({a, b, DisplayLight(a, 0), DisplayLight(b, 0), kDefaultPixelsPerDegree,
+                       nullptr, &kEightExposures},
+                      values);
+    });
+    benchmark::DoNotOptimize(values.data());
+  }
+  state.SetItemsProcessed(std::int64_t(state.iterations()) * width * height);
+}
+
+void flip_ldr(benchmark::State& state) { measure(state, "flip.ldr.mean", 1920, 1080); }
+void flip_hdr(benchmark::State& state) { measure(state, "flip.hdr.mean", 1920, 1080); }
+// Arguments: threads.
+BENCHMARK(flip_ldr)->Name("compare/flip_ldr_1080p")->Arg(1)->Arg(0)->UseRealTime();
+BENCHMARK(flip_hdr)->Name("compare/flip_hdr_8_exposures_1080p")->Arg(1)->Arg(0)->UseRealTime();
+
+// ---- the plain way
+
+/// sum of in(x + i, y + j) * across[i] * down[j] over the window, pixels of the border repeated.
+template <class In>
+float convolve(const In& in, int width, int height, int x, int y, const std::vector<float>& across,
+               const std::vector<float>& down) {
+  const int radius = int(across.size() / 2);
+  float sum = 0;
+  for (int j = -radius; j <= radius; ++j)
+    for (int i = -radius; i <= radius; ++i)
+      sum += across[std::size_t(i + radius)] * down[std::size_t(j + radius)] *
+             in(std::clamp(x + i, 0, width - 1), std::clamp(y + j, 0, height - 1));
+  return sum;
+}
+
+/// The filters of LDR-FLIP of both pictures on a crop, without the distance of the results.
+void plain_filters(benchmark::State& state) {
+  constexpr int kWidth = 192, kHeight = 108;
+  const FlipFilters f{float(kDefaultPixelsPerDegree)};
+  const Image images[] = {picture(kWidth, kHeight, 1, 0.2f), picture(kWidth, kHeight, 2, 0.1f)};
+  float sum = 0;
+  for (auto _ : state)
+    for (const Image& image : images) {
+      const DisplayLight shown(image, 0);
+      std::vector<FlipColour> colour;
+      for (std::size_t i = 0; i < image.pixel_count(); ++i)
+        colour.push_back(flip_colour(shown.at(i)));
+      const auto at = [&](int x, int y) {
+        return colour[std::size_t(y) * kWidth + std::size_t(x)];
+      };
+      const auto lum = [&](int x, int y) { return at(x, y).y; };
+      const auto cx = [&](int x, int y) { return at(x, y).cx; };
+      const auto cz = [&](int x, int y) { return at(x, y).cz; };
+      const auto grey = [&](int x, int y) { return (at(x, y).y + 16) / 116; };
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          const auto filtered = [&](const auto& in, const auto& across, const auto& down) {
+            sum += convolve(in, kWidth, kHeight, x, y, across, down);
+          };
+          filtered(lum, f.luminance, f.luminance);
+          filtered(cx, f.red_green, f.red_green);
+          filtered(cz, f.blue_yellow_1, f.blue_yellow_1);
+          filtered(cz, f.blue_yellow_2, f.blue_yellow_2);
+          filtered(grey, f.edge, f.gaussian);
+          filtered(grey, f.gaussian, f.edge);
+          filtered(grey, f.point, f.gaussian);
+          filtered(grey, f.gaussian, f.point);
+        }
+    }
+  benchmark::DoNotOptimize(sum);
+  state.SetItemsProcessed(std::int64_t(state.iterations()) * kWidth * kHeight);
+}
+BENCHMARK(plain_filters)->Name("compare/flip_plain_filters_192x108")->UseRealTime();
+
+}  // namespace
+}  // namespace lobelia
