@@ -17,7 +17,7 @@ const float kFeatureScale = 1.0f / std::sqrt(2.0f);
 
 // Rows filtered at once: enough that the filter's radius around them costs little, few enough that
 // their planes stay in the cache and every processor has some.
-constexpr int kRowsPerTask = 32;
+constexpr int kRowsPerTask = 64;
 
 float colour_error(float distance, float largest) {
   const float knee = kKnee * largest;
