@@ -11,7 +11,7 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
   record["nonfinite"] = {{"a", comparison.nonfinite_a}, {"b", comparison.nonfinite_b}};
   record["viewing"] = {{"exposureStops", comparison.viewing.exposure_stops},
                        {"pixelsPerDegree", comparison.viewing.pixels_per_degree}};
-  if (const auto& range = comparison.viewing.hdr_exposures)
+  if (const auto& range = comparison.viewing.hdr_exposures; range && !comparison.metrics.empty())
     record["viewing"]["hdrExposures"] = {{"startStops", range->start_stops},
                                          {"stopStops", range->stop_stops},
                                          {"count", range->count},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <set>
 
 #include "compare/metrics/catalogue.hpp"
@@ -151,22 +152,51 @@ TEST(MetricLaws, AMetricThatIsNotCalledSymmetricIsNot) {
     }
 }
 
-TEST(MetricLaws, ALargerErrorIsNeverRatedLower) {
-  const Image reference = testing::highlight(192, 192, 20, 1.0);
-  std::vector<std::vector<double>> before(metrics().size());
-  for (const double peak : {0.999, 0.99, 0.95, 0.8}) {
-    const Image picture = testing::highlight(192, 192, 20, peak);
-    for (std::size_t k = 0; k < metrics().size(); ++k) {
-      const Metric& metric = *metrics()[k];
-      const std::vector<double> values = measure(metric, picture, reference);
-      for (std::size_t i = 0; i < values.size() && !before[k].empty(); ++i)
-        if (is_judged(metric.outputs[i])) {
-          EXPECT_GE(badness(metric.outputs[i], values[i]), badness(metric.outputs[i], before[k][i]))
-              << metric.outputs[i].id << " at peak " << peak;
+/// Each picture is farther from the reference than the one before, and no metric calls it nearer.
+void expect_ever_worse(const Image& reference, const std::vector<Image>& pictures) {
+  for (const Metric* metric : metrics()) {
+    std::vector<double> before = measure(*metric, reference, reference);
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+      const std::vector<double> values = measure(*metric, pictures[k], reference);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const MetricOutput& output = metric->outputs[i];
+        // What cancels in a signed mean is rounding there.
+        const double rounding = output.better == Better::kNearZero ? 1e-6 : 0;
+        if (is_judged(output)) {
+          EXPECT_GE(badness(output, values[i]), badness(output, before[i]) - rounding)
+              << output.id << ", picture " << k;
         }
-      before[k] = values;
+      }
+      before = values;
     }
   }
+}
+
+TEST(MetricLaws, ALargerErrorIsNeverRatedLower) {
+  std::vector<Image> pictures;
+  for (const double peak : {0.999, 0.99, 0.95, 0.8})
+    pictures.push_back(testing::highlight(192, 192, 20, peak));
+  expect_ever_worse(testing::highlight(192, 192, 20, 1.0), pictures);
+}
+
+TEST(MetricLaws, ABlurrierHighlightIsNeverRatedBetter) {
+  // A Gaussian blurred by a Gaussian is one that is wider, and lower by as much.
+  std::vector<Image> pictures;
+  for (const double wider : {1.02, 1.1, 1.3, 1.6})
+    pictures.push_back(testing::highlight(192, 192, 40 / wider, 1 / wider));
+  expect_ever_worse(testing::highlight(192, 192, 40, 1.0), pictures);
+}
+
+TEST(MetricLaws, AHighlightThatIsFartherOffIsNeverRatedBetter) {
+  const Image wide = testing::highlight(256, 192, 40, 1.0);
+  const auto shifted = [&](int columns) {
+    Image image(192, 192);
+    for (int y = 0; y < 192; ++y)
+      for (int x = 0; x < 192; ++x)
+        std::ranges::copy(wide.pixel(x + 32 - columns, y), image.pixel(x, y).begin());
+    return image;
+  };
+  expect_ever_worse(shifted(0), {shifted(1), shifted(2), shifted(4), shifted(8)});
 }
 
 TEST(MetricLaws, TheNumberOfThreadsDoesNotChangeABit) {
