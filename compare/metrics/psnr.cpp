@@ -5,9 +5,9 @@
 //               the record holds as `peak`; infinite for equal pictures, -infinite for others
 //               against a reference without a positive value.
 // Input:        scene-linear values, neither exposed nor clipped.
-// Differs:      `idiff` and tools for 8 bits take 1 (or 255) as the peak, whatever the picture
-//               holds: theirs is ours - 20 log10(peak). Without a display there is no other white
-//               than the picture's own.
+// Differs:      `idiff` ("Peak SNR") takes the brightest value of either picture, so that a picture with
+//               a peak far too high is rated the better for it; theirs is ours where the reference
+//               has it, else ours + 20 log10(that peak / peak). Tools for 8 bits take 255.
 #include <cmath>
 #include <limits>
 
