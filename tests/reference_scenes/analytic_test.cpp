@@ -142,7 +142,7 @@ TEST(Analytic, RefusesASceneInWordsAndEvaluatesTheNext) {
     errors[index] = result.error;
     EXPECT_EQ(result.record.at("kind"), "reference");
   });
-  EXPECT_THAT(errors[0], HasSubstr("inter-reflection"));
+  EXPECT_THAT(errors[0], HasSubstr("a glossy_depth of 0 is comparable"));
   EXPECT_EQ(errors[1], "");
 }
 
