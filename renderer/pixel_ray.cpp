@@ -61,17 +61,4 @@ std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) 
   return nearest;
 }
 
-bool is_shadowed(const Scene& scene, const Hit& hit, const Illumination& illumination) {
-  for (int k = 0; k < int(scene.spheres.size()); ++k) {
-    if (k == hit.sphere) continue;
-    const Sphere& sphere = scene.spheres[k];
-    const Chord chord = chord_of(sphere, hit.point, illumination.to_light);
-    if (!(chord.half_squared > 0)) continue;
-    const bool inside = length(sphere.center - hit.point) < inner_radius(sphere);
-    if (!inside && !(chord.along > 0)) continue;
-    if (chord.along - std::sqrt(chord.half_squared) < illumination.distance) return true;
-  }
-  return false;
-}
-
 }  // namespace lobelia

@@ -29,7 +29,4 @@ Vec3 centre_ray(const CameraFrame& frame, int x, int y);
 /// The nearest sphere along a ray of unit direction.
 std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction);
 
-/// Whether a sphere other than the hit one stands between the hit and the light.
-bool is_shadowed(const Scene& scene, const Hit& hit, const Illumination& illumination);
-
 }  // namespace lobelia

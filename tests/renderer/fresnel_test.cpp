@@ -66,7 +66,8 @@ TEST(DiffuseBase, AddsItsAlbedoByPiTimesTheCosineToEveryModel) {
   }
 }
 
-/// The picture, one ray through the centre of each pixel, by the reflector.
+/// The picture of one sphere, which nothing shadows, one ray through the centre of each pixel, by the
+/// reflector.
 Rgb radiance_at(const Scene& scene, const CameraFrame& camera,
                 const std::vector<Reflector>& reflectors, int x, int y) {
   const Vec3 ray = normalize(centre_ray(camera, x, y));
@@ -76,8 +77,7 @@ Rgb radiance_at(const Scene& scene, const CameraFrame& camera,
   const auto material = std::size_t(scene.spheres[std::size_t(hit->sphere)].material);
   for (const Light& light : scene.lights) {
     const Illumination here = illuminate(light, hit->point);
-    if (!is_shadowed(scene, *hit, here))
-      sum = sum + here.irradiance * reflectors[material].eval(hit->normal, -ray, here.to_light);
+    sum = sum + here.irradiance * reflectors[material].eval(hit->normal, -ray, here.to_light);
   }
   return sum;
 }
@@ -88,6 +88,7 @@ TEST(Render, WithFresnelAndDiffuseBaseIsTheReflectorInEveryPixel) {
       Scene scene =
           read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
       scene.film = {32, 24};
+      ASSERT_EQ(scene.spheres.size(), 1u) << name;
       std::vector<Reflector> reflectors;
       for (Material& material : scene.materials) {
         material = {"", h, kReflectance, kDiffuse, Fresnel::kSchlick};
