@@ -35,31 +35,29 @@ struct Options {
   SceneOverrides overrides;
 };
 
-bool is_fine(const EngineInfo& engine, const std::string& precision) {
-  std::vector<std::string_view> names{engine.plain};
-  if (!engine.fine.empty()) names.push_back(engine.fine);
-  if (precision.empty()) return false;
-  return chosen(precision, fmt::format("--precision of {}", engine.name), names, join(names),
-                [&](const std::string& name) -> std::optional<bool> {
-                  if (name == engine.plain) return false;
-                  return name == engine.fine && !name.empty() ? std::optional(true) : std::nullopt;
+/// The place of a name among those that are allowed.
+std::size_t chosen_place(const std::string& typed, const std::string& option,
+                         std::span<const std::string_view> names) {
+  return chosen(typed, option, names, join(names),
+                [&](const std::string& name) -> std::optional<std::size_t> {
+                  const auto found = std::ranges::find(names, name);
+                  if (found == names.end()) return std::nullopt;
+                  return std::size_t(found - names.begin());
                 });
 }
 
-Witness witness_of(const std::string& typed) {
-  const std::span<const std::string_view> names(kWitnessNames);
-  return chosen(typed, "--witness", names, join(names),
-                [&](const std::string& name) -> std::optional<Witness> {
-                  const auto found = std::ranges::find(names, name);
-                  if (found == names.end()) return std::nullopt;
-                  return Witness(found - names.begin());
-                });
+/// Of the engine's number formats: one, or the finer one after it.
+std::vector<std::string_view> precisions(const EngineInfo& engine) {
+  if (engine.fine.empty()) return {engine.plain};
+  return {engine.plain, engine.fine};
 }
 
 ReferenceOptions reference_options(const EngineInfo& engine, const Options& options) {
   ReferenceOptions reference;
-  reference.fine = is_fine(engine, options.precision);
-  reference.witness = witness_of(options.witness);
+  if (!options.precision.empty())
+    reference.fine = chosen_place(options.precision, fmt::format("--precision of {}", engine.name),
+                                  precisions(engine)) == 1;
+  reference.witness = Witness(chosen_place(options.witness, "--witness", kWitnessNames));
   reference.threads = options.threads;
   reference.time_limit = std::chrono::duration<double>(options.time_limit);
   reference.log_directory = options.log_directory;
@@ -126,6 +124,15 @@ std::string engine_list() {
   return list;
 }
 
+/// "half or float (povray), float (blender)"
+std::string precision_list() {
+  std::string list;
+  for (const EngineInfo& engine : engine_infos())
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ",
+                        fmt::join(precisions(engine), " or "), engine.name);
+  return list;
+}
+
 /// What a picture of each is worth, as the catalogue says it.
 std::string engine_words() {
   std::string words;
@@ -161,8 +168,7 @@ void add_reference(CLI::App& app, ExitCode&) {
       ->capture_default_str();
   command->add_option(
       "--precision", options->precision,
-      "Number format of the engine: half or float (povray), float (blender), double or "
-      "fifty_digits (analytic); the first if not given");
+      fmt::format("Number format of the engine: {}; the first if not given", precision_list()));
   command
       ->add_option("--witness", options->witness,
                    "Whose highlights: the engine's own (native), formulas in the engine's language "
