@@ -33,17 +33,23 @@ void write_introduction(Html& html, const FarmData& farm) {
   const Tag header(html, "header");
   html.element("h1", farm.title);
   const std::string references = reference_titles(farm, true);
+  const bool has_formulas = std::ranges::any_of(
+      farm.engines, [](const EngineEntry& e) { return e.name == "analytic" && e.available; });
   html.element(
       "p", {{"class", "lead"}},
       "Every picture shows specular highlights, shaded by one reflection model with one "
       "normalisation, drawn by Lobelia straight from the model’s formula. " +
           (references.empty()
                ? "No other renderer was there to compare it with."
-               : references + " drew the same scenes, and each pair was compared pixel by "
-                              "pixel. A picture is a witness of the model where the engine has it "
-                              "as its own shading; elsewhere the formula was written in the "
-                              "engine’s language by hand, and geometry, camera, light, visibility "
-                              "and arithmetic are the witness. Each cell says which."));
+               : references +
+                     " drew the same scenes, and each pair was compared pixel by "
+                     "pixel. A picture is a witness of the model where the engine has it "
+                     "as its own shading; elsewhere the formula was written in the "
+                     "engine’s language by hand, and geometry, camera, light, visibility "
+                     "and arithmetic are the witness. Each cell says which." +
+                     (has_formulas ? " Analytic is the formula itself, evaluated for each pixel by "
+                                     "code of its own."
+                                   : "")));
 }
 
 void write_missing_engines(Html& html, const FarmData& farm) {
