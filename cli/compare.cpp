@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
+#include "cli/compare_pictures.hpp"
+#include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "compare/metrics/flip_exposures.hpp"
 #include "core/files.hpp"
-#include "core/image_io.hpp"
 #include "core/text.hpp"
+#include "core/threads.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "verify/truth/evaluation.hpp"
 
@@ -21,20 +21,20 @@ namespace lobelia::cli {
 namespace {
 
 struct Options {
-  std::string a, b, json, tolerance, exposures, scene, difference_picture;
-  std::vector<std::string> fail;
-  double difference_scale = 0;
-  ComparisonOptions comparison;
+  CompareJob job;
+  std::string json, csv, junit, tolerance, exposures, scene;
+  std::vector<std::string> fail, warn;
+  int threads = 0;
 };
 
-MetricLimit parse_limit(const std::string& text) {
+MetricLimit parse_limit(std::string_view option, const std::string& text) {
   // The last one: an id may have one of its own, as relmse.eps=0.01 has.
   const std::size_t equals = text.rfind('=');
   MetricLimit limit{text.substr(0, equals), 0};
   if (equals == std::string::npos || !parse_number(text.substr(equals + 1), limit.limit))
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--fail {}: expected METRIC=LIMIT, for example rmse=0.001", printable(text)));
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} {}: expected METRIC=LIMIT, for example rmse=0.001", option,
+                            printable(text)));
   return limit;
 }
 
@@ -70,69 +70,86 @@ HdrExposures parse_exposures(const std::string& text) {
   return range;
 }
 
-bool is_finite(const Image& image) {
-  return std::all_of(image.values().begin(), image.values().end(),
-                     [](float value) { return std::isfinite(value); });
+/// Both files, or both folders; a third like them.
+bool are_folders(const Options& options) {
+  const auto is_folder = [](const std::string& path) {
+    std::error_code unknown;
+    return std::filesystem::is_directory(path, unknown);
+  };
+  const bool folders = is_folder(options.job.a);
+  const auto check = [&](const std::string& path) {
+    if (is_folder(path) != folders)
+      throw Error(ExitCode::kInput,
+                  fmt::format("{} is {}a folder, but {} is{}; compare two files or two folders",
+                              options.job.a, folders ? "" : "not ", path, folders ? " not" : ""));
+  };
+  check(options.job.b);
+  if (!options.job.c.empty()) check(options.job.c);
+  return folders;
 }
 
-void print_table(const Options& options, const Comparison& comparison) {
-  fmt::print("a  {}\nb  {}  (the reference)\n\n", options.a, options.b);
-  if (comparison.verdict == Verdict::kNonFinite)
-    fmt::print("  pixels with a NaN or an infinity: {} in a, {} in b; nothing was measured\n",
-               comparison.nonfinite_a, comparison.nonfinite_b);
-  for (const MetricValue& metric : comparison.metrics)
-    fmt::print("  {:<16}{:>14.6g}  {}\n", metric.id, metric.value, metric.meaning);
-  fmt::print("\n");
-  if (comparison.verdict != Verdict::kNonFinite)
-    for (const LimitResult& limit : comparison.limits)
-      fmt::print("  {:<16}{:>14.6g}  {} {:g}\n", limit.metric, limit.value,
-                 std::isnan(limit.value) ? "was NOT MEASURED; the limit is"
-                 : limit.pass            ? "is within"
-                                         : "is OUTSIDE",
-                 limit.limit);
-  for (const std::string& sentence : comparison.disagreement)
-    fmt::print("  metrics disagree: {}\n", sentence);
-  fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite ? "" : "\n",
-             verdict_name(comparison.verdict));
+void check_difference(const DifferencePicture& difference, bool folders) {
+  if (difference.path.empty()) return;
+  if (difference.of == kChannels && !difference.colour_map.empty())
+    throw Error(ExitCode::kUsage,
+                "--diff-colours is for one value a pixel; choose it with --diff-of");
+  if (folders) {
+    make_directories(difference.path);
+    return;
+  }
+  const std::string ending = difference.path.extension().string();
+  if (ending != ".png" && !(ending == ".exr" && difference.of != kChannels))
+    throw Error(ExitCode::kUsage,
+                fmt::format("--diff-image {} must end in .png{}", difference.path.string(),
+                            difference.of == kChannels ? "" : " (colours) or .exr (values)"));
+  require_writable(difference.path);
 }
 
-ExitCode run(Options options) {
-  for (const std::string& text : options.fail)
-    options.comparison.limits.push_back(parse_limit(text));
-  if (!options.tolerance.empty()) options.comparison.tolerance = parse_tolerance(options.tolerance);
-  std::optional<HdrExposures>& exposures = options.comparison.viewing.hdr_exposures;
-  if (!options.exposures.empty()) exposures = parse_exposures(options.exposures);
-  if (!options.scene.empty()) {
-    const Scene scene = read_scene(options.scene);
-    options.comparison.mask = truth::surface_mask(scene);
-    if (options.comparison.tolerance) options.comparison.tolerance->edges = truth::edge_ring(scene);
-  }
-  check_options(options.comparison);
-  const bool json_to_file = !options.json.empty() && options.json != "-";
-  if (json_to_file) require_writable(options.json);
-  if (!options.difference_picture.empty()) require_writable(options.difference_picture);
-
-  const Image a = read_image(options.a), b = read_image(options.b);
-  // One that is not finite is a verdict, and nothing is measured.
-  if (exposures && exposures->automatic && is_finite(b)) exposures = automatic_exposures(b);
-  const Comparison comparison = compare(a, b, options.comparison);
-  if (!options.difference_picture.empty()) {
-    // Without a scale the largest difference is white; one that is not finite is magenta anyway.
-    const double largest = comparison.value("max_abs");
-    const double white_at = options.difference_scale > 0 ? options.difference_scale
-                            : largest > 0                ? largest
-                                                         : 1.0;
-    write_png(options.difference_picture, difference_picture(a, b, white_at));
-    fmt::print(stderr, "{}: white is a difference of {:.6g}\n", options.difference_picture,
-               white_at);
-  }
-  const Json record = comparison_record(comparison, options.a, options.b);
-  if (json_to_file) write_record(options.json, record);
+void write_reports(const Options& options, const SetReport& report, bool folders) {
+  if (!options.csv.empty()) write_file(options.csv, set_csv(report));
+  if (!options.junit.empty()) write_file(options.junit, set_junit(report));
+  if (options.json.empty()) return;
+  const PairReport& first = report.pairs.front();
+  const Json record = folders ? set_record(report)
+                              : comparison_record(*first.comparison, first.a, first.b, first.c);
   if (options.json == "-")
     fmt::print("{}", record_text(record));
   else
-    print_table(options, comparison);
-  return comparison.verdict == Verdict::kPass ? ExitCode::kSuccess : ExitCode::kDiffers;
+    write_record(options.json, record);
+}
+
+ExitCode run(Options options) {
+  ComparisonOptions& comparison = options.job.comparison;
+  for (const std::string& text : options.fail)
+    comparison.limits.push_back(parse_limit("--fail", text));
+  for (const std::string& text : options.warn)
+    comparison.warnings.push_back(parse_limit("--warn", text));
+  if (!options.tolerance.empty()) comparison.tolerance = parse_tolerance(options.tolerance);
+  if (!options.exposures.empty())
+    comparison.viewing.hdr_exposures = parse_exposures(options.exposures);
+  if (!options.scene.empty()) {
+    const Scene scene = read_scene(options.scene);
+    comparison.mask = truth::surface_mask(scene);
+    if (comparison.tolerance) comparison.tolerance->edges = truth::edge_ring(scene);
+  }
+  check_options(comparison);
+  const bool folders = are_folders(options);
+  check_difference(options.job.difference, folders);
+  for (const std::string& file : {options.json, options.csv, options.junit})
+    if (!file.empty() && file != "-") require_writable(file);
+
+  SetReport report;
+  ThreadLimit(options.threads).run([&] {
+    report = folders ? compare_folders(options.job) : compare_files(options.job);
+  });
+  write_reports(options, report, folders);
+  if (options.json != "-") {
+    if (folders)
+      print_set(report);
+    else
+      print_pair(report.pairs.front());
+  }
+  return set_exit_code(report);
 }
 
 std::string footer() {
@@ -151,10 +168,47 @@ std::string footer() {
       "  lobelia compare ours.exr povray.exr --tolerance 6e-4,1e-8,3 --scene scene.xml\n"
       "  lobelia compare ours.exr blender.exr --fail max_rel_peak=3e-5 --fail flip.ldr.mean=1e-3\n"
       "\n"
-      "Exit codes: 0 pass, 1 over a limit or not finite, 2 usage, 3 a picture is unreadable or "
-      "the\n"
-      "sizes differ, 4 an output cannot be written.",
+      "  lobelia compare renders/ references/ --fail ciede2000.p99=2 --junit report.xml --csv report.csv\n"
+      "\n"
+      "Of two folders, a name that only B has fails, one that only A has is named. Exit codes: 0 pass,\n"
+      "1 over a limit, not finite or missing, 2 usage, 3 a picture is unreadable, the sizes of a pair "
+      "differ\n"
+      "or there is no pair, 4 an output cannot be written.",
       join(limit_names()), defaults);
+}
+
+void add_difference_options(CLI::App& command, DifferencePicture& difference) {
+  std::vector<std::string> maps{std::string(kChannels)};
+  for (const std::string_view id : difference_map_names()) maps.emplace_back(id);
+  auto* picture = command.add_option(
+      "--diff-image", difference.path,
+      "Write where the two differ, in colours (.png, with the scale in its metadata) or as values "
+      "(.exr); of folders, a folder of .png");
+  picture->type_name("FILE|DIR")->group("Output");
+  command
+      .add_option(
+          "--diff-of", difference.of,
+          "What it shows: channels is |A - B| of each in its own colour, the others are one "
+          "value a pixel")
+      ->check(CLI::IsMember(maps))
+      ->needs(picture)
+      ->capture_default_str()
+      ->group("Output");
+  command
+      .add_option("--diff-colours", difference.colour_map,
+                  fmt::format("Its colour map; default {}, of signed values {}", kDefaultColourMap,
+                              kSignedColourMap))
+      ->check(CLI::IsMember(
+          std::vector<std::string>(colour_map_names().begin(), colour_map_names().end())))
+      ->needs(picture)
+      ->group("Output");
+  command
+      .add_option("--diff-scale", difference.scale,
+                  "The difference that has the map's last colour; default: the largest")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber)
+      ->needs(picture)
+      ->group("Output");
 }
 
 }  // namespace
@@ -162,9 +216,18 @@ std::string footer() {
 void add_compare(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("compare", "Compare two pictures: metrics and a verdict");
   auto options = std::make_shared<Options>();
-  Viewing& viewing = options->comparison.viewing;
-  command->add_option("A", options->a, "Picture to judge")->required();
-  command->add_option("B", options->b, "Reference picture, of the same size")->required();
+  CompareJob& job = options->job;
+  Viewing& viewing = job.comparison.viewing;
+  command->add_option("A", job.a, "Picture to judge, or a folder of them")->required();
+  command
+      ->add_option("B", job.b,
+                   "Reference picture, of the same size, or a folder of references: pictures are "
+                   "paired by their name within the folders")
+      ->required();
+  command
+      ->add_option("--reference-floor", job.c,
+                   "A second reference: how far it is from B is shown beside how far A is")
+      ->type_name("C");
   command
       ->add_flag_callback(
           "--list-metrics",
@@ -180,6 +243,13 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->add_option(
           "--fail", options->fail,
           "Verdict 'differs' if METRIC is over LIMIT (a likeness, such as psnr: below it); may be given again")
+      ->type_name("METRIC=LIMIT")
+      ->expected(1)
+      ->take_all()
+      ->group("Verdict");
+  command
+      ->add_option("--warn", options->warn,
+                   "As --fail, but a line and no verdict; may be given again")
       ->type_name("METRIC=LIMIT")
       ->expected(1)
       ->take_all()
@@ -223,19 +293,24 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->group("Viewing");
 
   command
-      ->add_option("--json", options->json,
-                   "Write the record (kind comparison) to FILE; with - to stdout, and no table")
+      ->add_option(
+          "--json", options->json,
+          "Write the record (kind comparison, of folders comparison-set) to FILE; with - to "
+          "stdout, and no table")
       ->type_name("FILE|-")
       ->group("Output");
-  auto* picture = command->add_option("--diff-image", options->difference_picture,
-                                      "Write |A - B| per channel as a picture");
-  picture->type_name("FILE.png")->group("Output");
+  command->add_option("--csv", options->csv, "Write a table with a line for each pair")
+      ->type_name("FILE")
+      ->group("Output");
   command
-      ->add_option("--diff-scale", options->difference_scale,
-                   "The difference that is shown as white; default: the largest")
-      ->type_name("NUMBER")
-      ->check(CLI::PositiveNumber)
-      ->needs(picture)
+      ->add_option("--junit", options->junit,
+                   "Write the verdicts as JUnit's XML, for continuous integration")
+      ->type_name("FILE.xml")
+      ->group("Output");
+  add_difference_options(*command, job.difference);
+  command->add_option("--threads", options->threads, "Threads that work; 0: one for each processor")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str()
       ->group("Output");
   command->footer(footer());
   command->callback([options, &exit_code] { exit_code = run(*options); });

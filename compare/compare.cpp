@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "compare/disagreement.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "compare/require_same_size.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -25,13 +27,6 @@ std::int64_t count_nonfinite_pixels(const Image& image) {
     count +=
         !std::isfinite(values[i]) || !std::isfinite(values[i + 1]) || !std::isfinite(values[i + 2]);
   return count;
-}
-
-void require_same_size(const Image& a, const Image& b) {
-  if (a.width() != b.width() || a.height() != b.height())
-    throw Error(ExitCode::kInput, fmt::format("the sizes differ: {} x {} against {} x {}",
-                                              a.width(), a.height(), b.width(), b.height()));
-  if (a.pixel_count() == 0) throw Error(ExitCode::kInput, "the pictures have no pixels");
 }
 
 void require_range(std::string_view what, double value, double min, double max) {
@@ -58,6 +53,18 @@ std::vector<MetricValue> measure_all(const MetricInput& input) {
     metric->measure(input, values);
     for (std::size_t i = 0; i < values.size(); ++i)
       results.push_back({metric->outputs[i].id, metric->outputs[i].meaning, values[i]});
+  }
+  return results;
+}
+
+std::vector<LimitResult> results_of(std::span<const MetricLimit> limits,
+                                    const Comparison& measured) {
+  std::vector<LimitResult> results;
+  for (const MetricLimit& limit : limits) {
+    const double value = measured.value(limit.metric);
+    const MetricOutput* output = find_metric_output(limit.metric);
+    results.push_back(
+        {limit.metric, limit.limit, value, output && is_within(*output, value, limit.limit)});
   }
   return results;
 }
@@ -108,7 +115,7 @@ void check_options(const ComparisonOptions& options) {
     require_range("the number of exposures", range->count, 2, kMaxHdrExposures);
   }
   const std::vector<std::string_view> names = limit_names();
-  for (const MetricLimit& limit : options.limits) {
+  const auto check_limit = [&](const MetricLimit& limit) {
     const MetricOutput* output = find_metric_output(limit.metric);
     if (!output || output->better == Better::kNeither)
       throw Error(ExitCode::kUsage, fmt::format("no metric '{}' to set a limit on{}; there are {}",
@@ -123,13 +130,21 @@ void check_options(const ComparisonOptions& options) {
                   "a limit on 'outliers.off_edge' needs a tolerance and a scene that has edges");
     const double least = output->better == Better::kHigher ? -kLargest : 0;
     require_range(fmt::format("the limit on {}", limit.metric), limit.limit, least, kLargest);
-  }
+  };
+  for (const MetricLimit& limit : options.limits) check_limit(limit);
+  for (const MetricLimit& limit : options.warnings) check_limit(limit);
   if (options.tolerance) {
     require_range("the relative tolerance", options.tolerance->relative, 0, kLargest);
     require_range("the tolerance as a share of the peak", options.tolerance->of_peak, 0, kLargest);
     require_range("the number of allowed outliers", double(options.tolerance->allowed_outliers), 0,
                   double(kMaxImagePixels));
   }
+}
+
+ReferenceFloor measure_reference_floor(const Image& c, const Image& b,
+                                       const ComparisonOptions& options) {
+  Comparison measured = compare(c, b, options);
+  return {measured.nonfinite_a, std::move(measured.metrics)};
 }
 
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {
@@ -166,14 +181,10 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   if (options.tolerance && !options.tolerance->edges.empty())
     limits.push_back({std::string(kOutliersOffEdge), 0});
   if (limits.empty()) limits.assign(default_limits().begin(), default_limits().end());
-  bool pass = true;
-  for (const MetricLimit& limit : limits) {
-    const double value = result.value(limit.metric);
-    const MetricOutput* output = find_metric_output(limit.metric);
-    const bool within = output && is_within(*output, value, limit.limit);
-    result.limits.push_back({limit.metric, limit.limit, value, within});
-    pass = pass && within;
-  }
+  result.limits = results_of(limits, result);
+  result.warnings = results_of(options.warnings, result);
+  const bool pass = std::all_of(result.limits.begin(), result.limits.end(),
+                                [](const LimitResult& limit) { return limit.pass; });
   result.disagreement = disagreements(result.limits);
   result.verdict = !finite ? Verdict::kNonFinite : pass ? Verdict::kPass : Verdict::kDiffers;
   return result;

@@ -22,7 +22,8 @@ struct MetricLimit {
 struct ComparisonOptions {
   Viewing viewing;
   std::vector<MetricLimit> limits;
-  std::optional<Tolerance> tolerance;
+  std::vector<MetricLimit> warnings = {};  ///< reported as limits are, but no part of the verdict
+  std::optional<Tolerance> tolerance = {};
   /// By pixel in reading order, not 0 where it is inside: errors are measured there as well, under
   /// ids that end in .mask. Empty for none.
   std::vector<std::uint8_t> mask = {};
@@ -50,16 +51,24 @@ struct LimitResult {
   bool pass = false;
 };
 
+/// How far two references are from each other: what no picture can be asked to be nearer than.
+struct ReferenceFloor {
+  std::int64_t nonfinite = 0;        ///< pixels of the second reference
+  std::vector<MetricValue> metrics;  ///< of it against the first; empty if something is not finite
+};
+
 struct Comparison {
   Verdict verdict = Verdict::kDiffers;
   std::int64_t nonfinite_a = 0, nonfinite_b = 0;  ///< pixels with a NaN or an infinity
   Viewing viewing;
   std::vector<MetricValue> metrics;  ///< in the catalogue's order; empty if something is not finite
   std::vector<LimitResult> limits;   ///< that the verdict was made of
+  std::vector<LimitResult> warnings;
   /// Sentences: which limits say opposite things, see disagreements(). The verdict does not depend on it.
   std::vector<std::string> disagreement;
   std::optional<Tolerance> tolerance;
-  std::optional<std::int64_t> mask_pixels;  ///< inside the mask, if there was one
+  std::optional<std::int64_t> mask_pixels;        ///< inside the mask, if there was one
+  std::optional<ReferenceFloor> reference_floor;  ///< if there was a second reference
 
   /// The value of a metric, or NaN if it was not measured.
   double value(std::string_view id) const;
@@ -72,8 +81,14 @@ void check_options(const ComparisonOptions& options);
 /// check_options.
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options);
 
-/// As docs/records.md has it; `a` and `b` are the file names that stand in it.
-Json comparison_record(const Comparison& comparison, const std::string& a, const std::string& b);
+/// The distance of a second reference `c` from `b`, seen as the options say. Throws as compare.
+ReferenceFloor measure_reference_floor(const Image& c, const Image& b,
+                                       const ComparisonOptions& options);
+
+/// As docs/records.md has it; `a`, `b` and the second reference `c`, if there was one, are the file names
+/// that stand in it.
+Json comparison_record(const Comparison& comparison, const std::string& a, const std::string& b,
+                       const std::string& c = "");
 
 /// |a - b| per channel / white_at, clipped at 1, not display-encoded. Magenta where it is not
 /// finite. With white_at 0 every difference is white. Throws Error(kInput) if the sizes differ.

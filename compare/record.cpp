@@ -2,8 +2,29 @@
 #include "compare/compare.hpp"
 
 namespace lobelia {
+namespace {
 
-Json comparison_record(const Comparison& comparison, const std::string& a, const std::string& b) {
+Json metrics_json(std::span<const MetricValue> metrics) {
+  Json object = Json::object();
+  for (const MetricValue& metric : metrics)
+    object[std::string(metric.id)] = number_or_name(metric.value);
+  return object;
+}
+
+Json limits_json(std::span<const LimitResult> limits) {
+  Json list = Json::array();
+  for (const LimitResult& limit : limits)
+    list.push_back({{"metric", limit.metric},
+                    {"limit", limit.limit},
+                    {"value", number_or_name(limit.value)},
+                    {"pass", limit.pass}});
+  return list;
+}
+
+}  // namespace
+
+Json comparison_record(const Comparison& comparison, const std::string& a, const std::string& b,
+                       const std::string& c) {
   Json record = make_record("comparison");
   record["verdict"] = verdict_name(comparison.verdict);
   record["a"] = a;
@@ -18,21 +39,18 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
                                          {"automatic", range->automatic},
                                          {"toneCurve", "aces"}};
   if (comparison.mask_pixels) record["mask"] = {{"pixels", *comparison.mask_pixels}};
-  record["metrics"] = Json::object();
-  for (const MetricValue& metric : comparison.metrics)
-    record["metrics"][std::string(metric.id)] = number_or_name(metric.value);
-  record["limits"] = Json::array();
-  for (const LimitResult& limit : comparison.limits)
-    record["limits"].push_back({{"metric", limit.metric},
-                                {"limit", limit.limit},
-                                {"value", number_or_name(limit.value)},
-                                {"pass", limit.pass}});
+  record["metrics"] = metrics_json(comparison.metrics);
+  record["limits"] = limits_json(comparison.limits);
+  if (!comparison.warnings.empty()) record["warnings"] = limits_json(comparison.warnings);
   record["disagreement"] = comparison.disagreement;
   if (comparison.tolerance)
     record["tolerance"] = {{"relative", comparison.tolerance->relative},
                            {"ofPeak", comparison.tolerance->of_peak},
                            {"allowedOutliers", comparison.tolerance->allowed_outliers},
                            {"onEdgesOnly", !comparison.tolerance->edges.empty()}};
+  if (const auto& floor = comparison.reference_floor)
+    record["referenceFloor"] = {
+        {"c", c}, {"nonfinite", floor->nonfinite}, {"metrics", metrics_json(floor->metrics)}};
   return record;
 }
 

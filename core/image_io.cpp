@@ -43,8 +43,10 @@ void write_exr(const fs::path& path, const Image& image, const ImageMetadata& me
   writer.finish();
 }
 
-void write_png(const fs::path& path, const DisplayImage& image) {
-  write_file(path, module().encode_png(image));
+void write_png(const fs::path& path, const DisplayImage& image, const ImageMetadata& metadata) {
+  write_file(path, module().encode_png(image, metadata));
 }
+
+ColourTable colour_table(std::string_view name) { return module().colour_table(name); }
 
 }  // namespace lobelia

@@ -4,7 +4,10 @@
 // in a module of its own (image_io_module.cpp) that is loaded at the first picture.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 #include "core/image.hpp"
 
@@ -20,7 +23,16 @@ Image read_image(const std::filesystem::path& path);
 void write_exr(const std::filesystem::path& path, const Image& image,
                const ImageMetadata& metadata);
 
-/// Writes an 8-bit sRGB PNG. Errors as write_exr.
-void write_png(const std::filesystem::path& path, const DisplayImage& image);
+/// Writes an 8-bit sRGB PNG, its metadata as texts. Errors as write_exr.
+void write_png(const std::filesystem::path& path, const DisplayImage& image,
+               const ImageMetadata& metadata = {});
+
+/// sRGB colours for values from 0 to 1, evenly spaced.
+inline constexpr int kColourTableSize = 256;
+using ColourTable = std::array<std::array<std::uint8_t, 3>, kColourTableSize>;
+
+/// A map that OpenImageIO knows: "magma", "inferno", "plasma", "viridis", "turbo". Throws Error(kInternal) for
+/// one that it does not.
+ColourTable colour_table(std::string_view name);
 
 }  // namespace lobelia

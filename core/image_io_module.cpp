@@ -2,9 +2,12 @@
 #include "core/image_io_module.hpp"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/colour.hpp"
@@ -84,10 +87,31 @@ std::vector<std::uint8_t> encode(const char* extension, OIIO::ImageSpec spec, OI
   return bytes;
 }
 
-std::vector<std::uint8_t> encode_png(const DisplayImage& image) {
+std::vector<std::uint8_t> encode_png(const DisplayImage& image, const ImageMetadata& metadata) {
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  for (const auto& [name, value] : metadata) spec.attribute(name, value);
   return encode("png", spec, OIIO::TypeDesc::UINT8, image.rgb.data());
+}
+
+ColourTable table_of_colours(std::string_view name) {
+  OIIO::ImageBuf ramp(OIIO::ImageSpec(kColourTableSize, 1, 1, OIIO::TypeDesc::FLOAT));
+  for (int i = 0; i < kColourTableSize; ++i) {
+    const float value = float(i) / (kColourTableSize - 1);
+    ramp.setpixel(i, 0, &value, 1);
+  }
+  const OIIO::ImageBuf colours =
+      OIIO::ImageBufAlgo::color_map(ramp, 0, OIIO::string_view(name.data(), name.size()));
+  if (colours.has_error() || colours.nchannels() != 3)
+    throw Error(ExitCode::kInternal, fmt::format("colour map: {}", colours.geterror()));
+  // Its maps are linear light, whatever they were published as.
+  Image linear(kColourTableSize, 1);
+  for (int i = 0; i < kColourTableSize; ++i) colours.getpixel(i, 0, linear.pixel(i, 0).data(), 3);
+  const DisplayImage shown = to_display(linear, 0);
+  ColourTable table;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    std::copy_n(shown.rgb.begin() + std::ptrdiff_t(3 * i), 3, table[i].begin());
+  return table;
 }
 
 }  // namespace
@@ -95,4 +119,5 @@ std::vector<std::uint8_t> encode_png(const DisplayImage& image) {
 
 extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
-const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::encode_png};
+const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::encode_png,
+                                                      lobelia::table_of_colours};

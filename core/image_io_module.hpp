@@ -8,7 +8,8 @@ namespace lobelia {
 /// The functions of image_io.hpp, found by name in the module.
 struct ImageIoTable {
   Image (*read_image)(const std::filesystem::path&);
-  std::vector<std::uint8_t> (*encode_png)(const DisplayImage&);
+  std::vector<std::uint8_t> (*encode_png)(const DisplayImage&, const ImageMetadata&);
+  ColourTable (*colour_table)(std::string_view);
 };
 
 inline constexpr char kImageIoModuleFile[] = "lobelia_image_io.so";

@@ -35,6 +35,26 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
+/// Bytes of the character that `text` begins with; 0 if they are none (RFC 3629: the shortest form, no
+/// surrogates, up to U+10FFFF).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return std::uint32_t(static_cast<unsigned char>(text[i]));
+  };
+  const std::uint32_t first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
+  std::uint32_t code = first & (0xFFu >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3F);
+  }
+  constexpr std::uint32_t kShortest[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  return code < kShortest[length] || surrogate || code > 0x10FFFF ? 0 : length;
+}
+
 template <class Number>
 bool parse_whole(std::string_view text, Number& value) {
   text = trim(text);
@@ -133,6 +153,27 @@ std::string shell_join(std::span<const std::string> arguments) {
   for (const auto& argument : arguments) {
     if (!result.empty()) result += ' ';
     result += shell_quote(argument);
+  }
+  return result;
+}
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string valid_utf8(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    if (const std::size_t length = utf8_length(text); length > 0) {
+      result += text.substr(0, length);
+      text.remove_prefix(length);
+    } else {
+      result += "\xEF\xBF\xBD";
+      text.remove_prefix(1);
+    }
   }
   return result;
 }

@@ -33,6 +33,10 @@ std::string escape_markup(std::string_view text);
 /// The argument as a POSIX shell reads it back: quoted only where it has to be.
 std::string shell_quote(std::string_view argument);
 std::string shell_join(std::span<const std::string> arguments);
+/// A field of a CSV table (RFC 4180): in quotes where it has to be.
+std::string csv_field(std::string_view text);
+/// Each byte that is not part of valid UTF-8 replaced by U+FFFD: a file name may hold any bytes.
+std::string valid_utf8(std::string_view text);
 /// Without control characters, at most `max_length` long: for showing hostile input in a message.
 std::string printable(std::string_view text, std::size_t max_length = 80);
 

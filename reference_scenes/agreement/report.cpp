@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
+
 namespace lobelia::agreement {
 namespace {
 
@@ -44,11 +46,6 @@ std::string report_csv(const Agreement& agreement) {
   std::string text =
       "group,what,model,lobe,normalisation,exponent,view,width,height,witness,max_of_peak,"
       "rms_of_peak,max_relative,ring_pixels,ring_over,ring_max_of_peak,target,verdict,why\n";
-  const auto quoted = [](std::string_view words) {
-    std::string escaped;
-    for (const char c : words) escaped += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return "\"" + escaped + "\"";
-  };
   for (const Row& row : agreement.rows) {
     const Case& one = agreement.cases[row.index];
     const HighlightChoice& h = one.highlight;
@@ -57,14 +54,14 @@ std::string report_csv(const Agreement& agreement) {
     const bool none = row.verdict == Verdict::kNotComparable || row.verdict == Verdict::kFailed;
     text += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", kGroupNames[std::size_t(one.group)],
-        quoted(one.what), h.model, h.lobe, h.normalisation, h.exponent,
+        csv_field(one.what), h.model, h.lobe, h.normalisation, h.exponent,
         one.close_up ? "close-up" : "whole", one.scene.film.width, one.scene.film.height,
         row.witness.name,
         none ? ",,,,,"
              : fmt::format("{},{},{},{},{},{}", f.max_of_peak, f.rms_of_peak, f.max_relative,
                            f.ring_pixels, f.ring_over, f.ring_max_of_peak),
         target ? target_text(*target) : "", kVerdictNames[std::size_t(row.verdict)],
-        quoted(row.why));
+        csv_field(row.why));
   }
   return text;
 }

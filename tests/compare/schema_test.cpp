@@ -1,48 +1,21 @@
-// docs/comparison.schema.json and docs/metrics.md against the program.
+// The JSON Schemas of comparisons and docs/metrics.md against the program.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "compare/compare.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "compare/set/report.hpp"
+#include "tests/compare/json_schema.hpp"
 #include "tests/compare/pictures.hpp"
 
 namespace lobelia {
 namespace {
 
-// The validator knows the library's default type, not the one that keeps its order.
-using Plain = nlohmann::json;
+Plain schema() { return Plain::parse(document_text("comparison.schema.json")); }
 
-std::string text_of(const std::string& page) {
-  std::ifstream file(std::string(LOBELIA_SOURCE_DIR) + "/docs/" + page);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-Plain schema() { return Plain::parse(text_of("comparison.schema.json")); }
-
-/// What is wrong with a record; empty if nothing.
 std::string problems(const Plain& record) {
-  static const Plain document = schema();
-  valijson::Schema parsed;
-  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(document),
-                                          parsed);
-  valijson::ValidationResults results;
-  if (valijson::Validator().validate(parsed, valijson::adapters::NlohmannJsonAdapter(record),
-                                     &results))
-    return "";
-  std::string text = "invalid:";
-  valijson::ValidationResults::Error error;
-  while (results.popError(error)) text += " " + error.description;
-  return text;
+  return schema_problems("comparison.schema.json", record);
 }
 
 /// As it stands in a file.
@@ -56,6 +29,7 @@ ComparisonOptions everything(const Image& image) {
   options.tolerance = Tolerance{1e-3, 1e-6, 3, std::vector<std::uint8_t>(image.pixel_count(), 1)};
   options.mask.assign(image.pixel_count(), 1);
   options.limits = {{"rmse", 1e-9}, {"ssim", -1}};
+  options.warnings = {{"mae", 0}};
   return options;
 }
 
@@ -101,7 +75,7 @@ TEST(ComparisonSchema, DoesNotHoldForABrokenRecord) {
     EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
   };
   for (const auto& [key, value] : good.items())
-    if (key != "tolerance" && key != "mask" && key != "disagreement")
+    if (key != "tolerance" && key != "mask" && key != "disagreement" && key != "warnings")
       broken([&](Plain& r) { r.erase(key); });
   broken([](Plain& r) { r["verdict"] = "fine"; });
   broken([](Plain& r) { r["kind"] = "render"; });
@@ -118,8 +92,46 @@ TEST(ComparisonSchema, DoesNotHoldForABrokenRecord) {
   broken([](Plain& r) { r["tolerance"].erase("ofPeak"); });
 }
 
+TEST(ComparisonSchema, HoldsForARecordWithASecondReference) {
+  const Image a = testing::highlight(32, 32, 10, 1), c = testing::highlight(32, 32, 11, 1);
+  Image broken = c;
+  broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
+  for (const Image* second : {&a, &c, static_cast<const Image*>(&broken)}) {
+    Comparison comparison = compare(a, c, {});
+    comparison.reference_floor = measure_reference_floor(*second, c, {});
+    Plain made = Plain::parse(record_text(comparison_record(comparison, "a", "b", "c.exr")));
+    EXPECT_EQ(problems(made), "");
+    EXPECT_EQ(made["referenceFloor"]["c"], "c.exr");
+    made["referenceFloor"].erase("metrics");
+    EXPECT_NE(problems(made), "");
+  }
+}
+
+TEST(ComparisonSetSchema, HoldsForASetAndNotForABrokenOne) {
+  const Image a = testing::highlight(32, 32, 10, 1), b = testing::highlight(32, 32, 11, 1);
+  SetReport set{"one", "other", "", {}, {"gone.exr"}, {"new.exr"}, 2};
+  set.pairs.push_back({"x.exr", "one/x.exr", "other/x.exr", "", compare(a, b, {}), "", 0.1});
+  set.pairs.push_back({"y.exr", "one/y.exr", "other/y.exr", "", {}, "not a picture", 0});
+  const Plain good = Plain::parse(record_text(set_record(set)));
+  const auto problems_of = [](const Plain& record) {
+    return schema_problems("comparison_set.schema.json", record);
+  };
+  EXPECT_EQ(problems_of(good), "");
+  for (const auto& [key, value] : good.items()) {
+    Plain changed = good;
+    changed.erase(key);
+    EXPECT_NE(problems_of(changed), "") << key;
+  }
+  Plain changed = good;
+  changed["pairs"][0]["comparison"].erase("metrics");
+  EXPECT_NE(problems_of(changed), "") << "a pair is held to the schema of a comparison";
+  changed = good;
+  changed["pairs"][1].erase("error");
+  EXPECT_NE(problems_of(changed), "");
+}
+
 TEST(MetricsDocument, IsWhatTheProgramPrints) {
-  EXPECT_EQ(text_of("metrics.md"), metrics_document())
+  EXPECT_EQ(document_text("metrics.md"), metrics_document())
       << "run: lobelia compare --list-metrics > docs/metrics.md";
 }
 

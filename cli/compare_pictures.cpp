@@ -1,0 +1,250 @@
+#include "cli/compare_pictures.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "compare/maps/difference_map.hpp"
+#include "compare/metrics/flip_exposures.hpp"
+#include "compare/set/folder_pairs.hpp"
+#include "core/files.hpp"
+#include "core/image_io.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_finite(const Image& image) {
+  return std::all_of(image.values().begin(), image.values().end(),
+                     [](float value) { return std::isfinite(value); });
+}
+
+bool has_automatic_exposures(const ComparisonOptions& options) {
+  return options.viewing.hdr_exposures && options.viewing.hdr_exposures->automatic;
+}
+
+/// A map's values as they are, in a picture of three equal channels.
+Image grey_picture(std::span<const float> values, int width, int height) {
+  Image image(width, height);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    std::fill_n(image.values().begin() + std::ptrdiff_t(3 * i), 3, values[i]);
+  return image;
+}
+
+void write_channels(const DifferencePicture& wanted, const fs::path& path, const Image& a,
+                    const Image& b, double largest) {
+  // Without a scale the largest difference is white; one that is not finite is magenta anyway.
+  const double scale = wanted.scale > 0 ? wanted.scale : largest > 0 ? largest : 1.0;
+  write_png(path, difference_picture(a, b, scale),
+            {{"Description", fmt::format("|A - B| of R, G and B (radiance), 0 to {:.6g}", scale)},
+             {"lobelia:difference", std::string(kChannels)},
+             {"lobelia:unit", "radiance"},
+             {"lobelia:scaleFrom", "0"},
+             {"lobelia:scaleTo", fmt::format("{}", scale)},
+             {"lobelia:notFinite", "#ff00ff"}});
+  fmt::print(stderr, "{}: white is a difference of {:.6g}\n", path.string(), scale);
+}
+
+void write_difference(const DifferencePicture& wanted, const fs::path& path, const Image& a,
+                      const Image& b, const Comparison& comparison) {
+  if (wanted.of == kChannels) {
+    write_channels(wanted, path, a, b, comparison.value("max_abs"));
+    return;
+  }
+  const DifferenceMap& map = *find_difference_map(wanted.of);
+  const std::vector<float> values = measure_difference_map(map, a, b, comparison.viewing);
+  const double largest = largest_magnitude(values);
+  const double scale = wanted.scale > 0 ? wanted.scale : largest > 0 ? largest : 1.0;
+  const std::string_view colours = !wanted.colour_map.empty() ? std::string_view(wanted.colour_map)
+                                   : map.is_signed            ? kSignedColourMap
+                                                              : kDefaultColourMap;
+  if (path.extension() == ".exr")
+    write_exr(path, grey_picture(values, a.width(), a.height()),
+              {{"Description", fmt::format("{} ({})", map.meaning, map.unit)},
+               {"lobelia:difference", std::string(map.id)},
+               {"lobelia:unit", std::string(map.unit)}});
+  else
+    write_png(path, colour_picture(values, a.width(), a.height(), scale, colours),
+              colour_metadata(map, scale, colours));
+  fmt::print(stderr, "{}: {} up to {:.6g}, the largest is {:.6g}\n", path.string(), map.id, scale,
+             largest);
+}
+
+PairReport compare_pair(PairReport pair, ComparisonOptions options, bool choose_exposures,
+                        const DifferencePicture& difference, const fs::path& difference_path) {
+  const auto started = std::chrono::steady_clock::now();
+  const Image a = read_image(pair.a), b = read_image(pair.b);
+  // One that is not finite is a verdict, and nothing is measured.
+  if (choose_exposures && is_finite(b)) options.viewing.hdr_exposures = automatic_exposures(b);
+  pair.comparison = compare(a, b, options);
+  if (!pair.c.empty())
+    pair.comparison->reference_floor = measure_reference_floor(read_image(pair.c), b, options);
+  if (!difference.path.empty())
+    write_difference(difference, difference_path, a, b, *pair.comparison);
+  pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return pair;
+}
+
+/// Calls work(i) for i < count, in parallel. A thread that waits for a part of its own pair does not begin
+/// another one: as many pairs are in memory as there are threads.
+template <class Work>
+void for_each_pair(std::size_t count, Work work) {
+  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    oneapi::tbb::this_task_arena::isolate([&] { work(i); });
+  });
+}
+
+/// One range for the set: what one number means must not change from pair to pair.
+HdrExposures exposures_for_all(const std::vector<PairReport>& pairs) {
+  std::mutex mutex;
+  std::optional<HdrExposures> all;
+  std::string why = "no reference could be read";
+  for_each_pair(pairs.size(), [&](std::size_t i) {
+    try {
+      const Image reference = read_image(pairs[i].b);
+      if (!is_finite(reference)) return;
+      const HdrExposures one = automatic_exposures(reference);
+      const std::lock_guard lock(mutex);
+      if (!all) all = one;
+      all->start_stops = std::min(all->start_stops, one.start_stops);
+      all->stop_stops = std::max(all->stop_stops, one.stop_stops);
+    } catch (const Error& error) {
+      const std::lock_guard lock(mutex);
+      why = fmt::format("{}: {}", pairs[i].b, error.what());
+    }
+  });
+  if (!all) throw Error(ExitCode::kInput, "no range of exposures: " + why);
+  const double stops = std::ceil(all->stop_stops - all->start_stops);
+  all->count = std::clamp(int(stops), 2, kMaxHdrExposures);
+  return *all;
+}
+
+void print_metric_lines(const Comparison& comparison) {
+  const auto& floor = comparison.reference_floor;
+  if (floor)
+    fmt::print("  {:<20}{:>14}{:>14}  {}\n", "", "A and B", "C and B", "C is the second reference");
+  for (const MetricValue& metric : comparison.metrics) {
+    fmt::print("  {:<20}{:>14.6g}", metric.id, metric.value);
+    if (floor) {
+      const auto found =
+          std::find_if(floor->metrics.begin(), floor->metrics.end(),
+                       [&](const MetricValue& other) { return other.id == metric.id; });
+      fmt::print("{:>14}",
+                 found == floor->metrics.end() ? "-" : fmt::format("{:.6g}", found->value));
+    }
+    fmt::print("  {}\n", metric.meaning);
+  }
+}
+
+void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view before) {
+  for (const LimitResult& limit : limits)
+    fmt::print("  {}{:<20}{:>14.6g}  {} {:g}\n", before, limit.metric, limit.value,
+               std::isnan(limit.value) ? "was NOT MEASURED; the limit is"
+               : limit.pass            ? "is within"
+                                       : "is OUTSIDE",
+               limit.limit);
+}
+
+}  // namespace
+
+SetReport compare_files(const CompareJob& job) {
+  SetReport report{job.a, job.b, job.c, {}, {}, {}, 0};
+  report.pairs.push_back(compare_pair(
+      {fs::path(job.a).filename().string(), job.a, job.b, job.c, {}, {}, 0}, job.comparison,
+      has_automatic_exposures(job.comparison), job.difference, job.difference.path));
+  return report;
+}
+
+SetReport compare_folders(const CompareJob& job) {
+  const FolderPairs names = pair_by_name(job.a, job.b);
+  SetReport report{job.a, job.b, job.c, {}, names.missing, names.extra, names.passed_over};
+  for (const std::string& name : names.both)
+    report.pairs.push_back({name,
+                            (fs::path(job.a) / name).string(),
+                            (fs::path(job.b) / name).string(),
+                            job.c.empty() ? "" : (fs::path(job.c) / name).string(),
+                            {},
+                            {},
+                            0});
+  ComparisonOptions options = job.comparison;
+  if (has_automatic_exposures(options))
+    options.viewing.hdr_exposures = exposures_for_all(report.pairs);
+  for_each_pair(report.pairs.size(), [&](std::size_t i) {
+    PairReport& pair = report.pairs[i];
+    fs::path difference;
+    if (!job.difference.path.empty()) {
+      // The ending is added, not exchanged: a.exr and a.png would meet.
+      difference = job.difference.path / (pair.name + ".png");
+      make_directories(difference.parent_path());
+    }
+    try {
+      pair = compare_pair(pair, options, false, job.difference, difference);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kInput) throw;
+      pair.error = error.what();
+    }
+  });
+  return report;
+}
+
+void print_pair(const PairReport& pair) {
+  const Comparison& comparison = *pair.comparison;
+  fmt::print("a  {}\nb  {}  (the reference)\n", pair.a, pair.b);
+  if (!pair.c.empty()) fmt::print("c  {}  (the second reference)\n", pair.c);
+  fmt::print("\n");
+  if (comparison.verdict == Verdict::kNonFinite)
+    fmt::print("  pixels with a NaN or an infinity: {} in a, {} in b; nothing was measured\n",
+               comparison.nonfinite_a, comparison.nonfinite_b);
+  print_metric_lines(comparison);
+  fmt::print("\n");
+  if (comparison.verdict != Verdict::kNonFinite) {
+    print_limit_lines(comparison.limits, "");
+    print_limit_lines(comparison.warnings, "warning: ");
+  }
+  for (const std::string& sentence : comparison.disagreement)
+    fmt::print("  metrics disagree: {}\n", sentence);
+  fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite ? "" : "\n",
+             verdict_name(comparison.verdict));
+}
+
+void print_set(const SetReport& report) {
+  fmt::print("a  {}\nb  {}  (the reference)\n\n", report.a, report.b);
+  const auto line = [](std::string_view what, const std::string& name, const std::string& why) {
+    fmt::print("  {:<12}{}{}{}\n", what, name, why.empty() ? "" : ": ", why);
+  };
+  // What a person has to act on comes first.
+  for (const PairReport& pair : report.pairs)
+    if (!pair.comparison) line("error", pair.name, pair.error);
+  for (const std::string& name : report.missing) line("missing", name, "there is only a reference");
+  for (const PairReport& pair : report.pairs)
+    if (pair.comparison && pair.comparison->verdict != Verdict::kPass)
+      line(verdict_name(pair.comparison->verdict), pair.name, failing_limits(*pair.comparison));
+  for (const PairReport& pair : report.pairs)
+    if (pair.comparison)
+      for (const LimitResult& limit : pair.comparison->warnings)
+        if (!limit.pass)
+          line("warning", pair.name,
+               fmt::format("{} is {:.6g}, limit {:g}", limit.metric, limit.value, limit.limit));
+  for (const std::string& name : report.extra) line("extra", name, "there is no reference");
+
+  const std::vector<MetricSummary> summaries = summarise(report.pairs);
+  if (!summaries.empty()) fmt::print("\n  {:<20}{:>14}{:>14}\n", "", "mean", "worst");
+  for (const MetricSummary& metric : summaries)
+    fmt::print("  {:<20}{:>14.6g}{:>14.6g}  {}\n", metric.id, metric.mean, metric.worst,
+               metric.worst_at->name);
+  const SetCounts counts = count(report);
+  fmt::print(
+      "\n{} pairs: {} pass, {} differ, {} not finite, {} not comparable; {} missing, {} extra\n",
+      report.pairs.size(), counts.pass, counts.differs, counts.nonfinite, counts.errors,
+      counts.missing, counts.extra);
+  if (report.passed_over > 0) fmt::print("{} files are no pictures\n", report.passed_over);
+}
+
+}  // namespace lobelia::cli

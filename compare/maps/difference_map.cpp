@@ -1,0 +1,134 @@
+#include "compare/maps/difference_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "compare/require_same_size.hpp"
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+
+extern const DifferenceMap absolute_map, signed_map, relative_map, ciede2000_map, flip_ldr_map;
+
+namespace {
+
+constexpr const DifferenceMap* kMaps[] = {&absolute_map, &signed_map, &relative_map, &ciede2000_map,
+                                          &flip_ldr_map};
+
+constexpr std::string_view kColourMaps[] = {kDefaultColourMap, "inferno", "plasma",
+                                            "viridis",         "turbo",   kSignedColourMap};
+
+constexpr std::array<std::uint8_t, 3> kNotFinite = {0, 255, 0};
+
+ColourTable blue_white_red() {
+  ColourTable table;
+  for (int i = 0; i < kColourTableSize; ++i) {
+    // The middle of the table's positions rounds up to this entry: equal pixels are white.
+    constexpr int kMiddle = kColourTableSize / 2;
+    const double t = std::max(double(i - kMiddle) / (kColourTableSize - 1 - kMiddle), -1.0);
+    const auto fading = std::uint8_t(std::lround(255 * (1 - std::abs(t))));
+    table[std::size_t(i)] = t < 0 ? std::array<std::uint8_t, 3>{fading, fading, 255}
+                                  : std::array<std::uint8_t, 3>{255, fading, fading};
+  }
+  return table;
+}
+
+/// A copy with 0 for what is not finite; sets `broken` by pixel.
+Image without_non_finite(const Image& image, std::vector<std::uint8_t>& broken) {
+  Image copy = image;
+  for (std::size_t i = 0; i < copy.values().size(); ++i)
+    if (!std::isfinite(copy.values()[i])) {
+      copy.values()[i] = 0;
+      broken[i / 3] = 1;
+    }
+  return copy;
+}
+
+bool is_finite(const Image& image) {
+  return std::all_of(image.values().begin(), image.values().end(),
+                     [](float value) { return std::isfinite(value); });
+}
+
+std::vector<float> measure_finite(const DifferenceMap& map, const Image& a, const Image& b,
+                                  const Viewing& viewing) {
+  const DisplayLight shown_a(a, viewing.exposure_stops), shown_b(b, viewing.exposure_stops);
+  return map.measure({a, b, shown_a, shown_b, viewing.pixels_per_degree});
+}
+
+}  // namespace
+
+std::span<const DifferenceMap* const> difference_maps() { return kMaps; }
+
+std::vector<std::string_view> difference_map_names() {
+  std::vector<std::string_view> names;
+  for (const DifferenceMap* map : kMaps) names.push_back(map->id);
+  return names;
+}
+
+const DifferenceMap* find_difference_map(std::string_view id) {
+  for (const DifferenceMap* map : kMaps)
+    if (map->id == id) return map;
+  return nullptr;
+}
+
+std::vector<float> measure_difference_map(const DifferenceMap& map, const Image& a, const Image& b,
+                                          const Viewing& viewing) {
+  require_same_size(a, b);
+  if (is_finite(a) && is_finite(b)) return measure_finite(map, a, b, viewing);
+  std::vector<std::uint8_t> broken(a.pixel_count(), 0);
+  const Image finite_a = without_non_finite(a, broken), finite_b = without_non_finite(b, broken);
+  std::vector<float> values = measure_finite(map, finite_a, finite_b, viewing);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (broken[i] != 0) values[i] = std::numeric_limits<float>::quiet_NaN();
+  return values;
+}
+
+double largest_magnitude(std::span<const float> values) {
+  float largest = 0;
+  for (const float value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return double(largest);
+}
+
+std::span<const std::string_view> colour_map_names() { return kColourMaps; }
+
+DisplayImage colour_picture(std::span<const float> values, int width, int height, double scale,
+                            std::string_view colour_map) {
+  if (std::find(std::begin(kColourMaps), std::end(kColourMaps), colour_map) ==
+      std::end(kColourMaps))
+    throw Error(ExitCode::kUsage,
+                fmt::format("no colour map '{}'{}; there are {}", printable(colour_map),
+                            did_you_mean(colour_map, kColourMaps), join(kColourMaps)));
+  const bool diverges = colour_map == kSignedColourMap;
+  const ColourTable table = diverges ? blue_white_red() : colour_table(colour_map);
+  DisplayImage picture{width, height, std::vector<std::uint8_t>(3 * values.size())};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double share = double(values[i]) / scale;
+    const double position = std::clamp(diverges ? (share + 1) / 2 : share, 0.0, 1.0);
+    const auto& colour = std::isnan(share)
+                             ? kNotFinite
+                             : table[std::size_t(std::lround(position * (kColourTableSize - 1)))];
+    std::copy(colour.begin(), colour.end(), picture.rgb.begin() + std::ptrdiff_t(3 * i));
+  }
+  return picture;
+}
+
+ImageMetadata colour_metadata(const DifferenceMap& map, double scale, std::string_view colour_map) {
+  const double first = colour_map == kSignedColourMap ? -scale : 0;
+  return {{"Description", fmt::format("{} ({}), {:.6g} to {:.6g} in {}", map.meaning, map.unit,
+                                      first, scale, colour_map)},
+          {"lobelia:difference", std::string(map.id)},
+          {"lobelia:unit", std::string(map.unit)},
+          {"lobelia:colourMap", std::string(colour_map)},
+          {"lobelia:scaleFrom", fmt::format("{}", first)},
+          {"lobelia:scaleTo", fmt::format("{}", scale)},
+          {"lobelia:notFinite", "#00ff00"}};
+}
+
+}  // namespace lobelia

@@ -1,0 +1,88 @@
+#include "compare/set/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/metrics/catalogue.hpp"
+
+namespace lobelia {
+namespace {
+
+/// How bad a value is: NaN is worse than anything.
+double badness(Better better, double value) {
+  if (std::isnan(value)) return std::numeric_limits<double>::infinity();
+  return better == Better::kHigher ? -value : std::abs(value);
+}
+
+}  // namespace
+
+SetCounts count(const SetReport& report) {
+  SetCounts counts;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.comparison) {
+      ++counts.errors;
+      continue;
+    }
+    switch (pair.comparison->verdict) {
+      case Verdict::kPass:
+        ++counts.pass;
+        break;
+      case Verdict::kDiffers:
+        ++counts.differs;
+        break;
+      case Verdict::kNonFinite:
+        ++counts.nonfinite;
+        break;
+    }
+  }
+  counts.missing = report.missing.size();
+  counts.extra = report.extra.size();
+  return counts;
+}
+
+ExitCode set_exit_code(const SetReport& report) {
+  const SetCounts counts = count(report);
+  if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
+  return counts.differs + counts.nonfinite + counts.missing > 0 ? ExitCode::kDiffers
+                                                                : ExitCode::kSuccess;
+}
+
+std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
+  std::vector<MetricSummary> summaries;
+  for (const Metric* metric : metrics())
+    for (const MetricOutput& output : metric->outputs) {
+      if (output.better == Better::kNeither) continue;
+      MetricSummary summary{output.id, 0, 0, nullptr};
+      std::size_t pairs_with = 0;
+      for (const PairReport& pair : pairs) {
+        if (!pair.comparison) continue;
+        for (const MetricValue& value : pair.comparison->metrics) {
+          if (value.id != output.id) continue;
+          ++pairs_with;
+          summary.mean += value.value;
+          if (!summary.worst_at ||
+              badness(output.better, value.value) > badness(output.better, summary.worst)) {
+            summary.worst = value.value;
+            summary.worst_at = &pair;
+          }
+        }
+      }
+      if (pairs_with == 0) continue;
+      summary.mean /= double(pairs_with);
+      summaries.push_back(summary);
+    }
+  return summaries;
+}
+
+std::string failing_limits(const Comparison& comparison) {
+  std::string text;
+  for (const LimitResult& limit : comparison.limits)
+    if (!limit.pass)
+      text += fmt::format("{}{} is {:.6g}, limit {:g}", text.empty() ? "" : "; ", limit.metric,
+                          limit.value, limit.limit);
+  return text;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,65 @@
+// What became of a set of pairs, and the files that tell it: JSON, CSV and JUnit's XML.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/compare.hpp"
+#include "core/error.hpp"
+
+namespace lobelia {
+
+struct PairReport {
+  std::string name;     ///< what both are called: the file's path within its folder
+  std::string a, b, c;  ///< files; c is empty without a second reference
+  std::optional<Comparison> comparison;
+  std::string error;  ///< why there is no comparison; empty if there is one
+  double seconds = 0;
+};
+
+struct SetReport {
+  std::string a, b, c;  ///< folders, or files of a single pair
+  std::vector<PairReport> pairs;
+  std::vector<std::string> missing;  ///< names that only the reference has: nothing to judge
+  std::vector<std::string> extra;    ///< names that have no reference
+  std::size_t passed_over = 0;       ///< files that are no pictures
+};
+
+struct SetCounts {
+  std::size_t pass = 0, differs = 0, nonfinite = 0, errors = 0, missing = 0, extra = 0;
+};
+SetCounts count(const SetReport& report);
+
+/// kInput if a pair could not be compared or there is none at all, else kDiffers if one is not a pass or
+/// is missing, else kSuccess. What has no reference is named, but does not fail.
+ExitCode set_exit_code(const SetReport& report);
+
+/// A metric over the pairs that have it.
+struct MetricSummary {
+  std::string_view id;
+  double mean = 0;
+  double worst = 0;            ///< furthest the way that is not its Better
+  const PairReport* worst_at;  ///< the first pair that has it
+};
+
+/// Of all metrics that are no facts, in the catalogue's order.
+std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
+
+/// "rmse is 0.02, limit 0.001; ..." of the limits that fail; empty if none does.
+std::string failing_limits(const Comparison& comparison);
+
+/// As docs/records.md has it (kind comparison-set).
+Json set_record(const SetReport& report);
+
+/// RFC 4180: a line of names, then one for each pair, missing and extra name; a column for each metric that
+/// any of them has. What is not there is empty.
+std::string set_csv(const SetReport& report);
+
+/// JUnit's XML: a test case for each pair (failure, or error where it could not be compared), a failure
+/// for each missing name, a skipped one for each extra one.
+std::string set_junit(const SetReport& report);
+
+}  // namespace lobelia

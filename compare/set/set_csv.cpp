@@ -1,0 +1,62 @@
+// A set of comparisons as a table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/metrics/catalogue.hpp"
+#include "compare/set/report.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+/// Ids that any pair has, in the catalogue's order.
+std::vector<std::string_view> measured_ids(const SetReport& report) {
+  std::vector<std::string_view> ids;
+  for (const Metric* metric : metrics())
+    for (const MetricOutput& output : metric->outputs) {
+      const auto has = [&](const PairReport& pair) {
+        if (!pair.comparison) return false;
+        const auto& values = pair.comparison->metrics;
+        return std::any_of(values.begin(), values.end(),
+                           [&](const MetricValue& value) { return value.id == output.id; });
+      };
+      if (std::any_of(report.pairs.begin(), report.pairs.end(), has)) ids.push_back(output.id);
+    }
+  return ids;
+}
+
+}  // namespace
+
+std::string set_csv(const SetReport& report) {
+  const std::vector<std::string_view> ids = measured_ids(report);
+  std::string text = "name,verdict,why";
+  for (const std::string_view id : ids) text += fmt::format(",{}", id);
+  text += "\r\n";
+  const std::string no_values(ids.size(), ',');
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.comparison) {
+      text +=
+          fmt::format("{},error,{}{}\r\n", csv_field(pair.name), csv_field(pair.error), no_values);
+      continue;
+    }
+    const Comparison& comparison = *pair.comparison;
+    text += fmt::format("{},{},{}", csv_field(pair.name), verdict_name(comparison.verdict),
+                        csv_field(failing_limits(comparison)));
+    for (const std::string_view id : ids) {
+      const auto& values = comparison.metrics;
+      const auto found = std::find_if(values.begin(), values.end(),
+                                      [&](const MetricValue& value) { return value.id == id; });
+      text += found == values.end() ? "," : fmt::format(",{}", found->value);
+    }
+    text += "\r\n";
+  }
+  for (const std::string& name : report.missing)
+    text += fmt::format("{},missing,there is only a reference{}\r\n", csv_field(name), no_values);
+  for (const std::string& name : report.extra)
+    text += fmt::format("{},extra,there is no reference{}\r\n", csv_field(name), no_values);
+  return text;
+}
+
+}  // namespace lobelia

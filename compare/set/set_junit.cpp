@@ -1,0 +1,81 @@
+// A set of comparisons as JUnit's XML, which continuous integration shows as tests. There is no standard of
+// it: this is what Jenkins' and GitLab's readers both take (testsuites, testsuite, testcase, failure, error,
+// skipped; properties for the figures).
+#include <fmt/format.h>
+
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "compare/set/report.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+/// An XML attribute has no control characters and is UTF-8; a file name is neither by itself.
+std::string text(const std::string& any) { return valid_utf8(printable(any, 4096)); }
+
+pugi::xml_node add_case(pugi::xml_node suite, const std::string& name, double seconds) {
+  pugi::xml_node one = suite.append_child("testcase");
+  one.append_attribute("classname") = "lobelia.compare";
+  one.append_attribute("name") = text(name).c_str();
+  one.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();
+  return one;
+}
+
+void add_outcome(pugi::xml_node one, const char* kind, std::string_view type,
+                 const std::string& message) {
+  pugi::xml_node outcome = one.append_child(kind);
+  outcome.append_attribute("type") = std::string(type).c_str();
+  outcome.append_attribute("message") = text(message).c_str();
+}
+
+void add_pair(pugi::xml_node suite, const PairReport& pair) {
+  pugi::xml_node one = add_case(suite, pair.name, pair.seconds);
+  if (!pair.comparison) {
+    add_outcome(one, "error", "not compared", pair.error);
+    return;
+  }
+  const Comparison& comparison = *pair.comparison;
+  pugi::xml_node properties = one.append_child("properties");
+  for (const MetricValue& metric : comparison.metrics) {
+    pugi::xml_node property = properties.append_child("property");
+    property.append_attribute("name") = std::string(metric.id).c_str();
+    property.append_attribute("value") = fmt::format("{}", metric.value).c_str();
+  }
+  if (comparison.verdict == Verdict::kNonFinite)
+    add_outcome(one, "failure", verdict_name(comparison.verdict),
+                fmt::format("pixels with a NaN or an infinity: {} in a, {} in b",
+                            comparison.nonfinite_a, comparison.nonfinite_b));
+  else if (comparison.verdict != Verdict::kPass)
+    add_outcome(one, "failure", verdict_name(comparison.verdict), failing_limits(comparison));
+}
+
+}  // namespace
+
+std::string set_junit(const SetReport& report) {
+  const SetCounts counts = count(report);
+  double seconds = 0;
+  for (const PairReport& pair : report.pairs) seconds += pair.seconds;
+  pugi::xml_document document;
+  pugi::xml_node suites = document.append_child("testsuites");
+  pugi::xml_node suite = suites.append_child("testsuite");
+  for (pugi::xml_node node : {suites, suite}) {
+    node.append_attribute("name") = text(report.a + " against " + report.b).c_str();
+    node.append_attribute("tests") = report.pairs.size() + counts.missing + counts.extra;
+    node.append_attribute("failures") = counts.differs + counts.nonfinite + counts.missing;
+    node.append_attribute("errors") = counts.errors;
+    node.append_attribute("skipped") = counts.extra;
+    node.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();
+  }
+  for (const PairReport& pair : report.pairs) add_pair(suite, pair);
+  for (const std::string& name : report.missing)
+    add_outcome(add_case(suite, name, 0), "failure", "missing", "there is only a reference");
+  for (const std::string& name : report.extra)
+    add_outcome(add_case(suite, name, 0), "skipped", "extra", "there is no reference");
+  std::ostringstream stream;
+  document.save(stream, "  ");
+  return stream.str();
+}
+
+}  // namespace lobelia

@@ -1,0 +1,37 @@
+// A set of comparisons as its record, docs/records.md.
+#include <utility>
+
+#include "compare/set/report.hpp"
+
+namespace lobelia {
+
+Json set_record(const SetReport& report) {
+  Json record = make_record("comparison-set");
+  record["a"] = report.a;
+  record["b"] = report.b;
+  if (!report.c.empty()) record["c"] = report.c;
+  const SetCounts counts = count(report);
+  record["summary"] = {{"pairs", report.pairs.size()}, {"pass", counts.pass},
+                       {"differs", counts.differs},    {"nonFinite", counts.nonfinite},
+                       {"errors", counts.errors},      {"missing", counts.missing},
+                       {"extra", counts.extra},        {"passedOver", report.passed_over}};
+  record["worst"] = Json::object();
+  for (const MetricSummary& metric : summarise(report.pairs))
+    record["worst"][std::string(metric.id)] = {{"value", number_or_name(metric.worst)},
+                                               {"pair", metric.worst_at->name},
+                                               {"mean", number_or_name(metric.mean)}};
+  record["missing"] = report.missing;
+  record["extra"] = report.extra;
+  record["pairs"] = Json::array();
+  for (const PairReport& pair : report.pairs) {
+    Json entry = {{"name", pair.name}};
+    if (pair.comparison)
+      entry["comparison"] = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
+    else
+      entry["error"] = pair.error;
+    record["pairs"].push_back(std::move(entry));
+  }
+  return record;
+}
+
+}  // namespace lobelia
