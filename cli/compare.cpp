@@ -11,6 +11,7 @@
 #include "cli/compare_pictures.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "core/display_view.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
@@ -24,6 +25,7 @@ struct Options {
   CompareJob job;
   std::string json, csv, junit, tolerance, exposures, scene;
   std::vector<std::string> fail, warn;
+  DisplayViewChoice display;
   int threads = 0;
 };
 
@@ -127,6 +129,7 @@ ExitCode run(Options options) {
   if (!options.tolerance.empty()) comparison.tolerance = parse_tolerance(options.tolerance);
   if (!options.exposures.empty())
     comparison.viewing.hdr_exposures = parse_exposures(options.exposures);
+  comparison.viewing.display = DisplayView::open(options.display);
   if (!options.scene.empty()) {
     const Scene scene = read_scene(options.scene);
     comparison.mask = truth::surface_mask(scene);
@@ -175,6 +178,29 @@ std::string footer() {
       "differ\n"
       "or there is no pair, 4 an output cannot be written.",
       join(limit_names()), defaults);
+}
+
+void add_display_options(CLI::App& command, DisplayViewChoice& display) {
+  command
+      .add_option(
+          "--ocio", display.config,
+          fmt::format("Show the perceptual metrics what this OpenColorIO configuration shows; {} "
+                      "is Lobelia's own; default: $OCIO, or Lobelia's own",
+                      kOwnConfig))
+      ->type_name("FILE")
+      ->group("Viewing");
+  command.add_option("--display", display.display, "Its display; default: its first")
+      ->type_name("NAME")
+      ->group("Viewing");
+  command.add_option("--view", display.view, "The view of that display; default: its first")
+      ->type_name("NAME")
+      ->group("Viewing");
+  command
+      .add_option("--input-space", display.input_space,
+                  "The colour space of A and B in it; default: its linear Rec. 709, or else its "
+                  "role scene_linear")
+      ->type_name("NAME")
+      ->group("Viewing");
 }
 
 void add_difference_options(CLI::App& command, DifferencePicture& difference) {
@@ -291,6 +317,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->check(between(kMinPixelsPerDegree, kMaxPixelsPerDegree))
       ->capture_default_str()
       ->group("Viewing");
+
+  add_display_options(*command, options->display);
 
   command
       ->add_option(

@@ -126,6 +126,12 @@ HdrExposures exposures_for_all(const std::vector<PairReport>& pairs) {
   return *all;
 }
 
+void print_display(const DisplayView* display) {
+  if (display)
+    fmt::print("shown by view {} of display {} in {}\n", display->choice().view,
+               display->choice().display, display->choice().config);
+}
+
 void print_metric_lines(const Comparison& comparison) {
   const auto& floor = comparison.reference_floor;
   if (floor)
@@ -198,6 +204,7 @@ void print_pair(const PairReport& pair) {
   const Comparison& comparison = *pair.comparison;
   fmt::print("a  {}\nb  {}  (the reference)\n", pair.a, pair.b);
   if (!pair.c.empty()) fmt::print("c  {}  (the second reference)\n", pair.c);
+  print_display(comparison.viewing.display.get());
   fmt::print("\n");
   if (comparison.verdict == Verdict::kNonFinite)
     fmt::print("  pixels with a NaN or an infinity: {} in a, {} in b; nothing was measured\n",

@@ -168,9 +168,11 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   result.nonfinite_b = count_nonfinite_pixels(b);
   const bool finite = result.nonfinite_a == 0 && result.nonfinite_b == 0;
   if (finite) {
-    const double stops = options.viewing.exposure_stops;
+    const auto shown = [&](const Image& image) {
+      return DisplayLight::of(image, options.viewing.exposure_stops, options.viewing.display.get());
+    };
     result.metrics = measure_all(
-        {a, b, DisplayLight(a, stops), DisplayLight(b, stops), options.viewing.pixels_per_degree,
+        {a, b, shown(a), shown(b), options.viewing.pixels_per_degree,
          options.tolerance ? &*options.tolerance : nullptr,
          options.viewing.hdr_exposures ? &*options.viewing.hdr_exposures : nullptr, options.mask});
   }

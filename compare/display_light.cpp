@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lobelia {
 
@@ -23,6 +24,14 @@ DisplayLight::DisplayLight(const Image& image, double exposure_stops, ToneCurve 
       curve_(curve),
       gain_(curve == ToneCurve::kAces ? double(std::pow(2.0f, float(exposure_stops)))
                                       : std::exp2(exposure_stops)) {}
+
+DisplayLight DisplayLight::of(const Image& image, double exposure_stops, const DisplayView* view) {
+  if (!view) return {image, exposure_stops};
+  auto shown = std::make_shared<const Image>(view->shown(image, exposure_stops));
+  DisplayLight light(*shown, 0);
+  light.shown_ = std::move(shown);
+  return light;
+}
 
 Rgb DisplayLight::at(std::size_t index) const {
   const float* value = image_->values().data() + 3 * index;

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
+#include "core/display_view.hpp"
 #include "core/image.hpp"
 #include "core/vec.hpp"
 
@@ -21,10 +23,12 @@ inline constexpr float kAces[6] = {0.6f * 0.6f * 2.51f, 0.6f * 0.03f, 0.0f,
 
 /// Display-referred linear light of a scene-linear picture: value * 2^exposure_stops through a tone
 /// curve to [0, 1]. Linear, not sRGB-encoded: a type of its own, so that a metric for shown light cannot be
-/// fed scene values, nor encoded ones. A view: the picture must outlive it.
+/// fed scene values, nor encoded ones. Of a picture it is a view, which the picture must outlive.
 class DisplayLight {
  public:
   DisplayLight(const Image& image, double exposure_stops, ToneCurve curve = ToneCurve::kClip);
+  /// What `view` shows, or with null a plain sRGB display that clips; finite values only.
+  static DisplayLight of(const Image& image, double exposure_stops, const DisplayView* view);
 
   int width() const { return image_->width(); }
   int height() const { return image_->height(); }
@@ -33,6 +37,7 @@ class DisplayLight {
   Rgb at(std::size_t index) const;
 
  private:
+  std::shared_ptr<const Image> shown_;  ///< what a view made; null without one
   const Image* image_;
   ToneCurve curve_;
   double gain_;

@@ -38,6 +38,11 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
                                          {"count", range->count},
                                          {"automatic", range->automatic},
                                          {"toneCurve", "aces"}};
+  if (const auto& display = comparison.viewing.display)
+    record["viewing"]["display"] = {
+        {"config", display->choice().config},          {"configId", display->config_id()},
+        {"display", display->choice().display},        {"view", display->choice().view},
+        {"inputSpace", display->choice().input_space}, {"decodedBy", display->decoded_by()}};
   if (comparison.mask_pixels) record["mask"] = {{"pixels", *comparison.mask_pixels}};
   record["metrics"] = metrics_json(comparison.metrics);
   record["limits"] = limits_json(comparison.limits);

@@ -48,11 +48,14 @@ DisplayImage to_display(const Image& image, double exposure_stops) {
   return result;
 }
 
+float srgb_decoded(float value) {
+  // In float32, and not by OpenColorIO, whose approximate power differs in the last bit: FLIP takes a
+  // root of such differences, and would leave its published values by 4e-5.
+  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
 void decode_srgb(Image& image) {
-  // IEC 61966-2-1 in float32, and not by OpenColorIO, whose approximate power differs in the last bit:
-  // FLIP takes a root of such differences, and would leave its published values by 4e-5.
-  for (float& value : image.values())
-    value = value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+  for (float& value : image.values()) value = srgb_decoded(value);
 }
 
 double exposure_for_peak(double peak) {

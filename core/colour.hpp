@@ -9,7 +9,9 @@ namespace lobelia {
 /// by the sRGB display of core/lobelia.ocio, rounded to 8 bits. Non-finite pixels become magenta.
 DisplayImage to_display(const Image& image, double exposure_stops);
 
-/// Decodes sRGB-encoded values (IEC 61966-2-1) in place to linear light.
+/// An sRGB-encoded value (IEC 61966-2-1) as linear light.
+float srgb_decoded(float value);
+/// The same for every value, in place.
 void decode_srgb(Image& image);
 
 /// The exposure, in stops, that brings `peak` to display white; 0 if peak is not a positive number.

@@ -57,7 +57,10 @@ bool is_finite(const Image& image) {
 
 std::vector<float> measure_finite(const DifferenceMap& map, const Image& a, const Image& b,
                                   const Viewing& viewing) {
-  const DisplayLight shown_a(a, viewing.exposure_stops), shown_b(b, viewing.exposure_stops);
+  const auto shown = [&](const Image& image) {
+    return DisplayLight::of(image, viewing.exposure_stops, viewing.display.get());
+  };
+  const DisplayLight shown_a = shown(a), shown_b = shown(b);
   return map.measure({a, b, shown_a, shown_b, viewing.pixels_per_degree});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -31,7 +32,8 @@ inline constexpr int kMaxHdrExposures = 100;
 struct Viewing {
   double exposure_stops = 0;
   double pixels_per_degree = kDefaultPixelsPerDegree;
-  std::optional<HdrExposures> hdr_exposures = {};  ///< without them there is no HDR-FLIP
+  std::optional<HdrExposures> hdr_exposures = {};   ///< without them there is no HDR-FLIP
+  std::shared_ptr<const DisplayView> display = {};  ///< null: a plain sRGB display
 };
 
 /// A pixel is an outlier if |a - b| > relative * |b| + of_peak * peak in any of its channels.

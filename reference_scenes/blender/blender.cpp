@@ -119,6 +119,8 @@ class BlenderRun {
     process.writable = directory_.path();
     process.on_start = [&](bool writes_limited) { writes_limited_ = writes_limited; };
     process.environment = private_home(directory_.path());
+    // The user's own configuration could give the scene's numbers other primaries.
+    process.environment.emplace_back("OCIO=");
     // It starts no scene after one time limit, and each scene has an alarm of its own; this is for
     // a Blender that never comes to that.
     process.timeout = 2 * options_.time_limit;

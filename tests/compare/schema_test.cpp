@@ -30,6 +30,7 @@ ComparisonOptions everything(const Image& image) {
   options.mask.assign(image.pixel_count(), 1);
   options.limits = {{"rmse", 1e-9}, {"ssim", -1}};
   options.warnings = {{"mae", 0}};
+  options.viewing.display = DisplayView::open({kOwnConfig, "sRGB", "", ""});
   return options;
 }
 
@@ -88,6 +89,8 @@ TEST(ComparisonSchema, DoesNotHoldForABrokenRecord) {
   broken([](Plain& r) { r["limits"] = Plain::array(); });
   broken([](Plain& r) { r["limits"][0].erase("pass"); });
   broken([](Plain& r) { r["viewing"]["hdrExposures"]["count"] = 1; });
+  broken([](Plain& r) { r["viewing"]["display"].erase("view"); });
+  broken([](Plain& r) { r["viewing"]["display"]["decodedBy"] = "guess"; });
   broken([](Plain& r) { r["disagreement"] = "none"; });
   broken([](Plain& r) { r["tolerance"].erase("ofPeak"); });
 }

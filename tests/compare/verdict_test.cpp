@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
+#include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "compare/compare.hpp"
+#include "compare/maps/difference_map.hpp"
+#include "compare/metrics/catalogue.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "tests/compare/pictures.hpp"
 
 namespace lobelia {
@@ -244,6 +248,49 @@ TEST(Tolerance, WithEdgesAllowsOutliersOnThemAndNowhereElse) {
   EXPECT_EQ(comparison.value("outliers.off_edge"), 1);
   options.tolerance->edges = {1, 1};
   EXPECT_THROW(compare(a, b, options), Error);
+}
+
+// Values of a scene, of a display's light and encoded ones are types that do not convert by themselves.
+static_assert(!std::is_convertible_v<Image, DisplayLight>);
+static_assert(!std::is_constructible_v<DisplayLight, Image>, "the exposure has to be said");
+static_assert(!std::is_constructible_v<DisplayLight, DisplayImage, double>);
+static_assert(!std::is_convertible_v<DisplayImage, Image>);
+
+TEST(Displays, ChangeThePerceptualMetricsAndNoOther) {
+  const TemporaryDirectory directory;
+  const std::string config = (directory.path() / "dark.ocio").string();
+  write_file(config, std::string_view(R"(ocio_profile_version: 2
+roles: {default: linear, scene_linear: linear}
+displays: {Dim: [!<View> {name: Quarter, colorspace: quarter}]}
+colorspaces:
+  - !<ColorSpace> {name: linear}
+  - !<ColorSpace>
+    name: quarter
+    from_scene_reference: !<GroupTransform>
+      children:
+        - !<MatrixTransform> {matrix: [0.25, 0, 0, 0, 0, 0.25, 0, 0, 0, 0, 0.25, 0, 0, 0, 0, 1]}
+        - !<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055, direction: inverse}
+)"));
+  const Image a = testing::highlight(32, 32, 10, 1), b = testing::highlight(32, 32, 11, 1);
+  ComparisonOptions through, exposed;
+  through.viewing.display = DisplayView::open({config, "", "", ""});
+  exposed.viewing.exposure_stops = -2;
+  const Comparison one = compare(a, b, through), other = compare(a, b, exposed),
+                   plain = compare(a, b, {});
+  ASSERT_EQ(one.metrics.size(), other.metrics.size());
+  for (std::size_t i = 0; i < one.metrics.size(); ++i) {
+    const MetricValue& metric = one.metrics[i];
+    EXPECT_NEAR(metric.value, other.metrics[i].value, 1e-4 + 1e-3 * std::abs(metric.value))
+        << metric.id;
+    if (find_metric(metric.id)->family == Family::kRadiance)
+      EXPECT_EQ(metric.value, plain.metrics[i].value) << metric.id;
+    else
+      EXPECT_NE(metric.value, plain.metrics[i].value) << metric.id;
+  }
+  const auto map = [&](const Viewing& viewing) {
+    return measure_difference_map(*find_difference_map("ciede2000"), a, b, viewing)[15 * 32 + 9];
+  };
+  EXPECT_NEAR(map(through.viewing), map(exposed.viewing), 1e-3);
 }
 
 }  // namespace
