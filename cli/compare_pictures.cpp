@@ -207,8 +207,7 @@ void print_pair(const PairReport& pair) {
   print_display(comparison.viewing.display.get());
   fmt::print("\n");
   if (comparison.verdict == Verdict::kNonFinite)
-    fmt::print("  pixels with a NaN or an infinity: {} in a, {} in b; nothing was measured\n",
-               comparison.nonfinite_a, comparison.nonfinite_b);
+    fmt::print("  {}; nothing was measured\n", why_not_pass(comparison));
   print_metric_lines(comparison);
   fmt::print("\n");
   if (comparison.verdict != Verdict::kNonFinite) {
@@ -232,7 +231,7 @@ void print_set(const SetReport& report) {
   for (const std::string& name : report.missing) line("missing", name, "there is only a reference");
   for (const PairReport& pair : report.pairs)
     if (pair.comparison && pair.comparison->verdict != Verdict::kPass)
-      line(verdict_name(pair.comparison->verdict), pair.name, failing_limits(*pair.comparison));
+      line(verdict_name(pair.comparison->verdict), pair.name, why_not_pass(*pair.comparison));
   for (const PairReport& pair : report.pairs)
     if (pair.comparison)
       for (const LimitResult& limit : pair.comparison->warnings)

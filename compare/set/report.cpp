@@ -76,7 +76,10 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
   return summaries;
 }
 
-std::string failing_limits(const Comparison& comparison) {
+std::string why_not_pass(const Comparison& comparison) {
+  if (comparison.verdict == Verdict::kNonFinite)
+    return fmt::format("pixels with a NaN or an infinity: {} in a, {} in b", comparison.nonfinite_a,
+                       comparison.nonfinite_b);
   std::string text;
   for (const LimitResult& limit : comparison.limits)
     if (!limit.pass)

@@ -48,8 +48,9 @@ struct MetricSummary {
 /// Of all metrics that are no facts, in the catalogue's order.
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
 
-/// "rmse is 0.02, limit 0.001; ..." of the limits that fail; empty if none does.
-std::string failing_limits(const Comparison& comparison);
+/// "rmse is 0.02, limit 0.001; ..." of the limits that fail, or how many pixels are not finite; empty for a
+/// pass.
+std::string why_not_pass(const Comparison& comparison);
 
 /// As docs/records.md has it (kind comparison-set).
 Json set_record(const SetReport& report);

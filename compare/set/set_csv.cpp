@@ -43,7 +43,7 @@ std::string set_csv(const SetReport& report) {
     }
     const Comparison& comparison = *pair.comparison;
     text += fmt::format("{},{},{}", csv_field(pair.name), verdict_name(comparison.verdict),
-                        csv_field(failing_limits(comparison)));
+                        csv_field(why_not_pass(comparison)));
     for (const std::string_view id : ids) {
       const auto& values = comparison.metrics;
       const auto found = std::find_if(values.begin(), values.end(),

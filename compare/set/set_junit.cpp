@@ -43,12 +43,8 @@ void add_pair(pugi::xml_node suite, const PairReport& pair) {
     property.append_attribute("name") = std::string(metric.id).c_str();
     property.append_attribute("value") = fmt::format("{}", metric.value).c_str();
   }
-  if (comparison.verdict == Verdict::kNonFinite)
-    add_outcome(one, "failure", verdict_name(comparison.verdict),
-                fmt::format("pixels with a NaN or an infinity: {} in a, {} in b",
-                            comparison.nonfinite_a, comparison.nonfinite_b));
-  else if (comparison.verdict != Verdict::kPass)
-    add_outcome(one, "failure", verdict_name(comparison.verdict), failing_limits(comparison));
+  if (comparison.verdict != Verdict::kPass)
+    add_outcome(one, "failure", verdict_name(comparison.verdict), why_not_pass(comparison));
 }
 
 }  // namespace

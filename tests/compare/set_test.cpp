@@ -118,6 +118,9 @@ TEST(SetRecord, HoldsEveryPairsRecordAndWhatHadNone) {
   SetReport report = set_of({compared("good.exr", 0.5f, 0.5f), broken("x.exr")});
   report.missing = {"gone.exr"};
   report.passed_over = 3;
+  EXPECT_EQ(why_not_pass(*compared("n.exr", std::nanf(""), 0.5f).comparison),
+            "pixels with a NaN or an infinity: 400 in a, 0 in b");
+  EXPECT_EQ(why_not_pass(*report.pairs[0].comparison), "");
   const Json record = set_record(report);
   EXPECT_EQ(record["kind"], "comparison-set");
   EXPECT_EQ(record["summary"]["pass"], 1);

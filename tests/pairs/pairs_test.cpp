@@ -1,0 +1,39 @@
+// The pairs in this folder through the program, at its default limits.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_lobelia.hpp"
+
+namespace lobelia {
+namespace {
+
+const std::string kPairs = std::string(LOBELIA_SOURCE_DIR) + "/tests/pairs/";
+
+nlohmann::json compared(const std::string& folder, int exit_code) {
+  const TemporaryDirectory directory;
+  const auto result =
+      run_lobelia({"compare", kPairs + folder + "/a", kPairs + folder + "/b", "--json", "set.json"},
+                  directory.path());
+  EXPECT_EQ(result.exit_code, exit_code) << result.output_tail;
+  return nlohmann::json::parse(read_file(directory.path() / "set.json", 16 << 20));
+}
+
+TEST(Pairs, ThatMustPassPassAtTheDefaultLimits) {
+  const auto set = compared("must_pass", 0);
+  EXPECT_GE(set["summary"]["pairs"], 9);
+  for (const auto& pair : set["pairs"])
+    EXPECT_EQ(pair["comparison"]["verdict"], "pass") << pair["name"];
+}
+
+TEST(Pairs, ThatMustFailFailAtTheDefaultLimitsEachOfThem) {
+  const auto set = compared("must_fail", 1);
+  EXPECT_GE(set["summary"]["pairs"], 24);
+  EXPECT_EQ(set["summary"]["nonFinite"], 2);
+  for (const auto& pair : set["pairs"])
+    EXPECT_NE(pair["comparison"]["verdict"], "pass") << pair["name"];
+}
+
+}  // namespace
+}  // namespace lobelia
