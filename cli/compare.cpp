@@ -9,6 +9,7 @@
 
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
+#include "cli/compare_layers.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/flip_exposures.hpp"
 #include "core/files.hpp"
@@ -24,6 +25,7 @@ struct Options {
   std::string a, b, json, tolerance, exposures, scene, difference_picture;
   std::vector<std::string> fail;
   double difference_scale = 0;
+  LayerOptions layers;
   ComparisonOptions comparison;
 };
 
@@ -75,7 +77,8 @@ bool is_finite(const Image& image) {
                      [](float value) { return std::isfinite(value); });
 }
 
-void print_table(const Options& options, const Comparison& comparison) {
+void print_table(const Options& options, const Comparison& comparison,
+                 const std::optional<OtherLayers>& layers, Verdict verdict) {
   fmt::print("a  {}\nb  {}  (the reference)\n\n", options.a, options.b);
   if (comparison.verdict == Verdict::kNonFinite)
     fmt::print("  pixels with a NaN or an infinity: {} in a, {} in b; nothing was measured\n",
@@ -92,8 +95,9 @@ void print_table(const Options& options, const Comparison& comparison) {
                  limit.limit);
   for (const std::string& sentence : comparison.disagreement)
     fmt::print("  metrics disagree: {}\n", sentence);
-  fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite ? "" : "\n",
-             verdict_name(comparison.verdict));
+  if (layers) print_layers(*layers);
+  fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite && !layers ? "" : "\n",
+             verdict_name(verdict));
 }
 
 ExitCode run(Options options) {
@@ -112,10 +116,16 @@ ExitCode run(Options options) {
   if (json_to_file) require_writable(options.json);
   if (!options.difference_picture.empty()) require_writable(options.difference_picture);
 
-  const Image a = read_image(options.a), b = read_image(options.b);
+  const std::string layer = main_layer(options.a, options.b, options.layers);
+  const PicturePair pictures = read_pair(options.a, options.b, layer);
+  const Image &a = pictures.a.image, &b = pictures.b.image;
   // One that is not finite is a verdict, and nothing is measured.
   if (exposures && exposures->automatic && is_finite(b)) exposures = automatic_exposures(b);
   const Comparison comparison = compare(a, b, options.comparison);
+  const auto layers =
+      compare_other_layers(options.a, options.b, layer, options.layers, options.comparison);
+  const Verdict verdict =
+      layers ? worst_verdict(comparison.verdict, layers->compared) : comparison.verdict;
   if (!options.difference_picture.empty()) {
     // Without a scale the largest difference is white; one that is not finite is magenta anyway.
     const double largest = comparison.value("max_abs");
@@ -126,13 +136,15 @@ ExitCode run(Options options) {
     fmt::print(stderr, "{}: white is a difference of {:.6g}\n", options.difference_picture,
                white_at);
   }
-  const Json record = comparison_record(comparison, options.a, options.b);
+  Json record = comparison_record(comparison, options.a, options.b);
+  add_pictures(record, pictures.a.source, pictures.b.source);
+  if (layers) add_layers(record, verdict, layers->compared, layers->common);
   if (json_to_file) write_record(options.json, record);
   if (options.json == "-")
     fmt::print("{}", record_text(record));
   else
-    print_table(options, comparison);
-  return comparison.verdict == Verdict::kPass ? ExitCode::kSuccess : ExitCode::kDiffers;
+    print_table(options, comparison, layers, verdict);
+  return verdict == Verdict::kPass ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
 std::string footer() {
@@ -143,7 +155,9 @@ std::string footer() {
       "Metrics that a limit can be set on:\n"
       "  {}\n"
       "Without --fail and --tolerance the limits are {}: a look, not a proof.\n"
-      "Pictures of 8 or 16 bits (PNG, JPEG) are decoded from sRGB to linear light, clipped as they are.\n"
+      "Channels are taken by their names, grey as three equal ones. A file's integers are decoded from\n"
+      "sRGB to linear light unless it says otherwise, floats are light; the record says how each was read.\n"
+      "Of a picture that is a crop of its display window, the rest is black.\n"
       "A NaN or an infinity in either picture is a verdict of its own and never passes.\n"
       "\n"
       "Examples:\n"
@@ -151,9 +165,8 @@ std::string footer() {
       "  lobelia compare ours.exr povray.exr --tolerance 6e-4,1e-8,3 --scene scene.xml\n"
       "  lobelia compare ours.exr blender.exr --fail max_rel_peak=3e-5 --fail flip.ldr.mean=1e-3\n"
       "\n"
-      "Exit codes: 0 pass, 1 over a limit or not finite, 2 usage, 3 a picture is unreadable or "
-      "the\n"
-      "sizes differ, 4 an output cannot be written.",
+      "Exit codes: 0 pass, 1 over a limit or not finite, 2 usage, 3 a picture is unreadable, has\n"
+      "no such layer or another size, 4 an output cannot be written.",
       join(limit_names()), defaults);
 }
 
@@ -165,6 +178,15 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   Viewing& viewing = options->comparison.viewing;
   command->add_option("A", options->a, "Picture to judge")->required();
   command->add_option("B", options->b, "Reference picture, of the same size")->required();
+  auto* layer = command->add_option(
+      "--layer", options->layers.layer,
+      "Compare this layer of both files: a prefix of channels, an EXR part, or one channel");
+  layer->type_name("NAME")->group("Layers");
+  command
+      ->add_flag("--all-layers", options->layers.all,
+                 "Compare every layer that both files have, alpha too; the verdict is the worst")
+      ->excludes(layer)
+      ->group("Layers");
   command
       ->add_flag_callback(
           "--list-metrics",

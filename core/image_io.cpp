@@ -43,10 +43,6 @@ Image read_image(const fs::path& path) { return read_picture(path, "").image; }
 
 std::vector<std::string> layer_names(const fs::path& path) { return module().layer_names(path); }
 
-std::int64_t yee_failures(const Image& a, const Image& b, double pixels_per_degree) {
-  return module().yee_failures(a, b, pixels_per_degree);
-}
-
 void write_exr(const fs::path& path, const Image& image, const ImageMetadata& metadata) {
   ExrWriter writer(path, image.width(), image.height(), metadata);
   writer.write_rows(0, image.height(), image.values().data());

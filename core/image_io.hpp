@@ -26,10 +26,6 @@ Image read_image(const std::filesystem::path& path);
 /// Every layer that the file has, the picture ("") first if it has one. Errors as read_picture.
 std::vector<std::string> layer_names(const std::filesystem::path& path);
 
-/// OpenImageIO's compare_Yee: how many pixels an observer sees differ. Both finite, of one size, linear with
-/// the primaries of Adobe RGB (1998), 1 being a white of 100 cd/m2. Takes some 100 bytes a pixel.
-std::int64_t yee_failures(const Image& a, const Image& b, double pixels_per_degree);
-
 /// Writes a float32 OpenEXR with ZIP compression, by ExrWriter (core/exr_writer.hpp): the bytes depend on
 /// the arguments alone. Throws Error(kOutput); never leaves a partial file under `path`.
 void write_exr(const std::filesystem::path& path, const Image& image,

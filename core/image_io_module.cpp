@@ -2,17 +2,14 @@
 #include "core/image_io_module.hpp"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "core/picture_layers.hpp"
+#include "core/picture_whole.hpp"
 #include "core/picture_window.hpp"
 #include "core/text.hpp"
 #include "core/transfer_curve.hpp"
@@ -21,8 +18,12 @@ namespace lobelia {
 namespace {
 
 [[noreturn]] void unreadable(const std::filesystem::path& path, std::string_view why) {
-  throw Error(ExitCode::kInput,
-              fmt::format("{}: not a readable picture: {}", path.string(), printable(why, 300)));
+  // The library gives one line to each thing that it noticed.
+  const std::vector<std::string> lines = split(why, "\n");
+  std::vector<std::string_view> views(lines.begin(), lines.end());
+  if (views.empty()) views.push_back("its values cannot be decoded");
+  throw Error(ExitCode::kInput, fmt::format("{}: not a readable picture: {}", path.string(),
+                                            printable(join(views, "; "), 300)));
 }
 
 /// A file's parts beyond are not looked for: frames of a film, or a damaged directory.
@@ -39,6 +40,7 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   auto input = OIIO::ImageInput::open(path.string(), &wishes);
   if (!input) unreadable(path, OIIO::geterror());
+  if (is_cut_off(path, input->format_name())) unreadable(path, "it is cut off");
   return input;
 }
 
@@ -123,8 +125,9 @@ struct Reader {
   }
   void read_as(OIIO::TypeDesc type, int first, int count, void* values,
                OIIO::stride_t stride) const {
-    if (!input.read_image(part, 0, first, first + count, type, values, stride))
-      unreadable(path, input.geterror());
+    const bool read = input.read_image(part, 0, first, first + count, type, values, stride);
+    // Some readers leave out what is missing of a file, and succeed.
+    if (!read || input.has_error()) unreadable(path, input.geterror());
   }
 };
 
@@ -194,20 +197,6 @@ std::vector<std::string> list_layers(const std::filesystem::path& path) {
   return names;
 }
 
-std::int64_t compare_yee(const Image& a, const Image& b, double pixels_per_degree) {
-  const OIIO::ImageSpec spec(a.width(), a.height(), 3, OIIO::TypeDesc::FLOAT);
-  // It takes a field of view, and makes of it the pixels per degree that we have.
-  const double fov = 2 * std::atan(a.width() * std::numbers::pi / (360 * pixels_per_degree)) * 180 /
-                     std::numbers::pi;
-  constexpr float kWhite = 100;
-  const auto wrap = [&](const Image& image) {
-    return OIIO::ImageBuf(spec, const_cast<float*>(image.values().data()));
-  };
-  OIIO::ImageBufAlgo::CompareResults results;
-  OIIO::ImageBufAlgo::compare_Yee(wrap(a), wrap(b), results, kWhite, float(fov));
-  return std::int64_t(results.nfail);
-}
-
 std::vector<std::uint8_t> encode(const char* extension, OIIO::ImageSpec spec, OIIO::TypeDesc type,
                                  const void* pixels) {
   std::vector<std::uint8_t> bytes;
@@ -235,4 +224,4 @@ std::vector<std::uint8_t> encode_png(const DisplayImage& image) {
 extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
 const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::list_layers,
-                                                      lobelia::compare_yee, lobelia::encode_png};
+                                                      lobelia::encode_png};

@@ -9,7 +9,6 @@ namespace lobelia {
 struct ImageIoTable {
   Picture (*read_picture)(const std::filesystem::path&, const std::string&);
   std::vector<std::string> (*layer_names)(const std::filesystem::path&);
-  std::int64_t (*yee_failures)(const Image&, const Image&, double);
   std::vector<std::uint8_t> (*encode_png)(const DisplayImage&);
 };
 

@@ -81,6 +81,7 @@ struct Tiff {
   int photometric = 2;  ///< 1 grey, 2 RGB, 5 separated (CMYK)
   bool is_float = false;
   std::string samples = {};
+  bool directory_first = false;
 };
 
 inline std::string tiff_file(const Tiff& tiff) {
@@ -88,12 +89,14 @@ inline std::string tiff_file(const Tiff& tiff) {
     std::uint32_t tag, type, count, value;
   };
   const auto samples = std::uint32_t(tiff.samples_per_pixel);
+  constexpr std::uint32_t kEntries = 10;
+  const std::uint32_t start = tiff.directory_first ? 8 + 2 + 12 * kEntries + 4 : 8;
   const std::vector<Entry> entries = {{256, 4, 1, tiff.width},
                                       {257, 4, 1, tiff.height},
                                       {258, 3, 1, std::uint32_t(tiff.bits)},
                                       {259, 3, 1, 1},
                                       {262, 3, 1, std::uint32_t(tiff.photometric)},
-                                      {273, 4, 1, 8},
+                                      {273, 4, 1, start},
                                       {277, 3, 1, samples},
                                       {278, 4, 1, tiff.height},
                                       {279, 4, 1, std::uint32_t(tiff.samples.size())},
@@ -104,8 +107,10 @@ inline std::string tiff_file(const Tiff& tiff) {
   for (const Entry& e : entries)
     directory += little_endian(e.tag, 2) + little_endian(e.type, 2) + little_endian(e.count, 4) +
                  little_endian(e.value, 4);
-  return std::string("II*\0", 4) + little_endian(std::uint32_t(8 + padded.size()), 4) + padded +
-         directory + little_endian(0, 4);
+  directory += little_endian(0, 4);
+  const std::uint32_t at = tiff.directory_first ? 8 : std::uint32_t(8 + padded.size());
+  return std::string("II*\0", 4) + little_endian(at, 4) +
+         (tiff.directory_first ? directory + padded : padded + directory);
 }
 
 // ---- JPEG (ITU-T T.81): 8 x 8 pixels, every component in the middle of its range

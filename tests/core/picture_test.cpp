@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "core/picture_whole.hpp"
 #include "core/picture_window.hpp"
 #include "tests/core/picture_files.hpp"
 
@@ -230,6 +231,52 @@ TEST_F(Curves, OfNumbersInAnExrLeaveThemAsTheyAre) {
 }
 
 using Refusals = PictureFiles;
+
+TEST_F(Refusals, OfWhatWasCutOffComeWhereverTheCutIs) {
+  const std::string pixels(75, 'x');
+  struct Whole {
+    const char* name;
+    std::string bytes;
+    std::size_t spare = 0;  ///< at the end, without a pixel: a PNG's last chunk, a TIFF's "no more"
+  };
+  const Whole files[] = {
+      {"a.png", png_file({.width = 5, .height = 5, .samples = pixels}), 12},
+      {"a.tif", tiff_file({.width = 5, .height = 5, .samples = pixels}), 4},
+      {"b.tif", tiff_file({.width = 5, .height = 5, .samples = pixels, .directory_first = true}),
+       1},
+      {"a.jpg", grey_jpeg_file(3)},
+      {"a.hdr", hdr_file(5, 5, std::string(100, 'x'))},
+      {"a.ppm", "P6 5 5 255\n" + pixels},
+      {"a.pfm", pfm_file(5, 5, std::vector<float>(75))},
+  };
+  for (const auto& [name, bytes, spare] : files) {
+    read_image(file(name, bytes));
+    for (std::size_t length = 0; length < bytes.size() - spare; ++length) {
+      SCOPED_TRACE(length);
+      refusal(file(name, bytes.substr(0, length)));
+    }
+  }
+}
+
+TEST_F(Refusals, OfWhatWasCutOffKnowTheSizesThatHeadersState) {
+  const auto cut = [&](const std::string& bytes, const char* format) {
+    return is_cut_off(file("a", bytes), format);
+  };
+  const std::string fill(16, 'x');
+  EXPECT_FALSE(cut("SDPX" + std::string(12, 'x') + big_endian(36) + fill, "dpx"));
+  EXPECT_TRUE(cut("SDPX" + std::string(12, 'x') + big_endian(37) + fill, "dpx"));
+  EXPECT_FALSE(cut("XPDS" + std::string(12, 'x') + little_endian(36, 4) + fill, "dpx"));
+  EXPECT_TRUE(cut("XPDS" + std::string(12, 'x') + little_endian(37, 4) + fill, "dpx"));
+  EXPECT_FALSE(cut("SDPX" + std::string(12, 'x') + "\xff\xff\xff\xff" + fill, "dpx")) << "unknown";
+  EXPECT_FALSE(cut("FOR4" + big_endian(16) + fill, "iff"));
+  EXPECT_TRUE(cut("FOR4" + big_endian(17) + fill, "iff"));
+  EXPECT_FALSE(cut("SDPX", "png"));
+  // A thumbnail in a header ends before the scan of the picture begins.
+  const std::string thumbnail = grey_jpeg_file(1), whole = thumbnail + grey_jpeg_file(3);
+  EXPECT_FALSE(cut(whole, "jpeg"));
+  EXPECT_TRUE(cut(whole.substr(0, whole.size() - 2), "jpeg"));
+  EXPECT_FALSE(cut(whole + "a film beside the picture", "jpeg"));
+}
 
 TEST_F(Refusals, OfInksNameThem) {
   EXPECT_THAT(refusal(file("a.jpg", grey_jpeg_file(4))), HasSubstr("its colours are"));

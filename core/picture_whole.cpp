@@ -1,0 +1,50 @@
+#include "core/picture_whole.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+#include "core/files.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::uint64_t kMaxJpegBytes = std::uint64_t{1} << 30;
+
+std::uint64_t number_at(std::string_view bytes, std::size_t at, bool little) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    value = value << 8 | static_cast<unsigned char>(bytes[at + (little ? 3 - i : i)]);
+  return value;
+}
+
+/// The first bytes of a file; zeros where it has no more.
+std::string head(const std::filesystem::path& path) {
+  std::string bytes(20, '\0');
+  std::ifstream(path, std::ios::binary).read(bytes.data(), std::ptrdiff_t(bytes.size()));
+  return bytes;
+}
+
+}  // namespace
+
+bool is_cut_off(const std::filesystem::path& path, std::string_view format) {
+  if (format == "jpeg") {
+    // ITU-T T.81, B.1.1.3: within a scan no 0xff is followed by either, so the last of each are markers.
+    const std::string bytes = read_file(path, kMaxJpegBytes);
+    const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
+    return end == bytes.npos || (scan != bytes.npos && end < scan);
+  }
+  const std::string bytes = head(path);
+  const std::uint64_t size = std::filesystem::file_size(path);
+  // SMPTE ST 268: "SDPX" or, little-endian, "XPDS", and the file's size at 16, all ones if unknown.
+  if (format == "dpx") {
+    const std::uint64_t stated = number_at(bytes, 16, bytes.starts_with("XPDS"));
+    return stated != 0xffffffffu && size < stated;
+  }
+  // "FOR4" and the size of what follows.
+  if (format == "iff") return size < 8 + number_at(bytes, 4, false);
+  return false;
+}
+
+}  // namespace lobelia
