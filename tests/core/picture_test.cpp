@@ -1,4 +1,7 @@
 // What the values of a file mean, by files made for that.
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineOutputFile.h>
+#include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -157,6 +160,26 @@ TEST_F(Windows, OfAPngAreAPlaceOnAPage) {
   EXPECT_THAT(values(read_image(file("a.png", png_file(png)))), ElementsAre(1, 1, 1));
 }
 
+TEST_F(Windows, OfATiledMipMapAreThoseOfItsFirstLevel) {
+  const auto path = directory_.path() / "a.exr";
+  Imf::Header header(5, 3);
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  header.setTileDescription({2, 2, Imf::MIPMAP_LEVELS});
+  {
+    Imf::TiledOutputFile tiled(path.c_str(), header);
+    for (int level = 0; level < tiled.numLevels(); ++level) {
+      std::vector<float> grey(15, float(level + 1));
+      Imf::FrameBuffer buffer;
+      buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grey.data()), 4, 20));
+      tiled.setFrameBuffer(buffer);
+      tiled.writeTiles(0, tiled.numXTiles(level) - 1, 0, tiled.numYTiles(level) - 1, level);
+    }
+  }
+  EXPECT_THAT(values(read_image(path)),
+              ::testing::AllOf(::testing::SizeIs(45), ::testing::Each(1)));
+  EXPECT_THAT(layer_names(path), ElementsAre(""));
+}
+
 using Curves = PictureFiles;
 
 TEST_F(Curves, OfIntegersAreSrgbAndOfFloatsLinear) {
@@ -276,6 +299,29 @@ TEST_F(Refusals, OfWhatWasCutOffKnowTheSizesThatHeadersState) {
   EXPECT_FALSE(cut(whole, "jpeg"));
   EXPECT_TRUE(cut(whole.substr(0, whole.size() - 2), "jpeg"));
   EXPECT_FALSE(cut(whole + "a film beside the picture", "jpeg"));
+}
+
+TEST_F(Refusals, OfADeepExrSayWhatToDo) {
+  const auto path = directory_.path() / "a.exr";
+  Imf::Header header(2, 1);
+  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  header.setType(Imf::DEEPSCANLINE);
+  header.compression() = Imf::ZIPS_COMPRESSION;
+  {
+    Imf::DeepScanLineOutputFile deep(path.c_str(), header);
+    std::vector<unsigned> counts(2, 1);
+    float value = 1;
+    std::vector<float*> samples(2, &value);
+    Imf::DeepFrameBuffer buffer;
+    buffer.insertSampleCountSlice(
+        Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()), 4, 8));
+    for (const char* name : {"R", "G", "B"})
+      buffer.insert(name, Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(samples.data()),
+                                         sizeof(float*), 2 * sizeof(float*), 4));
+    deep.setFrameBuffer(buffer);
+    deep.writePixels(1);
+  }
+  EXPECT_THAT(refusal(path), HasSubstr("it is deep: a pixel has many values; flatten it first"));
 }
 
 TEST_F(Refusals, OfInksNameThem) {
