@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/picture_bytes.hpp"
 #include "core/picture_layers.hpp"
-#include "core/picture_whole.hpp"
 #include "core/picture_window.hpp"
 #include "core/text.hpp"
 #include "core/transfer_curve.hpp"
@@ -35,26 +35,32 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, status)) unreadable(path, "no such file");
   // A pipe would be waited for.
   if (!std::filesystem::is_regular_file(path, status)) unreadable(path, "not a regular file");
+  // OpenImageIO 2.4 writes past its memory as it opens a damaged one.
+  if (is_iff(path))
+    unreadable(path, "IFF is not read, because a damaged file would end the program");
   OIIO::ImageSpec wishes;
   // Otherwise a PNG's colours are multiplied by alpha while they are encoded, which is no light.
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   auto input = OIIO::ImageInput::open(path.string(), &wishes);
   if (!input) unreadable(path, OIIO::geterror());
-  if (is_cut_off(path, input->format_name())) unreadable(path, "it is cut off");
+  // Any file of that ending would be a black picture.
+  if (std::string_view(input->format_name()) == "null")
+    unreadable(path, "its name makes it OpenImageIO's picture without a file");
   return input;
 }
 
-std::vector<PicturePart> parts_of(OIIO::ImageInput& input) {
+/// By an input of its own: some readers cannot forget that they were asked for a part that there is not.
+std::vector<PicturePart> parts_of(const std::filesystem::path& path) {
+  const auto input = open(path);
   std::vector<PicturePart> parts;
-  for (int i = 0; i < kMaxParts && input.seek_subimage(i, 0); ++i) {
-    const OIIO::ImageSpec spec = input.spec(i);
+  for (int i = 0; i < kMaxParts && input->seek_subimage(i, 0); ++i) {
+    const OIIO::ImageSpec spec = input->spec(i);
     const auto count = std::size_t(std::clamp(spec.nchannels, 0, kMaxChannels));
     PicturePart part{std::string(spec.get_string_attribute("oiio:subimagename")), {}};
     for (std::size_t c = 0; c < std::min(count, spec.channelnames.size()); ++c)
       part.channels.push_back(spec.channelnames[c]);
     parts.push_back(std::move(part));
   }
-  input.geterror();  // of the part that there was not
   return parts;
 }
 
@@ -154,12 +160,13 @@ void multiply_by_alpha(const Reader& reader, Image& image) {
 }
 
 Picture read(const std::filesystem::path& path, const std::string& layer_name) {
+  const std::vector<PicturePart> parts = parts_of(path);
   const auto input = open(path);
-  const std::vector<PicturePart> parts = parts_of(*input);
   const PictureLayer layer = find_layer(path.string(), parts, layer_name);
   const int part = int(layer.part);
   const OIIO::ImageSpec spec = input->spec(part);
   const std::string format = input->format_name();
+  if (is_cut_off(path, format)) unreadable(path, "it is cut off");
   check(path, spec, format);
 
   Picture picture;
@@ -191,9 +198,8 @@ Picture read(const std::filesystem::path& path, const std::string& layer_name) {
 }
 
 std::vector<std::string> list_layers(const std::filesystem::path& path) {
-  const auto input = open(path);
   std::vector<std::string> names;
-  for (const PictureLayer& layer : picture_layers(parts_of(*input))) names.push_back(layer.name);
+  for (const PictureLayer& layer : picture_layers(parts_of(path))) names.push_back(layer.name);
   return names;
 }
 

@@ -143,6 +143,7 @@ std::vector<PictureLayer> picture_layers(std::span<const PicturePart> parts) {
 
   std::vector<PictureLayer> result;
   std::set<std::string> names;
+  std::map<std::string, int> copies;  // of a name, besides the first
   for (RawLayer& raw : all) {
     PictureLayer& layer = raw.layer;
     if (has_picture && result.empty())
@@ -150,8 +151,8 @@ std::vector<PictureLayer> picture_layers(std::span<const PicturePart> parts) {
     else if (parts.size() > 1 && !(has_picture && layer.part == result[0].part))
       layer.name = in_part(parts[layer.part], layer.part, layer.name);
     const std::string name = layer.name;
-    for (int copy = 2; !names.insert(layer.name).second; ++copy)
-      layer.name = fmt::format("{}#{}", name, copy);
+    while (!names.insert(layer.name).second)
+      layer.name = fmt::format("{}#{}", name, ++copies[name] + 1);
     result.push_back(std::move(layer));
   }
   return result;

@@ -1,4 +1,4 @@
-#include "core/picture_whole.hpp"
+#include "core/picture_bytes.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -28,6 +28,11 @@ std::string head(const std::filesystem::path& path) {
 
 }  // namespace
 
+bool is_iff(const std::filesystem::path& path) {
+  const std::string bytes = head(path);
+  return bytes.starts_with("FOR4") || bytes.starts_with("FORM") || path.extension() == ".iff";
+}
+
 bool is_cut_off(const std::filesystem::path& path, std::string_view format) {
   if (format == "jpeg") {
     // ITU-T T.81, B.1.1.3: within a scan no 0xff is followed by either, so the last of each are markers.
@@ -35,16 +40,11 @@ bool is_cut_off(const std::filesystem::path& path, std::string_view format) {
     const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
     return end == bytes.npos || (scan != bytes.npos && end < scan);
   }
-  const std::string bytes = head(path);
-  const std::uint64_t size = std::filesystem::file_size(path);
+  if (format != "dpx") return false;
   // SMPTE ST 268: "SDPX" or, little-endian, "XPDS", and the file's size at 16, all ones if unknown.
-  if (format == "dpx") {
-    const std::uint64_t stated = number_at(bytes, 16, bytes.starts_with("XPDS"));
-    return stated != 0xffffffffu && size < stated;
-  }
-  // "FOR4" and the size of what follows.
-  if (format == "iff") return size < 8 + number_at(bytes, 4, false);
-  return false;
+  const std::string bytes = head(path);
+  const std::uint64_t stated = number_at(bytes, 16, bytes.starts_with("XPDS"));
+  return stated != 0xffffffffu && std::filesystem::file_size(path) < stated;
 }
 
 }  // namespace lobelia
