@@ -38,6 +38,8 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   // OpenImageIO 2.4 writes past its memory as it opens a damaged one.
   if (is_iff(path))
     unreadable(path, "IFF is not read, because a damaged file would end the program");
+  if (is_exr_that_claims_too_much(path))
+    unreadable(path, "its header claims more than the file has");
   OIIO::ImageSpec wishes;
   // Otherwise a PNG's colours are multiplied by alpha while they are encoded, which is no light.
   wishes.attribute("oiio:UnassociatedAlpha", 1);

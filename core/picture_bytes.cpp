@@ -33,6 +33,31 @@ bool is_iff(const std::filesystem::path& path) {
   return bytes.starts_with("FOR4") || bytes.starts_with("FORM") || path.extension() == ".iff";
 }
 
+bool is_exr_that_claims_too_much(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(8, '\0');
+  file.read(start.data(), 8);
+  if (!file || !start.starts_with("\x76\x2f\x31\x01")) return false;
+  constexpr char kManyParts = 0x10;
+  const bool many_parts = (start[5] & kManyParts) != 0;
+  const std::uint64_t size = std::filesystem::file_size(path);
+  // Name, type, length, value; an empty name ends a part's header, an empty header those of many parts.
+  for (bool first = true;;) {
+    std::string name, type, length(4, '\0');
+    if (!std::getline(file, name, '\0')) return false;
+    if (name.empty()) {
+      if (first || !many_parts) return false;
+      first = true;
+      continue;
+    }
+    first = false;
+    if (!std::getline(file, type, '\0') || !file.read(length.data(), 4)) return false;
+    const std::uint64_t bytes = number_at(length, 0, true);
+    if (bytes > size - std::uint64_t(file.tellg())) return true;
+    file.seekg(std::streamoff(bytes), std::ios::cur);
+  }
+}
+
 bool is_cut_off(const std::filesystem::path& path, std::string_view format) {
   if (format == "jpeg") {
     // ITU-T T.81, B.1.1.3: within a scan no 0xff is followed by either, so the last of each are markers.

@@ -329,6 +329,19 @@ TEST_F(Refusals, OfFormatsThatCannotBeTrustedSaySo) {
   EXPECT_THAT(refusal(file("a.tif", "FOR4" + std::string(100, 'x'))), HasSubstr("IFF is not read"));
 }
 
+TEST_F(Refusals, OfAnExrWhoseHeaderClaimsMoreThanTheFileHasComeBeforeOpenExrsOwn) {
+  const auto box = window(0, 0, 1, 1);
+  const ExrPart part{"one", box, box, {{"Y", {1}}}}, other{"two", box, box, {{"Y", {1}}}};
+  for (const auto& parts : {std::vector{part}, std::vector{part, other}}) {
+    const auto path = exr("a.exr", parts);
+    read_image(path);
+    std::string bytes = read_file(path, 1 << 20);
+    const std::string name = std::string("compression\0compression\0", 24);
+    bytes.replace(bytes.rfind(name) + name.size(), 4, little_endian(0x7f7f7f7f, 4));
+    EXPECT_THAT(refusal(file("b.exr", bytes)), HasSubstr("claims more than the file has"));
+  }
+}
+
 TEST_F(Refusals, OfInksNameThem) {
   EXPECT_THAT(refusal(file("a.jpg", grey_jpeg_file(4))), HasSubstr("its colours are"));
   EXPECT_THAT(refusal(file("a.tif", tiff_file({.samples_per_pixel = 4,
