@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "cli/compare_layers.hpp"
 #include "compare/set/report.hpp"
 
 namespace lobelia::cli {
@@ -21,6 +22,7 @@ struct CompareJob {
   std::string a, b, c;  ///< files, or folders; c is the second reference or empty
   ComparisonOptions comparison;
   DifferencePicture difference;
+  LayerOptions layers;
 };
 
 /// Throws what reading, measuring and writing throw.

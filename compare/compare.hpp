@@ -32,6 +32,7 @@ struct ComparisonOptions {
 /// The limits where neither limits nor a tolerance were asked for.
 std::span<const MetricLimit> default_limits();
 
+/// From the best to the worst.
 enum class Verdict : std::uint8_t {
   kPass,
   kDiffers,    ///< over a limit, or more outliers than allowed

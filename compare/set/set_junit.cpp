@@ -43,8 +43,8 @@ void add_pair(pugi::xml_node suite, const PairReport& pair) {
     property.append_attribute("name") = std::string(metric.id).c_str();
     property.append_attribute("value") = fmt::format("{}", metric.value).c_str();
   }
-  if (comparison.verdict != Verdict::kPass)
-    add_outcome(one, "failure", verdict_name(comparison.verdict), why_not_pass(comparison));
+  if (pair.verdict() != Verdict::kPass)
+    add_outcome(one, "failure", verdict_name(pair.verdict()), why_not_pass(pair));
 }
 
 }  // namespace

@@ -5,6 +5,13 @@
 
 namespace lobelia {
 
+Json pair_record(const PairReport& pair) {
+  Json record = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
+  if (pair.sources) add_pictures(record, pair.sources->a, pair.sources->b);
+  if (pair.layers) add_layers(record, pair.verdict(), pair.layers->compared, pair.layers->common);
+  return record;
+}
+
 Json set_record(const SetReport& report) {
   Json record = make_record("comparison-set");
   record["a"] = report.a;
@@ -26,7 +33,7 @@ Json set_record(const SetReport& report) {
   for (const PairReport& pair : report.pairs) {
     Json entry = {{"name", pair.name}};
     if (pair.comparison)
-      entry["comparison"] = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
+      entry["comparison"] = pair_record(pair);
     else
       entry["error"] = pair.error;
     record["pairs"].push_back(std::move(entry));

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "compare/compare.hpp"
+#include "compare/layers.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/set/report.hpp"
 #include "tests/compare/json_schema.hpp"
@@ -53,6 +54,50 @@ TEST(ComparisonSchema, HoldsForNumbersThatAreNotFinite) {
   EXPECT_EQ(made["metrics"]["max_rel_peak"], "inf");
   EXPECT_EQ(made["metrics"]["psnr"], "-inf");
   EXPECT_EQ(problems(made), "");
+}
+
+/// With what two files add to it: layers that pass, differ, are broken and have two sizes.
+Plain record_of_files() {
+  const Image good = testing::flat(16, 16, 1, 1, 1), other = testing::flat(16, 16, 2, 2, 2);
+  Image broken = good;
+  broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
+  PictureSource source{"openexr", "", {"R", "G", "B"}, "half",        "linear",
+                       false,     "", {-1, 2, 3, 4},   {0, 0, 16, 16}};
+  std::vector<LayerComparison> layers;
+  for (const Image* image : std::initializer_list<const Image*>{&good, &other, &broken}) {
+    source.layer = "layer" + std::to_string(layers.size());
+    layers.push_back({source.layer, source, source, compare(*image, good, {}), ""});
+  }
+  layers.push_back({"two sizes", source, source, {}, "the sizes differ"});
+  source.icc_profile = "sRGB";
+  const Comparison picture = compare(good, good, {});
+  Json made = comparison_record(picture, "a.exr", "b.exr");
+  add_pictures(made, source, source);
+  add_layers(made, worst_verdict(picture.verdict, layers), layers, {{}, {"Z"}, {}});
+  return Plain::parse(record_text(made));
+}
+
+TEST(ComparisonSchema, HoldsForFilesAndTheirLayers) {
+  const Plain good = record_of_files();
+  EXPECT_EQ(problems(good), "");
+  EXPECT_EQ(good["verdict"], "non-finite") << "the worst";
+  EXPECT_EQ(good["metrics"]["max_abs"], 0) << "the picture's own";
+  ASSERT_EQ(good["layers"].size(), 4u);
+  EXPECT_EQ(good["layers"][3]["verdict"], "differs");
+  const auto broken = [&](auto change) {
+    Plain changed = good;
+    change(changed);
+    EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
+  };
+  for (const auto& [key, value] : good["pictures"]["a"].items())
+    if (key != "iccProfile") broken([&](Plain& r) { r["pictures"]["a"].erase(key); });
+  for (const char* key : {"layer", "verdict", "pictures", "metrics"})
+    broken([&](Plain& r) { r["layers"][0].erase(key); });
+  broken([](Plain& r) { r["layers"][3].erase("problem"); });
+  broken([](Plain& r) { r["layers"][1]["metrics"]["rmse"] = -1; });
+  broken([](Plain& r) { r["layersInOne"].erase("a"); });
+  broken([](Plain& r) { r["pictures"]["b"]["displayWindow"]["width"] = 0; });
+  broken([](Plain& r) { r["pictures"]["b"]["channels"] = Plain::array(); });
 }
 
 TEST(ComparisonSchema, KnowsEveryMetricAndNoOther) {
