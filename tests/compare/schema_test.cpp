@@ -1,53 +1,27 @@
 // docs/comparison.schema.json and docs/metrics.md against the program.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "compare/compare.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "tests/compare/json_schema.hpp"
 #include "tests/compare/pictures.hpp"
 
 namespace lobelia {
 namespace {
 
-// The validator knows the library's default type, not the one that keeps its order.
-using Plain = nlohmann::json;
-
-std::string text_of(const std::string& page) {
-  std::ifstream file(std::string(LOBELIA_SOURCE_DIR) + "/docs/" + page);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using testing::text_of;
+using Plain = testing::PlainJson;
 
 Plain schema() { return Plain::parse(text_of("comparison.schema.json")); }
 
-/// What is wrong with a record; empty if nothing.
 std::string problems(const Plain& record) {
-  static const Plain document = schema();
-  valijson::Schema parsed;
-  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(document),
-                                          parsed);
-  valijson::ValidationResults results;
-  if (valijson::Validator().validate(parsed, valijson::adapters::NlohmannJsonAdapter(record),
-                                     &results))
-    return "";
-  std::string text = "invalid:";
-  valijson::ValidationResults::Error error;
-  while (results.popError(error)) text += " " + error.description;
-  return text;
+  return testing::problems("comparison.schema.json", record);
 }
 
-/// As it stands in a file.
 Plain record(const Image& a, const Image& b, const ComparisonOptions& options) {
-  return Plain::parse(record_text(comparison_record(compare(a, b, options), "a.exr", "b.exr")));
+  return testing::as_written(comparison_record(compare(a, b, options), "a.exr", "b.exr"));
 }
 
 ComparisonOptions everything(const Image& image) {
