@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/text.hpp"
 #include "farm/profile_scene.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -27,7 +28,7 @@ struct Options {
 /// Names for the pictures that differ from each other, and from the formula's.
 std::pair<std::string, std::string> picture_names(const Options& options) {
   const auto stem = [](const std::string& path) {
-    return std::filesystem::path(path).stem().string();
+    return printable(std::filesystem::path(path).stem().string());
   };
   const std::string a = stem(options.a), b = stem(options.b);
   const auto reserved = [](const std::string& name) {

@@ -12,8 +12,6 @@
 namespace lobelia::cli {
 namespace {
 
-constexpr std::size_t kNameWidth = 24;
-
 /// A number of the record, which is a name ("nan") where it is not finite.
 double number(const Json& value) {
   if (!value.is_string()) return value.get<double>();
@@ -25,7 +23,7 @@ std::string shown(const Json& value) {
   const double x = number(value);
   return std::isnan(x) ? "-" : fmt::format("{:.6g}", x);
 }
-std::string pixels_shown(const Json& value) {
+std::string three_digits(const Json& value) {
   const double x = number(value);
   return std::isnan(x) ? "-" : fmt::format("{:.3f}", x);
 }
@@ -33,20 +31,30 @@ std::string in_a_cell(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-std::string row(const std::string& name, std::span<const std::string> cells) {
-  std::string line = fmt::format("{:<{}}", name, kNameWidth);
-  for (const std::string& cell : cells) line += fmt::format("{:>12}", cell);
-  return line + '\n';
-}
-std::string row(const std::string& name, std::initializer_list<std::string> cells) {
-  return row(name, std::span(cells.begin(), cells.size()));
-}
+/// Lines of a table: a name, and cells.
+class Table {
+ public:
+  /// Wide enough for the names of the pictures and of their differences.
+  explicit Table(const Json& record) {
+    for (const char* members : {"images", "differences"})
+      for (const auto& [name, member] : record[members].items())
+        width_ = std::max(width_, name.size() + 2);
+  }
+  std::string row(const std::string& head, std::initializer_list<std::string> cells) const {
+    std::string line = fmt::format("{:<{}}", head, width_);
+    for (const std::string& cell : cells) line += fmt::format("{:>12}", cell);
+    return line + '\n';
+  }
 
-std::string curve_table(const Json& profile) {
-  std::string text = row("the curve", {"peak", "at degrees", "half-width", "energy"});
+ private:
+  std::size_t width_ = 24;
+};
+
+std::string curve_table(const Table& table, const Json& profile) {
+  std::string text = table.row("the curve", {"peak", "at degrees", "half-width", "energy"});
   for (const auto& [name, shape] : profile["images"].items())
-    text += row(name, {shown(shape["peak"]), shown(shape["peakAngleDegrees"]),
-                       shown(shape["halfWidthDegrees"]), shown(shape["energy"])});
+    text += table.row(name, {shown(shape["peak"]), shown(shape["peakAngleDegrees"]),
+                             shown(shape["halfWidthDegrees"]), shown(shape["energy"])});
   return text;
 }
 
@@ -62,24 +70,20 @@ std::string peak_remark(const Json& peak) {
   return "";
 }
 
-std::string figures_table(const Json& profile) {
-  std::string text =
-      "the highlight alone         peak           at x, y          centroid x, y"
-      "     half-width along        and across        energy\n";
+std::string figures_table(const Table& table, const Json& profile) {
+  std::string places =
+      table.row("the highlight alone", {"peak", "at x", "y", "centroid x", "y", "energy"});
+  std::string widths = table.row("half-width", {"along, px", "degrees", "across, px", "degrees"});
   std::string remarks;
   for (const auto& [name, image] : profile["images"].items()) {
     const Json& h = image["highlight"];
-    const auto place = [](const Json& point) {
-      return fmt::format("{:>9} {:>9}", pixels_shown(point["x"]), pixels_shown(point["y"]));
-    };
-    const auto width = [](const Json& half) {
-      const double degrees = number(half["degrees"]);
-      return fmt::format("{:>8} px {:>8}", pixels_shown(half["pixels"]),
-                         std::isnan(degrees) ? "-" : fmt::format("{:.3f} deg", degrees));
-    };
-    text += fmt::format("{:<20}{:>12} {}  {}  {}  {}{:>12}\n", name, shown(h["peak"]["radiance"]),
-                        place(h["peak"]), place(h["centroid"]), width(h["halfWidthAlong"]),
-                        width(h["halfWidthAcross"]), shown(h["energy"]));
+    const Json &peak = h["peak"], &centroid = h["centroid"];
+    const Json &along = h["halfWidthAlong"], &across = h["halfWidthAcross"];
+    places += table.row(
+        name, {shown(peak["radiance"]), three_digits(peak["x"]), three_digits(peak["y"]),
+               three_digits(centroid["x"]), three_digits(centroid["y"]), shown(h["energy"])});
+    widths += table.row(name, {three_digits(along["pixels"]), three_digits(along["degrees"]),
+                               three_digits(across["pixels"]), three_digits(across["degrees"])});
     const Json& cosine = h["cosineLobe"];
     if (cosine.contains("because"))
       remarks += fmt::format("{}: no power of a cosine can be told: {}\n", name,
@@ -91,21 +95,21 @@ std::string figures_table(const Json& profile) {
           number(cosine["rmsOfPeak"]));
     if (h.contains("because"))
       remarks += fmt::format("{}: {}\n", name, h["because"].get<std::string>());
-    if (const std::string remark = peak_remark(h["peak"]); !remark.empty())
+    if (const std::string remark = peak_remark(peak); !remark.empty())
       remarks += fmt::format("{}: {}\n", name, remark);
   }
-  return text + '\n' + remarks;
+  return places + '\n' + widths + '\n' + remarks;
 }
 
-std::string differences_table(const Json& differences) {
+std::string differences_table(const Table& table, const Json& differences) {
   if (differences.empty()) return "";
   std::string text =
-      '\n' + row("difference", {"", "pixels", "max error", "rms error", "of the peak"});
+      '\n' + table.row("difference", {"", "pixels", "max error", "rms error", "of the peak"});
   for (const auto& [name, zones] : differences.items())
     for (const auto& [zone, error] : zones.items())
-      text += row(zone == "epicentre" ? name : "",
-                  {zone, in_a_cell(error["pixels"]), shown(error["maxAbs"]), shown(error["rms"]),
-                   shown(error["maxRelPeak"])});
+      text += table.row(zone == "epicentre" ? name : "",
+                        {zone, in_a_cell(error["pixels"]), shown(error["maxAbs"]),
+                         shown(error["rms"]), shown(error["maxRelPeak"])});
   return text;
 }
 
@@ -171,6 +175,7 @@ std::string with_error(double value, double error) {
 }
 
 std::string profile_text(const Json& profile) {
+  const Table table(profile);
   std::string text =
       fmt::format("sphere {}, light {}", profile["sphere"].get<int>(), profile["light"].get<int>());
   const bool has_figures = profile.contains("lobe");
@@ -203,9 +208,9 @@ std::string profile_text(const Json& profile) {
                     number(profile["subtracted"]["diffuseOfPeak"]),
                     number(profile["subtracted"]["otherLightsOfPeak"]));
   }
-  text += '\n' + curve_table(profile);
-  if (has_figures) text += '\n' + figures_table(profile);
-  return text + differences_table(profile["differences"]);
+  text += '\n' + curve_table(table, profile);
+  if (has_figures) text += '\n' + figures_table(table, profile);
+  return text + differences_table(table, profile["differences"]);
 }
 
 std::string profile_csv(std::span<const Json> profiles) {
@@ -245,25 +250,27 @@ std::string profile_svg(const Json& profile) {
 }
 
 std::string blob_text(const Json& blob) {
-  std::string text = row("brightest blob", {"peak", "at x", "y", "centroid x", "y", "pixels"});
+  const Table table(blob);
+  std::string text =
+      table.row("brightest blob", {"peak", "at x", "y", "centroid x", "y", "pixels"});
   for (const auto& [name, b] : blob["images"].items())
-    text += row(name, {shown(b["peak"]["radiance"]), pixels_shown(b["peak"]["x"]),
-                       pixels_shown(b["peak"]["y"]), pixels_shown(b["centroid"]["x"]),
-                       pixels_shown(b["centroid"]["y"]), in_a_cell(b["pixels"])});
-  text += '\n' + row("half-width, pixels",
-                     {"long axis", "along x", "along y", "short axis", "background", "energy"});
+    text += table.row(name, {shown(b["peak"]["radiance"]), three_digits(b["peak"]["x"]),
+                             three_digits(b["peak"]["y"]), three_digits(b["centroid"]["x"]),
+                             three_digits(b["centroid"]["y"]), in_a_cell(b["pixels"])});
+  text += '\n' + table.row("half-width, pixels", {"long axis", "along x", "along y", "short axis",
+                                                  "background", "energy"});
   std::string remarks;
   for (const auto& [name, b] : blob["images"].items()) {
-    text +=
-        row(name, {pixels_shown(b["halfWidthPixels"]["major"]), pixels_shown(b["majorAxis"]["x"]),
-                   pixels_shown(b["majorAxis"]["y"]), pixels_shown(b["halfWidthPixels"]["minor"]),
-                   shown(b["background"]), shown(b["energy"])});
+    text += table.row(
+        name, {three_digits(b["halfWidthPixels"]["major"]), three_digits(b["majorAxis"]["x"]),
+               three_digits(b["majorAxis"]["y"]), three_digits(b["halfWidthPixels"]["minor"]),
+               shown(b["background"]), shown(b["energy"])});
     if (b.contains("because"))
       remarks += fmt::format("{}: no blob: {}\n", name, b["because"].get<std::string>());
     else if (!std::isnan(number(b["gaussianSigmaPixels"]["major"])))
       remarks += fmt::format("{}: as wide as a Gaussian of {} x {} pixels standard deviation\n",
-                             name, pixels_shown(b["gaussianSigmaPixels"]["major"]),
-                             pixels_shown(b["gaussianSigmaPixels"]["minor"]));
+                             name, three_digits(b["gaussianSigmaPixels"]["major"]),
+                             three_digits(b["gaussianSigmaPixels"]["minor"]));
     if (b.contains("remark"))
       remarks += fmt::format("{}: {}\n", name, b["remark"].get<std::string>());
     else if (const std::string remark = peak_remark(b["peak"]); !remark.empty())
@@ -274,7 +281,7 @@ std::string blob_text(const Json& blob) {
   }
   return text + '\n' + remarks +
          "An exponent needs to know which angle each pixel sees: --scene.\n" +
-         differences_table(blob["differences"]);
+         differences_table(table, blob["differences"]);
 }
 
 std::string blob_csv(const Json& blob) {

@@ -280,6 +280,16 @@ TEST(HighlightOfAScene, LeavesOutTheShadowOfAnotherSphere) {
   EXPECT_LT(pixels(scene), pixels(without) - 50) << "the scene has such a shadow";
 }
 
+TEST(HighlightOfAScene, IsNotShadedByASphereBehindItsLight) {
+  Scene scene = scene_with("phong_rdf", 16);
+  scene.lights[0] = PointLight{{2, 0, 2}, {20, 20, 20}};
+  scene.spheres.push_back({{4, 0, 4}, 1, 0});
+  const Image image = render(scene, RenderOptions{}).image;
+  const Json record = profile_scene(scene, 0, 0, {{"a", &image}});
+  EXPECT_LT(record["differences"]["a-analytic"]["epicentre"]["maxRelPeak"].get<double>(), 2e-6);
+  EXPECT_GT(record["differences"]["a-analytic"]["epicentre"]["pixels"].get<int>(), 100);
+}
+
 TEST(HighlightOfAScene, ThatIsNotThereSaysWhy) {
   const Scene good = scene_with("phong_rdf", 64);
   const auto because = [&](auto change) {
