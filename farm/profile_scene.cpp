@@ -53,10 +53,7 @@ std::optional<FilmPoint> plane_of_incidence(const Scene& scene, int light, int s
   if (!(length(normal) > 1e-9)) return std::nullopt;
   const double x = dot(normal, frame.up), y = dot(normal, frame.right), size = std::hypot(x, y);
   if (!(size > 0)) return std::nullopt;
-  const Vec3 sideways = to_light - dot(to_light, to_eye) * to_eye;
-  const double towards = x * dot(sideways, frame.right) - y * dot(sideways, frame.up);
-  const double sign = towards < 0 ? -1 : 1;
-  return FilmPoint{sign * x / size, sign * y / size};
+  return FilmPoint{x / size, y / size};
 }
 
 }  // namespace
