@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "compare/metrics/flip_tile.hpp"
 
@@ -13,11 +14,15 @@ namespace lobelia {
 void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
                       const FlipTile& tile, std::span<float> errors);
 
+/// That of each pixel of the picture, in reading order.
+std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
+                                  const FlipFilters& filters);
+
 struct FlipPooled {
   double mean, max;
 };
 
-/// Of a picture whose errors in a tile error_of(tile, errors) fills in, called on many threads.
+/// Of a picture whose errors in a tile errors_of(tile, errors) fills in, called on many threads.
 FlipPooled flip_pooled(int width, int height,
                        const std::function<void(const FlipTile&, std::span<float>)>& errors_of);
 

@@ -9,15 +9,13 @@
 #define HWY_TARGET_INCLUDE "compare/metrics/flip_kernels.cpp"
 #include <hwy/foreach_target.h>  // includes this file again for each instruction set
 #include <hwy/highway.h>
-// After foreach_target.h:
-#include <hwy/contrib/math/math-inl.h>
+
+#include "compare/metrics/lanes-inl.hpp"
 
 // The order of operations is that of the formulas as the paper and the tool write them, with a product and a
 // sum rounded separately (Mul and Add, never MulAdd): another order gives other last digits.
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 using Floats = hn::CappedTag<float, kFlipBlock>;
 using Lanes = hn::Vec<Floats>;
 
@@ -54,13 +52,10 @@ HWY_INLINE Lanes rounded(hn::Vec<Doubles> low, hn::Vec<Doubles> high) {
 /// x^y, computed in double and rounded: the same float on every processor, and a good std::pow's, but for one
 /// in thousands. x >= 0; 0^y is 0.
 HWY_INLINE Lanes power(Lanes x, Lanes y) {
-  const Doubles d;
-  const auto positive = hn::Gt(x, set(0));
-  const Lanes base = hn::IfThenElse(positive, x, set(1));
-  const auto half_power = [d](auto b, auto e)
-                              HWY_ATTR { return hn::Exp(d, hn::Mul(e, hn::Log(d, b))); };
-  return hn::IfThenElseZero(
-      positive, rounded(half_power(lower(base), lower(y)), half_power(upper(base), upper(y))));
+  const auto half = [](auto base, auto exponent) HWY_ATTR {
+    return pow(LanesOf<Doubles>(base), LanesOf<Doubles>(exponent)).v;
+  };
+  return rounded(half(lower(x), lower(y)), half(upper(x), upper(y)));
 }
 
 /// t^(1/3), the exponent rounded to float, for t in [0.008, 2]: as power() has it, in a quarter of its time.

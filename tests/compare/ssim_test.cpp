@@ -46,7 +46,7 @@ std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b) {
   return {lcs / (across * down), cs / (across * down)};
 }
 
-LumaPlane shown_luma(const Image& image) { return luma(DisplayLight(image, 0)); }
+LumaPlane shown_luma(const Image& image) { return plane_of(luma(DisplayLight(image, 0))); }
 
 TEST(Ssim, OfTwoGreysIsThePublishedValue) {
   const Comparison comparison = compare(grey_code(64, 64, 128), grey_code(64, 64, 160), {});
@@ -109,8 +109,8 @@ TEST(MsSsim, IsTheProductOfThePowersOfItsScales) {
   for (const double weight : {0.0448, 0.2856, 0.3001, 0.2363, 0.1333}) {
     const bool last = weight == 0.1333;
     expected *= std::pow(plain_ssim(la, lb)[last ? 0 : 1], weight);
-    la = half_size(la);
-    lb = half_size(lb);
+    la = half_size(rows_of(la));
+    lb = half_size(rows_of(lb));
   }
   EXPECT_LT(expected, 0.99);
   EXPECT_NEAR(compare(a, b, {}).value("ms_ssim"), expected, 1e-12);
@@ -134,7 +134,7 @@ TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
 
 TEST(Luma, HalfTheSizeHasTheMeansAndRepeatsAnOddBorder) {
   const LumaPlane plane{3, 3, {0, 1, 2, 3, 4, 5, 6, 7, 8}};
-  const LumaPlane half = half_size(plane);
+  const LumaPlane half = half_size(rows_of(plane));
   EXPECT_EQ(half.width, 2);
   EXPECT_EQ(half.values, (std::vector<float>{2, 3.5, 6.5, 8}));
 }
