@@ -50,8 +50,18 @@ void measure(benchmark::State& state, const char* id, int width, int height) {
 void flip_ldr(benchmark::State& state) { measure(state, "flip.ldr.mean", 1920, 1080); }
 void flip_hdr(benchmark::State& state) { measure(state, "flip.hdr.mean", 1920, 1080); }
 // Arguments: threads.
-BENCHMARK(flip_ldr)->Name("compare/flip_ldr_1080p")->Arg(1)->Arg(0)->UseRealTime();
-BENCHMARK(flip_hdr)->Name("compare/flip_hdr_8_exposures_1080p")->Arg(1)->Arg(0)->UseRealTime();
+BENCHMARK(flip_ldr)
+    ->Name("compare/flip_ldr_1080p")
+    ->Arg(1)
+    ->Arg(0)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(flip_hdr)
+    ->Name("compare/flip_hdr_8_exposures_1080p")
+    ->Arg(1)
+    ->Arg(0)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 // ---- the plain way
 
