@@ -112,6 +112,14 @@ TEST(Ciede2000, PercentileIsTheValueThatNineteenPixelsInTwentyDoNotExceed) {
   EXPECT_LT(comparison.value("ciede2000.p95"), comparison.value("ciede2000.max"));
 }
 
+TEST(Percentile, IsTheLeastThatEnoughValuesDoNotExceed) {
+  std::vector<float> values{3, 1, 2};
+  EXPECT_EQ(percentile(values, 0.3), 1);
+  EXPECT_EQ(percentile(values, 0.5), 2);
+  EXPECT_EQ(percentile(values, 0.67), 3);
+  EXPECT_EQ(percentile(values, 1), 3);
+}
+
 TEST(Ciede2000, PercentilesAreTheNearestRankOfTheSortedPixels) {
   // 200 greys, each farther from white than the one before, in an order that is not sorted.
   const Image reference = testing::flat(200, 1, 1, 1, 1);

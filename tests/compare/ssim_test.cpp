@@ -127,6 +127,20 @@ TEST(MsSsim, IsLeftOutBelow176Pixels) {
   EXPECT_EQ(compare(enough, enough, {}).value("ms_ssim"), 1);
 }
 
+TEST(Luma, OfEveryPixelIsTheWeightedSumOfItsCodes) {
+  const Image image = testing::noise(37, 3, 4, 1.1f);
+  const DisplayLight shown(image, 0);
+  const LumaPlane plane = plane_of(luma(shown));
+  const auto code = [](double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+  };
+  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+    const Rgb light = shown.at(i);
+    EXPECT_NEAR(plane.values[i],
+                0.2126 * code(light.r) + 0.7152 * code(light.g) + 0.0722 * code(light.b), 1e-7);
+  }
+}
+
 TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
   EXPECT_NEAR(shown_luma(grey_code(1, 1, 128)).values[0], 128 / 255.0, 1e-7);
   EXPECT_NEAR(shown_luma(testing::flat(1, 1, 0, 1, 0)).values[0], 0.7152, 1e-7);
