@@ -289,5 +289,20 @@ TEST(DisplayLight, IsExposedAndClipped) {
   EXPECT_EQ(shown.at(2), (Rgb{0, 0, 1}));
 }
 
+TEST(DisplayLight, OfARowIsThatOfItsPixels) {
+  const Image image = testing::noise(13, 3, 1, 2.5f);
+  for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
+    const DisplayLight shown(image, 0.3, curve);
+    std::vector<float> rgb(3 * 9);
+    shown.fill(1, 4, rgb);
+    for (std::size_t i = 0; i < 9; ++i) {
+      const Rgb expected = shown.at(13 + 4 + i);
+      EXPECT_EQ(rgb[3 * i], float(expected.r));
+      EXPECT_EQ(rgb[3 * i + 1], float(expected.g));
+      EXPECT_EQ(rgb[3 * i + 2], float(expected.b));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lobelia
