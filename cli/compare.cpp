@@ -9,6 +9,7 @@
 
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
+#include "cli/compare_noise.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/flip_exposures.hpp"
 #include "core/files.hpp"
@@ -24,6 +25,7 @@ struct Options {
   std::string a, b, json, tolerance, exposures, scene, difference_picture;
   std::vector<std::string> fail;
   double difference_scale = 0;
+  NoiseFlags noise;
   ComparisonOptions comparison;
 };
 
@@ -75,21 +77,34 @@ bool is_finite(const Image& image) {
                      [](float value) { return std::isfinite(value); });
 }
 
+/// "± 0.0012  " where noise is known; a column that is empty for figures without an error bar.
+std::string error_bar_text(const Comparison& comparison, std::string_view id) {
+  if (!comparison.uncertainty) return "";
+  const ErrorBar* bar = comparison.uncertainty->bar(id);
+  return fmt::format("{:<12}", bar ? fmt::format("± {:.2g}", bar->standard_error) : "");
+}
+
 void print_table(const Options& options, const Comparison& comparison) {
   fmt::print("a  {}\nb  {}  (the reference)\n\n", options.a, options.b);
   if (comparison.verdict == Verdict::kNonFinite)
     fmt::print("  pixels with a NaN or an infinity: {} in a, {} in b; nothing was measured\n",
                comparison.nonfinite_a, comparison.nonfinite_b);
   for (const MetricValue& metric : comparison.metrics)
-    fmt::print("  {:<16}{:>14.6g}  {}\n", metric.id, metric.value, metric.meaning);
+    fmt::print("  {:<16}{:>14.6g}  {}{}\n", metric.id, metric.value,
+               error_bar_text(comparison, metric.id), metric.meaning);
   fmt::print("\n");
   if (comparison.verdict != Verdict::kNonFinite)
     for (const LimitResult& limit : comparison.limits)
       fmt::print("  {:<16}{:>14.6g}  {} {:g}\n", limit.metric, limit.value,
-                 std::isnan(limit.value) ? "was NOT MEASURED; the limit is"
-                 : limit.pass            ? "is within"
-                                         : "is OUTSIDE",
+                 std::isnan(limit.value)             ? "was NOT MEASURED; the limit is"
+                 : limit.pass                        ? "is within"
+                 : limit.standing == Standing::kOpen ? "MAY BE ON EITHER SIDE OF"
+                                                     : "is OUTSIDE",
                  limit.limit);
+  for (const LimitResult& limit : comparison.limits)
+    if (std::isfinite(limit.more_samples) && limit.more_samples > 0)
+      fmt::print("  about {:.3g} times the samples would tell about {}\n", limit.more_samples,
+                 limit.metric);
   for (const std::string& sentence : comparison.disagreement)
     fmt::print("  metrics disagree: {}\n", sentence);
   fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite ? "" : "\n",
@@ -107,12 +122,14 @@ ExitCode run(Options options) {
     options.comparison.mask = truth::surface_mask(scene);
     if (options.comparison.tolerance) options.comparison.tolerance->edges = truth::edge_ring(scene);
   }
+  options.noise.apply(options.comparison);
   check_options(options.comparison);
   const bool json_to_file = !options.json.empty() && options.json != "-";
   if (json_to_file) require_writable(options.json);
   if (!options.difference_picture.empty()) require_writable(options.difference_picture);
 
-  const Image a = read_image(options.a), b = read_image(options.b);
+  Image a = read_image(options.a), b = read_image(options.b);
+  options.noise.read(a, b, options.comparison);
   // One that is not finite is a verdict, and nothing is measured.
   if (exposures && exposures->automatic && is_finite(b)) exposures = automatic_exposures(b);
   const Comparison comparison = compare(a, b, options.comparison);
@@ -132,7 +149,7 @@ ExitCode run(Options options) {
     fmt::print("{}", record_text(record));
   else
     print_table(options, comparison);
-  return comparison.verdict == Verdict::kPass ? ExitCode::kSuccess : ExitCode::kDiffers;
+  return is_pass(comparison.verdict) ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
 std::string footer() {
@@ -145,15 +162,17 @@ std::string footer() {
       "Without --fail and --tolerance the limits are {}: a look, not a proof.\n"
       "Pictures of 8 or 16 bits (PNG, JPEG) are decoded from sRGB to linear light, clipped as they are.\n"
       "A NaN or an infinity in either picture is a verdict of its own and never passes.\n"
+      "Where noise is known the verdict is same, different, or undecided: the noise leaves it open, and\n"
+      "more samples are needed (docs/metrics.md).\n"
       "\n"
       "Examples:\n"
       "  lobelia compare ours.exr povray.exr\n"
       "  lobelia compare ours.exr povray.exr --tolerance 6e-4,1e-8,3 --scene scene.xml\n"
       "  lobelia compare ours.exr blender.exr --fail max_rel_peak=3e-5 --fail flip.ldr.mean=1e-3\n"
+      "  lobelia compare half1.exr reference.exr --a-replicate half2.exr --b-error error.exr\n"
       "\n"
-      "Exit codes: 0 pass, 1 over a limit or not finite, 2 usage, 3 a picture is unreadable or "
-      "the\n"
-      "sizes differ, 4 an output cannot be written.",
+      "Exit codes: 0 pass or same, 1 over a limit, undecided or not finite, 2 usage, 3 a picture is\n"
+      "unreadable or the sizes differ, 4 an output cannot be written.",
       join(limit_names()), defaults);
 }
 
@@ -198,6 +217,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
           ".mask); with --tolerance, outliers may lie only on its silhouettes, terminators "
           "and shadow edges")
       ->group("Verdict");
+
+  options->noise.add_to(*command);
 
   command
       ->add_option(
