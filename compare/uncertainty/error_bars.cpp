@@ -38,9 +38,12 @@ class Spread {
 
 struct Figure {
   const MetricOutput* output;
-  double distance;        ///< of the pictures as they are
-  Spread value;           ///< of noisier pictures, as it stands in a record
-  Spread again, nothing;  ///< distances of noisier pictures, and of noise alone
+  double distance;  ///< of the pictures as they are
+  struct Spreads {
+    Spread value;           ///< of noisier pictures, as it stands in a record
+    Spread again, nothing;  ///< distances of noisier pictures, and of noise alone
+  };
+  Spreads apart, together;  ///< values that err each by itself; pictures whose values err together
 };
 
 template <class Visit>
@@ -55,19 +58,22 @@ void measure_each(const MetricInput& input, Visit visit) {
   }
 }
 
-Image with_noise(const Image& image, const PictureNoise* noise, std::uint64_t stream) {
+/// Where it is `shared` noise, and `together`, all values are off by one number of errors.
+Image with_noise(const Image& image, const PictureNoise* noise, std::uint64_t stream,
+                 bool together) {
   Image result(image.width(), image.height());
   std::copy(image.values().begin(), image.values().end(), result.values().begin());
   if (!noise) return result;
   constexpr std::size_t kValuesPerTask = 1 << 14;
-  const double together = gaussian(stream, ~std::uint64_t{0});
+  const double one = gaussian(stream, ~std::uint64_t{0});
+  together = together && noise->shared;
   oneapi::tbb::parallel_for(
       oneapi::tbb::blocked_range<std::size_t>(0, result.values().size(), kValuesPerTask),
       [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const double error = noise->standard_error.values()[i];
           if (error > 0)
-            result.values()[i] += float(error * (noise->shared ? together : gaussian(stream, i)));
+            result.values()[i] += float(error * (together ? one : gaussian(stream, i)));
         }
       });
   return result;
@@ -82,13 +88,19 @@ double draw_factor(const NoiseOfPair& noise, int count) {
          std::sqrt(1 + 1.0 / count);
 }
 
+/// How pixels err together is not known, only that they do: each time the worse of the two.
 ErrorBar bar_of(const Figure& figure, double factor) {
   const MetricOutput& output = *figure.output;
-  ErrorBar bar{.id = output.id,
-               .standard_error = figure.value.deviation(),
-               .floor = from_distance(output, figure.nothing.mean())};
-  const double spread = factor * figure.again.deviation();
-  const double floor = figure.nothing.mean() + factor * figure.nothing.deviation();
+  const auto worse = [&](auto number) {
+    return std::max(number(figure.apart), number(figure.together));
+  };
+  using Spreads = Figure::Spreads;
+  ErrorBar bar{.id = output.id};
+  bar.standard_error = worse([](const Spreads& s) { return s.value.deviation(); });
+  bar.floor = from_distance(output, worse([](const Spreads& s) { return s.nothing.mean(); }));
+  const double spread = factor * worse([](const Spreads& s) { return s.again.deviation(); });
+  const double floor =
+      worse([&](const Spreads& s) { return s.nothing.mean() + factor * s.nothing.deviation(); });
   bar.floor_most = from_distance(output, floor);
   double near = figure.distance, far = figure.distance;
   if (std::isfinite(figure.distance)) {
@@ -122,11 +134,11 @@ std::vector<ErrorBar> error_bars(const MetricInput& input, double exposure_stops
   const NoiseOfPair& noise = *input.noise;
   std::vector<Figure> figures;
   measure_each(input, [&](const MetricOutput& output, double value) {
-    figures.push_back({&output, as_distance(output, value), {}, {}, {}});
+    figures.push_back({&output, as_distance(output, value), {}, {}});
   });
-  const auto measure_noisy = [&](const Image& a, std::uint64_t stream, auto keep) {
-    const Image noisy_a = with_noise(a, noise.a, mix(seed) + 2 * stream);
-    const Image noisy_b = with_noise(input.b, noise.b, mix(seed) + 2 * stream + 1);
+  const auto measure_noisy = [&](const Image& a, std::uint64_t stream, bool together, auto keep) {
+    const Image noisy_a = with_noise(a, noise.a, mix(seed) + 2 * stream, together);
+    const Image noisy_b = with_noise(input.b, noise.b, mix(seed) + 2 * stream + 1, together);
     MetricInput noisy{noisy_a,
                       noisy_b,
                       DisplayLight(noisy_a, exposure_stops),
@@ -140,14 +152,21 @@ std::vector<ErrorBar> error_bars(const MetricInput& input, double exposure_stops
       keep(figures[next++], as_distance(output, value), value);
     });
   };
-  for (int k = 0; k < count; ++k) {
-    measure_noisy(input.a, 2 * std::uint64_t(k), [](Figure& figure, double distance, double value) {
-      figure.value.add(value);
-      figure.again.add(distance);
+  const bool any_shared = (noise.a && noise.a->shared) || (noise.b && noise.b->shared);
+  for (int k = 0; k < (any_shared ? 2 : 1) * count; ++k) {
+    const bool together = k >= count;
+    Figure::Spreads Figure::*const spreads = together ? &Figure::together : &Figure::apart;
+    const auto stream = 2 * std::uint64_t(k);
+    measure_noisy(input.a, stream, together, [&](Figure& figure, double distance, double value) {
+      (figure.*spreads).value.add(value);
+      (figure.*spreads).again.add(distance);
     });
-    measure_noisy(input.b, 2 * std::uint64_t(k) + 1,
-                  [](Figure& figure, double distance, double) { figure.nothing.add(distance); });
+    measure_noisy(input.b, stream + 1, together, [&](Figure& figure, double distance, double) {
+      (figure.*spreads).nothing.add(distance);
+    });
   }
+  if (!any_shared)
+    for (Figure& figure : figures) figure.together = figure.apart;
   std::vector<ErrorBar> bars;
   const double factor = draw_factor(noise, count);
   for (const Figure& figure : figures) bars.push_back(bar_of(figure, factor));

@@ -2,7 +2,8 @@
 //
 // Source:       parametric bootstrap: B. Efron, R. Tibshirani, "An Introduction to the Bootstrap", 1993, chapter
 //               6.5. The pictures get normal noise of their own standard errors once more, `count` times, from a
-//               seed; each value its own, or where pixels err together one for the whole picture.
+//               seed, each value by itself. Where pixels err together it is not known how: it is done again with
+//               one number for all values of a picture, and of each result the worse of the two is taken.
 // Formula:      standard_error is the spread of the figure over pairs (a + noise, b + noise). The noise floor is
 //               the figure over pairs (b + noise of a, b + noise of b): what two pictures of one expectation
 //               show; floor is its mean and floor_most what 97.5 % of them do not exceed.
@@ -38,7 +39,7 @@ inline constexpr int kFewestBootstraps = 4, kMostBootstraps = 1000;
 
 /// Of every figure of the catalogue that is no fact and does not itself speak of noise, for an input with noise.
 /// `count` as in kFewestBootstraps to kMostBootstraps. Holds two more pictures, and takes 2 * count
-/// times what the metrics take.
+/// times what the metrics take, twice that where pixels err together.
 std::vector<ErrorBar> error_bars(const MetricInput& input, double exposure_stops, int count,
                                  std::uint64_t seed);
 

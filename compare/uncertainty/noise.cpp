@@ -14,6 +14,8 @@
 namespace lobelia {
 namespace {
 
+/// With fewer degrees of freedom a value's own error is no estimate to build on.
+constexpr double kFewFreedom = 8;
 constexpr int kSquare = 5, kLineReach = 8, kLine = 2 * kLineReach + 1;
 /// A pixel of a picture of this side has a whole square to one of its sides.
 constexpr int kLeastSide = 2 * (kSquare - 1);
@@ -102,8 +104,11 @@ PictureNoise noise_of(const Image& error, double freedom, bool shared) {
   PictureNoise noise;
   noise.freedom = freedom;
   noise.shared = shared;
-  noise.standard_error =
-      roots(width, height, [&](int x, int y, int c) { return variances.mean_around(x, y, c); });
+  noise.standard_error = roots(width, height, [&](int x, int y, int c) {
+    if (freedom < kFewFreedom) return variances.mean_around(x, y, c);
+    const double unbiased = 1 + 1 / (4 * freedom);
+    return unbiased * unbiased * variances.at(x, y, c);
+  });
   const Variances pooled(
       roots(width, height, [&](int x, int y, int c) { return variances.pooled(x, y, c); }));
   noise.cautious = roots(width, height, [&](int x, int y, int c) {

@@ -2,9 +2,10 @@
 //
 // Source:       the standard error of a mean; Student's t for its estimate from few replicates.
 // Two estimates, for two uses:
-//   standard_error  is right on the average: for figures, sums over many values. It is the root mean square
-//                   over what varies in the 5 x 5 pixels around, as the root of a variance from few
-//                   replicates is too small (of two by a fifth). Where all replicates agree it is 0.
+//   standard_error  is right on the average: for figures, sums over many values. Up to eight degrees of freedom
+//                   it is the root mean square over what varies in the 5 x 5 pixels around, as the root of a
+//                   variance from few replicates is too small (of two by a fifth); with more the value's
+//                   own, without that bias: times 1 + 1 / (4 freedom). Where all replicates agree it is 0.
 //   cautious        is not too small where it counts: for single values far in the tail of a distribution,
 //                   where half the error is a million times the chance. It is the larger of the value's
 //                   own, and of what the windows of the pixel and its eight neighbours say: the largest of
@@ -16,7 +17,8 @@
 // Assumes:      replicates are independent, of equal weight and of one expectation; noise is near normal in
 //               the means. Windows are pooled as independent pixels; a picture whose pixels share their
 //               points is `shared` and gets no freedom from its windows.
-// Errs:         where a single pixel is much noisier than all lines and squares around it and its
+// Errs:         from few replicates standard_error blurs a lone noisy pixel, and error bars of a largest error
+//               are too short for it. Where a single pixel is much noisier than all lines and squares around it and its
 //               replicates happen to agree, the error is too small and a difference may be found that is
 //               none. On the quiet side of an edge of noise it is too large, and a difference there is
 //               overlooked. A value that is rare but large may be in no replicate at all: what is not

@@ -53,5 +53,22 @@ TEST(CompareWithNoise, OfHalvesExitsWith0ForSame1ForDifferentAnd1ForUndecided) {
   EXPECT_EQ(compare({"--b-replicate", "missing.exr"}).exit_code, 3);
 }
 
+TEST(RenderCommand, WritesTheErrorOfItsPictureByWhichAnotherSeedIsTheSame) {
+  const TemporaryDirectory directory;
+  render(directory, "plain.exr", {"--samples", "64"});
+  render(directory, "a.exr", {"--samples", "64", "--standard-error", "error.exr"});
+  render(directory, "b.exr", {"--samples", "64", "--seed", "99"});
+  EXPECT_EQ(read_file(directory.path() / "a.exr", 1 << 24),
+            read_file(directory.path() / "plain.exr", 1 << 24))
+      << "the picture is not changed by it";
+  const auto result =
+      run_lobelia({"compare", "a.exr", "b.exr", "--a-error", "error.exr", "--b-error", "error.exr",
+                   "--shared-noise", "none", "--fail", "z.beyond=0", "--fail", "z.regions=0",
+                   "--fail", "flip.ldr.mean=0.05"},
+                  directory.path());
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("verdict: same"));
+}
+
 }  // namespace
 }  // namespace lobelia

@@ -87,6 +87,20 @@ TEST(Noise, OfManyReplicatesIsTheStandardErrorOfTheirMean) {
   EXPECT_EQ(mean.noise.pooled_freedom, 3) << "there is no window in so small a picture";
 }
 
+TEST(Noise, OfFiguresIsFreeOfTheBiasOfARootAndStaysWithItsPixel) {
+  // The mean of the standard deviation of n normal values is 1 - 1 / (4 (n - 1)) of the true one.
+  Image error = testing::flat(12, 12, 0, 0, 0);
+  error.pixel(6, 6)[0] = 1;
+  EXPECT_FLOAT_EQ(noise_of_standard_errors(error, 15, false).standard_error.pixel(6, 6)[0],
+                  61.0f / 60);
+  EXPECT_EQ(noise_of_standard_errors(error, 15, false).standard_error.pixel(6, 7)[0], 0);
+  error.pixel(7, 6)[0] = 3;
+  const Image pooled = noise_of_standard_errors(error, 1, false).standard_error;
+  EXPECT_FLOAT_EQ(pooled.pixel(6, 6)[0], std::sqrt(5.0f));
+  EXPECT_FLOAT_EQ(pooled.pixel(7, 6)[0], std::sqrt(5.0f)) << "the sum of variances is the same";
+  EXPECT_EQ(pooled.pixel(6, 7)[0], 0);
+}
+
 TEST(Noise, ThatIsCautiousIsNeverLessThanAValuesOwn) {
   for (const NoiseKind kind : testing::kNoiseKinds) {
     const Image halves[] = {testing::noisy(kind, 3, 8), testing::noisy(kind, 4, 8)};
@@ -306,8 +320,8 @@ TEST(ErrorBars, HoldTheFigureOfTheExpectationsAsOftenAsTheySay) {
 TEST(ErrorBars, HaveTheNoiseFloorOfTheTextbook) {
   const Image b = testing::flat(40, 40, 0.5f, 0.5f, 0.5f);
   ComparisonOptions options;
-  options.noise = NoiseOptions{.a = testing::even_noise(40, 40, 0.03f),
-                               .b = testing::even_noise(40, 40, 0.04f)};
+  options.noise = NoiseOptions{.a = testing::even_noise(40, 40, 0.03f, 1e9),
+                               .b = testing::even_noise(40, 40, 0.04f, 1e9)};
   const Comparison comparison = compare(b, b, options);
   EXPECT_NEAR(bar_of(comparison, "rmse").floor, 0.05, 0.05 * 0.01);
   EXPECT_NEAR(bar_of(comparison, "mae").floor, 0.05 * std::sqrt(2 / 3.14159265), 0.0005);
@@ -345,6 +359,25 @@ TEST(ErrorBars, DependOnTheSeedAndNotOnTheNumberOfThreads) {
   }
   options.noise->seed = 1;
   EXPECT_NE(error(), many);
+}
+
+TEST(ErrorBars, CallNoLimitBrokenWherePixelsErrInGroupsAndNothingDiffers) {
+  // Neither each by itself nor all together: rows of pixels share their noise.
+  constexpr int kTrials = 30;
+  const Image b = testing::highlight(32, 32, 4, 1);
+  ComparisonOptions options;
+  options.limits = {{"max_abs", 0.01}, {"rmse", 0.002}, {"drift", 0.002}, {"flip.ldr.mean", 0.01}};
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Image a = b;
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x)
+        for (float& value : a.pixel(x, y))
+          value += 0.05f * float(gaussian(std::uint64_t(trial), std::uint64_t(y)));
+    options.noise =
+        NoiseOptions{.a = testing::even_noise(32, 32, 0.05f, 15, true), .bootstraps = 8};
+    for (const LimitResult& limit : compare(a, b, options).limits)
+      EXPECT_NE(limit.standing, Standing::kBroken) << limit.metric;
+  }
 }
 
 // ---- verdicts
