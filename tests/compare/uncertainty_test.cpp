@@ -111,6 +111,22 @@ TEST(Noise, ThatIsCautiousIsNeverLessThanAValuesOwn) {
   }
 }
 
+TEST(Noise, ThatIsCautiousFollowsThinLinesAndEdges) {
+  // A pixel whose replicates happened to agree, on a noisy line, and on the noisy side of an edge.
+  Image row = testing::flat(40, 40, 0, 0, 0), diagonal = row, edge = row;
+  for (int k = 0; k < 40; ++k) row.pixel(k, 20)[0] = diagonal.pixel(k, 39 - k)[0] = 1;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 20 + (y - 20) / 3; x < 40; ++x) edge.pixel(x, y)[0] = 1;
+  row.pixel(20, 20)[0] = diagonal.pixel(20, 19)[0] = edge.pixel(20, 20)[0] = 0;
+  const auto cautious = [](const Image& error, int x, int y) {
+    return noise_of_standard_errors(error, 1, false).cautious.pixel(x, y)[0];
+  };
+  EXPECT_FLOAT_EQ(cautious(row, 20, 20), std::sqrt(16.0f / 17));
+  EXPECT_FLOAT_EQ(cautious(diagonal, 20, 19), std::sqrt(16.0f / 17));
+  EXPECT_GE(cautious(edge, 20, 20), 0.97f);
+  EXPECT_EQ(cautious(row, 20, 30), 0) << "far from it there is none";
+}
+
 TEST(Noise, ThatIsNoErrorOrFitsNothingIsRefused) {
   Image error = testing::flat(4, 4, 1, 1, 1);
   EXPECT_THROW(noise_of_standard_errors(error, 0.5, false), Error);
