@@ -134,6 +134,10 @@ ExitCode run(Options options) {
     comparison.mask = truth::surface_mask(scene);
     if (comparison.tolerance) comparison.tolerance->edges = truth::edge_ring(scene);
   }
+  options.job.noise.apply(comparison);
+  if (comparison.noise && options.job.layers.all)
+    throw Error(ExitCode::kUsage,
+                "--all-layers: the noise of one layer says nothing of the others");
   check_options(comparison);
   const bool folders = are_folders(options);
   check_difference(options.job.difference, folders);
@@ -166,16 +170,19 @@ std::string footer() {
       "sRGB to linear light unless it says otherwise, floats are light; the record says how each was read.\n"
       "Of a picture that is a crop of its display window, the rest is black.\n"
       "A NaN or an infinity in either picture is a verdict of its own and never passes.\n"
+      "Where noise is known the verdict is same, different, or undecided: the noise leaves it open, and\n"
+      "more samples are needed (docs/metrics.md).\n"
       "\n"
       "Examples:\n"
       "  lobelia compare ours.exr povray.exr\n"
       "  lobelia compare ours.exr povray.exr --tolerance 6e-4,1e-8,3 --scene scene.xml\n"
       "  lobelia compare ours.exr blender.exr --fail max_rel_peak=3e-5 --fail flip.ldr.mean=1e-3\n"
+      "  lobelia compare half1.exr reference.exr --a-replicate half2.exr --b-error error.exr\n"
       "\n"
       "  lobelia compare renders/ references/ --fail ciede2000.p99=2 --junit report.xml --csv report.csv\n"
       "\n"
-      "Of two folders, a name that only B has fails, one that only A has is named. Exit codes: 0 pass,\n"
-      "1 over a limit, not finite or missing, 2 usage, 3 a picture is unreadable, has no such layer or "
+      "Of two folders, a name that only B has fails, one that only A has is named. Exit codes: 0 pass or\n"
+      "same, 1 over a limit, undecided, not finite or missing, 2 usage, 3 a picture is unreadable, has no such layer or "
       "another\n"
       "size, or there is no pair, 4 an output cannot be written.",
       join(limit_names()), defaults);
@@ -304,6 +311,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
           ".mask); with --tolerance, outliers may lie only on its silhouettes, terminators "
           "and shadow edges")
       ->group("Verdict");
+
+  job.noise.add_to(*command);
 
   command
       ->add_option(

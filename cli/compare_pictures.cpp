@@ -77,11 +77,14 @@ void write_difference(const DifferencePicture& wanted, const fs::path& path, con
              largest);
 }
 
+/// `name_within`: of folders the pair's name, which the pictures of noise have in theirs; else empty.
 PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOptions options,
-                        bool choose_exposures, const fs::path& difference_path) {
+                        bool choose_exposures, const std::string& name_within,
+                        const fs::path& difference_path) {
   const auto started = std::chrono::steady_clock::now();
   const std::string layer = main_layer(pair.a, pair.b, job.layers);
-  const PicturePair pictures = read_pair(pair.a, pair.b, layer);
+  PicturePair pictures = read_pair(pair.a, pair.b, layer);
+  job.noise.read(name_within, pictures.a.image, pictures.b.image, options);
   const Image &a = pictures.a.image, &b = pictures.b.image;
   pair.sources = {pictures.a.source, pictures.b.source};
   // One that is not finite is a verdict, and nothing is measured.
@@ -138,6 +141,13 @@ void print_display(const DisplayView* display) {
                display->choice().display, display->choice().config);
 }
 
+/// "± 0.0012  " where noise is known; a column that is empty for figures without an error bar.
+std::string error_bar_text(const Comparison& comparison, std::string_view id) {
+  if (!comparison.uncertainty) return "";
+  const ErrorBar* bar = comparison.uncertainty->bar(id);
+  return fmt::format("{:<12}", bar ? fmt::format("± {:.2g}", bar->standard_error) : "");
+}
+
 void print_metric_lines(const Comparison& comparison) {
   const auto& floor = comparison.reference_floor;
   if (floor)
@@ -151,16 +161,17 @@ void print_metric_lines(const Comparison& comparison) {
       fmt::print("{:>14}",
                  found == floor->metrics.end() ? "-" : fmt::format("{:.6g}", found->value));
     }
-    fmt::print("  {}\n", metric.meaning);
+    fmt::print("  {}{}\n", error_bar_text(comparison, metric.id), metric.meaning);
   }
 }
 
 void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view before) {
   for (const LimitResult& limit : limits)
     fmt::print("  {}{:<20}{:>14.6g}  {} {:g}\n", before, limit.metric, limit.value,
-               std::isnan(limit.value) ? "was NOT MEASURED; the limit is"
-               : limit.pass            ? "is within"
-                                       : "is OUTSIDE",
+               std::isnan(limit.value)             ? "was NOT MEASURED; the limit is"
+               : limit.pass                        ? "is within"
+               : limit.standing == Standing::kOpen ? "MAY BE ON EITHER SIDE OF"
+                                                   : "is OUTSIDE",
                limit.limit);
 }
 
@@ -168,9 +179,9 @@ void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view 
 
 SetReport compare_files(const CompareJob& job) {
   SetReport report{job.a, job.b, job.c, {}, {}, {}, 0};
-  report.pairs.push_back(
-      compare_pair({fs::path(job.a).filename().string(), job.a, job.b, job.c, {}, {}, 0}, job,
-                   job.comparison, has_automatic_exposures(job.comparison), job.difference.path));
+  report.pairs.push_back(compare_pair(
+      {fs::path(job.a).filename().string(), job.a, job.b, job.c, {}, {}, 0}, job, job.comparison,
+      has_automatic_exposures(job.comparison), "", job.difference.path));
   return report;
 }
 
@@ -197,7 +208,7 @@ SetReport compare_folders(const CompareJob& job) {
       make_directories(difference.parent_path());
     }
     try {
-      pair = compare_pair(pair, job, options, false, difference);
+      pair = compare_pair(pair, job, options, false, pair.name, difference);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kInput) throw;
       pair.error = error.what();
@@ -220,6 +231,10 @@ void print_pair(const PairReport& pair) {
     print_limit_lines(comparison.limits, "");
     print_limit_lines(comparison.warnings, "warning: ");
   }
+  for (const LimitResult& limit : comparison.limits)
+    if (std::isfinite(limit.more_samples) && limit.more_samples > 0)
+      fmt::print("  about {:.3g} times the samples would tell about {}\n", limit.more_samples,
+                 limit.metric);
   for (const std::string& sentence : comparison.disagreement)
     fmt::print("  metrics disagree: {}\n", sentence);
   if (pair.layers) print_layers(*pair.layers);
@@ -238,7 +253,7 @@ void print_set(const SetReport& report) {
     if (!pair.comparison) line("error", pair.name, pair.error);
   for (const std::string& name : report.missing) line("missing", name, "there is only a reference");
   for (const PairReport& pair : report.pairs)
-    if (pair.comparison && pair.verdict() != Verdict::kPass)
+    if (pair.comparison && !is_pass(pair.verdict()))
       line(verdict_name(pair.verdict()), pair.name, why_not_pass(pair));
   for (const PairReport& pair : report.pairs)
     if (pair.comparison)
@@ -255,9 +270,10 @@ void print_set(const SetReport& report) {
                metric.worst_at->name);
   const SetCounts counts = count(report);
   fmt::print(
-      "\n{} pairs: {} pass, {} differ, {} not finite, {} not comparable; {} missing, {} extra\n",
-      report.pairs.size(), counts.pass, counts.differs, counts.nonfinite, counts.errors,
-      counts.missing, counts.extra);
+      "\n{} pairs: {} pass, {} differ, {}{} not finite, {} not comparable; {} missing, {} extra\n",
+      report.pairs.size(), counts.pass, counts.differs,
+      counts.undecided > 0 ? fmt::format("{} undecided, ", counts.undecided) : "", counts.nonfinite,
+      counts.errors, counts.missing, counts.extra);
   if (report.passed_over > 0) fmt::print("{} files are no pictures\n", report.passed_over);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/compare_layers.hpp"
+#include "cli/compare_noise.hpp"
 #include "compare/set/report.hpp"
 
 namespace lobelia::cli {
@@ -23,6 +24,7 @@ struct CompareJob {
   ComparisonOptions comparison;
   DifferencePicture difference;
   LayerOptions layers;
+  NoiseFlags noise;
 };
 
 /// Throws what reading, measuring and writing throw.

@@ -27,7 +27,7 @@ constexpr int kScales = int(std::size(kWeights));
 static_assert(kSsimWindow << (kScales - 1) == kMsSsimSide);
 
 constexpr MetricOutput kOutputs[] = {
-    {"ms_ssim", Better::kHigher, true, "structural similarity at five scales", 1}};
+    {"ms_ssim", Better::kHigher, true, "structural similarity at five scales", 1, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   // Of the pictures themselves no plane is kept: two would be a third of the pictures.

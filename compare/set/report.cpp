@@ -33,10 +33,15 @@ SetCounts count(const SetReport& report) {
     }
     switch (pair.verdict()) {
       case Verdict::kPass:
+      case Verdict::kSame:
         ++counts.pass;
         break;
       case Verdict::kDiffers:
+      case Verdict::kDifferent:
         ++counts.differs;
+        break;
+      case Verdict::kUndecided:
+        ++counts.undecided;
         break;
       case Verdict::kNonFinite:
         ++counts.nonfinite;
@@ -51,8 +56,9 @@ SetCounts count(const SetReport& report) {
 ExitCode set_exit_code(const SetReport& report) {
   const SetCounts counts = count(report);
   if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
-  return counts.differs + counts.nonfinite + counts.missing > 0 ? ExitCode::kDiffers
-                                                                : ExitCode::kSuccess;
+  return counts.differs + counts.undecided + counts.nonfinite + counts.missing > 0
+             ? ExitCode::kDiffers
+             : ExitCode::kSuccess;
 }
 
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {

@@ -35,7 +35,8 @@ struct SetReport {
 };
 
 struct SetCounts {
-  std::size_t pass = 0, differs = 0, nonfinite = 0, errors = 0, missing = 0, extra = 0;
+  std::size_t pass = 0, differs = 0, undecided = 0, nonfinite = 0, errors = 0, missing = 0,
+              extra = 0;
 };
 SetCounts count(const SetReport& report);
 

@@ -18,10 +18,11 @@ Json set_record(const SetReport& report) {
   record["b"] = report.b;
   if (!report.c.empty()) record["c"] = report.c;
   const SetCounts counts = count(report);
-  record["summary"] = {{"pairs", report.pairs.size()}, {"pass", counts.pass},
-                       {"differs", counts.differs},    {"nonFinite", counts.nonfinite},
-                       {"errors", counts.errors},      {"missing", counts.missing},
-                       {"extra", counts.extra},        {"passedOver", report.passed_over}};
+  record["summary"] = {{"pairs", report.pairs.size()},    {"pass", counts.pass},
+                       {"differs", counts.differs},       {"undecided", counts.undecided},
+                       {"nonFinite", counts.nonfinite},   {"errors", counts.errors},
+                       {"missing", counts.missing},       {"extra", counts.extra},
+                       {"passedOver", report.passed_over}};
   record["worst"] = Json::object();
   for (const MetricSummary& metric : summarise(report.pairs))
     record["worst"][std::string(metric.id)] = {{"value", number_or_name(metric.worst)},

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "compare/compare.hpp"
 #include "compare/layers.hpp"
@@ -45,6 +46,44 @@ TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdict) {
   const Plain both = record(a, b, everything(a));
   EXPECT_EQ(both["verdict"], "differs");
   EXPECT_FALSE(both["disagreement"].empty()) << "a record in which little is missing";
+}
+
+ComparisonOptions with_noise(ComparisonOptions options, const Image& image, float error) {
+  options.noise =
+      NoiseOptions{.a = testing::even_noise(image.width(), image.height(), error), .bootstraps = 4};
+  return options;
+}
+
+TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdictOnNoise) {
+  const Image a = testing::highlight(180, 180, 10, 1), b = testing::highlight(180, 180, 11, 1.1);
+  Image broken = a;
+  broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
+  std::set<std::string> verdicts;
+  for (const auto& [picture, error] :
+       {std::pair(&a, 1e-4f), {&b, 1e-4f}, {&a, 1.0f}, {&a, 0.0f}, {&broken, 1.0f}})
+    for (const ComparisonOptions& options : {ComparisonOptions(), everything(a)}) {
+      const Plain made = record(*picture, a, with_noise(options, a, error));
+      EXPECT_EQ(problems(made), "");
+      verdicts.insert(made["verdict"]);
+    }
+  EXPECT_EQ(verdicts, (std::set<std::string>{"different", "non-finite", "same", "undecided"}));
+}
+
+TEST(ComparisonSchema, DoesNotHoldForABrokenRecordOfNoise) {
+  const Image image = testing::highlight(32, 32, 10, 1);
+  const Plain good = record(image, image, with_noise({}, image, 0.1f));
+  ASSERT_EQ(problems(good), "");
+  const auto broken = [&](auto change) {
+    Plain changed = good;
+    change(changed);
+    EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
+  };
+  broken([](Plain& r) { r["uncertainty"].erase("each"); });
+  broken([](Plain& r) { r["uncertainty"]["a"].erase("shared"); });
+  broken([](Plain& r) { r["uncertainty"]["significance"] = 1; });
+  broken([](Plain& r) { r["errorBars"]["rmse"].erase("low"); });
+  broken([](Plain& r) { r["errorBars"]["rmse"]["standardError"] = -1; });
+  broken([](Plain& r) { r["limits"][0]["standing"] = "maybe"; });
 }
 
 TEST(ComparisonSchema, HoldsForNumbersThatAreNotFinite) {
