@@ -17,7 +17,7 @@ inline ProcessResult run_lobelia(std::vector<std::string> arguments,
   arguments.insert(arguments.begin(), LOBELIA_PROGRAM);
   ProcessOptions options;
   options.working_directory = directory;
-  options.timeout = std::chrono::seconds(60);
+  options.timeout = std::chrono::seconds(180);
   return run_process(arguments, options);
 }
 
@@ -25,7 +25,7 @@ inline ProcessResult run_lobelia(std::vector<std::string> arguments,
 inline ProcessResult run_shell(const std::string& script, const std::filesystem::path& directory) {
   ProcessOptions options;
   options.working_directory = directory;
-  options.timeout = std::chrono::seconds(60);
+  options.timeout = std::chrono::seconds(180);
   return run_process({"/bin/sh", "-c", "LOBELIA='" LOBELIA_PROGRAM "'\n" + script}, options);
 }
 
