@@ -6,7 +6,7 @@
 
 #include "bench/lobe_lanes.hpp"
 #include "bench/sections.hpp"
-#include "bench/timing.hpp"
+#include "core/timing.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia::bench {

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "bench/sections.hpp"
-#include "bench/timing.hpp"
+#include "core/timing.hpp"
 #include "core/threads.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/render.hpp"

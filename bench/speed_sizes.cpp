@@ -8,7 +8,7 @@
 #include <random>
 
 #include "bench/sections.hpp"
-#include "bench/timing.hpp"
+#include "core/timing.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"

@@ -18,7 +18,7 @@
 #include "core/version.hpp"
 #include "farm/cell_store.hpp"
 #include "farm/finish_cell.hpp"
-#include "farm/host.hpp"
+#include "core/host.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/reference_metadata.hpp"
 #include "renderer/render_record.hpp"

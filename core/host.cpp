@@ -1,4 +1,4 @@
-#include "farm/host.hpp"
+#include "core/host.hpp"
 
 #include <sys/utsname.h>
 

@@ -6,14 +6,16 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <utility>
 #include <vector>
 
-namespace lobelia::bench {
+namespace lobelia {
 
 struct Times {
   double least = 0, median = 0, most = 0;  ///< seconds
   /// Half of the spread between quartiles, relative to the median.
   double spread = 0;
+  int rounds = 0;
 };
 
 inline double seconds_of(const std::function<void()>& work) {
@@ -27,7 +29,7 @@ inline Times summary(std::vector<double> seconds) {
   const std::size_t n = seconds.size();
   const double median = seconds[n / 2];
   return {seconds.front(), median, seconds.back(),
-          (seconds[n * 3 / 4] - seconds[n / 4]) / 2 / median};
+          (seconds[n * 3 / 4] - seconds[n / 4]) / 2 / median, int(n)};
 }
 
 /// Each case once in each round, after one that does not count.
@@ -41,4 +43,10 @@ inline std::vector<Times> interleaved(const std::vector<std::function<void()>>& 
   return result;
 }
 
-}  // namespace lobelia::bench
+/// The same for a part of the work that was timed: an evaluation of a million.
+inline Times per(const Times& times, double parts) {
+  return {times.least / parts, times.median / parts, times.most / parts, times.spread,
+          times.rounds};
+}
+
+}  // namespace lobelia

@@ -1,0 +1,65 @@
+// The report for a person in front of a terminal.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cost/pareto.hpp"
+#include "cost/report.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+std::string table_text(const Table& table, bool all) {
+  std::size_t width = 4;
+  for (const Way& way : table.ways) width = std::max(width, way.name.size());
+  std::string text = fmt::format("\n{}\n{:<{}}{:>13}{:>8}", table.title, "way", width + 2,
+                                 "per " + table.per, "+-");
+  for (const ErrorKind& kind : table.errors) text += fmt::format("{:>14}", kind.id);
+  text += "  front\n";
+  std::vector<std::size_t> order(table.ways.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return table.ways[i].time.median < table.ways[j].time.median;
+  });
+  std::vector<Front> fronts;
+  for (std::size_t e = 0; e < table.errors.size(); ++e) fronts.push_back(pareto_front(table, e));
+  for (const std::size_t i : order) {
+    const Way& way = table.ways[i];
+    std::string on;
+    for (std::size_t e = 0; e < fronts.size(); ++e)
+      if (std::find(fronts[e].ways.begin(), fronts[e].ways.end(), i) != fronts[e].ways.end())
+        on += (on.empty() ? "" : " ") + table.errors[e].id;
+    if (on.empty() && !all) continue;
+    text += fmt::format("{:<{}}{:>13}{:>7.1f}%", way.name, width + 2, seconds_text(way.time.median),
+                        100 * way.time.spread);
+    for (const double error : way.errors)
+      text += std::isnan(error) ? fmt::format("{:>14}", "-") : fmt::format("{:>14.3g}", error);
+    text += "  " + on + "\n";
+  }
+  if (!table.errors.empty())
+    for (const std::string& sentence : front_sentences(table, 0))
+      if (all || sentence.starts_with("from ")) text += "  " + sentence + "\n";
+  for (const std::string& remark : table.remarks) text += "  " + remark + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string seconds_text(double seconds) {
+  const auto scaled = [](double value, const char* unit) {
+    return fmt::format("{:.{}f} {}", value, value < 9.995 ? 2 : value < 99.95 ? 1 : 0, unit);
+  };
+  if (seconds < 1e-6) return scaled(seconds * 1e9, "ns");
+  if (seconds < 1e-3) return scaled(seconds * 1e6, "us");
+  if (seconds < 1) return scaled(seconds * 1e3, "ms");
+  return scaled(seconds, "s");
+}
+
+std::string cost_text(const Report& report, bool all) {
+  std::string text;
+  for (const Table& table : report.tables) text += table_text(table, all);
+  return text;
+}
+
+}  // namespace lobelia::cost
