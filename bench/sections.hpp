@@ -11,6 +11,8 @@ void trace(
     const std::string& scene);  ///< milliseconds to render one scene, for the engines' script
 void threads();                 ///< efficiency on 1 to all processors
 void sizes(const std::string& program);  ///< whole commands, 256^2 to 8192^2, with peak memory
-void exr();                              ///< packing and writing pictures
+void comparisons(
+    const std::string& program);  ///< of large pictures with peak memory, and of folders
+void exr();                       ///< packing and writing pictures
 
 }  // namespace lobelia::bench

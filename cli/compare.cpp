@@ -112,8 +112,7 @@ void write_reports(const Options& options, const SetReport& report, bool folders
   if (!options.junit.empty()) write_file(options.junit, set_junit(report));
   if (options.json.empty()) return;
   const PairReport& first = report.pairs.front();
-  const Json record = folders ? set_record(report)
-                              : comparison_record(*first.comparison, first.a, first.b, first.c);
+  const Json record = folders ? set_record(report) : pair_record(first);
   if (options.json == "-")
     fmt::print("{}", record_text(record));
   else
@@ -135,6 +134,10 @@ ExitCode run(Options options) {
     comparison.mask = truth::surface_mask(scene);
     if (comparison.tolerance) comparison.tolerance->edges = truth::edge_ring(scene);
   }
+  options.job.noise.apply(comparison);
+  if (comparison.noise && options.job.layers.all)
+    throw Error(ExitCode::kUsage,
+                "--all-layers: the noise of one layer says nothing of the others");
   check_options(comparison);
   const bool folders = are_folders(options);
   check_difference(options.job.difference, folders);
@@ -163,20 +166,25 @@ std::string footer() {
       "Metrics that a limit can be set on:\n"
       "  {}\n"
       "Without --fail and --tolerance the limits are {}: a look, not a proof.\n"
-      "Pictures of 8 or 16 bits (PNG, JPEG) are decoded from sRGB to linear light, clipped as they are.\n"
+      "Channels are taken by their names, grey as three equal ones. A file's integers are decoded from\n"
+      "sRGB to linear light unless it says otherwise, floats are light; the record says how each was read.\n"
+      "Of a picture that is a crop of its display window, the rest is black.\n"
       "A NaN or an infinity in either picture is a verdict of its own and never passes.\n"
+      "Where noise is known the verdict is same, different, or undecided: the noise leaves it open, and\n"
+      "more samples are needed (docs/metrics.md).\n"
       "\n"
       "Examples:\n"
       "  lobelia compare ours.exr povray.exr\n"
       "  lobelia compare ours.exr povray.exr --tolerance 6e-4,1e-8,3 --scene scene.xml\n"
       "  lobelia compare ours.exr blender.exr --fail max_rel_peak=3e-5 --fail flip.ldr.mean=1e-3\n"
+      "  lobelia compare half1.exr reference.exr --a-replicate half2.exr --b-error error.exr\n"
       "\n"
       "  lobelia compare renders/ references/ --fail ciede2000.p99=2 --junit report.xml --csv report.csv\n"
       "\n"
-      "Of two folders, a name that only B has fails, one that only A has is named. Exit codes: 0 pass,\n"
-      "1 over a limit, not finite or missing, 2 usage, 3 a picture is unreadable, the sizes of a pair "
-      "differ\n"
-      "or there is no pair, 4 an output cannot be written.",
+      "Of two folders, a name that only B has fails, one that only A has is named. Exit codes: 0 pass or\n"
+      "same, 1 over a limit, undecided, not finite or missing, 2 usage, 3 a picture is unreadable, has no such layer or "
+      "another\n"
+      "size, or there is no pair, 4 an output cannot be written.",
       join(limit_names()), defaults);
 }
 
@@ -254,6 +262,15 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--reference-floor", job.c,
                    "A second reference: how far it is from B is shown beside how far A is")
       ->type_name("C");
+  auto* layer = command->add_option(
+      "--layer", job.layers.layer,
+      "Compare this layer of both files: a prefix of channels, an EXR part, or one channel");
+  layer->type_name("NAME")->group("Layers");
+  command
+      ->add_flag("--all-layers", job.layers.all,
+                 "Compare every layer that both files have, alpha too; the verdict is the worst")
+      ->excludes(layer)
+      ->group("Layers");
   command
       ->add_flag_callback(
           "--list-metrics",
@@ -294,6 +311,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
           ".mask); with --tolerance, outliers may lie only on its silhouettes, terminators "
           "and shadow edges")
       ->group("Verdict");
+
+  job.noise.add_to(*command);
 
   command
       ->add_option(

@@ -77,17 +77,25 @@ void write_difference(const DifferencePicture& wanted, const fs::path& path, con
              largest);
 }
 
-PairReport compare_pair(PairReport pair, ComparisonOptions options, bool choose_exposures,
-                        const DifferencePicture& difference, const fs::path& difference_path) {
+/// `name_within`: of folders the pair's name, which the pictures of noise have in theirs; else empty.
+PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOptions options,
+                        bool choose_exposures, const std::string& name_within,
+                        const fs::path& difference_path) {
   const auto started = std::chrono::steady_clock::now();
-  const Image a = read_image(pair.a), b = read_image(pair.b);
+  const std::string layer = main_layer(pair.a, pair.b, job.layers);
+  PicturePair pictures = read_pair(pair.a, pair.b, layer);
+  job.noise.read(name_within, pictures.a.image, pictures.b.image, options);
+  const Image &a = pictures.a.image, &b = pictures.b.image;
+  pair.sources = {pictures.a.source, pictures.b.source};
   // One that is not finite is a verdict, and nothing is measured.
   if (choose_exposures && is_finite(b)) options.viewing.hdr_exposures = automatic_exposures(b);
   pair.comparison = compare(a, b, options);
   if (!pair.c.empty())
-    pair.comparison->reference_floor = measure_reference_floor(read_image(pair.c), b, options);
-  if (!difference.path.empty())
-    write_difference(difference, difference_path, a, b, *pair.comparison);
+    pair.comparison->reference_floor =
+        measure_reference_floor(read_picture(pair.c, layer).image, b, options);
+  pair.layers = compare_other_layers(pair.a, pair.b, layer, job.layers, options);
+  if (!job.difference.path.empty())
+    write_difference(job.difference, difference_path, a, b, *pair.comparison);
   pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return pair;
 }
@@ -102,13 +110,14 @@ void for_each_pair(std::size_t count, Work work) {
 }
 
 /// One range for the set: what one number means must not change from pair to pair.
-HdrExposures exposures_for_all(const std::vector<PairReport>& pairs) {
+HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const LayerOptions& layers) {
   std::mutex mutex;
   std::optional<HdrExposures> all;
   std::string why = "no reference could be read";
   for_each_pair(pairs.size(), [&](std::size_t i) {
     try {
-      const Image reference = read_image(pairs[i].b);
+      const Image reference =
+          read_picture(pairs[i].b, main_layer(pairs[i].a, pairs[i].b, layers)).image;
       if (!is_finite(reference)) return;
       const HdrExposures one = automatic_exposures(reference);
       const std::lock_guard lock(mutex);
@@ -132,6 +141,13 @@ void print_display(const DisplayView* display) {
                display->choice().display, display->choice().config);
 }
 
+/// "± 0.0012  " where noise is known; a column that is empty for figures without an error bar.
+std::string error_bar_text(const Comparison& comparison, std::string_view id) {
+  if (!comparison.uncertainty) return "";
+  const ErrorBar* bar = comparison.uncertainty->bar(id);
+  return fmt::format("{:<12}", bar ? fmt::format("± {:.2g}", bar->standard_error) : "");
+}
+
 void print_metric_lines(const Comparison& comparison) {
   const auto& floor = comparison.reference_floor;
   if (floor)
@@ -145,16 +161,17 @@ void print_metric_lines(const Comparison& comparison) {
       fmt::print("{:>14}",
                  found == floor->metrics.end() ? "-" : fmt::format("{:.6g}", found->value));
     }
-    fmt::print("  {}\n", metric.meaning);
+    fmt::print("  {}{}\n", error_bar_text(comparison, metric.id), metric.meaning);
   }
 }
 
 void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view before) {
   for (const LimitResult& limit : limits)
     fmt::print("  {}{:<20}{:>14.6g}  {} {:g}\n", before, limit.metric, limit.value,
-               std::isnan(limit.value) ? "was NOT MEASURED; the limit is"
-               : limit.pass            ? "is within"
-                                       : "is OUTSIDE",
+               std::isnan(limit.value)             ? "was NOT MEASURED; the limit is"
+               : limit.pass                        ? "is within"
+               : limit.standing == Standing::kOpen ? "MAY BE ON EITHER SIDE OF"
+                                                   : "is OUTSIDE",
                limit.limit);
 }
 
@@ -163,8 +180,8 @@ void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view 
 SetReport compare_files(const CompareJob& job) {
   SetReport report{job.a, job.b, job.c, {}, {}, {}, 0};
   report.pairs.push_back(compare_pair(
-      {fs::path(job.a).filename().string(), job.a, job.b, job.c, {}, {}, 0}, job.comparison,
-      has_automatic_exposures(job.comparison), job.difference, job.difference.path));
+      {fs::path(job.a).filename().string(), job.a, job.b, job.c, {}, {}, 0}, job, job.comparison,
+      has_automatic_exposures(job.comparison), "", job.difference.path));
   return report;
 }
 
@@ -181,7 +198,7 @@ SetReport compare_folders(const CompareJob& job) {
                             0});
   ComparisonOptions options = job.comparison;
   if (has_automatic_exposures(options))
-    options.viewing.hdr_exposures = exposures_for_all(report.pairs);
+    options.viewing.hdr_exposures = exposures_for_all(report.pairs, job.layers);
   for_each_pair(report.pairs.size(), [&](std::size_t i) {
     PairReport& pair = report.pairs[i];
     fs::path difference;
@@ -191,7 +208,7 @@ SetReport compare_folders(const CompareJob& job) {
       make_directories(difference.parent_path());
     }
     try {
-      pair = compare_pair(pair, options, false, job.difference, difference);
+      pair = compare_pair(pair, job, options, false, pair.name, difference);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kInput) throw;
       pair.error = error.what();
@@ -214,10 +231,16 @@ void print_pair(const PairReport& pair) {
     print_limit_lines(comparison.limits, "");
     print_limit_lines(comparison.warnings, "warning: ");
   }
+  for (const LimitResult& limit : comparison.limits)
+    if (std::isfinite(limit.more_samples) && limit.more_samples > 0)
+      fmt::print("  about {:.3g} times the samples would tell about {}\n", limit.more_samples,
+                 limit.metric);
   for (const std::string& sentence : comparison.disagreement)
     fmt::print("  metrics disagree: {}\n", sentence);
-  fmt::print("{}verdict: {}\n", comparison.verdict == Verdict::kNonFinite ? "" : "\n",
-             verdict_name(comparison.verdict));
+  if (pair.layers) print_layers(*pair.layers);
+  fmt::print("{}verdict: {}\n",
+             comparison.verdict == Verdict::kNonFinite && !pair.layers ? "" : "\n",
+             verdict_name(pair.verdict()));
 }
 
 void print_set(const SetReport& report) {
@@ -230,8 +253,8 @@ void print_set(const SetReport& report) {
     if (!pair.comparison) line("error", pair.name, pair.error);
   for (const std::string& name : report.missing) line("missing", name, "there is only a reference");
   for (const PairReport& pair : report.pairs)
-    if (pair.comparison && pair.comparison->verdict != Verdict::kPass)
-      line(verdict_name(pair.comparison->verdict), pair.name, why_not_pass(*pair.comparison));
+    if (pair.comparison && !is_pass(pair.verdict()))
+      line(verdict_name(pair.verdict()), pair.name, why_not_pass(pair));
   for (const PairReport& pair : report.pairs)
     if (pair.comparison)
       for (const LimitResult& limit : pair.comparison->warnings)
@@ -247,9 +270,10 @@ void print_set(const SetReport& report) {
                metric.worst_at->name);
   const SetCounts counts = count(report);
   fmt::print(
-      "\n{} pairs: {} pass, {} differ, {} not finite, {} not comparable; {} missing, {} extra\n",
-      report.pairs.size(), counts.pass, counts.differs, counts.nonfinite, counts.errors,
-      counts.missing, counts.extra);
+      "\n{} pairs: {} pass, {} differ, {}{} not finite, {} not comparable; {} missing, {} extra\n",
+      report.pairs.size(), counts.pass, counts.differs,
+      counts.undecided > 0 ? fmt::format("{} undecided, ", counts.undecided) : "", counts.nonfinite,
+      counts.errors, counts.missing, counts.extra);
   if (report.passed_over > 0) fmt::print("{} files are no pictures\n", report.passed_over);
 }
 

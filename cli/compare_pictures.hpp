@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "cli/compare_layers.hpp"
+#include "cli/compare_noise.hpp"
 #include "compare/set/report.hpp"
 
 namespace lobelia::cli {
@@ -21,6 +23,8 @@ struct CompareJob {
   std::string a, b, c;  ///< files, or folders; c is the second reference or empty
   ComparisonOptions comparison;
   DifferencePicture difference;
+  LayerOptions layers;
+  NoiseFlags noise;
 };
 
 /// Throws what reading, measuring and writing throw.

@@ -51,12 +51,13 @@ ExitCode run(const Options& options) {
                options.directory, summary.foreign);
   for (const auto& warning : summary.warnings) warn(warning);
   for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
-  fmt::print("{} cells: {} pass, {} differ, {} failed{}; {} pictures rendered, {} kept\n",
+  fmt::print("{} cells: {} pass, {} differ, {} failed{}{}; {} pictures rendered, {} kept\n",
              summary.cells, summary.pass, summary.differs, summary.failed,
+             summary.undecided > 0 ? fmt::format(", {} undecided", summary.undecided) : "",
              summary.unchecked > 0 ? fmt::format(", {} not compared", summary.unchecked) : "",
              summary.rendered, summary.kept);
   if (summary.failed > 0) return ExitCode::kEngine;
-  return summary.differs > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
+  return summary.differs + summary.undecided > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
 }
 
 }  // namespace

@@ -2,11 +2,16 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/profile_text.hpp"
 #include "cli/scene_overrides.hpp"
+#include "compare/profile/blob.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/text.hpp"
 #include "farm/profile_scene.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -15,69 +20,82 @@ namespace {
 
 struct Options {
   std::string a, b, scene, json, csv;
-  int light = 0, sphere = 0;
+  std::string svg;
+  std::optional<int> light, sphere;
   SceneOverrides overrides;
 };
-
-/// A number of the record, which is a name ("nan") where it is not finite.
-std::string shown(const Json& number) {
-  return number.is_string() ? number.get<std::string>()
-                            : fmt::format("{:.6g}", number.get<double>());
-}
-
-std::string curve_as_csv(const Json& curve) {
-  std::string text;
-  for (const auto& [name, column] : curve.items())
-    text += (text.empty() ? "" : ",") +
-            (name.find_first_of(",\"\n") == std::string::npos ? name : fmt::format("\"{}\"", name));
-  text += '\n';
-  for (std::size_t row = 0; row < curve["angleDegrees"].size(); ++row) {
-    std::string line;
-    for (const auto& [name, column] : curve.items()) {
-      if (!line.empty()) line += ',';
-      line += column[row].is_string() ? column[row].get<std::string>() : column[row].dump();
-    }
-    text += line + '\n';
-  }
-  return text;
-}
-
-void print_table(const Json& record) {
-  const auto zone_end = [&](const char* zone) { return shown(record["zones"][zone][1]); };
-  fmt::print("epicentre to {} degrees, blooming zone to {} degrees ({} angle)\n\n",
-             zone_end("epicentreDegrees"), zone_end("bloomingDegrees"),
-             record["angle"] == "reflection" ? "reflection" : "half-vector");
-  fmt::print("{:<24}{:>12}{:>12}{:>14}{:>14}\n", "", "peak", "at", "half-width", "energy");
-  for (const auto& [name, shape] : record["images"].items())
-    fmt::print("{:<24}{:>12}{:>12}{:>14}{:>14}\n", name, shown(shape["peak"]),
-               shown(shape["peakAngleDegrees"]), shown(shape["halfWidthDegrees"]),
-               shown(shape["energy"]));
-  fmt::print("\n{:<24}{:<12}{:>12}{:>14}{:>14}\n", "", "", "max error", "rms error", "of the peak");
-  for (const auto& [name, difference] : record["differences"].items())
-    for (const auto& [zone, error] : difference.items())
-      fmt::print("{:<24}{:<12}{:>12}{:>14}{:>14}\n", zone == "epicentre" ? name : "", zone,
-                 shown(error["maxAbs"]), shown(error["rms"]), shown(error["maxRelPeak"]));
-}
 
 /// Names for the pictures that differ from each other, and from the formula's.
 std::pair<std::string, std::string> picture_names(const Options& options) {
   const auto stem = [](const std::string& path) {
-    return std::filesystem::path(path).stem().string();
+    return printable(std::filesystem::path(path).stem().string());
   };
   const std::string a = stem(options.a), b = stem(options.b);
   const auto reserved = [](const std::string& name) {
-    return name.empty() || name == kAnalyticName || name == "angleDegrees" || name == "pixels";
+    return name.empty() || name == kAnalyticName || name == "angleDegrees" || name == "pixels" ||
+           name == "offsetPixels";
   };
   if (a != b && !reserved(a) && (options.b.empty() || !reserved(b))) return {a, b};
   return {"a", "b"};
 }
 
-void run(const Options& options) {
+/// Of one highlight where one is chosen, else of all; more would take minutes and be read by nobody.
+constexpr std::size_t kMostHighlights = 64;
+
+std::vector<Json> profiles_of(const Scene& scene, const Options& options,
+                              const NamedImages& images) {
+  if (options.light || options.sphere)
+    return {profile_scene(scene, options.light.value_or(0), options.sphere.value_or(0), images)};
+  const auto highlights = highlights_of(scene);
+  if (highlights.empty())
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: no sphere of it has a highlight, or there is no light", options.scene));
+  if (highlights.size() > kMostHighlights)
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: it has {} highlights, and up to {} are measured at once; choose one "
+                    "with --sphere and --light",
+                    options.scene, highlights.size(), kMostHighlights));
+  std::vector<Json> profiles;
+  for (const auto& [sphere, light] : highlights)
+    profiles.push_back(profile_scene(scene, light, sphere, images));
+  return profiles;
+}
+
+/// What is to be written, however it was measured.
+struct Result {
+  Json record;
+  std::string text, csv, svg;
+};
+
+Result measured(const Options& options, const NamedImages& images) {
+  if (options.scene.empty()) {
+    const Json record = blob_record(measure_blob(images));
+    return {record, blob_text(record), blob_csv(record), blob_svg(record)};
+  }
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
+  const std::vector<Json> profiles = profiles_of(scene, options, images);
+  if (profiles.size() > 1 && !options.svg.empty())
+    throw Error(ExitCode::kUsage,
+                fmt::format("--svg draws one highlight, and there are {}: choose with --sphere and "
+                            "--light",
+                            profiles.size()));
+  Result result{profiles.front(), "", profile_csv(profiles), profile_svg(profiles.front())};
+  if (!options.light && !options.sphere) {
+    result.record = make_record("profiles");
+    result.record["profiles"] = profiles;
+  }
+  for (const Json& profile : profiles)
+    result.text += (result.text.empty() ? "" : "\n") + profile_text(profile);
+  return result;
+}
+
+void run(const Options& options) {
   const bool json_to_file = !options.json.empty() && options.json != "-";
-  if (json_to_file) require_writable(options.json);
-  if (!options.csv.empty()) require_writable(options.csv);
+  for (const std::string& path : {json_to_file ? options.json : "", options.csv, options.svg})
+    if (!path.empty()) require_writable(path);
 
   const auto [name_a, name_b] = picture_names(options);
   const Image a = read_image(options.a);
@@ -87,47 +105,61 @@ void run(const Options& options) {
     b = read_image(options.b);
     images.emplace_back(name_b, &b);
   }
-  const Json record = profile_scene(scene, options.light, options.sphere, images);
-  if (!options.csv.empty()) write_file(options.csv, curve_as_csv(record["curve"]));
-  if (json_to_file) write_record(options.json, record);
-  if (options.json == "-")
-    fmt::print("{}", record_text(record));
-  else
-    print_table(record);
+  const Result result = measured(options, images);
+  if (!options.csv.empty()) write_file(options.csv, result.csv);
+  if (!options.svg.empty()) write_file(options.svg, result.svg);
+  if (json_to_file) write_record(options.json, result.record);
+  fmt::print("{}", options.json == "-" ? record_text(result.record) : result.text);
 }
 
 }  // namespace
 
 void add_profile(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
-      "profile", "Measure a highlight as a curve over the angle that its lobe sees");
+      "profile", "Measure a highlight: peak, width, energy, exponent, and its curve");
   auto options = std::make_shared<Options>();
-  command->add_option("A", options->a, "Picture of the scene")->required();
+  command->add_option("A", options->a, "Picture")->required();
   command->add_option("B", options->b, "Another one, the reference");
-  command->add_option("--scene", options->scene, "The scene file that the pictures show")
-      ->required();
-  command->add_option("--light", options->light, "Whose highlight: a light's number in the scene")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--sphere", options->sphere, "On which sphere: its number in the scene")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  options->overrides.add_to(*command);
+  auto* scene = command->add_option(
+      "--scene", options->scene,
+      "The scene file that the pictures show; without it the brightest blob is measured");
   command
-      ->add_option("--json", options->json,
-                   "Write the record (kind profile) to FILE; with - to stdout, and no table")
+      ->add_option("--light", options->light,
+                   "Whose highlight: a light's number in the scene; default: every one")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(scene);
+  command
+      ->add_option("--sphere", options->sphere,
+                   "On which sphere: its number in the scene; default: every one")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(scene);
+  const std::size_t before = command->get_options().size();
+  options->overrides.add_to(*command);
+  const auto all = command->get_options();
+  for (std::size_t i = before; i < all.size(); ++i) all[i]->needs(scene);
+  command
+      ->add_option(
+          "--json", options->json,
+          "Write the record to FILE; with - to stdout, and no table (kind profile of one chosen "
+          "highlight, profiles of all, blob without a scene)")
       ->type_name("FILE|-")
       ->group("Output");
   command->add_option("--csv", options->csv, "Write the curves as a table with a line per angle")
       ->type_name("FILE")
       ->group("Output");
+  command->add_option("--svg", options->svg, "Write the curves of one highlight as a chart")
+      ->type_name("FILE")
+      ->group("Output");
   command->footer(
-      "'analytic' is the scene's formula at each pixel's centre, without shadows. The epicentre\n"
-      "reaches to where the lobe has fallen to 1/2, the blooming zone from there to 1/1000.\n"
-      "Radiance is the mean of R, G and B; angles are in degrees.\n"
+      "With a scene 'analytic' is its formula at each pixel's centre. The epicentre reaches to where\n"
+      "the lobe has fallen to 1/2, the flank to 1/20, the blooming zone to 1/1000. Places are in pixels\n"
+      "from the upper left corner, a pixel's centre at a half. The error of n is a standard error; of\n"
+      "a picture without noise it says how far the lobe is from a power of a cosine. Radiance is the\n"
+      "mean of R, G and B. docs/profiles.md defines every figure.\n"
       "\n"
-      "Example:\n"
+      "Examples:\n"
       "  lobelia profile ours.exr povray.exr --scene reference_scenes/scenes/oblique_45.xml\n"
+      "  lobelia profile mine.exr --json - --svg blob.svg\n"
       "\n"
       "Exit codes: 0 done, 2 usage, 3 an input is unreadable or does not fit the scene, 4 an "
       "output\n"

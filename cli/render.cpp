@@ -14,6 +14,7 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "renderer/render.hpp"
+#include "renderer/render_error.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -21,7 +22,7 @@ namespace lobelia::cli {
 namespace {
 
 struct Options {
-  std::string scene, output, png, effects = "as-called-for";
+  std::string scene, output, png, standard_error, effects = "as-called-for";
   double exposure = 0;
   std::string precision = "sufficient";
   int threads = 0;
@@ -62,6 +63,14 @@ void run(const Options& options) {
 
   if (!options.png.empty()) require_png(options.png, options.output, record_path);
 
+  if (!options.standard_error.empty()) {
+    if (options.standard_error == options.output || options.standard_error == options.png)
+      throw Error(ExitCode::kUsage,
+                  fmt::format("--standard-error {}: is written by this command already",
+                              options.standard_error));
+    require_writable(options.standard_error);
+  }
+
   warn_of(scene);
   ProgressLine progress(!options.quiet);
   RenderOptions render_options;
@@ -74,6 +83,11 @@ void run(const Options& options) {
   render_options.max_samples = options.max_samples;
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
   const RenderResult result = render_and_write(scene, render_options, options);
+  if (!options.standard_error.empty()) {
+    render_options.on_progress = [&](double fraction) { progress.show(fraction, "its error"); };
+    write_exr(options.standard_error, standard_error_of_render(scene, render_options),
+              render_metadata(scene));
+  }
   progress.clear();
 
   const std::filesystem::path output(options.output);
@@ -124,6 +138,13 @@ void add_render(CLI::App& app, ExitCode&) {
       ->add_option("--time-limit", options->time_limit,
                    "Take no more samples once rendering would take longer, seconds")
       ->check(between(1e-3, 1e7));
+  command
+      ->add_option(
+          "--standard-error", options->standard_error,
+          fmt::format("Picture of the error of each value, from {} more renders with the next "
+                      "seeds; for compare: --a-error ERROR.exr --shared-noise none",
+                      kErrorRenders))
+      ->type_name("ERROR.exr");
   command->add_option("--max-samples", options->max_samples, "Take at most so many rays a pixel")
       ->check(between(1, 1 << 20));
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");

@@ -11,6 +11,9 @@
 #include "compare/disagreement.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
+#include "compare/uncertainty/critical.hpp"
+#include "compare/uncertainty/judgement.hpp"
+#include "compare/uncertainty/z_test.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -41,6 +44,7 @@ std::string_view what_is_missing(const Metric& metric, const ComparisonOptions& 
   if (metric.needs == Needs::kHdrExposures && !options.viewing.hdr_exposures)
     return "a range of exposures";
   if (metric.needs == Needs::kMask && options.mask.empty()) return "a mask";
+  if (metric.needs == Needs::kNoise && !options.noise) return "the noise of a picture";
   return {};
 }
 
@@ -69,6 +73,45 @@ std::vector<LimitResult> results_of(std::span<const MetricLimit> limits,
   return results;
 }
 
+NoiseOfPair noise_of_pair(const ComparisonOptions& options) {
+  if (!options.noise) return {};
+  const auto& [a, b, significance, bootstraps, seed] = *options.noise;
+  return {a ? &*a : nullptr, b ? &*b : nullptr, significance};
+}
+
+std::optional<Uncertainty::OfPicture> in_short(const PictureNoise* noise) {
+  if (!noise) return std::nullopt;
+  return Uncertainty::OfPicture{noise->freedom, noise->shared};
+}
+
+Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOptions& options) {
+  const NoiseOptions& noise = *options.noise;
+  const double tests = count_of_tests(input.a.width(), input.a.height());
+  return {.a = in_short(input.noise->a),
+          .b = in_short(input.noise->b),
+          .significance = noise.significance,
+          .tests = tests,
+          .each = sidak(noise.significance, tests),
+          .bootstraps = noise.bootstraps,
+          .seed = noise.seed,
+          .error_bars = error_bars(input, options.viewing, noise.bootstraps, noise.seed)};
+}
+
+/// Fills in limits and verdict.
+void judge_noisy(const ComparisonOptions& options, Comparison& result) {
+  for (const MetricLimit& limit : asked_limits(options)) {
+    const double value = result.value(limit.metric);
+    const ErrorBar* bar = result.uncertainty ? result.uncertainty->bar(limit.metric) : nullptr;
+    const Standing standing = standing_of(limit, value, bar);
+    result.limits.push_back({limit.metric, limit.limit, value, standing == Standing::kHolds,
+                             standing,
+                             standing == Standing::kOpen ? more_samples(limit, value, bar) : 0});
+  }
+  result.warnings = results_of(options.warnings, result);
+  result.disagreement = disagreements(result.limits);
+  result.verdict = result.uncertainty ? verdict_of(result.limits) : Verdict::kNonFinite;
+}
+
 }  // namespace
 
 std::span<const MetricLimit> default_limits() {
@@ -93,8 +136,26 @@ std::string_view verdict_name(Verdict verdict) {
       return "differs";
     case Verdict::kNonFinite:
       return "non-finite";
+    case Verdict::kSame:
+      return "same";
+    case Verdict::kDifferent:
+      return "different";
+    case Verdict::kUndecided:
+      return "undecided";
   }
   return "";
+}
+
+bool is_pass(Verdict verdict) { return verdict == Verdict::kPass || verdict == Verdict::kSame; }
+
+std::string_view standing_name(Standing standing) {
+  return standing == Standing::kHolds ? "holds" : standing == Standing::kBroken ? "broken" : "open";
+}
+
+const ErrorBar* Uncertainty::bar(std::string_view id) const {
+  for (const ErrorBar& bar : error_bars)
+    if (bar.id == id) return &bar;
+  return nullptr;
 }
 
 double Comparison::value(std::string_view id) const {
@@ -139,11 +200,22 @@ void check_options(const ComparisonOptions& options) {
     require_range("the number of allowed outliers", double(options.tolerance->allowed_outliers), 0,
                   double(kMaxImagePixels));
   }
+  if (options.noise) {
+    require_range("the significance", options.noise->significance, kLeastSignificance,
+                  kMostSignificance);
+    require_range("the number of bootstraps", options.noise->bootstraps, kFewestBootstraps,
+                  kMostBootstraps);
+  }
 }
 
 ReferenceFloor measure_reference_floor(const Image& c, const Image& b,
                                        const ComparisonOptions& options) {
-  Comparison measured = compare(c, b, options);
+  // What is known of the noise is that of a.
+  ComparisonOptions plain = options;
+  plain.noise.reset();
+  plain.limits.clear();
+  plain.warnings.clear();
+  Comparison measured = compare(c, b, plain);
   return {measured.nonfinite_a, std::move(measured.metrics)};
 }
 
@@ -157,6 +229,9 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   };
   if (options.tolerance) require_pixels("scene", options.tolerance->edges.size());
   require_pixels("mask", options.mask.size());
+  const NoiseOfPair noise = noise_of_pair(options);
+  for (const PictureNoise* one : {noise.a, noise.b})
+    if (one) require_same_size(a, one->cautious);
 
   Comparison result;
   result.viewing = options.viewing;
@@ -171,10 +246,22 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     const auto shown = [&](const Image& image) {
       return DisplayLight::of(image, options.viewing.exposure_stops, options.viewing.display.get());
     };
-    result.metrics = measure_all(
-        {a, b, shown(a), shown(b), options.viewing.pixels_per_degree,
-         options.tolerance ? &*options.tolerance : nullptr,
-         options.viewing.hdr_exposures ? &*options.viewing.hdr_exposures : nullptr, options.mask});
+    const MetricInput input{
+        a,
+        b,
+        shown(a),
+        shown(b),
+        options.viewing.pixels_per_degree,
+        options.tolerance ? &*options.tolerance : nullptr,
+        options.viewing.hdr_exposures ? &*options.viewing.hdr_exposures : nullptr,
+        options.mask,
+        options.noise ? &noise : nullptr};
+    result.metrics = measure_all(input);
+    if (options.noise) result.uncertainty = uncertainty_of(input, options);
+  }
+  if (options.noise) {
+    judge_noisy(options, result);
+    return result;
   }
 
   std::vector<MetricLimit> limits = options.limits;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "compare/metrics/metric.hpp"
+#include "compare/uncertainty/error_bars.hpp"
+#include "compare/uncertainty/noise.hpp"
 #include "core/image.hpp"
 #include "core/record.hpp"
 
@@ -19,6 +21,15 @@ struct MetricLimit {
   double limit = 0;    ///< the last value that passes, see Better
 };
 
+/// What is known of the noise of the pictures, and how it is judged by.
+struct NoiseOptions {
+  std::optional<PictureNoise> a = {}, b = {};  ///< one of them at least
+  double significance =
+      0.01;                ///< chance of finding a difference beyond the noise where there is none
+  int bootstraps = 16;     ///< pairs that error bars are made of, see error_bars()
+  std::uint64_t seed = 0;  ///< of their noise
+};
+
 struct ComparisonOptions {
   Viewing viewing;
   std::vector<MetricLimit> limits;
@@ -27,28 +38,59 @@ struct ComparisonOptions {
   /// By pixel in reading order, not 0 where it is inside: errors are measured there as well, under
   /// ids that end in .mask. Empty for none.
   std::vector<std::uint8_t> mask = {};
+  std::optional<NoiseOptions> noise =
+      {};  ///< the verdict is then as compare/uncertainty/judgement.hpp has it
 };
 
 /// The limits where neither limits nor a tolerance were asked for.
 std::span<const MetricLimit> default_limits();
 
+/// From the best to the worst.
 enum class Verdict : std::uint8_t {
   kPass,
   kDiffers,    ///< over a limit, or more outliers than allowed
   kNonFinite,  ///< a NaN or an infinity in one of them: nothing was measured, nothing can pass
+  // Of pictures with noise:
+  kSame,       ///< every limit holds, wherever in their error bars the figures are
+  kDifferent,  ///< one is broken, wherever in its error bar the figure is
+  kUndecided,  ///< it is up to the noise: no pass
 };
-std::string_view verdict_name(Verdict verdict);  ///< "pass", "differs", "non-finite"
+/// "pass", "differs", "non-finite", "same", "different", "undecided"
+std::string_view verdict_name(Verdict verdict);
+bool is_pass(Verdict verdict);  ///< pass or same
 
 struct MetricValue {
   std::string_view id, meaning;
   double value = 0;
 };
 
+enum class Standing : std::uint8_t { kHolds, kBroken, kOpen };
+std::string_view standing_name(Standing standing);  ///< "holds", "broken", "open"
+
 struct LimitResult {
   std::string metric;
   double limit = 0;
   double value = 0;  ///< NaN where it could not be measured
   bool pass = false;
+  /// Of pictures with noise; only what holds passes.
+  std::optional<Standing> standing = {};
+  double more_samples = 0;  ///< how many times the samples would decide what is open, about
+};
+
+/// How the noise was taken into account.
+struct Uncertainty {
+  struct OfPicture {
+    double freedom = 0;   ///< degrees of freedom of a value's error
+    bool shared = false;  ///< pixels err together
+  };
+  std::optional<OfPicture> a, b;
+  double significance = 0;
+  double tests = 0, each = 0;  ///< how many values and regions were tested, and the level of each
+  int bootstraps = 0;
+  std::uint64_t seed = 0;
+  std::vector<ErrorBar> error_bars;  ///< in the order of the metrics
+
+  const ErrorBar* bar(std::string_view id) const;  ///< null for a figure that has none
 };
 
 /// How far two references are from each other: what no picture can be asked to be nearer than.
@@ -69,6 +111,7 @@ struct Comparison {
   std::optional<Tolerance> tolerance;
   std::optional<std::int64_t> mask_pixels;        ///< inside the mask, if there was one
   std::optional<ReferenceFloor> reference_floor;  ///< if there was a second reference
+  std::optional<Uncertainty> uncertainty;  ///< where noise was known and everything is finite
 
   /// The value of a metric, or NaN if it was not measured.
   double value(std::string_view id) const;

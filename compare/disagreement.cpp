@@ -35,6 +35,7 @@ std::vector<std::string> disagreements(std::span<const LimitResult> limits) {
   for (const LimitResult& failing : limits)
     for (const LimitResult& passing : limits) {
       if (failing.pass || !passing.pass || std::isnan(failing.value)) continue;
+      if (failing.standing == Standing::kOpen) continue;
       if (find_metric(failing.metric)->family == find_metric(passing.metric)->family) continue;
       const double over =
           share_of_limit(*find_metric_output(failing.metric), failing.value, failing.limit);

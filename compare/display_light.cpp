@@ -4,20 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "compare/tone_curve.hpp"
+
 namespace lobelia {
-
-namespace {
-
-/// In the tool's order of operations.
-double aces(float gain, float value) {
-  const float x = std::max(gain * value, 0.0f), square = x * x;
-  if (std::isinf(square)) return 1;
-  const float shown =
-      (square * kAces[0] + x * kAces[1] + kAces[2]) / (square * kAces[3] + x * kAces[4] + kAces[5]);
-  return double(std::clamp(shown, 0.0f, 1.0f));
-}
-
-}  // namespace
 
 DisplayLight::DisplayLight(const Image& image, double exposure_stops, ToneCurve curve)
     : image_(&image),
@@ -36,11 +25,21 @@ DisplayLight DisplayLight::of(const Image& image, double exposure_stops, const D
 Rgb DisplayLight::at(std::size_t index) const {
   const float* value = image_->values().data() + 3 * index;
   if (curve_ == ToneCurve::kAces) {
-    const auto gain = float(gain_);
-    return {aces(gain, value[0]), aces(gain, value[1]), aces(gain, value[2])};
+    float rgb[3];
+    aces_values(float(gain_), value, rgb, 3);
+    return {rgb[0], rgb[1], rgb[2]};
   }
   const auto shown = [this](float v) { return std::clamp(gain_ * double(v), 0.0, 1.0); };
   return {shown(value[0]), shown(value[1]), shown(value[2])};
+}
+
+void DisplayLight::fill(int y, int first, std::span<float> rgb) const {
+  const std::size_t start = std::size_t(y) * std::size_t(width()) + std::size_t(first);
+  const float* values = image_->values().data() + 3 * start;
+  if (curve_ == ToneCurve::kAces)
+    aces_values(float(gain_), values, rgb.data(), rgb.size());
+  else
+    clip_values(gain_, values, rgb.data(), rgb.size());
 }
 
 }  // namespace lobelia

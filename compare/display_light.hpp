@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "core/display_view.hpp"
 #include "core/image.hpp"
@@ -16,10 +17,6 @@ enum class ToneCurve : std::uint8_t {
   kClip,  ///< what is brighter than white is white
   kAces,  ///< K. Narkowicz's fit of the ACES reference curve, 2015, for 0.6 times the light, in float32
 };
-
-/// (c0 x^2 + c1 x + c2) / (c3 x^2 + c4 x + c5), with NVIDIA's FLIP tool's constants and their roundings.
-inline constexpr float kAces[6] = {0.6f * 0.6f * 2.51f, 0.6f * 0.03f, 0.0f,
-                                   0.6f * 0.6f * 2.43f, 0.6f * 0.59f, 0.14f};
 
 /// Display-referred linear light of a scene-linear picture: value * 2^exposure_stops through a tone
 /// curve to [0, 1]. Linear, not sRGB-encoded: a type of its own, so that a metric for shown light cannot be
@@ -35,6 +32,8 @@ class DisplayLight {
   std::size_t pixel_count() const { return image_->pixel_count(); }
   /// Pixel `index` in reading order.
   Rgb at(std::size_t index) const;
+  /// The same in float32: R, G and B of the rgb.size() / 3 pixels of row y from column `first` on.
+  void fill(int y, int first, std::span<float> rgb) const;
 
  private:
   std::shared_ptr<const Image> shown_;  ///< what a view made; null without one

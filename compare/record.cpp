@@ -1,8 +1,41 @@
 // A comparison as its record, docs/records.md.
+#include <utility>
+
 #include "compare/compare.hpp"
 
 namespace lobelia {
 namespace {
+
+void add_uncertainty(const Uncertainty& uncertainty, Json& record) {
+  Json object = Json::object();
+  for (const auto& [name, noise] : {std::pair("a", uncertainty.a), {"b", uncertainty.b}})
+    if (noise)
+      object[name] = {{"freedom", number_or_name(noise->freedom)}, {"shared", noise->shared}};
+  object["significance"] = uncertainty.significance;
+  object["tests"] = uncertainty.tests;
+  object["each"] = uncertainty.each;
+  object["bootstraps"] = uncertainty.bootstraps;
+  object["seed"] = uncertainty.seed;
+  record["uncertainty"] = std::move(object);
+  record["errorBars"] = Json::object();
+  for (const ErrorBar& bar : uncertainty.error_bars)
+    record["errorBars"][std::string(bar.id)] = {
+        {"standardError", number_or_name(bar.standard_error)},
+        {"noiseFloor", number_or_name(bar.floor)},
+        {"noiseFloorMost", number_or_name(bar.floor_most)},
+        {"low", number_or_name(bar.low)},
+        {"high", number_or_name(bar.high)}};
+}
+
+Json limit_entry(const LimitResult& limit) {
+  Json entry{{"metric", limit.metric},
+             {"limit", limit.limit},
+             {"value", number_or_name(limit.value)},
+             {"pass", limit.pass}};
+  if (limit.standing) entry["standing"] = standing_name(*limit.standing);
+  if (limit.standing == Standing::kOpen) entry["moreSamples"] = number_or_name(limit.more_samples);
+  return entry;
+}
 
 Json metrics_json(std::span<const MetricValue> metrics) {
   Json object = Json::object();
@@ -13,11 +46,7 @@ Json metrics_json(std::span<const MetricValue> metrics) {
 
 Json limits_json(std::span<const LimitResult> limits) {
   Json list = Json::array();
-  for (const LimitResult& limit : limits)
-    list.push_back({{"metric", limit.metric},
-                    {"limit", limit.limit},
-                    {"value", number_or_name(limit.value)},
-                    {"pass", limit.pass}});
+  for (const LimitResult& limit : limits) list.push_back(limit_entry(limit));
   return list;
 }
 
@@ -48,6 +77,7 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
   record["limits"] = limits_json(comparison.limits);
   if (!comparison.warnings.empty()) record["warnings"] = limits_json(comparison.warnings);
   record["disagreement"] = comparison.disagreement;
+  if (comparison.uncertainty) add_uncertainty(*comparison.uncertainty, record);
   if (comparison.tolerance)
     record["tolerance"] = {{"relative", comparison.tolerance->relative},
                            {"ofPeak", comparison.tolerance->of_peak},

@@ -35,7 +35,13 @@ const ImageIoTable& module() {
 
 }  // namespace
 
-Image read_image(const fs::path& path) { return module().read_image(path); }
+Picture read_picture(const fs::path& path, const std::string& layer) {
+  return module().read_picture(path, layer);
+}
+
+Image read_image(const fs::path& path) { return read_picture(path, "").image; }
+
+std::vector<std::string> layer_names(const fs::path& path) { return module().layer_names(path); }
 
 void write_exr(const fs::path& path, const Image& image, const ImageMetadata& metadata) {
   ExrWriter writer(path, image.width(), image.height(), metadata);

@@ -7,16 +7,27 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "core/image.hpp"
+#include "core/picture.hpp"
 
 namespace lobelia {
 
-/// Reads RGB (or grey, repeated) of any format that OpenImageIO knows into scene-linear float;
-/// display-encoded (sRGB) files are decoded. Alpha and further channels are dropped.
-/// Throws Error(kInput): missing, not a picture, truncated, over kMaxImageSide or kMaxImagePixels.
+/// Reads a layer (core/picture_layers.hpp; "" is the picture itself) of any format that OpenImageIO knows
+/// into scene-linear float RGB, grey repeated: decoded from the curve that transfer_curve() says, colours of a
+/// file that are not multiplied by its alpha multiplied afterwards, in light. The image is the display window.
+/// Integers are 1 at their largest; in an EXR they are numbers, as they are. Of a MIP map the first level.
+/// Throws Error(kInput): missing, not a regular file, not a picture, truncated, over kMaxImageSide or
+/// kMaxImagePixels in either window, deep, CMYK or Lab, without that layer.
+Picture read_picture(const std::filesystem::path& path, const std::string& layer);
+
+/// The same of the picture itself.
 Image read_image(const std::filesystem::path& path);
+
+/// Every layer that the file has, the picture ("") first if it has one. Errors as read_picture.
+std::vector<std::string> layer_names(const std::filesystem::path& path);
 
 /// Writes a float32 OpenEXR with ZIP compression, by ExrWriter (core/exr_writer.hpp): the bytes depend on
 /// the arguments alone. Throws Error(kOutput); never leaves a partial file under `path`.

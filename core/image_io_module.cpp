@@ -8,68 +8,204 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
+#include "core/picture_bytes.hpp"
+#include "core/picture_layers.hpp"
+#include "core/picture_window.hpp"
 #include "core/text.hpp"
+#include "core/transfer_curve.hpp"
 
 namespace lobelia {
 namespace {
 
 [[noreturn]] void unreadable(const std::filesystem::path& path, std::string_view why) {
-  throw Error(ExitCode::kInput,
-              fmt::format("{}: not a readable picture: {}", path.string(), printable(why, 300)));
+  // The library gives one line to each thing that it noticed.
+  const std::vector<std::string> lines = split(why, "\n");
+  std::vector<std::string_view> views(lines.begin(), lines.end());
+  if (views.empty()) views.push_back("its values cannot be decoded");
+  throw Error(ExitCode::kInput, fmt::format("{}: not a readable picture: {}", path.string(),
+                                            printable(join(views, "; "), 300)));
 }
 
-void check_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
-    unreadable(path, "it has no pixels");
-  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
-      spec.height != spec.full_height)
-    unreadable(path, "it is a crop: its data window differs from its display window");
-  if (spec.width > kMaxImageSide || spec.height > kMaxImageSide ||
-      std::int64_t{spec.width} * spec.height > kMaxImagePixels || spec.nchannels > 1024)
-    unreadable(
-        path, fmt::format("{} x {} pixels, {} channels; at most {} a side and {} in all are read",
-                          spec.width, spec.height, spec.nchannels, kMaxImageSide, kMaxImagePixels));
-}
+/// A file's parts beyond are not looked for: frames of a film, or a damaged directory.
+constexpr int kMaxParts = 1024;
+constexpr int kMaxChannels = 1024;
 
-/// Whether the values are display-encoded: what the file says, or else integers are and floats are
-/// not. A PNG that says "gamma 1/2.2" means sRGB: that is how its writers approximate it.
-bool is_srgb(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
-  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-  if (space.empty()) return !spec.format.is_floating_point();
-  if (space == "sRGB") return true;
-  if (space == "Linear" || space == "linear" || space == "scene_linear") return false;
-  const float gamma = spec.get_float_attribute("oiio:Gamma", 1);
-  if (std::abs(gamma - 2.2f) < 0.05f) return true;
-  if (std::abs(gamma - 1.0f) < 0.01f) return false;
-  unreadable(path, fmt::format("its colour space is '{}'; sRGB and linear are read", space));
-}
-
-Image read(const std::filesystem::path& path) {
+std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   std::error_code status;
   if (!std::filesystem::exists(path, status)) unreadable(path, "no such file");
+  // A pipe would be waited for.
   if (!std::filesystem::is_regular_file(path, status)) unreadable(path, "not a regular file");
-  const auto input = OIIO::ImageInput::open(path.string());
+  // OpenImageIO 2.4 writes past its memory as it opens a damaged one.
+  if (is_iff(path))
+    unreadable(path, "IFF is not read, because a damaged file would end the program");
+  if (is_exr_that_claims_too_much(path))
+    unreadable(path, "its header claims more than the file has");
+  OIIO::ImageSpec wishes;
+  // Otherwise a PNG's colours are multiplied by alpha while they are encoded, which is no light.
+  wishes.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path.string(), &wishes);
   if (!input) unreadable(path, OIIO::geterror());
-  const OIIO::ImageSpec spec = input->spec();
-  check_size(path, spec);
-  Image image(spec.width, spec.height);
-  const int channels = spec.nchannels >= 3 ? 3 : 1;
-  std::vector<float> grey;
-  float* target = image.values().data();
-  if (channels == 1) {
-    grey.resize(image.pixel_count());
-    target = grey.data();
+  // Any file of that ending would be a black picture.
+  if (std::string_view(input->format_name()) == "null")
+    unreadable(path, "its name makes it OpenImageIO's picture without a file");
+  return input;
+}
+
+/// By an input of its own: some readers cannot forget that they were asked for a part that there is not.
+std::vector<PicturePart> parts_of(const std::filesystem::path& path) {
+  const auto input = open(path);
+  std::vector<PicturePart> parts;
+  for (int i = 0; i < kMaxParts && input->seek_subimage(i, 0); ++i) {
+    const OIIO::ImageSpec spec = input->spec(i);
+    const auto count = std::size_t(std::clamp(spec.nchannels, 0, kMaxChannels));
+    PicturePart part{std::string(spec.get_string_attribute("oiio:subimagename")), {}};
+    for (std::size_t c = 0; c < std::min(count, spec.channelnames.size()); ++c)
+      part.channels.push_back(spec.channelnames[c]);
+    parts.push_back(std::move(part));
   }
-  if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, target))
-    unreadable(path, input->geterror());
-  for (std::size_t i = 0; i < grey.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) image.values()[3 * i + c] = grey[i];
-  if (is_srgb(path, spec)) decode_srgb(image);
+  return parts;
+}
+
+PixelWindow data_window(const OIIO::ImageSpec& spec) {
+  return {spec.x, spec.y, spec.width, spec.height};
+}
+
+/// What is the picture. Elsewhere than in an EXR a window that leaves the other is a place on a page.
+PixelWindow display_window(const OIIO::ImageSpec& spec, std::string_view format) {
+  const PixelWindow data = data_window(spec);
+  const PixelWindow display{spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+  const bool inside =
+      display.x <= data.x && display.y <= data.y &&
+      std::int64_t{data.x} + data.width <= std::int64_t{display.x} + display.width &&
+      std::int64_t{data.y} + data.height <= std::int64_t{display.y} + display.height;
+  return inside || format == "openexr" ? display : data;
+}
+
+void check(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+           std::string_view format) {
+  if (spec.deep) unreadable(path, "it is deep: a pixel has many values; flatten it first");
+  if (spec.depth > 1) unreadable(path, fmt::format("it is a volume, {} pictures deep", spec.depth));
+  if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
+    unreadable(path,
+               fmt::format("it has {} channels; 1 to {} are read", spec.nchannels, kMaxChannels));
+  const PixelWindow data = data_window(spec);
+  if (const std::string problem = window_problem("its data window", data); !problem.empty())
+    unreadable(path, problem);
+  const PixelWindow display = display_window(spec, format);
+  if (const std::string problem = window_problem("its display window", display); !problem.empty())
+    unreadable(path, problem);
+  if (are_apart(data, display)) unreadable(path, "its data window lies outside its display window");
+  // OpenImageIO would make RGB of them, without the profile that says what they look like.
+  for (const char* attribute : {"tiff:ColorSpace", "jpeg:ColorSpace", "oiio:ColorSpace"}) {
+    const std::string space = spec.get_string_attribute(attribute);
+    for (const char* other : {"CMYK", "YCbCrK", "color separated", "CIELAB", "ICCLAB", "ITULAB"})
+      if (space == other)
+        unreadable(path, fmt::format("its colours are {}; RGB and grey are read", space));
+  }
+}
+
+/// A part of a file, opened for its values.
+struct Reader {
+  const std::filesystem::path& path;
+  OIIO::ImageInput& input;
+  int part;
+  const OIIO::ImageSpec& spec;
+
+  /// Channels [first, first + count) into every `stride`-th float of `values`.
+  void read(int first, int count, float* values, std::size_t stride) const {
+    if (is_number(first)) {
+      for (int c = 0; c < count; ++c) read_numbers(first + c, values + c, stride);
+      return;
+    }
+    read_as(OIIO::TypeDesc::FLOAT, first, count, values, OIIO::stride_t(stride * sizeof(float)));
+  }
+
+ private:
+  /// An id in an EXR: OpenImageIO would make shares of 4294967295 of it.
+  bool is_number(int channel) const {
+    return spec.channelformat(channel) == OIIO::TypeDesc::UINT32 &&
+           std::string_view(input.format_name()) == "openexr";
+  }
+  void read_numbers(int channel, float* values, std::size_t stride) const {
+    std::vector<std::uint32_t> numbers(std::size_t(spec.width) * spec.height);
+    read_as(OIIO::TypeDesc::UINT32, channel, 1, numbers.data(), OIIO::AutoStride);
+    for (std::size_t i = 0; i < numbers.size(); ++i) values[i * stride] = float(numbers[i]);
+  }
+  void read_as(OIIO::TypeDesc type, int first, int count, void* values,
+               OIIO::stride_t stride) const {
+    const bool read = input.read_image(part, 0, first, first + count, type, values, stride);
+    // Some readers leave out what is missing of a file, and succeed.
+    if (!read || input.has_error()) unreadable(path, input.geterror());
+  }
+};
+
+Image read_channels(const Reader& reader, const std::vector<std::size_t>& where) {
+  Image image(reader.spec.width, reader.spec.height);
+  float* values = image.values().data();
+  const bool in_order = where.size() == 3 && where[1] == where[0] + 1 && where[2] == where[0] + 2;
+  if (in_order) {
+    reader.read(int(where[0]), 3, values, 3);
+    return image;
+  }
+  for (std::size_t c = 0; c < where.size(); ++c) reader.read(int(where[c]), 1, values + c, 3);
+  if (where.size() == 1)
+    for (std::size_t i = 0; i < image.values().size(); i += 3)
+      values[i + 1] = values[i + 2] = values[i];
   return image;
+}
+
+void multiply_by_alpha(const Reader& reader, Image& image) {
+  std::vector<float> alpha(image.pixel_count());
+  reader.read(reader.spec.alpha_channel, 1, alpha.data(), 1);
+  for (std::size_t i = 0; i < alpha.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) image.values()[3 * i + c] *= alpha[i];
+}
+
+Picture read(const std::filesystem::path& path, const std::string& layer_name) {
+  const std::vector<PicturePart> parts = parts_of(path);
+  const auto input = open(path);
+  const PictureLayer layer = find_layer(path.string(), parts, layer_name);
+  const int part = int(layer.part);
+  const OIIO::ImageSpec spec = input->spec(part);
+  const std::string format = input->format_name();
+  if (is_cut_off(path, format)) unreadable(path, "it is cut off");
+  check(path, spec, format);
+
+  Picture picture;
+  PictureSource& source = picture.source;
+  const OIIO::TypeDesc type = spec.channelformat(int(layer.where[0]));
+  TransferCurve curve{TransferCurve::Kind::kLinear, 1, "linear"};
+  if (layer.is_colour && !(format == "openexr" && type == OIIO::TypeDesc::UINT32)) {
+    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+    curve = transfer_curve(path.string(), {format, space, spec.get_float_attribute("oiio:Gamma", 1),
+                                           type.is_floating_point()});
+  }
+  const Reader reader{path, *input, part, spec};
+  Image image = read_channels(reader, layer.where);
+  decode(curve, image);
+  source.multiplied_by_alpha = layer.is_colour && spec.alpha_channel >= 0 &&
+                               spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 1;
+  if (source.multiplied_by_alpha) multiply_by_alpha(reader, image);
+
+  source.format = format;
+  source.layer = layer.name;
+  for (const std::size_t c : layer.where) source.channels.push_back(parts[layer.part].channels[c]);
+  source.value_type = type.c_str();
+  source.transfer = curve.name;
+  source.icc_profile = spec.get_string_attribute("ICCProfile:profile_description");
+  source.data = data_window(spec);
+  source.display = display_window(spec, format);
+  picture.image = place(std::move(image), source.data, source.display);
+  return picture;
+}
+
+std::vector<std::string> list_layers(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  for (const PictureLayer& layer : picture_layers(parts_of(path))) names.push_back(layer.name);
+  return names;
 }
 
 std::vector<std::uint8_t> encode(const char* extension, OIIO::ImageSpec spec, OIIO::TypeDesc type,
@@ -119,5 +255,5 @@ ColourTable table_of_colours(std::string_view name) {
 
 extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
-const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::encode_png,
-                                                      lobelia::table_of_colours};
+const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read, lobelia::list_layers,
+                                                      lobelia::encode_png, lobelia::table_of_colours};

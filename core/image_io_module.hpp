@@ -7,7 +7,8 @@ namespace lobelia {
 
 /// The functions of image_io.hpp, found by name in the module.
 struct ImageIoTable {
-  Image (*read_image)(const std::filesystem::path&);
+  Picture (*read_picture)(const std::filesystem::path&, const std::string&);
+  std::vector<std::string> (*layer_names)(const std::filesystem::path&);
   std::vector<std::uint8_t> (*encode_png)(const DisplayImage&, const ImageMetadata&);
   ColourTable (*colour_table)(std::string_view);
 };

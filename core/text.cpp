@@ -114,7 +114,7 @@ bool parse_integer(std::string_view text, long long& value) { return parse_whole
 std::string escape_markup(std::string_view text) {
   std::string result;
   result.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : valid_utf8(text)) {
     switch (c) {
       case '&':
         result += "&amp;";

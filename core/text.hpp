@@ -28,7 +28,7 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
 /// Reads exactly one finite decimal number, nothing before or after it.
 bool parse_number(std::string_view text, double& value);
 bool parse_integer(std::string_view text, long long& value);
-/// & < > " ' escaped; control characters dropped: safe inside HTML, XML text and quoted attributes.
+/// & < > " ' escaped; control characters dropped; valid UTF-8: safe inside HTML, XML text and quoted attributes.
 std::string escape_markup(std::string_view text);
 /// The argument as a POSIX shell reads it back: quoted only where it has to be.
 std::string shell_quote(std::string_view argument);

@@ -75,6 +75,8 @@ Json CellStore::inputs(const std::string& engine_version) const {
 bool CellStore::has_current_image(const std::string& engine, const std::string& kind,
                                   const Json& inputs) const {
   const auto record = current_record(file(engine + ".json"), kind, inputs);
+  if (record && record->contains("standardError") && size_of(file(error_file(engine))) == 0)
+    return false;
   return record && record->contains("bytes") && size_of(file(engine + ".exr")) > 0 &&
          record->at("bytes") == size_of(file(engine + ".exr"));
 }
@@ -98,11 +100,18 @@ void CellStore::discard_image(const std::string& engine) const {
 }
 
 void CellStore::store_image(const std::string& engine, const Image& image,
-                            const ImageMetadata& metadata, Json record) const {
+                            const Image& standard_error, const ImageMetadata& metadata,
+                            Json record) const {
   write_exr(file(engine + ".exr"), image, metadata);
+  if (standard_error.pixel_count() > 0) {
+    record["standardError"] = error_file(engine);
+    write_exr(file(error_file(engine)), standard_error, metadata);
+  }
   record["bytes"] = size_of(file(engine + ".exr"));
   write_record(file(engine + ".json"), record);
 }
+
+std::string error_file(const std::string& engine) { return engine + "-error.exr"; }
 
 double brightest(const Image& image) {
   double peak = 0;

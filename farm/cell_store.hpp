@@ -37,15 +37,19 @@ class CellStore {
   /// Removes the record of a picture that turned out to be unreadable: it will be made again.
   void discard_image(const std::string& engine) const;
 
-  /// Writes the picture, then its record, because that says that the picture is there.
-  void store_image(const std::string& engine, const Image& image, const ImageMetadata& metadata,
-                   Json record) const;
+  /// Writes the picture, that of its standard errors unless it is empty, then its record, because that says that
+  /// they are there.
+  void store_image(const std::string& engine, const Image& image, const Image& standard_error,
+                   const ImageMetadata& metadata, Json record) const;
 
  private:
   const Cell* cell_;
   std::filesystem::path directory_;
   std::string scene_xml_;
 };
+
+/// The name of the picture of standard errors beside an engine's picture.
+std::string error_file(const std::string& engine);
 
 /// The exposure at which a cell is looked at: the brightest value of our picture becomes white.
 double cell_exposure(const Image& ours);

@@ -21,6 +21,8 @@
 #include "core/host.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/reference_metadata.hpp"
+#include "reference_scenes/replicates.hpp"
+#include "renderer/render_error.hpp"
 #include "renderer/render_record.hpp"
 
 namespace lobelia {
@@ -165,7 +167,11 @@ class Farm {
       Json record = render_record(cells_[i].scene, result,
                                   {"lobelia", "render", "scene.xml", "-o", file}, file);
       record["inputs"] = stores_[i].inputs("");
-      stores_[i].store_image(kOurs, result.image, render_metadata(cells_[i].scene), record);
+      // An engine's average is compared with it, by the noise of both.
+      const Image error = needs_replicates(cells_[i].scene)
+                              ? standard_error_of_render(cells_[i].scene, single)
+                              : Image();
+      stores_[i].store_image(kOurs, result.image, error, render_metadata(cells_[i].scene), record);
       progress_.step(kOurs);
     });
     summary_.rendered += todo.size();
@@ -248,7 +254,7 @@ class Farm {
         {"file", file}, {"width", result.image.width()}, {"height", result.image.height()}};
     const ImageMetadata metadata = reference_metadata(cells_[i].scene, result.record);
     result.record["inputs"] = stores_[i].inputs(here.version);
-    stores_[i].store_image(here.name, result.image, metadata, result.record);
+    stores_[i].store_image(here.name, result.image, result.standard_error, metadata, result.record);
     const std::scoped_lock lock(mutex_);
     ++summary_.rendered;
   }
@@ -346,6 +352,7 @@ class Farm {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (status_[i] == "pass") ++summary_.pass;
       if (status_[i] == "differs") ++summary_.differs;
+      if (status_[i] == "undecided") ++summary_.undecided;
       if (status_[i] == "unchecked") ++summary_.unchecked;
       if (status_[i] == "failed") ++summary_.failed;
       if (status_[i] == "missing") ++summary_.missing;

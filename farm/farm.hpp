@@ -32,6 +32,7 @@ struct FarmOptions {
 struct FarmSummary {
   std::size_t cells = 0, pass = 0, differs = 0, failed = 0, missing = 0;
   std::size_t foreign = 0;                  ///< directories under cells/ that are not of this grid
+  std::size_t undecided = 0;                ///< cells whose pictures are too noisy to tell
   std::size_t unchecked = 0;                ///< cells with no engine to compare with
   std::size_t rendered = 0, kept = 0;       ///< pictures
   std::vector<std::string> absent_engines;  ///< sentences: which, why, how to get it

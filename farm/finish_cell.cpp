@@ -6,7 +6,9 @@
 #include "core/image_io.hpp"
 #include "farm/agreement.hpp"
 #include "farm/profile_scene.hpp"
+#include "reference_scenes/engine.hpp"
 #include "renderer/pixel_ray.hpp"
+#include "renderer/render_error.hpp"
 #include "renderer/render_record.hpp"
 #include "verify/truth/evaluation.hpp"
 
@@ -29,18 +31,37 @@ Image read_or_discard(const CellStore& store, const std::string& engine) {
   }
 }
 
-/// Writes the comparison with one reference; returns its entry in cell.json and its verdict.
+/// Whether the errors of a picture that is an average lie beside it.
+bool has_error(const CellStore& store, const std::string& engine) {
+  std::error_code ignored;
+  return std::filesystem::exists(store.file(error_file(engine)), ignored);
+}
+
+/// Ours are of samples that each pixel has for itself, an engine's of points that all pixels share.
+NoiseOptions noise_of(const CellStore& store, const std::string& engine) {
+  const auto noise = [&](const std::string& name, int freedom, bool shared) {
+    return noise_of_standard_errors(read_image(store.file(error_file(name))), freedom, shared);
+  };
+  return {.a = noise(kOurs, kErrorFreedom, false), .b = noise(engine, kReplicates - 1, true)};
+}
+
+/// Writes the comparison with one reference; returns its entry in cell.json and its verdict. Where `noisy`, the
+/// tolerance is what rounding may do, and the usual limits say how fine the answer has to be.
 std::pair<Json, Verdict> compare_with(const CellStore& store, const std::string& engine,
                                       const Image& ours, const Image& reference, double exposure,
-                                      const std::vector<std::uint8_t>& edges) {
+                                      const std::vector<std::uint8_t>& edges, bool noisy) {
   ComparisonOptions options;
   options.viewing.exposure_stops = exposure;
   options.tolerance = agreement(engine, edges);
+  if (noisy) {
+    options.limits.assign(default_limits().begin(), default_limits().end());
+    options.noise = noise_of(store, engine);
+  }
   const Comparison comparison = compare(ours, reference, options);
 
   const std::string name = std::string(kOurs) + "-" + engine;
-  // White is what the tolerance allows at the brightest place.
-  const double relative = options.tolerance->relative + options.tolerance->of_peak;
+  // White is what the tolerance allows at the brightest place, and a tenth of the peak where there is noise.
+  const double relative = noisy ? 0.1 : options.tolerance->relative + options.tolerance->of_peak;
   const double white_at = relative * brightest(reference);
   write_png(store.file(name + ".png"), difference_picture(ours, reference, white_at));
   write_record(store.file(name + ".json"),
@@ -71,22 +92,29 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   const Image& ours = pictures.front().second;
   const double exposure = cell_exposure(ours);
   // A tolerance for each pixel is one of pictures without noise.
-  const bool judged = truth::why_not_evaluated(cell.scene).empty();
-  if (!judged)
-    for (const auto& engine : references)
+  const bool exact = truth::why_not_evaluated(cell.scene).empty();
+  const auto is_judged = [&](const std::string& engine) {
+    return engine != kOurs && (exact || (has_error(store, kOurs) && has_error(store, engine)));
+  };
+  bool judged = false;
+  for (std::size_t i = 1; i < pictures.size(); ++i) {
+    const std::string& engine = pictures[i].first;
+    if (is_judged(engine))
+      judged = true;
+    else
       not_comparable.push_back(
           {engine,
-           "its picture is an average with noise, and no tolerance of single pixels judges that"});
+           "its picture may have noise that is not known, and no tolerance of single pixels "
+           "judges that"});
+  }
   const auto edges =
-      judged && pictures.size() > 1 ? truth::edge_ring(cell.scene) : std::vector<std::uint8_t>();
+      exact && pictures.size() > 1 ? truth::edge_ring(cell.scene) : std::vector<std::uint8_t>();
 
   Json record = make_record("cell");
   record["id"] = cell.id;
   record["axes"] = Json::object();
   for (const auto& [name, value] : cell.axes) record["axes"][name] = value;
-  std::string status = !problems.empty()               ? "failed"
-                       : judged && pictures.size() > 1 ? "pass"
-                                                       : "unchecked";
+  std::string status = !problems.empty() ? "failed" : judged ? "pass" : "unchecked";
   record["status"] = status;  // keeps its place near the top
   if (!cell.scene.spheres.empty())
     record["highlight"] = highlight_record(
@@ -97,10 +125,11 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   for (const auto& [engine, image] : pictures) {
     write_png(store.file(engine + ".png"), to_display(image, exposure));
     record["images"].push_back(image_entry(engine));
-    if (engine == kOurs || !judged) continue;
-    const auto [entry, verdict] = compare_with(store, engine, ours, image, exposure, edges);
+    if (!is_judged(engine)) continue;
+    const auto [entry, verdict] = compare_with(store, engine, ours, image, exposure, edges, !exact);
     record["comparisons"].push_back(entry);
-    if (verdict != Verdict::kPass && status == "pass") status = "differs";
+    if (is_pass(verdict) || status == "failed" || status == "differs") continue;
+    status = verdict == Verdict::kUndecided ? "undecided" : "differs";
   }
   if (!cell.scene.lights.empty() && !cell.scene.spheres.empty() &&
       beyond_single_rays(cell.scene).empty()) {

@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compare/profile/radiance_at.hpp"
 #include "core/error.hpp"
 #include "renderer/highlight_map.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/reflector.hpp"
+#include "renderer/render_record.hpp"
 
 namespace lobelia {
 namespace {
@@ -19,26 +25,51 @@ void require_index(const char* what, int index, std::size_t count) {
                                          what, index, count - 1));
 }
 
+/// The diffuse base under one light, as the mean of R, G and B; 0 where the light does not reach.
+std::vector<double> diffuse_radiance(const Scene& scene, int light, int sphere) {
+  const Rgb albedo = scene.materials.at(std::size_t(scene.spheres.at(std::size_t(sphere)).material))
+                         .diffuse_reflectance;
+  std::vector<double> radiance(std::size_t(scene.film.width) * scene.film.height, 0.0);
+  if (is_black(albedo)) return radiance;
+  for_each_pixel_of(scene, sphere, [&](std::size_t i, const Hit& hit, Vec3) {
+    if (const auto here = light_at(scene, light, hit)) {
+      const Rgb reflected = here->irradiance * albedo;
+      radiance[i] = dot(hit.normal, here->to_light) * std::numbers::inv_pi *
+                    (reflected.r + reflected.g + reflected.b) / 3;
+    }
+  });
+  return radiance;
+}
+
+/// The line in which the picture shows the plane of incidence, towards the light. It goes through the eye, the
+/// sphere's centre and the light, for by symmetry the highlight's middle lies between the last two.
+std::optional<FilmPoint> plane_of_incidence(const Scene& scene, int light, int sphere) {
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const Vec3 centre = scene.spheres.at(std::size_t(sphere)).center;
+  const Vec3 to_eye = normalize(frame.origin - centre);
+  const Vec3 to_light = illuminate(scene.lights.at(std::size_t(light)), centre).to_light;
+  const Vec3 normal = cross(to_eye, to_light);
+  // Nearer to one line than the rounding of its own places.
+  if (!(length(normal) > 1e-9)) return std::nullopt;
+  const double x = dot(normal, frame.up), y = dot(normal, frame.right), size = std::hypot(x, y);
+  if (!(size > 0)) return std::nullopt;
+  return FilmPoint{x / size, y / size};
+}
+
 }  // namespace
 
-Image analytic_image(const Scene& scene, int sphere_index) {
-  const Sphere& sphere = scene.spheres.at(std::size_t(sphere_index));
-  const Reflector reflector(scene.materials.at(std::size_t(sphere.material)));
-  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+Image analytic_image(const Scene& scene, int sphere) {
+  const Reflector reflector(
+      scene.materials.at(std::size_t(scene.spheres.at(std::size_t(sphere)).material)));
   Image image(scene.film.width, scene.film.height);
-  for (int y = 0; y < scene.film.height; ++y)
-    for (int x = 0; x < scene.film.width; ++x) {
-      const Vec3 ray = normalize(centre_ray(frame, x, y));
-      const auto hit = nearest_hit(scene, frame.origin, ray);
-      if (!hit || hit->sphere != sphere_index) continue;
-      Rgb radiance;
-      for (const Light& light : scene.lights) {
-        const Illumination here = illuminate(light, hit->point);
-        radiance = radiance + here.irradiance * reflector.eval(hit->normal, -ray, here.to_light);
-      }
-      const auto pixel = image.pixel(x, y);
-      pixel[0] = float(radiance.r), pixel[1] = float(radiance.g), pixel[2] = float(radiance.b);
-    }
+  for_each_pixel_of(scene, sphere, [&](std::size_t i, const Hit& hit, Vec3 to_eye) {
+    Rgb radiance;
+    for (int light = 0; light < int(scene.lights.size()); ++light)
+      if (const auto here = light_at(scene, light, hit))
+        radiance = radiance + here->irradiance * reflector.eval(hit.normal, to_eye, here->to_light);
+    float* pixel = image.values().data() + 3 * i;
+    pixel[0] = float(radiance.r), pixel[1] = float(radiance.g), pixel[2] = float(radiance.b);
+  });
   return image;
 }
 
@@ -63,8 +94,9 @@ Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages&
   one_light.lights = {scene.lights[std::size_t(light)]};
   const Image analytic = analytic_image(one_light, sphere);
   std::vector<Image> single;
+  Image with_all;
   if (scene.lights.size() > 1) {
-    const Image with_all = analytic_image(scene, sphere);
+    with_all = analytic_image(scene, sphere);
     for (const auto& [name, image] : images) {
       single.push_back(*image);
       const std::span<float> values = single.back().values();
@@ -80,16 +112,53 @@ Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages&
   for (std::size_t k = 2; k < all.size(); ++k) pairs.emplace_back(1, k);
   for (std::size_t k = 1; k < all.size(); ++k) pairs.emplace_back(k, 0);
 
-  const int material = scene.spheres[std::size_t(sphere)].material;
-  const Highlight& highlight = scene.materials.at(std::size_t(material)).highlight;
+  const Material& material =
+      scene.materials.at(std::size_t(scene.spheres[std::size_t(sphere)].material));
+  const Highlight& highlight = material.highlight;
   const PreparedLobe lobe = prepare(highlight.lobe, highlight.exponent);
   const HighlightMap map = highlight_map(scene, light, sphere);
-  const Profile profile =
-      measure_profile({map.angle, map.solid_angle, lobe_angle_at(lobe, kEpicentreLobe),
-                       lobe_angle_at(lobe, kBloomingLobe)},
-                      all, pairs);
+  const std::vector<double> diffuse = diffuse_radiance(scene, light, sphere);
+  ProfileGeometry geometry;
+  geometry.angle = map.angle;
+  geometry.solid_angle = map.solid_angle;
+  for (std::size_t zone = 0; zone < kZoneCount; ++zone)
+    geometry.ends[zone] = lobe_angle_at(lobe, kZones[zone].lobe);
+  if (has_highlight(material)) {
+    geometry.width = map.width;
+    geometry.scale = map.scale;
+    geometry.base = diffuse;
+    geometry.incidence = plane_of_incidence(scene, light, sphere);
+  }
+  const Profile profile = measure_profile(geometry, all, pairs);
   const bool reflection = info(highlight.model).angle == LobeAngle::kReflection;
-  return profile_record(profile, light, sphere, reflection ? "reflection" : "half_vector");
+  Json record = profile_record(profile, light, sphere, reflection ? "reflection" : "half_vector");
+  if (has_highlight(material)) {
+    record["lobe"] = highlight_record(highlight);
+    // As the mean of R, G and B, where it is largest in the lobe.
+    double peak = 0, of_diffuse = 0, of_others = 0;
+    for (std::size_t i = 0; i < map.angle.size(); ++i) {
+      if (!(map.angle[i] < geometry.ends.back())) continue;
+      const double alone = radiance_at(analytic, i);
+      peak = std::max(peak, alone - diffuse[i]);
+      of_diffuse = std::max(of_diffuse, diffuse[i]);
+      if (!single.empty()) of_others = std::max(of_others, radiance_at(with_all, i) - alone);
+    }
+    record["subtracted"] = {{"diffuseOfPeak", number_or_name(of_diffuse / peak)},
+                            {"otherLightsOfPeak", number_or_name(of_others / peak)}};
+  }
+  return record;
+}
+
+std::vector<std::pair<int, int>> highlights_of(const Scene& scene) {
+  require_single_rays(scene, "a highlight's profile");
+  std::vector<std::pair<int, int>> found;
+  for (int sphere = 0; sphere < int(scene.spheres.size()); ++sphere) {
+    const int material = scene.spheres[std::size_t(sphere)].material;
+    if (!has_highlight(scene.materials.at(std::size_t(material)))) continue;
+    for (int light = 0; light < int(scene.lights.size()); ++light)
+      found.emplace_back(sphere, light);
+  }
+  return found;
 }
 
 }  // namespace lobelia

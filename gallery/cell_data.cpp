@@ -87,7 +87,8 @@ void read_comparison_record(const Json& record, CellComparison& comparison) {
   if (const auto metrics = fields.object("metrics")) comparison.metrics = metrics->number_members();
   for (const Fields& limit : fields.objects("limits")) {
     comparison.limits.push_back({limit.text("metric"), limit.number("limit").value_or(0),
-                                 limit.number("value").value_or(0), limit.flag("pass")});
+                                 limit.number("value").value_or(0), limit.flag("pass"),
+                                 limit.text("standing") == "open"});
   }
   if (const auto tolerance = fields.object("tolerance")) {
     comparison.tolerance = Tolerance{tolerance->number("relative"), tolerance->number("ofPeak"),
@@ -125,7 +126,7 @@ void read_cell_record(const fs::path& directory, const Json& record, CellData& c
   if (const auto status = find_status(fields.text("status"))) {
     cell.status = *status;
   } else {
-    fields.fail("status", "must be pass, differs, failed or missing");
+    fields.fail("status", "must be pass, differs, undecided, failed, unchecked or missing");
   }
   cell.made_by = fields.text("madeBy");
   if (const auto highlight = fields.object("highlight")) {

@@ -37,6 +37,7 @@ struct MetricLimit {
   std::string metric;
   double limit = 0, value = 0;
   bool pass = false;
+  bool open = false;  ///< it is up to the noise
 };
 
 struct Tolerance {

@@ -49,6 +49,9 @@ struct FigureTitle {
 std::string three_digits(double value) { return number_text(value); }
 // Enough to see engines apart that agree to four.
 std::string five_digits(double value) { return number_text(value, 5); }
+// What float32 tells of an exponent.
+std::string seven_digits(double value) { return number_text(value, 7); }
+std::string two_digits(double value) { return number_text(value, 2); }
 std::string per_cent(double value) { return percent_text(value); }
 
 FigureTitle figure_title(const std::string& id) {
@@ -57,6 +60,8 @@ FigureTitle figure_title(const std::string& id) {
       {"peakAngleDegrees", {"At angle", degrees_text}},
       {"halfWidthDegrees", {"Half-width", degrees_text}},
       {"energy", {"Energy", five_digits}},
+      {"exponent", {"n as a cosine lobe", seven_digits}},
+      {"standardError", {"± of n", two_digits}},
       {"pixels", {"Pixels", count_text}},
       {"maxAbs", {"Largest difference", three_digits}},
       {"rms", {"Root mean square", three_digits}},
@@ -109,14 +114,6 @@ std::string pair_title(const FarmData& farm, const std::string& pair) {
   return curve_title(farm, pair.substr(0, dash)) + " − " + curve_title(farm, pair.substr(dash + 1));
 }
 
-std::string zone_title(const std::string& zone) {
-  return zone == "blooming" ? "blooming zone" : zone;
-}
-
-std::string range_text(const AngleRange& range) {
-  return degrees_text(range.from) + " to " + degrees_text(range.to);
-}
-
 }  // namespace
 
 void write_profile(Html& html, const FarmData& farm, const CellData& cell) {
@@ -142,8 +139,8 @@ void write_profile(Html& html, const FarmData& farm, const CellData& cell) {
       }
     }
     std::string caption = "Differences by zone";
-    if (profile.epicentre) caption += "; epicentre " + range_text(*profile.epicentre);
-    if (profile.blooming) caption += "; blooming zone " + range_text(*profile.blooming);
+    for (const ProfileZone& zone : profile.zones)
+      caption += "; " + zone.title + " " + degrees_text(zone.from) + " to " + degrees_text(zone.to);
     write_figures(html, caption, {"Pictures", "Zone"}, rows);
   }
 }

@@ -36,7 +36,7 @@ std::string limit_text(const CellComparison& comparison, const std::string& id) 
   std::string words;
   for (const MetricLimit& limit : comparison.limits) {
     if (limit.metric != id) continue;
-    words += limit.pass ? "✓ within " : "≠ over ";
+    words += limit.pass ? "✓ within " : limit.open ? "± on either side of " : "≠ over ";
     words += metric_text(id, limit.limit);
   }
   return words;
@@ -124,9 +124,11 @@ void write_numbers(Html& html, const FarmData& farm, const CellData& cell) {
   const Tag tbody(html, "tbody");
   write_words_row(html, cell, "Verdict", [](const CellComparison& comparison) {
     if (!comparison.problem.empty()) return comparison.problem;
-    if (comparison.verdict == "pass") return std::string("✓ pass");
-    if (comparison.verdict == "differs") return std::string("≠ differs");
-    return "✕ " + (comparison.verdict.empty() ? "no verdict" : comparison.verdict);
+    const std::string& verdict = comparison.verdict;
+    if (verdict == "pass" || verdict == "same") return "✓ " + verdict;
+    if (verdict == "differs" || verdict == "different") return "≠ " + verdict;
+    if (verdict == "undecided") return "± " + verdict;
+    return "✕ " + (verdict.empty() ? "no verdict" : verdict);
   });
   write_words_row(html, cell, "Pixels that are not finite", nonfinite_text);
   write_words_row(html, cell, "Tolerance of each pixel", tolerance_text);

@@ -39,8 +39,8 @@ ChartAxis angle_axis(const ProfileData& profile) {
   for (const double angle : profile.degrees) {
     if (angle <= 180) axis.to = std::max(axis.to, angle);
   }
-  if (profile.blooming && profile.blooming->to > 0) {
-    axis.to = std::min(axis.to, kBeyondZones * profile.blooming->to);
+  if (!profile.zones.empty() && profile.zones.back().to > 0) {
+    axis.to = std::min(axis.to, kBeyondZones * profile.zones.back().to);
   }
   if (!(axis.to > 0)) axis.to = 90;
   return axis;
@@ -48,10 +48,7 @@ ChartAxis angle_axis(const ProfileData& profile) {
 
 std::vector<ChartBand> zone_bands(const ProfileData& profile) {
   std::vector<ChartBand> bands;
-  if (profile.epicentre)
-    bands.push_back({profile.epicentre->from, profile.epicentre->to, "epicentre"});
-  if (profile.blooming)
-    bands.push_back({profile.blooming->from, profile.blooming->to, "blooming zone"});
+  for (const ProfileZone& zone : profile.zones) bands.push_back({zone.from, zone.to, zone.title});
   return bands;
 }
 

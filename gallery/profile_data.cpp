@@ -7,11 +7,28 @@
 namespace lobelia::gallery {
 namespace {
 
-std::optional<AngleRange> read_range(const Fields& zones, const std::string& key) {
-  const auto values = zones.numbers(key);
-  if (values.empty()) return std::nullopt;
-  if (values.size() != 2) zones.fail(key, "must be two numbers");
-  return AngleRange{values[0], values[1]};
+constexpr const char* kZones[] = {"epicentre", "flank", "blooming"};
+
+void read_zones(const Fields& zones, ProfileData& profile) {
+  for (const char* zone : kZones) {
+    const std::string key = std::string(zone) + "Degrees";
+    const auto values = zones.numbers(key);
+    if (values.empty()) continue;
+    if (values.size() != 2) zones.fail(key, "must be two numbers");
+    profile.zones.push_back({zone_title(zone), values[0], values[1]});
+  }
+}
+
+/// An image's own numbers, and which power of a cosine was fitted to its highlight.
+NamedNumbers figures_of(const Fields& image) {
+  NamedNumbers figures = image.number_members();
+  const auto highlight = image.object("highlight");
+  const auto cosine = highlight ? highlight->object("cosineLobe") : std::nullopt;
+  for (const char* key : {"exponent", "standardError"}) {
+    const auto value = cosine ? cosine->number(key) : std::nullopt;
+    if (value) figures.emplace_back(key, *value);
+  }
+  return figures;
 }
 
 void read_curves(const Fields& curve, ProfileData& profile) {
@@ -37,6 +54,10 @@ const NamedCurve* ProfileData::find_curve(const std::string& name) const {
   return at == curves.end() ? nullptr : &*at;
 }
 
+std::string zone_title(const std::string& zone) {
+  return zone == "blooming" ? "blooming zone" : zone;
+}
+
 ProfileData read_profile(const std::filesystem::path& directory, const std::string& file) {
   ProfileData profile;
   profile.file = file;
@@ -45,14 +66,11 @@ ProfileData read_profile(const std::filesystem::path& directory, const std::stri
     const Json record = read_record(directory / file, "profile");
     const Fields fields(record, file);
     profile.angle = fields.text("angle");
-    if (const auto zones = fields.object("zones")) {
-      profile.epicentre = read_range(*zones, "epicentreDegrees");
-      profile.blooming = read_range(*zones, "bloomingDegrees");
-    }
+    if (const auto zones = fields.object("zones")) read_zones(*zones, profile);
     if (const auto curve = fields.object("curve")) read_curves(*curve, profile);
     if (const auto images = fields.object("images")) {
       for (const auto& [name, image] : images->object_members()) {
-        profile.images.emplace_back(name, image.number_members());
+        profile.images.emplace_back(name, figures_of(image));
       }
     }
     if (const auto differences = fields.object("differences")) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +10,8 @@
 
 namespace lobelia::gallery {
 
-struct AngleRange {
+struct ProfileZone {
+  std::string title;        ///< "blooming zone"
   double from = 0, to = 0;  ///< degrees
 };
 
@@ -22,22 +22,26 @@ struct NamedCurve {
 };
 
 struct ZoneDifference {
-  std::string zone;     ///< "epicentre", "blooming"
+  std::string zone;     ///< "epicentre", "flank", "blooming"
   NamedNumbers values;  ///< "maxAbs", "rms", "maxRelPeak"
 };
 
 struct ProfileData {
-  std::string file;     ///< a plain name; empty: the cell has no profile
-  std::string problem;  ///< why it cannot be read; empty if it can
-  std::string angle;    ///< "reflection" or "half vector"
-  std::optional<AngleRange> epicentre, blooming;
+  std::string file;                ///< a plain name; empty: the cell has no profile
+  std::string problem;             ///< why it cannot be read; empty if it can
+  std::string angle;               ///< "reflection" or "half vector"
+  std::vector<ProfileZone> zones;  ///< from the middle outward
   std::vector<double> degrees;
   std::vector<NamedCurve> curves;  ///< each as long as degrees
-  std::vector<std::pair<std::string, NamedNumbers>> images;
+  std::vector<std::pair<std::string, NamedNumbers>>
+      images;  ///< the fitted exponent and its error too
   std::vector<std::pair<std::string, std::vector<ZoneDifference>>> differences;
 
   const NamedCurve* find_curve(const std::string& name) const;
 };
+
+/// Of a zone as records name it: "blooming zone"; an unknown one keeps its name.
+std::string zone_title(const std::string& zone);
 
 /// Never throws for what the record says: that becomes `problem`.
 ProfileData read_profile(const std::filesystem::path& directory, const std::string& file);

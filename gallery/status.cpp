@@ -9,6 +9,9 @@ const StatusInfo& info(CellStatus status) {
   static constexpr StatusInfo kDiffers{
       "differs", "differs", "≠",
       "All pictures are there, but at least one number is over its limit."};
+  static constexpr StatusInfo kUndecided{
+      "undecided", "undecided", "±",
+      "No difference was found, but the pictures have noise that could hide one: more samples are needed."};
   static constexpr StatusInfo kFailed{"failed", "failed", "✕",
                                       "A picture could not be rendered, or could not be compared."};
   static constexpr StatusInfo kUnchecked{"unchecked", "not compared", "○",
@@ -23,6 +26,8 @@ const StatusInfo& info(CellStatus status) {
       return kPass;
     case CellStatus::kDiffers:
       return kDiffers;
+    case CellStatus::kUndecided:
+      return kUndecided;
     case CellStatus::kFailed:
       return kFailed;
     case CellStatus::kUnchecked:

@@ -8,10 +8,10 @@
 namespace lobelia::gallery {
 
 /// As in farm.json, and kUnreadable for a cell whose own record cannot be read.
-enum class CellStatus { kPass, kDiffers, kFailed, kUnchecked, kMissing, kUnreadable };
+enum class CellStatus { kPass, kDiffers, kUndecided, kFailed, kUnchecked, kMissing, kUnreadable };
 
-inline constexpr std::array<CellStatus, 6> kCellStatuses = {
-    CellStatus::kPass,      CellStatus::kDiffers,    CellStatus::kFailed,
+inline constexpr std::array<CellStatus, 7> kCellStatuses = {
+    CellStatus::kPass,      CellStatus::kDiffers,    CellStatus::kUndecided, CellStatus::kFailed,
     CellStatus::kUnchecked, CellStatus::kUnreadable, CellStatus::kMissing};
 
 struct StatusInfo {

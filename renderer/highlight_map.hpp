@@ -11,8 +11,12 @@ namespace lobelia {
 struct HighlightMap {
   int width = 0, height = 0;
   std::vector<double> angle;    ///< the lobe's angle in radians; NaN where the pixel does not
-                                ///< see the sphere, or the light is below its horizon (N.L <= 0)
+                                ///< see the sphere, or the light does not reach it: it is below the
+                                ///< horizon (N.L <= 0), or another sphere stands before it
   std::vector<double> n_dot_l;  ///< cosine at the light's side; NaN as above
+  /// What coefficient * lobe is multiplied by to give radiance, as the mean of R, G and B: irradiance,
+  /// reflectance with its Fresnel factor, and foreshortening; NaN as above.
+  std::vector<double> scale;
   std::vector<double> solid_angle;  ///< of the pixel as seen from the camera, steradian; never NaN
 };
 

@@ -61,4 +61,28 @@ std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) 
   return nearest;
 }
 
+void for_each_pixel_of(const Scene& scene, int sphere,
+                       const std::function<void(std::size_t, const Hit&, Vec3)>& visit) {
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const Sphere& wanted = scene.spheres.at(std::size_t(sphere));
+  for (int y = 0; y < scene.film.height; ++y)
+    for (int x = 0; x < scene.film.width; ++x) {
+      const Vec3 direction = normalize(centre_ray(frame, x, y));
+      // Most pixels miss the one sphere, and need not be tried on all.
+      if (!(chord_of(wanted, frame.origin, direction).half_squared > 0)) continue;
+      const auto hit = nearest_hit(scene, frame.origin, direction);
+      if (hit && hit->sphere == sphere)
+        visit(std::size_t(y) * scene.film.width + x, *hit, -direction);
+    }
+}
+
+std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& hit) {
+  const Illumination here = illuminate(scene.lights.at(std::size_t(light)), hit.point);
+  if (!(dot(hit.normal, here.to_light) > 0)) return std::nullopt;
+  // Above the horizon the sphere itself is behind the ray and never met.
+  const auto before = nearest_hit(scene, hit.point, here.to_light);
+  if (before && length(before->point - hit.point) < here.distance) return std::nullopt;
+  return here;
+}
+
 }  // namespace lobelia

@@ -2,6 +2,7 @@
 // made it.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,5 +29,14 @@ Vec3 centre_ray(const CameraFrame& frame, int x, int y);
 
 /// The nearest sphere along a ray of unit direction.
 std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction);
+
+/// Calls visit(i, hit, to_eye) for every pixel, i in reading order, whose centre sees `sphere`.
+void for_each_pixel_of(
+    const Scene& scene, int sphere,
+    const std::function<void(std::size_t i, const Hit& hit, Vec3 to_eye)>& visit);
+
+/// What a directional or a point light brings to a point of a sphere; nothing where it is below the horizon
+/// or another sphere stands before it.
+std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& hit);
 
 }  // namespace lobelia

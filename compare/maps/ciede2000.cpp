@@ -7,12 +7,7 @@ namespace lobelia {
 namespace {
 
 std::vector<float> measure(const MapInput& input) {
-  std::vector<float> map(input.a.pixel_count());
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const Rgb a = input.shown_a.at(i), b = input.shown_b.at(i);
-    if (a != b) map[i] = float(ciede2000(lab_from_display(a), lab_from_display(b)));
-  }
-  return map;
+  return ciede2000_of_pixels(input.shown_a, input.shown_b).values;
 }
 
 }  // namespace

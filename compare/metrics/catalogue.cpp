@@ -24,7 +24,8 @@
   METRIC(mae_mask)              \
   METRIC(rmse_mask)             \
   METRIC(drift_mask)            \
-  METRIC(max_abs_mask)
+  METRIC(max_abs_mask)          \
+  METRIC(z)
 
 namespace lobelia {
 
@@ -67,6 +68,8 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
       return std::min(input.a.width(), input.a.height()) >= kSsimSide;
     case Needs::kFiveScales:
       return std::min(input.a.width(), input.a.height()) >= kMsSsimSide;
+    case Needs::kNoise:
+      return input.noise != nullptr;
   }
   return false;
 }

@@ -48,6 +48,8 @@ std::string needs_text(Needs needs) {
       return fmt::format("{} pixels a side", kSsimSide);
     case Needs::kFiveScales:
       return fmt::format("{} pixels a side", kMsSsimSide);
+    case Needs::kNoise:
+      return "`--a-replicate` and others";
   }
   return "";
 }
@@ -92,7 +94,40 @@ std::string metrics_document() {
       "other fails, and one of them by a wide margin: what fails takes up more than {0:g} times its limit,\n"
       "or what passes less than 1/{0:g} of its own. A value takes up |value| / limit; of SSIM\n"
       "(1 - value) / (1 - limit); of decibels the ratio of the errors, 10^((limit - value) / 20). The record\n"
-      "has a sentence for each such pair; the verdict is that of the limits all the same.\n",
+      "has a sentence for each such pair; the verdict is that of the limits all the same.\n"
+      "\n"
+      "## Pictures with noise\n"
+      "\n"
+      "Where a picture is a Monte-Carlo estimate, the comparison can be told its noise: by pictures of\n"
+      "standard errors (`--a-error`, `--b-error`), or by independent pictures of the same\n"
+      "(`--a-replicate`, `--b-replicate`; with one each, A and B are half-sample pictures). What is\n"
+      "assumed of them, and where that errs, is said in `compare/uncertainty/noise.hpp`.\n"
+      "\n"
+      "**z** is a difference in units of its noise, as a number of a standard normal distribution that is\n"
+      "as rare. It is looked at in each value and in the sums over squares of 2, 4, 8, ... pixels up to\n"
+      "the whole picture, which find what no pixel shows, such as a small drift. Of m such tests each is\n"
+      "held to 1 - (1 - `--significance`)^(1/m) (Sidak); `z.critical` is the z of that.\n"
+      "\n"
+      "**Error bars** are of the figure that endless samples would give. The record has for each figure\n"
+      "`standardError`, its spread under the noise; `noiseFloor`, what two pictures of one expectation\n"
+      "would show with this noise, in the mean and at the most (97.5 %); and the interval `low` to\n"
+      "`high`: up to the figure and 97.5 % of its spread, down to the figure less the floor at its most\n"
+      "(`compare/uncertainty/error_bars.hpp`).\n"
+      "\n"
+      "**The verdict** is one of three. A limit *holds* if it does for the whole error bar, is *broken* if it\n"
+      "is for the whole bar, and otherwise *open*. Pictures are **different** if a limit is broken, the\n"
+      "**same** if all hold, and else **undecided**: neither a pass nor a difference, with exit code 1\n"
+      "and how many times the samples would tell. What is asked:\n"
+      "\n"
+      "- with `--fail`, those limits;\n"
+      "- with `--tolerance`, that no more pixels than it allows are beyond tolerance and noise together\n"
+      "  (`z.beyond`), and no region is (`z.regions`). Alone it also asks that no more are open\n"
+      "  (`z.open`): the same is said of pictures that surely lie within it. With `--fail` it is what\n"
+      "  rounding may do, and the limits say how fine the answer has to be;\n"
+      "- with neither, that nothing is beyond the noise, and the limits that stand where none are\n"
+      "  given: so what is too noisy to find anything in is undecided.\n"
+      "\n"
+      "A limit on a z itself is passed by noise: it asks whether a difference was found.\n",
       kWideMargin);
   return text;
 }

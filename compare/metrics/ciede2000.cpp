@@ -15,25 +15,154 @@
 //               plain mean of the angles wherever they differ by no more than 180, and so do we: it
 //               is 4.8045, as printed. In binary the angles come out within 1e-13 of it on either
 //               side, so a difference of up to kTieDegrees over 180 counts as 180.
-// Differs:      a pixel with equal light on both sides is 0 without computing it.
+// Differs:      the light of a pixel and its difference are rounded to float32, 6e-8 of each, before the
+//               mean, the percentiles and the maximum are taken of them; between, all is in double.
 #include "compare/metrics/ciede2000.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "compare/metrics/metric.hpp"
-#include "compare/metrics/percentile.hpp"
-#include "compare/metrics/pixel_differences.hpp"
 
-namespace lobelia {
+// As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
+#ifndef __OPTIMIZE__
+#define HWY_COMPILE_ONLY_STATIC
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "compare/metrics/ciede2000.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for each instruction set
+#include <hwy/highway.h>
+
+#include "compare/metrics/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 /// A hue difference of so little over 180 is a tie that rounding has decided: the angles are sums of
 /// a few roundings of numbers up to 360.
 constexpr double kTieDegrees = 1e-10;
+
+template <class D>
+struct LabLanes {
+  LanesOf<D> l, a, b;
+};
+
+template <class Real>
+HWY_INLINE Real squared(Real x) {
+  return x * x;
+}
+
+template <class Real>
+HWY_INLINE Real length(Real x, Real y) {
+  return sqrt(squared(x) + squared(y));
+}
+
+/// C^7 / (C^7 + 25^7), in eq. (4) and (15).
+template <class Real>
+HWY_INLINE Real chroma_saturation(Real chroma) {
+  const Real c2 = squared(chroma), c7 = squared(c2) * c2 * chroma;
+  constexpr double k25To7 = 6103515625.0;
+  return c7 / (c7 + k25To7);
+}
+
+/// Hue angle in degrees, [0, 360]; 0 for a neutral colour, eq. (7).
+template <class Real>
+HWY_INLINE Real hue(Real a, Real b) {
+  const Real larger = max(abs(a), abs(b)), smaller = min(abs(a), abs(b));
+  // Within the first eighth of the circle, then unfolded.
+  const Real eighth = atan(smaller / where(larger > 0.0, larger, 1.0)) / kDegree;
+  const Real quarter = where(abs(b) > abs(a), 90 - eighth, eighth);
+  const Real half = where(a < 0.0, 180 - quarter, quarter);
+  return where(b < 0.0, 360 - half, half);
+}
+
+template <class D>
+HWY_INLINE LabLanes<D> lab_from_display(const RgbLanes<D>& shown) {
+  using Real = LanesOf<D>;
+  const Real x = 0.4124 * shown.r + 0.3576 * shown.g + 0.1805 * shown.b;
+  const Real y = 0.2126 * shown.r + 0.7152 * shown.g + 0.0722 * shown.b;
+  const Real z = 0.0193 * shown.r + 0.1192 * shown.g + 0.9505 * shown.b;
+  const auto f = [](Real t) HWY_ATTR {
+    constexpr double kDelta = 6.0 / 29.0;
+    return where(t > kDelta * kDelta * kDelta, pow(t, 1.0 / 3.0),
+                 t / (3 * kDelta * kDelta) + 4.0 / 29.0);
+  };
+  const Real fx = f(x / 0.9505), fy = f(y), fz = f(z / 1.0890);
+  return {116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)};
+}
+
+template <class D>
+HWY_INLINE LanesOf<D> ciede2000(const LabLanes<D>& a, const LabLanes<D>& b) {
+  using Real = LanesOf<D>;
+  // (2)-(7): chroma and hue with the a axis stretched for colours near neutral.
+  const Real mean_chroma_ab = (length(a.a, a.b) + length(b.a, b.b)) / 2;
+  const Real stretch = 1.5 - 0.5 * sqrt(chroma_saturation(mean_chroma_ab));
+  const Real a1 = stretch * a.a, a2 = stretch * b.a;
+  const Real c1 = length(a1, a.b), c2 = length(a2, b.b);
+  const Real h1 = hue(a1, a.b), h2 = hue(a2, b.b);
+  const auto neutral = c1 * c2 == 0.0;
+
+  // (8)-(11): the hue difference the short way round.
+  Real hue_step = where(neutral, 0.0, h2 - h1);
+  hue_step = where(hue_step > 180 + kTieDegrees, hue_step - 360, hue_step);
+  hue_step = where(hue_step < -180 - kTieDegrees, hue_step + 360, hue_step);
+  const Real dl = b.l - a.l, dc = c2 - c1;
+  const Real dh = 2 * sqrt(c1 * c2) * sin(hue_step / 2 * kDegree);
+
+  // (12)-(14): the mean hue likewise.
+  const Real mean_l = (a.l + b.l) / 2, mean_c = (c1 + c2) / 2, sum_h = h1 + h2;
+  const Real around = sum_h + where(sum_h < 360.0, Real(360.0), -360.0);
+  const Real mean_h =
+      where(neutral, sum_h, where(abs(h1 - h2) > 180 + kTieDegrees, around, sum_h) / 2);
+
+  // (15)-(21): the weights.
+  const Real t = 1 - 0.17 * cos((mean_h - 30) * kDegree) + 0.24 * cos(2 * mean_h * kDegree) +
+                 0.32 * cos((3 * mean_h + 6) * kDegree) - 0.20 * cos((4 * mean_h - 63) * kDegree);
+  const Real rotation = 30 * exp(-squared((mean_h - 275) / 25));
+  const Real rc = 2 * sqrt(chroma_saturation(mean_c));
+  const Real lightness = squared(mean_l - 50);
+  const Real sl = 1 + 0.015 * lightness / sqrt(20 + lightness);
+  const Real sc = 1 + 0.045 * mean_c;
+  const Real sh = 1 + 0.015 * mean_c * t;
+  const Real rt = -sin(2 * rotation * kDegree) * rc;
+
+  // (22). The rotation term can make the sum negative by rounding alone.
+  const Real sum =
+      squared(dl / sl) + squared(dc / sc) + squared(dh / sh) + rt * (dc / sc) * (dh / sh);
+  return sqrt(max(sum, 0.0));
+}
+
+}  // namespace
+
+void ciede2000_lanes(const float* rgb_a, const float* rgb_b, float* out, std::size_t count) {
+  for_all_pixels(count, [&](auto d, std::size_t i) HWY_ATTR {
+    store(ciede2000(lab_from_display(load_rgb(d, rgb_a + 3 * i)),
+                    lab_from_display(load_rgb(d, rgb_b + 3 * i))),
+          out + i);
+  });
+}
+
+double ciede2000_of_one(Lab a, Lab b) {
+  using Real = LanesOf<Single>;
+  return hn::GetLane(
+      ciede2000<Single>({Real(a.l), Real(a.a), Real(a.b)}, {Real(b.l), Real(b.a), Real(b.b)}).v);
+}
+
+Lab lab_of_one(Rgb shown) {
+  using Real = LanesOf<Single>;
+  const auto lab = lab_from_display<Single>({Real(shown.r), Real(shown.g), Real(shown.b)});
+  return {hn::GetLane(lab.l.v), hn::GetLane(lab.a.v), hn::GetLane(lab.b.v)};
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia {
+namespace {
 
 constexpr MetricOutput kOutputs[] = {
     {"ciede2000.mean", Better::kLower, true, "CIEDE2000 colour difference, mean"},
@@ -42,85 +171,29 @@ constexpr MetricOutput kOutputs[] = {
     {"ciede2000.p99", Better::kLower, true, "99 % of the pixels do not exceed this"},
     {"ciede2000.max", Better::kLower, true, "the largest of all pixels"}};
 
-double squared(double x) { return x * x; }
-
-/// C^7 / (C^7 + 25^7), in eq. (4) and (15).
-double chroma_saturation(double chroma) {
-  const double c7 = std::pow(chroma, 7);
-  constexpr double k25To7 = 6103515625.0;
-  return c7 / (c7 + k25To7);
-}
-
-/// Hue angle in degrees, [0, 360); 0 for a neutral colour, eq. (7).
-double hue(double a, double b) {
-  if (a == 0 && b == 0) return 0;
-  const double h = std::atan2(b, a) / kDegree;
-  return h < 0 ? h + 360 : h;
-}
-
 void measure(const MetricInput& input, std::span<double> values) {
-  std::vector<double> differences = pixel_differences(
-      input, [](Rgb a, Rgb b) { return ciede2000(lab_from_display(a), lab_from_display(b)); });
-  if (differences.empty()) {
-    std::fill(values.begin(), values.end(), 0.0);
-    return;
-  }
-  values[0] = mean(differences);
-  values[1] = percentile(differences, 0.50);
-  values[2] = percentile(differences, 0.95);
-  values[3] = percentile(differences, 0.99);
-  values[4] = maximum(differences);
+  PixelDifferences differences = ciede2000_of_pixels(input.shown_a, input.shown_b);
+  std::fill(values.begin(), values.end(), 0.0);
+  if (differences.values.empty()) return;
+  values[0] = differences.mean;
+  values[1] = percentile(differences.values, 0.50);
+  values[2] = percentile(differences.values, 0.95);
+  values[3] = percentile(differences.values, 0.99);
+  values[4] = differences.max;
 }
 
 }  // namespace
 
-Lab lab_from_display(Rgb shown) {
-  const double x = 0.4124 * shown.r + 0.3576 * shown.g + 0.1805 * shown.b;
-  const double y = 0.2126 * shown.r + 0.7152 * shown.g + 0.0722 * shown.b;
-  const double z = 0.0193 * shown.r + 0.1192 * shown.g + 0.9505 * shown.b;
-  return lab_from_relative_xyz(x / 0.9505, y, z / 1.0890);
-}
+HWY_EXPORT(ciede2000_lanes);
+HWY_EXPORT(ciede2000_of_one);
+HWY_EXPORT(lab_of_one);
 
-double ciede2000(Lab a, Lab b) {
-  // (2)-(7): chroma and hue with the a axis stretched for colours near neutral.
-  const double mean_chroma_ab = (std::hypot(a.a, a.b) + std::hypot(b.a, b.b)) / 2;
-  const double stretch = 1.5 - 0.5 * std::sqrt(chroma_saturation(mean_chroma_ab));
-  const double a1 = stretch * a.a, a2 = stretch * b.a;
-  const double c1 = std::hypot(a1, a.b), c2 = std::hypot(a2, b.b);
-  const double h1 = hue(a1, a.b), h2 = hue(a2, b.b);
-  const bool neutral = c1 * c2 == 0;
+double ciede2000(Lab a, Lab b) { return HWY_DYNAMIC_DISPATCH(ciede2000_of_one)(a, b); }
 
-  // (8)-(11): the hue difference the short way round.
-  double hue_step = neutral ? 0 : h2 - h1;
-  if (hue_step > 180 + kTieDegrees) hue_step -= 360;
-  if (hue_step < -180 - kTieDegrees) hue_step += 360;
-  const double dl = b.l - a.l, dc = c2 - c1;
-  const double dh = 2 * std::sqrt(c1 * c2) * std::sin(hue_step / 2 * kDegree);
+Lab lab_from_display(Rgb shown) { return HWY_DYNAMIC_DISPATCH(lab_of_one)(shown); }
 
-  // (12)-(14): the mean hue likewise.
-  const double mean_l = (a.l + b.l) / 2, mean_c = (c1 + c2) / 2;
-  double mean_h = h1 + h2;
-  if (!neutral) {
-    if (std::abs(h1 - h2) > 180 + kTieDegrees) mean_h += mean_h < 360 ? 360 : -360;
-    mean_h /= 2;
-  }
-
-  // (15)-(21): the weights.
-  const double t =
-      1 - 0.17 * std::cos((mean_h - 30) * kDegree) + 0.24 * std::cos(2 * mean_h * kDegree) +
-      0.32 * std::cos((3 * mean_h + 6) * kDegree) - 0.20 * std::cos((4 * mean_h - 63) * kDegree);
-  const double rotation = 30 * std::exp(-squared((mean_h - 275) / 25));
-  const double rc = 2 * std::sqrt(chroma_saturation(mean_c));
-  const double lightness = squared(mean_l - 50);
-  const double sl = 1 + 0.015 * lightness / std::sqrt(20 + lightness);
-  const double sc = 1 + 0.045 * mean_c;
-  const double sh = 1 + 0.015 * mean_c * t;
-  const double rt = -std::sin(2 * rotation * kDegree) * rc;
-
-  // (22). The rotation term can make the sum negative by rounding alone.
-  const double sum =
-      squared(dl / sl) + squared(dc / sc) + squared(dh / sh) + rt * (dc / sc) * (dh / sh);
-  return std::sqrt(std::max(sum, 0.0));
+PixelDifferences ciede2000_of_pixels(const DisplayLight& a, const DisplayLight& b) {
+  return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(ciede2000_lanes));
 }
 
 extern const Metric ciede2000_metric;
@@ -128,3 +201,4 @@ constinit const Metric ciede2000_metric{kOutputs, Family::kColour, Needs::kNothi
                                         "Sharma, Wu, Dalal 2005", measure};
 
 }  // namespace lobelia
+#endif  // HWY_ONCE

@@ -11,17 +11,28 @@
 // Agrees with:  the nine pairs in the tests of the package colour-science (delta_E_ITP), to 4e-8,
 //               what their ten digits allow; and the whole way from light to difference with
 //               the formulas in 50 decimal digits, to 2e-11.
+// Differs:      the light of a pixel and its difference are rounded to float32, as in ciede2000.cpp.
 #include "compare/metrics/delta_e_itp.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "compare/metrics/metric.hpp"
-#include "compare/metrics/percentile.hpp"
 #include "compare/metrics/pixel_differences.hpp"
 
-namespace lobelia {
+// As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
+#ifndef __OPTIMIZE__
+#define HWY_COMPILE_ONLY_STATIC
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "compare/metrics/delta_e_itp.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for each instruction set
+#include <hwy/highway.h>
+
+#include "compare/metrics/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
 namespace {
 
 /// BT.2408, section 2.1: HDR reference white.
@@ -35,51 +46,104 @@ constexpr double kM1 = 2610.0 / 16384, kM2 = 2523.0 / 4096 * 128;
 constexpr double kC1 = 3424.0 / 4096, kC2 = 2413.0 / 4096 * 32, kC3 = 2392.0 / 4096 * 32;
 static_assert(kC1 == kC3 - kC2 + 1);
 
+template <class D>
+struct ItpLanes {
+  LanesOf<D> i, t, p;
+};
+
+template <class Real>
+HWY_INLINE Real pq_signal(Real luminance) {
+  const Real y = pow(luminance / kPeakLuminance, kM1);
+  return pow((kC1 + kC2 * y) / (1 + kC3 * y), kM2);
+}
+
+template <class D>
+HWY_INLINE ItpLanes<D> itp_from_display(const RgbLanes<D>& shown) {
+  using Real = LanesOf<D>;
+  // BT.2087-0, annex, M2.
+  const Real r = kWhite * (0.6274 * shown.r + 0.3293 * shown.g + 0.0433 * shown.b);
+  const Real g = kWhite * (0.0691 * shown.r + 0.9195 * shown.g + 0.0114 * shown.b);
+  const Real b = kWhite * (0.0164 * shown.r + 0.0880 * shown.g + 0.8956 * shown.b);
+  // BT.2100-2, Table 7.
+  const Real l = pq_signal((1688 * r + 2146 * g + 262 * b) / 4096);
+  const Real m = pq_signal((683 * r + 2951 * g + 462 * b) / 4096);
+  const Real s = pq_signal((99 * r + 309 * g + 3688 * b) / 4096);
+  const Real ct = (6610 * l - 13613 * m + 7003 * s) / 4096;
+  const Real cp = (17933 * l - 17390 * m - 543 * s) / 4096;
+  return {(l + m) / 2, ct / 2, cp};
+}
+
+template <class D>
+HWY_INLINE LanesOf<D> delta_e_itp(const ItpLanes<D>& a, const ItpLanes<D>& b) {
+  using Real = LanesOf<D>;
+  const Real i = a.i - b.i, t = a.t - b.t, p = a.p - b.p;
+  return kScale * sqrt(i * i + t * t + p * p);
+}
+
+}  // namespace
+
+void delta_e_itp_lanes(const float* rgb_a, const float* rgb_b, float* out, std::size_t count) {
+  for_all_pixels(count, [&](auto d, std::size_t i) HWY_ATTR {
+    store(delta_e_itp(itp_from_display(load_rgb(d, rgb_a + 3 * i)),
+                      itp_from_display(load_rgb(d, rgb_b + 3 * i))),
+          out + i);
+  });
+}
+
+double pq_signal_of_one(double luminance) {
+  return hn::GetLane(pq_signal(LanesOf<Single>(luminance)).v);
+}
+
+Itp itp_of_one(Rgb shown) {
+  using Real = LanesOf<Single>;
+  const auto itp = itp_from_display<Single>({Real(shown.r), Real(shown.g), Real(shown.b)});
+  return {hn::GetLane(itp.i.v), hn::GetLane(itp.t.v), hn::GetLane(itp.p.v)};
+}
+
+double delta_e_itp_of_one(Itp a, Itp b) {
+  using Real = LanesOf<Single>;
+  return hn::GetLane(
+      delta_e_itp<Single>({Real(a.i), Real(a.t), Real(a.p)}, {Real(b.i), Real(b.t), Real(b.p)}).v);
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia {
+namespace {
+
 constexpr MetricOutput kOutputs[] = {
     {"delta_e_itp.mean", Better::kLower, true, "delta E ITP colour difference, mean"},
     {"delta_e_itp.p95", Better::kLower, true, "95 % of the pixels do not exceed this"},
     {"delta_e_itp.max", Better::kLower, true, "the largest of all pixels"}};
 
+HWY_EXPORT(delta_e_itp_lanes);
+HWY_EXPORT(pq_signal_of_one);
+HWY_EXPORT(itp_of_one);
+HWY_EXPORT(delta_e_itp_of_one);
+
 void measure(const MetricInput& input, std::span<double> values) {
-  std::vector<double> differences = pixel_differences(
-      input, [](Rgb a, Rgb b) { return delta_e_itp(itp_from_display(a), itp_from_display(b)); });
-  if (differences.empty()) {
-    std::fill(values.begin(), values.end(), 0.0);
-    return;
-  }
-  values[0] = mean(differences);
-  values[1] = percentile(differences, 0.95);
-  values[2] = maximum(differences);
+  PixelDifferences differences =
+      pixel_differences(input.shown_a, input.shown_b, HWY_DYNAMIC_DISPATCH(delta_e_itp_lanes));
+  std::fill(values.begin(), values.end(), 0.0);
+  if (differences.values.empty()) return;
+  values[0] = differences.mean;
+  values[1] = percentile(differences.values, 0.95);
+  values[2] = differences.max;
 }
 
 }  // namespace
 
-double pq_signal(double luminance) {
-  const double y = std::pow(std::max(luminance, 0.0) / kPeakLuminance, kM1);
-  return std::pow((kC1 + kC2 * y) / (1 + kC3 * y), kM2);
-}
+double pq_signal(double luminance) { return HWY_DYNAMIC_DISPATCH(pq_signal_of_one)(luminance); }
 
-Itp itp_from_display(Rgb shown) {
-  // BT.2087-0, annex, M2.
-  const double r = kWhite * (0.6274 * shown.r + 0.3293 * shown.g + 0.0433 * shown.b);
-  const double g = kWhite * (0.0691 * shown.r + 0.9195 * shown.g + 0.0114 * shown.b);
-  const double b = kWhite * (0.0164 * shown.r + 0.0880 * shown.g + 0.8956 * shown.b);
-  // BT.2100-2, Table 7.
-  const double l = pq_signal((1688 * r + 2146 * g + 262 * b) / 4096);
-  const double m = pq_signal((683 * r + 2951 * g + 462 * b) / 4096);
-  const double s = pq_signal((99 * r + 309 * g + 3688 * b) / 4096);
-  const double ct = (6610 * l - 13613 * m + 7003 * s) / 4096;
-  const double cp = (17933 * l - 17390 * m - 543 * s) / 4096;
-  return {(l + m) / 2, ct / 2, cp};
-}
+Itp itp_from_display(Rgb shown) { return HWY_DYNAMIC_DISPATCH(itp_of_one)(shown); }
 
-double delta_e_itp(Itp a, Itp b) {
-  const double i = a.i - b.i, t = a.t - b.t, p = a.p - b.p;
-  return kScale * std::sqrt(i * i + t * t + p * p);
-}
+double delta_e_itp(Itp a, Itp b) { return HWY_DYNAMIC_DISPATCH(delta_e_itp_of_one)(a, b); }
 
 extern const Metric delta_e_itp_metric;
 constinit const Metric delta_e_itp_metric{kOutputs, Family::kColour, Needs::kNothing,
                                           "ITU-R BT.2124-0", measure};
 
 }  // namespace lobelia
+#endif  // HWY_ONCE

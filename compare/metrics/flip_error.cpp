@@ -3,68 +3,82 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 namespace lobelia {
 namespace {
 
-// Section 4.1.4: the share of the largest colour distance, and the error that it is mapped to,
-// above which distances are compressed.
-constexpr float kKnee = 0.4f, kErrorAtKnee = 0.95f;
-// Section 4.2.2: exponent of the feature difference, and 1/sqrt(2), which brings it to [0, 1].
-constexpr float kFeatureExponent = 0.5f;
-const float kFeatureScale = 1.0f / std::sqrt(2.0f);
+// A tile's columns: so few that the rows below each other that a filter needs stay in the first cache, all
+// planes of both pictures in the second. Its rows: enough that filtering the ones above and below it again
+// costs little, few enough that every processor has some.
+constexpr int kTileWidth = 256, kTileHeight = 256;
 
-// Rows filtered at once: enough that the filter's radius around them costs little, few enough that
-// their planes stay in the cache and every processor has some.
-constexpr int kRowsPerTask = 64;
+int tiles_across(int width) { return (width + kTileWidth - 1) / kTileWidth; }
+int tiles_down(int height) { return (height + kTileHeight - 1) / kTileHeight; }
 
-float colour_error(float distance, float largest) {
-  const float knee = kKnee * largest;
-  if (distance < knee) return distance * (kErrorAtKnee / knee);
-  return kErrorAtKnee + ((distance - knee) / (largest - knee)) * (1.0f - kErrorAtKnee);
-}
-
-float feature_difference(const FlipRows& a, const FlipRows& b, std::size_t i) {
-  const float edge = std::abs(a.edge[i] - b.edge[i]);
-  const float point = std::abs(a.point[i] - b.point[i]);
-  return std::pow(kFeatureScale * std::max(edge, point), kFeatureExponent);
+/// Calls visit(tile, its index) for all tiles, on many threads.
+template <class Visit>
+void for_each_tile(int width, int height, Visit visit) {
+  const int across = tiles_across(width);
+  oneapi::tbb::parallel_for(0, across * tiles_down(height), [&](int i) {
+    const int left = i % across * kTileWidth, top = i / across * kTileHeight;
+    visit(FlipTile{left, top, std::min(kTileWidth, width - left),
+                   std::min(kTileHeight, height - top)},
+          std::size_t(i));
+  });
 }
 
 }  // namespace
 
-std::vector<float> flip_error_rows(const DisplayLight& a, const DisplayLight& b,
-                                   const FlipFilters& filters, int first_row, int last_row) {
-  const float largest_distance = flip_largest_distance();
-  const FlipRows rows_a = flip_filter_rows(a, filters, first_row, last_row);
-  const FlipRows rows_b = flip_filter_rows(b, filters, first_row, last_row);
-  std::vector<float> errors(rows_a.colour.size());
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    const float colour =
-        colour_error(flip_distance(rows_a.colour[i], rows_b.colour[i]), largest_distance);
-    errors[i] = std::pow(colour, 1.0f - feature_difference(rows_a, rows_b, i));
-  }
-  return errors;
+void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
+                      const FlipTile& tile, std::span<float> errors) {
+  FlipTileRows rows_a(a, filters, tile), rows_b(b, filters, tile);
+  const std::size_t padded = flip_padded(std::size_t(tile.width));
+  for (int row = 0; row < tile.height; ++row)
+    flip_errors(rows_a.next(), rows_b.next(),
+                errors.subspan(padded * std::size_t(row), padded).data(), padded);
+}
+
+std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
+                                  const FlipFilters& filters) {
+  const auto width = std::size_t(a.width());
+  std::vector<float> map(a.pixel_count());
+  for_each_tile(a.width(), a.height(), [&](const FlipTile& tile, std::size_t) {
+    const std::size_t padded = flip_padded(std::size_t(tile.width));
+    std::vector<float> errors(padded * std::size_t(tile.height));
+    flip_tile_errors(a, b, filters, tile, errors);
+    for (std::size_t row = 0; row < std::size_t(tile.height); ++row)
+      std::copy_n(errors.begin() + std::ptrdiff_t(padded * row), tile.width,
+                  map.begin() + std::ptrdiff_t(width * (std::size_t(tile.top) + row) +
+                                               std::size_t(tile.left)));
+  });
+  return map;
 }
 
 FlipPooled flip_pooled(int width, int height,
-                       const std::function<std::vector<float>(int first, int last)>& error_rows) {
-  std::vector<double> row_sum(std::size_t(height), 0.0), row_max(row_sum);
-  const int tasks = (height + kRowsPerTask - 1) / kRowsPerTask;
-  oneapi::tbb::parallel_for(0, tasks, [&](int task) {
-    const int first = task * kRowsPerTask, last = std::min(height, first + kRowsPerTask);
-    const std::vector<float> errors = error_rows(first, last);
-    const float* error = errors.data();
-    for (int row = first; row < last; ++row)
-      for (int x = 0; x < width; ++x, ++error) {
-        row_sum[std::size_t(row)] += double(*error);
-        row_max[std::size_t(row)] = std::max(row_max[std::size_t(row)], double(*error));
+                       const std::function<void(const FlipTile&, std::span<float>)>& errors_of) {
+  std::vector<double> tile_sum(std::size_t(tiles_across(width)) * std::size_t(tiles_down(height))),
+      tile_max(tile_sum);
+  for_each_tile(width, height, [&](const FlipTile& tile, std::size_t i) {
+    const std::size_t padded = flip_padded(std::size_t(tile.width));
+    std::vector<float> errors(padded * std::size_t(tile.height));
+    errors_of(tile, errors);
+    double sum = 0;
+    float largest = 0;
+    for (int row = 0; row < tile.height; ++row) {
+      const float* error = errors.data() + padded * std::size_t(row);
+      for (int x = 0; x < tile.width; ++x) {
+        sum += double(error[x]);
+        largest = std::max(largest, error[x]);
       }
+    }
+    tile_sum[i] = sum;
+    tile_max[i] = double(largest);
   });
-  // In order of the rows: the sum must not depend on the number of threads.
+  // In order of the tiles: the sum must not depend on the number of threads.
   double sum = 0, largest = 0;
-  for (const double row : row_sum) sum += row;
-  for (const double row : row_max) largest = std::max(largest, row);
+  for (const double value : tile_sum) sum += value;
+  for (const double value : tile_max) largest = std::max(largest, value);
   return {sum / std::max(double(width) * double(height), 1.0), largest};
 }
 

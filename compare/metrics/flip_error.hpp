@@ -3,22 +3,27 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
-#include "compare/metrics/flip_filters.hpp"
+#include "compare/metrics/flip_tile.hpp"
 
 namespace lobelia {
 
-/// FLIP's error of each pixel of rows [first_row, last_row), in [0, 1].
-std::vector<float> flip_error_rows(const DisplayLight& a, const DisplayLight& b,
-                                   const FlipFilters& filters, int first_row, int last_row);
+/// FLIP's error of each pixel of the tile, in [0, 1], its rows flip_padded(tile.width) apart.
+void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
+                      const FlipTile& tile, std::span<float> errors);
+
+/// That of each pixel of the picture, in reading order.
+std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
+                                  const FlipFilters& filters);
 
 struct FlipPooled {
   double mean, max;
 };
 
-/// Of a picture whose errors in rows [first, last) are error_rows(first, last), called on many threads.
+/// Of a picture whose errors in a tile errors_of(tile, errors) fills in, called on many threads.
 FlipPooled flip_pooled(int width, int height,
-                       const std::function<std::vector<float>(int first, int last)>& error_rows);
+                       const std::function<void(const FlipTile&, std::span<float>)>& errors_of);
 
 }  // namespace lobelia

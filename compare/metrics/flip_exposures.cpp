@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compare/display_light.hpp"
+#include "compare/tone_curve.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {

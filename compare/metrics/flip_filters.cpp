@@ -6,8 +6,6 @@
 #include <cmath>
 #include <span>
 
-#include "compare/metrics/weighted_sum.hpp"
-
 namespace lobelia {
 namespace {
 
@@ -55,39 +53,6 @@ void balance(std::vector<float>& taps) {
   for (float& tap : taps) tap /= tap > 0 ? positive : negative;
 }
 
-/// Where each tap finds its row.
-using TapRows = std::vector<const float*>;
-
-/// out[i] = sum over k of taps[k] * in[i + k].
-void filter_row(const float* in, const std::vector<float>& taps, std::span<float> out) {
-  TapRows rows(taps.size());
-  for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = in + k;
-  weighted_sum(taps, rows.data(), out);
-}
-
-/// Rows of a picture, filtered along them, from the picture's row `first` on.
-class Plane {
- public:
-  Plane(int width, int first, std::span<float> values)
-      : width_(std::size_t(width)), first_(first), values_(values) {}
-  std::span<float> row(int y) {
-    return {values_.data() + width_ * std::size_t(y - first_), width_};
-  }
-  /// The same down the columns, for row y of a picture of that height.
-  void filter_columns(const std::vector<float>& taps, int y, int height, std::span<float> out) {
-    const int radius = int(taps.size() / 2);
-    TapRows rows(taps.size());
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      rows[k] = row(std::clamp(y + int(k) - radius, 0, height - 1)).data();
-    weighted_sum(taps, rows.data(), out);
-  }
-
- private:
-  std::size_t width_;
-  int first_;
-  std::span<float> values_;
-};
-
 }  // namespace
 
 FlipFilters::FlipFilters(float pixels_per_degree) {
@@ -121,71 +86,6 @@ FlipFilters::FlipFilters(float pixels_per_degree) {
   for (float& tap : gaussian) tap /= sum;
   balance(edge);
   balance(point);
-}
-
-FlipRows flip_filter_rows(const DisplayLight& shown, const FlipFilters& filters, int first_row,
-                          int last_row) {
-  const int width = shown.width(), height = shown.height();
-  const int radius = std::max(filters.contrast_radius, filters.feature_radius);
-  const int first = std::max(0, first_row - radius), last = std::min(height, last_row + radius);
-
-  // Kept by the thread: megabytes of fresh pages for each task would cost a fifth of the time.
-  thread_local std::vector<float> memory;
-  constexpr std::size_t kPlanes = 7;
-  const std::size_t plane_size = std::size_t(width) * std::size_t(last - first);
-  memory.resize(std::max(memory.size(), kPlanes * plane_size));
-  std::size_t planes = 0;
-  const auto plane = [&] {
-    return Plane(width, first, std::span(memory).subspan(plane_size * planes++, plane_size));
-  };
-  Plane y = plane(), cx = plane(), cz_1 = plane(), cz_2 = plane();
-  Plane smooth = plane(), edge_x = plane(), point_x = plane();
-  // A row of the picture, extended by its border pixels, so that no tap needs a test.
-  const auto extended = std::size_t(width + 2 * radius);
-  std::vector<float> in_y(extended), in_cx(extended), in_cz(extended), in_grey(extended);
-  const int contrast = radius - filters.contrast_radius, feature = radius - filters.feature_radius;
-  for (int row = first; row < last; ++row) {
-    const std::size_t start = std::size_t(row) * std::size_t(width);
-    for (std::size_t i = 0; i < extended; ++i) {
-      const int x = std::clamp(int(i) - radius, 0, width - 1);
-      const FlipColour colour = flip_colour(shown.at(start + std::size_t(x)));
-      in_y[i] = colour.y;
-      in_cx[i] = colour.cx;
-      in_cz[i] = colour.cz;
-      in_grey[i] = colour.y * (1.0f / 116.0f) + 16.0f / 116.0f;
-    }
-    filter_row(in_y.data() + contrast, filters.luminance, y.row(row));
-    filter_row(in_cx.data() + contrast, filters.red_green, cx.row(row));
-    filter_row(in_cz.data() + contrast, filters.blue_yellow_1, cz_1.row(row));
-    filter_row(in_cz.data() + contrast, filters.blue_yellow_2, cz_2.row(row));
-    filter_row(in_grey.data() + feature, filters.gaussian, smooth.row(row));
-    filter_row(in_grey.data() + feature, filters.edge, edge_x.row(row));
-    filter_row(in_grey.data() + feature, filters.point, point_x.row(row));
-  }
-
-  FlipRows out;
-  const std::size_t size = std::size_t(last_row - first_row) * std::size_t(width);
-  out.colour.reserve(size);
-  out.edge.reserve(size);
-  out.point.reserve(size);
-  std::vector<float> sum_y(std::size_t(width), 0.0f), sum_cx(sum_y), sum_cz_1(sum_y),
-      sum_cz_2(sum_y), dx(sum_y), dy(sum_y), ddx(sum_y), ddy(sum_y);
-  for (int row = first_row; row < last_row; ++row) {
-    y.filter_columns(filters.luminance, row, height, sum_y);
-    cx.filter_columns(filters.red_green, row, height, sum_cx);
-    cz_1.filter_columns(filters.blue_yellow_1, row, height, sum_cz_1);
-    cz_2.filter_columns(filters.blue_yellow_2, row, height, sum_cz_2);
-    edge_x.filter_columns(filters.gaussian, row, height, dx);
-    smooth.filter_columns(filters.edge, row, height, dy);
-    point_x.filter_columns(filters.gaussian, row, height, ddx);
-    smooth.filter_columns(filters.point, row, height, ddy);
-    for (std::size_t i = 0; i < std::size_t(width); ++i) {
-      out.colour.push_back({sum_y[i], sum_cx[i], sum_cz_1[i] + sum_cz_2[i]});
-      out.edge.push_back(std::sqrt(dx[i] * dx[i] + dy[i] * dy[i]));
-      out.point.push_back(std::sqrt(ddx[i] * ddx[i] + ddy[i] * ddy[i]));
-    }
-  }
-  return out;
 }
 
 }  // namespace lobelia

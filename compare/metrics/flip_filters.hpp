@@ -3,9 +3,6 @@
 
 #include <vector>
 
-#include "compare/display_light.hpp"
-#include "compare/metrics/flip_colour.hpp"
-
 namespace lobelia {
 
 /// Separable filters for one viewing distance; each has 2 * radius + 1 taps, the middle one
@@ -20,15 +17,5 @@ struct FlipFilters {
   /// Feature detection: a Gaussian across and its first (edge) or second (point) derivative along.
   std::vector<float> gaussian, edge, point;
 };
-
-/// What FLIP wants to know of each pixel of some rows.
-struct FlipRows {
-  std::vector<FlipColour> colour;  ///< after the contrast filter
-  std::vector<float> edge, point;  ///< strength of the features there
-};
-
-/// Rows [first_row, last_row) of the picture; beyond its border the border's pixels repeat.
-FlipRows flip_filter_rows(const DisplayLight& shown, const FlipFilters& filters, int first_row,
-                          int last_row);
 
 }  // namespace lobelia

@@ -15,6 +15,7 @@
 // Differs:      the mean is summed in double. The tool's curve gives a NaN for values over 1.8e19,
 //               whose square is infinite, and light for negative ones; ours white and black.
 #include <algorithm>
+#include <vector>
 
 #include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/metric.hpp"
@@ -40,18 +41,16 @@ std::vector<float> exposure_stops(const HdrExposures& range) {
 void measure(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
   const std::vector<float> stops = exposure_stops(*input.hdr_exposures);
-  const FlipPooled pooled =
-      flip_pooled(input.a.width(), input.a.height(), [&](int first, int last) {
-        std::vector<float> largest;
+  const FlipPooled pooled = flip_pooled(
+      input.a.width(), input.a.height(), [&](const FlipTile& tile, std::span<float> largest) {
+        std::vector<float> errors(largest.size());
         for (const float stop : stops) {
           const DisplayLight a(input.a, double(stop), ToneCurve::kAces);
           const DisplayLight b(input.b, double(stop), ToneCurve::kAces);
-          const std::vector<float> errors = flip_error_rows(a, b, filters, first, last);
-          largest.resize(errors.size(), 0.0f);
+          flip_tile_errors(a, b, filters, tile, errors);
           for (std::size_t i = 0; i < errors.size(); ++i)
             largest[i] = std::max(largest[i], errors[i]);
         }
-        return largest;
       });
   values[0] = pooled.mean;
   values[1] = pooled.max;

@@ -8,7 +8,9 @@
 //               edges or points of the luminance. mean and max over all pixels.
 // Input:        DisplayLight (linear, clipped). The tool takes sRGB and decodes it first.
 // Agrees with:  NVIDIA's tool, version 1.6, built without fused multiply-add, its mean taken in
-//               double: in all nine digits of mean and maximum on the pictures of the test.
+//               double: in all nine digits of mean and maximum on the pictures of the test. A double loop
+//               in double over each pixel's windows: to 4e-6 in each pixel.
+// Computed:     on SIMD registers, within 1.2e-7 the same on every instruction set (flip_kernels.cpp).
 // Differs:      the mean is summed in double; the tool's float32 sum is wrong by percents on a
 //               large picture.
 //
@@ -28,9 +30,10 @@ constexpr MetricOutput kOutputs[] = {
 void measure(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
   const FlipPooled pooled =
-      flip_pooled(input.shown_a.width(), input.shown_a.height(), [&](int first, int last) {
-        return flip_error_rows(input.shown_a, input.shown_b, filters, first, last);
-      });
+      flip_pooled(input.shown_a.width(), input.shown_a.height(),
+                  [&](const FlipTile& tile, std::span<float> errors) {
+                    flip_tile_errors(input.shown_a, input.shown_b, filters, tile, errors);
+                  });
   values[0] = pooled.mean;
   values[1] = pooled.max;
 }

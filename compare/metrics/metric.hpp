@@ -14,6 +14,8 @@
 
 namespace lobelia {
 
+struct NoiseOfPair;  // compare/uncertainty/z_test.hpp
+
 /// FLIP's standard viewer: a display 0.7 m wide with 3840 pixels, seen from 0.7 m.
 inline constexpr double kDefaultPixelsPerDegree = 3840 * std::numbers::pi / 180;
 /// Below, FLIP's feature filter is narrower than a pixel; above, its filters only cost time.
@@ -56,6 +58,7 @@ struct MetricInput {
   const HdrExposures* hdr_exposures = nullptr;
   /// By pixel, not 0 where it is inside; empty if none was given.
   std::span<const std::uint8_t> mask = {};
+  const NoiseOfPair* noise = nullptr;  ///< null if neither picture is known to have any
 };
 
 /// Which way a number is to go: what a limit on it means, and what equal pictures have.
@@ -83,6 +86,7 @@ enum class Needs : std::uint8_t {
   kHdrExposures,
   kOneWindow,   ///< sides of at least kSsimSide
   kFiveScales,  ///< sides of at least kMsSsimSide
+  kNoise,       ///< of one picture at least
 };
 
 /// What a window of SSIM takes, and what five halvings of the picture leave it.
@@ -94,6 +98,7 @@ struct MetricOutput {
   bool symmetric;  ///< does not change when a and b are exchanged
   std::string_view meaning;
   double best = 0;  ///< the value of equal pictures, unless it is a fact
+  bool square = false;  ///< how far it is from the best grows as the square of a difference does
 };
 
 struct Metric {

@@ -27,19 +27,23 @@ constexpr int kScales = int(std::size(kWeights));
 static_assert(kSsimWindow << (kScales - 1) == kMsSsimSide);
 
 constexpr MetricOutput kOutputs[] = {
-    {"ms_ssim", Better::kHigher, true, "structural similarity at five scales", 1}};
+    {"ms_ssim", Better::kHigher, true, "structural similarity at five scales", 1, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
-  LumaPlane a = luma(input.shown_a), b = luma(input.shown_b);
+  // Of the pictures themselves no plane is kept: two would be a third of the pictures.
+  LumaRows rows_a = luma(input.shown_a), rows_b = luma(input.shown_b);
+  LumaPlane a, b;
   double product = 1;
   for (int scale = 0;; ++scale) {
-    const SsimMeans means = ssim_means(a, b);
+    const SsimMeans means = ssim_means(rows_a, rows_b);
     const bool last = scale == kScales - 1;
     const double mean = last ? means.similarity : means.contrast_structure;
     product *= std::pow(std::max(mean, 0.0), kWeights[scale]);
     if (last) break;
-    a = half_size(a);
-    b = half_size(b);
+    a = half_size(rows_a);
+    b = half_size(rows_b);
+    rows_a = rows_of(a);
+    rows_b = rows_of(b);
   }
   values[0] = product;
 }

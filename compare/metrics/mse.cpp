@@ -11,7 +11,7 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"mse", Better::kLower, true, "mean square error of all RGB values"}};
+    {"mse", Better::kLower, true, "mean square error of all RGB values", 0, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   values[0] = mean_square_error<Part::kPicture>(input);

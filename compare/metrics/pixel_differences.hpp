@@ -1,29 +1,30 @@
 // A difference of each pixel as shown, for the metrics that are made of those.
 #pragma once
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
+#include <cstddef>
 #include <vector>
 
-#include "compare/metrics/metric.hpp"
+#include "compare/display_light.hpp"
 
 namespace lobelia {
 
-/// difference(Rgb a, Rgb b) of every pixel in reading order; 0 where both sides show the same light.
-template <class Difference>
-std::vector<double> pixel_differences(const MetricInput& input, Difference difference) {
-  std::vector<double> differences(input.shown_a.pixel_count());
-  constexpr std::size_t kPixelsPerTask = 4096;
-  oneapi::tbb::parallel_for(
-      oneapi::tbb::blocked_range<std::size_t>(0, differences.size(), kPixelsPerTask),
-      [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          const Rgb a = input.shown_a.at(i), b = input.shown_b.at(i);
-          differences[i] = a == b ? 0 : difference(a, b);
-        }
-      });
-  return differences;
-}
+/// Fills in the differences of `count` pixels, R, G and B of each as shown; 0 for pixels that show the same.
+using DifferenceKernel = void (*)(const float* rgb_a, const float* rgb_b, float* differences,
+                                  std::size_t count);
+
+struct PixelDifferences {
+  /// In reading order, in float32: 256 MB of a picture of 8192 x 8192, and no order is lost by rounding.
+  std::vector<float> values;
+  double mean, max;  ///< 0 of a picture without pixels
+};
+
+/// The same for any number of threads.
+PixelDifferences pixel_differences(const DisplayLight& a, const DisplayLight& b,
+                                   DifferenceKernel kernel);
+
+/// The smallest value that at least `share` of the values do not exceed: the nearest rank, without
+/// interpolation, so that it is a value which some pixel has. 0 < share <= 1; reorders the values, of which
+/// there has to be one.
+double percentile(std::vector<float>& values, double share);
 
 }  // namespace lobelia

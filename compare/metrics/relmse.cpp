@@ -17,7 +17,7 @@ namespace {
 constexpr double kEpsilon = 0.01;
 
 constexpr MetricOutput kOutputs[] = {
-    {"relmse.eps=0.01", Better::kLower, false, "mean of (a - b)^2 / (b^2 + 0.01)"}};
+    {"relmse.eps=0.01", Better::kLower, false, "mean of (a - b)^2 / (b^2 + 0.01)", 0, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   values[0] = mean_over<Part::kPicture>(

@@ -23,7 +23,7 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"ssim", Better::kHigher, true, "structural similarity of the luma, mean", 1}};
+    {"ssim", Better::kHigher, true, "structural similarity of the luma, mean", 1, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   values[0] = ssim_means(luma(input.shown_a), luma(input.shown_b)).similarity;

@@ -39,7 +39,7 @@ void add_scaled(double factor, const double* in, std::span<double> out) {
 
 }  // namespace
 
-SsimMeans ssim_means(const LumaPlane& a, const LumaPlane& b) {
+SsimMeans ssim_means(const LumaRows& a, const LumaRows& b) {
   const auto taps = gaussian();
   const int across = a.width - kSsimWindow + 1, down = a.height - kSsimWindow + 1;
   const auto width = std::size_t(a.width), windows = std::size_t(across);
@@ -55,8 +55,10 @@ SsimMeans ssim_means(const LumaPlane& a, const LumaPlane& b) {
       filtered[m].resize(windows * std::size_t(rows));
       mean[m].resize(windows);
     }
+    std::vector<float> in_a(width), in_b(width);
     for (int row = 0; row < rows; ++row) {
-      const float *in_a = a.row(first + row), *in_b = b.row(first + row);
+      a.fill(first + row, in_a.data());
+      b.fill(first + row, in_b.data());
       for (std::size_t x = 0; x < width; ++x) {
         const double va = in_a[x], vb = in_b[x];
         source[kA][x] = va;

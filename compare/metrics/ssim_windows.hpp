@@ -15,6 +15,6 @@ struct SsimMeans {
 };
 
 /// Over all windows that lie wholly inside the picture, which has to hold one.
-SsimMeans ssim_means(const LumaPlane& a, const LumaPlane& b);
+SsimMeans ssim_means(const LumaRows& a, const LumaRows& b);
 
 }  // namespace lobelia

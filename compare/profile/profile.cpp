@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "compare/profile/highlight_figures.hpp"
+#include "compare/profile/radiance_at.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
@@ -32,20 +34,15 @@ std::vector<LitPixel> lit_pixels(const ProfileGeometry& geometry) {
   return lit;
 }
 
-double radiance_at(const Image& image, std::size_t index) {
-  const float* value = image.values().data() + 3 * index;
-  return (double(value[0]) + double(value[1]) + double(value[2])) / 3;
-}
-
 /// The bin of each lit pixel, by a width that follows the pixels' density; past the last: none.
 struct Binning {
   double reach = 0, width = 1;
   std::size_t bins = 0;
 
-  Binning(const std::vector<LitPixel>& lit, double blooming_end) {
+  Binning(const std::vector<LitPixel>& lit, double end) {
     double largest = 0;
     for (const LitPixel& pixel : lit) largest = std::max(largest, pixel.angle);
-    reach = std::min(kCurveReach * blooming_end, largest);
+    reach = std::min(kCurveReach * end, largest);
     if (!(reach > 0)) return;
     const auto within = std::count_if(lit.begin(), lit.end(),
                                       [&](const LitPixel& pixel) { return pixel.angle <= reach; });
@@ -59,7 +56,7 @@ struct Binning {
 };
 
 void add_curves(Profile& profile, const std::vector<LitPixel>& lit, const NamedImages& images) {
-  const Binning binning(lit, profile.blooming_end);
+  const Binning binning(lit, profile.ends.back());
   std::vector<std::size_t> count(binning.bins, 0);
   std::vector<double> angle_sum(binning.bins, 0.0);
   std::vector<std::vector<double>> sums(images.size(), angle_sum);
@@ -117,32 +114,29 @@ HighlightShape measure_shape(const std::vector<LitPixel>& lit, const ProfileGeom
   return shape;
 }
 
-ZoneError zone_error(const std::vector<LitPixel>& lit, const Image& a, const Image& b, double begin,
-                     double end, double peak) {
-  ZoneError error;
-  double squares = 0;
-  bool finite = true;
+/// Of each zone in turn.
+std::array<ZoneError, kZoneCount> zone_errors(const std::vector<LitPixel>& lit,
+                                              const ZoneEnds& ends, const Image& a, const Image& b,
+                                              double peak) {
+  std::array<ZoneErrorSum, kZoneCount> sums;
   for (const LitPixel& pixel : lit) {
-    if (!(pixel.angle >= begin && pixel.angle < end)) continue;
-    const double difference = radiance_at(a, pixel.index) - radiance_at(b, pixel.index);
-    finite = finite && std::isfinite(difference);
-    error.max_abs = std::max(error.max_abs, std::abs(difference));
-    squares += difference * difference;
-    ++error.pixels;
+    const auto zone = std::upper_bound(ends.begin(), ends.end(), pixel.angle) - ends.begin();
+    if (std::size_t(zone) < kZoneCount)
+      sums[std::size_t(zone)].add(radiance_at(a, pixel.index) - radiance_at(b, pixel.index));
   }
-  if (error.pixels == 0 || !finite) {
-    error.max_abs = error.rms = error.max_rel_peak = kNaN;
-    return error;
-  }
-  error.rms = std::sqrt(squares / double(error.pixels));
-  error.max_rel_peak = error.max_abs == 0 ? 0 : error.max_abs / peak;
-  return error;
+  std::array<ZoneError, kZoneCount> errors;
+  std::transform(sums.begin(), sums.end(), errors.begin(),
+                 [&](const ZoneErrorSum& sum) { return sum.error(peak); });
+  return errors;
 }
 
 void require_pixel_count(const ProfileGeometry& geometry, const NamedImages& images) {
   const std::size_t expected = geometry.angle.size();
-  if (geometry.solid_angle.size() != expected)
-    throw Error(ExitCode::kInternal, "a profile's angles and solid angles differ in number");
+  const bool figures = geometry.width > 0;
+  if (geometry.solid_angle.size() != expected ||
+      (figures && (geometry.scale.size() != expected || geometry.base.size() != expected ||
+                   expected % std::size_t(geometry.width) != 0)))
+    throw Error(ExitCode::kInternal, "the geometry of a profile's pixels differs in number");
   for (const auto& [name, image] : images)
     if (image->pixel_count() != expected)
       throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, the scene's film has {}",
@@ -156,24 +150,21 @@ Profile measure_profile(const ProfileGeometry& geometry, const NamedImages& imag
   require_pixel_count(geometry, images);
   const std::vector<LitPixel> lit = lit_pixels(geometry);
   Profile profile;
-  profile.epicentre_end = geometry.epicentre_end;
-  profile.blooming_end = geometry.blooming_end;
+  profile.ends = geometry.ends;
+  profile.incidence = geometry.incidence;
   add_curves(profile, lit, images);
   for (std::size_t k = 0; k < images.size(); ++k) {
     profile.names.push_back(images[k].first);
     HighlightShape shape = measure_shape(lit, geometry, *images[k].second);
     shape.half_width = half_width(profile.angle, profile.radiance[k], shape);
     profile.shapes.push_back(shape);
+    if (geometry.width > 0)
+      profile.figures.push_back(measure_highlight(geometry, *images[k].second));
   }
-  for (const auto& [a, b] : pairs) {
-    const auto zone = [&](double begin, double end) {
-      return zone_error(lit, *images.at(a).second, *images.at(b).second, begin, end,
-                        profile.shapes[b].peak);
-    };
+  for (const auto& [a, b] : pairs)
     profile.differences.push_back({images.at(a).first, images.at(b).first,
-                                   zone(0, geometry.epicentre_end),
-                                   zone(geometry.epicentre_end, geometry.blooming_end)});
-  }
+                                   zone_errors(lit, geometry.ends, *images.at(a).second,
+                                               *images.at(b).second, profile.shapes[b].peak)});
   return profile;
 }
 

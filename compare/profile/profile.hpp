@@ -1,23 +1,24 @@
-// A highlight as a curve over the angle that its lobe sees: peak, width, energy, and where two
-// pictures of it differ.
+// A highlight as a curve over the angle that its lobe sees: peak, width, energy, the power of a cosine that it
+// looks like, and where two pictures of it differ. docs/profiles.md defines every figure and the zones.
 //
-// Radiance here is the mean of R, G and B. The zones are those of the literature on such lobes:
-//   epicentre  from the middle of the highlight to where the lobe has fallen to a half,
-//   blooming   from there to where it has fallen to a thousandth: the tail that the eye still sees.
+// Radiance here is the mean of R, G and B.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "compare/profile/cosine_fit.hpp"
+#include "compare/profile/peak.hpp"
+#include "compare/profile/zones.hpp"
 #include "core/image.hpp"
 #include "core/record.hpp"
 
 namespace lobelia {
-
-inline constexpr double kEpicentreLobe = 0.5, kBloomingLobe = 1e-3;
 
 /// Pictures by name, in the order they are reported in. One may be the formula: "analytic".
 using NamedImages = std::vector<std::pair<std::string, const Image*>>;
@@ -26,8 +27,30 @@ using NamedImages = std::vector<std::pair<std::string, const Image*>>;
 struct ProfileGeometry {
   std::span<const double> angle;        ///< radians; NaN where the light does not reach the body
   std::span<const double> solid_angle;  ///< of the pixel, steradian
-  double epicentre_end = 0;             ///< radians
-  double blooming_end = 0;              ///< radians
+  ZoneEnds ends;                        ///< radians
+  // Without these three there are no HighlightFigures.
+  int width = 0;                       ///< of the film; 0: unknown
+  std::span<const double> scale = {};  ///< radiance of the highlight is scale * coefficient * lobe
+  std::span<const double> base = {};   ///< radiance beneath the highlight: of the diffuse base
+  /// Unit vector in the picture, y down, along the line in which the plane of incidence is seen; nothing where
+  /// eye, sphere and light lie on one line.
+  std::optional<FilmPoint> incidence = {};
+};
+
+/// Half of the width between the places to both sides where the highlight has half of its peak.
+struct HalfWidth {
+  double pixels = 0;
+  double angle = 0;  ///< of the lobe there, the mean of both sides, radians
+};
+
+/// Of the highlight alone, without what lies beneath it; NaN where it cannot be told.
+struct HighlightFigures {
+  Peak peak;           ///< to a fraction of a pixel
+  FilmPoint centroid;  ///< weighted by radiance * solid angle, down to the end of the blooming zone
+  double energy = 0;   ///< sum of radiance * solid angle over the lit pixels, W/m^2
+  HalfWidth along, across;  ///< the plane of incidence; where there is none, x and y of the picture
+  CosineFit cosine;         ///< down to the end of the blooming zone
+  std::string why_not;      ///< a sentence where there is no peak or it is not resolved
 };
 
 struct HighlightShape {
@@ -37,25 +60,20 @@ struct HighlightShape {
   double energy = 0;      ///< sum of radiance * solid angle over the lit pixels, W/m^2
 };
 
-struct ZoneError {
-  std::size_t pixels = 0;   ///< of the zone; if 0, the errors are NaN
-  double max_abs = 0;       ///< radiance
-  double rms = 0;           ///< radiance
-  double max_rel_peak = 0;  ///< max_abs / the second picture's peak
-};
-
 struct ProfileDifference {
   std::string a, b;  ///< b is the reference
-  ZoneError epicentre, blooming;
+  std::array<ZoneError, kZoneCount> zones;
 };
 
 struct Profile {
-  double epicentre_end = 0, blooming_end = 0;
+  ZoneEnds ends;
+  std::optional<FilmPoint> incidence;
   std::vector<double> angle;                  ///< of each bin: the mean of its pixels, radians
   std::vector<std::size_t> pixels;            ///< in each bin, never 0
   std::vector<std::string> names;             ///< of the pictures
   std::vector<std::vector<double>> radiance;  ///< [picture][bin], the mean of its pixels
   std::vector<HighlightShape> shapes;         ///< [picture]
+  std::vector<HighlightFigures> figures;      ///< [picture], or none at all
   std::vector<ProfileDifference> differences;
 };
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compare/metrics/catalogue.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace {
@@ -18,6 +20,10 @@ double badness(Better better, double value) {
 
 }  // namespace
 
+Verdict PairReport::verdict() const {
+  return layers ? worst_verdict(comparison->verdict, layers->compared) : comparison->verdict;
+}
+
 SetCounts count(const SetReport& report) {
   SetCounts counts;
   for (const PairReport& pair : report.pairs) {
@@ -25,12 +31,17 @@ SetCounts count(const SetReport& report) {
       ++counts.errors;
       continue;
     }
-    switch (pair.comparison->verdict) {
+    switch (pair.verdict()) {
       case Verdict::kPass:
+      case Verdict::kSame:
         ++counts.pass;
         break;
       case Verdict::kDiffers:
+      case Verdict::kDifferent:
         ++counts.differs;
+        break;
+      case Verdict::kUndecided:
+        ++counts.undecided;
         break;
       case Verdict::kNonFinite:
         ++counts.nonfinite;
@@ -45,8 +56,9 @@ SetCounts count(const SetReport& report) {
 ExitCode set_exit_code(const SetReport& report) {
   const SetCounts counts = count(report);
   if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
-  return counts.differs + counts.nonfinite + counts.missing > 0 ? ExitCode::kDiffers
-                                                                : ExitCode::kSuccess;
+  return counts.differs + counts.undecided + counts.nonfinite + counts.missing > 0
+             ? ExitCode::kDiffers
+             : ExitCode::kSuccess;
 }
 
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
@@ -85,6 +97,18 @@ std::string why_not_pass(const Comparison& comparison) {
     if (!limit.pass)
       text += fmt::format("{}{} is {:.6g}, limit {:g}", text.empty() ? "" : "; ", limit.metric,
                           limit.value, limit.limit);
+  return text;
+}
+
+std::string why_not_pass(const PairReport& pair) {
+  std::string text = why_not_pass(*pair.comparison);
+  if (!pair.layers) return text;
+  for (const LayerComparison& layer : pair.layers->compared) {
+    const std::string why = layer.comparison ? why_not_pass(*layer.comparison) : layer.problem;
+    if (!why.empty())
+      text += fmt::format("{}layer {}: {}", text.empty() ? "" : "; ",
+                          layer.name.empty() ? "of the picture" : printable(layer.name), why);
+  }
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/compare.hpp"
+#include "compare/layers.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
@@ -18,6 +19,11 @@ struct PairReport {
   std::optional<Comparison> comparison;
   std::string error;  ///< why there is no comparison; empty if there is one
   double seconds = 0;
+  std::optional<PicturePairSource> sources = {};  ///< how both files were read
+  std::optional<OtherLayers> layers = {};         ///< if more layers than one were compared
+
+  /// The worst of the picture and its layers; `comparison` has to be there.
+  Verdict verdict() const;
 };
 
 struct SetReport {
@@ -29,7 +35,8 @@ struct SetReport {
 };
 
 struct SetCounts {
-  std::size_t pass = 0, differs = 0, nonfinite = 0, errors = 0, missing = 0, extra = 0;
+  std::size_t pass = 0, differs = 0, undecided = 0, nonfinite = 0, errors = 0, missing = 0,
+              extra = 0;
 };
 SetCounts count(const SetReport& report);
 
@@ -51,8 +58,12 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
 /// "rmse is 0.02, limit 0.001; ..." of the limits that fail, or how many pixels are not finite; empty for a
 /// pass.
 std::string why_not_pass(const Comparison& comparison);
+/// The same of the picture and its layers.
+std::string why_not_pass(const PairReport& pair);
 
-/// As docs/records.md has it (kind comparison-set).
+/// The record of a pair that has a comparison (kind comparison), and of all (kind comparison-set):
+/// docs/records.md.
+Json pair_record(const PairReport& pair);
 Json set_record(const SetReport& report);
 
 /// RFC 4180: a line of names, then one for each pair, missing and extra name; a column for each metric that

@@ -42,8 +42,8 @@ std::string set_csv(const SetReport& report) {
       continue;
     }
     const Comparison& comparison = *pair.comparison;
-    text += fmt::format("{},{},{}", csv_field(pair.name), verdict_name(comparison.verdict),
-                        csv_field(why_not_pass(comparison)));
+    text += fmt::format("{},{},{}", csv_field(pair.name), verdict_name(pair.verdict()),
+                        csv_field(why_not_pass(pair)));
     for (const std::string_view id : ids) {
       const auto& values = comparison.metrics;
       const auto found = std::find_if(values.begin(), values.end(),

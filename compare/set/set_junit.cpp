@@ -43,8 +43,8 @@ void add_pair(pugi::xml_node suite, const PairReport& pair) {
     property.append_attribute("name") = std::string(metric.id).c_str();
     property.append_attribute("value") = fmt::format("{}", metric.value).c_str();
   }
-  if (comparison.verdict != Verdict::kPass)
-    add_outcome(one, "failure", verdict_name(comparison.verdict), why_not_pass(comparison));
+  if (!is_pass(pair.verdict()))
+    add_outcome(one, "failure", verdict_name(pair.verdict()), why_not_pass(pair));
 }
 
 }  // namespace
@@ -59,7 +59,8 @@ std::string set_junit(const SetReport& report) {
   for (pugi::xml_node node : {suites, suite}) {
     node.append_attribute("name") = text(report.a + " against " + report.b).c_str();
     node.append_attribute("tests") = report.pairs.size() + counts.missing + counts.extra;
-    node.append_attribute("failures") = counts.differs + counts.nonfinite + counts.missing;
+    node.append_attribute("failures") =
+        counts.differs + counts.undecided + counts.nonfinite + counts.missing;
     node.append_attribute("errors") = counts.errors;
     node.append_attribute("skipped") = counts.extra;
     node.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();

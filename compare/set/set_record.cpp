@@ -5,16 +5,24 @@
 
 namespace lobelia {
 
+Json pair_record(const PairReport& pair) {
+  Json record = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
+  if (pair.sources) add_pictures(record, pair.sources->a, pair.sources->b);
+  if (pair.layers) add_layers(record, pair.verdict(), pair.layers->compared, pair.layers->common);
+  return record;
+}
+
 Json set_record(const SetReport& report) {
   Json record = make_record("comparison-set");
   record["a"] = report.a;
   record["b"] = report.b;
   if (!report.c.empty()) record["c"] = report.c;
   const SetCounts counts = count(report);
-  record["summary"] = {{"pairs", report.pairs.size()}, {"pass", counts.pass},
-                       {"differs", counts.differs},    {"nonFinite", counts.nonfinite},
-                       {"errors", counts.errors},      {"missing", counts.missing},
-                       {"extra", counts.extra},        {"passedOver", report.passed_over}};
+  record["summary"] = {{"pairs", report.pairs.size()},    {"pass", counts.pass},
+                       {"differs", counts.differs},       {"undecided", counts.undecided},
+                       {"nonFinite", counts.nonfinite},   {"errors", counts.errors},
+                       {"missing", counts.missing},       {"extra", counts.extra},
+                       {"passedOver", report.passed_over}};
   record["worst"] = Json::object();
   for (const MetricSummary& metric : summarise(report.pairs))
     record["worst"][std::string(metric.id)] = {{"value", number_or_name(metric.worst)},
@@ -26,7 +34,7 @@ Json set_record(const SetReport& report) {
   for (const PairReport& pair : report.pairs) {
     Json entry = {{"name", pair.name}};
     if (pair.comparison)
-      entry["comparison"] = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
+      entry["comparison"] = pair_record(pair);
     else
       entry["error"] = pair.error;
     record["pairs"].push_back(std::move(entry));

@@ -25,9 +25,11 @@ TEST(Help, OfTheProgramNamesEverySubcommandAndTheExitCodes) {
 TEST(Help, OfEverySubcommandIsThere) {
   const TemporaryDirectory directory;
   for (const char* name : kSubcommands) {
-    const auto result = run_lobelia({name, "--help"}, directory.path());
-    EXPECT_EQ(result.exit_code, 0) << name;
-    EXPECT_THAT(result.output_tail, HasSubstr("--help")) << name;
+    EXPECT_EQ(run_lobelia({name, "--help"}, directory.path()).exit_code, 0) << name;
+    // Near its top: of a long one only the end is kept.
+    const auto top =
+        run_shell(std::string("\"$LOBELIA\" ") + name + " --help | head -n 20", directory.path());
+    EXPECT_THAT(top.output_tail, HasSubstr("--help")) << name;
   }
 }
 
@@ -76,6 +78,12 @@ TEST(Mistakes, EndInOneClearLineTheRightExitCodeAndNoFile) {
         kScenes + "effects/area_light.xml"},
        3,
        "this scene has a light with a size"},
+      {{"compare", "a.exr", "b.exr", "--significance", "0"}, 2, "--significance"},
+      {{"compare", "a.exr", "b.exr", "--bootstrap", "1"}, 2, "--bootstrap"},
+      {{"compare", "a.exr", "b.exr", "--fail", "z.max=5"}, 2, "needs the noise of a picture"},
+      {{"compare", "a.exr", "b.exr", "--a-error", "e.exr", "--a-replicate", "c.exr"},
+       2,
+       "excludes"},
       {{"profile", text_exr, "--scene", scene}, 3, "text.exr"},
       {{"reference", scene, "--engine", "maya", "-o", "a.exr"}, 2, "maya"},
       {{"reference", scene, "--engine", "povray", "--povray", "/no/such", "-o", "a.exr"},

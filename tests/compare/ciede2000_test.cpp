@@ -112,22 +112,42 @@ TEST(Ciede2000, PercentileIsTheValueThatNineteenPixelsInTwentyDoNotExceed) {
   EXPECT_LT(comparison.value("ciede2000.p95"), comparison.value("ciede2000.max"));
 }
 
+TEST(Percentile, IsTheLeastThatEnoughValuesDoNotExceed) {
+  std::vector<float> values{3, 1, 2};
+  EXPECT_EQ(percentile(values, 0.3), 1);
+  EXPECT_EQ(percentile(values, 0.5), 2);
+  EXPECT_EQ(percentile(values, 0.67), 3);
+  EXPECT_EQ(percentile(values, 1), 3);
+}
+
 TEST(Ciede2000, PercentilesAreTheNearestRankOfTheSortedPixels) {
   // 200 greys, each farther from white than the one before, in an order that is not sorted.
   const Image reference = testing::flat(200, 1, 1, 1, 1);
   Image picture = reference;
-  std::vector<double> sorted;
+  std::vector<float> sorted;
   for (int i = 0; i < 200; ++i) {
     const int x = i * 77 % 200;
     for (float& value : picture.pixel(x, 0)) value = 1 - float(i) / 256;
     const double grey = double(picture.pixel(x, 0)[0]);
-    sorted.push_back(ciede2000(lab_from_display({grey, grey, grey}), lab_from_display({1, 1, 1})));
+    sorted.push_back(
+        float(ciede2000(lab_from_display({grey, grey, grey}), lab_from_display({1, 1, 1}))));
   }
   const Comparison comparison = compare(picture, reference, {});
-  EXPECT_EQ(comparison.value("ciede2000.p50"), sorted[99]);
-  EXPECT_EQ(comparison.value("ciede2000.p95"), sorted[189]);
-  EXPECT_EQ(comparison.value("ciede2000.p99"), sorted[197]);
-  EXPECT_EQ(comparison.value("ciede2000.max"), sorted[199]);
+  EXPECT_EQ(comparison.value("ciede2000.p50"), double(sorted[99]));
+  EXPECT_EQ(comparison.value("ciede2000.p95"), double(sorted[189]));
+  EXPECT_EQ(comparison.value("ciede2000.p99"), double(sorted[197]));
+  EXPECT_EQ(comparison.value("ciede2000.max"), double(sorted[199]));
+}
+
+TEST(Ciede2000, OfAPictureIsThatOfItsPixels) {
+  const Image a = testing::noise(37, 5, 1, 1.5f), b = testing::noise(37, 5, 2, 1.2f);
+  const DisplayLight shown_a(a, 0), shown_b(b, 0);
+  const std::vector<float> values = ciede2000_of_pixels(shown_a, shown_b).values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double difference =
+        ciede2000(lab_from_display(shown_a.at(i)), lab_from_display(shown_b.at(i)));
+    EXPECT_NEAR(values[i], difference, 1e-7 * difference) << i;
+  }
 }
 
 TEST(Ciede2000, LooksAtTheExposedPicture) {

@@ -104,5 +104,20 @@ TEST(DeltaEItp, PercentileLeavesOutOnePixelInTwenty) {
   EXPECT_LT(comparison.value("delta_e_itp.p95"), comparison.value("delta_e_itp.max"));
 }
 
+TEST(DeltaEItp, OfAPictureIsThatOfItsPixels) {
+  const Image a = testing::noise(37, 5, 1, 1.5f), b = testing::noise(37, 5, 2, 1.2f);
+  const DisplayLight shown_a(a, 0), shown_b(b, 0);
+  double mean = 0, max = 0;
+  for (std::size_t i = 0; i < a.pixel_count(); ++i) {
+    const double difference =
+        delta_e_itp(itp_from_display(shown_a.at(i)), itp_from_display(shown_b.at(i)));
+    mean += difference / double(a.pixel_count());
+    max = std::max(max, difference);
+  }
+  const Comparison comparison = compare(a, b, {});
+  EXPECT_NEAR(comparison.value("delta_e_itp.mean"), mean, 1e-7 * mean);
+  EXPECT_NEAR(comparison.value("delta_e_itp.max"), max, 1e-7 * max);
+}
+
 }  // namespace
 }  // namespace lobelia

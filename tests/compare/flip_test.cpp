@@ -1,11 +1,13 @@
 // LDR-FLIP and HDR-FLIP against values of NVIDIA's tool.
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include "compare/compare.hpp"
+#include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/flip_exposures.hpp"
-#include "compare/metrics/flip_filters.hpp"
 #include "core/error.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/compare/plain_flip.hpp"
 
 namespace lobelia {
 namespace {
@@ -105,16 +107,78 @@ TEST(Flip, FiltersKeepAFlatPictureFlatAtEveryDistance) {
   }
 }
 
-TEST(Flip, ComesOutTheSameWhereverATaskOfRowsEnds) {
-  // The same columns of a taller picture: rows far from the added ones must not change.
-  const Image a = testing::noise(20, 100, 3, 1.0f), b = testing::noise(20, 100, 4, 1.0f);
-  const DisplayLight shown(a, 0);
+/// The error of a tile, without the padding of its rows.
+std::vector<float> errors_of(const DisplayLight& a, const DisplayLight& b,
+                             const FlipFilters& filters, const FlipTile& tile) {
+  const std::size_t padded = flip_padded(std::size_t(tile.width));
+  std::vector<float> rows(padded * std::size_t(tile.height)), errors;
+  flip_tile_errors(a, b, filters, tile, rows);
+  for (int y = 0; y < tile.height; ++y)
+    for (int x = 0; x < tile.width; ++x)
+      errors.push_back(rows[padded * std::size_t(y) + std::size_t(x)]);
+  return errors;
+}
+
+TEST(Flip, ComesOutTheSameWhereverATileEnds) {
+  const Image a = testing::noise(70, 100, 3, 1.0f), b = testing::noise(70, 100, 4, 1.0f);
+  const DisplayLight shown_a(a, 0), shown_b(b, 0);
   const FlipFilters filters{float(kDefaultPixelsPerDegree)};
-  const FlipRows whole = flip_filter_rows(shown, filters, 0, 100);
-  const FlipRows part = flip_filter_rows(shown, filters, 37, 41);
-  for (std::size_t i = 0; i < part.edge.size(); ++i) {
-    EXPECT_EQ(part.edge[i], whole.edge[37 * 20 + i]);
-    EXPECT_EQ(part.colour[i].y, whole.colour[37 * 20 + i].y);
+  const std::vector<float> whole = errors_of(shown_a, shown_b, filters, {0, 0, 70, 100});
+  for (const FlipTile tile : {FlipTile{0, 37, 70, 4}, FlipTile{11, 0, 33, 100},
+                              FlipTile{69, 99, 1, 1}, FlipTile{5, 80, 17, 20}}) {
+    const std::vector<float> part = errors_of(shown_a, shown_b, filters, tile);
+    for (int y = 0; y < tile.height; ++y)
+      for (int x = 0; x < tile.width; ++x)
+        ASSERT_EQ(part[std::size_t(y * tile.width + x)],
+                  whole[std::size_t((tile.top + y) * 70 + tile.left + x)])
+            << x << ", " << y << " of the tile at " << tile.left << ", " << tile.top;
+  }
+}
+
+TEST(Flip, AgreesWithADoubleLoopOverEachPixelsWindow) {
+  // Widths around the padding, and beyond one tile both ways.
+  constexpr std::pair<int, int> kSizes[] = {{1, 1},  {2, 3},   {1, 37},  {15, 4},
+                                            {16, 5}, {17, 11}, {33, 29}, {261, 258}};
+  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  for (const auto& [width, height] : kSizes)
+    for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
+      const Image a = testing::noise(width, height, 5, 1.3f),
+                  b = testing::noise(width, height, 6, 1.2f);
+      const DisplayLight shown_a(a, -0.5, curve), shown_b(b, -0.5, curve);
+      const std::vector<double> plain = testing::plain_flip(shown_a, shown_b, filters);
+      const std::vector<float> errors = errors_of(shown_a, shown_b, filters, {0, 0, width, height});
+      double largest = 0, mean = 0, max = 0;
+      for (std::size_t i = 0; i < plain.size(); ++i) {
+        largest = std::max(largest, std::abs(plain[i] - double(errors[i])));
+        mean += plain[i] / double(plain.size());
+        max = std::max(max, plain[i]);
+      }
+      // float32 against double: some roundings of numbers near 1.
+      EXPECT_LT(largest, 4e-6) << width << " x " << height;
+      if (curve != ToneCurve::kClip) continue;
+      ComparisonOptions options;
+      options.viewing.exposure_stops = -0.5;
+      const Comparison comparison = compare(a, b, options);
+      EXPECT_NEAR(comparison.value("flip.ldr.mean"), mean, 4e-6) << width << " x " << height;
+      EXPECT_NEAR(comparison.value("flip.ldr.max"), max, 4e-6) << width << " x " << height;
+    }
+}
+
+TEST(Flip, HasTheSameErrorsOnEveryInstructionSet) {
+  const Image a = testing::noise(261, 40, 5, 1.3f), b = testing::highlight(261, 40, 20, 1.2);
+  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  const FlipTile whole{0, 0, 261, 40};
+  for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
+    const DisplayLight shown_a(a, 0.3, curve), shown_b(b, 0.3, curve);
+    const std::vector<float> widest = errors_of(shown_a, shown_b, filters, whole);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      const std::vector<float> errors = errors_of(shown_a, shown_b, filters, whole);
+      hwy::SetSupportedTargetsForTest(0);
+      // A power, rounded from double, may come out as the float beside it.
+      for (std::size_t i = 0; i < errors.size(); ++i)
+        ASSERT_NEAR(errors[i], widest[i], 1.2e-7) << hwy::TargetName(target) << ", pixel " << i;
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include <valijson/validator.hpp>
 
 #include "core/files.hpp"
+#include "core/record.hpp"
 
 namespace lobelia {
 
@@ -19,6 +20,9 @@ using Plain = nlohmann::json;
 inline std::string document_text(const std::string& page) {
   return read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/" + page, 1 << 20);
 }
+
+/// As it stands in a file.
+inline Plain as_written(const Json& record) { return Plain::parse(record_text(record)); }
 
 /// What is wrong with a record; empty if nothing. A schema may refer to others of docs by their file's name.
 inline std::string schema_problems(const std::string& schema_file, const Plain& record) {

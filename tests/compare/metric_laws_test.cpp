@@ -143,7 +143,10 @@ TEST(MetricLaws, AMetricThatIsNotCalledSymmetricIsNot) {
     for (std::size_t i = 0; i < metric->outputs.size(); ++i) {
       if (metric->outputs[i].symmetric) continue;
       bool changed = false;
-      const Image dim = testing::flat(8, 8, 0.0015f, 0, 0), bright = testing::flat(8, 8, 1, 0, 0);
+      const Image dim = testing::flat(8, 8, 0.0015f, 0, 0);
+      Image bright = testing::flat(8, 8, 1, 0, 0);
+      // Nothing differs in the first row and column: a place is seen to change.
+      for (int k = 0; k < 8; ++k) bright.pixel(k, 0)[0] = bright.pixel(0, k)[0] = 0.0015f;
       const Tolerance half{0.9985, 0, 0, std::vector<std::uint8_t>(8 * 8, 0)};
       const std::vector<double> forth = measure(*metric, testing::input(dim, bright, &half));
       const std::vector<double> back = measure(*metric, testing::input(bright, dim, &half));
@@ -287,6 +290,21 @@ TEST(DisplayLight, IsExposedAndClipped) {
   EXPECT_EQ(shown.at(0), (Rgb{0.5, 0, 0}));
   EXPECT_EQ(shown.at(1), (Rgb{0, 0, 0}));
   EXPECT_EQ(shown.at(2), (Rgb{0, 0, 1}));
+}
+
+TEST(DisplayLight, OfARowIsThatOfItsPixels) {
+  const Image image = testing::noise(13, 3, 1, 2.5f);
+  for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
+    const DisplayLight shown(image, 0.3, curve);
+    std::vector<float> rgb(3 * 9);
+    shown.fill(1, 4, rgb);
+    for (std::size_t i = 0; i < 9; ++i) {
+      const Rgb expected = shown.at(13 + 4 + i);
+      EXPECT_EQ(rgb[3 * i], float(expected.r));
+      EXPECT_EQ(rgb[3 * i + 1], float(expected.g));
+      EXPECT_EQ(rgb[3 * i + 2], float(expected.b));
+    }
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "compare/metrics/metric.hpp"
+#include "compare/uncertainty/z_test.hpp"
 #include "core/image.hpp"
 
 namespace lobelia::testing {
@@ -45,9 +46,16 @@ inline Image highlight(int width, int height, double sharpness, double peak) {
 
 inline constexpr HdrExposures kHdrExposures{-2, 2, 3};
 
+/// Every value of a picture uncertain by as much.
+inline PictureNoise even_noise(int width, int height, float error, double freedom = 15,
+                               bool shared = false) {
+  return noise_of_standard_errors(flat(width, height, error, error, error), freedom, shared);
+}
+
 inline MetricInput input(const Image& a, const Image& b, const Tolerance* tolerance = nullptr,
                          double exposure_stops = 0) {
   static const std::vector<std::uint8_t> everywhere(std::size_t{1} << 23, 1);
+  static const NoiseOfPair kExact{};
   return {a,
           b,
           DisplayLight(a, exposure_stops),
@@ -55,7 +63,8 @@ inline MetricInput input(const Image& a, const Image& b, const Tolerance* tolera
           kDefaultPixelsPerDegree,
           tolerance,
           &kHdrExposures,
-          std::span(everywhere).first(a.pixel_count())};
+          std::span(everywhere).first(a.pixel_count()),
+          &kExact};
 }
 
 }  // namespace lobelia::testing

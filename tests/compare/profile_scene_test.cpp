@@ -7,28 +7,14 @@
 
 #include "core/error.hpp"
 #include "renderer/lobe_properties.hpp"
+#include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
+#include "tests/compare/profiled_scene.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-/// One unit sphere lit from 45 degrees.
-Scene scene_with(std::string_view model, double exponent) {
-  Scene scene;
-  scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 28};
-  scene.film = {160, 120};
-  scene.lights.push_back(DirectionalLight{normalize({-1, 0, -1}), {2, 2, 2}});
-  Material material;
-  material.highlight.model = find_model(model).value();
-  material.highlight.lobe = find_lobe("cosine").value();
-  material.highlight.exponent = exponent;
-  material.specular_reflectance = {0.5, 0.5, 0.5};
-  scene.materials.push_back(material);
-  scene.spheres.push_back({{0, 0, 0}, 1, 0});
-  return scene;
-}
 
 TEST(LobeAngle, IsWhereTheLobeHasFallenToTheValue) {
   const Scene scene = scene_with("phong_rdf", 16);
@@ -159,6 +145,199 @@ TEST(ProfileScene, OfOneLightDoesNotSeeTheHighlightOfTheOther) {
       EXPECT_NEAR(measured[picture][figure].get<double>(), expected[picture][figure].get<double>(),
                   1e-5 * expected[picture][figure].get<double>())
           << picture << " " << figure;
+}
+
+Json highlight_in(const Scene& scene, const Image& picture, int light = 0, int sphere = 0) {
+  return profile_scene(scene, light, sphere, {{"a", &picture}})["images"]["a"]["highlight"];
+}
+
+/// Where on the film the formula is largest, by looking closer and closer; its lobe alone.
+FilmPoint brightest_place(const Scene& scene) {
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const Highlight& highlight = scene.materials[0].highlight;
+  const auto radiance = [&](double x, double y) {
+    const Vec3 ray =
+        normalize(frame.forward + frame.film_u(x) * frame.right + frame.film_v(y) * frame.up);
+    const auto hit = nearest_hit(scene, frame.origin, ray);
+    const auto here = hit ? light_at(scene, 0, *hit) : std::nullopt;
+    if (!here) return -1.0;
+    const Vec3 n = hit->normal, l = here->to_light, h = normalize(l - ray);
+    const Vec3 away = info(highlight.model).angle == LobeAngle::kReflection
+                          ? ray - 2 * dot(n, ray) * n - l
+                          : n - h;
+    return here->irradiance.r * highlight_radiance(highlight, dot(n, l), dot(away, away) / 2);
+  };
+  FilmPoint best{scene.film.width / 2.0, scene.film.height / 2.0};
+  for (double reach = scene.film.width / 2.0; reach > 1e-4; reach /= 4) {
+    const FilmPoint middle = best;
+    double largest = -1;
+    for (int j = -20; j <= 20; ++j)
+      for (int i = -20; i <= 20; ++i) {
+        const FilmPoint place{middle.x + i * reach / 20, middle.y + j * reach / 20};
+        const double value = radiance(place.x, place.y);
+        if (value > largest) largest = value, best = place;
+      }
+  }
+  return best;
+}
+
+TEST(HighlightOfAScene, HasItsPeakWithinAFiftiethOfAPixelOfTheFormulas) {
+  for (const char* model : {"phong_rdf", "modified_phong", "blinn_phong_rdf"})
+    for (const double n : {8.0, 32.0, 256.0, 1024.0, 4096.0})
+      for (const double x : {-1.0, -0.3, 1.7}) {
+        Scene scene = scene_with(model, n);
+        scene.film = {320, 240};
+        scene.lights[0] = DirectionalLight{normalize({x, -0.4, -1}), {2, 2, 2}};
+        scene.materials[0].diffuse_reflectance = {0.3, 0.3, 0.3};
+        const Json h = highlight_in(scene, render(scene, RenderOptions{}).image);
+        const FilmPoint truth = brightest_place(scene);
+        EXPECT_EQ(h["peak"]["found"], "fitted") << model << n;
+        EXPECT_NEAR(h["peak"]["x"].get<double>(), truth.x, 0.02) << model << ' ' << n << ' ' << x;
+        EXPECT_NEAR(h["peak"]["y"].get<double>(), truth.y, 0.02) << model << ' ' << n << ' ' << x;
+      }
+}
+
+TEST(HighlightOfAScene, OfEveryModelIsACosineLobeOfItsExponent) {
+  for (const ModelInfo& model : models())
+    for (const double n : {8.0, 64.0, 512.0}) {
+      Scene scene = scene_with(model.name, n);
+      scene.materials[0].diffuse_reflectance = {0.1, 0.2, 0.3};
+      scene.materials[0].fresnel = Fresnel::kSchlick;
+      scene.film = {320, 240};
+      scene.lights[0] = PointLight{{4, 1, 3}, {60, 50, 40}};
+      const Json h = highlight_in(scene, render(scene, RenderOptions{}).image);
+      const Json& fit = h["cosineLobe"];
+      const double exponent = fit["exponent"].get<double>();
+      // The kernels' float32 is no noise: its errors are alike in neighbouring pixels.
+      EXPECT_NEAR(exponent, n, 1e-6 * n) << model.name;
+      EXPECT_LT(fit["standardError"].get<double>(), 1e-6 * n) << model.name;
+      EXPECT_NEAR(fit["coefficient"].get<double>(),
+                  radiance_coefficient(scene.materials[0].highlight), 1e-5 * n)
+          << model.name;
+    }
+}
+
+TEST(HighlightOfAScene, HasTheHalfWidthOfTheLobeToBothSides) {
+  const Scene scene = scene_with("phong_rdf", 32);
+  const Json h = highlight_in(scene, analytic_image(scene, 0));
+  const double half = std::acos(std::pow(0.5, 1.0 / 32)) / kDegree;
+  for (const char* side : {"halfWidthAlong", "halfWidthAcross"})
+    EXPECT_NEAR(h[side]["degrees"].get<double>(), half, 0.01) << side;
+  // Along the plane of incidence the sphere turns away: the same angle takes fewer pixels.
+  EXPECT_LT(h["halfWidthAlong"]["pixels"].get<double>(),
+            0.95 * h["halfWidthAcross"]["pixels"].get<double>());
+}
+
+TEST(HighlightOfAScene, KnowsItsPlaneOfIncidence) {
+  Scene scene = scene_with("phong_rdf", 32);
+  const auto plane = [&] {
+    const Image image = analytic_image(scene, 0);
+    return profile_scene(scene, 0, 0, {{"a", &image}});
+  };
+  EXPECT_NEAR(plane()["planeOfIncidence"]["x"].get<double>(), 1, 1e-12) << "lit from the right";
+  EXPECT_NEAR(plane()["planeOfIncidence"]["y"].get<double>(), 0, 1e-12);
+  scene.lights[0] = DirectionalLight{normalize({3, -4, -1}), {2, 2, 2}};
+  EXPECT_NEAR(plane()["planeOfIncidence"]["x"].get<double>(), -0.6, 1e-12);
+  EXPECT_NEAR(plane()["planeOfIncidence"]["y"].get<double>(), -0.8, 1e-12)
+      << "from above: y is down";
+  // Measured on the picture: from the sphere's middle the highlight lies that way.
+  const Json place = plane()["images"]["a"]["highlight"]["peak"];
+  EXPECT_NEAR((place["y"].get<double>() - 60) / (place["x"].get<double>() - 80), 4.0 / 3, 0.01);
+  scene.lights[0] = DirectionalLight{{0, 0, -1}, {2, 2, 2}};
+  EXPECT_FALSE(plane().contains("planeOfIncidence")) << "light from behind the camera";
+}
+
+TEST(HighlightOfAScene, BesideOneOfAnotherLightIsToldApart) {
+  Scene scene = scene_with("phong_rdf", 64);
+  // 14 degrees apart: each lies in the other's flank.
+  scene.lights.push_back(DirectionalLight{normalize({-1, 0.2, -0.8}), {5, 5, 5}});
+  const Image image = render(scene, RenderOptions{}).image;
+  for (const int light : {0, 1}) {
+    const Json profile = profile_scene(scene, light, 0, {{"a", &image}});
+    const Json& h = profile["images"]["a"]["highlight"];
+    EXPECT_NEAR(h["cosineLobe"]["exponent"].get<double>(), 64, 1e-4) << light;
+    EXPECT_GT(profile["subtracted"]["otherLightsOfPeak"].get<double>(), 0.3) << light;
+  }
+  EXPECT_EQ(highlights_of(scene), (std::vector<std::pair<int, int>>{{0, 0}, {0, 1}}));
+}
+
+TEST(HighlightOfAScene, LeavesOutTheShadowOfAnotherSphere) {
+  Scene scene = scene_with("phong_rdf", 16);
+  // Between the light and the left half of the highlight, and beside the view of it.
+  scene.spheres.push_back({{2.2, 0, 2.5}, 0.3, 0});
+  const Image image = render(scene, RenderOptions{}).image;
+  const Json profile = profile_scene(scene, 0, 0, {{"a", &image}});
+  EXPECT_NEAR(profile["images"]["a"]["highlight"]["cosineLobe"]["exponent"].get<double>(), 16,
+              1e-4);
+  EXPECT_LT(profile["differences"]["a-analytic"]["flank"]["maxRelPeak"].get<double>(), 2e-6);
+  Scene without = scene;
+  without.spheres.pop_back();
+  const auto pixels = [&](const Scene& s) {
+    return profile_scene(s, 0, 0,
+                         {{"a", &image}})["images"]["a"]["highlight"]["cosineLobe"]["pixels"]
+        .get<int>();
+  };
+  EXPECT_LT(pixels(scene), pixels(without) - 50) << "the scene has such a shadow";
+}
+
+TEST(HighlightOfAScene, IsNotShadedByASphereBehindItsLight) {
+  Scene scene = scene_with("phong_rdf", 16);
+  scene.lights[0] = PointLight{{2, 0, 2}, {20, 20, 20}};
+  scene.spheres.push_back({{4, 0, 4}, 1, 0});
+  const Image image = render(scene, RenderOptions{}).image;
+  const Json record = profile_scene(scene, 0, 0, {{"a", &image}});
+  EXPECT_LT(record["differences"]["a-analytic"]["epicentre"]["maxRelPeak"].get<double>(), 2e-6);
+  EXPECT_GT(record["differences"]["a-analytic"]["epicentre"]["pixels"].get<int>(), 100);
+}
+
+TEST(HighlightOfAScene, ThatIsNotThereSaysWhy) {
+  const Scene good = scene_with("phong_rdf", 64);
+  const auto because = [&](auto change) {
+    Scene scene = good;
+    change(scene);
+    const Json h = highlight_in(scene, render(scene, RenderOptions{}).image);
+    EXPECT_TRUE(h["cosineLobe"].contains("because")) << h;
+    return h["because"].get<std::string>();
+  };
+  const std::string unlit = "no pixel sees a part of the sphere that the light reaches";
+  const std::string no_lobe =
+      "no pixel's centre lies in the lobe: the highlight is hidden, outside of the picture or smaller "
+      "than a pixel";
+  EXPECT_EQ(because([](Scene& s) { s.spheres[0].center = {100, 0, 0}; }), unlit);
+  EXPECT_EQ(because([](Scene& s) { s.spheres[0].center = {0, 0, 20}; }), unlit) << "behind the eye";
+  EXPECT_EQ(because([](Scene& s) { s.lights[0] = DirectionalLight{{0, 0, 1}, {1, 1, 1}}; }), unlit);
+  EXPECT_EQ(because([](Scene& s) { s.film = {1, 1}; }), no_lobe);
+  EXPECT_EQ(because([](Scene& s) { s.materials[0].highlight.exponent = 1e8; }), no_lobe);
+  // Before the highlight, and lit from elsewhere than that it could shade the rest.
+  EXPECT_EQ(because([](Scene& s) { s.spheres.push_back({{0.28, 0, 2}, 0.35, 0}); }), no_lobe);
+  EXPECT_EQ(because([](Scene& s) {
+              s.lights[0] = DirectionalLight{normalize({-1, 0, -1}), {}};
+            }),
+            "it is black");
+  EXPECT_TRUE(because([](Scene& s) {
+                s.materials[0].highlight.exponent = 1e4;
+              }).starts_with("not resolved: "));
+}
+
+TEST(HighlightOfAScene, OfABrokenPictureSaysSo) {
+  const Scene scene = scene_with("phong_rdf", 64);
+  Image broken(scene.film.width, scene.film.height);
+  for (float& value : broken.values()) value = std::nanf("");
+  const Json h = highlight_in(scene, broken);
+  EXPECT_TRUE(h["because"].get<std::string>().ends_with("of its pixels are not finite")) << h;
+  EXPECT_EQ(h["energy"], "nan");
+  EXPECT_EQ(highlight_in(scene, Image(scene.film.width, scene.film.height))["because"],
+            "it is black");
+}
+
+TEST(HighlightOfAScene, OfADullMaterialIsNone) {
+  Scene scene = scene_with("phong_rdf", 64);
+  scene.materials[0].specular_reflectance = {};
+  const Image image = render(scene, RenderOptions{}).image;
+  EXPECT_TRUE(highlights_of(scene).empty());
+  const Json profile = profile_scene(scene, 0, 0, {{"a", &image}});
+  EXPECT_FALSE(profile.contains("lobe"));
+  EXPECT_FALSE(profile["images"]["a"].contains("highlight"));
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ struct Patch {
         picture.values()[3 * i + c] = float(std::isnan(angle[i]) ? 99.0 : radiance(angle[i]));
     return picture;
   }
-  ProfileGeometry geometry(double epicentre, double blooming) const {
-    return {angle, solid_angle, epicentre * kDegree, blooming * kDegree};
+  ProfileGeometry geometry(double epicentre, double flank, double blooming) const {
+    return {angle, solid_angle, {epicentre * kDegree, flank * kDegree, blooming * kDegree}};
   }
 };
 
@@ -52,7 +52,7 @@ TEST(Profile, FindsPeakWidthAndEnergyOfAKnownHighlight) {
     const Image image = patch.image([&](double angle) { return 3 * gaussian(angle, width); });
     const double blooming = width * std::sqrt(std::log2(1000.0));
     const Profile profile =
-        measure_profile(patch.geometry(width, blooming), {{"ours", &image}}, {});
+        measure_profile(patch.geometry(width, blooming / 2, blooming), {{"ours", &image}}, {});
     const HighlightShape& shape = profile.shapes.at(0);
     EXPECT_FLOAT_EQ(float(shape.peak), 3.0f);
     EXPECT_EQ(shape.peak_angle, 0);
@@ -71,9 +71,11 @@ TEST(Profile, HalfWidthOfACosinePowerShrinksAsTheRootOfTheExponent) {
   for (const double exponent : {16.0, 64.0}) {
     const Image image = patch.image([&](double a) { return std::pow(std::cos(a), exponent); });
     const double half = std::acos(std::pow(0.5, 1 / exponent));
-    const Profile profile = measure_profile(
-        {patch.angle, patch.solid_angle, half, std::acos(std::pow(1e-3, 1 / exponent))},
-        {{"ours", &image}}, {});
+    const Profile profile =
+        measure_profile({patch.angle,
+                         patch.solid_angle,
+                         {half, 1.5 * half, std::acos(std::pow(1e-3, 1 / exponent))}},
+                        {{"ours", &image}}, {});
     EXPECT_NEAR(profile.shapes.at(0).half_width, half, 0.01 * half);
     if (before > 0) {
       EXPECT_NEAR(before / profile.shapes[0].half_width, 2, 0.05);
@@ -85,7 +87,7 @@ TEST(Profile, HalfWidthOfACosinePowerShrinksAsTheRootOfTheExponent) {
 TEST(Profile, CurveIsTheRadianceAtItsAngles) {
   const Patch patch;
   const Image image = patch.image([](double angle) { return gaussian(angle, 10); });
-  const Profile profile = measure_profile(patch.geometry(10, 31.5), {{"ours", &image}}, {});
+  const Profile profile = measure_profile(patch.geometry(10, 18, 31.5), {{"ours", &image}}, {});
   ASSERT_GE(profile.angle.size(), 40u);
   std::size_t pixels = 0;
   for (std::size_t bin = 0; bin < profile.angle.size(); ++bin) {
@@ -110,23 +112,23 @@ TEST(Profile, PutsAnErrorIntoItsZone) {
       [&](double a) { return exact(a) + (a > 20 * kDegree && a < 25 * kDegree ? 0.02 : 0); });
   const Image far = patch.image([&](double a) { return exact(a) + (a > 40 * kDegree ? 1 : 0); });
   const Profile profile = measure_profile(
-      patch.geometry(10, 31.5),
+      patch.geometry(10, 18, 31.5),
       {{"reference", &reference}, {"inner", &inner}, {"outer", &outer}, {"far", &far}},
       {{1, 0}, {2, 0}, {3, 0}, {0, 0}});
   const auto& [in, out, past, same] = std::tie(profile.differences[0], profile.differences[1],
                                                profile.differences[2], profile.differences[3]);
   EXPECT_EQ(in.a, "inner");
   EXPECT_EQ(in.b, "reference");
-  EXPECT_NEAR(in.epicentre.max_abs, 0.1, 1e-6);
-  EXPECT_NEAR(in.epicentre.max_rel_peak, 0.05, 1e-6);
+  EXPECT_NEAR(in.zones[0].max_abs, 0.1, 1e-6);
+  EXPECT_NEAR(in.zones[0].max_rel_peak, 0.05, 1e-6);
   // A quarter of the disc's area is off.
-  EXPECT_NEAR(in.epicentre.rms, 0.05, 0.002);
-  EXPECT_EQ(in.blooming.max_abs, 0);
-  EXPECT_EQ(out.epicentre.max_abs, 0);
-  EXPECT_NEAR(out.blooming.max_abs, 0.02, 1e-6);
-  EXPECT_EQ(past.epicentre.max_abs + past.blooming.max_abs, 0);
-  EXPECT_EQ(same.epicentre.rms + same.blooming.rms, 0);
-  EXPECT_GT(same.blooming.pixels, same.epicentre.pixels);
+  EXPECT_NEAR(in.zones[0].rms, 0.05, 0.002);
+  EXPECT_EQ(in.zones[2].max_abs, 0);
+  EXPECT_EQ(out.zones[0].max_abs, 0);
+  EXPECT_NEAR(out.zones[2].max_abs, 0.02, 1e-6);
+  EXPECT_EQ(past.zones[0].max_abs + past.zones[2].max_abs, 0);
+  EXPECT_EQ(same.zones[0].rms + same.zones[2].rms, 0);
+  EXPECT_GT(same.zones[2].pixels, same.zones[0].pixels);
 }
 
 TEST(Profile, DoesNotHideANaN) {
@@ -134,13 +136,13 @@ TEST(Profile, DoesNotHideANaN) {
   const Image good = patch.image([](double angle) { return gaussian(angle, 10); });
   Image broken = good;
   broken.pixel(Patch::kSize / 2 + 3, Patch::kSize / 2)[1] = std::nanf("");
-  const Profile profile =
-      measure_profile(patch.geometry(10, 31.5), {{"good", &good}, {"broken", &broken}}, {{1, 0}});
+  const Profile profile = measure_profile(patch.geometry(10, 18, 31.5),
+                                          {{"good", &good}, {"broken", &broken}}, {{1, 0}});
   EXPECT_TRUE(std::isnan(profile.shapes[1].peak));
   EXPECT_TRUE(std::isnan(profile.shapes[1].energy));
   EXPECT_TRUE(std::isnan(profile.shapes[1].half_width));
-  EXPECT_TRUE(std::isnan(profile.differences[0].epicentre.max_abs));
-  EXPECT_EQ(profile.differences[0].blooming.max_abs, 0);
+  EXPECT_TRUE(std::isnan(profile.differences[0].zones[0].max_abs));
+  EXPECT_EQ(profile.differences[0].zones[2].max_abs, 0);
   const Json record = profile_record(profile, 0, 0, "reflection");
   EXPECT_EQ(record["images"]["broken"]["peak"], "nan");
 }
@@ -149,29 +151,93 @@ TEST(Profile, OfASceneWithoutALitPixelIsEmptyAndSaysSo) {
   const std::vector<double> nowhere(4, std::numeric_limits<double>::quiet_NaN()), solid(4, 1.0);
   const Image image(2, 2);
   const Profile profile =
-      measure_profile({nowhere, solid, 0.1, 0.2}, {{"a", &image}, {"b", &image}}, {{0, 1}});
+      measure_profile({nowhere, solid, {0.1, 0.15, 0.2}}, {{"a", &image}, {"b", &image}}, {{0, 1}});
   EXPECT_TRUE(profile.angle.empty());
   EXPECT_TRUE(std::isnan(profile.shapes[0].peak));
-  EXPECT_EQ(profile.differences[0].epicentre.pixels, 0u);
-  EXPECT_TRUE(std::isnan(profile.differences[0].epicentre.rms));
+  EXPECT_EQ(profile.differences[0].zones[0].pixels, 0u);
+  EXPECT_TRUE(std::isnan(profile.differences[0].zones[0].rms));
 }
 
 TEST(Profile, RefusesAPictureOfAnotherSize) {
   const Patch patch;
   const Image small(2, 2);
   try {
-    measure_profile(patch.geometry(10, 30), {{"small", &small}}, {});
+    measure_profile(patch.geometry(10, 20, 30), {{"small", &small}}, {});
     FAIL() << "it was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kInput);
   }
 }
 
+/// A patch with all that figures of the highlight need: flat, unit scale, over a base.
+struct FullPatch : Patch {
+  static constexpr double kBase = 0.5;
+  std::vector<double> scale = std::vector(angle.size(), 1.0),
+                      base = std::vector(angle.size(), kBase);
+
+  ProfileGeometry full(double epicentre, double flank, double blooming) const {
+    ProfileGeometry geometry = Patch::geometry(epicentre, flank, blooming);
+    geometry.width = kSize;
+    geometry.scale = scale;
+    geometry.base = base;
+    geometry.incidence = FilmPoint{0.6, 0.8};
+    return geometry;
+  }
+};
+
+TEST(HighlightFigures, AreThoseOfWhatLiesOverTheBase) {
+  const FullPatch patch;
+  const Image image =
+      patch.image([&](double angle) { return FullPatch::kBase + 3 * gaussian(angle, 10); });
+  const Profile profile = measure_profile(patch.full(10, 20.8, 31.5), {{"ours", &image}}, {});
+  const HighlightFigures& figures = profile.figures.at(0);
+  EXPECT_EQ(figures.why_not, "");
+  const double middle = Patch::kSize / 2.0;
+  for (const FilmPoint place : {figures.peak.place, figures.centroid}) {
+    EXPECT_NEAR(place.x, middle, 1e-6);
+    EXPECT_NEAR(place.y, middle, 1e-6);
+  }
+  EXPECT_NEAR(figures.peak.value, 3, 1e-5);
+  const double pixel = 2 * Patch::kHalfAngle / Patch::kSize;
+  for (const HalfWidth& width : {figures.along, figures.across}) {
+    EXPECT_NEAR(width.angle / kDegree, 10, 0.002);
+    EXPECT_NEAR(width.pixels, 10 * kDegree / pixel, 0.005);
+  }
+  const double w = 10 * kDegree;
+  EXPECT_NEAR(figures.energy, 3 * std::numbers::pi * w * w / std::numbers::ln2,
+              1e-4 * figures.energy);
+  // exp(-n x^2 / 2), nearly: a cosine's power of ln 4 / width^2, but for terms of width^2.
+  EXPECT_NEAR(figures.cosine.exponent, 2 * std::numbers::ln2 / (w * w),
+              0.02 * figures.cosine.exponent);
+  EXPECT_GT(figures.cosine.residual, 1e-5);
+}
+
+TEST(HighlightFigures, SayWhatKeepsThemFromBeingMeasured) {
+  const FullPatch patch;
+  const auto of = [&](const Image& image, double end) {
+    return measure_profile(patch.full(end / 3, end / 2, end), {{"a", &image}}, {}).figures.at(0);
+  };
+  const Image base = patch.image([](double) { return FullPatch::kBase; });
+  EXPECT_EQ(of(base, 30).why_not, "it is black");
+  EXPECT_EQ(of(base, 30).cosine.why_not, "it holds no light");
+  const Image black(Patch::kSize, Patch::kSize);
+  EXPECT_EQ(of(black, 30).why_not, "it is black") << "below the base is no light either";
+  const Image narrow =
+      patch.image([&](double angle) { return FullPatch::kBase + gaussian(angle, 0.7); });
+  EXPECT_EQ(of(narrow, 3).why_not,
+            "not resolved: 5 pixels are above half of its peak, 9 are needed");
+  EXPECT_TRUE(std::isnan(of(narrow, 3).along.pixels));
+  Image broken = narrow;
+  broken.pixel(Patch::kSize / 2 + 3, Patch::kSize / 2)[1] = std::nanf("");
+  EXPECT_EQ(of(broken, 3).why_not, "1 of its pixels are not finite");
+  EXPECT_TRUE(std::isnan(of(broken, 3).centroid.x) && std::isnan(of(broken, 3).energy));
+}
+
 TEST(ProfileRecord, HasWhatTheDocumentationPromises) {
   const Patch patch;
   const Image image = patch.image([](double angle) { return gaussian(angle, 10); });
   const Json record =
-      profile_record(measure_profile(patch.geometry(10, 31.5),
+      profile_record(measure_profile(patch.geometry(10, 18, 31.5),
                                      {{"analytic", &image}, {"lobelia", &image}}, {{1, 0}}),
                      1, 2, "half_vector");
   EXPECT_EQ(record["kind"], "profile");
@@ -180,13 +246,15 @@ TEST(ProfileRecord, HasWhatTheDocumentationPromises) {
   EXPECT_EQ(record["angle"], "half_vector");
   EXPECT_EQ(record["zones"]["epicentreDegrees"][0], 0.0);
   EXPECT_NEAR(record["zones"]["epicentreDegrees"][1].get<double>(), 10, 1e-9);
+  EXPECT_NEAR(record["zones"]["flankDegrees"][0].get<double>(), 10, 1e-9);
+  EXPECT_NEAR(record["zones"]["bloomingDegrees"][0].get<double>(), 18, 1e-9);
   EXPECT_NEAR(record["zones"]["bloomingDegrees"][1].get<double>(), 31.5, 1e-9);
   const std::size_t bins = record["curve"]["angleDegrees"].size();
   for (const char* column : {"pixels", "analytic", "lobelia"})
     EXPECT_EQ(record["curve"][column].size(), bins) << column;
   for (const char* key : {"peak", "peakAngleDegrees", "halfWidthDegrees", "energy"})
     EXPECT_TRUE(record["images"]["lobelia"][key].is_number()) << key;
-  for (const char* zone : {"epicentre", "blooming"})
+  for (const char* zone : {"epicentre", "flank", "blooming"})
     for (const char* key : {"maxAbs", "rms", "maxRelPeak"})
       EXPECT_EQ(record["differences"]["lobelia-analytic"][zone][key], 0.0) << zone << ' ' << key;
 }

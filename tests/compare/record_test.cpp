@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "compare/compare.hpp"
@@ -35,7 +36,9 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
   EXPECT_EQ(record["mask"], (Json{{"pixels", 2}}));
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs)
-      EXPECT_TRUE(record["metrics"][std::string(output.id)].is_number()) << output.id;
+      EXPECT_EQ(record["metrics"].value(std::string(output.id), Json()).is_number(),
+                metric->needs != Needs::kNoise)
+          << output.id;
   ASSERT_EQ(record["limits"].size(), 2u);
   EXPECT_EQ(record["limits"][0]["metric"], "rmse");
   EXPECT_EQ(record["limits"][0]["value"], record["metrics"]["rmse"]);
@@ -43,6 +46,43 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
   EXPECT_EQ(
       record["tolerance"],
       (Json{{"relative", 0.5}, {"ofPeak", 0.25}, {"allowedOutliers", 7}, {"onEdgesOnly", false}}));
+}
+
+TEST(ComparisonRecord, OfPicturesWithNoiseSaysHowItWasTakenIntoAccount) {
+  const Image a = testing::highlight(48, 48, 10, 1.0), b = testing::highlight(48, 48, 10, 1.01);
+  ComparisonOptions options;
+  options.limits = {{"rmse", 1}, {"drift", 0.003}};
+  options.noise = NoiseOptions{.a = testing::even_noise(48, 48, 0.01f, 7, true),
+                               .significance = 0.02,
+                               .bootstraps = 8,
+                               .seed = 5};
+  const Json record = comparison_record(compare(a, b, options), "a.exr", "b.exr");
+  EXPECT_EQ(record["verdict"], "undecided");
+  const double tests = 3 * (48 * 48 + 24 * 24 + 12 * 12 + 6 * 6 + 3 * 3 + 2 * 2 + 1);
+  EXPECT_EQ(record["uncertainty"]["a"], (Json{{"freedom", 7.0}, {"shared", true}}));
+  EXPECT_FALSE(record["uncertainty"].contains("b"));
+  EXPECT_EQ(record["uncertainty"]["significance"], 0.02);
+  EXPECT_EQ(record["uncertainty"]["tests"], tests);
+  EXPECT_NEAR(record["uncertainty"]["each"].get<double>(), 1 - std::pow(0.98, 1 / tests), 1e-12);
+  EXPECT_EQ(record["uncertainty"]["bootstraps"], 8);
+  EXPECT_EQ(record["uncertainty"]["seed"], 5);
+  EXPECT_TRUE(record["metrics"]["z.max"].is_number());
+  EXPECT_EQ(record["limits"][0]["standing"], "holds");
+  EXPECT_EQ(record["limits"][1]["standing"], "open");
+  EXPECT_EQ(record["limits"][1]["pass"], false);
+  EXPECT_GT(record["limits"][1]["moreSamples"].get<double>(), 1);
+  for (const Metric* metric : metrics())
+    for (const MetricOutput& output : metric->outputs) {
+      const std::string id(output.id);
+      EXPECT_EQ(record["errorBars"].contains(id), record["metrics"].contains(id) &&
+                                                      output.better != Better::kNeither &&
+                                                      metric->needs != Needs::kNoise)
+          << id;
+    }
+  const Json& bar = record["errorBars"]["drift"];
+  EXPECT_GT(bar["standardError"].get<double>(), 0);
+  EXPECT_LT(bar["low"], record["metrics"]["drift"]);
+  EXPECT_GT(bar["high"], record["metrics"]["drift"]);
 }
 
 TEST(ComparisonRecord, OfABrokenPictureHasNoMetricsAndNoPass) {

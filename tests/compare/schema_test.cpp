@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "compare/compare.hpp"
+#include "compare/layers.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/set/report.hpp"
 #include "tests/compare/json_schema.hpp"
@@ -18,9 +20,8 @@ std::string problems(const Plain& record) {
   return schema_problems("comparison.schema.json", record);
 }
 
-/// As it stands in a file.
 Plain record(const Image& a, const Image& b, const ComparisonOptions& options) {
-  return Plain::parse(record_text(comparison_record(compare(a, b, options), "a.exr", "b.exr")));
+  return as_written(comparison_record(compare(a, b, options), "a.exr", "b.exr"));
 }
 
 ComparisonOptions everything(const Image& image) {
@@ -47,12 +48,94 @@ TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdict) {
   EXPECT_FALSE(both["disagreement"].empty()) << "a record in which little is missing";
 }
 
+ComparisonOptions with_noise(ComparisonOptions options, const Image& image, float error) {
+  options.noise =
+      NoiseOptions{.a = testing::even_noise(image.width(), image.height(), error), .bootstraps = 4};
+  return options;
+}
+
+TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdictOnNoise) {
+  const Image a = testing::highlight(180, 180, 10, 1), b = testing::highlight(180, 180, 11, 1.1);
+  Image broken = a;
+  broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
+  std::set<std::string> verdicts;
+  for (const auto& [picture, error] :
+       {std::pair(&a, 1e-4f), {&b, 1e-4f}, {&a, 1.0f}, {&a, 0.0f}, {&broken, 1.0f}})
+    for (const ComparisonOptions& options : {ComparisonOptions(), everything(a)}) {
+      const Plain made = record(*picture, a, with_noise(options, a, error));
+      EXPECT_EQ(problems(made), "");
+      verdicts.insert(made["verdict"]);
+    }
+  EXPECT_EQ(verdicts, (std::set<std::string>{"different", "non-finite", "same", "undecided"}));
+}
+
+TEST(ComparisonSchema, DoesNotHoldForABrokenRecordOfNoise) {
+  const Image image = testing::highlight(32, 32, 10, 1);
+  const Plain good = record(image, image, with_noise({}, image, 0.1f));
+  ASSERT_EQ(problems(good), "");
+  const auto broken = [&](auto change) {
+    Plain changed = good;
+    change(changed);
+    EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
+  };
+  broken([](Plain& r) { r["uncertainty"].erase("each"); });
+  broken([](Plain& r) { r["uncertainty"]["a"].erase("shared"); });
+  broken([](Plain& r) { r["uncertainty"]["significance"] = 1; });
+  broken([](Plain& r) { r["errorBars"]["rmse"].erase("low"); });
+  broken([](Plain& r) { r["errorBars"]["rmse"]["standardError"] = -1; });
+  broken([](Plain& r) { r["limits"][0]["standing"] = "maybe"; });
+}
+
 TEST(ComparisonSchema, HoldsForNumbersThatAreNotFinite) {
   const Image grey = testing::flat(16, 16, 1, 1, 1), black = testing::flat(16, 16, 0, 0, 0);
   const Plain made = record(grey, black, {});
   EXPECT_EQ(made["metrics"]["max_rel_peak"], "inf");
   EXPECT_EQ(made["metrics"]["psnr"], "-inf");
   EXPECT_EQ(problems(made), "");
+}
+
+/// With what two files add to it: layers that pass, differ, are broken and have two sizes.
+Plain record_of_files() {
+  const Image good = testing::flat(16, 16, 1, 1, 1), other = testing::flat(16, 16, 2, 2, 2);
+  Image broken = good;
+  broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
+  PictureSource source{"openexr", "", {"R", "G", "B"}, "half",        "linear",
+                       false,     "", {-1, 2, 3, 4},   {0, 0, 16, 16}};
+  std::vector<LayerComparison> layers;
+  for (const Image* image : std::initializer_list<const Image*>{&good, &other, &broken}) {
+    source.layer = "layer" + std::to_string(layers.size());
+    layers.push_back({source.layer, source, source, compare(*image, good, {}), ""});
+  }
+  layers.push_back({"two sizes", source, source, {}, "the sizes differ"});
+  source.icc_profile = "sRGB";
+  const Comparison picture = compare(good, good, {});
+  Json made = comparison_record(picture, "a.exr", "b.exr");
+  add_pictures(made, source, source);
+  add_layers(made, worst_verdict(picture.verdict, layers), layers, {{}, {"Z"}, {}});
+  return Plain::parse(record_text(made));
+}
+
+TEST(ComparisonSchema, HoldsForFilesAndTheirLayers) {
+  const Plain good = record_of_files();
+  EXPECT_EQ(problems(good), "");
+  EXPECT_EQ(good["verdict"], "non-finite") << "the worst";
+  EXPECT_EQ(good["metrics"]["max_abs"], 0) << "the picture's own";
+  ASSERT_EQ(good["layers"].size(), 4u);
+  EXPECT_EQ(good["layers"][3]["verdict"], "differs");
+  const auto broken = [&](auto change) {
+    Plain changed = good;
+    change(changed);
+    EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
+  };
+  for (const auto& [key, value] : good["pictures"]["a"].items())
+    if (key != "iccProfile") broken([&](Plain& r) { r["pictures"]["a"].erase(key); });
+  for (const char* key : {"layer", "verdict", "pictures", "metrics"})
+    broken([&](Plain& r) { r["layers"][0].erase(key); });
+  broken([](Plain& r) { r["layers"][3].erase("problem"); });
+  broken([](Plain& r) { r["layers"][1]["metrics"]["rmse"] = -1; });
+  broken([](Plain& r) { r["layersInOne"].erase("a"); });
+  broken([](Plain& r) { r["pictures"]["b"]["displayWindow"]["width"] = 0; });
+  broken([](Plain& r) { r["pictures"]["b"]["channels"] = Plain::array(); });
 }
 
 TEST(ComparisonSchema, KnowsEveryMetricAndNoOther) {
@@ -102,7 +185,7 @@ TEST(ComparisonSchema, HoldsForARecordWithASecondReference) {
   for (const Image* second : {&a, &c, static_cast<const Image*>(&broken)}) {
     Comparison comparison = compare(a, c, {});
     comparison.reference_floor = measure_reference_floor(*second, c, {});
-    Plain made = Plain::parse(record_text(comparison_record(comparison, "a", "b", "c.exr")));
+    Plain made = as_written(comparison_record(comparison, "a", "b", "c.exr"));
     EXPECT_EQ(problems(made), "");
     EXPECT_EQ(made["referenceFloor"]["c"], "c.exr");
     made["referenceFloor"].erase("metrics");
@@ -115,7 +198,7 @@ TEST(ComparisonSetSchema, HoldsForASetAndNotForABrokenOne) {
   SetReport set{"one", "other", "", {}, {"gone.exr"}, {"new.exr"}, 2};
   set.pairs.push_back({"x.exr", "one/x.exr", "other/x.exr", "", compare(a, b, {}), "", 0.1});
   set.pairs.push_back({"y.exr", "one/y.exr", "other/y.exr", "", {}, "not a picture", 0});
-  const Plain good = Plain::parse(record_text(set_record(set)));
+  const Plain good = as_written(set_record(set));
   const auto problems_of = [](const Plain& record) {
     return schema_problems("comparison_set.schema.json", record);
   };

@@ -46,7 +46,7 @@ std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b) {
   return {lcs / (across * down), cs / (across * down)};
 }
 
-LumaPlane shown_luma(const Image& image) { return luma(DisplayLight(image, 0)); }
+LumaPlane shown_luma(const Image& image) { return plane_of(luma(DisplayLight(image, 0))); }
 
 TEST(Ssim, OfTwoGreysIsThePublishedValue) {
   const Comparison comparison = compare(grey_code(64, 64, 128), grey_code(64, 64, 160), {});
@@ -109,8 +109,8 @@ TEST(MsSsim, IsTheProductOfThePowersOfItsScales) {
   for (const double weight : {0.0448, 0.2856, 0.3001, 0.2363, 0.1333}) {
     const bool last = weight == 0.1333;
     expected *= std::pow(plain_ssim(la, lb)[last ? 0 : 1], weight);
-    la = half_size(la);
-    lb = half_size(lb);
+    la = half_size(rows_of(la));
+    lb = half_size(rows_of(lb));
   }
   EXPECT_LT(expected, 0.99);
   EXPECT_NEAR(compare(a, b, {}).value("ms_ssim"), expected, 1e-12);
@@ -127,6 +127,20 @@ TEST(MsSsim, IsLeftOutBelow176Pixels) {
   EXPECT_EQ(compare(enough, enough, {}).value("ms_ssim"), 1);
 }
 
+TEST(Luma, OfEveryPixelIsTheWeightedSumOfItsCodes) {
+  const Image image = testing::noise(37, 3, 4, 1.1f);
+  const DisplayLight shown(image, 0);
+  const LumaPlane plane = plane_of(luma(shown));
+  const auto code = [](double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+  };
+  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+    const Rgb light = shown.at(i);
+    EXPECT_NEAR(plane.values[i],
+                0.2126 * code(light.r) + 0.7152 * code(light.g) + 0.0722 * code(light.b), 1e-7);
+  }
+}
+
 TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
   EXPECT_NEAR(shown_luma(grey_code(1, 1, 128)).values[0], 128 / 255.0, 1e-7);
   EXPECT_NEAR(shown_luma(testing::flat(1, 1, 0, 1, 0)).values[0], 0.7152, 1e-7);
@@ -134,7 +148,7 @@ TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
 
 TEST(Luma, HalfTheSizeHasTheMeansAndRepeatsAnOddBorder) {
   const LumaPlane plane{3, 3, {0, 1, 2, 3, 4, 5, 6, 7, 8}};
-  const LumaPlane half = half_size(plane);
+  const LumaPlane half = half_size(rows_of(plane));
   EXPECT_EQ(half.width, 2);
   EXPECT_EQ(half.values, (std::vector<float>{2, 3.5, 6.5, 8}));
 }

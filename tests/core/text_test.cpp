@@ -50,5 +50,29 @@ TEST(PrintableText, IsShortAndHasNoControlCharacters) {
   EXPECT_EQ(printable("abcdef", 3), "abc...");
 }
 
+TEST(ValidUtf8, KeepsWhatIsValidAndReplacesEachByteThatIsNot) {
+  const std::string replaced = "\xEF\xBF\xBD";
+  EXPECT_EQ(valid_utf8(""), "");
+  EXPECT_EQ(valid_utf8("a\xC3\xA9\xE2\x82\xAC\xF0\x9F\x8C\x88"),
+            "a\xC3\xA9\xE2\x82\xAC\xF0\x9F\x8C\x88");
+  EXPECT_EQ(valid_utf8("a\xFFz"), "a" + replaced + "z");
+  EXPECT_EQ(valid_utf8("\xE2\x82"), replaced + replaced) << "cut off";
+  EXPECT_EQ(valid_utf8("\xC0\xAF"), replaced + replaced) << "a slash in two bytes";
+  EXPECT_EQ(valid_utf8("\xE0\x80\xAF"), replaced + replaced + replaced);
+  EXPECT_EQ(valid_utf8("\xED\xA0\x80"), replaced + replaced + replaced)
+      << "half of a surrogate pair";
+  EXPECT_EQ(valid_utf8("\xF4\x90\x80\x80"), replaced + replaced + replaced + replaced)
+      << "past U+10FFFF";
+  EXPECT_EQ(escape_markup("<\xFF>"), "&lt;" + replaced + "&gt;");
+}
+
+TEST(CsvField, IsInQuotesOnlyWhereItHasToBe) {
+  EXPECT_EQ(csv_field("a b"), "a b");
+  EXPECT_EQ(csv_field(""), "");
+  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("a \"b\""), "\"a \"\"b\"\"\"");
+  EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
+}
+
 }  // namespace
 }  // namespace lobelia

@@ -48,7 +48,8 @@ void write_profile(const fs::path& cell) {
   record["light"] = 0;
   record["sphere"] = 0;
   record["angle"] = "reflection";
-  record["zones"] = {{"epicentreDegrees", {0, 10}}, {"bloomingDegrees", {10, 40}}};
+  record["zones"] = {
+      {"epicentreDegrees", {0, 10}}, {"flankDegrees", {10, 20}}, {"bloomingDegrees", {20, 40}}};
   Json& curve = record["curve"];
   for (int i = 0; i < 60; ++i) {
     const double value = 2.7 * std::exp(-i * i / 200.0);
@@ -60,9 +61,12 @@ void write_profile(const fs::path& cell) {
   }
   for (const char* engine : {"lobelia", "povray"}) {
     record["images"][engine] = {{"peak", 2.7}, {"halfWidthDegrees", 11.8}, {"energy", 0.01}};
+    record["images"][engine]["highlight"]["cosineLobe"] = {{"exponent", 16.25},
+                                                           {"standardError", 0.125}};
   }
   const Json zone = {{"maxAbs", 1e-3}, {"rms", 2e-4}, {"maxRelPeak", 4e-4}};
-  record["differences"]["lobelia-povray"] = {{"epicentre", zone}, {"blooming", zone}};
+  record["differences"]["lobelia-povray"] = {
+      {"epicentre", zone}, {"flank", zone}, {"blooming", zone}};
   write_record(cell / "profile.json", record);
 }
 

@@ -94,7 +94,8 @@ TEST(GalleryPages, a_cell_shows_its_numbers_curves_plan_and_commands) {
   for (const char* words :
        {"Phong (RDF) · n = 16", "white = 0.0016 = 0.06 % of the peak", "some.new.one", "at (1, 0)",
         "✓ within 3", "one convex body", "lobelia render 'scene with space.xml'",
-        "povray +Iscene.pov", "−1.5 stops", "epicentre", "camera 4"}) {
+        "povray +Iscene.pov", "−1.5 stops", "epicentre", "flank 10° to 20°", "n as a cosine lobe",
+        "16.25", "camera 4"}) {
     EXPECT_THAT(text, HasSubstr(words));
   }
 }

@@ -33,7 +33,7 @@ bool same(const Image& a, const Image& b) {
 }
 
 /// Radiance of the highlight at the centre of every pixel, from the formula, one pixel at a time and
-/// without the kernels; without shadows.
+/// without the kernels.
 std::vector<Rgb> formula(const Scene& scene) {
   std::vector<Rgb> sum(std::size_t(scene.film.width) * scene.film.height);
   for (int s = 0; s < int(scene.spheres.size()); ++s)

@@ -95,11 +95,14 @@ constexpr double kExponentOfLobes = 64;
 
 Real radians(Real degrees) { return degrees * kPi / 180; }
 
+/// As docs/profiles.md defines them.
 std::vector<ChartBand> zones() {
   const auto reach = [](double level) {
     return double(degrees(std::acos(std::pow(level, 1 / kExponentOfLobes))));
   };
-  return {{0, reach(0.5), "epicentre"}, {reach(0.5), reach(0.001), "blooming zone"}};
+  return {{0, reach(0.5), "epicentre"},
+          {reach(0.5), reach(0.05), "flank"},
+          {reach(0.05), reach(0.001), "blooming zone"}};
 }
 
 Chart lobes() {

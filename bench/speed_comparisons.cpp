@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "bench/child.hpp"
+#include "bench/sections.hpp"
+#include "core/files.hpp"
+
+namespace lobelia::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+void render_file(const std::string& program, const char* scene, int width, int height,
+                 const fs::path& to) {
+  run({program, "render",
+       std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + scene + ".xml", "--width",
+       std::to_string(width), "--height", std::to_string(height), "-q", "-o", to});
+}
+
+/// All metrics, with a limit that everything keeps: exit code 0.
+Child compare(const std::string& program, const fs::path& a, const fs::path& b,
+              std::vector<std::string> options) {
+  std::vector<std::string> command{program, "compare", a, b, "--fail", "max_abs=1e30"};
+  command.insert(command.end(), options.begin(), options.end());
+  return run(command);
+}
+
+}  // namespace
+
+void comparisons(const std::string& program) {
+  const TemporaryDirectory directory;
+  const fs::path a = directory.path() / "a.exr", b = directory.path() / "b.exr";
+  fmt::print(
+      "\nWhole commands: lobelia compare, all metrics, HDR-FLIP at 3 exposures, all processors\n");
+  fmt::print("{:>12}{:>10}{:>14}{:>12}{:>14}{:>12}\n", "size", "s", "processor s", "peak MiB",
+             "pictures MiB", "beyond MiB");
+  double beyond = 0;
+  for (const auto& [width, height] :
+       {std::pair{256, 256}, std::pair{1920, 1080}, std::pair{4096, 4096}, std::pair{8192, 8192}}) {
+    render_file(program, "head_on", width, height, a);
+    render_file(program, "two_lights", width, height, b);
+    const Child child = compare(program, a, b, {"--exposures=-2,2,3"});
+    const double pictures = 2 * 12.0 * width * height / (1 << 20);
+    beyond = child.peak_mebibytes - pictures;
+    fmt::print("{:>12}{:>10.2f}{:>14.2f}{:>12.0f}{:>14.0f}{:>12.0f}\n",
+               fmt::format("{} x {}", width, height), child.seconds, child.processor_seconds,
+               child.peak_mebibytes, pictures, beyond);
+  }
+  fmt::print("Limit: the two pictures; the largest takes {:.0f} MiB beyond them.\n", beyond);
+
+  fmt::print(
+      "\nWhole sets: lobelia compare of two folders, default metrics; median of 3 interleaved rounds\n");
+  fmt::print("{:>12}{:>8}{:>10}{:>10}{:>14}{:>14}\n", "size", "pairs", "threads", "s", "pictures/s",
+             "Mpixel/s");
+  for (const auto& [width, height, pairs] : {std::tuple{256, 256, 64}, std::tuple{1920, 1080, 8}}) {
+    const fs::path folder = directory.path() / std::to_string(width);
+    for (const auto& [name, scene] : {std::pair{"a", "head_on"}, std::pair{"b", "two_lights"}}) {
+      fs::create_directories(folder / name);
+      render_file(program, scene, width, height, a);
+      for (int i = 0; i < pairs; ++i) fs::copy_file(a, folder / name / fmt::format("{:02}.exr", i));
+    }
+    std::vector<std::function<void()>> cases;
+    for (const char* threads : {"1", "0"})
+      cases.push_back([&, threads] {
+        compare(program, folder / "a", folder / "b", {"--threads", threads});
+      });
+    const std::vector<Times> times = interleaved(cases, 3);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      fmt::print("{:>12}{:>8}{:>10}{:>10.2f}{:>14.1f}{:>14.1f}\n",
+                 fmt::format("{} x {}", width, height), pairs, i == 0 ? "1" : "all",
+                 times[i].median, 2 * pairs / times[i].median,
+                 2e-6 * pairs * width * height / times[i].median);
+  }
+}
+
+}  // namespace lobelia::bench

@@ -1,0 +1,105 @@
+#include "cli/compare_noise.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "cli/between.hpp"
+#include "compare/uncertainty/z_test.hpp"
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+
+namespace lobelia::cli {
+
+void NoiseFlags::add_to(CLI::App& command) {
+  constexpr const char* kGroup = "Noise of Monte-Carlo pictures";
+  for (const auto& [letter, side] : {std::pair("a", &a_), {"b", &b_}}) {
+    const std::string picture = letter == std::string("a") ? "A" : "B";
+    auto* replicate = command.add_option(
+        fmt::format("--{}-replicate", letter), side->replicates,
+        fmt::format(
+            "Another, independent picture of what {0} is, from as many samples: {0} is their "
+            "mean, and its noise what they scatter; may be given again. With one, the two "
+            "are half-sample pictures",
+            picture));
+    replicate->type_name("FILE|DIR")->expected(1)->take_all()->group(kGroup);
+    command
+        .add_option(fmt::format("--{}-error", letter), side->error,
+                    fmt::format("Picture of the standard errors of {}, as render and reference "
+                                "--standard-error write",
+                                picture))
+        ->type_name("FILE|DIR")
+        ->excludes(replicate)
+        ->group(kGroup);
+  }
+  command
+      .add_option("--freedom", freedom_,
+                  "Degrees of freedom of those errors: independent estimates less one")
+      ->type_name("NUMBER")
+      ->check(between(1, 1e9))
+      ->capture_default_str()
+      ->group(kGroup);
+  command
+      .add_option(
+          "--shared-noise", shared_,
+          "Whose pixels err together, as they share their points or were filtered: a, b, both "
+          "or none; default: what has a picture of errors")
+      ->check(CLI::IsMember({"a", "b", "both", "none"}))
+      ->group(kGroup);
+  command
+      .add_option("--significance", judged_.significance,
+                  "Chance of finding a difference beyond the noise where there is none")
+      ->check(between(kLeastSignificance, kMostSignificance))
+      ->capture_default_str()
+      ->group(kGroup);
+  command
+      .add_option(
+          "--bootstrap", judged_.bootstraps,
+          "Pairs with noise that error bars are made of; each figure is measured twice as often")
+      ->check(between(kFewestBootstraps, kMostBootstraps))
+      ->capture_default_str()
+      ->group(kGroup);
+  command.add_option("--noise-seed", judged_.seed, "Chooses that noise")
+      ->check(between(0, 1 << 30))
+      ->capture_default_str()
+      ->group(kGroup);
+}
+
+void NoiseFlags::apply(ComparisonOptions& options) const {
+  if (a_.given() || b_.given()) options.noise = judged_;
+}
+
+std::optional<PictureNoise> NoiseFlags::read_side(const Side& side, const std::string& letter,
+                                                  const std::string& name, Image& image) const {
+  const auto file = [&](const std::string& given) {
+    return name.empty() ? std::filesystem::path(given) : std::filesystem::path(given) / name;
+  };
+  const bool shared =
+      shared_.empty() ? !side.error.empty() : shared_ == letter || shared_ == "both";
+  try {
+    if (!side.error.empty())
+      return noise_of_standard_errors(read_image(file(side.error)), freedom_, shared);
+    if (side.replicates.empty()) return std::nullopt;
+    std::vector<Image> pictures;
+    pictures.push_back(std::move(image));
+    for (const std::string& replicate : side.replicates)
+      pictures.push_back(read_image(file(replicate)));
+    NoisyPicture mean = mean_of_replicates(pictures, shared);
+    image = std::move(mean.image);
+    return std::move(mean.noise);
+  } catch (const Error& error) {
+    throw Error(error.code(),
+                fmt::format("--{}-{}: {}", letter, side.error.empty() ? "replicate" : "error",
+                            error.what()));
+  }
+}
+
+void NoiseFlags::read(const std::string& name, Image& a, Image& b,
+                      ComparisonOptions& options) const {
+  if (!options.noise) return;
+  options.noise->a = read_side(a_, "a", name, a);
+  options.noise->b = read_side(b_, "b", name, b);
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,26 @@
+// Records of profiles as text, tables and charts.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/record.hpp"
+
+namespace lobelia::cli {
+
+/// "124.3 +- 0.2": to the first digit of the error, to its second where that is a 1; no finer than a
+/// millionth of the value, which is what float32 pictures tell.
+std::string with_error(double value, double error);
+
+/// Of kind profile.
+std::string profile_text(const Json& profile);
+/// A line per angle of each: sphere, light, and the columns of its curve. All have the same columns.
+std::string profile_csv(std::span<const Json> profiles);
+std::string profile_svg(const Json& profile);
+
+/// Of kind blob.
+std::string blob_text(const Json& blob);
+std::string blob_csv(const Json& blob);
+std::string blob_svg(const Json& blob);
+
+}  // namespace lobelia::cli

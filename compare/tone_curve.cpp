@@ -1,0 +1,74 @@
+#include "compare/tone_curve.hpp"
+
+#include <limits>
+
+// As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
+#ifndef __OPTIMIZE__
+#define HWY_COMPILE_ONLY_STATIC
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "compare/tone_curve.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for each instruction set
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What is below 0, or no number, is 0.
+template <class D>
+HWY_INLINE hn::Vec<D> clipped(D d, hn::Vec<D> v) {
+  return hn::IfThenElseZero(hn::Gt(v, hn::Zero(d)), hn::Min(v, hn::Set(d, 1)));
+}
+
+/// Calls convert(d, vector) for all values, the last few one by one.
+template <class D, class Convert>
+HWY_INLINE void for_all(D d, const float* in, float* out, std::size_t count, Convert convert) {
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
+    hn::StoreU(convert(d, hn::LoadU(d, in + i)), d, out + i);
+  const hn::CappedTag<float, 1> one;
+  for (; i < count; ++i) hn::StoreU(convert(one, hn::LoadU(one, in + i)), one, out + i);
+}
+
+void clip_lanes(double gain, const float* in, float* out, std::size_t count) {
+  for_all(hn::Rebind<float, hn::ScalableTag<double>>(), in, out, count,
+          [gain](auto d, auto v) HWY_ATTR {
+            const hn::Rebind<double, decltype(d)> wide;
+            return hn::DemoteTo(
+                d, clipped(wide, hn::Mul(hn::Set(wide, gain), hn::PromoteTo(wide, v))));
+          });
+}
+
+void aces_lanes(float gain, const float* in, float* out, std::size_t count) {
+  for_all(hn::ScalableTag<float>(), in, out, count, [gain](auto d, auto v) HWY_ATTR {
+    const auto c = [d](int i) HWY_ATTR { return hn::Set(d, kAces[i]); };
+    const auto scaled = hn::Mul(hn::Set(d, gain), v);
+    const auto x = hn::IfThenElseZero(hn::Gt(scaled, hn::Zero(d)), scaled), square = hn::Mul(x, x);
+    const auto above = hn::Add(hn::Add(hn::Mul(square, c(0)), hn::Mul(x, c(1))), c(2));
+    const auto below = hn::Add(hn::Add(hn::Mul(square, c(3)), hn::Mul(x, c(4))), c(5));
+    const auto huge = hn::Gt(square, hn::Set(d, std::numeric_limits<float>::max()));
+    return hn::IfThenElse(huge, hn::Set(d, 1.0f), clipped(d, hn::Div(above, below)));
+  });
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lobelia {
+
+HWY_EXPORT(clip_lanes);
+HWY_EXPORT(aces_lanes);
+
+void clip_values(double gain, const float* in, float* out, std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(clip_lanes)(gain, in, out, count);
+}
+
+void aces_values(float gain, const float* in, float* out, std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(aces_lanes)(gain, in, out, count);
+}
+
+}  // namespace lobelia
+#endif  // HWY_ONCE

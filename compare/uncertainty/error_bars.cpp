@@ -1,0 +1,179 @@
+#include "compare/uncertainty/error_bars.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "compare/metrics/catalogue.hpp"
+#include "compare/uncertainty/gaussian.hpp"
+#include "compare/uncertainty/z_test.hpp"
+
+namespace lobelia {
+namespace {
+
+/// Mean and spread of numbers that come one at a time (Welford 1962).
+class Spread {
+ public:
+  void add(double value) {
+    ++count_;
+    // What has no noise may be infinite, and the same each time.
+    all_equal_ = all_equal_ && (count_ == 1 || value == first_);
+    if (count_ == 1) first_ = value;
+    const double step = value - mean_;
+    mean_ += step / count_;
+    squares_ += step * (value - mean_);
+  }
+  double mean() const { return all_equal_ ? first_ : mean_; }
+  double deviation() const { return all_equal_ ? 0 : std::sqrt(squares_ / (count_ - 1)); }
+
+ private:
+  int count_ = 0;
+  bool all_equal_ = true;
+  double first_ = 0, mean_ = 0, squares_ = 0;
+};
+
+struct Figure {
+  const MetricOutput* output;
+  double distance;  ///< of the pictures as they are
+  struct Spreads {
+    Spread value;           ///< of noisier pictures, as it stands in a record
+    Spread again, nothing;  ///< distances of noisier pictures, and of noise alone
+  };
+  Spreads apart, together;  ///< values that err each by itself; pictures whose values err together
+};
+
+template <class Visit>
+void measure_each(const MetricInput& input, Visit visit) {
+  std::vector<double> values;
+  for (const Metric* metric : metrics()) {
+    if (metric->needs == Needs::kNoise || !is_measurable(*metric, input)) continue;
+    values.assign(metric->outputs.size(), 0.0);
+    metric->measure(input, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (metric->outputs[i].better != Better::kNeither) visit(metric->outputs[i], values[i]);
+  }
+}
+
+/// Where it is `shared` noise, and `together`, all values are off by one number of errors.
+Image with_noise(const Image& image, const PictureNoise* noise, std::uint64_t stream,
+                 bool together) {
+  Image result(image.width(), image.height());
+  std::copy(image.values().begin(), image.values().end(), result.values().begin());
+  if (!noise) return result;
+  constexpr std::size_t kValuesPerTask = 1 << 14;
+  const double one = gaussian(stream, ~std::uint64_t{0});
+  together = together && noise->shared;
+  oneapi::tbb::parallel_for(
+      oneapi::tbb::blocked_range<std::size_t>(0, result.values().size(), kValuesPerTask),
+      [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const double error = noise->standard_error.values()[i];
+          if (error > 0)
+            result.values()[i] += float(error * (together ? one : gaussian(stream, i)));
+        }
+      });
+  return result;
+}
+
+/// 97.5 % of another draw, in deviations from the mean.
+double draw_factor(const NoiseOfPair& noise, int count) {
+  double freedom = count - 1;
+  for (const PictureNoise* one : {noise.a, noise.b})
+    if (one && one->shared) freedom = std::min(freedom, one->freedom);
+  return boost::math::quantile(boost::math::students_t(freedom), 0.975) *
+         std::sqrt(1 + 1.0 / count);
+}
+
+/// How pixels err together is not known, only that they do: each time the worse of the two.
+ErrorBar bar_of(const Figure& figure, double factor) {
+  const MetricOutput& output = *figure.output;
+  const auto worse = [&](auto number) {
+    return std::max(number(figure.apart), number(figure.together));
+  };
+  using Spreads = Figure::Spreads;
+  ErrorBar bar{.id = output.id};
+  bar.standard_error = worse([](const Spreads& s) { return s.value.deviation(); });
+  bar.floor = from_distance(output, worse([](const Spreads& s) { return s.nothing.mean(); }));
+  const double spread = factor * worse([](const Spreads& s) { return s.again.deviation(); });
+  const double floor =
+      worse([&](const Spreads& s) { return s.nothing.mean() + factor * s.nothing.deviation(); });
+  bar.floor_most = from_distance(output, floor);
+  double near = figure.distance, far = figure.distance;
+  if (std::isfinite(figure.distance)) {
+    far += spread;
+    near = output.better == Better::kNearZero ? near - spread : std::max(0.0, near - floor);
+  }
+  const double ends[] = {from_distance(output, near), from_distance(output, far)};
+  bar.low = std::min(ends[0], ends[1]);
+  bar.high = std::max(ends[0], ends[1]);
+  return bar;
+}
+
+}  // namespace
+
+double as_distance(const MetricOutput& output, double value) {
+  if (std::isinf(output.best)) return std::pow(10, -value / 20);
+  if (output.better == Better::kNearZero) return value;
+  const double apart = std::abs(value - output.best);
+  return output.square ? std::sqrt(apart) : apart;
+}
+
+double from_distance(const MetricOutput& output, double distance) {
+  if (std::isinf(output.best)) return -20 * std::log10(distance);
+  if (output.better == Better::kNearZero) return distance;
+  const double apart = output.square ? distance * distance : distance;
+  return output.better == Better::kHigher ? output.best - apart : output.best + apart;
+}
+
+std::vector<ErrorBar> error_bars(const MetricInput& input, const Viewing& viewing, int count,
+                                 std::uint64_t seed) {
+  const NoiseOfPair& noise = *input.noise;
+  const auto shown = [&](const Image& image) {
+    return DisplayLight::of(image, viewing.exposure_stops, viewing.display.get());
+  };
+  std::vector<Figure> figures;
+  measure_each(input, [&](const MetricOutput& output, double value) {
+    figures.push_back({&output, as_distance(output, value), {}, {}});
+  });
+  const auto measure_noisy = [&](const Image& a, std::uint64_t stream, bool together, auto keep) {
+    const Image noisy_a = with_noise(a, noise.a, mix(seed) + 2 * stream, together);
+    const Image noisy_b = with_noise(input.b, noise.b, mix(seed) + 2 * stream + 1, together);
+    MetricInput noisy{noisy_a,
+                      noisy_b,
+                      shown(noisy_a),
+                      shown(noisy_b),
+                      input.pixels_per_degree,
+                      input.tolerance,
+                      input.hdr_exposures,
+                      input.mask};
+    std::size_t next = 0;
+    measure_each(noisy, [&](const MetricOutput& output, double value) {
+      keep(figures[next++], as_distance(output, value), value);
+    });
+  };
+  const bool any_shared = (noise.a && noise.a->shared) || (noise.b && noise.b->shared);
+  for (int k = 0; k < (any_shared ? 2 : 1) * count; ++k) {
+    const bool together = k >= count;
+    Figure::Spreads Figure::*const spreads = together ? &Figure::together : &Figure::apart;
+    const auto stream = 2 * std::uint64_t(k);
+    measure_noisy(input.a, stream, together, [&](Figure& figure, double distance, double value) {
+      (figure.*spreads).value.add(value);
+      (figure.*spreads).again.add(distance);
+    });
+    measure_noisy(input.b, stream + 1, together, [&](Figure& figure, double distance, double) {
+      (figure.*spreads).nothing.add(distance);
+    });
+  }
+  if (!any_shared)
+    for (Figure& figure : figures) figure.together = figure.apart;
+  std::vector<ErrorBar> bars;
+  const double factor = draw_factor(noise, count);
+  for (const Figure& figure : figures) bars.push_back(bar_of(figure, factor));
+  return bars;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,166 @@
+#include "compare/uncertainty/noise.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace lobelia {
+namespace {
+
+/// With fewer degrees of freedom a value's own error is no estimate to build on.
+constexpr double kFewFreedom = 8;
+constexpr int kSquare = 5, kLineReach = 8, kLine = 2 * kLineReach + 1;
+/// A pixel of a picture of this side has a whole square to one of its sides.
+constexpr int kLeastSide = 2 * (kSquare - 1);
+
+/// Squares of standard errors, and sums of them around a pixel.
+class Variances {
+ public:
+  explicit Variances(const Image& error) : width_(error.width()), height_(error.height()) {
+    values_.reserve(error.values().size());
+    for (const float value : error.values()) values_.push_back(double(value) * double(value));
+  }
+
+  double at(int x, int y, int channel) const {
+    return values_[3 * (std::size_t(y) * std::size_t(width_) + std::size_t(x)) +
+                   std::size_t(channel)];
+  }
+
+  /// The largest of the means over lines and squares around a pixel; 0 where none lies in the picture.
+  double pooled(int x, int y, int channel) const {
+    constexpr std::pair<int, int> kDirections[] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    constexpr std::pair<int, int> kCorners[] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+    double largest = 0;
+    for (const auto& [dx, dy] : kDirections) {
+      if (!inside(x - kLineReach * dx, y - kLineReach * dy) ||
+          !inside(x + kLineReach * dx, y + kLineReach * dy))
+        continue;
+      double sum = 0;
+      for (int k = -kLineReach; k <= kLineReach; ++k) sum += at(x + k * dx, y + k * dy, channel);
+      largest = std::max(largest, sum / kLine);
+    }
+    for (const auto& [dx, dy] : kCorners) {
+      if (!inside(x + (kSquare - 1) * dx, y + (kSquare - 1) * dy)) continue;
+      double sum = 0;
+      for (int j = 0; j < kSquare; ++j)
+        for (int i = 0; i < kSquare; ++i) sum += at(x + i * dx, y + j * dy, channel);
+      largest = std::max(largest, sum / (kSquare * kSquare));
+    }
+    return largest;
+  }
+
+  double largest_around(int x, int y, int channel) const {
+    double largest = 0;
+    for (int j = std::max(0, y - 1); j <= std::min(height_ - 1, y + 1); ++j)
+      for (int i = std::max(0, x - 1); i <= std::min(width_ - 1, x + 1); ++i)
+        largest = std::max(largest, at(i, j, channel));
+    return largest;
+  }
+
+  /// Over what varies in the square around the pixel; 0 if the pixel does not. So the sum over the picture
+  /// stays, and none of it comes to what is next to the noise.
+  double mean_around(int x, int y, int channel) const {
+    constexpr int kReach = kSquare / 2;
+    if (at(x, y, channel) == 0) return 0;
+    double sum = 0;
+    int count = 0;
+    for (int j = std::max(0, y - kReach); j <= std::min(height_ - 1, y + kReach); ++j)
+      for (int i = std::max(0, x - kReach); i <= std::min(width_ - 1, x + kReach); ++i) {
+        sum += at(i, j, channel);
+        count += at(i, j, channel) > 0;
+      }
+    return sum / count;
+  }
+
+ private:
+  bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
+
+  int width_, height_;
+  std::vector<double> values_;
+};
+
+/// The root of a variance for each value of a picture.
+template <class Variance>
+Image roots(int width, int height, Variance variance) {
+  Image result(width, height);
+  oneapi::tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      for (int channel = 0; channel < 3; ++channel)
+        result.pixel(x, y)[std::size_t(channel)] = float(std::sqrt(variance(x, y, channel)));
+  });
+  return result;
+}
+
+PictureNoise noise_of(const Image& error, double freedom, bool shared) {
+  const Variances variances(error);
+  const int width = error.width(), height = error.height();
+  PictureNoise noise;
+  noise.freedom = freedom;
+  noise.shared = shared;
+  noise.standard_error = roots(width, height, [&](int x, int y, int c) {
+    if (freedom < kFewFreedom) return variances.mean_around(x, y, c);
+    const double unbiased = 1 + 1 / (4 * freedom);
+    return unbiased * unbiased * variances.at(x, y, c);
+  });
+  const Variances pooled(
+      roots(width, height, [&](int x, int y, int c) { return variances.pooled(x, y, c); }));
+  noise.cautious = roots(width, height, [&](int x, int y, int c) {
+    return std::max(variances.at(x, y, c), pooled.largest_around(x, y, c));
+  });
+  const bool has_windows = std::min(width, height) >= kLeastSide;
+  noise.pooled_freedom = has_windows && !shared ? std::max(freedom, double(kLine)) : freedom;
+  return noise;
+}
+
+}  // namespace
+
+PictureNoise noise_of_standard_errors(const Image& standard_error, double freedom, bool shared) {
+  if (!(freedom >= 1))
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} degrees of freedom; there must be at least 1", freedom));
+  if (standard_error.pixel_count() == 0)
+    throw Error(ExitCode::kInput, "the picture of standard errors has no pixels");
+  const auto values = standard_error.values();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] >= 0) || !std::isfinite(values[i]))
+      throw Error(ExitCode::kInput,
+                  fmt::format("a standard error is {} at pixel ({}, {}); it must be finite and not "
+                              "negative",
+                              values[i], i / 3 % std::size_t(standard_error.width()),
+                              i / 3 / std::size_t(standard_error.width())));
+  return noise_of(standard_error, freedom, shared);
+}
+
+NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared) {
+  if (replicates.size() < 2)
+    throw Error(ExitCode::kInput, "noise cannot be told from fewer than two pictures");
+  const Image& first = replicates.front();
+  for (const Image& image : replicates)
+    if (image.width() != first.width() || image.height() != first.height())
+      throw Error(ExitCode::kInput,
+                  fmt::format("the sizes differ: {} x {} against {} x {}", image.width(),
+                              image.height(), first.width(), first.height()));
+  const double n = double(replicates.size());
+  Image mean(first.width(), first.height()), error(first.width(), first.height());
+  for (std::size_t i = 0; i < mean.values().size(); ++i) {
+    double sum = 0, squares = 0;
+    for (const Image& image : replicates) sum += double(image.values()[i]);
+    mean.values()[i] = float(sum / n);
+    for (const Image& image : replicates) {
+      const double apart = double(image.values()[i]) - sum / n;
+      squares += apart * apart;
+    }
+    // The mean is not finite, and says so; no error of it is needed.
+    error.values()[i] = std::isfinite(squares) ? float(std::sqrt(squares / (n * (n - 1)))) : 0;
+  }
+  return {std::move(mean), noise_of(error, n - 1, shared)};
+}
+
+}  // namespace lobelia

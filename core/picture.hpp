@@ -1,0 +1,37 @@
+// A picture as its file has it: values, and how they were read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/record.hpp"
+
+namespace lobelia {
+
+/// Pixels x to x + width - 1, y to y + height - 1; y down.
+struct PixelWindow {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const PixelWindow&) const = default;
+};
+
+struct PictureSource {
+  std::string format;                 ///< "openexr", "png": OpenImageIO's name
+  std::string layer;                  ///< "" for the picture itself
+  std::vector<std::string> channels;  ///< their names in the file; three (R, G, B), or one for grey
+  std::string value_type;             ///< as stored: "half", "float", "uint8", "uint16", "uint"
+  std::string transfer;               ///< of transfer_curve.hpp: "linear", "sRGB", "gamma 1.8"
+  bool multiplied_by_alpha = false;   ///< after the transfer curve; the file's colours were not
+  std::string icc_profile;            ///< its description where there is one; it is not applied
+  PixelWindow data, display;          ///< where the file has values, and the picture
+};
+
+struct Picture {
+  Image image;  ///< of the display window
+  PictureSource source;
+};
+
+/// An entry of a comparison's `pictures`, docs/records.md.
+Json to_json(const PictureSource& source);
+
+}  // namespace lobelia

@@ -1,0 +1,194 @@
+#include "core/picture_layers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+struct SplitName {
+  std::string prefix, suffix;  ///< the suffix in small letters
+};
+
+SplitName split_name(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  SplitName result{dot == name.npos ? "" : name.substr(0, dot),
+                   dot == name.npos ? name : name.substr(dot + 1)};
+  for (char& c : result.suffix) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// One part's channels of one prefix: position by suffix.
+using Group = std::map<std::string, std::size_t>;
+
+std::optional<std::size_t> find_suffix(const Group& group, std::string_view letter,
+                                       std::string_view word) {
+  for (const std::string_view suffix : {letter, word})
+    if (const auto found = group.find(std::string(suffix)); found != group.end())
+      return found->second;
+  return std::nullopt;
+}
+
+std::vector<std::size_t> three(const Group& group,
+                               std::array<std::pair<std::string_view, std::string_view>, 3> names) {
+  std::vector<std::size_t> result;
+  for (const auto& [letter, word] : names)
+    if (const auto at = find_suffix(group, letter, word)) result.push_back(*at);
+  return result.size() == 3 ? result : std::vector<std::size_t>{};
+}
+
+/// A layer before it has its part's name.
+struct RawLayer {
+  PictureLayer layer;
+  bool is_root = false;  ///< colours without a prefix
+};
+
+std::vector<RawLayer> layers_of_part(const PicturePart& part, std::size_t index) {
+  std::vector<std::string> order;
+  std::map<std::string, Group> groups;
+  for (std::size_t c = 0; c < part.channels.size(); ++c) {
+    const SplitName name = split_name(part.channels[c]);
+    if (!groups.contains(name.prefix)) order.push_back(name.prefix);
+    groups[name.prefix].emplace(name.suffix, c);
+  }
+  std::vector<RawLayer> result;
+  std::set<std::size_t> used;
+  const auto add = [&](std::string name, std::vector<std::size_t> where, bool is_colour,
+                       bool is_root) {
+    used.insert(where.begin(), where.end());
+    result.push_back({{std::move(name), index, std::move(where), is_colour}, is_root});
+  };
+  for (const std::string& prefix : order) {
+    const Group& group = groups[prefix];
+    const bool root = prefix.empty();
+    const auto rgb = three(group, {{{"r", "red"}, {"g", "green"}, {"b", "blue"}}});
+    const auto xyz = three(group, {{{"x", "x"}, {"y", "y"}, {"z", "z"}}});
+    // RY and BY beside it: luminance with chroma, whose grey alone would be half a picture.
+    const bool chroma = group.contains("ry") || group.contains("by");
+    if (!rgb.empty())
+      add(prefix, rgb, true, root);
+    else if (!xyz.empty() && !root)
+      add(prefix, xyz, false, false);
+    else if (const auto y = find_suffix(group, "y", "y"); y && xyz.empty() && !chroma)
+      add(prefix, {*y}, true, root);
+  }
+  for (std::size_t c = 0; c < part.channels.size(); ++c)
+    if (!used.contains(c)) add(part.channels[c], {c}, false, false);
+  return result;
+}
+
+std::string in_part(const PicturePart& part, std::size_t index, const std::string& name) {
+  const std::string part_name = part.name.empty() ? fmt::format("part{}", index + 1) : part.name;
+  if (name.empty()) return part_name;
+  if (name == part_name || name.starts_with(part_name + ".")) return name;
+  return part_name + "." + name;
+}
+
+template <class Names>
+std::string list(const Names& names) {
+  constexpr std::size_t kShown = 40;  // a hostile file has thousands
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", printable(names[i]));
+  if (names.size() > kShown) text += fmt::format(" and {} more", names.size() - kShown);
+  return text;
+}
+
+[[noreturn]] void no_picture(const std::string& where, std::span<const PicturePart> parts,
+                             std::span<const PictureLayer> layers) {
+  std::vector<std::string> channels, names;
+  for (const PicturePart& part : parts)
+    channels.insert(channels.end(), part.channels.begin(), part.channels.end());
+  for (const PictureLayer& layer : layers) names.push_back(layer.name);
+  throw Error(
+      ExitCode::kInput,
+      fmt::format("{}: no channels R, G and B, and no Y: its channels are {}; a layer has to "
+                  "be chosen: {}",
+                  where, list(channels), list(names)));
+}
+
+/// The end where there is none, or more than one that may be meant.
+std::vector<RawLayer>::iterator find_picture(std::vector<RawLayer>& layers) {
+  const auto first = [&](auto is) { return std::find_if(layers.begin(), layers.end(), is); };
+  const auto is_colour = [](const RawLayer& raw) { return raw.layer.is_colour; };
+  const auto is_rgb = [](const RawLayer& raw) {
+    return raw.is_root && raw.layer.where.size() == 3;
+  };
+  const auto is_root = [](const RawLayer& raw) { return raw.is_root; };
+  if (const auto rgb = first(is_rgb); rgb != layers.end()) return rgb;
+  if (const auto grey = first(is_root); grey != layers.end()) return grey;
+  if (std::ranges::count_if(layers, is_colour) == 1) return first(is_colour);
+  return layers.size() == 1 && layers[0].layer.where.size() == 1 ? layers.begin() : layers.end();
+}
+
+}  // namespace
+
+std::vector<PictureLayer> picture_layers(std::span<const PicturePart> parts) {
+  std::vector<RawLayer> all;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (RawLayer& raw : layers_of_part(parts[p], p)) all.push_back(std::move(raw));
+
+  const auto picture = find_picture(all);
+  const bool has_picture = picture != all.end();
+  if (has_picture) std::rotate(all.begin(), picture, picture + 1);
+
+  std::vector<PictureLayer> result;
+  std::set<std::string> names;
+  std::map<std::string, int> copies;  // of a name, besides the first
+  for (RawLayer& raw : all) {
+    PictureLayer& layer = raw.layer;
+    if (has_picture && result.empty())
+      layer.name = "";
+    else if (parts.size() > 1 && !(has_picture && layer.part == result[0].part))
+      layer.name = in_part(parts[layer.part], layer.part, layer.name);
+    const std::string name = layer.name;
+    while (!names.insert(layer.name).second)
+      layer.name = fmt::format("{}#{}", name, ++copies[name] + 1);
+    result.push_back(std::move(layer));
+  }
+  return result;
+}
+
+PictureLayer find_layer(const std::string& where, std::span<const PicturePart> parts,
+                        const std::string& name) {
+  const std::vector<PictureLayer> layers = picture_layers(parts);
+  for (const PictureLayer& layer : layers)
+    if (layer.name == name) return layer;
+  if (name.empty()) no_picture(where, parts, layers);
+  for (const PictureLayer& layer : layers) {
+    const PicturePart& part = parts[layer.part];
+    const bool is_part = part.name == name;
+    // The only layer of colours is the picture, and keeps the name that its channels have.
+    const bool is_prefix =
+        layer.where.size() == 3 && split_name(part.channels[layer.where[0]]).prefix == name;
+    if (is_part || is_prefix) return layer;
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& channels = parts[p].channels;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      if (channels[c] != name && in_part(parts[p], p, channels[c]) != name) continue;
+      const auto owner = std::find_if(layers.begin(), layers.end(), [&](const PictureLayer& layer) {
+        return layer.part == p && std::ranges::count(layer.where, c) != 0;
+      });
+      return {name, p, {c}, owner->is_colour};
+    }
+  }
+  std::vector<std::string_view> names;
+  for (const PictureLayer& layer : layers)
+    if (!layer.name.empty()) names.push_back(layer.name);
+  throw Error(ExitCode::kInput, fmt::format("{}: no layer '{}'{}; {}", where, printable(name),
+                                            printable(did_you_mean(name, names)),
+                                            names.empty() ? "there is the picture alone"
+                                                          : "there are " + list(names)));
+}
+
+}  // namespace lobelia

@@ -1,0 +1,42 @@
+#include "core/picture_window.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace lobelia {
+
+std::string window_problem(const std::string& what, const PixelWindow& window) {
+  constexpr int kFarthest = 1 << 30;  // sums of corners and sides stay within an int
+  if (window.width < 1 || window.height < 1) return what + " has no pixels";
+  if (window.width > kMaxImageSide || window.height > kMaxImageSide ||
+      std::int64_t{window.width} * window.height > kMaxImagePixels)
+    return fmt::format("{} has {} x {} pixels; at most {} a side and {} in all are read", what,
+                       window.width, window.height, kMaxImageSide, kMaxImagePixels);
+  if (window.x < -kFarthest || window.x > kFarthest || window.y < -kFarthest ||
+      window.y > kFarthest)
+    return fmt::format("{} begins at ({}, {}); at most {} is read", what, window.x, window.y,
+                       kFarthest);
+  return "";
+}
+
+bool are_apart(const PixelWindow& a, const PixelWindow& b) {
+  return a.x >= b.x + b.width || b.x >= a.x + a.width || a.y >= b.y + b.height ||
+         b.y >= a.y + a.height;
+}
+
+Image place(Image image, const PixelWindow& data, const PixelWindow& display) {
+  if (data == display) return image;
+  Image result(display.width, display.height);
+  const int left = std::max(data.x, display.x);
+  const int right = std::min(data.x + data.width, display.x + display.width);
+  const int bottom = std::min(data.y + data.height, display.y + display.height);
+  if (left >= right) return result;
+  for (int y = std::max(data.y, display.y); y < bottom; ++y)
+    std::copy_n(image.pixel(left - data.x, y - data.y).data(), std::size_t(right - left) * 3,
+                result.pixel(left - display.x, y - display.y).data());
+  return result;
+}
+
+}  // namespace lobelia

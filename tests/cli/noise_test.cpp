@@ -1,0 +1,74 @@
+// Pictures with noise, from rendering to a verdict.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/record.hpp"
+#include "run_lobelia.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+/// Renders the scene with an area light in `directory`.
+void render(const TemporaryDirectory& directory, const std::string& output,
+            std::vector<std::string> more) {
+  std::vector<std::string> arguments{
+      "render", kScenes + "effects/area_light.xml", "--width", "64", "--height", "64", "-q", "-o",
+      output};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const auto result = run_lobelia(arguments, directory.path());
+  ASSERT_EQ(result.exit_code, 0) << result.output_tail;
+}
+
+TEST(CompareWithNoise, OfHalvesExitsWith0ForSame1ForDifferentAnd1ForUndecided) {
+  const TemporaryDirectory directory;
+  for (const char* seed : {"1", "2", "3", "4"})
+    render(directory, std::string("half") + seed + ".exr", {"--samples", "32", "--seed", seed});
+  for (const char* seed : {"5", "6"})
+    render(directory, std::string("other") + seed + ".exr",
+           {"--samples", "32", "--seed", seed, "--exponent", "12"});
+  const auto compare = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"compare", "half1.exr", "half3.exr", "--a-replicate",
+                                       "half2.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_lobelia(arguments, directory.path());
+  };
+  const auto same = compare({"--b-replicate", "half4.exr", "--fail", "flip.ldr.mean=0.05"});
+  EXPECT_EQ(same.exit_code, 0) << same.output_tail;
+  EXPECT_THAT(same.output_tail, HasSubstr("verdict: same"));
+  EXPECT_THAT(same.output_tail, HasSubstr("±"));
+  const auto open = compare({"--b-replicate", "half4.exr", "--fail", "max_rel_peak=1e-4"});
+  EXPECT_EQ(open.exit_code, 1) << open.output_tail;
+  EXPECT_THAT(open.output_tail, HasSubstr("verdict: undecided"));
+  EXPECT_THAT(open.output_tail, HasSubstr("MAY BE ON EITHER SIDE OF 0.0001"));
+  const auto different =
+      run_lobelia({"compare", "half1.exr", "other5.exr", "--a-replicate", "half2.exr",
+                   "--b-replicate", "other6.exr", "--json", "record.json"},
+                  directory.path());
+  EXPECT_EQ(different.exit_code, 1) << different.output_tail;
+  const Json record = read_record(directory.path() / "record.json", "comparison");
+  EXPECT_EQ(record["verdict"], "different");
+  EXPECT_EQ(record["uncertainty"]["a"]["freedom"], 1);
+  EXPECT_EQ(compare({"--b-replicate", "missing.exr"}).exit_code, 3);
+}
+
+TEST(RenderCommand, WritesTheErrorOfItsPictureByWhichAnotherSeedIsTheSame) {
+  const TemporaryDirectory directory;
+  render(directory, "plain.exr", {"--samples", "64"});
+  render(directory, "a.exr", {"--samples", "64", "--standard-error", "error.exr"});
+  render(directory, "b.exr", {"--samples", "64", "--seed", "99"});
+  EXPECT_EQ(read_file(directory.path() / "a.exr", 1 << 24),
+            read_file(directory.path() / "plain.exr", 1 << 24))
+      << "the picture is not changed by it";
+  const auto result =
+      run_lobelia({"compare", "a.exr", "b.exr", "--a-error", "error.exr", "--b-error", "error.exr",
+                   "--shared-noise", "none", "--fail", "z.beyond=0", "--fail", "z.regions=0",
+                   "--fail", "flip.ldr.mean=0.05"},
+                  directory.path());
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("verdict: same"));
+}
+
+}  // namespace
+}  // namespace lobelia

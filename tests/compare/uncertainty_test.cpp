@@ -1,0 +1,509 @@
+// What is found of two pictures with noise, and what their error bars hold.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <limits>
+
+#include "compare/compare.hpp"
+#include "compare/metrics/catalogue.hpp"
+#include "compare/uncertainty/critical.hpp"
+#include "compare/uncertainty/z_test.hpp"
+#include "core/error.hpp"
+#include "tests/compare/noisy_pictures.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::NoiseKind;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+ZTest test_of(const Image& a, const Image& b, NoiseOfPair noise,
+              const Tolerance* tolerance = nullptr) {
+  MetricInput input = testing::input(a, b, tolerance);
+  input.noise = &noise;
+  return z_test(input);
+}
+
+bool found(const ZTest& test) { return test.beyond > 0 || test.regions > 0; }
+
+// ---- one number
+
+TEST(Sidak, IsTheClosedFormAndKeepsItsDigitsForManyTests) {
+  EXPECT_DOUBLE_EQ(sidak(0.05, 1), 0.05);
+  // Abdi 2007, "Bonferroni and Sidak corrections for multiple comparisons": 4 tests at .05.
+  EXPECT_NEAR(sidak(0.05, 4), 0.0127, 5e-5);
+  EXPECT_NEAR(1 - std::pow(1 - sidak(0.05, 100), 100), 0.05, 1e-14);
+  // ln(1 / 0.99) / m to first order; 1 - 0.99^(1/m) by itself has three digits left.
+  EXPECT_NEAR(sidak(0.01, 1e13) * 1e13, 0.010050335853501441, 1e-14);
+}
+
+TEST(EquivalentZ, IsAsRareAsTheTable) {
+  // Student's t, two-sided 5 %, 1 %: 12.706 (1), 2.131 (15), 63.657 (1); normal 1.960, 2.576.
+  EXPECT_NEAR(equivalent_z(12.706, 1), 1.95996, 1e-4);
+  EXPECT_NEAR(equivalent_z(-2.131, 15), -1.95996, 5e-4);
+  EXPECT_NEAR(equivalent_z(63.657, 1), 2.57583, 1e-4);
+  EXPECT_EQ(equivalent_z(7, kInfinity), 7);
+  EXPECT_EQ(equivalent_z(kInfinity, 1), kInfinity);
+  EXPECT_EQ(equivalent_z(0, 1), 0);
+  EXPECT_GT(equivalent_z(1e6, 1e4), 38) << "rarer than a double holds, and still no less";
+}
+
+TEST(CriticalT, IsTheZOfItsLevelAndNeverLess) {
+  for (const double each : {0.05, 1e-4, 1e-9}) {
+    const CriticalT critical(each);
+    for (const double freedom : {1.0, 1.01, 2.7, 15.0, 17.0, 300.0, 1e5, 1e12}) {
+      const double z = equivalent_z(critical(freedom), freedom);
+      EXPECT_GE(z, critical.normal() - 1e-9) << freedom;
+      EXPECT_LE(z, 1.03 * critical.normal()) << freedom;
+    }
+    EXPECT_NEAR(critical(kInfinity), critical.normal(), 1e-3);
+  }
+}
+
+// ---- noise
+
+TEST(Noise, OfTwoHalvesIsHalfTheirDifferenceAndTheirMeanIsThePicture) {
+  const Image halves[] = {testing::flat(9, 9, 1, 2, 3), testing::flat(9, 9, 3, 2, 2.5f)};
+  const NoisyPicture mean = mean_of_replicates(halves, false);
+  EXPECT_THAT(mean.image.pixel(4, 4), ::testing::ElementsAre(2.0f, 2.0f, 2.75f));
+  EXPECT_THAT(mean.noise.standard_error.pixel(4, 4), ::testing::ElementsAre(1.0f, 0.0f, 0.25f));
+  EXPECT_THAT(mean.noise.cautious.pixel(0, 8), ::testing::ElementsAre(1.0f, 0.0f, 0.25f));
+  EXPECT_EQ(mean.noise.freedom, 1);
+}
+
+TEST(Noise, OfManyReplicatesIsTheStandardErrorOfTheirMean) {
+  std::vector<Image> replicates;
+  for (const float value : {1.0f, 2.0f, 3.0f, 6.0f})
+    replicates.push_back(testing::flat(3, 2, value, value, value));
+  const NoisyPicture mean = mean_of_replicates(replicates, false);
+  EXPECT_FLOAT_EQ(mean.image.pixel(0, 0)[0], 3);
+  // (4 + 1 + 0 + 9) / (4 * 3)
+  EXPECT_FLOAT_EQ(mean.noise.standard_error.pixel(0, 0)[0], std::sqrt(14.0f / 12));
+  EXPECT_EQ(mean.noise.freedom, 3);
+  EXPECT_EQ(mean.noise.pooled_freedom, 3) << "there is no window in so small a picture";
+}
+
+TEST(Noise, OfFiguresIsFreeOfTheBiasOfARootAndStaysWithItsPixel) {
+  // The mean of the standard deviation of n normal values is 1 - 1 / (4 (n - 1)) of the true one.
+  Image error = testing::flat(12, 12, 0, 0, 0);
+  error.pixel(6, 6)[0] = 1;
+  EXPECT_FLOAT_EQ(noise_of_standard_errors(error, 15, false).standard_error.pixel(6, 6)[0],
+                  61.0f / 60);
+  EXPECT_EQ(noise_of_standard_errors(error, 15, false).standard_error.pixel(6, 7)[0], 0);
+  error.pixel(7, 6)[0] = 3;
+  const Image pooled = noise_of_standard_errors(error, 1, false).standard_error;
+  EXPECT_FLOAT_EQ(pooled.pixel(6, 6)[0], std::sqrt(5.0f));
+  EXPECT_FLOAT_EQ(pooled.pixel(7, 6)[0], std::sqrt(5.0f)) << "the sum of variances is the same";
+  EXPECT_EQ(pooled.pixel(6, 7)[0], 0);
+}
+
+TEST(Noise, ThatIsCautiousIsNeverLessThanAValuesOwn) {
+  for (const NoiseKind kind : testing::kNoiseKinds) {
+    const Image halves[] = {testing::noisy(kind, 3, 8), testing::noisy(kind, 4, 8)};
+    const Image cautious = mean_of_replicates(halves, false).noise.cautious;
+    for (std::size_t i = 0; i < cautious.values().size(); ++i)
+      ASSERT_GE(cautious.values()[i],
+                0.49999f * std::abs(halves[0].values()[i] - halves[1].values()[i]));
+  }
+}
+
+TEST(Noise, ThatIsCautiousFollowsThinLinesAndEdges) {
+  // A pixel whose replicates happened to agree, on a noisy line, and on the noisy side of an edge.
+  Image row = testing::flat(40, 40, 0, 0, 0), diagonal = row, edge = row;
+  for (int k = 0; k < 40; ++k) row.pixel(k, 20)[0] = diagonal.pixel(k, 39 - k)[0] = 1;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 20 + (y - 20) / 3; x < 40; ++x) edge.pixel(x, y)[0] = 1;
+  row.pixel(20, 20)[0] = diagonal.pixel(20, 19)[0] = edge.pixel(20, 20)[0] = 0;
+  const auto cautious = [](const Image& error, int x, int y) {
+    return noise_of_standard_errors(error, 1, false).cautious.pixel(x, y)[0];
+  };
+  EXPECT_FLOAT_EQ(cautious(row, 20, 20), std::sqrt(16.0f / 17));
+  EXPECT_FLOAT_EQ(cautious(diagonal, 20, 19), std::sqrt(16.0f / 17));
+  EXPECT_GE(cautious(edge, 20, 20), 0.97f);
+  EXPECT_EQ(cautious(row, 20, 30), 0) << "far from it there is none";
+}
+
+TEST(Noise, ThatIsNoErrorOrFitsNothingIsRefused) {
+  Image error = testing::flat(4, 4, 1, 1, 1);
+  EXPECT_THROW(noise_of_standard_errors(error, 0.5, false), Error);
+  EXPECT_THROW(noise_of_standard_errors(error, std::nan(""), false), Error);
+  EXPECT_THROW(noise_of_standard_errors(Image(), 15, false), Error);
+  error.pixel(1, 2)[0] = -1e-9f;
+  EXPECT_THROW(noise_of_standard_errors(error, 15, false), Error);
+  error.pixel(1, 2)[0] = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(noise_of_standard_errors(error, 15, false), Error);
+  const Image different[] = {testing::flat(4, 4, 1, 1, 1), testing::flat(4, 5, 1, 1, 1)};
+  EXPECT_THROW(mean_of_replicates(different, false), Error);
+  EXPECT_THROW(mean_of_replicates(std::span(different).first(1), false), Error);
+  ComparisonOptions options;
+  options.noise = NoiseOptions{.a = testing::even_noise(8, 9, 1)};
+  EXPECT_THROW(compare(Image(8, 8), Image(8, 8), options), Error);
+}
+
+// ---- the level that is held
+
+/// The most false alarms in so many trials that a test of that level has but once in a thousand such tests.
+int most_alarms(int trials, double level) {
+  return int(
+      boost::math::quantile(boost::math::complement(boost::math::binomial(trials, level), 1e-3)));
+}
+
+TEST(ZTest, FindsNothingInNoiseMoreOftenThanItsSignificanceSays) {
+  // Two half-sample pictures of 8 samples a pixel each, and four, against the truth and against another pair.
+  // The nearest to the level, of 300 trials at 0.05: silhouettes, 0.03 from two and 0.017 from four; all
+  // others 0.004 and less.
+  constexpr double kSignificance = 0.05;
+  constexpr Tolerance kRounding{1e-6, 1e-7, 0};
+  for (const int count : {2, 4})
+    for (const NoiseKind kind : testing::kNoiseKinds) {
+      const Image truth = testing::expectation(kind);
+      const int trials = kind == NoiseKind::kSilhouette ? 60 : 20;
+      int against_truth = 0, against_another = 0;
+      for (int trial = 0; trial < trials; ++trial) {
+        const auto seed = std::uint64_t(trial);
+        const NoisyPicture a = testing::noisy_mean(kind, 1000 + seed, count, 8);
+        const NoisyPicture b = testing::noisy_mean(kind, 9000 + seed, count, 8);
+        against_truth +=
+            found(test_of(a.image, truth, {&a.noise, nullptr, kSignificance}, &kRounding));
+        against_another +=
+            found(test_of(a.image, b.image, {&a.noise, &b.noise, kSignificance}, &kRounding));
+      }
+      EXPECT_LE(against_truth, most_alarms(trials, kSignificance)) << testing::name(kind) << count;
+      EXPECT_LE(against_another, most_alarms(trials, kSignificance))
+          << testing::name(kind) << count;
+    }
+}
+
+TEST(ZTest, HoldsItsLevelWherePixelsErrTogether) {
+  // All pixels of a picture are too bright, or too dark, by the same number of standard errors.
+  constexpr int kTrials = 100, kEstimates = 16;
+  constexpr double kSignificance = 0.05;
+  const Image truth = testing::highlight(16, 16, 3, 1);
+  int shared = 0, independent = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<Image> estimates(kEstimates, truth);
+    for (int k = 0; k < kEstimates; ++k)
+      for (float& value : estimates[std::size_t(k)].values())
+        value *= 1 + 0.1f * float(gaussian(std::uint64_t(trial), std::uint64_t(k)));
+    for (const bool told : {true, false}) {
+      const NoisyPicture a = mean_of_replicates(estimates, told);
+      (told ? shared : independent) +=
+          found(test_of(a.image, truth, {&a.noise, nullptr, kSignificance}));
+    }
+  }
+  EXPECT_LE(shared, most_alarms(kTrials, kSignificance));
+  EXPECT_GT(independent, kTrials / 2) << "that they do has to be said";
+}
+
+// ---- what is found
+
+TEST(ZTest, FindsASinglePixelThatIsOffByManyErrors) {
+  int found_at = 0;
+  constexpr int kTrials = 20;
+  const Image truth = testing::expectation(NoiseKind::kEven);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    NoisyPicture a = testing::noisy_mean(NoiseKind::kEven, 50 + std::uint64_t(trial), 16, 4);
+    // The true error is 0.03. One and a half of that, said of its noise at the most, and Student's
+    // quantile for 17 degrees of freedom, 8 where a normal one is 5, are 12.
+    a.image.pixel(20, 30)[1] += 16 * 0.03f;
+    const ZTest test = test_of(a.image, truth, {&a.noise});
+    found_at += test.beyond == 1 && test.x <= 20 && 20 < test.x + test.size && test.y <= 30 &&
+                30 < test.y + test.size;
+  }
+  EXPECT_GE(found_at, kTrials - 1);
+}
+
+TEST(ZTest, FindsADriftOfAPercentThatNoPixelShows) {
+  // Two half-sample pictures with noise of 10 % of each value: 0.01 is a seventh of the error of a pixel's mean,
+  // and 13 errors of the mean of all.
+  constexpr int kSide = 96;
+  const Image truth = testing::flat(kSide, kSide, 0.5f, 0.4f, 0.3f);
+  for (int trial = 0; trial < 10; ++trial) {
+    Image halves[] = {truth, truth};
+    for (int half = 0; half < 2; ++half)
+      for (std::size_t i = 0; i < truth.values().size(); ++i)
+        halves[half].values()[i] *=
+            1.01f + 0.1f * float(gaussian(std::uint64_t(10 * trial + half), i / 3));
+    const NoisyPicture a = mean_of_replicates(halves, false);
+    const ZTest test = test_of(a.image, truth, {&a.noise});
+    EXPECT_EQ(test.beyond, 0);
+    EXPECT_GT(test.regions, 0);
+    EXPECT_GT(test.size, 8);
+  }
+}
+
+TEST(ZTest, WithoutNoiseFindsEveryDifferenceAndNothingElse) {
+  const Image b = testing::highlight(20, 13, 3, 1);
+  const PictureNoise none = testing::even_noise(20, 13, 0);
+  EXPECT_EQ(test_of(b, b, {&none, &none}).largest, 0);
+  EXPECT_FALSE(found(test_of(b, b, {&none, &none})));
+  Image a = b;
+  a.pixel(7, 5)[2] = std::nextafter(a.pixel(7, 5)[2], 2.0f);
+  const ZTest test = test_of(a, b, {&none, &none});
+  EXPECT_EQ(test.largest, kInfinity);
+  EXPECT_EQ(test.beyond, 1);
+  EXPECT_EQ(test.x, 7);
+  EXPECT_EQ(test.y, 5);
+  EXPECT_EQ(test.regions, 5) << "10 x 7, 5 x 4, 3 x 2, 2 x 1, 1 x 1";
+}
+
+TEST(ZTest, TakesOffWhatATolerancePermitsAndItsOutliers) {
+  const Image b = testing::flat(16, 16, 1, 1, 1);
+  Image a = b;
+  for (float& value : a.values()) value += 0.0009f;  // rounding, all to one side
+  a.pixel(3, 3)[0] = 2;
+  const PictureNoise noise = testing::even_noise(16, 16, 1e-5f);
+  Tolerance tolerance{1e-3, 0, 1};
+  ZTest test = test_of(a, b, {&noise}, &tolerance);
+  EXPECT_EQ(test.beyond, 1);
+  EXPECT_EQ(test.regions, 0)
+      << "an outlier that is allowed is not found again in what is around it";
+  EXPECT_EQ(test.open, 1);
+  EXPECT_EQ(test.off_edge, 0);
+  tolerance.edges.assign(256, 1);
+  tolerance.edges[3 * 16 + 3] = 0;
+  EXPECT_EQ(test_of(a, b, {&noise}, &tolerance).off_edge, 1);
+  tolerance.allowed_outliers = 0;
+  EXPECT_GT(test_of(a, b, {&noise}, &tolerance).regions, 0);
+  tolerance = {0, 1e-4, 1};
+  EXPECT_EQ(test_of(a, b, {&noise}, &tolerance).beyond, 256);
+  const PictureNoise strong = testing::even_noise(16, 16, 1e-3f);
+  EXPECT_EQ(test_of(a, b, {&strong}, &tolerance).open, 256) << "most are within, none surely";
+}
+
+TEST(ZTest, RatesALargerErrorHigherAndALargerNoiseLower) {
+  const Image b = testing::highlight(32, 32, 3, 1);
+  const auto z = [&](double scale, float error) {
+    const PictureNoise noise = testing::even_noise(32, 32, error);
+    return test_of(testing::highlight(32, 32, 3, scale), b, {&noise, &noise}).largest;
+  };
+  EXPECT_LT(z(1.001, 0.1f), z(1.01, 0.1f));
+  EXPECT_LT(z(1.01, 0.1f), z(1.1, 0.1f));
+  EXPECT_LT(z(1.01, 0.1f), z(1.01, 0.05f));
+  EXPECT_GT(z(1.001, 0.1f), 0);
+}
+
+// ---- error bars
+
+const ErrorBar& bar_of(const Comparison& comparison, std::string_view id) {
+  return *comparison.uncertainty->bar(id);
+}
+
+TEST(ErrorBars, HoldTheFigureOfTheExpectationsAsOftenAsTheySay) {
+  // A highlight that is 2 % too bright, under noise of 5 % of the peak in four replicates of a.
+  constexpr int kTrials = 60;
+  const Image b = testing::highlight(48, 48, 6, 1), expected = testing::highlight(48, 48, 6, 1.02);
+  ComparisonOptions options;
+  options.noise = NoiseOptions{};
+  const Comparison truth = compare(expected, b, {});
+  std::map<std::string_view, int> missed;
+  std::map<std::string_view, std::vector<double>> values, errors;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<Image> replicates(4, expected);
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t i = 0; i < expected.values().size(); ++i)
+        replicates[k].values()[i] += 0.1f * float(gaussian(4 * std::uint64_t(trial) + k, i));
+    NoisyPicture a = mean_of_replicates(replicates, false);
+    options.noise->a = a.noise;
+    options.noise->seed = std::uint64_t(trial);
+    const Comparison comparison = compare(a.image, b, options);
+    for (const ErrorBar& bar : comparison.uncertainty->error_bars) {
+      const double expectation = truth.value(bar.id);
+      missed[bar.id] += !(bar.low <= expectation && expectation <= bar.high);
+      values[bar.id].push_back(comparison.value(bar.id));
+      errors[bar.id].push_back(bar.standard_error);
+    }
+  }
+  EXPECT_GT(missed.size(), 15u);
+  for (const auto& [id, count] : missed) EXPECT_LE(count, most_alarms(kTrials, 0.05)) << id;
+  // And the standard error is what the figure really scatters by. Of figures with noise twice over, so that
+  // it is right where a figure is no sum of squares near its floor.
+  for (const char* id : {"drift", "rmse", "mae"}) {
+    double mean = 0, squares = 0, said = 0;
+    for (const double value : values[id]) mean += value / kTrials;
+    for (const double value : values[id])
+      squares += (value - mean) * (value - mean) / (kTrials - 1);
+    for (const double error : errors[id]) said += error / kTrials;
+    EXPECT_GT(said, 0.75 * std::sqrt(squares)) << id;
+    EXPECT_LT(said, 1.5 * std::sqrt(squares)) << id;
+  }
+}
+
+TEST(ErrorBars, HaveTheNoiseFloorOfTheTextbook) {
+  const Image b = testing::flat(40, 40, 0.5f, 0.5f, 0.5f);
+  ComparisonOptions options;
+  options.noise = NoiseOptions{.a = testing::even_noise(40, 40, 0.03f, 1e9),
+                               .b = testing::even_noise(40, 40, 0.04f, 1e9)};
+  const Comparison comparison = compare(b, b, options);
+  EXPECT_NEAR(bar_of(comparison, "rmse").floor, 0.05, 0.05 * 0.01);
+  EXPECT_NEAR(bar_of(comparison, "mae").floor, 0.05 * std::sqrt(2 / 3.14159265), 0.0005);
+  EXPECT_NEAR(bar_of(comparison, "mse").floor, 0.0025, 5e-5);
+  EXPECT_NEAR(bar_of(comparison, "drift").standard_error, 0.05 / std::sqrt(4800), 3e-4);
+  EXPECT_EQ(bar_of(comparison, "rmse").low, 0);
+  EXPECT_EQ(comparison.uncertainty->bar("max_abs.x"), nullptr) << "a fact has none";
+}
+
+TEST(ErrorBars, OfNoNoiseAreTheFigureItself) {
+  const Image b = testing::highlight(32, 32, 5, 1), a = testing::highlight(32, 32, 5, 1.1);
+  ComparisonOptions options;
+  options.noise = NoiseOptions{.a = testing::even_noise(32, 32, 0)};
+  for (const Image* picture : {&a, &b}) {
+    const Comparison comparison = compare(*picture, b, options);
+    for (const ErrorBar& bar : comparison.uncertainty->error_bars) {
+      EXPECT_EQ(bar.standard_error, 0) << bar.id;
+      const double value = comparison.value(bar.id);
+      if (std::isinf(value)) continue;  // of equal pictures, in decibels
+      EXPECT_NEAR(bar.low, value, 1e-12 * std::abs(value)) << bar.id;
+      EXPECT_NEAR(bar.high, value, 1e-12 * std::abs(value)) << bar.id;
+    }
+  }
+}
+
+TEST(ErrorBars, DependOnTheSeedAndNotOnTheNumberOfThreads) {
+  const Image b = testing::highlight(64, 64, 5, 1), a = testing::highlight(64, 64, 5, 1.1);
+  ComparisonOptions options;
+  options.noise = NoiseOptions{.a = testing::even_noise(64, 64, 0.1f), .bootstraps = 5};
+  const auto error = [&] { return bar_of(compare(a, b, options), "rmse").standard_error; };
+  const double many = error();
+  {
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(error(), many);
+  }
+  options.noise->seed = 1;
+  EXPECT_NE(error(), many);
+}
+
+TEST(ErrorBars, CallNoLimitBrokenWherePixelsErrInGroupsAndNothingDiffers) {
+  // Neither each by itself nor all together: rows of pixels share their noise.
+  constexpr int kTrials = 30;
+  const Image b = testing::highlight(32, 32, 4, 1);
+  ComparisonOptions options;
+  options.limits = {{"max_abs", 0.01}, {"rmse", 0.002}, {"drift", 0.002}, {"flip.ldr.mean", 0.01}};
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Image a = b;
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x)
+        for (float& value : a.pixel(x, y))
+          value += 0.05f * float(gaussian(std::uint64_t(trial), std::uint64_t(y)));
+    options.noise =
+        NoiseOptions{.a = testing::even_noise(32, 32, 0.05f, 15, true), .bootstraps = 8};
+    for (const LimitResult& limit : compare(a, b, options).limits)
+      EXPECT_NE(limit.standing, Standing::kBroken) << limit.metric;
+  }
+}
+
+// ---- verdicts
+
+struct Pair {
+  Image a, b;
+};
+
+/// A highlight that is too bright by a share, each value of `a` off by so much noise.
+Pair pair(double brighter, float error, std::uint64_t seed = 0) {
+  Pair result{testing::highlight(48, 48, 4, 1 + brighter), testing::highlight(48, 48, 4, 1)};
+  for (std::size_t i = 0; i < result.a.values().size(); ++i)
+    result.a.values()[i] += error * float(gaussian(seed, i));
+  return result;
+}
+
+Comparison compare_noisy(double brighter, float error, ComparisonOptions options) {
+  const auto [a, b] = pair(brighter, error);
+  options.noise = NoiseOptions{.a = testing::even_noise(48, 48, error, 1e9), .bootstraps = 8};
+  return compare(a, b, options);
+}
+
+TEST(NoisyVerdict, OfALimitIsSameOrDifferentWhereTheWholeErrorBarSaysSo) {
+  ComparisonOptions options;
+  options.limits = {{"rmse", 0.01}};
+  EXPECT_EQ(compare_noisy(0, 0.001f, options).verdict, Verdict::kSame);
+  EXPECT_EQ(compare_noisy(0.1, 0.001f, options).verdict, Verdict::kDifferent);
+  const Comparison open = compare_noisy(0, 0.02f, options);
+  EXPECT_EQ(open.verdict, Verdict::kUndecided) << "its rmse is 0.02, and all of that may be noise";
+  EXPECT_FALSE(open.limits[0].pass);
+  // So many times the samples, and noise by their root weaker.
+  const double times = open.limits[0].more_samples;
+  EXPECT_GT(times, 3.5);
+  EXPECT_LT(times, 6);
+  EXPECT_EQ(compare_noisy(0, float(0.02 / std::sqrt(1.2 * times)), options).verdict,
+            Verdict::kSame);
+  options.limits = {{"ssim", 0.99}, {"psnr", 30}, {"drift", 0.001}};
+  EXPECT_EQ(compare_noisy(0, 0.001f, options).verdict, Verdict::kSame);
+  EXPECT_EQ(compare_noisy(0.3, 0.001f, options).verdict, Verdict::kDifferent);
+}
+
+TEST(NoisyVerdict, ByNothingAskedIsDifferentWhereAnythingIsFoundAndNeverSameInStrongNoise) {
+  EXPECT_EQ(compare_noisy(0, 2e-4f, {}).verdict, Verdict::kSame);
+  const Comparison found = compare_noisy(0.003, 2e-4f, {});
+  EXPECT_EQ(found.verdict, Verdict::kDifferent) << "within every limit, but no chance";
+  EXPECT_EQ(compare_noisy(0, 1, {}).verdict, Verdict::kUndecided);
+  EXPECT_EQ(compare_noisy(0.003, 1, {}).verdict, Verdict::kUndecided);
+}
+
+TEST(NoisyVerdict, ByAToleranceSaysTheSameOnlyOfPixelsThatSurelyLieWithinIt) {
+  ComparisonOptions options;
+  options.tolerance = Tolerance{0, 0.01, 0};
+  EXPECT_EQ(compare_noisy(0, 1e-3f, options).verdict, Verdict::kSame);
+  EXPECT_EQ(compare_noisy(0, 5e-3f, options).verdict, Verdict::kUndecided);
+  EXPECT_EQ(compare_noisy(0.1, 1e-3f, options).verdict, Verdict::kDifferent);
+  options.limits = {{"rmse", 0.1}};
+  EXPECT_EQ(compare_noisy(0, 5e-3f, options).verdict, Verdict::kSame) << "the limit is fine enough";
+  EXPECT_EQ(compare_noisy(0.1, 1e-3f, options).verdict, Verdict::kDifferent);
+}
+
+TEST(NoisyVerdict, IsNotTurnedIntoSameByMoreNoise) {
+  std::vector<ComparisonOptions> asked(3);
+  asked[1].limits = {{"max_rel_peak", 0.02}, {"flip.ldr.mean", 0.02}};
+  asked[2].tolerance = Tolerance{0, 0.02, 3};
+  for (const ComparisonOptions& options : asked)
+    for (const double brighter : {0.0, 0.01, 0.03}) {
+      bool was_open = false;
+      for (const float error : {1e-4f, 1e-3f, 1e-2f, 0.1f, 1.0f, 10.0f}) {
+        const Verdict verdict = compare_noisy(brighter, error, options).verdict;
+        EXPECT_FALSE(was_open && verdict == Verdict::kSame) << brighter << " " << error;
+        was_open = was_open || verdict == Verdict::kUndecided;
+      }
+      EXPECT_TRUE(was_open) << "noise was not strong enough for this test";
+    }
+}
+
+TEST(NoisyVerdict, OfAPictureThatIsNotFiniteIsStillNonFinite) {
+  auto [a, b] = pair(0, 0);
+  a.pixel(1, 1)[0] = std::numeric_limits<float>::quiet_NaN();
+  ComparisonOptions options;
+  options.noise = NoiseOptions{.a = testing::even_noise(48, 48, 1)};
+  const Comparison comparison = compare(a, b, options);
+  EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
+  EXPECT_FALSE(comparison.uncertainty);
+  for (const LimitResult& limit : comparison.limits) EXPECT_FALSE(limit.pass);
+  const Image halves[] = {a, b};
+  EXPECT_EQ(compare(mean_of_replicates(halves, false).image, b, options).nonfinite_a, 1);
+}
+
+TEST(NoisyVerdict, OfALimitThatCouldNotBeMeasuredIsUndecided) {
+  ComparisonOptions options;
+  options.limits = {{"ssim", 0.5}};
+  options.noise = NoiseOptions{.a = testing::even_noise(4, 4, 1)};
+  const Image small = testing::flat(4, 4, 1, 1, 1);
+  EXPECT_EQ(compare(small, small, options).verdict, Verdict::kUndecided);
+}
+
+TEST(NoisyVerdict, IsRefusedForOptionsOutOfRange) {
+  ComparisonOptions options;
+  options.limits = {{"z.max", 5}};
+  EXPECT_THROW(check_options(options), Error) << "there is no z without noise";
+  options.noise = NoiseOptions{};
+  EXPECT_NO_THROW(check_options(options));
+  for (const double significance : {0.0, 1.0, -1.0, std::nan("")}) {
+    options.noise->significance = significance;
+    EXPECT_THROW(check_options(options), Error) << significance;
+  }
+  options.noise = NoiseOptions{.bootstraps = 3};
+  EXPECT_THROW(check_options(options), Error);
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,103 @@
+#include "core/picture_layers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace lobelia {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> names(const std::vector<PicturePart>& parts) {
+  std::vector<std::string> result;
+  for (const PictureLayer& layer : picture_layers(parts)) result.push_back(layer.name);
+  return result;
+}
+
+std::string message(const std::vector<PicturePart>& parts, const std::string& name) {
+  try {
+    find_layer("a.exr", parts, name);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    return error.what();
+  }
+  ADD_FAILURE() << "'" << name << "' was found";
+  return "";
+}
+
+TEST(PictureLayers, AreFoundByNameInWhateverOrderTheChannelsAre) {
+  EXPECT_THAT(picture_layers({{{"", {"B", "G", "R"}}}})[0].where, ElementsAre(2, 1, 0));
+  EXPECT_THAT(picture_layers({{{"", {"A", "g", "red", "Blue"}}}})[0].where, ElementsAre(2, 1, 3));
+  const std::vector<PicturePart> file = {
+      {"", {"A", "B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "diffuse.B", "diffuse.G", "diffuse.R"}}};
+  EXPECT_THAT(names(file), ElementsAre("", "N", "diffuse", "A", "Z"));
+  EXPECT_THAT(find_layer("", file, "diffuse").where, ElementsAre(10, 9, 8));
+  EXPECT_THAT(find_layer("", file, "N").where, ElementsAre(3, 4, 5));
+  EXPECT_THAT(find_layer("", file, "Z").where, ElementsAre(7));
+  EXPECT_THAT(find_layer("", file, "diffuse.G").where, ElementsAre(9));
+}
+
+TEST(PictureLayers, KnowWhatIsAColour) {
+  const std::vector<PicturePart> file = {
+      {"", {"R", "G", "B", "A", "Z", "N.X", "N.Y", "N.Z", "sss.Y"}}};
+  for (const char* name : {"", "R", "sss"})
+    EXPECT_TRUE(find_layer("", file, name).is_colour) << name;
+  for (const char* name : {"A", "Z", "N", "N.X"})
+    EXPECT_FALSE(find_layer("", file, name).is_colour) << name;
+}
+
+TEST(PictureLayers, APictureIsRgbOrElseYOrElseTheOnlyThingThereIs) {
+  EXPECT_THAT(find_layer("", {{{"", {"A", "Y"}}}}, "").where, ElementsAre(1));
+  EXPECT_THAT(find_layer("", {{{"", {"Y", "R", "G", "B"}}}}, "").where, ElementsAre(1, 2, 3));
+  EXPECT_THAT(find_layer("", {{{"", {"depth"}}}}, "").where, ElementsAre(0));
+  const std::vector<PicturePart> one = {{"", {"beauty.R", "beauty.G", "beauty.B", "Z"}}};
+  EXPECT_THAT(names(one), ElementsAre("", "Z"));
+  EXPECT_THAT(find_layer("", one, "beauty").where, ElementsAre(0, 1, 2));
+}
+
+TEST(PictureLayers, WhatMayMeanMoreThanOneThingIsRefusedWithTheNamesThatThereAre) {
+  EXPECT_THAT(message({{{"", {"u", "v"}}}}, ""), HasSubstr("its channels are 'u', 'v'"));
+  // Half of a picture whose colours are in RY and BY.
+  EXPECT_THAT(message({{{"", {"BY", "RY", "Y"}}}}, ""), HasSubstr("'BY', 'RY', 'Y'"));
+  EXPECT_THAT(message({{{"", {"X", "Y", "Z"}}}}, ""), HasSubstr("'X', 'Y', 'Z'"));
+  EXPECT_THAT(message({{{"", {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}}}}, ""),
+              HasSubstr("a layer has to be chosen: 'a', 'b'"));
+}
+
+TEST(PictureLayers, AnUnknownNameIsToldTheNearest) {
+  const std::vector<PicturePart> file = {
+      {"", {"R", "G", "B", "diffuse.R", "diffuse.G", "diffuse.B", "Z"}}};
+  EXPECT_EQ(message(file, "difuse"),
+            "a.exr: no layer 'difuse'; did you mean 'diffuse'?; there are 'diffuse', 'Z'");
+  EXPECT_EQ(message({{{"", {"R", "G", "B"}}}}, "Z"),
+            "a.exr: no layer 'Z'; there is the picture alone");
+  std::vector<std::string> many(1000, "channel\n");
+  EXPECT_LT(message({{{"", many}}}, "R").size(), 1000u);
+  EXPECT_EQ(message({{{"", many}}}, "R").find('\n'), std::string::npos);
+}
+
+TEST(PictureLayers, OfAFileOfPartsHaveTheNameOfTheirPart) {
+  const std::vector<PicturePart> file = {{"beauty", {"R", "G", "B", "A"}},
+                                         {"diffuse", {"R", "G", "B", "A"}},
+                                         {"depth", {"depth.Z"}},
+                                         {"", {"Y"}}};
+  EXPECT_THAT(names(file), ElementsAre("", "A", "diffuse", "diffuse.A", "depth.Z", "part4"));
+  EXPECT_EQ(find_layer("", file, "beauty").part, 0u);
+  EXPECT_EQ(find_layer("", file, "diffuse").part, 1u);
+  EXPECT_EQ(find_layer("", file, "depth").part, 2u);
+  EXPECT_EQ(find_layer("", file, "diffuse.G").part, 1u);
+  EXPECT_EQ(find_layer("", file, "part4").part, 3u);
+}
+
+TEST(PictureLayers, ThatHaveOneNameAreToldApart) {
+  const std::vector<PicturePart> file = {
+      {"", {"R", "G", "B"}}, {"eye", {"R", "G", "B"}}, {"eye", {"R", "G", "B"}}};
+  EXPECT_THAT(names(file), ElementsAre("", "eye", "eye#2"));
+  EXPECT_EQ(find_layer("", file, "eye#2").part, 2u);
+}
+
+}  // namespace
+}  // namespace lobelia

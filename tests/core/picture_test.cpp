@@ -1,0 +1,365 @@
+// What the values of a file mean, by files made for that.
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineOutputFile.h>
+#include <ImfTiledOutputFile.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "core/picture_bytes.hpp"
+#include "core/picture_window.hpp"
+#include "tests/core/picture_files.hpp"
+
+namespace lobelia {
+namespace {
+
+using namespace testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const double kMiddle = 0.2158605;  // sRGB's 128 of 255 as light, IEC 61966-2-1
+
+class PictureFiles : public ::testing::Test {
+ protected:
+  std::filesystem::path file(const std::string& name, const std::string& bytes) {
+    write_file(directory_.path() / name, bytes);
+    return directory_.path() / name;
+  }
+  std::filesystem::path exr(const std::string& name, const std::vector<ExrPart>& parts) {
+    write_exr_parts(directory_.path() / name, parts);
+    return directory_.path() / name;
+  }
+  std::filesystem::path exr(const std::string& name, int width, int height,
+                            const std::vector<ExrChannel>& channels) {
+    write_exr_channels(directory_.path() / name, width, height, channels);
+    return directory_.path() / name;
+  }
+  TemporaryDirectory directory_;
+};
+
+std::vector<float> values(const Image& image) {
+  return {image.values().begin(), image.values().end()};
+}
+
+/// The message of the one line that a file is refused with.
+std::string refusal(const std::filesystem::path& path, const std::string& layer = "") {
+  try {
+    read_picture(path, layer);
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(error.code(), ExitCode::kInput) << message;
+    EXPECT_THAT(message, HasSubstr(path.string()));
+    EXPECT_EQ(message.find('\n'), message.npos) << message;
+    return message;
+  }
+  ADD_FAILURE() << path << " was read";
+  return "";
+}
+
+using Layers = PictureFiles;
+
+TEST_F(Layers, OfAnExrAreReadByName) {
+  const auto path = exr("a.exr", 1, 1,
+                        {{"R", {1}},
+                         {"G", {2}},
+                         {"B", {3}},
+                         {"A", {0.5f}},
+                         {"Z", {70}},
+                         {"diffuse.R", {4}},
+                         {"diffuse.G", {5}},
+                         {"diffuse.B", {6}}});
+  EXPECT_THAT(layer_names(path), ::testing::UnorderedElementsAre("", "A", "Z", "diffuse"));
+  EXPECT_THAT(values(read_image(path)), ElementsAre(1, 2, 3)) << "not multiplied by A again";
+  EXPECT_THAT(values(read_picture(path, "diffuse").image), ElementsAre(4, 5, 6));
+  EXPECT_THAT(values(read_picture(path, "Z").image), ElementsAre(70, 70, 70));
+  EXPECT_THAT(values(read_picture(path, "A").image), ElementsAre(0.5f, 0.5f, 0.5f));
+  EXPECT_THAT(values(read_picture(path, "diffuse.G").image), ElementsAre(5, 5, 5));
+  EXPECT_THAT(refusal(path, "difuse"), HasSubstr("did you mean 'diffuse'?"));
+}
+
+TEST_F(Layers, OfChannelsThatLieApartAreEachReadWhole) {
+  // OpenImageIO brings R, G, B of a prefix together; of the words it knows no order.
+  const auto path = exr("a.exr", 2, 2,
+                        {{"x.Blue", {3, 6, 9, 12}},
+                         {"x.Depth", {0, 0, 0, 0}},
+                         {"x.Green", {2, 5, 8, 11}},
+                         {"x.Other", {0, 0, 0, 0}},
+                         {"x.Red", {1, 4, 7, 10}}});
+  EXPECT_THAT(values(read_image(path)), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12));
+}
+
+TEST_F(Layers, OfSeveralPartsAreReadFromTheirPart) {
+  const auto box = window(0, 0, 2, 1), narrow = window(1, 0, 1, 1);
+  const auto path =
+      exr("a.exr", {{"beauty", box, box, {{"R", {1, 4}}, {"G", {2, 5}}, {"B", {3, 6}}}},
+                    {"diffuse", narrow, box, {{"R", {7}}, {"G", {8}}, {"B", {9}}}},
+                    {"depth", box, box, {{"Z", {70, 80}}}}});
+  EXPECT_THAT(layer_names(path), ElementsAre("", "diffuse", "depth.Z"));
+  EXPECT_THAT(values(read_image(path)), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values(read_picture(path, "diffuse").image), ElementsAre(0, 0, 0, 7, 8, 9));
+  EXPECT_THAT(values(read_picture(path, "depth").image), ElementsAre(70, 70, 70, 80, 80, 80));
+}
+
+TEST_F(Layers, OfLuminanceAloneIsGrey) {
+  EXPECT_THAT(values(read_image(exr("y.exr", 1, 1, {{"Y", {0.25f}}}))),
+              ElementsAre(0.25f, 0.25f, 0.25f));
+  EXPECT_THAT(refusal(exr("uv.exr", 1, 1, {{"u", {0}}, {"v", {0}}})),
+              HasSubstr("its channels are 'u', 'v'"));
+}
+
+TEST_F(Layers, OfAnAnimationAreItsFramesAndTheFirstIsThePicture) {
+  const auto path = file("a.gif", gif_file({"\xff\xff\xff", std::string(3, '\0')}));
+  EXPECT_THAT(values(read_image(path)), ElementsAre(1, 1, 1));
+  EXPECT_THAT(values(read_picture(path, "part2").image), ElementsAre(0, 0, 0));
+}
+
+using Windows = PictureFiles;
+
+TEST_F(Windows, WhereThereAreNoDataThePictureIsBlackAndWhatLiesOutsideIsCutOff) {
+  // Data on (1, 1) to (3, 2), of a display on (-1, 0) to (2, 3).
+  const auto path =
+      exr("a.exr", {{"", window(1, 1, 3, 2), window(-1, 0, 4, 4), {{"Y", {1, 2, 3, 4, 5, 6}}}}});
+  const Picture picture = read_picture(path, "");
+  EXPECT_EQ(picture.source.data, (PixelWindow{1, 1, 3, 2}));
+  EXPECT_EQ(picture.source.display, (PixelWindow{-1, 0, 4, 4}));
+  std::vector<float> grey;
+  for (std::size_t i = 0; i < picture.image.values().size(); i += 3)
+    grey.push_back(picture.image.values()[i]);
+  EXPECT_THAT(grey, ElementsAre(0, 0, 0, 0, 0, 0, 1, 2, 0, 0, 4, 5, 0, 0, 0, 0));
+}
+
+TEST_F(Windows, ThatDoNotMeetAreRefused) {
+  EXPECT_THAT(refusal(exr("a.exr", {{"", window(9, 9, 1, 1), window(0, 0, 4, 4), {{"Y", {1}}}}})),
+              HasSubstr("lies outside"));
+}
+
+TEST_F(Windows, LargerThanIsReadAreRefusedInEitherPlace) {
+  EXPECT_THAT(
+      refusal(exr("a.exr", {{"", window(0, 0, 1, 1), window(0, 0, 100000, 1), {{"Y", {1}}}}})),
+      HasSubstr("its display window has 100000 x 1 pixels; at most 32768 a side"));
+  EXPECT_THAT(refusal(exr("b.exr", 100000, 1, {{"Y", std::vector<float>(100000)}})),
+              HasSubstr("its data window has 100000 x 1 pixels"));
+}
+
+TEST(PixelWindows, FarFromTheOriginDoNotOverflow) {
+  constexpr int kFar = std::numeric_limits<int>::max();
+  EXPECT_NE(window_problem("w", {kFar, 0, 1, 1}), "");
+  EXPECT_NE(window_problem("w", {0, -kFar, 1, 1}), "");
+  EXPECT_NE(window_problem("w", {0, 0, 0, 1}), "");
+  EXPECT_NE(window_problem("w", {0, 0, 32768, 32768}), "");
+  EXPECT_EQ(window_problem("w", {-5, 7, 32768, 4096}), "");
+}
+
+TEST_F(Windows, OfAPngAreAPlaceOnAPage) {
+  Png png{.samples = "\xff\xff\xff"};
+  png.chunks = png_chunk("oFFs", big_endian(5) + big_endian(7) + '\0');
+  EXPECT_THAT(values(read_image(file("a.png", png_file(png)))), ElementsAre(1, 1, 1));
+}
+
+TEST_F(Windows, OfATiledMipMapAreThoseOfItsFirstLevel) {
+  const auto path = directory_.path() / "a.exr";
+  Imf::Header header(5, 3);
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  header.setTileDescription({2, 2, Imf::MIPMAP_LEVELS});
+  {
+    Imf::TiledOutputFile tiled(path.c_str(), header);
+    for (int level = 0; level < tiled.numLevels(); ++level) {
+      std::vector<float> grey(15, float(level + 1));
+      Imf::FrameBuffer buffer;
+      buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grey.data()), 4, 20));
+      tiled.setFrameBuffer(buffer);
+      tiled.writeTiles(0, tiled.numXTiles(level) - 1, 0, tiled.numYTiles(level) - 1, level);
+    }
+  }
+  EXPECT_THAT(values(read_image(path)),
+              ::testing::AllOf(::testing::SizeIs(45), ::testing::Each(1)));
+  EXPECT_THAT(layer_names(path), ElementsAre(""));
+}
+
+using Curves = PictureFiles;
+
+TEST_F(Curves, OfIntegersAreSrgbAndOfFloatsLinear) {
+  const auto red = [&](const std::filesystem::path& path, const char* type, const char* transfer) {
+    const Picture picture = read_picture(path, "");
+    EXPECT_EQ(picture.source.value_type, type) << path;
+    EXPECT_EQ(picture.source.transfer, transfer) << path;
+    return picture.image.pixel(0, 0)[0];
+  };
+  const std::string grey8 = "\x80\x80\x80", grey16 = "\x80\x80\x80\x80\x80\x80";  // both 128 / 255
+  EXPECT_NEAR(red(file("a8.png", png_file({.samples = grey8})), "uint8", "sRGB"), kMiddle, 1e-6);
+  EXPECT_NEAR(red(file("a16.png", png_file({.bits = 16, .samples = grey16})), "uint16", "sRGB"),
+              kMiddle, 1e-6);
+  EXPECT_NEAR(red(file("a8.tif", tiff_file({.samples = grey8})), "uint8", "sRGB"), kMiddle, 1e-6);
+  EXPECT_NEAR(red(file("a16.tif", tiff_file({.bits = 16, .samples = grey16})), "uint16", "sRGB"),
+              kMiddle, 1e-6);
+  EXPECT_NEAR(red(file("a.ppm", "P6 1 1 255\n" + grey8), "uint8", "sRGB"), kMiddle, 1e-6);
+  EXPECT_NEAR(red(file("a.jpg", grey_jpeg_file(1)), "uint8", "sRGB"), kMiddle, 1e-6);
+  EXPECT_NEAR(red(file("a.jpeg", grey_jpeg_file(3)), "uint8", "sRGB"), kMiddle, 1e-6);
+  const std::vector<float> floats = {0.5f, 0.5f, 0.5f};
+  EXPECT_EQ(red(file("af.tif",
+                     tiff_file({.bits = 32, .is_float = true, .samples = little_endian(floats)})),
+                "float", "linear"),
+            0.5f);
+  EXPECT_EQ(red(file("a.pfm", pfm_file(1, 1, floats)), "float", "linear"), 0.5f);
+  EXPECT_EQ(red(file("a.hdr", hdr_file(1, 1, "\x80\x80\x80\x80")), "float", "linear"), 0.5f);
+  EXPECT_EQ(red(exr("a.exr", 1, 1, {{"Y", {0.5f}, Imf::HALF}}), "half", "linear"), 0.5f);
+}
+
+TEST_F(Layers, OfAPfmHaveTheirFirstRowAtTheBottom) {
+  EXPECT_THAT(values(read_image(file("a.pfm", pfm_file(1, 2, {1, 1, 1, 2, 2, 2})))),
+              ElementsAre(2, 2, 2, 1, 1, 1));
+}
+
+TEST_F(Curves, OfAPngAreWhatItSays) {
+  const auto with_gamma = [&](std::uint32_t gamma) {
+    Png png{.samples = "\x80\x80\x80"};
+    png.chunks = png_chunk("gAMA", big_endian(gamma));
+    return read_picture(file("a.png", png_file(png)), "");
+  };
+  const Picture linear = with_gamma(100000);
+  EXPECT_EQ(linear.source.transfer, "linear");
+  EXPECT_FLOAT_EQ(linear.image.pixel(0, 0)[0], 128.0f / 255);
+  const Picture old_mac = with_gamma(55556);
+  EXPECT_EQ(old_mac.source.transfer, "gamma 1.8");
+  EXPECT_NEAR(old_mac.image.pixel(0, 0)[0], std::pow(128 / 255.0, 1.8), 1e-6);
+  const Picture approximate = with_gamma(45455);
+  EXPECT_EQ(approximate.source.transfer, "sRGB (gAMA 1/2.2)");
+  EXPECT_NEAR(approximate.image.pixel(0, 0)[0], kMiddle, 1e-6);
+  Png absurd{.samples = "\x80\x80\x80", .chunks = png_chunk("gAMA", big_endian(100))};
+  EXPECT_THAT(refusal(file("b.png", png_file(absurd))), HasSubstr("colour space"));
+}
+
+TEST_F(Curves, AreNotForAlphaAndColoursAreMultipliedByItAsLight) {
+  Png png{.colour_type = 6, .samples = "\x80\x80\x80\x80"};
+  const auto path = file("a.png", png_file(png));
+  const Picture picture = read_picture(path, "");
+  EXPECT_TRUE(picture.source.multiplied_by_alpha);
+  EXPECT_NEAR(picture.image.pixel(0, 0)[0], kMiddle * 128 / 255, 1e-6);
+  EXPECT_FLOAT_EQ(read_picture(path, "A").image.pixel(0, 0)[0], 128.0f / 255);
+  png = {.colour_type = 4, .samples = "\x80\x80"};
+  EXPECT_NEAR(read_image(file("ya.png", png_file(png))).pixel(0, 0)[0], kMiddle * 128 / 255, 1e-6);
+  EXPECT_FALSE(
+      read_picture(file("rgb.png", png_file({.samples = "abc"})), "").source.multiplied_by_alpha);
+}
+
+TEST_F(Curves, OfNumbersInAnExrLeaveThemAsTheyAre) {
+  const auto path = exr("a.exr", 1, 1, {{"Y", {0.5f}}, {"id", {123456}, Imf::UINT}});
+  const Picture id = read_picture(path, "id");
+  EXPECT_EQ(id.source.value_type, "uint");
+  EXPECT_THAT(values(id.image), ElementsAre(123456, 123456, 123456));
+}
+
+using Refusals = PictureFiles;
+
+TEST_F(Refusals, OfWhatWasCutOffComeWhereverTheCutIs) {
+  const std::string pixels(75, 'x');
+  struct Whole {
+    const char* name;
+    std::string bytes;
+    std::size_t spare = 0;  ///< at the end, without a pixel: a PNG's last chunk, a TIFF's "no more"
+  };
+  const Whole files[] = {
+      {"a.png", png_file({.width = 5, .height = 5, .samples = pixels}), 12},
+      {"a.tif", tiff_file({.width = 5, .height = 5, .samples = pixels}), 4},
+      {"b.tif", tiff_file({.width = 5, .height = 5, .samples = pixels, .directory_first = true}),
+       1},
+      {"a.jpg", grey_jpeg_file(3)},
+      {"a.hdr", hdr_file(5, 5, std::string(100, 'x'))},
+      {"a.ppm", "P6 5 5 255\n" + pixels},
+      {"a.pfm", pfm_file(5, 5, std::vector<float>(75))},
+  };
+  for (const auto& [name, bytes, spare] : files) {
+    read_image(file(name, bytes));
+    const std::size_t end = bytes.size() - spare;
+    for (std::size_t length = 0; length < end; length += length + 20 < end ? 7 : 1) {
+      SCOPED_TRACE(length);
+      refusal(file(name, bytes.substr(0, length)));
+    }
+  }
+}
+
+TEST_F(Refusals, OfWhatWasCutOffKnowTheSizesThatHeadersState) {
+  const auto cut = [&](const std::string& bytes, const char* format) {
+    return is_cut_off(file("a", bytes), format);
+  };
+  const std::string fill(16, 'x');
+  EXPECT_FALSE(cut("SDPX" + std::string(12, 'x') + big_endian(36) + fill, "dpx"));
+  EXPECT_TRUE(cut("SDPX" + std::string(12, 'x') + big_endian(37) + fill, "dpx"));
+  EXPECT_FALSE(cut("XPDS" + std::string(12, 'x') + little_endian(36, 4) + fill, "dpx"));
+  EXPECT_TRUE(cut("XPDS" + std::string(12, 'x') + little_endian(37, 4) + fill, "dpx"));
+  EXPECT_FALSE(cut("SDPX" + std::string(12, 'x') + "\xff\xff\xff\xff" + fill, "dpx")) << "unknown";
+  EXPECT_FALSE(cut("SDPX", "png"));
+  // A thumbnail in a header ends before the scan of the picture begins.
+  const std::string thumbnail = grey_jpeg_file(1), whole = thumbnail + grey_jpeg_file(3);
+  EXPECT_FALSE(cut(whole, "jpeg"));
+  EXPECT_TRUE(cut(whole.substr(0, whole.size() - 2), "jpeg"));
+  EXPECT_FALSE(cut(whole + "a film beside the picture", "jpeg"));
+}
+
+TEST_F(Refusals, OfADeepExrSayWhatToDo) {
+  const auto path = directory_.path() / "a.exr";
+  Imf::Header header(2, 1);
+  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  header.setType(Imf::DEEPSCANLINE);
+  header.compression() = Imf::ZIPS_COMPRESSION;
+  {
+    Imf::DeepScanLineOutputFile deep(path.c_str(), header);
+    std::vector<unsigned> counts(2, 1);
+    float value = 1;
+    std::vector<float*> samples(2, &value);
+    Imf::DeepFrameBuffer buffer;
+    buffer.insertSampleCountSlice(
+        Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()), 4, 8));
+    for (const char* name : {"R", "G", "B"})
+      buffer.insert(name, Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(samples.data()),
+                                         sizeof(float*), 2 * sizeof(float*), 4));
+    deep.setFrameBuffer(buffer);
+    deep.writePixels(1);
+  }
+  EXPECT_THAT(refusal(path), HasSubstr("it is deep: a pixel has many values; flatten it first"));
+}
+
+TEST_F(Refusals, OfFormatsThatCannotBeTrustedSaySo) {
+  EXPECT_THAT(refusal(file("a.null", "this is text")), HasSubstr("without a file"));
+  EXPECT_THAT(refusal(file("a.iff", "this is text")), HasSubstr("IFF is not read"));
+  EXPECT_THAT(refusal(file("a.tif", "FOR4" + std::string(100, 'x'))), HasSubstr("IFF is not read"));
+}
+
+TEST_F(Refusals, OfAnExrWhoseHeaderClaimsMoreThanTheFileHasComeBeforeOpenExrsOwn) {
+  const auto box = window(0, 0, 1, 1);
+  const ExrPart part{"one", box, box, {{"Y", {1}}}}, other{"two", box, box, {{"Y", {1}}}};
+  for (const auto& parts : {std::vector{part}, std::vector{part, other}}) {
+    const auto path = exr("a.exr", parts);
+    read_image(path);
+    std::string bytes = read_file(path, 1 << 20);
+    const std::string name = std::string("compression\0compression\0", 24);
+    bytes.replace(bytes.rfind(name) + name.size(), 4, little_endian(0x7f7f7f7f, 4));
+    EXPECT_THAT(refusal(file("b.exr", bytes)), HasSubstr("claims more than the file has"));
+  }
+}
+
+TEST_F(Refusals, OfInksNameThem) {
+  EXPECT_THAT(refusal(file("a.jpg", grey_jpeg_file(4))), HasSubstr("its colours are"));
+  EXPECT_THAT(refusal(file("a.tif", tiff_file({.samples_per_pixel = 4,
+                                               .photometric = 5,
+                                               .samples = std::string(4, '\x80')}))),
+              HasSubstr("its colours are CMYK"));
+}
+
+TEST_F(Refusals, OfPicturesWithoutPixelsOrTooManyComeBeforeMemoryIsTaken) {
+  refusal(file("none.png", png_file({.width = 0, .height = 0})));
+  refusal(file("none.ppm", "P6 0 0 255\n"));
+  refusal(file("none.hdr", hdr_file(0, 0, "")));
+  refusal(file("none.pfm", pfm_file(0, 0, {})));
+  EXPECT_THAT(refusal(file("long.ppm", "P6 100000 1 255\n" + std::string(300000, 'x'))),
+              HasSubstr("100000 x 1 pixels; at most 32768 a side"));
+  EXPECT_THAT(refusal(file("huge.ppm", "P6 30000 30000 255\n")), HasSubstr("30000 x 30000"));
+  refusal(file("huge.hdr", hdr_file(2000000000, 2000000000, "")));
+}
+
+}  // namespace
+}  // namespace lobelia
