@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/metrics/catalogue.hpp"
 #include "compare/metrics/peak.hpp"
 #include "core/colour.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
-#include "renderer/render.hpp"
 #include "verify/truth/evaluation.hpp"
 
 namespace lobelia::cost {
@@ -30,18 +30,12 @@ Image evaluated(const Scene& scene) {
 
 }  // namespace
 
-Image float64_picture(const Scene& scene, int samples) {
-  Scene converged = scene;
-  // A pixel of one sample is its centre, of more its area: that is the scene's to say. More samples of what is
-  // random are then taken in rounds.
+RenderOptions with_samples(int samples) {
   RenderOptions options;
-  options.precision = Precision::kFloat64;
-  ++converged.sampler.seed;
-  if (samples > 1) {
-    options.target_error = std::numeric_limits<double>::min();
-    options.max_samples = samples;
-  }
-  return render(converged, options).image;
+  // In rounds, towards an error that is never reached.
+  options.target_error = std::numeric_limits<double>::min();
+  options.max_samples = samples;
+  return options;
 }
 
 PictureTruth picture_truth(const Scene& scene, int samples) {
@@ -49,17 +43,32 @@ PictureTruth picture_truth(const Scene& scene, int samples) {
   const bool formulas = truth::why_not_evaluated(scene).empty();
   result.how =
       formulas ? "the formulas of every pixel, in double"
-               : fmt::format("our picture in float64, {} samples a pixel, another seed", samples);
-  result.seconds = seconds_of(
-      [&] { result.image = formulas ? evaluated(scene) : float64_picture(scene, samples); });
+      : samples > 1
+          ? fmt::format("our picture in float64, {} samples a pixel, another seed", samples)
+          : "our picture in float64";
+  result.seconds = seconds_of([&] {
+    if (formulas) {
+      result.image = evaluated(scene);
+      return;
+    }
+    Scene other = scene;
+    ++other.sampler.seed;
+    RenderOptions options = samples > 1 ? with_samples(samples) : RenderOptions();
+    options.precision = Precision::kFloat64;
+    result.image = render(other, options).image;
+  });
   return result;
 }
 
-Comparison compare_at_peak(const Image& picture, const Image& truth) {
-  ComparisonOptions options;
-  options.viewing.exposure_stops =
+double measure_at_peak(std::string_view id, const Image& picture, const Image& truth) {
+  const double stops =
       std::clamp(exposure_for_peak(peak_value(truth)), -kMaxExposureStops, kMaxExposureStops);
-  return compare(picture, truth, options);
+  const Metric& metric = *find_metric(id);
+  std::vector<double> values(metric.outputs.size());
+  metric.measure({picture, truth, DisplayLight(picture, stops), DisplayLight(truth, stops),
+                  kDefaultPixelsPerDegree},
+                 values);
+  return values[std::size_t(find_metric_output(id) - metric.outputs.data())];
 }
 
 double rms_of_peak(const Image& picture, const Image& truth) {

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
-#include "compare/compare.hpp"
 #include "core/image.hpp"
+#include "renderer/render.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia::cost {
@@ -19,11 +20,12 @@ struct PictureTruth {
 /// float64 with `samples` of another seed, 1 or more.
 PictureTruth picture_truth(const Scene& scene, int samples);
 
-/// Ours in float64, by another seed than the scene's.
-Image float64_picture(const Scene& scene, int samples);
+/// With just so many samples of what is random: whether a pixel is its centre or an area stays as the scene has
+/// it.
+RenderOptions with_samples(int samples);
 
-/// How far a picture is from its truth, seen with the truth's peak at display white.
-Comparison compare_at_peak(const Image& picture, const Image& truth);
+/// A metric's value by its id, seen with the truth's peak at display white.
+double measure_at_peak(std::string_view metric, const Image& picture, const Image& truth);
 
 /// Root mean square of the difference over all values, by the truth's peak; 0 for equal pictures.
 double rms_of_peak(const Image& picture, const Image& truth);
