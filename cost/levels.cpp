@@ -1,9 +1,13 @@
 #include "cost/levels.hpp"
 
+#include "cost/level_picture.hpp"
+
 namespace lobelia::cost {
 namespace {
 
-constexpr std::span<const Level> kLevels{};
+constexpr Level kLevels[] = {
+    {"picture", "milliseconds a megapixel over the errors of the picture", true, measure_pictures},
+};
 
 }  // namespace
 

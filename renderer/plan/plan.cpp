@@ -170,4 +170,24 @@ Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision>
   return plan;
 }
 
+std::vector<double> min_half_lengths(const Scene& scene) {
+  std::vector<double> least(scene.materials.size(), 2);
+  const auto bound = [&](int material, double length) {
+    double& known = least[std::size_t(material)];
+    known = std::min(known, length);
+  };
+  const bool any_direction =
+      scene.camera.aperture_radius > 0 || scene.depth.mirror > 0 || scene.depth.glossy > 0;
+  for (const Light& light : scene.lights)
+    for (const Sphere& sphere : scene.spheres)
+      bound(sphere.material, any_direction || !is_delta(light)
+                                 ? 0
+                                 : min_half_length(scene, light, sphere));
+  for (const Plane& plane : scene.planes) {
+    bound(plane.material, 0);
+    bound(plane.checker_material, 0);
+  }
+  return least;
+}
+
 }  // namespace lobelia

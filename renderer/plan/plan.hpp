@@ -70,4 +70,8 @@ struct Plan {
 Plan make_plan(const Scene& scene, EffectPolicy policy,
                std::optional<Precision> precision = std::nullopt);
 
+/// By material, a lower bound of |L + V| wherever the camera sees it lit, which is what shading_error_bound()
+/// asks for; 0 where nothing is known: on planes, in mirrors, through a lens, under lights with a size.
+std::vector<double> min_half_lengths(const Scene& scene);
+
 }  // namespace lobelia
