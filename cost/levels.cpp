@@ -1,9 +1,15 @@
 #include "cost/levels.hpp"
 
+#include "cost/level_fixed_point.hpp"
+#include "cost/level_lobe.hpp"
+
 namespace lobelia::cost {
 namespace {
 
-constexpr std::span<const Level> kLevels{};
+constexpr Level kLevels[] = {
+    {"lobe", "every lobe and every way of computing it", false, &measure_lobes},
+    {"fixed-point", "lobes as circuits, by their number of bits", false, &measure_fixed_point},
+};
 
 }  // namespace
 
