@@ -108,7 +108,7 @@ Way row(const LobeWay& way, const LobeWayErrors& errors, const Times& times) {
            {"rounding", to_json(errors.rounding)}}};
 }
 
-/// Whose share of the largest error is the larger, and by how much at most the other adds to it.
+/// Whether its shape or its rounding makes more of a way's largest error.
 std::vector<std::string> what_limits(const std::vector<LobeWay>& ways,
                                      const std::vector<LobeWayErrors>& errors) {
   std::size_t shaped = 0;
@@ -129,7 +129,7 @@ std::vector<std::string> what_limits(const std::vector<LobeWay>& ways,
                   shaped, ways.size(), most, shaped_by)};
   if (shaped < ways.size())
     remarks.push_back(fmt::format(
-        "The other {} are cos^n itself but for rounding: from {:.2g} ({}) to {:.2g} ({}).",
+        "Of the other {} the rounding is the larger error: from {:.2g} ({}) to {:.2g} ({}).",
         ways.size() - shaped, least_rounding, least_by, most_rounding, rounded_by));
   return remarks;
 }

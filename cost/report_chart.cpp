@@ -82,6 +82,7 @@ std::string cost_chart(const Table& table, std::size_t error) {
     line.x.push_back(time(way));
     line.y.push_back(height(way));
     add(on, way);
+    on.point_names.push_back(way.name);
   }
   chart.series = {off, line, on};  // the front over what it dominates
   return draw_chart_file(chart);
