@@ -40,6 +40,13 @@ LobeWay scalar_way(LobeId lobe, std::string method, OperationCount operations, d
   return way;
 }
 
+/// Of a formula of the cosine, with 1 - s and the cut.
+OperationCount textbook_from_s(LobeId lobe) {
+  OperationCount count = textbook_operations(lobe);
+  ++count.add, ++count.compare;
+  return count;
+}
+
 constexpr auto kTimes = [](auto a, auto b) { return a * b; };
 
 /// What a catalogued lobe has: our stable form, scalar and by registers, and the textbook's in float32.
@@ -75,7 +82,7 @@ void add_catalogued(LobeId id, double exponent, std::vector<LobeWay>& ways) {
                     lobe_lanes(id, exponent, n, s, value);
                   }});
   // 1 - s is rounded, which a textbook's power, arc cosine or difference makes n times as large.
-  ways.push_back(scalar_way<float>(id, kCosine ? "std::pow" : "textbook", textbook_operations(id),
+  ways.push_back(scalar_way<float>(id, kCosine ? "std::pow" : "textbook", textbook_from_s(id),
                                    2 * (exponent + id.order + 8) * kRounding32, [lobe](float s) {
                                      const float cosine = 1 - s;
                                      return cosine > 0 ? lobe.definition(cosine) : 0.0f;
@@ -97,7 +104,7 @@ LobeWay powered(LobeId cosine, unsigned n) {
 /// The ways of cos^n that are not one of our lobe's.
 void add_cosine(LobeId id, double exponent, std::vector<LobeWay>& ways) {
   ways.push_back(
-      scalar_way<double>(id, "std::pow", textbook_operations(id), 2 * (exponent + 8) * kRounding64,
+      scalar_way<double>(id, "std::pow", textbook_from_s(id), 2 * (exponent + 8) * kRounding64,
                          [exponent](double s) { return s < 1 ? std::pow(1 - s, exponent) : 0.0; }));
   ways.push_back(scalar_way<float>(
       id, "exp(n log1p(-s))", operations(id), 8 * kRounding32,

@@ -59,6 +59,9 @@ TEST(LobeWays, CountWhatTheyDo) {
   EXPECT_EQ(way_of(ways, "cs16, stable, float32 SIMD").operations.multiply, 1 + 4);
   EXPECT_EQ(way_of(ways, "cosine, std::pow, float64").operations.transcendental, 1);
   EXPECT_EQ(way_of(ways, "gauss, textbook, float32").operations.transcendental, 2);
+  EXPECT_EQ(way_of(ways, "cosine, std::pow, float64").operations.add, 1);
+  // c / (n - n c + c), and c = 1 - s
+  EXPECT_EQ(way_of(ways, "schlick, textbook, float32").operations.add, 3);
   EXPECT_EQ(way_of(ways, "schlick, textbook, float32").operations.divide, 1);
 }
 
