@@ -28,16 +28,32 @@ auto scalar(F f) {
   };
 }
 
+/// One whose function is of arrays of T.
+template <class T, class Over>
+LobeWay way_over(LobeId lobe, std::string method, bool simd, OperationCount operations,
+                 double allowed, Over over) {
+  constexpr bool kWide = std::is_same_v<T, double>;
+  LobeWay way{lobe, std::move(method), kWide, simd, operations, allowed, {}, {}};
+  if constexpr (kWide)
+    way.over64 = over;
+  else
+    way.over32 = over;
+  return way;
+}
+
 template <class T, class F>
 LobeWay scalar_way(LobeId lobe, std::string method, OperationCount operations, double allowed,
                    F f) {
-  constexpr bool kWide = std::is_same_v<T, double>;
-  LobeWay way{lobe, std::move(method), kWide, false, operations, allowed, {}, {}};
-  if constexpr (kWide)
-    way.over64 = scalar<T>(f);
-  else
-    way.over32 = scalar<T>(f);
-  return way;
+  return way_over<T>(lobe, std::move(method), false, operations, allowed, scalar<T>(f));
+}
+
+/// The catalogue's own form by registers of T.
+template <class T>
+LobeWay stable_way(LobeId lobe, std::string method, double exponent, double allowed) {
+  return way_over<T>(lobe, std::move(method), true, operations(lobe), allowed,
+                     [=](std::size_t count, const T* s, T* value) {
+                       lobe_lanes(lobe, exponent, count, s, value);
+                     });
 }
 
 /// Of a formula of the cosine, with 1 - s and the cut.
@@ -53,34 +69,15 @@ constexpr auto kTimes = [](auto a, auto b) { return a * b; };
 template <class L>
 void add_catalogued(LobeId id, double exponent, std::vector<LobeWay>& ways) {
   const L lobe({exponent, id.order});
-  const OperationCount count = operations(id);
   constexpr bool kCosine = std::is_same_v<L, CosineLobe>;
   const std::string stable = kCosine ? "exp(n log1p(-s))" : "stable";
   // The rounding of float64 is as much smaller than float32's as its numbers are longer.
   const double of_peak32 = lobe_float32_error(id, exponent).of_peak;
   const double of_peak64 = 8 * of_peak32 * kRounding64 / kRounding32;
-  ways.push_back(
-      scalar_way<double>(id, stable, count, of_peak64, [lobe](double s) { return lobe.value(s); }));
-  ways.push_back({id,
-                  stable,
-                  true,
-                  true,
-                  count,
-                  of_peak64,
-                  [=](std::size_t n, const double* s, double* value) {
-                    lobe_lanes(id, exponent, n, s, value);
-                  },
-                  {}});
-  ways.push_back({id,
-                  stable,
-                  false,
-                  true,
-                  count,
-                  of_peak32,
-                  {},
-                  [=](std::size_t n, const float* s, float* value) {
-                    lobe_lanes(id, exponent, n, s, value);
-                  }});
+  ways.push_back(scalar_way<double>(id, stable, operations(id), of_peak64,
+                                    [lobe](double s) { return lobe.value(s); }));
+  ways.push_back(stable_way<double>(id, stable, exponent, of_peak64));
+  ways.push_back(stable_way<float>(id, stable, exponent, of_peak32));
   // 1 - s is rounded, which a textbook's power, arc cosine or difference makes n times as large.
   ways.push_back(scalar_way<float>(id, kCosine ? "std::pow" : "textbook", textbook_from_s(id),
                                    2 * (exponent + id.order + 8) * kRounding32, [lobe](float s) {
@@ -90,15 +87,18 @@ void add_catalogued(LobeId id, double exponent, std::vector<LobeWay>& ways) {
 }
 
 template <class T>
-LobeWay powered(LobeId cosine, unsigned n) {
-  constexpr double kRounding = std::is_same_v<T, double> ? kRounding64 : kRounding32;
+void add_powered(LobeId cosine, unsigned n, std::vector<LobeWay>& ways) {
+  const double allowed = 2 * (n + 8.0) * (std::is_same_v<T, double> ? kRounding64 : kRounding32);
   OperationCount count;
   count.add = count.compare = 1;
-  count.multiply = (binary_power(0, n, [&](int, int) { return ++count.multiply; }), count.multiply);
-  return scalar_way<T>(cosine, "squaring", count, 2 * (n + 8.0) * kRounding, [n](T s) {
+  binary_power(0, n, [&](int, int) { return ++count.multiply; });
+  ways.push_back(scalar_way<T>(cosine, "squaring", count, allowed, [n](T s) {
     const T c = 1 - s;
     return c > 0 ? binary_power(c, n, kTimes) : T(0);
-  });
+  }));
+  ways.push_back(way_over<T>(
+      cosine, "squaring", true, count, allowed,
+      [n](std::size_t points, const T* s, T* value) { squaring_lanes(n, points, s, value); }));
 }
 
 /// The ways of cos^n that are not one of our lobe's.
@@ -111,29 +111,8 @@ void add_cosine(LobeId id, double exponent, std::vector<LobeWay>& ways) {
       [n = float(exponent)](float s) { return s < 1 ? std::exp(n * std::log1p(-s)) : 0.0f; }));
   if (exponent != std::floor(exponent) || exponent < 1 || exponent > 0x1p31) return;
   const auto n = unsigned(exponent);
-  const LobeWay wide = powered<double>(id, n), narrow = powered<float>(id, n);
-  ways.push_back(wide);
-  ways.push_back(narrow);
-  ways.push_back({id,
-                  wide.method,
-                  true,
-                  true,
-                  wide.operations,
-                  wide.allowed,
-                  [n](std::size_t count, const double* s, double* value) {
-                    squaring_lanes(n, count, s, value);
-                  },
-                  {}});
-  ways.push_back({id,
-                  narrow.method,
-                  false,
-                  true,
-                  narrow.operations,
-                  narrow.allowed,
-                  {},
-                  [n](std::size_t count, const float* s, float* value) {
-                    squaring_lanes(n, count, s, value);
-                  }});
+  add_powered<double>(id, n, ways);
+  add_powered<float>(id, n, ways);
 }
 
 /// A cs_k as one would write it without care: one multiply-add in float32, and the squarings.
