@@ -5,11 +5,11 @@
 
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "core/error.hpp"
 #include "cost/lobe_errors.hpp"
 #include "cost/lobe_ways.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::cost {
 namespace {
