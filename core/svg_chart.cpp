@@ -21,6 +21,7 @@ namespace {
 constexpr double kLeft = 78, kRight = 12, kTop = 34, kBottom = 50;
 constexpr double kTitle = 36, kMargin = 16;  // of a chart alone: above, and on the right
 constexpr double kCharacter = 7.2;           // typical width at the size that the styles set
+constexpr double kNameCharacter = 6.3;       // the same of a point's name
 
 struct LineStyle {
   std::string_view dashes;
@@ -228,7 +229,21 @@ class Drawing {
         line(name.c_str(), at_x(x), at_y(std::max(y - half, chart_.y.from)), at_x(x),
              at_y(y + half));
       draw_marker(series, at_x(x), at_y(y));
+      if (i < series.point_names.size()) draw_name(series.point_names[i], at_x(x), at_y(y));
     }
+  }
+
+  void draw_name(const std::string& name, double x, double y) {
+    constexpr double kAway = 8, kDown = 14, kLine = 13;
+    const double width = kNameCharacter * text_length(name), at = y + kDown;
+    const bool left = x - kAway - width > kLeft;
+    const double from = left ? x - kAway - width : x + kAway;
+    const bool free = std::none_of(names_.begin(), names_.end(), [&](const Name& other) {
+      return from < other.to && other.from < from + width && std::abs(at - other.y) < kLine;
+    });
+    if (!free || at >= bottom()) return;
+    names_.push_back({from, from + width, at});
+    text("point-name", left ? x - kAway : from, at, left ? "end" : "start", name);
   }
 
   bool is_shown(double x, double y) const {
@@ -272,8 +287,13 @@ class Drawing {
     }
   }
 
+  struct Name {
+    double from, to, y;
+  };
+
   const Chart& chart_;
   Html html_;
+  std::vector<Name> names_;  ///< of points, as drawn
 };
 
 }  // namespace

@@ -28,6 +28,8 @@ struct ChartSeries {
   /// Of markers: half lengths of error bars, and what a reader is told of a point. Empty, or one a point.
   std::vector<double> x_error = {}, y_error = {};
   std::vector<std::string> point_labels = {};
+  /// Drawn below and left of a point, where nothing dominates it; of names that would overlap the first.
+  std::vector<std::string> point_names = {};
 };
 
 struct Chart {

@@ -1,12 +1,16 @@
 #include "cost/levels.hpp"
 
+#include "cost/level_fixed_point.hpp"
+#include "cost/level_lobe.hpp"
 #include "cost/level_picture.hpp"
 
 namespace lobelia::cost {
 namespace {
 
 constexpr Level kLevels[] = {
-    {"picture", "milliseconds a megapixel over the errors of the picture", true, measure_pictures},
+    {"lobe", "every lobe and every way of computing it", false, &measure_lobes},
+    {"fixed-point", "lobes as circuits, by their number of bits", false, &measure_fixed_point},
+    {"picture", "milliseconds a megapixel over the errors of the picture", true, &measure_pictures},
 };
 
 }  // namespace

@@ -64,11 +64,12 @@ Front pareto_front(const Table& table, std::size_t error) {
 std::vector<std::string> front_sentences(const Table& table, std::size_t error) {
   const Front front = pareto_front(table, error);
   const auto& ways = table.ways;
+  const std::string cost = table.is_timed() ? "time" : table.unit;
   std::vector<std::string> sentences;
   for (std::size_t i = 1; i < front.ways.size(); ++i) {
     const Way &from = ways[front.ways[i - 1]], &to = ways[front.ways[i]];
-    sentences.push_back(fmt::format("from {} to {}: {} the time, {} less error", from.name, to.name,
-                                    times_text(ratio(to.time.median, from.time.median)),
+    sentences.push_back(fmt::format("from {} to {}: {} the {}, {} less error", from.name, to.name,
+                                    times_text(ratio(to.time.median, from.time.median)), cost,
                                     times_text(ratio(from.errors[error], to.errors[error]))));
   }
   for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -76,8 +77,8 @@ std::vector<std::string> front_sentences(const Table& table, std::size_t error) 
     const Way &better = ways[front.dominated_by[i]], &way = ways[i];
     const double more = ratio(way.errors[error], better.errors[error]);
     sentences.push_back(fmt::format(
-        "{} takes {} the time of {} and has {}", way.name,
-        times_text(ratio(way.time.median, better.time.median)), better.name,
+        "{} takes {} the {} of {} and has {}", way.name,
+        times_text(ratio(way.time.median, better.time.median)), cost, better.name,
         more < 1.005 ? std::string("its error") : fmt::format("{} its error", times_text(more))));
   }
   return sentences;

@@ -14,10 +14,11 @@ namespace lobelia::cost {
 namespace {
 
 struct Unit {
-  const char* name;
-  double seconds;
+  std::string name;
+  double size;
 };
-Unit unit_for(double seconds) {
+Unit unit_for(const Table& table, double seconds) {
+  if (!table.is_timed()) return {table.unit, 1};
   if (seconds < 1e-6) return {"ns", 1e-9};
   if (seconds < 1e-3) return {"us", 1e-6};
   if (seconds < 1) return {"ms", 1e-3};
@@ -41,7 +42,7 @@ void widen(ChartAxis& axis, const std::vector<double>& values) {
 std::string cost_chart(const Table& table, std::size_t error) {
   double least = std::numeric_limits<double>::infinity();
   for (const Way& way : table.ways) least = std::min(least, way.time.median);
-  const Unit unit = unit_for(std::isfinite(least) ? least : 1);
+  const Unit unit = unit_for(table, std::isfinite(least) ? least : 1);
   const Front front = pareto_front(table, error);
   ChartSeries line{"the Pareto front", {}, {}, 1}, on{"on it", {}, {}, 1},
       off{"dominated", {}, {}, 2};
@@ -55,7 +56,7 @@ std::string cost_chart(const Table& table, std::size_t error) {
   chart.height = 460;
   chart.x.label = fmt::format("{} per {}", unit.name, table.per);
   chart.y.label = table.errors[error].meaning;
-  const auto time = [&](const Way& way) { return way.time.median / unit.seconds; };
+  const auto time = [&](const Way& way) { return way.time.median / unit.size; };
   std::vector<double> times, errors;
   for (const Way& way : table.ways) times.push_back(time(way)), errors.push_back(way.errors[error]);
   widen(chart.x, times);
@@ -69,8 +70,8 @@ std::string cost_chart(const Table& table, std::size_t error) {
     series.x_error.push_back(way.time.spread * time(way));
     series.y_error.push_back(way.error_spreads.empty() ? 0 : way.error_spreads[error]);
     series.point_labels.push_back(fmt::format("{}: {}, {} {:.3g}", way.name,
-                                              seconds_text(way.time.median), table.errors[error].id,
-                                              way.errors[error]));
+                                              cost_value_text(table, way.time.median),
+                                              table.errors[error].id, way.errors[error]));
   };
   for (std::size_t i = 0; i < table.ways.size(); ++i)
     if (front.dominated_by[i] != kNone) add(off, table.ways[i]);
@@ -81,8 +82,9 @@ std::string cost_chart(const Table& table, std::size_t error) {
     line.x.push_back(time(way));
     line.y.push_back(height(way));
     add(on, way);
+    on.point_names.push_back(way.name);
   }
-  chart.series = {line, on, off};
+  chart.series = {off, line, on};  // the front over what it dominates
   return draw_chart_file(chart);
 }
 

@@ -11,15 +11,15 @@ namespace lobelia::cost {
 namespace {
 
 Json way_json(const Table& table, const Way& way) {
-  Json entry = {{"name", way.name},
-                {"settings", Json::object()},
-                {"seconds",
-                 {{"median", way.time.median},
-                  {"spread", way.time.spread},
-                  {"least", way.time.least},
-                  {"most", way.time.most},
-                  {"rounds", way.time.rounds}}},
-                {"errors", Json::object()}};
+  Json entry = {{"name", way.name}, {"settings", Json::object()}, {"errors", Json::object()}};
+  if (table.is_timed())
+    entry["seconds"] = {{"median", way.time.median},
+                        {"spread", way.time.spread},
+                        {"least", way.time.least},
+                        {"most", way.time.most},
+                        {"rounds", way.time.rounds}};
+  else
+    entry["count"] = way.time.median;
   for (const auto& [key, value] : way.settings) entry["settings"][key] = value;
   for (std::size_t e = 0; e < table.errors.size(); ++e)
     entry["errors"][table.errors[e].id] = number_or_name(way.errors[e]);
@@ -33,9 +33,9 @@ Json way_json(const Table& table, const Way& way) {
 }
 
 Json table_json(const Table& table) {
-  Json entry = {{"id", table.id},           {"level", table.level},    {"title", table.title},
-                {"per", table.per},         {"errors", Json::array()}, {"ways", Json::array()},
-                {"fronts", Json::object()}, {"remarks", table.remarks}};
+  Json entry = {{"id", table.id},        {"level", table.level},     {"title", table.title},
+                {"unit", table.unit},    {"per", table.per},         {"errors", Json::array()},
+                {"ways", Json::array()}, {"fronts", Json::object()}, {"remarks", table.remarks}};
   for (const ErrorKind& kind : table.errors)
     entry["errors"].push_back({{"id", kind.id}, {"meaning", kind.meaning}});
   for (const Way& way : table.ways) entry["ways"].push_back(way_json(table, way));
@@ -68,8 +68,7 @@ Json cost_record(const Report& report) {
 
 std::string cost_csv(const Report& report) {
   std::string text =
-      "table,level,way,settings,per,seconds_median,seconds_spread,seconds_least,seconds_most,rounds,"
-      "error,value,error_spread,on_front\r\n";
+      "table,level,way,settings,per,unit,median,spread,least,most,rounds,error,value,error_spread,on_front\r\n";
   for (const Table& table : report.tables)
     for (std::size_t e = 0; e < table.errors.size(); ++e) {
       const Front front = pareto_front(table, e);
@@ -81,10 +80,10 @@ std::string cost_csv(const Report& report) {
         const bool on_front =
             std::find(front.ways.begin(), front.ways.end(), i) != front.ways.end();
         text += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_field(table.id), table.level,
-            csv_field(way.name), csv_field(settings), table.per, way.time.median, way.time.spread,
-            way.time.least, way.time.most, way.time.rounds, table.errors[e].id, way.errors[e],
-            way.error_spreads.empty() ? "" : fmt::format("{}", way.error_spreads[e]),
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_field(table.id), table.level,
+            csv_field(way.name), csv_field(settings), table.per, table.unit, way.time.median,
+            way.time.spread, way.time.least, way.time.most, way.time.rounds, table.errors[e].id,
+            way.errors[e], way.error_spreads.empty() ? "" : fmt::format("{}", way.error_spreads[e]),
             on_front ? "yes" : "no");
       }
     }

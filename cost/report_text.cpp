@@ -13,8 +13,9 @@ namespace {
 std::string table_text(const Table& table, bool all) {
   std::size_t width = 4;
   for (const Way& way : table.ways) width = std::max(width, way.name.size());
-  std::string text = fmt::format("\n{}\n{:<{}}{:>13}{:>8}", table.title, "way", width + 2,
-                                 "per " + table.per, "+-");
+  std::string text =
+      fmt::format("\n{}\n{:<{}}{:>15}{:>8}", table.title, "way", width + 2,
+                  table.is_timed() ? "per " + table.per : table.unit, table.is_timed() ? "+-" : "");
   for (const ErrorKind& kind : table.errors) text += fmt::format("{:>14}", kind.id);
   text += "  front\n";
   std::vector<std::size_t> order(table.ways.size());
@@ -31,8 +32,10 @@ std::string table_text(const Table& table, bool all) {
       if (std::find(fronts[e].ways.begin(), fronts[e].ways.end(), i) != fronts[e].ways.end())
         on += (on.empty() ? "" : " ") + table.errors[e].id;
     if (on.empty() && !all) continue;
-    text += fmt::format("{:<{}}{:>13}{:>7.1f}%", way.name, width + 2, seconds_text(way.time.median),
-                        100 * way.time.spread);
+    text += table.is_timed()
+                ? fmt::format("{:<{}}{:>15}{:>7.1f}%", way.name, width + 2,
+                              seconds_text(way.time.median), 100 * way.time.spread)
+                : fmt::format("{:<{}}{:>15.6g}{:>8}", way.name, width + 2, way.time.median, "");
     for (const double error : way.errors)
       text += std::isnan(error) ? fmt::format("{:>14}", "-") : fmt::format("{:>14.3g}", error);
     text += "  " + on + "\n";
@@ -54,6 +57,10 @@ std::string seconds_text(double seconds) {
   if (seconds < 1e-3) return scaled(seconds * 1e6, "us");
   if (seconds < 1) return scaled(seconds * 1e3, "ms");
   return scaled(seconds, "s");
+}
+
+std::string cost_value_text(const Table& table, double value) {
+  return table.is_timed() ? seconds_text(value) : fmt::format("{:.6g} {}", value, table.unit);
 }
 
 std::string cost_text(const Report& report, bool all) {

@@ -15,7 +15,7 @@ struct Way {
   std::string name;  ///< "cs16, float32": unique in its table
   /// What it was made with: "lobe" is "cs16", "precision" is "float32", "samples" is "64".
   std::vector<std::pair<std::string, std::string>> settings;
-  Times time;                  ///< of one of what the table counts, seconds
+  Times time;                  ///< of one of what the table counts, in its unit: seconds
   std::vector<double> errors;  ///< by the table's errors, not negative; NaN where not known
   std::vector<double>
       error_spreads;            ///< standard deviations over repeats; empty where nothing is random
@@ -36,6 +36,9 @@ struct Table {
   std::vector<ErrorKind> errors;
   std::vector<Way> ways;
   std::vector<std::string> remarks;  ///< sentences: what was fitted, found and left out
+  /// Of Way::time: seconds, or what is counted where there is nothing to time: "bit operations".
+  std::string unit = "s";
+  bool is_timed() const { return unit == "s"; }
 };
 
 struct Report {

@@ -51,7 +51,9 @@ TEST(ParetoFront, IsThatOfTheDefinitionForAnyWays) {
       bool dominated = false;
       for (std::size_t i = 0; i < ways.size(); ++i) dominated |= i != j && dominates(i, j);
       EXPECT_EQ(front.dominated_by[j] != kNone, dominated) << j;
-      if (dominated) EXPECT_TRUE(dominates(front.dominated_by[j], j));
+      if (dominated) {
+        EXPECT_TRUE(dominates(front.dominated_by[j], j));
+      }
     }
   }
 }

@@ -13,6 +13,7 @@
 namespace lobelia::cost {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -57,6 +58,27 @@ TEST(CostChart, IsXmlWithAPointForEachWayEvenWhereItHasNoError) {
   points.sort();
   EXPECT_EQ(points.size(), 4u);
   EXPECT_THAT(points[0].node().child("title").text().as_string(), HasSubstr("slow, \"but\""));
+}
+
+TEST(CountedTables, SayWhatTheyCountInEveryForm) {
+  Report counted = report();
+  counted.tables = {counted_table({way("8 bits", 64, 0.1), way("16 bits", 256, 0.001)})};
+  const Table& table = counted.tables[0];
+  const Json record = cost_record(counted);
+  EXPECT_EQ(record["tables"][0]["unit"], "bit operations");
+  EXPECT_EQ(record["tables"][0]["ways"][1]["count"], 256);
+  EXPECT_FALSE(record["tables"][0]["ways"][1].contains("seconds"));
+  EXPECT_THAT(cost_csv(counted), HasSubstr(",evaluation,bit operations,256,"));
+  EXPECT_THAT(cost_text(counted, true), HasSubstr("4.0 times the bit operations, 100 times less"));
+  EXPECT_THAT(cost_text(counted, true), AllOf(Not(HasSubstr("%")), Not(HasSubstr("256 s"))));
+  EXPECT_THAT(cost_chart(table, 0), HasSubstr(">bit operations per evaluation<"));
+  EXPECT_THAT(cost_chart(table, 0), HasSubstr("16 bits: 256 bit operations, max 0.001"));
+}
+
+TEST(TimedTables, SayThatTheyAreOfSeconds) {
+  EXPECT_EQ(cost_record(report())["tables"][0]["unit"], "s");
+  EXPECT_THAT(cost_csv(report()), HasSubstr(",evaluation,s,1e-09,"));
+  EXPECT_THAT(cost_chart(report().tables[0], 0), HasSubstr(">ns per evaluation<"));
 }
 
 TEST(CostChart, CanBeDrawnOfNothing) {
