@@ -82,16 +82,17 @@ Chart error_time_chart(const ErrorTimes& times) {
     const double x = costs[i], y = std::max(errors[i], chart.y.from);
     add(points[i].on_front ? on : off, points[i], x, y, unit.seconds);
     if (!points[i].on_front) continue;
+    on.point_names.push_back(points[i].name);
     // A step: between two ways there is only the faster one's error.
     if (!front.x.empty()) front.x.push_back(x), front.y.push_back(front.y.back());
     front.x.push_back(x);
     front.y.push_back(y);
   }
-  chart.series = {front, on, off};
+  chart.series = {off, front, on};  // the front over what it dominates
   return chart;
 }
 
-std::string seconds_text(double seconds) {
+std::string short_time_text(double seconds) {
   const auto scaled = [](double value, const char* unit) {
     return fmt::format("{:.{}f} {}", value, value < 9.995 ? 2 : value < 99.95 ? 1 : 0, unit);
   };

@@ -9,6 +9,7 @@
 namespace lobelia {
 
 struct TimedError {
+  std::string name;        ///< drawn beside it if it is on the front, where there is room
   std::string label;       ///< what a reader is told who points at it
   double cost = 0;         ///< seconds, or in ErrorTimes::cost_unit
   double cost_error = 0;   ///< half length of its error bar
@@ -30,6 +31,6 @@ struct ErrorTimes {
 Chart error_time_chart(const ErrorTimes& times);
 
 /// "3.14 ns", "0.42 ms", "1.70 s": three digits.
-std::string seconds_text(double seconds);
+std::string short_time_text(double seconds);
 
 }  // namespace lobelia

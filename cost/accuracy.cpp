@@ -11,7 +11,6 @@
 #include "compare/metrics/ciede2000.hpp"
 #include "compare/metrics/metric.hpp"
 #include "compare/metrics/peak.hpp"
-#include "compare/metrics/percentile.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -116,11 +115,8 @@ class Bounds {
 double ciede2000_percentile(const Image& picture, const Image& truth, double share) {
   const double stops =
       std::clamp(exposure_for_peak(peak_value(truth)), -kMaxExposureStops, kMaxExposureStops);
-  const DisplayLight a(picture, stops), b(truth, stops);
-  std::vector<double> differences(a.pixel_count());
-  for (std::size_t i = 0; i < differences.size(); ++i)
-    differences[i] = ciede2000(lab_from_display(a.at(i)), lab_from_display(b.at(i)));
-  return percentile(differences, share);
+  auto differences = ciede2000_of_pixels({picture, stops}, {truth, stops});
+  return percentile(differences.values, share);
 }
 
 /// Some of the picture's pixels, made by the scene's own lobe in float64.

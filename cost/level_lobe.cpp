@@ -1,4 +1,5 @@
 #include "cost/level_lobe.hpp"
+#include "core/error_time_chart.hpp"
 
 #include <fmt/format.h>
 
@@ -140,7 +141,7 @@ std::string what_bounds_the_time(const Table& table, double copy) {
                        [](const Way& a, const Way& b) { return a.time.median < b.time.median; });
   return fmt::format(
       "Reading s and writing a value takes {} in float32; the fastest way takes {:.1f} times that.",
-      seconds_text(copy), fastest->time.median / copy);
+      short_time_text(copy), fastest->time.median / copy);
 }
 
 }  // namespace

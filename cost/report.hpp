@@ -23,10 +23,7 @@ std::string cost_chart(const Table& table, std::size_t error);
 /// cost.json, cost.csv and TABLE-ERROR.svg. Throws Error(kOutput).
 void write_cost(const Report& report, const std::filesystem::path& directory);
 
-/// "3.1 ns", "0.42 ms", "1.7 s"
-std::string seconds_text(double seconds);
-
-/// The same, or "1408 bit operations" where a table counts those.
+/// "3.14 ns", or "1408 bit operations" where a table counts those.
 std::string cost_value_text(const Table& table, double value);
 
 }  // namespace lobelia::cost

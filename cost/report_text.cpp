@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error_time_chart.hpp"
 #include "cost/pareto.hpp"
 #include "cost/report.hpp"
 
@@ -34,7 +35,7 @@ std::string table_text(const Table& table, bool all) {
     if (on.empty() && !all) continue;
     text += table.is_timed()
                 ? fmt::format("{:<{}}{:>15}{:>7.1f}%", way.name, width + 2,
-                              seconds_text(way.time.median), 100 * way.time.spread)
+                              short_time_text(way.time.median), 100 * way.time.spread)
                 : fmt::format("{:<{}}{:>15.6g}{:>8}", way.name, width + 2, way.time.median, "");
     for (const double error : way.errors)
       text += std::isnan(error) ? fmt::format("{:>14}", "-") : fmt::format("{:>14.3g}", error);
@@ -49,18 +50,8 @@ std::string table_text(const Table& table, bool all) {
 
 }  // namespace
 
-std::string seconds_text(double seconds) {
-  const auto scaled = [](double value, const char* unit) {
-    return fmt::format("{:.{}f} {}", value, value < 9.995 ? 2 : value < 99.95 ? 1 : 0, unit);
-  };
-  if (seconds < 1e-6) return scaled(seconds * 1e9, "ns");
-  if (seconds < 1e-3) return scaled(seconds * 1e6, "us");
-  if (seconds < 1) return scaled(seconds * 1e3, "ms");
-  return scaled(seconds, "s");
-}
-
 std::string cost_value_text(const Table& table, double value) {
-  return table.is_timed() ? seconds_text(value) : fmt::format("{:.6g} {}", value, table.unit);
+  return table.is_timed() ? short_time_text(value) : fmt::format("{:.6g} {}", value, table.unit);
 }
 
 std::string cost_text(const Report& report, bool all) {

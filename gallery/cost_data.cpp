@@ -15,6 +15,8 @@ CostWay read_way(const Fields& fields, const std::vector<CostError>& errors) {
   if (const auto seconds = fields.object("seconds")) {
     way.median = seconds->number("median").value_or(kUnknown);
     way.spread = seconds->number("spread").value_or(0);
+  } else {
+    way.median = fields.number("count").value_or(kUnknown);
   }
   const auto values = fields.object("errors"), spreads = fields.object("errorSpreads");
   for (const CostError& error : errors) {
@@ -25,10 +27,11 @@ CostWay read_way(const Fields& fields, const std::vector<CostError>& errors) {
 }
 
 CostTable read_table(const Fields& fields) {
+  const std::string unit = fields.text("unit");
   CostTable table{fields.text("level"),
                   fields.text("title"),
                   fields.text("per"),
-                  fields.text("costUnit"),
+                  unit == "s" ? "" : unit,
                   {},
                   {},
                   fields.texts("remarks")};

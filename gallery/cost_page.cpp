@@ -18,7 +18,7 @@ constexpr std::size_t kMostSentences = 8;  // of a front; the rest can be unfold
 
 std::string cost_text(const CostTable& table, double cost) {
   if (std::isnan(cost)) return "–";
-  return table.cost_unit.empty() ? seconds_text(cost) : number_text(cost);
+  return table.cost_unit.empty() ? short_time_text(cost) : number_text(cost);
 }
 
 std::string error_text(double error) { return std::isnan(error) ? "–" : number_text(error); }
@@ -30,7 +30,8 @@ bool is_on(const CostError& error, const CostWay& way) {
 std::string chart_of(const CostTable& table, std::size_t e, const std::string& id) {
   ErrorTimes times{id, table.title, table.per, table.cost_unit, table.errors[e].meaning, {}};
   for (const CostWay& way : table.ways)
-    times.points.push_back({fmt::format("{}: {}, {} {}", way.name, cost_text(table, way.median),
+    times.points.push_back({way.name,
+                            fmt::format("{}: {}, {} {}", way.name, cost_text(table, way.median),
                                         table.errors[e].id, error_text(way.errors[e])),
                             way.median, way.spread * way.median, way.errors[e],
                             way.error_spreads[e], is_on(table.errors[e], way)});

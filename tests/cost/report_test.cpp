@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <pugixml.hpp>
 
+#include "core/error_time_chart.hpp"
 #include "core/files.hpp"
 #include "tests/cost/tables.hpp"
 
@@ -95,10 +96,10 @@ TEST(WritingCosts, LeavesTheRecordTheTableAndAChartForEachError) {
 }
 
 TEST(SecondsText, HasThreeDigitsAndAUnit) {
-  EXPECT_EQ(seconds_text(3.14159e-9), "3.14 ns");
-  EXPECT_EQ(seconds_text(2.5e-5), "25.0 us");
-  EXPECT_EQ(seconds_text(0.3), "300 ms");
-  EXPECT_EQ(seconds_text(1.5), "1.50 s");
+  EXPECT_EQ(short_time_text(3.14159e-9), "3.14 ns");
+  EXPECT_EQ(short_time_text(2.5e-5), "25.0 us");
+  EXPECT_EQ(short_time_text(0.3), "300 ms");
+  EXPECT_EQ(short_time_text(1.5), "1.50 s");
 }
 
 }  // namespace
