@@ -1,9 +1,18 @@
 #include "cost/levels.hpp"
 
+#include "cost/effects_level.hpp"
+#include "cost/transport_level.hpp"
+
 namespace lobelia::cost {
 namespace {
 
-constexpr std::span<const Level> kLevels{};
+constexpr Level kLevels[] = {
+    {"transport",
+     "light transport: error over samples and time, with and without importance sampling", false,
+     measure_transport},
+    {"effects", "each effect of light: what it costs, and what the picture loses without it", false,
+     measure_effects},
+};
 
 }  // namespace
 
