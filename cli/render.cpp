@@ -13,6 +13,7 @@
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/timing.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -39,25 +40,38 @@ void require_png(const std::filesystem::path& png, const std::filesystem::path& 
   require_writable(png);
 }
 
+/// What a command took besides its picture, seconds. Packing rows is a part of rendering, in time too but
+/// where a picture is so large that others are rendered meanwhile.
+struct Stages {
+  double read = 0, pack = 0, write = 0;
+};
+
 /// Rows are packed and written while the next ones are rendered. A picture for the eye too is kept whole.
-RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
-                              const Options& options) {
+RenderResult render_and_write(const Scene& scene, const RenderOptions& how, const Options& options,
+                              Stages& stages) {
   if (!options.png.empty()) {
     RenderResult result = render(scene, how);
-    write_exr(options.output, result.image, render_metadata(scene));
-    write_png(options.png, to_display(result.image, options.exposure));
+    stages.write = seconds_of([&] {
+      write_exr(options.output, result.image, render_metadata(scene));
+      write_png(options.png, to_display(result.image, options.exposure));
+    });
     return result;
   }
   ExrWriter writer(options.output, scene.film.width, scene.film.height, render_metadata(scene));
-  RenderResult result = render(
-      scene, how, [&](int y, int rows, const float* rgb) { writer.write_rows(y, rows, rgb); });
-  writer.finish();
+  RenderResult result = render(scene, how, [&](int y, int rows, const float* rgb) {
+    stages.pack += seconds_of([&] { writer.write_rows(y, rows, rgb); });
+  });
+  stages.write = seconds_of([&] { writer.finish(); });
   return result;
 }
 
 void run(const Options& options) {
-  Scene scene = read_scene(options.scene);
-  options.overrides.apply(scene);
+  Stages stages;
+  Scene scene;
+  stages.read = seconds_of([&] {
+    scene = read_scene(options.scene);
+    options.overrides.apply(scene);
+  });
   const auto record_path = checked_record_path(options.output);
 
   if (!options.png.empty()) require_png(options.png, options.output, record_path);
@@ -73,12 +87,15 @@ void run(const Options& options) {
   render_options.time_limit = options.time_limit;
   render_options.max_samples = options.max_samples;
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
-  const RenderResult result = render_and_write(scene, render_options, options);
+  const RenderResult result = render_and_write(scene, render_options, options, stages);
   progress.clear();
 
   const std::filesystem::path output(options.output);
-  write_record(record_path,
-               render_record(scene, result, command_line(), output.filename().string()));
+  Json record = render_record(scene, result, command_line(), output.filename().string());
+  record["seconds"]["read"] = stages.read;
+  record["seconds"]["pack"] = stages.pack;
+  record["seconds"]["write"] = stages.write;
+  write_record(record_path, record);
   if (!options.quiet)
     fmt::print(stderr, "{}: {} x {}, {:.3f} s, {}{}{}{}\n", options.output, scene.film.width,
                scene.film.height, result.render_seconds, result.instruction_set,

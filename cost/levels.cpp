@@ -1,6 +1,7 @@
 #include "cost/levels.hpp"
 
 #include "cost/effects_level.hpp"
+#include "cost/engine_level.hpp"
 #include "cost/transport_level.hpp"
 
 namespace lobelia::cost {
@@ -10,6 +11,7 @@ constexpr Level kLevels[] = {
     {"transport",
      "light transport: error over samples and time, with and without importance sampling", false,
      measure_transport},
+    {"engine", "whole programs on the same picture: ours, POV-Ray, Cycles", true, measure_engines},
     {"effects", "each effect of light: what it costs, and what the picture loses without it", false,
      measure_effects},
 };
