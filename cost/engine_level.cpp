@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "compare/compare.hpp"
+#include "compare/metrics/peak.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
@@ -101,14 +102,11 @@ Made make_theirs(Engine& engine, const Scene& scene, const ReferenceOptions& opt
   return made;
 }
 
-Image to_image(const std::vector<Rgb>& radiance, const Film& film) {
-  Image image(film.width, film.height);
-  for (std::size_t i = 0; i < radiance.size(); ++i) {
-    image.values()[3 * i] = float(radiance[i].r);
-    image.values()[3 * i + 1] = float(radiance[i].g);
-    image.values()[3 * i + 2] = float(radiance[i].b);
-  }
-  return image;
+/// By the formulas in 50 digits.
+Made make_truth(const Scene& scene) {
+  ReferenceOptions how;
+  how.fine = true;
+  return make_theirs(*make_engine("analytic", {}), scene, how);
 }
 
 /// With the truth where two programs that are both right may differ by the whole of a pixel.
@@ -117,12 +115,6 @@ Image without_edges(Image image, const Image& truth, const std::vector<std::uint
     if (edges[i])
       for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) image.values()[c] = truth.values()[c];
   return image;
-}
-
-double peak_of(const Image& image) {
-  double peak = 0;
-  for (const float value : image.values()) peak = std::max(peak, double(value));
-  return peak;
 }
 
 /// All that can show the scene, which must outlive them; `table` is told why others cannot.
@@ -220,9 +212,7 @@ Table measure_scene(const NamedScene& named, const Options& options) {
   std::vector<Contender> all = contenders(scene, directory.path(), options, table);
 
   options.progress(named.name + ": the formulas in 50 digits");
-  Image truth;
-  const double truth_seconds = seconds_of(
-      [&] { truth = to_image(truth::evaluate(scene, truth::Digits::kFifty), scene.film); });
+  const Made truth = make_truth(scene);
   const std::vector<std::uint8_t> edges = truth::edge_ring(scene);
   const int rounds = options.rounds(1, 5, 11);
   for (int round = 0; round < rounds; ++round)
@@ -236,8 +226,9 @@ Table measure_scene(const NamedScene& named, const Options& options) {
     }
 
   ComparisonOptions seen;
-  if (const double peak = peak_of(truth); peak > 0) seen.viewing.exposure_stops = -std::log2(peak);
-  for (Contender& one : all) table.ways.push_back(way_of(one, truth, edges, seen));
+  if (const double peak = peak_value(truth.image); peak > 0)
+    seen.viewing.exposure_stops = -std::log2(peak);
+  for (Contender& one : all) table.ways.push_back(way_of(one, truth.image, edges, seen));
   if (!(table.ways[0].errors[0] <= kMostError))
     throw Error(ExitCode::kInternal,
                 fmt::format("engine: our picture of {} is off by {:.2g} of the peak", named.name,
@@ -247,7 +238,7 @@ Table measure_scene(const NamedScene& named, const Options& options) {
       "times are of whole processes, all of an engine's passes included; errors are to the formulas in 50 "
       "digits, which took {}, rounded to float32 as all pictures are (6e-8 of a value), seen with the peak as white, without the {} pixels at edges where a rounding "
       "decides",
-      seconds_text(truth_seconds), std::count(edges.begin(), edges.end(), 1)));
+      seconds_text(truth.seconds), std::count(edges.begin(), edges.end(), 1)));
   return table;
 }
 
