@@ -13,6 +13,7 @@
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/timing.hpp"
 #include "cost/accuracy.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_error.hpp"
@@ -42,21 +43,30 @@ void require_png(const std::filesystem::path& png, const std::filesystem::path& 
   require_writable(png);
 }
 
+/// What a command took besides its picture, seconds. Packing rows is a part of rendering, in time too but
+/// where a picture is so large that others are rendered meanwhile.
+struct Stages {
+  double read = 0, pack = 0, write = 0;
+};
+
 /// Rows are packed and written while the next ones are rendered. A picture for the eye too, or one whose
 /// accuracy is measured, is kept whole.
-RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
-                              const Options& options) {
+RenderResult render_and_write(const Scene& scene, const RenderOptions& how, const Options& options,
+                              Stages& stages) {
   const bool checked = !options.accuracy.empty() && options.accuracy_check != "none";
   if (!options.png.empty() || checked) {
     RenderResult result = render(scene, how);
-    write_exr(options.output, result.image, render_metadata(scene));
-    if (!options.png.empty()) write_png(options.png, to_display(result.image, options.exposure));
+    stages.write = seconds_of([&] {
+      write_exr(options.output, result.image, render_metadata(scene));
+      if (!options.png.empty()) write_png(options.png, to_display(result.image, options.exposure));
+    });
     return result;
   }
   ExrWriter writer(options.output, scene.film.width, scene.film.height, render_metadata(scene));
-  RenderResult result = render(
-      scene, how, [&](int y, int rows, const float* rgb) { writer.write_rows(y, rows, rgb); });
-  writer.finish();
+  RenderResult result = render(scene, how, [&](int y, int rows, const float* rgb) {
+    stages.pack += seconds_of([&] { writer.write_rows(y, rows, rgb); });
+  });
+  stages.write = seconds_of([&] { writer.finish(); });
   return result;
 }
 
@@ -80,8 +90,12 @@ ExitCode settle(const Scene& scene, const cost::Choice& choice, const Image& pic
 }
 
 void run(const Options& options, ExitCode& code) {
-  Scene scene = read_scene(options.scene);
-  options.overrides.apply(scene);
+  Stages stages;
+  Scene scene;
+  stages.read = seconds_of([&] {
+    scene = read_scene(options.scene);
+    options.overrides.apply(scene);
+  });
   const auto record_path = checked_record_path(options.output);
 
   if (!options.png.empty()) require_png(options.png, options.output, record_path);
@@ -109,7 +123,7 @@ void run(const Options& options, ExitCode& code) {
   const std::optional<cost::Choice> choice = choice_of(scene, options);
   if (choice) choice->apply(render_options);
   const Scene& rendered = choice ? choice->scene : scene;
-  RenderResult result = render_and_write(rendered, render_options, options);
+  RenderResult result = render_and_write(rendered, render_options, options, stages);
   if (choice && choice->samples)
     result.stop_reason =
         fmt::format("after {} samples a pixel: what --accuracy chose", result.samples);
@@ -122,6 +136,9 @@ void run(const Options& options, ExitCode& code) {
 
   const std::filesystem::path output(options.output);
   Json record = render_record(rendered, result, command_line(), output.filename().string());
+  record["seconds"]["read"] = stages.read;
+  record["seconds"]["pack"] = stages.pack;
+  record["seconds"]["write"] = stages.write;
   if (choice) code = settle(scene, *choice, result.image, options, record);
   write_record(record_path, record);
   if (!options.quiet)

@@ -3,6 +3,9 @@
 #include "cost/level_fixed_point.hpp"
 #include "cost/level_lobe.hpp"
 #include "cost/level_picture.hpp"
+#include "cost/effects_level.hpp"
+#include "cost/engine_level.hpp"
+#include "cost/transport_level.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -11,6 +14,12 @@ constexpr Level kLevels[] = {
     {"lobe", "every lobe and every way of computing it", false, &measure_lobes},
     {"fixed-point", "lobes as circuits, by their number of bits", false, &measure_fixed_point},
     {"picture", "milliseconds a megapixel over the errors of the picture", true, &measure_pictures},
+    {"transport",
+     "light transport: error over samples and time, with and without importance sampling", false,
+     &measure_transport},
+    {"engine", "whole programs on the same picture: ours, POV-Ray, Cycles", true, &measure_engines},
+    {"effects", "each effect of light: what it costs, and what the picture loses without it", false,
+     &measure_effects},
 };
 
 }  // namespace

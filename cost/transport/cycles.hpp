@@ -9,7 +9,7 @@
 #include "core/image.hpp"
 #include "renderer/scene/scene.hpp"
 
-namespace lobelia::bench {
+namespace lobelia::cost {
 
 struct CyclesPicture {
   int width = 0, height = 0, samples = 1;
@@ -23,4 +23,4 @@ struct CyclesPicture {
 double run_cycles(const std::filesystem::path& program, const Scene& scene,
                   const std::filesystem::path& directory, std::vector<CyclesPicture>& pictures);
 
-}  // namespace lobelia::bench
+}  // namespace lobelia::cost

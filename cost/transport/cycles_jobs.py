@@ -2,7 +2,8 @@
 
     blender -b --factory-startup -noaudio --python cycles_jobs.py -- job.json
 
-All vectors are in Blender's axes, +z up. Direct light only. What happens is told in lines
+All vectors are in Blender's axes, +z up. Light goes from surface to surface as often as the job's
+"bounces" say; 0 is direct light only. What happens is told in lines
 
     lobelia: begin NAME
     lobelia: done NAME SECONDS      of the call, with the hand-over of the scene and the file
@@ -17,7 +18,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 
-def empty_scene(threads):
+def empty_scene(threads, bounces):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
@@ -25,7 +26,8 @@ def empty_scene(threads):
     cycles.device = "CPU"
     cycles.pixel_filter_type = "BOX"
     cycles.filter_width = 1
-    cycles.max_bounces = 0  # direct light only
+    cycles.max_bounces = cycles.diffuse_bounces = bounces
+    cycles.min_light_bounces = bounces  # no path ends by chance
     # On by default, and not the estimate that was asked for: see render_scenes.py.
     cycles.use_adaptive_sampling = False
     cycles.use_denoising = False
@@ -148,7 +150,7 @@ def main():
     job_file = os.path.abspath(sys.argv[sys.argv.index("--") + 1])
     with open(job_file, encoding="utf-8") as file:
         job = json.load(file)
-    scene = empty_scene(job["threads"])
+    scene = empty_scene(job["threads"], job["bounces"])
     add_camera(scene, job["camera"])
     add_sphere(scene, job["sphere"])
     add_floor(scene, job["floor"])

@@ -1,18 +1,11 @@
-#include "bench/light/measure.hpp"
+#include "cost/transport/measure.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "core/error.hpp"
 
-namespace lobelia::bench {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
+namespace lobelia::cost {
 
 double rms(const Image& image) {
   double sum = 0;
@@ -47,17 +40,6 @@ Image mean_of(const Image& a, const Image& b) {
   return result;
 }
 
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-  double mx = 0, my = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / double(x.size());
-  for (std::size_t i = 0; i < y.size(); ++i) my += y[i] / double(y.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mx) * (x[i] - mx);
-    xy += (x[i] - mx) * (y[i] - my);
-  }
-  return xy / xx;
-}
-
 Timed render_timed(Scene scene, int samples, std::uint64_t seed, RenderOptions options) {
   scene.sampler = {samples, seed};
   Timed timed;
@@ -67,6 +49,4 @@ Timed render_timed(Scene scene, int samples, std::uint64_t seed, RenderOptions o
   return timed;
 }
 
-int processors() { return int(std::max(1u, std::thread::hardware_concurrency())); }
-
-}  // namespace lobelia::bench
+}  // namespace lobelia::cost

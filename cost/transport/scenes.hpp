@@ -1,4 +1,4 @@
-// The scenes that the benchmarks of light transport share.
+// Scenes whose light comes from areas, which Cycles shows as well (cost/transport/cycles.hpp).
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 #include "renderer/scene/scene.hpp"
 
-namespace lobelia::bench {
+namespace lobelia::cost {
 
 /// A matt sphere that stands on a matt plane, seen from above so that the plane fills the picture. No
 /// light yet.
@@ -16,9 +16,8 @@ Scene below_rectangle(int side);
 /// The same below a sky with a small sun, an image of 1024 x 512 that is written to `directory`.
 Scene below_sky(int side, const std::filesystem::path& directory);
 
-/// 10^decade spheres in a regular lattice that is jittered, all in the same cube: so small that a ray
-/// through it meets as many on the average, whatever their number.
-inline constexpr int kDecades = 6;
-Scene crowd(int decade, int side);
+/// Light goes so many times from surface to surface.
+inline constexpr int kBounces = 3;
+Scene with_inter_reflection(Scene scene);
 
-}  // namespace lobelia::bench
+}  // namespace lobelia::cost

@@ -1,4 +1,4 @@
-#include "bench/light/cycles.hpp"
+#include "cost/transport/cycles.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace lobelia {
 namespace embedded {
 extern const std::string_view cycles_jobs_py;
 }
-namespace bench {
+namespace cost {
 namespace {
 
 /// From our axes to Blender's, so that its pole, +z, is our +y, and its middle column of a sky, +x, is our
@@ -45,6 +45,7 @@ Json job_json(const Scene& scene, const std::filesystem::path& directory,
   };
   Json job = {
       {"threads", std::max(1u, std::thread::hardware_concurrency())},
+      {"bounces", scene.depth.glossy},
       {"camera",
        {{"origin", in_blender(frame.origin)},
         {"right", in_blender(frame.right)},
@@ -97,5 +98,5 @@ double run_cycles(const std::filesystem::path& program, const Scene& scene,
   return ended.seconds;
 }
 
-}  // namespace bench
+}  // namespace cost
 }  // namespace lobelia

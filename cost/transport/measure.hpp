@@ -1,14 +1,12 @@
-// What the benchmarks of light transport measure with.
+// What light transport is measured with.
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
 #include "core/image.hpp"
 #include "renderer/render.hpp"
 
-namespace lobelia::bench {
-
-double median(std::vector<double> values);
+namespace lobelia::cost {
 
 /// Root mean square over all values, and of a difference.
 double rms(const Image& image);
@@ -21,9 +19,6 @@ void require_picture(const Image& image, const char* what);
 /// Half of each.
 Image mean_of(const Image& a, const Image& b);
 
-/// Slope of a line by least squares.
-double slope(const std::vector<double>& x, const std::vector<double>& y);
-
 /// Plan and picture in seconds; the picture is checked.
 struct Timed {
   double seconds = 0;
@@ -31,6 +26,4 @@ struct Timed {
 };
 Timed render_timed(Scene scene, int samples, std::uint64_t seed, RenderOptions options = {});
 
-int processors();
-
-}  // namespace lobelia::bench
+}  // namespace lobelia::cost
