@@ -1,5 +1,6 @@
 // The price of each effect: a picture with everything that its scene calls for, and without one effect at a
 // time.
+#include "core/error_time_chart.hpp"
 #include "cost/effects_level.hpp"
 
 #include <fmt/format.h>
@@ -93,7 +94,7 @@ std::string price(const Way& way, const Way& all, const Case& one, const Case& w
   const double saved = 1 - way.time.median / all.time.median;
   std::string time =
       saved >= 0 ? fmt::format("{} takes {:.0f} % of the time ({})", one.effect, 100 * saved,
-                               seconds_text(all.time.median - way.time.median))
+                               short_time_text(all.time.median - way.time.median))
                  : fmt::format("without {} it takes {:.0f} % longer", one.effect, -100 * saved);
   if (clearly_slower(way, all) == 0) time += ", which is within the spread";
   const double rays_saved = double(rays(whole.result.work)) - double(rays(one.result.work));

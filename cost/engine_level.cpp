@@ -1,5 +1,6 @@
 // Whole programs on the same picture: ours, POV-Ray, Cycles and the formulas in double, against the formulas in
 // 50 digits.
+#include "core/error_time_chart.hpp"
 #include "cost/engine_level.hpp"
 
 #include <fmt/format.h>
@@ -179,13 +180,13 @@ std::string stages_text(const Way& way) {
   for (const char* stage : kStages)
     if (stages.contains(stage)) {
       const double seconds = stages[stage].get<double>();
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", stage, seconds_text(seconds));
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", stage, short_time_text(seconds));
       told += seconds;
     }
   if (text.empty())
-    return fmt::format("{}: {}, not told apart", way.name, seconds_text(way.time.median));
+    return fmt::format("{}: {}, not told apart", way.name, short_time_text(way.time.median));
   const double rest = way.time.median - told;
-  if (rest > 0.02 * way.time.median) text += fmt::format(", all else {}", seconds_text(rest));
+  if (rest > 0.02 * way.time.median) text += fmt::format(", all else {}", short_time_text(rest));
   return fmt::format("{}: {}", way.name, text);
 }
 
@@ -238,7 +239,7 @@ Table measure_scene(const NamedScene& named, const Options& options) {
       "times are of whole processes, all of an engine's passes included; errors are to the formulas in 50 "
       "digits, which took {}, rounded to float32 as all pictures are (6e-8 of a value), seen with the peak as white, without the {} pixels at edges where a rounding "
       "decides",
-      seconds_text(truth.seconds), std::count(edges.begin(), edges.end(), 1)));
+      short_time_text(truth.seconds), std::count(edges.begin(), edges.end(), 1)));
   return table;
 }
 

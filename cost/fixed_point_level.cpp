@@ -1,4 +1,4 @@
-#include "cost/level_fixed_point.hpp"
+#include "cost/fixed_point_level.hpp"
 
 #include <fmt/format.h>
 

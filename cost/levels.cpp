@@ -1,10 +1,10 @@
 #include "cost/levels.hpp"
 
-#include "cost/level_fixed_point.hpp"
-#include "cost/level_lobe.hpp"
-#include "cost/level_picture.hpp"
 #include "cost/effects_level.hpp"
 #include "cost/engine_level.hpp"
+#include "cost/fixed_point_level.hpp"
+#include "cost/lobe_level.hpp"
+#include "cost/picture_level.hpp"
 #include "cost/transport_level.hpp"
 
 namespace lobelia::cost {

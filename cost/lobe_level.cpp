@@ -1,4 +1,4 @@
-#include "cost/level_lobe.hpp"
+#include "cost/lobe_level.hpp"
 #include "core/error_time_chart.hpp"
 
 #include <fmt/format.h>

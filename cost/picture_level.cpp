@@ -2,7 +2,7 @@
 //
 // Lobes stand in for the scene's own, each with the coefficient that makes its energy exact; the error is that
 // of the picture, so of lobe, precision and, where something is random, of noise together.
-#include "cost/level_picture.hpp"
+#include "cost/picture_level.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // Light that comes from areas and by other surfaces: error over samples and over time, with importance
 // sampling and without, by us and by Cycles.
+#include "core/error_time_chart.hpp"
 #include "cost/transport_level.hpp"
 
 #include <fmt/format.h>
@@ -153,7 +154,7 @@ std::string time_text(const TimeTo& time) {
   const char* said = time.reach == TimeTo::Reach::kAtOnce   ? " (4 samples are better)"
                      : time.reach == TimeTo::Reach::kBeyond ? " (extrapolated)"
                                                             : "";
-  return seconds_text(time.seconds) + said;
+  return short_time_text(time.seconds) + said;
 }
 
 /// The ways of a series, and what they say together.

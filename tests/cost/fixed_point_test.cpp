@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "cost/level_fixed_point.hpp"
+#include "cost/fixed_point_level.hpp"
 #include "cost/lobe_errors.hpp"
 
 namespace lobelia::cost {

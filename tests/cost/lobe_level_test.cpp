@@ -1,4 +1,4 @@
-#include "cost/level_lobe.hpp"
+#include "cost/lobe_level.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "cost/level_picture.hpp"
+#include "cost/picture_level.hpp"
 #include "cost/lobe_candidates.hpp"
 #include "cost/picture_truth.hpp"
 #include "renderer/render.hpp"
