@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "compare/display_light.hpp"
@@ -13,14 +12,12 @@
 #include "compare/metrics/peak.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "cost/lobe_candidates.hpp"
 #include "cost/lobe_error.hpp"
 #include "cost/picture_truth.hpp"
 #include "cost/pixel_subset.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/plan/plan.hpp"
-#include "verify/truth/evaluation.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -157,26 +154,6 @@ class Look {
   Image truth_;
 };
 
-/// Over the pixels that are not edges.
-double max_of_peak(const Image& picture, const Image& truth,
-                   const std::vector<std::uint8_t>& edges) {
-  const auto a = picture.values(), b = truth.values();
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (edges.empty() || !edges[i / 3])
-      most = std::max(most, std::abs(double(a[i]) - double(b[i])));
-  return most == 0 ? 0 : most / peak_value(truth);
-}
-
-std::string asked_text(const Accuracy& asked) {
-  return asked.unit == Accuracy::Unit::kCiede2000 ? fmt::format("de2000={:g}", asked.value)
-                                                  : fmt::format("{:g}", asked.value);
-}
-
-std::string lobe_text(const std::optional<LobeId>& lobe) {
-  return lobe ? std::string(info(*lobe).name) : "each highlight's own lobe";
-}
-
 /// Fills in what a way makes of a choice.
 Choice chosen(Choice choice, const Scene& scene, const Way& way, double predicted) {
   choice.scene = way.of(scene);
@@ -251,7 +228,7 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<Way>& w
         fmt::format(
             "--accuracy {}: cannot be reached with {} samples a pixel, where the noise alone "
             "comes to {:.2g}; the best possible is --accuracy {}{:.2g}",
-            asked_text(choice.asked), most_samples, best,
+            accuracy_text(choice.asked), most_samples, best,
             choice.asked.unit == Accuracy::Unit::kCiede2000 ? "de2000=" : "",
             std::ceil(best / std::pow(10, std::floor(std::log10(best)) - 1)) *
                 std::pow(10, std::floor(std::log10(best)) - 1)));
@@ -267,26 +244,6 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<Way>& w
 }
 
 }  // namespace
-
-Accuracy parse_accuracy(const std::string& text) {
-  constexpr std::string_view kCiede = "de2000=";
-  Accuracy accuracy;
-  std::string_view number = text;
-  double least = kMinAccuracyOfPeak, most = kMaxAccuracyOfPeak;
-  if (number.starts_with(kCiede)) {
-    accuracy.unit = Accuracy::Unit::kCiede2000;
-    number.remove_prefix(kCiede.size());
-    least = kMinAccuracyCiede2000, most = kMaxAccuracyCiede2000;
-  }
-  if (!parse_number(number, accuracy.value) || !(accuracy.value >= least) ||
-      !(accuracy.value <= most))
-    throw Error(ExitCode::kUsage,
-                fmt::format("--accuracy '{}': allowed is a share of the peak, {:g} to {:g}, or "
-                            "de2000=X, X being {:g} to {:g}",
-                            printable(text), kMinAccuracyOfPeak, kMaxAccuracyOfPeak,
-                            kMinAccuracyCiede2000, kMaxAccuracyCiede2000));
-  return accuracy;
-}
 
 void Choice::apply(RenderOptions& options) const {
   options.precision = precision;
@@ -308,77 +265,6 @@ Choice choose(const Scene& scene, const Accuracy& asked, int most_samples, const
   return noisy ? choose_noisy(std::move(choice), scene, ways,
                               std::clamp(most_samples, 1, kMostChosenSamples))
                : choose_quiet(std::move(choice), scene, ways);
-}
-
-Reached measure_reached(const Scene& scene, const Choice& choice, const Image& picture) {
-  // Four times the samples of what is judged: the truth's own noise is then the smaller part of what is seen.
-  const PictureTruth truth =
-      picture_truth(scene, choice.samples ? std::max(64, 4 * *choice.samples) : 1);
-  Reached reached{0, truth.how, truth.seconds};
-  switch (choice.measure) {
-    case Measure::kCiede2000P99:
-      reached.value = measure_at_peak("ciede2000.p99", picture, truth.image);
-      break;
-    case Measure::kRmsOfPeak:
-      reached.value = rms_of_peak(picture, truth.image);
-      break;
-    case Measure::kMaxOfPeak: {
-      // On an edge the formulas may see another surface: that is no error of a lobe or of its precision.
-      const bool formulas = truth::why_not_evaluated(scene).empty();
-      const auto edges = formulas ? truth::edge_ring(scene) : std::vector<std::uint8_t>();
-      reached.value = max_of_peak(picture, truth.image, edges);
-      if (formulas) reached.against += ", but for pixels on edges";
-    }
-  }
-  return reached;
-}
-
-std::string measure_text(Measure measure) {
-  switch (measure) {
-    case Measure::kCiede2000P99:
-      return "CIEDE2000 that 99 % of the pixels do not exceed";
-    case Measure::kRmsOfPeak:
-      return "root mean square of the errors, of the peak";
-    case Measure::kMaxOfPeak:
-      break;
-  }
-  return "largest error, of the peak";
-}
-
-Json accuracy_record(const Choice& choice, const std::optional<Reached>& reached) {
-  Json record{{"asked", choice.asked.value},
-              {"unit", choice.asked.unit == Accuracy::Unit::kCiede2000 ? "de2000" : "ofPeak"},
-              {"measure", measure_text(choice.measure)},
-              {"chose",
-               {{"lobe", choice.lobe ? Json(info(*choice.lobe).name) : Json()},
-                {"precision", name(choice.precision)},
-                {"samples", choice.samples.value_or(1)}}},
-              {"why", choice.why},
-              {"operations", {{"chosen", choice.cost}, {"ownInFloat64", choice.own_cost}}},
-              {"basis", choice.basis == Basis::kBound ? "bound" : "look"},
-              {"predicted", choice.predicted}};
-  if (reached)
-    record["reached"] = {{"value", reached->value},
-                         {"held", reached->held(choice)},
-                         {"against", reached->against},
-                         {"seconds", reached->seconds}};
-  return record;
-}
-
-std::string choice_text(const Choice& choice) {
-  return fmt::format(
-      "accuracy {}: {}, {}{}; {} predicted to be at most {:.2g}. {:g} operations a point, weighted, where the "
-      "scene's own lobe in float64 takes {:g}.\n  {}.\n",
-      asked_text(choice.asked), lobe_text(choice.lobe), name(choice.precision),
-      choice.samples ? fmt::format(", {} samples a pixel", *choice.samples) : std::string(),
-      measure_text(choice.measure), choice.predicted, choice.cost, choice.own_cost, choice.why);
-}
-
-std::string reached_text(const Choice& choice, const Reached& reached) {
-  return fmt::format("reached {:.3g}, {} asked, {}; against {} ({:.2f} s)\n", reached.value,
-                     asked_text(choice.asked),
-                     reached.held(choice) ? "so it holds" : "so it does NOT hold", reached.against,
-                     reached.seconds);
 }
 
 }  // namespace lobelia::cost

@@ -28,6 +28,7 @@ inline constexpr double kMinAccuracyCiede2000 = 1e-3, kMaxAccuracyCiede2000 = 10
 
 /// "1e-3", of the peak, or "de2000=1". Throws Error(kUsage) that says what is allowed.
 Accuracy parse_accuracy(const std::string& text);
+std::string accuracy_text(const Accuracy& accuracy);  ///< as parse_accuracy takes it
 
 /// Why a prediction holds.
 enum class Basis {
@@ -48,7 +49,7 @@ struct Choice {
   std::optional<int> samples;     ///< a pixel, where something is random
   double predicted = 0;           ///< what will not be exceeded
   double cost = 0, own_cost = 0;  ///< shading_cost of it, and of the scene's own lobe in float64
-  int others = 0;                 ///< ways that were looked at and would do, or not
+  int others = 0;                 ///< cheaper ways that would not do
   std::string why;                ///< a sentence
 
   /// How to render `scene`, on top of what else was asked for.

@@ -94,6 +94,14 @@ TEST(Accuracy, IsReachedByAPictureOfWhichOnlySomePixelsAreLookedAt) {
   hold(s, {"de2000=5", "de2000=1"});
 }
 
+TEST(Accuracy, IsReachedInMirrorsByABoundThatCountsThem) {
+  Scene s = scene("effects/mirrors");
+  s.sampler.sample_count = 1;
+  EXPECT_EQ(choose(s, parse_accuracy("1e-3")).basis, Basis::kBound);
+  hold(s, {"0.5", "1e-1", "1e-2", "1e-4"});
+  hold(s, {"de2000=5", "de2000=1"});
+}
+
 TEST(Accuracy, IsReachedInNoiseToo) {
   for (const char* name : {"effects/area_light", "effects/mirrors"})
     for (const char* text : {"0.03", "de2000=4"}) {

@@ -42,6 +42,9 @@ TEST(PictureLevel, HasAWayForEachLobeAndPrecisionHeldAgainstTheFormulas) {
     EXPECT_GT(way.facts["rays"]["camera"], 0);
     EXPECT_GT(way.time.median, 0);
   }
+  EXPECT_THAT(table.remarks.back(), HasSubstr("--accuracy goes by"));
+  EXPECT_LT(find(table, "cs16, float32").facts["predictedCost"],
+            find(table, "cosine, float32").facts["predictedCost"]);
   // cs64 is cos^64; the formulas and our float64 differ by roundings at most.
   for (const char* same : {"cosine, float64", "cs64, float64"}) {
     EXPECT_LE(find(table, same).errors[2], 2e-7);

@@ -18,7 +18,7 @@ Scene scene(int side) {
 
 TEST(PixelSubset, IsOfThePicturesOwnPixels) {
   Scene s = scene(301);
-  s.film.height = 210;
+  s.film.height = 213;
   s.camera.principal_point_offset_x = 0.1;
   s.camera.principal_point_offset_y = -0.05;
   const Scene subset = pixel_subset(s, 64);
