@@ -90,7 +90,8 @@ void add_cost(CLI::App& app, ExitCode&) {
   command->add_option("--level", options->levels, "Measure this level alone; may be given again")
       ->check(CLI::IsMember(names))
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);  // what comes after it may be a SCENE
   auto* quick = command->add_flag("--quick", options->quick, "A look: fewer rounds, smaller grids");
   command->add_flag("--thorough", options->thorough, "More rounds and samples: up to an hour")
       ->excludes(quick);

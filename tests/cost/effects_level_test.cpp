@@ -3,11 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <set>
+#include <algorithm>
 
 #include "cost/effects/everything.hpp"
 #include "cost/effects/without.hpp"
+#include "cost/transport/measure.hpp"
+#include "cost/transport/scenes.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
 #include "renderer/render.hpp"
 
@@ -98,6 +99,21 @@ TEST(LeavingOutShadows, MakesNoPixelDarkerWhereLightIsDirect) {
   }
   EXPECT_GT(more, 1);
   EXPECT_LT(less, 1e-3 * more);
+}
+
+TEST(LeavingOutShadows, LeavesTheAlbedoBelowAnEvenSkyWhicheverWayItsDirectionsAreDrawn) {
+  Scene scene = sphere_on_plane(24);
+  scene.lights = {EnvironmentLight{{1, 1, 1}, nullptr, ""}};
+  const auto least = [](const Image& image) { return *std::ranges::min_element(image.values()); };
+  EXPECT_LT(least(render(scene, {}).image), 0.4) << "the sphere's shadow";
+  const Image lit = picture(without("shadows", scene)).image;
+  for (const float value : lit.values())
+    EXPECT_NEAR(value, value < 0.65 ? 0.5 : 0.8, 1e-5) << "floor or ball";
+  EXPECT_GT(*std::ranges::max_element(lit.values()), 0.7);
+  RenderOptions by_light;
+  by_light.experiment = {Experiment::Directions::kLight, false};
+  scene.sampler.sample_count = 256;
+  EXPECT_NEAR(mean(render(scene, by_light).image) / mean(lit), 1, 0.01);
 }
 
 TEST(PointsOfTheSamePower, LightAFarSurfaceAsTheLampsDo) {
