@@ -1,7 +1,7 @@
 // The price of each effect: a picture with everything that its scene calls for, and without one effect at a
 // time.
-#include "core/error_time_chart.hpp"
 #include "cost/effects_level.hpp"
+#include "core/error_time_chart.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Whole programs on the same picture: ours, POV-Ray, Cycles and the formulas in double, against the formulas in
 // 50 digits.
-#include "core/error_time_chart.hpp"
 #include "cost/engine_level.hpp"
+#include "core/error_time_chart.hpp"
 
 #include <fmt/format.h>
 

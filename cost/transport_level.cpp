@@ -1,7 +1,7 @@
 // Light that comes from areas and by other surfaces: error over samples and over time, with importance
 // sampling and without, by us and by Cycles.
-#include "core/error_time_chart.hpp"
 #include "cost/transport_level.hpp"
+#include "core/error_time_chart.hpp"
 
 #include <fmt/format.h>
 

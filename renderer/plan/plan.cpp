@@ -185,9 +185,8 @@ std::vector<double> min_half_lengths(const Scene& scene) {
       scene.camera.aperture_radius > 0 || scene.depth.mirror > 0 || scene.depth.glossy > 0;
   for (const Light& light : scene.lights)
     for (const Sphere& sphere : scene.spheres)
-      bound(sphere.material, any_direction || !is_delta(light)
-                                 ? 0
-                                 : min_half_length(scene, light, sphere));
+      bound(sphere.material,
+            any_direction || !is_delta(light) ? 0 : min_half_length(scene, light, sphere));
   for (const Plane& plane : scene.planes) {
     bound(plane.material, 0);
     bound(plane.checker_material, 0);

@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "cost/picture_level.hpp"
 #include "cost/lobe_candidates.hpp"
+#include "cost/picture_level.hpp"
 #include "cost/picture_truth.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
