@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/timing.hpp"
+#include "core/timing.hpp"
 
 namespace lobelia::bench {
 

@@ -4,13 +4,15 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "bench/lobe_lanes.hpp"
 #include "bench/sections.hpp"
-#include "bench/timing.hpp"
+#include "core/timing.hpp"
+#include "cost/lobe_lanes.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia::bench {
 namespace {
+
+using cost::lobe_lanes;
 
 constexpr double kExponent = 128;
 constexpr std::size_t kPoints = 1024;  // in the first-level cache

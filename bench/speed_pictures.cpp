@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "bench/sections.hpp"
-#include "bench/timing.hpp"
 #include "core/threads.hpp"
+#include "core/timing.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"

@@ -2,10 +2,10 @@
 
 #include "bench/child.hpp"
 #include "bench/sections.hpp"
-#include "bench/timing.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/timing.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 

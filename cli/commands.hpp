@@ -19,6 +19,7 @@ void add_engines(CLI::App& app, ExitCode& exit_code);
 void add_reference(CLI::App& app, ExitCode& exit_code);
 void add_compare(CLI::App& app, ExitCode& exit_code);
 void add_profile(CLI::App& app, ExitCode& exit_code);
+void add_cost(CLI::App& app, ExitCode& exit_code);
 void add_farm(CLI::App& app, ExitCode& exit_code);
 void add_gallery(CLI::App& app, ExitCode& exit_code);
 void add_verify(CLI::App& app, ExitCode& exit_code);

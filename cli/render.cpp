@@ -13,6 +13,8 @@
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/timing.hpp"
+#include "cost/accuracy.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_error.hpp"
 #include "renderer/render_record.hpp"
@@ -28,6 +30,7 @@ struct Options {
   int threads = 0;
   std::optional<double> target_error, time_limit;
   std::optional<int> max_samples;
+  std::string accuracy, accuracy_check = "truth";
   bool quiet = false;
   SceneOverrides overrides;
 };
@@ -40,25 +43,59 @@ void require_png(const std::filesystem::path& png, const std::filesystem::path& 
   require_writable(png);
 }
 
-/// Rows are packed and written while the next ones are rendered. A picture for the eye too is kept whole.
-RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
-                              const Options& options) {
-  if (!options.png.empty()) {
+/// What a command took besides its picture, seconds. Packing rows is a part of rendering, in time too but
+/// where a picture is so large that others are rendered meanwhile.
+struct Stages {
+  double read = 0, pack = 0, write = 0;
+};
+
+/// Rows are packed and written while the next ones are rendered. A picture for the eye too, or one whose
+/// accuracy is measured, is kept whole.
+RenderResult render_and_write(const Scene& scene, const RenderOptions& how, const Options& options,
+                              Stages& stages) {
+  const bool checked = !options.accuracy.empty() && options.accuracy_check != "none";
+  if (!options.png.empty() || checked) {
     RenderResult result = render(scene, how);
-    write_exr(options.output, result.image, render_metadata(scene));
-    write_png(options.png, to_display(result.image, options.exposure));
+    stages.write = seconds_of([&] {
+      write_exr(options.output, result.image, render_metadata(scene));
+      if (!options.png.empty()) write_png(options.png, to_display(result.image, options.exposure));
+    });
     return result;
   }
   ExrWriter writer(options.output, scene.film.width, scene.film.height, render_metadata(scene));
-  RenderResult result = render(
-      scene, how, [&](int y, int rows, const float* rgb) { writer.write_rows(y, rows, rgb); });
-  writer.finish();
+  RenderResult result = render(scene, how, [&](int y, int rows, const float* rgb) {
+    stages.pack += seconds_of([&] { writer.write_rows(y, rows, rgb); });
+  });
+  stages.write = seconds_of([&] { writer.finish(); });
   return result;
 }
 
-void run(const Options& options) {
-  Scene scene = read_scene(options.scene);
-  options.overrides.apply(scene);
+/// The cheapest way to the accuracy that was asked for.
+std::optional<cost::Choice> choice_of(const Scene& scene, const Options& options) {
+  if (options.accuracy.empty()) return std::nullopt;
+  const cost::Accuracy asked = cost::parse_accuracy(options.accuracy);
+  return cost::choose(scene, asked, options.max_samples.value_or(cost::kMostChosenSamples));
+}
+
+/// Says what was reached, where that was measured, and puts it into the record.
+ExitCode settle(const Scene& scene, const cost::Choice& choice, const Image& picture,
+                const Options& options, Json& record) {
+  std::optional<cost::Reached> reached;
+  if (options.accuracy_check != "none") reached = cost::measure_reached(scene, choice, picture);
+  record["accuracy"] = cost::accuracy_record(choice, reached);
+  if (!options.quiet)
+    fmt::print(stderr, "{}{}", cost::choice_text(choice),
+               reached ? cost::reached_text(choice, *reached) : "");
+  return !reached || reached->held(choice) ? ExitCode::kSuccess : ExitCode::kDiffers;
+}
+
+void run(const Options& options, ExitCode& code) {
+  Stages stages;
+  Scene scene;
+  stages.read = seconds_of([&] {
+    scene = read_scene(options.scene);
+    options.overrides.apply(scene);
+  });
   const auto record_path = checked_record_path(options.output);
 
   if (!options.png.empty()) require_png(options.png, options.output, record_path);
@@ -82,17 +119,28 @@ void run(const Options& options) {
   render_options.time_limit = options.time_limit;
   render_options.max_samples = options.max_samples;
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
-  const RenderResult result = render_and_write(scene, render_options, options);
+  if (!options.accuracy.empty()) progress.show(0, "choosing");
+  const std::optional<cost::Choice> choice = choice_of(scene, options);
+  if (choice) choice->apply(render_options);
+  const Scene& rendered = choice ? choice->scene : scene;
+  RenderResult result = render_and_write(rendered, render_options, options, stages);
+  if (choice && choice->samples)
+    result.stop_reason =
+        fmt::format("after {} samples a pixel: what --accuracy chose", result.samples);
   if (!options.standard_error.empty()) {
     render_options.on_progress = [&](double fraction) { progress.show(fraction, "its error"); };
-    write_exr(options.standard_error, standard_error_of_render(scene, render_options),
-              render_metadata(scene));
+    write_exr(options.standard_error, standard_error_of_render(rendered, render_options),
+              render_metadata(rendered));
   }
   progress.clear();
 
   const std::filesystem::path output(options.output);
-  write_record(record_path,
-               render_record(scene, result, command_line(), output.filename().string()));
+  Json record = render_record(rendered, result, command_line(), output.filename().string());
+  record["seconds"]["read"] = stages.read;
+  record["seconds"]["pack"] = stages.pack;
+  record["seconds"]["write"] = stages.write;
+  if (choice) code = settle(scene, *choice, result.image, options, record);
+  write_record(record_path, record);
   if (!options.quiet)
     fmt::print(stderr, "{}: {} x {}, {:.3f} s, {}{}{}{}\n", options.output, scene.film.width,
                scene.film.height, result.render_seconds, result.instruction_set,
@@ -102,7 +150,7 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_render(CLI::App& app, ExitCode&) {
+void add_render(CLI::App& app, ExitCode& code) {
   auto* command = app.add_subcommand("render", "Render a scene to a linear float32 EXR");
   auto options = std::make_shared<Options>();
   command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
@@ -124,20 +172,24 @@ void add_render(CLI::App& app, ExitCode&) {
                    "Simulate effects as the scene calls for them, or all")
       ->check(CLI::IsMember({"as-called-for", "all"}))
       ->capture_default_str();
-  command
-      ->add_option("--precision", options->precision,
-                   "Shade with the narrowest precision whose error bound allows it (sufficient), "
-                   "or with this one")
-      ->check(CLI::IsMember({"sufficient", "float32", "mixed", "float64"}))
-      ->capture_default_str();
-  command
-      ->add_option("--target-error", options->target_error,
-                   "Take samples until the picture's estimated relative error is this small")
-      ->check(between(1e-9, 1.0));
-  command
-      ->add_option("--time-limit", options->time_limit,
-                   "Take no more samples once rendering would take longer, seconds")
-      ->check(between(1e-3, 1e7));
+  auto* precision =
+      command
+          ->add_option(
+              "--precision", options->precision,
+              "Shade with the narrowest precision whose error bound allows it (sufficient), "
+              "or with this one")
+          ->check(CLI::IsMember({"sufficient", "float32", "mixed", "float64"}))
+          ->capture_default_str();
+  auto* target_error =
+      command
+          ->add_option("--target-error", options->target_error,
+                       "Take samples until the picture's estimated relative error is this small")
+          ->check(between(1e-9, 1.0));
+  auto* time_limit =
+      command
+          ->add_option("--time-limit", options->time_limit,
+                       "Take no more samples once rendering would take longer, seconds")
+          ->check(between(1e-3, 1e7));
   command
       ->add_option(
           "--standard-error", options->standard_error,
@@ -147,16 +199,34 @@ void add_render(CLI::App& app, ExitCode&) {
       ->type_name("ERROR.exr");
   command->add_option("--max-samples", options->max_samples, "Take at most so many rays a pixel")
       ->check(between(1, 1 << 20));
+  auto* accuracy =
+      command
+          ->add_option(
+              "--accuracy", options->accuracy,
+              "Choose the cheapest lobe, precision and number of samples for this largest error of "
+              "the peak, 1e-3, or this CIEDE2000 of 99 % of the pixels, de2000=1 (docs/cost.md)")
+          ->type_name("X|de2000=X")
+          ->excludes(precision)
+          ->excludes(target_error)
+          ->excludes(time_limit);
+  command
+      ->add_option("--accuracy-check", options->accuracy_check,
+                   "Measure afterwards what --accuracy reached against the truth, or none")
+      ->check(CLI::IsMember({"truth", "none"}))
+      ->needs(accuracy)
+      ->capture_default_str();
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
       "One ray at each pixel's centre unless --samples says otherwise. The same scene gives\n"
       "the same file, byte for byte, whatever the number of threads; times are in the record.\n"
       "With --target-error or --time-limit a pixel takes 1, 2, 4, ... samples until one of the\n"
-      "limits is reached; the record says which.\n\n"
+      "limits is reached; the record says which.\n"
+      "With --accuracy the record and stderr say what was chosen, why, what was predicted, and what\n"
+      "was reached; exit code 1 if that is not what was asked, 3 if nothing can reach it.\n\n"
       "Example: lobelia render reference_scenes/scenes/head_on.xml --model modified_phong "
       "--exponent 128 -o out.exr");
-  command->callback([options] { run(*options); });
+  command->callback([options, &code] { run(*options, code); });
 }
 
 }  // namespace lobelia::cli

@@ -21,6 +21,7 @@ namespace {
 constexpr double kLeft = 78, kRight = 12, kTop = 34, kBottom = 50;
 constexpr double kTitle = 36, kMargin = 16;  // of a chart alone: above, and on the right
 constexpr double kCharacter = 7.2;           // typical width at the size that the styles set
+constexpr double kNameCharacter = 6.3;       // the same of a point's name
 
 struct LineStyle {
   std::string_view dashes;
@@ -192,7 +193,68 @@ class Drawing {
     return path;
   }
 
+  /// Circle, diamond, square: shapes tell the styles apart without colour.
+  void draw_marker(const ChartSeries& series, double x, double y) {
+    constexpr double kRadius = 4.5;
+    const std::string name = fmt::format("marker marker-{}", series.style);
+    if (series.style % 3 == 1) {
+      html_.empty("circle",
+                  {{"class", name}, {"cx", number(x)}, {"cy", number(y)}, {"r", number(kRadius)}});
+      return;
+    }
+    html_.empty("rect",
+                {{"class", name},
+                 {"x", number(x - kRadius)},
+                 {"y", number(y - kRadius)},
+                 {"width", number(2 * kRadius)},
+                 {"height", number(2 * kRadius)},
+                 {"transform", fmt::format("rotate({} {} {})", series.style % 3 == 2 ? 45 : 0,
+                                           number(x), number(y))}});
+  }
+
+  void draw_markers(const ChartSeries& series) {
+    const auto value = [](const std::vector<double>& values, std::size_t i) {
+      return i < values.size() && std::isfinite(values[i]) ? values[i] : 0;
+    };
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
+      const double x = series.x[i], y = series.y[i];
+      if (!is_shown(x, y)) continue;
+      const Tag group(html_, "g", {{"class", "point"}});
+      if (i < series.point_labels.size()) html_.element("title", series.point_labels[i]);
+      const std::string name = fmt::format("error-bar marker-{}", series.style);
+      if (const double half = value(series.x_error, i); half > 0)
+        line(name.c_str(), at_x(std::max(x - half, chart_.x.from)), at_y(y), at_x(x + half),
+             at_y(y));
+      if (const double half = value(series.y_error, i); half > 0)
+        line(name.c_str(), at_x(x), at_y(std::max(y - half, chart_.y.from)), at_x(x),
+             at_y(y + half));
+      draw_marker(series, at_x(x), at_y(y));
+      if (i < series.point_names.size()) draw_name(series.point_names[i], at_x(x), at_y(y));
+    }
+  }
+
+  void draw_name(const std::string& name, double x, double y) {
+    constexpr double kAway = 8, kDown = 14, kLine = 13;
+    const double width = kNameCharacter * text_length(name), at = y + kDown;
+    const bool left = x - kAway - width > kLeft;
+    const double from = left ? x - kAway - width : x + kAway;
+    const bool free = std::none_of(names_.begin(), names_.end(), [&](const Name& other) {
+      return from < other.to && other.from < from + width && std::abs(at - other.y) < kLine;
+    });
+    if (!free || at >= bottom()) return;
+    names_.push_back({from, from + width, at});
+    text("point-name", left ? x - kAway : from, at, left ? "end" : "start", name);
+  }
+
+  bool is_shown(double x, double y) const {
+    const auto within = [](const ChartAxis& axis, double value) {
+      return std::isfinite(value) && value >= axis.from && value <= axis.to;
+    };
+    return within(chart_.x, x) && within(chart_.y, y);
+  }
+
   void draw_series(const ChartSeries& series) {
+    if (series.markers) return draw_markers(series);
     const std::string path = path_of(series);
     if (path.empty()) return;
     const int style = std::clamp(series.style, 0, static_cast<int>(kLineStyles.size()) - 1);
@@ -210,20 +272,28 @@ class Drawing {
     double x = kLeft;
     for (const ChartSeries& series : chart_.series) {
       const int style = std::clamp(series.style, 0, static_cast<int>(kLineStyles.size()) - 1);
-      html_.empty("line", {{"class", fmt::format("series series-{}", style)},
-                           {"x1", number(x)},
-                           {"y1", "14"},
-                           {"x2", number(x + 36)},
-                           {"y2", "14"},
-                           {"stroke-dasharray", std::string(kLineStyles[style].dashes)},
-                           {"stroke-width", fmt::format("{}", kLineStyles[style].width)}});
+      if (series.markers)
+        draw_marker(series, x + 18, 14);
+      else
+        html_.empty("line", {{"class", fmt::format("series series-{}", style)},
+                             {"x1", number(x)},
+                             {"y1", "14"},
+                             {"x2", number(x + 36)},
+                             {"y2", "14"},
+                             {"stroke-dasharray", std::string(kLineStyles[style].dashes)},
+                             {"stroke-width", fmt::format("{}", kLineStyles[style].width)}});
       text("legend", x + 44, 18, "start", series.label);
       x += 44 + kCharacter * text_length(series.label) + 28;
     }
   }
 
+  struct Name {
+    double from, to, y;
+  };
+
   const Chart& chart_;
   Html html_;
+  std::vector<Name> names_;  ///< of points, as drawn
 };
 
 }  // namespace

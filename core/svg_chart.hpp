@@ -24,6 +24,12 @@ struct ChartSeries {
   std::string label;
   std::vector<double> x, y;  ///< a value that is not finite, or not above 0 on a log axis, is a gap
   int style = 0;             ///< 0 is a broad pale line to lie under the others; 1 to 5 are dashes
+  bool markers = false;      ///< points by themselves, of the style's colour and a shape of its own
+  /// Of markers: half lengths of error bars, and what a reader is told of a point. Empty, or one a point.
+  std::vector<double> x_error = {}, y_error = {};
+  std::vector<std::string> point_labels = {};
+  /// Drawn below and left of a point, where nothing dominates it; of names that would overlap the first.
+  std::vector<std::string> point_names = {};
 };
 
 struct Chart {

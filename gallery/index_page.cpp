@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/numbers.hpp"
+#include "gallery/cost_data.hpp"
 #include "gallery/names.hpp"
 #include "gallery/page.hpp"
 
@@ -165,7 +166,7 @@ void write_attention(Html& html, const std::vector<CellSummary>& cells) {
 
 }  // namespace
 
-std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cells) {
+std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cells, bool has_cost) {
   Html html;
   {
     const Tag top(html, "div", {{"class", "top"}});
@@ -173,6 +174,11 @@ std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cel
       const Tag left(html, "div");
       write_introduction(html, farm);
       write_counts(html, cells);
+      if (has_cost) {
+        const Tag line(html, "p");
+        html.element("a", {{"href", kCostPage}}, "What accuracy costs in time");
+        html.text(": every way of computing a highlight, with its error and its time.");
+      }
     }
     write_making(html, farm);
   }

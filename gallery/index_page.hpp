@@ -9,8 +9,8 @@
 
 namespace lobelia::gallery {
 
-/// `cells` in the order of farm.cells.
-std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cells);
+/// `cells` in the order of farm.cells; `has_cost`: there is a page of what accuracy costs.
+std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cells, bool has_cost);
 
 /// The grid as thumbnails, a table for each section (index_grid.cpp).
 void write_grid(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells);

@@ -51,6 +51,9 @@ struct ReferenceOptions {
   std::uint64_t seed = 0;  ///< of those points
   bool fine = false;       ///< in the finer of the engine's number formats, if it has two
   Witness witness = Witness::kAny;
+  /// Also tells in the record's `seconds` what went to `start`, `parse`, `trace` and `write`, as far as the
+  /// engine tells them apart; added up over its processes and passes.
+  bool stages = false;
 };
 
 /// Independent estimates, whose scatter tells the error of their mean.

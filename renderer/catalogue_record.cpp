@@ -10,15 +10,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-Json to_json(const OperationCount& c) {
-  return {{"multiply", c.multiply},
-          {"add", c.add},
-          {"divide", c.divide},
-          {"root", c.root},
-          {"transcendental", c.transcendental},
-          {"compare", c.compare}};
-}
-
 Json model_json(ModelId id) {
   const ModelInfo& m = info(id);
   return {{"name", m.name},
@@ -82,6 +73,15 @@ Json highlight_json(const Highlight& h) {
 }
 
 }  // namespace
+
+Json to_json(const OperationCount& c) {
+  return {{"multiply", c.multiply},
+          {"add", c.add},
+          {"divide", c.divide},
+          {"root", c.root},
+          {"transcendental", c.transcendental},
+          {"compare", c.compare}};
+}
 
 std::string_view angle_name(LobeAngle angle) {
   return angle == LobeAngle::kReflection ? "L and R" : "N and H";

@@ -16,6 +16,8 @@ std::string_view meaning(Normalisation normalisation);  ///< in a sentence
 std::vector<Highlight> all_highlights(
     double exponent);  ///< every model, listed lobe and normalisation
 
+Json to_json(const OperationCount& count);
+
 /// Everything, measured at one exponent. Kind "models".
 Json catalogue_record(double exponent);
 

@@ -49,6 +49,33 @@ struct CountedVec3 {
   friend Counted dot(CountedVec3 a, CountedVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
 
+/// The same for textbook formulas, in which n and k are numbers too: what is made of those alone is free.
+struct CountedTextbook {
+  double x = 0;
+  bool varies = false;
+  explicit CountedTextbook(double constant) : x(constant) {}
+  CountedTextbook(double value, bool is_varying) : x(value), varies(is_varying) {}
+
+  /// One operation, if any of it has to be done for each point.
+  static CountedTextbook did(int OperationCount::*what, double value, bool varying) {
+    if (varying) ++(g_count.*what);
+    return {value, varying};
+  }
+  using T = CountedTextbook;
+  using C = OperationCount;
+  friend T operator*(T a, T b) { return did(&C::multiply, a.x * b.x, a.varies || b.varies); }
+  friend T operator+(T a, T b) { return did(&C::add, a.x + b.x, a.varies || b.varies); }
+  friend T operator-(T a, T b) { return did(&C::add, a.x - b.x, a.varies || b.varies); }
+  friend T operator/(T a, T b) { return did(&C::divide, a.x / b.x, a.varies || b.varies); }
+  friend T operator-(T a) { return {-a.x, a.varies}; }
+  friend bool operator>(T a, T b) { return did(&C::compare, 0, a.varies || b.varies), a.x > b.x; }
+  friend T exp(T a) { return did(&C::transcendental, std::exp(a.x), a.varies); }
+  friend T acos(T a) { return did(&C::transcendental, std::acos(a.x), a.varies); }
+  friend T pow(T a, T b) {
+    return did(&C::transcendental, std::pow(a.x, b.x), a.varies || b.varies);
+  }
+};
+
 template <class F>
 OperationCount counted(F f) {
   g_count = {};
@@ -64,6 +91,16 @@ OperationCount operations(LobeId lobe) {
     return [](LobeParameters p) { return counted([&] { L(p).value(Counted(1e-3)); }); };
   });
   return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe.order});  // n > k: of finite support
+}
+
+OperationCount textbook_operations(LobeId lobe) {
+  using Count = OperationCount (*)(LobeParameters);
+  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::Lobes{}, []<class L>() -> Count {
+    return [](LobeParameters p) {
+      return counted([&] { L(p).definition(CountedTextbook(0.999, true)); });
+    };
+  });
+  return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe.order});
 }
 
 OperationCount operations(ModelId model) {

@@ -16,6 +16,9 @@ struct OperationCount {
 /// From s to the lobe's value. What depends on n only is not counted: it is computed once a picture.
 OperationCount operations(LobeId lobe);
 
+/// From the cosine to the lobe's value as a textbook writes it (`definition`); n and k are constants.
+OperationCount textbook_operations(LobeId lobe);
+
 /// From the three unit vectors to s, and the product with N.L where the model has it.
 OperationCount operations(ModelId model);
 

@@ -39,7 +39,7 @@ class Render {
 
   RenderResult run() {
     const auto start = Clock::now();
-    result_.plan = make_plan(scene_, options_.effects, options_.precision);
+    result_.plan = make_plan(scene_, options_.effects, options_.precision, options_.experiment);
     result_.instruction_set = kernels().instruction_set;
     result_.plan_seconds = seconds_since(start);
     started_ = Clock::now();

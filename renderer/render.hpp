@@ -21,6 +21,7 @@ struct RenderOptions {
   int threads = 0;  ///< 0: all processors
   EffectPolicy effects = EffectPolicy::kAsCalledFor;
   std::optional<Precision> precision;  ///< none: what the plan finds sufficient
+  Experiment experiment = {};
   bool allow_fused = true;  ///< where a picture is simple enough; it makes no difference to it
   std::function<void(double)> on_progress;  ///< fraction done, from any thread, not in order
 

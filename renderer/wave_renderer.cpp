@@ -304,7 +304,10 @@ void WaveRenderer::add_emitters(Wave& wave, Workspace& work) const {
       work.work.of<effects::AreaLights>() += wave.count;
     }
     for (std::size_t i = 0; i < wave.count; ++i) {
-      if (environment ? wave.surface[i] >= 0 : !(work.met.distance[i] < wave.distance[i])) continue;
+      if (!environment && !(work.met.distance[i] < kInfinity)) continue;
+      const bool hidden =
+          environment ? wave.surface[i] >= 0 : !(work.met.distance[i] < wave.distance[i]);
+      if (hidden && (plan_.experiment.shadows || !scattered)) continue;
       const LightStrategy strategy =
           scattered ? plan_.strategy[l][std::size_t(wave.material[i])] : LightStrategy::kSurface;
       if (strategy == LightStrategy::kLight) continue;
@@ -584,6 +587,7 @@ void WaveRenderer::spawn_scattered(const Wave& wave, Group group, bool one_of_tw
                                    Workspace& work) const {
   const PreparedMaterial& material = materials_[std::size_t(group.material)];
   const bool highlight = has_highlight(material.material);
+  const bool even = plan_.experiment.directions == Experiment::Directions::kEven;
   const bool roulette = wave.level >= kRouletteFrom;
   Wave& next = work.wave_at(wave.level + 1, Wave::Kind::kScattered);
   // Forced though nothing calls for it: the rays are traced and bring nothing.
@@ -601,13 +605,17 @@ void WaveRenderer::spawn_scattered(const Wave& wave, Group group, bool one_of_tw
     std::copy_n(work.random_v, hits, chance.begin());
   }
   work.draw(wave, hits, kDirectionDimension);
-  if (!highlight)
+  if (!highlight && !even)
     wave_kernels().scatter_evenly(hits, work.normal, work.random_u, work.random_v, work.to_light);
   for (std::size_t i = 0; i < hits; ++i) {
     if (skipped[i]) continue;
     const Vec3 normal = get(work.normal, i);
     std::optional<ReflectorSample> drawn;
-    if (highlight) {
+    if (even) {
+      const Vec3 to_light = about(normal, work.random_u[i], work.random_v[i]);
+      drawn = {to_light, material.reflector.eval(normal, get(work.to_eye, i), to_light),
+               std::numbers::inv_pi / 2};
+    } else if (highlight) {
       drawn = material.reflector.sample_above(normal, get(work.to_eye, i), choice[i],
                                               work.random_u[i], work.random_v[i]);
     } else {

@@ -2,17 +2,24 @@
 
 #include <chrono>
 #include <optional>
+#include <thread>
 #include <vector>
 
-#include "bench/light/measure.hpp"
-#include "bench/light/scenes.hpp"
+#include "bench/light/crowd.hpp"
 #include "bench/light/sections.hpp"
 #include "core/threads.hpp"
+#include "core/timing.hpp"
+#include "cost/transport/measure.hpp"
+#include "cost/transport/scenes.hpp"
 #include "renderer/accelerator.hpp"
 #include "renderer/plan/plan.hpp"
 
 namespace lobelia::bench {
 namespace {
+
+using namespace cost;
+
+double median(std::vector<double> values) { return summary(std::move(values)).median; }
 
 /// From so much of the processors' sum on, they do not wait for a thing that they share.
 constexpr double kGoodEfficiency = 0.8;
@@ -56,6 +63,8 @@ void measure_once(const Scene& scene, int threads, CrowdTimes& times) {
 }
 
 }  // namespace
+
+int processors() { return int(std::max(1u, std::thread::hardware_concurrency())); }
 
 void measure_crowd() {
   constexpr int kSide = 512;

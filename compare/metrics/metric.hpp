@@ -97,7 +97,7 @@ struct MetricOutput {
   Better better;
   bool symmetric;  ///< does not change when a and b are exchanged
   std::string_view meaning;
-  double best = 0;  ///< the value of equal pictures, unless it is a fact
+  double best = 0;      ///< the value of equal pictures, unless it is a fact
   bool square = false;  ///< how far it is from the best grows as the square of a difference does
 };
 

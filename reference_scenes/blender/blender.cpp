@@ -73,6 +73,40 @@ Image read_passes(const fs::path& directory, const std::string& name, const Scen
   return sum_of(images);
 }
 
+/// Where the time of a scene goes, by when Blender says that it goes on.
+class StageClock {
+ public:
+  void restart() { *this = {}; }
+  void take(std::string_view line) {
+    const auto ends = [&](std::string_view words) { return line.find(words) != line.npos; };
+    if (ends("lobelia: begin")) {
+      end(start_);
+    } else if (ends("| Sample 0/")) {
+      end(parse_);
+    } else if (ends("| Finished")) {
+      end(trace_);
+    } else if (line.starts_with(" Time: ") || ends("lobelia: done")) {
+      end(write_);
+    }
+  }
+  void report(Json& seconds) const {
+    seconds["start"] = start_;
+    seconds["parse"] = parse_;
+    seconds["trace"] = trace_;
+    seconds["write"] = write_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void end(double& stage) {
+    const auto now = Clock::now();
+    stage += std::chrono::duration<double>(now - since_).count();
+    since_ = now;
+  }
+  Clock::time_point since_ = Clock::now();
+  double start_ = 0, parse_ = 0, trace_ = 0, write_ = 0;
+};
+
 /// One call of render(): scenes that wait, and the processes that take them.
 class BlenderRun {
  public:
@@ -113,6 +147,7 @@ class BlenderRun {
     command_ = shell_join(blender_arguments(status_.program.string(), ""));
     log_ = "$ " + command_ + "\n";
     current_.reset();
+    clock_.restart();
     const std::size_t waited = waiting_.size();
     ProcessOptions process;
     process.working_directory = directory_.path();
@@ -142,6 +177,7 @@ class BlenderRun {
   /// What it throws (a full disk, say) ends Blender and comes out of run_process.
   void take_line(std::string_view line) {
     log_.append(line).append("\n");
+    clock_.take(line);
     if (line.starts_with("lobelia: ")) take_message(split(line, " "));
   }
 
@@ -185,6 +221,8 @@ class BlenderRun {
     result.record["engineCommands"] = Json::array({command_});
     result.record["writesLimited"] = writes_limited_;
     result.record["seconds"] = {{"total", seconds}};
+    if (options_.stages) clock_.report(result.record["seconds"]);
+    clock_.restart();
     finish(index, std::move(result));
   }
 
@@ -208,6 +246,7 @@ class BlenderRun {
   std::map<std::size_t, Json> inputs_;
   std::deque<std::size_t> waiting_;
   std::optional<std::size_t> current_;  ///< begun and not done
+  StageClock clock_;                    ///< since the last scene
   std::string command_, log_;           ///< of the process at work, since the last scene
   bool writes_limited_ = false;         ///< likewise
 };

@@ -38,6 +38,7 @@ struct PassResult {
   std::vector<std::string> commands;
   bool writes_limited = false;
   double seconds = 0;
+  double parse_seconds = 0, trace_seconds = 0;  ///< by its statistics, where they were asked for
 };
 
 /// The passes of one scene, filled in by whichever thread comes to them.
@@ -55,6 +56,15 @@ struct WorkItem {
 
 std::string pass_stem(std::size_t scene, std::size_t pass) {
   return fmt::format("scene{}-pass{}", scene, pass);
+}
+
+/// "  Trace Time:       0 hours  0 minutes  0 seconds (0.029 seconds)"; 0 for any other line.
+double seconds_in(std::string_view line, std::string_view what) {
+  const auto from = line.find('('), to = line.find(" seconds)");
+  double seconds = 0;
+  if (line.find(what) != line.npos && from != line.npos && to != line.npos && from < to)
+    parse_number(line.substr(from + 1, to - from - 1), seconds);
+  return seconds;
 }
 
 /// Of the pass that shows what this one's picture rounds off.
@@ -114,6 +124,11 @@ PassResult Povray::run_pov(const std::string& stem, const Job& job, const Povray
   process.environment = environment_;
   process.timeout = options.time_limit;
   process.log = directory_ / (stem + ".log");
+  if (options.stages)
+    process.on_line = [&](std::string_view line) {
+      result.parse_seconds += seconds_in(line, "Parse Time:") + seconds_in(line, "Bounding Time:");
+      result.trace_seconds += seconds_in(line, "Trace Time:");
+    };
   const ProcessResult ended = run_process(arguments, process);
   if (ended.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
   result.commands.push_back(shell_join(arguments));
@@ -145,6 +160,8 @@ PassResult Povray::run_pass(const std::string& stem, const Job& job, const Povra
     result.error = left.error;
     result.commands.push_back(left.commands.front());
     result.seconds += left.seconds;
+    result.parse_seconds += left.parse_seconds;
+    result.trace_seconds += left.trace_seconds;
     result.writes_limited = result.writes_limited && left.writes_limited;
     if (left.error.empty())
       for (std::size_t i = 0; i < result.image.values().size(); ++i)
@@ -171,15 +188,18 @@ std::string Povray::joined_logs(std::size_t index, const std::vector<PassResult>
   return text;
 }
 
-ReferenceResult finish(Job& job, bool fine, Json record) {
+ReferenceResult finish(Job& job, const ReferenceOptions& options, Json record) {
   ReferenceResult result;
-  double seconds = 0;
+  const bool fine = options.fine;
+  double seconds = 0, parse_seconds = 0, trace_seconds = 0;
   bool writes_limited = true;
   Json commands = Json::array();
   std::vector<Image> images;
   for (PassResult& pass : job.passes) {
     if (result.error.empty()) result.error = pass.error;
     seconds += pass.seconds;
+    parse_seconds += pass.parse_seconds;
+    trace_seconds += pass.trace_seconds;
     writes_limited = writes_limited && pass.writes_limited;
     for (const std::string& command : pass.commands) commands.push_back(command);
     images.push_back(std::move(pass.image));
@@ -196,6 +216,10 @@ ReferenceResult finish(Job& job, bool fine, Json record) {
   record["engineOptions"] = job.options;
   record["writesLimited"] = writes_limited;
   record["seconds"] = {{"total", seconds}};
+  if (options.stages) {
+    record["seconds"]["parse"] = parse_seconds;
+    record["seconds"]["trace"] = trace_seconds;
+  }
   result.record = std::move(record);
   if (result.error.empty()) result.image = sum_of(images);
   job.passes.clear();
@@ -239,7 +263,7 @@ void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions
   std::atomic<bool> stop{false};
   std::mutex mutex;  // of the jobs' bookkeeping, on_result and the first failure
   std::exception_ptr failure;
-  for (Job& job : jobs) job.options = povray_options(job.film, threads_each);
+  for (Job& job : jobs) job.options = povray_options(job.film, threads_each, options.stages);
   const auto run = [&] {
     try {
       for (std::size_t i; !stop && (i = next++) < work.size();) {
@@ -253,7 +277,7 @@ void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions
         if (--job.unfinished > 0 || stop) continue;
         write_engine_log(options, kPovrayInfo, index, joined_logs(index, job.passes));
         on_result(index,
-                  finish(job, options.fine, reference_record(kPovrayInfo, status_, scenes[index])));
+                  finish(job, options, reference_record(kPovrayInfo, status_, scenes[index])));
       }
     } catch (...) {
       const std::scoped_lock lock(mutex);

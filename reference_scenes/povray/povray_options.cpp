@@ -9,7 +9,7 @@
 namespace lobelia {
 namespace fs = std::filesystem;
 
-std::vector<std::string> povray_options(const Film& film, int threads) {
+std::vector<std::string> povray_options(const Film& film, int threads, bool statistics) {
   return {"Output_to_File=on",
           "Output_File_Type=E",  // OpenEXR: always half float
           fmt::format("Width={}", film.width), fmt::format("Height={}", film.height),
@@ -19,7 +19,8 @@ std::vector<std::string> povray_options(const Film& film, int threads) {
           "Pause_When_Done=off",
           "Continue_Trace=off",  // never go on with an older picture
           // No chatter, but not All_Console, which would hide errors too.
-          "Debug_Console=off", "Render_Console=off", "Statistic_Console=off", "Verbose=off",
+          "Debug_Console=off", "Render_Console=off",
+          statistics ? "Statistic_Console=on" : "Statistic_Console=off", "Verbose=off",
           fmt::format("Work_Threads={}", threads)};
 }
 

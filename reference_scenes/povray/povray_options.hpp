@@ -10,8 +10,8 @@
 namespace lobelia {
 
 /// One line an option, "Width=64": everything that decides over the picture, because a povray.ini of
-/// the system or the user is read first. Of a picture of `film`, whatever the files are called.
-std::vector<std::string> povray_options(const Film& film, int threads);
+/// the system or the user is read first. Of a picture of `film`, whatever the files are called. With statistics it says how long it took.
+std::vector<std::string> povray_options(const Film& film, int threads, bool statistics = false);
 
 /// Writes `stem`.ini, with which `povray STEM.ini`, run in `directory`, renders STEM.pov to STEM.exr.
 void write_povray_ini(const std::filesystem::path& directory, const std::string& stem, double gain,

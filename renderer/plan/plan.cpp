@@ -98,8 +98,11 @@ void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& 
           : fmt::format(": the narrowest that adds at most {:g} of the peak", kAllowedShadingError);
 }
 
-LightStrategy strategy_of(const Light& light, const Material& material, EffectPolicy policy) {
-  if (is_delta(light)) return LightStrategy::kLight;
+LightStrategy strategy_of(const Light& light, const Material& material, EffectPolicy policy,
+                          Experiment::Directions asked) {
+  using Directions = Experiment::Directions;
+  if (is_delta(light) || asked == Directions::kLight) return LightStrategy::kLight;
+  if (asked != Directions::kPlanned) return LightStrategy::kSurface;
   if (policy == EffectPolicy::kAll) return LightStrategy::kBoth;
   const auto* environment = std::get_if<EnvironmentLight>(&light);
   if (environment && !environment->image) return LightStrategy::kSurface;
@@ -155,19 +158,40 @@ std::string kernel_text(const Scene& scene, const Plan& plan) {
 
 }  // namespace
 
-Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision> precision) {
+Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision> precision,
+               Experiment experiment) {
   Plan plan;
   plan.policy = policy;
+  plan.experiment = experiment;
   decide_effects(Effects{}, scene, policy, plan);
   for (const Light& light : scene.lights) {
     auto& row = plan.strategy.emplace_back();
     for (const Material& material : scene.materials)
-      row.push_back(strategy_of(light, material, policy));
+      row.push_back(strategy_of(light, material, policy, experiment.directions));
   }
   decide_precision(scene, precision, plan);
   expect_rays(scene, plan);
   plan.kernel = kernel_text(scene, plan);
   return plan;
+}
+
+std::vector<double> min_half_lengths(const Scene& scene) {
+  std::vector<double> least(scene.materials.size(), 2);
+  const auto bound = [&](int material, double length) {
+    double& known = least[std::size_t(material)];
+    known = std::min(known, length);
+  };
+  const bool any_direction =
+      scene.camera.aperture_radius > 0 || scene.depth.mirror > 0 || scene.depth.glossy > 0;
+  for (const Light& light : scene.lights)
+    for (const Sphere& sphere : scene.spheres)
+      bound(sphere.material,
+            any_direction || !is_delta(light) ? 0 : min_half_length(scene, light, sphere));
+  for (const Plane& plane : scene.planes) {
+    bound(plane.material, 0);
+    bound(plane.checker_material, 0);
+  }
+  return least;
 }
 
 }  // namespace lobelia

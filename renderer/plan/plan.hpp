@@ -25,6 +25,20 @@ enum class LightStrategy : std::uint8_t {
   kSurface,  ///< the surface: the light is the same from everywhere
 };
 
+/// What is done otherwise than the plan finds best, to see what that is worth. Nothing but measurements
+/// asks for it.
+struct Experiment {
+  /// How directions to lights with a size are drawn, and those of inter-reflection.
+  enum class Directions : std::uint8_t {
+    kPlanned,
+    kLight,    ///< to lights: by the light alone
+    kSurface,  ///< to lights: by the surface alone, as its highlight and its cosine are
+    kEven,     ///< all: evenly over the hemisphere, without importance sampling of any kind
+  };
+  Directions directions = Directions::kPlanned;
+  bool shadows = true;  ///< false: nothing stands between a surface and a light
+};
+
 /// What may stand between a surface and a light.
 struct Occluders {
   bool any_sphere = false;   ///< too many to say which
@@ -36,6 +50,7 @@ struct Occluders {
 struct Plan {
   std::vector<EffectDecision> effects;  ///< in the order of the catalogue
   EffectPolicy policy = EffectPolicy::kAsCalledFor;
+  Experiment experiment;
 
   /// occluders[light][surface]: spheres first, then planes; or one entry for all (find_occluders).
   std::vector<std::vector<Occluders>> occluders;
@@ -68,6 +83,10 @@ struct Plan {
 /// `precision` for every highlight, or for each the narrowest whose error bound allows it. That all
 /// effects are asked for does not change the precision: it is no effect of light.
 Plan make_plan(const Scene& scene, EffectPolicy policy,
-               std::optional<Precision> precision = std::nullopt);
+               std::optional<Precision> precision = std::nullopt, Experiment experiment = {});
+
+/// By material, a lower bound of |L + V| wherever the camera sees it lit, which is what shading_error_bound()
+/// asks for; 0 where nothing is known: on planes, in mirrors, through a lens, under lights with a size.
+std::vector<double> min_half_lengths(const Scene& scene);
 
 }  // namespace lobelia

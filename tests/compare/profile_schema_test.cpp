@@ -12,9 +12,7 @@
 namespace lobelia {
 namespace {
 
-std::string problems(const Plain& record) {
-  return schema_problems("profile.schema.json", record);
-}
+std::string problems(const Plain& record) { return schema_problems("profile.schema.json", record); }
 
 Plain profile_of(const Scene& scene, const Image& picture) {
   return as_written(profile_scene(scene, 0, 0, {{"a", &picture}}));

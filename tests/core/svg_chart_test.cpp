@@ -92,6 +92,20 @@ TEST(SvgChart, an_axis_is_marked_where_it_says) {
   EXPECT_NEAR(at("128") - at("16"), at("1024") - at("128"), 0.02) << "logarithmic";
 }
 
+TEST(SvgChart, names_points_where_no_other_name_is_in_the_way) {
+  Chart chart = chart_of({1, 1, 2});
+  chart.series[0].markers = true;
+  chart.series[0].x = {500, 501, 900};
+  chart.x = {"n", 0, 1000};
+  chart.series[0].point_names = {"first", "hidden by it", "third"};
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(draw_chart(chart).c_str()));
+  const auto names = document.select_nodes("//text[@class='point-name']");
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_TRUE(document.select_node("//text[.='first']"));
+  EXPECT_TRUE(document.select_node("//text[.='third']"));
+}
+
 TEST(SvgChart, alone_has_a_namespace_a_title_a_ground_and_a_size) {
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(draw_chart_file(chart_of({1, 2, 3})).c_str()));

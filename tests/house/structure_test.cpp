@@ -34,7 +34,7 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"shaders", {"core", "renderer"}},
     {"reference_scenes", {"core", "renderer", "shaders", "verify"}},
     {"farm", {"core", "renderer", "compare", "verify", "reference_scenes"}},
-    {"cost", {"core", "renderer", "compare"}},
+    {"cost", {"core", "renderer", "compare", "verify", "reference_scenes"}},
     {"gallery", {"core"}},
     {"cli",
      {"core", "renderer", "shaders", "compare", "verify", "reference_scenes", "farm", "cost",

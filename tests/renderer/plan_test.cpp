@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "renderer/scene/scene_io.hpp"
 
@@ -136,6 +138,39 @@ TEST(Plan, CountsCameraRaysExactly) {
   const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
   EXPECT_EQ(plan.camera_rays, 30u * 20 * 7);
   EXPECT_TRUE(effect(plan, "antialiasing").on);
+}
+
+TEST(MinHalfLengths, AreBelowThatOfEveryPointThatIsSeenAndLitAndNotFarBelow) {
+  for (const char* name : {"head_on", "oblique_45", "grazing_80", "point_light"}) {
+    const Scene scene = canonical(name);
+    double least = 2;
+    for (int i = 0; i <= 200; ++i)
+      for (int j = 0; j < 200; ++j) {
+        const double z = 1 - i / 100.0, angle = 2 * std::numbers::pi * j / 200;
+        const double flat = std::sqrt(std::max(0.0, 1 - z * z));
+        const Vec3 normal{flat * std::cos(angle), flat * std::sin(angle), z};
+        const Vec3 to_eye = normalize(scene.camera.origin - normal);
+        const Vec3 to_light = illuminate(scene.lights[0], normal).to_light;
+        if (dot(normal, to_eye) > 0 && dot(normal, to_light) > 0)
+          least = std::min(least, length(to_light + to_eye));
+      }
+    const double bound = min_half_lengths(scene).at(0);
+    EXPECT_LE(bound, least) << name;
+    EXPECT_GE(bound, 0.8 * least) << name;
+  }
+}
+
+TEST(MinHalfLengths, AreUnknownWhereAnyDirectionCounts) {
+  Scene scene = canonical("head_on");
+  EXPECT_GT(min_half_lengths(scene).at(0), 1);
+  Scene lens = scene, mirror = scene, glossy = scene, plane = scene, soft = scene;
+  lens.camera.aperture_radius = 0.1;
+  mirror.depth.mirror = 1;
+  glossy.depth.glossy = 1;
+  plane.planes.push_back({{0, -1, 0}, {0, 1, 0}, 0, 0, 1});
+  soft.lights[0] = SphereLight{{0, 0, 9}, 1, {1, 1, 1}};
+  for (const Scene& any : {lens, mirror, glossy, plane, soft})
+    EXPECT_EQ(min_half_lengths(any).at(0), 0);
 }
 
 }  // namespace

@@ -12,6 +12,10 @@ struct Shadows {
   static constexpr std::string_view kName = "shadows", kWork = "shadow rays", kHides = "";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
+    if (!plan.experiment.shadows) {
+      plan.occluders.assign(scene.lights.size(), {Occluders{}});
+      return {kName, kWork, false, "left out, to see what they are worth"};
+    }
     plan.occluders = find_occluders(scene, policy);
     std::size_t pairs = 0;
     bool uncounted = false;

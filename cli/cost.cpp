@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/engine_programs.hpp"
+#include "cli/progress.hpp"
+#include "core/files.hpp"
+#include "core/host.hpp"
+#include "cost/levels.hpp"
+#include "cost/report.hpp"
+#include "renderer/kernels/kernels.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> scenes, levels;
+  std::string directory, json;
+  EnginePrograms programs;
+  bool all = false, quick = false, thorough = false, quiet = false;
+};
+
+/// Those that were named, or all that have something to measure.
+std::vector<const cost::Level*> chosen_levels(const Options& options) {
+  std::vector<const cost::Level*> chosen;
+  for (const cost::Level& level : cost::levels()) {
+    const bool named =
+        std::find(options.levels.begin(), options.levels.end(), level.name) != options.levels.end();
+    if (named && level.needs_scenes && options.scenes.empty())
+      throw Error(ExitCode::kUsage, fmt::format("--level {} needs a SCENE", level.name));
+    if (named || (options.levels.empty() && !(level.needs_scenes && options.scenes.empty())))
+      chosen.push_back(&level);
+  }
+  return chosen;
+}
+
+void run(const Options& options) {
+  const auto levels = chosen_levels(options);
+  cost::Options measured;
+  for (const std::string& file : options.scenes)
+    measured.scenes.push_back({std::filesystem::path(file).stem().string(), read_scene(file)});
+  measured.effort = options.quick      ? cost::Effort::kQuick
+                    : options.thorough ? cost::Effort::kThorough
+                                       : cost::Effort::kUsual;
+  for (const auto& [engine, program] : options.programs.given())
+    measured.programs.emplace_back(engine, program.string());
+  if (!options.directory.empty()) {
+    make_directories(options.directory);
+    require_writable(std::filesystem::path(options.directory) / "cost.json");
+  }
+  ProgressLine line(!options.quiet);
+  cost::Report report{command_line(), host_record(), kernels().instruction_set, {}};
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double done = double(i) / double(levels.size());
+    measured.on_progress = [&](const std::string& what) {
+      line.show(done, fmt::format("{}: {}", levels[i]->name, what));
+    };
+    measured.progress("begins");
+    for (cost::Table& table : levels[i]->measure(measured))
+      report.tables.push_back(std::move(table));
+  }
+  line.clear();
+  if (!options.directory.empty()) cost::write_cost(report, options.directory);
+  if (options.json == "-")
+    fmt::print("{}", record_text(cost::cost_record(report)));
+  else
+    fmt::print("{}", cost::cost_text(report, options.all));
+}
+
+std::string level_lines() {
+  std::string text;
+  for (const cost::Level& level : cost::levels())
+    text += fmt::format("  {:<14}{}{}\n", level.name, level.meaning,
+                        level.needs_scenes ? " (of each SCENE)" : "");
+  return text;
+}
+
+}  // namespace
+
+void add_cost(CLI::App& app, ExitCode&) {
+  auto* command = app.add_subcommand(
+      "cost", "Measure what accuracy costs in time: error and time of every way, in one run");
+  auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scenes, "Scene files, for the levels that need some");
+  std::vector<std::string> names;
+  for (const cost::Level& level : cost::levels()) names.emplace_back(level.name);
+  command->add_option("--level", options->levels, "Measure this level alone; may be given again")
+      ->check(CLI::IsMember(names))
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);  // what comes after it may be a SCENE
+  auto* quick = command->add_flag("--quick", options->quick, "A look: fewer rounds, smaller grids");
+  command->add_flag("--thorough", options->thorough, "More rounds and samples: up to an hour")
+      ->excludes(quick);
+  options->programs.add_to(*command);
+  command
+      ->add_option("-o,--output", options->directory,
+                   "Write cost.json, cost.csv and a chart (.svg) of each table's front into DIR")
+      ->type_name("DIR")
+      ->group("Output");
+  command->add_option("--json", options->json, "With -, print the record in place of the tables")
+      ->type_name("-")
+      ->check(CLI::IsMember({"-"}))
+      ->group("Output");
+  command->add_flag("--all", options->all, "Print the ways that others dominate as well")
+      ->group("Output");
+  command->add_flag("-q,--quiet", options->quiet, "No progress line")->group("Output");
+  command->footer(
+      "Levels:\n" + level_lines() +
+      "\nTimes are medians of interleaved rounds, +- half the spread between quartiles. "
+      "'front': the\nerrors by which no other way is both as fast and as accurate.\n"
+      "\nExample:\n"
+      "  lobelia cost reference_scenes/scenes/oblique_45.xml -o cost\n"
+      "\nExit codes: 0 done, 2 usage, 3 a scene is unreadable, 4 an output cannot be "
+      "written, 5 an engine failed,\n130 interrupted. Times decide nothing.");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace lobelia::cli

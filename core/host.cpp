@@ -1,0 +1,29 @@
+#include "core/host.hpp"
+
+#include <sys/utsname.h>
+
+#include <fstream>
+#include <thread>
+
+namespace lobelia {
+namespace {
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name"))
+      if (const auto colon = line.find(": "); colon != line.npos) return line.substr(colon + 2);
+  return "unknown";
+}
+
+}  // namespace
+
+Json host_record() {
+  utsname system{};
+  ::uname(&system);
+  return {{"processor", processor_name()},
+          {"threads", std::thread::hardware_concurrency()},
+          {"system", std::string(system.sysname) + " " + system.release + " " + system.machine}};
+}
+
+}  // namespace lobelia

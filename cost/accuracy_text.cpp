@@ -1,0 +1,90 @@
+// An accuracy as people and records write it.
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "cost/accuracy.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+std::string lobe_text(const std::optional<LobeId>& lobe) {
+  return lobe ? std::string(info(*lobe).name) : "each highlight's own lobe";
+}
+
+}  // namespace
+
+Accuracy parse_accuracy(const std::string& text) {
+  constexpr std::string_view kCiede = "de2000=";
+  Accuracy accuracy;
+  std::string_view number = text;
+  double least = kMinAccuracyOfPeak, most = kMaxAccuracyOfPeak;
+  if (number.starts_with(kCiede)) {
+    accuracy.unit = Accuracy::Unit::kCiede2000;
+    number.remove_prefix(kCiede.size());
+    least = kMinAccuracyCiede2000, most = kMaxAccuracyCiede2000;
+  }
+  if (!parse_number(number, accuracy.value) || !(accuracy.value >= least) ||
+      !(accuracy.value <= most))
+    throw Error(ExitCode::kUsage,
+                fmt::format("--accuracy '{}': allowed is a share of the peak, {:g} to {:g}, or "
+                            "de2000=X, X being {:g} to {:g}",
+                            printable(text), kMinAccuracyOfPeak, kMaxAccuracyOfPeak,
+                            kMinAccuracyCiede2000, kMaxAccuracyCiede2000));
+  return accuracy;
+}
+
+std::string accuracy_text(const Accuracy& asked) {
+  return asked.unit == Accuracy::Unit::kCiede2000 ? fmt::format("de2000={:g}", asked.value)
+                                                  : fmt::format("{:g}", asked.value);
+}
+
+std::string measure_text(Measure measure) {
+  switch (measure) {
+    case Measure::kCiede2000P99:
+      return "CIEDE2000 that 99 % of the pixels do not exceed";
+    case Measure::kRmsOfPeak:
+      return "root mean square of the errors, of the peak";
+    case Measure::kMaxOfPeak:
+      break;
+  }
+  return "largest error, of the peak";
+}
+
+Json accuracy_record(const Choice& choice, const std::optional<Reached>& reached) {
+  Json record{{"asked", choice.asked.value},
+              {"unit", choice.asked.unit == Accuracy::Unit::kCiede2000 ? "de2000" : "ofPeak"},
+              {"measure", measure_text(choice.measure)},
+              {"chose",
+               {{"lobe", choice.lobe ? Json(info(*choice.lobe).name) : Json()},
+                {"precision", name(choice.precision)},
+                {"samples", choice.samples.value_or(1)}}},
+              {"why", choice.why},
+              {"operations", {{"chosen", choice.cost}, {"ownInFloat64", choice.own_cost}}},
+              {"basis", choice.basis == Basis::kBound ? "bound" : "look"},
+              {"predicted", choice.predicted}};
+  if (reached)
+    record["reached"] = {{"value", reached->value},
+                         {"held", reached->held(choice)},
+                         {"against", reached->against},
+                         {"seconds", reached->seconds}};
+  return record;
+}
+
+std::string choice_text(const Choice& choice) {
+  return fmt::format(
+      "accuracy {}: {}, {}{}; {} predicted to be at most {:.2g}. {:g} operations a point, weighted, where the "
+      "scene's own lobe in float64 takes {:g}.\n  {}.\n",
+      accuracy_text(choice.asked), lobe_text(choice.lobe), name(choice.precision),
+      choice.samples ? fmt::format(", {} samples a pixel", *choice.samples) : std::string(),
+      measure_text(choice.measure), choice.predicted, choice.cost, choice.own_cost, choice.why);
+}
+
+std::string reached_text(const Choice& choice, const Reached& reached) {
+  return fmt::format("reached {:.3g}, {} asked, {}; against {} ({:.2f} s)\n", reached.value,
+                     accuracy_text(choice.asked),
+                     reached.held(choice) ? "so it holds" : "so it does NOT hold", reached.against,
+                     reached.seconds);
+}
+
+}  // namespace lobelia::cost

@@ -1,0 +1,194 @@
+#include "cost/lobe_level.hpp"
+#include "core/error_time_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "core/error.hpp"
+#include "cost/lobe_errors.hpp"
+#include "cost/lobe_ways.hpp"
+#include "cost/report.hpp"
+#include "renderer/catalogue_record.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+constexpr std::size_t kPoints = 1024;     // in the first-level cache
+constexpr double kSecondsAtATime = 5e-5;  // a thousand times what the clock can tell apart
+constexpr std::size_t kMostRepeats = 4096;
+
+/// Points across the highlight, and a way's values of them.
+struct Points {
+  alignas(64) double s[kPoints], value[kPoints];
+  alignas(64) float s32[kPoints], value32[kPoints];
+  explicit Points(double exponent) {
+    // Where the lobes are neither 1 nor 0; in an order that no predictor of branches learns.
+    for (std::size_t i = 0; i < kPoints; ++i)
+      s[i] = s32[i] = float(highlight_end(exponent) / 2 * double(i * 389 % kPoints) / kPoints);
+  }
+};
+
+std::string exponent_text(double exponent) { return fmt::format("{:.15g}", exponent); }
+
+/// A compiler must take it that someone reads what was written.
+void keep(const void* written) { asm volatile("" ::"r"(written) : "memory"); }
+
+struct Case {
+  std::shared_ptr<Points> points;
+  std::function<void()> work;
+  std::size_t repeats;
+};
+
+/// `once` so often that the clock is no part of what is measured.
+Case repeated(std::shared_ptr<Points> points, std::function<void()> once) {
+  once();
+  const double seconds = std::max(seconds_of(once), 1e-8);
+  const auto repeats =
+      std::clamp<std::size_t>(std::size_t(kSecondsAtATime / seconds), 1, kMostRepeats);
+  return {std::move(points),
+          [once = std::move(once), repeats] {
+            for (std::size_t i = 0; i < repeats; ++i) once();
+          },
+          repeats};
+}
+
+Case case_of(const LobeWay& way, double exponent) {
+  const auto p = std::make_shared<Points>(exponent);
+  if (way.wide)
+    return repeated(p, [&way, p] {
+      way.over64(kPoints, p->s, p->value);
+      keep(p->value);
+    });
+  return repeated(p, [&way, p] {
+    way.over32(kPoints, p->s32, p->value32);
+    keep(p->value32);
+  });
+}
+
+/// Reading and writing as many numbers: what no way can be faster than.
+Case copying(double exponent) {
+  const auto p = std::make_shared<Points>(exponent);
+  return repeated(p, [p] {
+    std::memcpy(p->value32, p->s32, sizeof(p->s32));
+    keep(p->value32);
+  });
+}
+
+/// What was timed were the lobe's values.
+void check(const LobeWay& way, double exponent, const Points& points) {
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double value = way.wide ? points.value[i] : double(points.value32[i]);
+    const double truth = lobe_value(way.lobe, points.s[i], exponent);
+    if (!(std::abs(value - truth) <= way.allowed + 1e-13))
+      throw Error(ExitCode::kInternal,
+                  fmt::format("{}, timed at n = {}, is {} at s = {} in place of {}", way.name(),
+                              exponent_text(exponent), value, points.s[i], truth));
+  }
+}
+
+Json to_json(const LobeErrors& errors) {
+  return {{"max", errors.max}, {"rms", errors.rms}, {"energy", errors.energy}};
+}
+
+Way row(const LobeWay& way, const LobeWayErrors& errors, const Times& times) {
+  return {way.name(),
+          {{"lobe", std::string(info(way.lobe).name)},
+           {"method", way.method},
+           {"precision", way.wide ? "float64" : "float32"},
+           {"lanes", way.simd ? "SIMD" : "scalar"}},
+          times,
+          {errors.all.max, errors.all.rms, errors.all.energy},
+          {},
+          {{"operations", lobelia::to_json(way.operations)},
+           {"shape", to_json(errors.shape)},
+           {"rounding", to_json(errors.rounding)}}};
+}
+
+/// Whether its shape or its rounding makes more of a way's largest error.
+std::vector<std::string> what_limits(const std::vector<LobeWay>& ways,
+                                     const std::vector<LobeWayErrors>& errors) {
+  std::size_t shaped = 0;
+  double most = 0, least_rounding = std::numeric_limits<double>::infinity(), most_rounding = 0;
+  std::string shaped_by, rounded_by, least_by;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const double shape = errors[i].shape.max, rounding = errors[i].rounding.max;
+    if (shape > rounding) {
+      ++shaped;
+      if (rounding / shape >= most) most = rounding / shape, shaped_by = ways[i].name();
+      continue;
+    }
+    if (rounding < least_rounding) least_rounding = rounding, least_by = ways[i].name();
+    if (rounding > most_rounding) most_rounding = rounding, rounded_by = ways[i].name();
+  }
+  std::vector<std::string> remarks{
+      fmt::format("The shape limits {} of {} ways: their rounding is at most {:.2g} of it ({}).",
+                  shaped, ways.size(), most, shaped_by)};
+  if (shaped < ways.size())
+    remarks.push_back(fmt::format(
+        "Of the other {} the rounding is the larger error: from {:.2g} ({}) to {:.2g} ({}).",
+        ways.size() - shaped, least_rounding, least_by, most_rounding, rounded_by));
+  return remarks;
+}
+
+std::string what_bounds_the_time(const Table& table, double copy) {
+  const auto fastest =
+      std::min_element(table.ways.begin(), table.ways.end(),
+                       [](const Way& a, const Way& b) { return a.time.median < b.time.median; });
+  return fmt::format(
+      "Reading s and writing a value takes {} in float32; the fastest way takes {:.1f} times that.",
+      short_time_text(copy), fastest->time.median / copy);
+}
+
+}  // namespace
+
+Table lobe_table(double exponent, int rounds) {
+  const std::vector<LobeWay> ways = lobe_ways(exponent);
+  std::vector<Case> cases;
+  for (const LobeWay& way : ways) cases.push_back(case_of(way, exponent));
+  cases.push_back(copying(exponent));
+  std::vector<std::function<void()>> works;
+  for (const Case& timed : cases) works.push_back(timed.work);
+  const std::vector<Times> times = interleaved(works, rounds);
+  const auto each = [&](std::size_t i) {
+    return per(times[i], double(kPoints * cases[i].repeats));
+  };
+
+  Table table{"lobe-n" + exponent_text(exponent),
+              "lobe",
+              fmt::format("A lobe, n = {}", exponent_text(exponent)),
+              "evaluation",
+              {{"max", "largest error, of the peak"},
+               {"rms", "RMS error over the highlight, of the peak"},
+               {"energy", "error of the energy, of that of cos^n"}},
+              {},
+              {}};
+  const LobeTruth truth(exponent);
+  std::vector<LobeWayErrors> errors;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    check(ways[i], exponent, *cases[i].points);
+    errors.push_back(truth.errors(ways[i]));
+    table.ways.push_back(row(ways[i], errors[i], each(i)));
+  }
+  table.remarks = what_limits(ways, errors);
+  table.remarks.push_back(what_bounds_the_time(table, each(ways.size()).median));
+  return table;
+}
+
+std::vector<Table> measure_lobes(const Options& options) {
+  const std::vector<double> exponents =
+      options.effort == Effort::kQuick ? std::vector<double>{64, 1024}
+                                       : std::vector<double>{16, 64, 128, 256, 1024, 65536, 1e6};
+  std::vector<Table> tables;
+  for (const double exponent : exponents) {
+    options.progress(fmt::format("n = {}", exponent_text(exponent)));
+    tables.push_back(lobe_table(exponent, options.rounds(11, 41, 201)));
+  }
+  return tables;
+}
+
+}  // namespace lobelia::cost

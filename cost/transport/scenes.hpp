@@ -1,0 +1,23 @@
+// Scenes whose light comes from areas, which Cycles shows as well (cost/transport/cycles.hpp).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia::cost {
+
+/// A matt sphere that stands on a matt plane, seen from above so that the plane fills the picture. No
+/// light yet.
+Scene sphere_on_plane(int side);
+/// The same below a rectangle of light: a soft shadow.
+Scene below_rectangle(int side);
+/// The same below a sky with a small sun, an image of 1024 x 512 that is written to `directory`.
+Scene below_sky(int side, const std::filesystem::path& directory);
+
+/// Light goes so many times from surface to surface.
+inline constexpr int kBounces = 3;
+Scene with_inter_reflection(Scene scene);
+
+}  // namespace lobelia::cost
