@@ -11,9 +11,10 @@
 namespace lobelia::cost {
 namespace {
 
-/// "1.8 times", "170 times", "infinitely many times"
+/// "1.8 times", "170 times", "1.3e+04 times", "infinitely many times"
 std::string times_text(double ratio) {
   if (!std::isfinite(ratio)) return "infinitely many times";
+  if (ratio >= 9999.5) return fmt::format("{:.2g} times", ratio);
   return fmt::format("{:.{}f} times", ratio, ratio < 9.95 ? 1 : 0);
 }
 

@@ -150,7 +150,7 @@ std::string slope_text(const Slope& slope) {
 }
 
 std::string time_text(const TimeTo& time) {
-  if (!std::isfinite(time.seconds)) return "never";
+  if (!std::isfinite(time.seconds)) return "a time that cannot be told";
   const char* said = time.reach == TimeTo::Reach::kAtOnce   ? " (4 samples are better)"
                      : time.reach == TimeTo::Reach::kBeyond ? " (extrapolated)"
                                                             : "";
@@ -181,14 +181,20 @@ void add_series(const Series& series, const Converged& truth, Table& table) {
     return std::vector<double>(values.begin() + std::ptrdiff_t(from), values.end());
   };
   const std::size_t working = samples.size() > 3 ? 2 : 1;
-  table.remarks.push_back(
-      fmt::format("{}: the error falls as the samples to the power {}, as the time to the power {}",
-                  series.name, slope_text(fit_slope(later(samples, 1), later(errors, 1))),
-                  slope_text(fit_slope(later(seconds, working), later(errors, working)))));
+  std::string slopes =
+      fmt::format("{}: the error falls as the samples to the power {}", series.name,
+                  slope_text(fit_slope(later(samples, 1), later(errors, 1))));
+  if (seconds.back() > 2 * seconds[working])
+    slopes += fmt::format(", as the time to the power {}",
+                          slope_text(fit_slope(later(seconds, working), later(errors, working))));
+  else
+    slopes += "; its time is mostly the start";
+  table.remarks.push_back(slopes);
   std::string times;
   for (const double wanted : {1e-2, 1e-3, 1e-4})
-    times += fmt::format("{} {:.0e} takes {}", times.empty() ? "" : ",", wanted,
-                         time_text(time_to(later(seconds, 1), later(errors, 1), wanted)));
+    times += fmt::format(
+        "{} {:.0e} takes {}", times.empty() ? "" : ",", wanted,
+        time_text(time_to(later(samples, 1), later(seconds, 1), later(errors, 1), wanted)));
   table.remarks.push_back(fmt::format("{}: an error of{}", series.name, times));
 }
 

@@ -30,17 +30,22 @@ Slope fit_slope(const std::vector<double>& x, const std::vector<double>& y) {
   return slope;
 }
 
-TimeTo time_to(const std::vector<double>& seconds, const std::vector<double>& errors,
-               double wanted) {
+TimeTo time_to(const std::vector<double>& samples, const std::vector<double>& seconds,
+               const std::vector<double>& errors, double wanted) {
   if (wanted >= errors.front()) return {seconds.front(), TimeTo::Reach::kAtOnce};
   std::size_t i = 1;
   while (i < errors.size() && errors[i] > wanted) ++i;
   if (i == errors.size()) {
-    const std::ptrdiff_t last = std::min<std::ptrdiff_t>(3, std::ssize(seconds));
+    const std::ptrdiff_t last = std::min<std::ptrdiff_t>(3, std::ssize(samples));
     const double slope =
-        fit_slope({seconds.end() - last, seconds.end()}, {errors.end() - last, errors.end()}).value;
-    if (!(slope < 0)) return {std::numeric_limits<double>::infinity(), TimeTo::Reach::kBeyond};
-    return {seconds.back() * std::pow(wanted / errors.back(), 1 / slope), TimeTo::Reach::kBeyond};
+        fit_slope({samples.end() - last, samples.end()}, {errors.end() - last, errors.end()}).value;
+    // Of the time itself no power can be fitted where most of it is the start.
+    const double of_a_sample =
+        (seconds.back() - seconds.front()) / (samples.back() - samples.front());
+    if (!(slope < 0 && of_a_sample > 0))
+      return {std::numeric_limits<double>::infinity(), TimeTo::Reach::kBeyond};
+    const double more = samples.back() * (std::pow(wanted / errors.back(), 1 / slope) - 1);
+    return {seconds.back() + more * of_a_sample, TimeTo::Reach::kBeyond};
   }
   const double part = std::log(wanted / errors[i - 1]) / std::log(errors[i] / errors[i - 1]);
   return {seconds[i - 1] * std::pow(seconds[i] / seconds[i - 1], part), TimeTo::Reach::kWithin};

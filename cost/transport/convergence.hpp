@@ -18,13 +18,15 @@ struct TimeTo {
   enum class Reach {
     kAtOnce,  ///< the first is better than was wanted: its time
     kWithin,  ///< between two that were measured
-    kBeyond,  ///< beyond the last, as the line fitted to the last three goes on from there
+    kBeyond,  ///< beyond the last: the samples as the error of the last three goes on falling with their
+              ///< number, each at what one took from the first point to the last, without the start
   };
-  double seconds = 0;  ///< infinite where the line does not fall
+  double seconds =
+      0;  ///< infinite where the error does not fall, or no time is to be seen for a sample
   Reach reach = Reach::kWithin;
 };
 /// Seconds and errors by growing number of samples, all > 0, two or more; `wanted` > 0.
-TimeTo time_to(const std::vector<double>& seconds, const std::vector<double>& errors,
-               double wanted);
+TimeTo time_to(const std::vector<double>& samples, const std::vector<double>& seconds,
+               const std::vector<double>& errors, double wanted);
 
 }  // namespace lobelia::cost

@@ -59,23 +59,26 @@ TEST(SlopeFit, KnowsWhatItCannotTell) {
 TEST(TimeToError, IsInterpolatedOnThePowerLawBetweenTwoPoints) {
   const std::vector<double> seconds{1, 4, 16};
   const auto errors = powers(seconds, 0.2, -0.5);
-  const TimeTo time = time_to(seconds, errors, 0.2 / std::sqrt(8));
+  const TimeTo time = time_to(seconds, seconds, errors, 0.2 / std::sqrt(8));
   EXPECT_NEAR(time.seconds, 8, 1e-12);
   EXPECT_EQ(time.reach, TimeTo::Reach::kWithin);
 }
 
-TEST(TimeToError, GoesOnBeyondTheLastPointAndSaysSo) {
-  const std::vector<double> seconds{0.9, 1, 4, 16};
-  auto errors = powers(seconds, 0.2, -0.5);
+TEST(TimeToError, GoesOnBeyondTheLastPointWithoutTheStartAndSaysSo) {
+  const std::vector<double> samples{1, 4, 16, 64},
+      seconds{5.1, 5.4, 6.6, 11.4};  // 5 and 0.1 for each
+  auto errors = powers(samples, 0.2, -0.5);
   errors[0] = 9;  // before the last three: it has no say
-  const TimeTo time = time_to(seconds, errors, 0.2 / 100);
-  EXPECT_NEAR(time.seconds, 1e4, 1e-6);
+  const TimeTo time = time_to(samples, seconds, errors, 0.2 / 100);
+  EXPECT_NEAR(time.seconds, 5 + 0.1 * 1e4, 1e-6);
   EXPECT_EQ(time.reach, TimeTo::Reach::kBeyond);
-  EXPECT_TRUE(std::isinf(time_to({1, 2}, {1, 1}, 0.5).seconds));
+  EXPECT_TRUE(std::isinf(time_to({1, 2}, {1, 2}, {1, 1}, 0.5).seconds))
+      << "the error does not fall";
+  EXPECT_TRUE(std::isinf(time_to({1, 4}, {2, 2}, {1, 0.5}, 0.1).seconds)) << "no time to be seen";
 }
 
 TEST(TimeToError, IsThatOfTheFirstPointWhereItIsGoodEnough) {
-  const TimeTo time = time_to({3, 4}, {0.1, 0.05}, 0.2);
+  const TimeTo time = time_to({1, 4}, {3, 4}, {0.1, 0.05}, 0.2);
   EXPECT_EQ(time.seconds, 3);
   EXPECT_EQ(time.reach, TimeTo::Reach::kAtOnce);
 }

@@ -66,6 +66,12 @@ TEST(FrontSentences, SayWhatMoreAccuracyCosts) {
                           "gauss takes 1.5 times the time of cosine and has 2.0 times its error"));
 }
 
+TEST(FrontSentences, SayLargeRatiosInTwoDigits) {
+  const Table t = table({way("float32", 1, 2e-6), way("float64", 2, 3.1e-15)});
+  EXPECT_THAT(front_sentences(t, 0),
+              ElementsAre("from float32 to float64: 2.0 times the time, 6.5e+08 times less error"));
+}
+
 TEST(FrontSentences, AreNotUpsetByWaysWithoutAnyError) {
   const Table t = table({way("cs16", 1, 0.017), way("exact", 2, 0), way("other", 4, 0)});
   EXPECT_THAT(
