@@ -104,7 +104,24 @@ void check_difference(const DifferencePicture& difference, bool folders) {
     throw Error(ExitCode::kUsage,
                 fmt::format("--diff-image {} must end in .png{}", difference.path.string(),
                             difference.of == kChannels ? "" : " (colours) or .exr (values)"));
-  require_writable(difference.path);
+}
+
+/// All can be written, each is a file of its own, and none is a picture that is compared.
+void require_outputs(const Options& options, bool folders) {
+  const CompareJob& job = options.job;
+  std::vector<std::string> taken{job.a, job.b, job.c};
+  std::vector<std::string> outputs{options.json, options.csv, options.junit};
+  if (!folders) outputs.push_back(job.difference.path.string());
+  for (const std::string& file : outputs) {
+    if (file.empty() || file == "-") continue;
+    std::error_code unknown;
+    for (const std::string& other : taken)
+      if (file == other || std::filesystem::equivalent(file, other, unknown))
+        throw Error(ExitCode::kUsage,
+                    fmt::format("{}: is read or written by this command already", file));
+    require_writable(file);
+    taken.push_back(file);
+  }
 }
 
 void write_reports(const Options& options, const SetReport& report, bool folders) {
@@ -141,8 +158,7 @@ ExitCode run(Options options) {
   check_options(comparison);
   const bool folders = are_folders(options);
   check_difference(options.job.difference, folders);
-  for (const std::string& file : {options.json, options.csv, options.junit})
-    if (!file.empty() && file != "-") require_writable(file);
+  require_outputs(options, folders);
 
   SetReport report;
   ThreadLimit(options.threads).run([&] {

@@ -168,5 +168,22 @@ TEST_F(CompareFolders, WriteADifferenceAsColoursOrAsValues) {
   EXPECT_EQ(write({"no/such/d.png"}), 4);
 }
 
+TEST_F(CompareFolders, WriteNothingOverAPictureNorOverEachOther) {
+  put("a/x.exr", 0.10f), put("b/x.exr", 0.11f);
+  const std::string before = text("b/x.exr");
+  const auto refused = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"a/x.exr", "b/x.exr"});
+    const auto result = compare(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.output_tail, HasSubstr("is read or written by this command already"));
+  };
+  refused({"--diff-image", "b/x.exr", "--diff-of", "abs"});
+  refused({"--diff-image", "./b/../a/x.exr", "--diff-of", "abs"});
+  refused({"--json", "b/x.exr"});
+  refused({"--json", "r.json", "--csv", "r.json"});
+  EXPECT_EQ(text("b/x.exr"), before);
+  EXPECT_FALSE(fs::exists(path("r.json")));
+}
+
 }  // namespace
 }  // namespace lobelia

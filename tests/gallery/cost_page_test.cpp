@@ -78,6 +78,19 @@ TEST_F(CostPage, SaysWhatTheFrontSaysAndHowItWasMeasured) {
   EXPECT_THAT(text, HasSubstr("1.00 ns"));
 }
 
+TEST_F(CostPage, ShowsWhatIsCountedWhereThereIsNothingToTime) {
+  Json record = cost_record();
+  Json& table = record["tables"][0];
+  table["unit"] = "bit operations";
+  for (Json& one : table["ways"]) {
+    one.erase("seconds");
+    one["count"] = 1408;
+  }
+  const std::string text = read_file(put(record), 1 << 20);
+  EXPECT_THAT(text, HasSubstr("bit operations per evaluation"));
+  EXPECT_THAT(text, HasSubstr("<td class=\"number\">1408</td>"));
+}
+
 TEST_F(CostPage, IsNotThereWhereNothingWasMeasured) {
   write_gallery(farm_.directory());
   EXPECT_FALSE(std::filesystem::exists(farm_.directory() / "cost.html"));
