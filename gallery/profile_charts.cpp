@@ -18,6 +18,7 @@ std::vector<const NamedCurve*> in_order(const FarmData& farm, const ProfileData&
   std::vector<const NamedCurve*> result;
   if (const NamedCurve* curve = profile.find_curve(kAnalytic)) result.push_back(curve);
   for (const EngineEntry& engine : farm.engines) {
+    if (engine.name == kAnalytic) continue;  // an engine too, and the formula already
     if (const NamedCurve* curve = profile.find_curve(engine.name)) result.push_back(curve);
   }
   return result;
