@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/set/report.hpp"
 #include "core/text.hpp"
 
 namespace lobelia::cli {
@@ -13,9 +14,7 @@ namespace {
 std::string reasons(const LayerComparison& layer) {
   if (!layer.comparison) return layer.problem;
   const Comparison& comparison = *layer.comparison;
-  if (comparison.verdict == Verdict::kNonFinite)
-    return fmt::format("pixels with a NaN or an infinity: {} in a, {} in b", comparison.nonfinite_a,
-                       comparison.nonfinite_b);
+  if (comparison.verdict == Verdict::kNonFinite) return why_not_pass(comparison);
   std::string text;
   for (const LimitResult& limit : comparison.limits)
     text += fmt::format("{}{} {:.4g}{}", text.empty() ? "" : ", ", limit.metric, limit.value,

@@ -14,17 +14,13 @@
 #include "compare/metrics/flip_exposures.hpp"
 #include "compare/set/folder_pairs.hpp"
 #include "core/files.hpp"
+#include "core/finite_image.hpp"
 #include "core/image_io.hpp"
 
 namespace lobelia::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_finite(const Image& image) {
-  return std::all_of(image.values().begin(), image.values().end(),
-                     [](float value) { return std::isfinite(value); });
-}
 
 bool has_automatic_exposures(const ComparisonOptions& options) {
   return options.viewing.hdr_exposures && options.viewing.hdr_exposures->automatic;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "compare/as_shown.hpp"
 #include "compare/disagreement.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
@@ -243,14 +244,11 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   result.nonfinite_b = count_nonfinite_pixels(b);
   const bool finite = result.nonfinite_a == 0 && result.nonfinite_b == 0;
   if (finite) {
-    const auto shown = [&](const Image& image) {
-      return DisplayLight::of(image, options.viewing.exposure_stops, options.viewing.display.get());
-    };
     const MetricInput input{
         a,
         b,
-        shown(a),
-        shown(b),
+        as_shown(a, options.viewing),
+        as_shown(b, options.viewing),
         options.viewing.pixels_per_degree,
         options.tolerance ? &*options.tolerance : nullptr,
         options.viewing.hdr_exposures ? &*options.viewing.hdr_exposures : nullptr,

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/as_shown.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/error.hpp"
+#include "core/finite_image.hpp"
 #include "core/image_io.hpp"
 #include "core/text.hpp"
 
@@ -50,17 +52,9 @@ Image without_non_finite(const Image& image, std::vector<std::uint8_t>& broken) 
   return copy;
 }
 
-bool is_finite(const Image& image) {
-  return std::all_of(image.values().begin(), image.values().end(),
-                     [](float value) { return std::isfinite(value); });
-}
-
 std::vector<float> measure_finite(const DifferenceMap& map, const Image& a, const Image& b,
                                   const Viewing& viewing) {
-  const auto shown = [&](const Image& image) {
-    return DisplayLight::of(image, viewing.exposure_stops, viewing.display.get());
-  };
-  const DisplayLight shown_a = shown(a), shown_b = shown(b);
+  const DisplayLight shown_a = as_shown(a, viewing), shown_b = as_shown(b, viewing);
   return map.measure({a, b, shown_a, shown_b, viewing.pixels_per_degree});
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/as_shown.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/uncertainty/gaussian.hpp"
 #include "compare/uncertainty/z_test.hpp"
@@ -132,9 +133,6 @@ double from_distance(const MetricOutput& output, double distance) {
 std::vector<ErrorBar> error_bars(const MetricInput& input, const Viewing& viewing, int count,
                                  std::uint64_t seed) {
   const NoiseOfPair& noise = *input.noise;
-  const auto shown = [&](const Image& image) {
-    return DisplayLight::of(image, viewing.exposure_stops, viewing.display.get());
-  };
   std::vector<Figure> figures;
   measure_each(input, [&](const MetricOutput& output, double value) {
     figures.push_back({&output, as_distance(output, value), {}, {}});
@@ -144,8 +142,8 @@ std::vector<ErrorBar> error_bars(const MetricInput& input, const Viewing& viewin
     const Image noisy_b = with_noise(input.b, noise.b, mix(seed) + 2 * stream + 1, together);
     MetricInput noisy{noisy_a,
                       noisy_b,
-                      shown(noisy_a),
-                      shown(noisy_b),
+                      as_shown(noisy_a, viewing),
+                      as_shown(noisy_b, viewing),
                       input.pixels_per_degree,
                       input.tolerance,
                       input.hdr_exposures,

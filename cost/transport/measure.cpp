@@ -1,9 +1,9 @@
 #include "cost/transport/measure.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/finite_image.hpp"
 
 namespace lobelia::cost {
 
@@ -27,7 +27,7 @@ double mean(const Image& image) {
 }
 
 void require_picture(const Image& image, const char* what) {
-  const bool finite = std::ranges::all_of(image.values(), [](float v) { return std::isfinite(v); });
+  const bool finite = is_finite(image);
   if (!finite || !(rms(image) > 0))
     throw Error(ExitCode::kInternal, std::string(what) + (finite ? ": a black picture"
                                                                  : ": values that are not finite"));
