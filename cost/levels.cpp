@@ -26,10 +26,4 @@ constexpr Level kLevels[] = {
 
 std::span<const Level> levels() { return kLevels; }
 
-const Level* find_level(std::string_view name) {
-  for (const Level& level : levels())
-    if (level.name == name) return &level;
-  return nullptr;
-}
-
 }  // namespace lobelia::cost

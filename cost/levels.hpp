@@ -45,6 +45,5 @@ struct Level {
 };
 
 std::span<const Level> levels();
-const Level* find_level(std::string_view name);
 
 }  // namespace lobelia::cost
