@@ -192,4 +192,23 @@ CellData read_cell(const fs::path& directory, const CellEntry& entry) {
   return cell;
 }
 
+std::vector<std::string> files_of(const CellData& cell) {
+  std::vector<std::string> files;
+  const auto add = [&](const std::string& file) {
+    if (!file.empty()) files.push_back(file);
+  };
+  if (cell.has_scene) add("scene.xml");
+  if (cell.has_record) add("cell.json");
+  for (const CellImage& image : cell.images) {
+    for (const std::string& file : {image.exr, image.record, image.log}) add(file);
+    if (image.png.shown()) add(image.png.file);
+  }
+  for (const CellComparison& comparison : cell.comparisons) {
+    add(comparison.record);
+    if (comparison.png.shown()) add(comparison.png.file);
+  }
+  if (cell.profile.problem.empty()) add(cell.profile.file);
+  return files;
+}
+
 }  // namespace lobelia::gallery

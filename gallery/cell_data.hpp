@@ -87,4 +87,7 @@ struct CellData {
 /// Reads DIR/cells/ID/cell.json and all that it names. `entry` is the cell's line in farm.json.
 CellData read_cell(const std::filesystem::path& directory, const CellEntry& entry);
 
+/// Plain names of all files of the cell's directory that its page may show or link to.
+std::vector<std::string> files_of(const CellData& cell);
+
 }  // namespace lobelia::gallery

@@ -110,14 +110,11 @@ void write_highlight(Html& html, const CellData& cell) {
 
 }  // namespace
 
-std::string cell_page(const FarmData& farm, const CellEntry& entry, const CellData& cell) {
+std::string cell_page(const SiteFrame& site, const FarmData& farm, const CellEntry& entry,
+                      const CellData& cell) {
   Html html;
   {
     const Tag header(html, "header");
-    {
-      const Tag back(html, "p", {{"class", "back"}});
-      html.element("a", {{"href", std::string(kRoot) + "index.html"}}, "↑ " + farm.title);
-    }
     html.element("h1", entry.label.empty() ? entry.id : entry.label);
     write_navigation(html, farm, entry);
     write_verdict(html, farm, cell);
@@ -130,9 +127,16 @@ std::string cell_page(const FarmData& farm, const CellEntry& entry, const CellDa
     write_plan(html, cell);
   }
   write_making(html, farm, cell);
-  return finish_page({(entry.label.empty() ? entry.id : entry.label) + " · " + farm.title, "cell",
-                      kRoot, cell.made_by.empty() ? farm.made_by : cell.made_by},
-                     html);
+  const std::string folder = link_to({"cells", entry.id}) + "/";
+  const CellImage* ours = cell.find_image(kOurEngine);
+  const PageFrame frame{entry.label.empty() ? entry.id : entry.label,
+                        "cell",
+                        kRoot,
+                        folder + "index.html",
+                        cell.made_by.empty() ? farm.made_by : cell.made_by,
+                        kCellData,
+                        ours && ours->png.shown() ? folder + link_to({ours->png.file}) : ""};
+  return finish_page(site, frame, html);
 }
 
 }  // namespace lobelia::gallery

@@ -8,8 +8,6 @@
 namespace lobelia::gallery {
 namespace {
 
-bool is_coordinate(const std::string& id) { return id.ends_with(".x") || id.ends_with(".y"); }
-
 /// Ids of all metrics, in the order in which the records have them.
 std::vector<std::string> metric_ids(const CellData& cell) {
   std::vector<std::string> ids;

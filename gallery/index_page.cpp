@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/numbers.hpp"
-#include "gallery/cost_data.hpp"
 #include "gallery/names.hpp"
 #include "gallery/page.hpp"
 
@@ -166,7 +165,8 @@ void write_attention(Html& html, const std::vector<CellSummary>& cells) {
 
 }  // namespace
 
-std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cells, bool has_cost) {
+std::string index_page(const SiteFrame& site, const FarmData& farm,
+                       const std::vector<CellSummary>& cells) {
   Html html;
   {
     const Tag top(html, "div", {{"class", "top"}});
@@ -174,11 +174,6 @@ std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cel
       const Tag left(html, "div");
       write_introduction(html, farm);
       write_counts(html, cells);
-      if (has_cost) {
-        const Tag line(html, "p");
-        html.element("a", {{"href", kCostPage}}, "What accuracy costs in time");
-        html.text(": every way of computing a highlight, with its error and its time.");
-      }
     }
     write_making(html, farm);
   }
@@ -186,7 +181,8 @@ std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cel
   write_legend(html, farm, cells);
   write_attention(html, cells);
   write_grid(html, farm, cells);
-  return finish_page({farm.title + " · Lobelia", "index", "", farm.made_by}, html);
+  return finish_page(site, {site.title, "grid", "", "index.html", farm.made_by, kGridData, ""},
+                     html);
 }
 
 }  // namespace lobelia::gallery

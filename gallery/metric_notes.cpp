@@ -79,10 +79,28 @@ constexpr Entry kEntries[] = {
 
 MetricNote metric_note(std::string_view id) {
   for (const Entry& entry : kEntries) {
-    if (entry.id == id) return {std::string(entry.title), entry.meaning, entry.unit};
+    if (entry.id != id) continue;
+    const bool more_is_better = id == "psnr" || id == "ssim" || id == "ms_ssim";
+    return {std::string(entry.title), entry.meaning, entry.unit, more_is_better};
   }
-  return {std::string(id), "", MetricUnit::kPlain};
+  return {std::string(id), "", MetricUnit::kPlain, false};
 }
+
+std::string unit_name(MetricUnit unit) {
+  switch (unit) {
+    case MetricUnit::kShare:
+      return "share";
+    case MetricUnit::kCount:
+      return "count";
+    case MetricUnit::kRadiance:
+      return "radiance";
+    case MetricUnit::kPlain:
+      break;
+  }
+  return "plain";
+}
+
+bool is_coordinate(std::string_view id) { return id.ends_with(".x") || id.ends_with(".y"); }
 
 std::string metric_text(std::string_view id, double value) {
   switch (metric_note(id).unit) {

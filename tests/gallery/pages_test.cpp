@@ -49,8 +49,11 @@ TEST(GalleryPages, a_link_to_a_file_that_is_not_there_is_found_by_this_suite) {
 TEST(GalleryPages, nothing_comes_from_a_network) {
   const FakeFarm farm;
   write_gallery(farm.directory());
-  for (const auto& [name, text] : contents(farm.directory())) {
+  for (auto [name, text] : contents(farm.directory())) {
     if (name.ends_with(".json")) continue;
+    // A namespace is a name, not an address.
+    for (std::size_t at; (at = text.find("http://www.w3.org/2000/svg")) != text.npos;)
+      text.erase(at, 26);
     EXPECT_THAT(text, Not(HasSubstr("http:"))) << name;
     EXPECT_THAT(text, Not(HasSubstr("https:"))) << name;
     EXPECT_THAT(text, Not(HasSubstr("@import"))) << name;

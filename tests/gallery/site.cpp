@@ -79,7 +79,12 @@ std::vector<std::string> Site::active_content() const {
         problems.push_back(name + ": " + key);
       }
     });
-    if (document.select_nodes("//script").size() != 1) problems.push_back(name + ": script");
+    for (const auto& script : document.select_nodes("//script"))
+      if (script.node().attribute("src").empty() || script.node().first_child())
+        problems.push_back(name + ": inline script");
+    if (!document.select_node(
+            "//head/meta[@http-equiv='Content-Security-Policy'][contains(@content, \"default-src 'none'\")]"))
+      problems.push_back(name + ": no policy");
     for (const char* tag : {"iframe", "object", "embed", "style", "base", "form"}) {
       if (document.select_node((std::string("//") + tag).c_str())) {
         problems.push_back(name + ": " + tag);
