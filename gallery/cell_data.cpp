@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "gallery/sha256.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -60,6 +61,7 @@ CellImage read_image(const fs::path& directory, const Fields& entry) {
   if (image.engine.empty()) entry.fail("engine", "must not be empty");
   image.png = look_at_picture(directory, entry.plain_name("png"));
   image.exr = if_there(directory, entry.plain_name("exr"));
+  if (!image.exr.empty()) image.exr_sha256 = sha256_of(directory / image.exr);
   image.log = if_there(directory, image.engine + ".log");
   const std::string record = entry.plain_name("record");
   image.record = if_there(directory, record);
@@ -89,6 +91,14 @@ void read_comparison_record(const Json& record, CellComparison& comparison) {
     comparison.limits.push_back({limit.text("metric"), limit.number("limit").value_or(0),
                                  limit.number("value").value_or(0), limit.flag("pass"),
                                  limit.text("standing") == "open"});
+  }
+  if (const auto bars = fields.object("errorBars")) {
+    for (const auto& [metric, bar] : bars->object_members()) {
+      const auto low = bar.number("low"), high = bar.number("high");
+      if (low && high)
+        comparison.error_bars.push_back(
+            {metric, *low, *high, bar.number("noiseFloor").value_or(0)});
+    }
   }
   if (const auto tolerance = fields.object("tolerance")) {
     comparison.tolerance = Tolerance{tolerance->number("relative"), tolerance->number("ofPeak"),
@@ -201,11 +211,11 @@ std::vector<std::string> files_of(const CellData& cell) {
   if (cell.has_record) add("cell.json");
   for (const CellImage& image : cell.images) {
     for (const std::string& file : {image.exr, image.record, image.log}) add(file);
-    if (image.png.shown()) add(image.png.file);
+    if (image.png.shown() && image.png.is_published) add(image.png.file);
   }
   for (const CellComparison& comparison : cell.comparisons) {
     add(comparison.record);
-    if (comparison.png.shown()) add(comparison.png.file);
+    if (comparison.png.shown() && comparison.png.is_published) add(comparison.png.file);
   }
   if (cell.profile.problem.empty()) add(cell.profile.file);
   return files;

@@ -7,7 +7,8 @@ namespace {
 
 Json picture_json(const Picture& picture) {
   if (!picture.shown()) return nullptr;
-  return {{"src", link_to({picture.file})}, {"width", picture.width}, {"height", picture.height}};
+  const std::string& file = picture.is_published ? picture.file : picture.small.file;
+  return {{"src", link_to({file})}, {"width", picture.width}, {"height", picture.height}};
 }
 
 Json optional_number(const std::optional<double>& value) {
@@ -46,7 +47,10 @@ Json cell_json(const FarmData& farm, const CellEntry& entry, const CellData& cel
     data["engines"].push_back({{"name", engine.name},
                                {"title", engine.title},
                                {"shortTitle", engine.short_title},
-                               {"picture", image ? picture_json(image->png) : Json(nullptr)}});
+                               {"picture", image ? picture_json(image->png) : Json(nullptr)},
+                               {"floatScript", image && !image->float_script.empty()
+                                                   ? Json(link_to({image->float_script}))
+                                                   : Json(nullptr)}});
   }
   data["comparisons"] = Json::array();
   for (const CellComparison& comparison : cell.comparisons) {

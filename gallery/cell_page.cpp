@@ -4,6 +4,7 @@
 
 #include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
+#include "gallery/metric_notes.hpp"
 #include "gallery/names.hpp"
 #include "gallery/page.hpp"
 
@@ -73,6 +74,25 @@ void write_navigation(Html& html, const FarmData& farm, const CellEntry& entry) 
   }
 }
 
+/// How far each is from ours, in the one figure that the grid has too.
+void write_agreement(Html& html, const FarmData& farm, const CellData& cell) {
+  constexpr char kFigure[] = "max_rel_peak";
+  if (cell.comparisons.empty()) return;
+  const Tag table(html, "table", {{"class", "agreement"}});
+  html.element("caption", metric_note(kFigure).title + ", over all pixels and channels");
+  const Tag body(html, "tbody");
+  for (const CellComparison& comparison : cell.comparisons) {
+    const Tag row(html, "tr");
+    html.element("th", {{"scope", "row"}}, farm.engine_title(comparison.b));
+    const auto worst = comparison.metric(kFigure);
+    html.element("td", {{"class", "number"}}, worst ? metric_text(kFigure, *worst) : "–");
+    std::string words = verdict_words(comparison);
+    if (const double outliers = comparison.metric("outliers").value_or(0); outliers > 0)
+      words += ", " + count_text(outliers) + " px beyond the tolerance";
+    html.element("td", words);
+  }
+}
+
 void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
   const Tag box(html, "div", {{"class", "verdict " + std::string(info(cell.status).name)}});
   {
@@ -81,6 +101,7 @@ void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
     html.text(" ");
     html.text(info(cell.status).meaning);
   }
+  write_agreement(html, farm, cell);
   if (!cell.unreadable.empty()) html.element("p", cell.unreadable);
   for (const CellProblem& problem : cell.problems) {
     const Tag line(html, "p");
@@ -116,9 +137,14 @@ std::string cell_page(const SiteFrame& site, const FarmData& farm, const CellEnt
   {
     const Tag header(html, "header");
     html.element("h1", entry.label.empty() ? entry.id : entry.label);
-    write_navigation(html, farm, entry);
+    const Tag columns(html, "div", {{"class", "cell-head"}});
+    {
+      const Tag left(html, "div");
+      write_navigation(html, farm, entry);
+      write_highlight(html, cell);
+    }
+    const Tag right(html, "div");
     write_verdict(html, farm, cell);
-    write_highlight(html, cell);
   }
   if (cell.has_record) {
     write_pictures(html, farm, cell);

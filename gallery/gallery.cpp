@@ -11,10 +11,12 @@
 #include "gallery/cell_json.hpp"
 #include "gallery/cell_page.hpp"
 #include "gallery/cell_summary.hpp"
+#include "gallery/float_pictures.hpp"
 #include "gallery/grid_json.hpp"
 #include "gallery/index_page.hpp"
 #include "gallery/page.hpp"
 #include "gallery/publisher.hpp"
+#include "gallery/small_picture.hpp"
 #include "gallery/views.hpp"
 
 namespace lobelia {
@@ -47,13 +49,9 @@ void require_title(const std::string& title) {
 }
 
 /// The files of the run that a cell's page shows or links to.
-void copy_cell_files(const fs::path& run, const CellData& cell, bool metrics_only,
-                     Publisher& publisher) {
+void copy_cell_files(const fs::path& run, const CellData& cell, Publisher& publisher) {
   const std::string folder = "cells/" + cell.id + "/";
-  for (const std::string& file : files_of(cell)) {
-    if (metrics_only && file.ends_with(".exr")) continue;
-    publisher.copy(run / folder / file, folder + file);
-  }
+  for (const std::string& file : files_of(cell)) publisher.copy(run / folder / file, folder + file);
 }
 
 }  // namespace
@@ -91,9 +89,13 @@ fs::path write_gallery(const fs::path& run, const GalleryOptions& options) {
   // One cell at a time: thousands of profiles need not be in memory together.
   for (const CellEntry& entry : farm.cells) {
     throw_if_interrupted();
-    const CellData cell = read_cell(run, entry);
+    CellData cell = read_cell(run, entry);
+    if (options.metrics_only)
+      for (CellImage& image : cell.images) image.exr.clear();
+    publish_small_pictures(run, cell, options.metrics_only, publisher);
+    if (!options.metrics_only) publish_float_pictures(run, cell, publisher);
     const std::string folder = "cells/" + entry.id + "/";
-    copy_cell_files(run, cell, options.metrics_only, publisher);
+    copy_cell_files(run, cell, publisher);
     publisher.write(folder + kCellData, data_script("page", cell_json(farm, entry, cell)));
     publisher.write(folder + "index.html", cell_page(site, farm, entry, cell));
     summaries.push_back(summarise(farm, entry, cell));

@@ -63,10 +63,12 @@ Json grid_json(const FarmData& farm, const std::vector<CellSummary>& cells) {
                 {"status", std::string(info(cell.status).name)},
                 {"at", cell.entry->at},
                 {"metrics", values}};
-    if (cell.picture.shown())
-      one["picture"] = {{"src", link_to({"cells", cell.entry->id, cell.picture.file})},
-                        {"width", cell.picture.width},
-                        {"height", cell.picture.height}};
+    if (cell.picture.shown()) {
+      const SmallPicture picture = cell.picture.first_look();
+      one["picture"] = {{"src", link_to({"cells", cell.entry->id, picture.file})},
+                        {"width", picture.width},
+                        {"height", picture.height}};
+    }
     list.push_back(std::move(one));
   }
   data["metrics"] = std::move(metrics);

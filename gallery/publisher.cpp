@@ -103,17 +103,20 @@ void Publisher::copy(const fs::path& from, const std::string& name) {
   ++written_;
 }
 
-void Publisher::derive(const std::string& name, const std::string& key,
+bool Publisher::derive(const std::string& name, const std::string& key,
                        const std::function<std::string()>& make) {
-  keys_[name] = key;
   const auto earlier = earlier_keys_.find(name);
   std::error_code ignored;
   if (earlier != earlier_keys_.end() && earlier->second == key &&
       fs::is_regular_file(site_ / name, ignored)) {
     files_.insert(name);
-    return;
+  } else {
+    const std::string content = make();
+    if (content.empty()) return false;
+    write(name, content);
   }
-  write(name, make());
+  keys_[name] = key;
+  return true;
 }
 
 void Publisher::remove_stale(const std::string& name) {

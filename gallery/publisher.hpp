@@ -25,7 +25,8 @@ class Publisher {
   /// is that file itself. Throws Error(kOutput).
   void copy(const std::filesystem::path& from, const std::string& name);
   /// What takes time to make: left as it is if it was made of the same `key`, which says all that decides it.
-  void derive(const std::string& name, const std::string& key,
+  /// False, and no file, if `make` gives nothing.
+  bool derive(const std::string& name, const std::string& key,
               const std::function<std::string()>& make);
 
   /// Removes what the earlier publication wrote and this one did not, with directories that are empty then,
