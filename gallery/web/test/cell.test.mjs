@@ -26,6 +26,8 @@ const cellPage = async (hash = '', count = 2) => {
 const encoded = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(1, v) ** (1 / 2.4) - 0.055));
 const near = (seen, wanted, by = 2) =>
   seen.forEach((v, i) => assert.ok(Math.abs(v - wanted[i]) <= by, `${seen} is not ${wanted}`));
+/** Just right of and below the middle: in pixel (32, 32). */
+const middle = async (stage) => { const box = await stage.boundingBox(); return { x: box.width / 2 + 2, y: box.height / 2 + 2 }; };
 const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
 for (const from of ['file', 'server']) {
@@ -33,8 +35,10 @@ for (const from of ['file', 'server']) {
     const page = await open(browser, (from === 'file' ? fileUrl(site) : server.url) + kCell);
     await ready(page);
     const stage = page.locator('.stage');
+    await says(page, '.where', /^Pixel \(\d+, \d+\), where they differ most$/);
+    await stage.hover({ position: await middle(stage) });
     await stage.focus();
-    await page.keyboard.press('ArrowLeft');  // from the middle
+    await page.keyboard.press('ArrowLeft');
     await says(page, '.where', /Pixel \(31, 32\)/);
     await says(page, '.pixel-values tbody td', /\d/);
     const red = ours(31, 32, kSize)[0];
@@ -46,8 +50,10 @@ for (const from of ['file', 'server']) {
 
 test('a difference of two parts in a million is read to more digits than half floats have', async () => {
   const page = await cellPage('#a=povray&b=lobelia&mode=diff', 2);
+  await page.locator('.stage').hover({ position: await middle(page.locator('.stage')) });
   await page.locator('.stage').focus();
   await page.keyboard.press('ArrowRight');
+  await says(page, '.where', /Pixel \(33, 32\)/);
   const cell = page.locator('.pixel-values tr.sum td').first();
   await page.waitForFunction(() => /\d/.test(document.querySelector('.pixel-values tr.sum td')?.textContent ?? ''));
   const wanted = Math.fround(ours(33, 32, kSize)[0] * (1 + errorOf.povray)) - ours(33, 32, kSize)[0];
@@ -144,6 +150,16 @@ test('a difference has the scale that its legend prints, and false colour tells 
   await page.getByRole('checkbox', { name: 'False colour' }).check();
   const colour = await seenAt(page, 0.5, 1 / 3);
   assert.ok(colour[0] > 200 && colour[2] < 190, `inferno, near its top: ${colour}`);
+  await close(page);
+});
+
+test('the worst pixel of two pictures is found, and brought into the middle of a zoomed view', async () => {
+  const page = await cellPage('#a=blender&b=lobelia&z=20&x=5&y=5');
+  await page.keyboard.press('w');
+  // The brightest pixel: each is off by the same share.
+  await says(page, '.where', /Pixel \(32, 21\), where they differ most/);
+  const hash = await hashOf(page);
+  assert.deepEqual([hash.x, hash.y], ['32.5', '21.5']);
   await close(page);
 });
 

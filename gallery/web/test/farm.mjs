@@ -80,20 +80,22 @@ const kEngines = [['lobelia', 'Lobelia'], ['analytic', 'Analytic'], ['povray', '
 
 function writeCell(cell, id, axes, status, size, pictures) {
   mkdirSync(cell, { recursive: true });
-  writeFileSync(path.join(cell, 'scene.xml'), '<scene/>');
+  const isFull = pictures === true;
+  if (isFull) writeFileSync(path.join(cell, 'scene.xml'), '<scene/>');
   const images = [];
-  for (const [engine] of pictures === 'thumbnail' ? kEngines.slice(0, 1) : pictures ? kEngines : []) {
+  for (const [engine] of isFull ? kEngines : pictures ? kEngines.slice(0, 1) : []) {
     const value = (x, y) => ours(x, y, size).map((v) => v * (1 + (errorOf[engine] ?? 0)));
     writeFileSync(path.join(cell, `${engine}.png`), png(size, size, (x, y) => value(x, y).map((v) => encode(v / kPeak))));
+    images.push({ engine, exr: `${engine}.exr`, png: `${engine}.png`, record: `${engine}.json` });
+    if (!isFull) continue;
     writeFileSync(path.join(cell, `${engine}.exr`), exr(size, size, value));
     json(path.join(cell, `${engine}.json`), made(engine === 'lobelia' ? 'render' : 'reference', {
       engine: { name: engine, version: '1.2.3' }, command: ['lobelia', 'render', 'scene.xml'], seconds: { total: 0.25 },
       rays: { camera: 4 }, plan: { effects: [{ name: 'shadows', on: false, reason: 'one convex body' }] }, witness: 'native',
     }));
-    images.push({ engine, exr: `${engine}.exr`, png: `${engine}.png`, record: `${engine}.json` });
   }
   const comparisons = [];
-  for (const [engine] of pictures === true ? kEngines.slice(1) : []) {
+  for (const [engine] of isFull ? kEngines.slice(1) : []) {
     const worst = errorOf[engine];
     json(path.join(cell, `lobelia-${engine}.json`), made('comparison', {
       verdict: status === 'differs' && engine === 'blender' ? 'differs' : 'pass', a: 'lobelia.exr', b: `${engine}.exr`, nonfinite: { a: 0, b: 0 },
@@ -106,7 +108,7 @@ function writeCell(cell, id, axes, status, size, pictures) {
       difference: { whiteAt: (worst || 1e-6) * kPeak, relativeToPeak: worst || 1e-6 } });
   }
   const degrees = Array.from({ length: 60 }, (_, i) => i + 0.5), curve = degrees.map((d) => kPeak * Math.exp(-d * d / 200));
-  json(path.join(cell, 'profile.json'), made('profile', {
+  if (isFull) json(path.join(cell, 'profile.json'), made('profile', {
     light: 0, sphere: 0, angle: 'reflection',
     zones: { epicentreDegrees: [0, 10], flankDegrees: [10, 20], bloomingDegrees: [20, 40] },
     curve: { angleDegrees: degrees, pixels: degrees.map(() => 3), analytic: curve,
@@ -115,13 +117,13 @@ function writeCell(cell, id, axes, status, size, pictures) {
     differences: { 'lobelia-povray': { epicentre: { maxAbs: 1e-3 } } },
   }));
   json(path.join(cell, 'cell.json'), made('cell', { id, axes, status, exposureStops: Math.log2(1 / kPeak),
-    highlight: { model: 'phong_rdf', exponent: 16 }, images, comparisons, profile: 'profile.json',
+    highlight: { model: 'phong_rdf', exponent: 16 }, images, comparisons, ...(isFull ? { profile: 'profile.json' } : {}),
     problems: status === 'failed' ? [{ engine: 'blender', message: 'stopped after 600 s' }] : [] }));
 }
 
 /**
  * Writes a farm. `axes`: { model: ['a', 'b'] }; `cell`: what to change of a cell of the product, by its number;
- * its `pictures` are true, false, or 'thumbnail' for ours alone.
+ * its `pictures` are true, false, or 'thumbnail' for ours alone, as an 8-bit file.
  */
 export function writeFarm(directory, { title = 'A small farm', axes, size = 64, cell = () => ({}) }) {
   const names = Object.keys(axes);
