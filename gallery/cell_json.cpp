@@ -8,7 +8,10 @@ namespace {
 Json picture_json(const Picture& picture) {
   if (!picture.shown()) return nullptr;
   const std::string& file = picture.is_published ? picture.file : picture.small.file;
-  return {{"src", link_to({file})}, {"width", picture.width}, {"height", picture.height}};
+  return {{"src", link_to({file})},
+          {"small", link_to({picture.first_look().file})},
+          {"width", picture.width},
+          {"height", picture.height}};
 }
 
 Json optional_number(const std::optional<double>& value) {

@@ -76,15 +76,18 @@ export const ours = (x, y, size) => {
 };
 export const errorOf = { analytic: 0, povray: 2e-6, blender: 1e-3 };
 
+/** Something between -1 and 1 that looks like chance. */
+const dither = (x, y, c, seed) => { const v = Math.sin(x * 12.9898 + y * 78.233 + c * 37.7 + seed * 91.3) * 43758.5453; return 2 * (v - Math.floor(v)) - 1; };
+
 const kEngines = [['lobelia', 'Lobelia'], ['analytic', 'Analytic'], ['povray', 'POV-Ray'], ['blender', 'Blender Cycles']];
 
-function writeCell(cell, id, axes, status, size, pictures) {
+function writeCell(cell, id, axes, status, size, pictures, noise) {
   mkdirSync(cell, { recursive: true });
   const isFull = pictures === true;
   if (isFull) writeFileSync(path.join(cell, 'scene.xml'), '<scene/>');
   const images = [];
   for (const [engine] of isFull ? kEngines : pictures ? kEngines.slice(0, 1) : []) {
-    const value = (x, y) => ours(x, y, size).map((v) => v * (1 + (errorOf[engine] ?? 0)));
+    const value = (x, y) => ours(x, y, size).map((v, c) => (v + 0.2) * (1 + noise * dither(x, y, c, engine.length)) - 0.2 + v * (errorOf[engine] ?? 0));
     writeFileSync(path.join(cell, `${engine}.png`), png(size, size, (x, y) => value(x, y).map((v) => encode(v / kPeak))));
     images.push({ engine, exr: `${engine}.exr`, png: `${engine}.png`, record: `${engine}.json` });
     if (!isFull) continue;
@@ -123,9 +126,9 @@ function writeCell(cell, id, axes, status, size, pictures) {
 
 /**
  * Writes a farm. `axes`: { model: ['a', 'b'] }; `cell`: what to change of a cell of the product, by its number;
- * its `pictures` are true, false, or 'thumbnail' for ours alone, as an 8-bit file.
+ * its `pictures` are true, false, or 'thumbnail' for ours alone, as an 8-bit file. `noise` is relative, in every value by itself.
  */
-export function writeFarm(directory, { title = 'A small farm', axes, size = 64, cell = () => ({}) }) {
+export function writeFarm(directory, { title = 'A small farm', axes, size = 64, noise = 0, cell = () => ({}) }) {
   const names = Object.keys(axes);
   let places = [{}];
   for (const name of names) places = places.flatMap((place) => axes[name].map((value) => ({ ...place, [name]: value })));
@@ -138,6 +141,6 @@ export function writeFarm(directory, { title = 'A small farm', axes, size = 64, 
     cells: cells.map(({ id, status, axes: at }) => ({ id, status, axes: at })),
   }));
   for (const { id, axes: at, status, pictures } of cells)
-    if (status !== 'missing') writeCell(path.join(directory, 'cells', id), id, at, status, size, pictures);
+    if (status !== 'missing') writeCell(path.join(directory, 'cells', id), id, at, status, size, pictures, noise);
   return cells;
 }

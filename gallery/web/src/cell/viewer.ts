@@ -57,6 +57,7 @@ export class Viewer {
   private readonly loading = new Map<number, Promise<void>>();
   private painter: Painter;
   private isFloat = false;
+  private isWaiting: boolean;  // for float pictures
   private width = 1;
   private height = 1;
   private cursor: { x: number; y: number } | undefined;
@@ -65,6 +66,7 @@ export class Viewer {
   private readonly largest = new Map<string, { value: number; x: number; y: number }>();
 
   constructor(private readonly data: CellData, private readonly state: ViewerState) {
+    this.isWaiting = Boolean(data.engines[0]?.floatScript);
     const first = data.engines.find((e) => e.picture);
     if (first?.picture) ({ width: this.width, height: this.height } = first.picture);
     const choices = this.shownEngines().map((i) => ({
@@ -119,7 +121,7 @@ export class Viewer {
           this.keysHelp())),
       this.lineBox);
 
-    this.painter = new PngPainter(this.canvas, data, () => this.schedule());
+    this.painter = new PngPainter(this.canvas, data, () => this.schedule(), () => this.isWaiting);
     this.listen();
     state.onChange(() => this.refresh());
     new ResizeObserver(() => this.schedule()).observe(this.stage);
@@ -225,6 +227,7 @@ export class Viewer {
       }
       this.useFloats();
     } catch (error) {
+      if (engine === 0) this.isWaiting = false;
       this.tell(error instanceof Error ? error.message : String(error));
     }
     this.schedule();
@@ -247,6 +250,7 @@ export class Viewer {
           // Told below.
         }
       }
+      this.isWaiting = this.isFloat;
       if (!this.isFloat) this.tell('This browser has no WebGL 2: pictures are shown as 8-bit files, without exposure and false colour.');
       ({ width: this.width, height: this.height } = ours);
     }
@@ -438,9 +442,11 @@ export class Viewer {
     const row = (name: string, value: readonly number[] | undefined, digits: number, chosen: string): HTMLElement =>
       h('tr', { class: chosen }, h('th', { scope: 'row' }, name),
         ...[0, 1, 2].map((c) => h('td', {}, value ? numberText(value[c]!, digits) : '…')));
+    // A value is ours and a difference: as many digits as ours was stored with.
+    const digits = 1 + Math.floor((this.floats.get(0)?.mantissaBits ?? 10) * Math.log10(2));
     const rows = this.shownEngines().filter((i) => this.data.engines[i]!.floatScript).map((i) => {
       void this.need(i);
-      return row(this.data.engines[i]!.shortTitle, this.valueAt(i, x, y), 4, i === a || i === b ? 'chosen' : '');
+      return row(this.data.engines[i]!.shortTitle, this.valueAt(i, x, y), digits, i === a || i === b ? 'chosen' : '');
     });
     const title = (engine: number): string => this.data.engines[engine]?.shortTitle ?? '';
     rows.push(row(`${title(a)} − ${title(b)}`, this.differenceAt(a, b, x, y), 3, 'sum'));
