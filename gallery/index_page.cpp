@@ -53,31 +53,23 @@ void write_counts(Html& html, const std::vector<CellSummary>& cells) {
   }
 }
 
+bool has_formulas(const FarmData& farm) {
+  return std::ranges::any_of(
+      farm.engines, [](const EngineEntry& e) { return e.name == "analytic" && e.available; });
+}
+
 void write_introduction(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
   const Tag header(html, "header", {{"class", "top"}});
-  {
-    const Tag left(html, "div");
-    html.element("h1", farm.title);
-    write_counts(html, cells);
-  }
+  html.element("h1", farm.title);
+  write_counts(html, cells);
   const std::string references = reference_titles(farm, true);
-  const bool has_formulas = std::ranges::any_of(
-      farm.engines, [](const EngineEntry& e) { return e.name == "analytic" && e.available; });
   html.element(
       "p", {{"class", "lead"}},
-      "Every picture shows specular highlights, shaded by one reflection model with one "
-      "normalisation, drawn by Lobelia straight from the model’s formula. " +
-          (references.empty()
-               ? "No other renderer was there to compare it with."
-               : references +
-                     " drew the same scenes, and each pair was compared pixel by "
-                     "pixel. A picture is a witness of the model where the engine has it "
-                     "as its own shading; elsewhere the formula was written in the "
-                     "engine’s language by hand, and geometry, camera, light, visibility "
-                     "and arithmetic are the witness. Each cell says which." +
-                     (has_formulas ? " Analytic is the formula itself, evaluated for each pixel by "
-                                     "code of its own."
-                                   : "")));
+      references.empty()
+          ? "Specular highlights, drawn by Lobelia straight from their models’ formulas. No other "
+            "renderer was there to compare them with."
+          : "Specular highlights, drawn by Lobelia straight from their models’ formulas. " +
+                references + " drew the same scenes, and each pair was compared pixel by pixel.");
 }
 
 void write_missing_engines(Html& html, const FarmData& farm) {
@@ -139,6 +131,16 @@ void write_legend(Html& html, const FarmData& farm, const std::vector<CellSummar
       "so that sharp and broad highlights can both be seen; the cell’s page prints the "
       "exposure. Click it for all pictures, differences, curves and numbers.");
   if (!reference_titles(farm, true).empty()) {
+    html.element(
+        "p",
+        std::string(
+            "A picture is a witness of the model where the engine has it as its own shading; "
+            "elsewhere the formula was written in the engine’s language by hand, and geometry, "
+            "camera, light, visibility and arithmetic are the witness. Each cell says which.") +
+            (has_formulas(farm)
+                 ? " Analytic is the formula itself, evaluated for each pixel by code of "
+                   "its own."
+                 : ""));
     html.element("p",
                  "The small print is the worst difference against each engine: the largest "
                  "|ours − theirs| over all pixels and channels of the linear float pictures, "

@@ -83,7 +83,7 @@ test('failures can come first, then the largest differences', async () => {
 
 test('any metric of any engine colours the cells, and its scale is shown', async () => {
   const page = await grid();
-  for (const [label, words] of [['Blender: Largest difference, of the peak', /0\.1 %/], ['POV-Ray: Largest difference', /5e−6/]]) {
+  for (const [label, words] of [['Worst of all: Largest difference, of the peak', /0\.1 %/], ['Blender: Largest difference, of the peak', /0\.1 %/], ['POV-Ray: Largest difference', /5 × 10⁻⁶/]]) {
     await page.getByRole('combobox', { name: 'Colour', exact: true }).selectOption({ label });
     assert.match(await page.locator('.legend-bar').textContent(), words);
     assert.match(await page.locator('.cell .value').first().textContent(), words);

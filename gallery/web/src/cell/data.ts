@@ -18,6 +18,9 @@ export interface Comparison {
   readonly picture: PictureFile | null;
   readonly whiteAt: RecordNumber;
   readonly relativeToPeak: RecordNumber;
+  /** The pixel of the largest difference. */
+  readonly worstX: RecordNumber;
+  readonly worstY: RecordNumber;
 }
 
 export interface Profile {

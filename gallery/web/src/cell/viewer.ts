@@ -2,7 +2,7 @@
 // values under the cursor, and what a line across them sees.
 import { Chart, rangeOf } from '../lib/chart';
 import { announce, button, h, isTyping, select, svg } from '../lib/dom';
-import { clamp, numberText, percentText, toNumber } from '../lib/numbers';
+import { clamp, numberText, percentText, shortText, toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import { cssGradient } from './colours';
 import type { CellData } from './data';
@@ -184,7 +184,7 @@ export class Viewer {
     this.exposure.min = String(mode === 'diff' ? -12 : base - 10);
     this.exposure.max = String(mode === 'diff' ? 12 : base + 14);
     this.exposure.value = mode === 'diff' ? this.state.get('gain') : String(this.stops());
-    const stops = numberText(Number(this.exposure.value), 4);
+    const stops = numberText(Math.round(100 * Number(this.exposure.value)) / 100, 5);
     this.exposureName.textContent = mode === 'diff' ? `Gain of the difference ${stops} stops` : `Exposure ${stops} stops`;
     for (const which of [a, b, 0]) void this.need(which);
     this.schedule();
@@ -314,8 +314,20 @@ export class Viewer {
     return found;
   }
 
+  private comparisonOf(a: number, b: number): CellData['comparisons'][number] | undefined {
+    const names = [this.data.engines[a]?.name, this.data.engines[b]?.name];
+    return a === b ? undefined : this.data.comparisons.find((c) => names.includes(c.a) && names.includes(c.b) && c.a !== c.b);
+  }
+
+  /** As it was recorded, from all bits; of two that were not compared, as this page has them. */
+  private worstPixel(a: number, b: number): { x: number; y: number; value: number } | undefined {
+    const found = this.worst(a, b, 'absolute'), record = this.comparisonOf(a, b);
+    const x = toNumber(record?.worstX), y = toNumber(record?.worstY);
+    return found && Number.isInteger(x) && Number.isInteger(y) ? { ...found, x: clamp(x, 0, this.width - 1), y: clamp(y, 0, this.height - 1) } : found;
+  }
+
   private goToWorst(): void {
-    const worst = this.worst(this.chosen('a'), this.chosen('b'), 'absolute');
+    const worst = this.worstPixel(this.chosen('a'), this.chosen('b'));
     if (!worst) return;
     this.setCursor(worst.x, worst.y);
     if (this.state.get('z') !== '') this.change({ x: String(worst.x + 0.5), y: String(worst.y + 0.5) });
@@ -324,9 +336,7 @@ export class Viewer {
 
   /** What white stands for in a difference. */
   private white(a: number, b: number): number {
-    const measure = this.measureOf(), names = [this.data.engines[a]?.name, this.data.engines[b]?.name];
-    const recorded = this.data.comparisons.find((c) => names.includes(c.a) && names.includes(c.b) && c.a !== c.b);
-    const whiteAt = recorded && a !== b ? toNumber(recorded.whiteAt) : NaN;
+    const measure = this.measureOf(), whiteAt = toNumber(this.comparisonOf(a, b)?.whiteAt);
     const base = measure !== 'relative' && whiteAt > 0 ? whiteAt : this.isFloat ? this.largestOf(a, b, measure) : 1;
     return base / 2 ** this.state.number('gain');
   }
@@ -429,27 +439,26 @@ export class Viewer {
   }
 
   private showValues(a: number, b: number): void {
-    if (!this.cursor && this.isFloat) this.cursor = this.worst(a, b, 'absolute');
+    if (!this.cursor && this.isFloat) this.cursor = this.worstPixel(a, b);
     if (!this.cursor || !this.isFloat) {
       this.where.textContent = this.isFloat ? 'Point at a pixel to read its values' : 'Values need float pictures';
       this.values.replaceChildren();
       return;
     }
     const { x, y } = this.cursor;
-    const worst = this.worst(a, b, 'absolute');
+    const worst = this.worstPixel(a, b);
     const isWorst = a !== b && worst?.x === x && worst.y === y && worst.value > 0;
     this.where.textContent = `Pixel (${x}, ${y})${isWorst ? ', where they differ most' : ''}`;
     const row = (name: string, value: readonly number[] | undefined, digits: number, chosen: string): HTMLElement =>
       h('tr', { class: chosen }, h('th', { scope: 'row' }, name),
-        ...[0, 1, 2].map((c) => h('td', {}, value ? numberText(value[c]!, digits) : '…')));
+        ...[0, 1, 2].map((c) => h('td', {}, value ? shortText(value[c]!, digits) : '…')));
     // A value is ours and a difference: as many digits as ours was stored with.
     const digits = 1 + Math.floor((this.floats.get(0)?.mantissaBits ?? 10) * Math.log10(2));
     const rows = this.shownEngines().filter((i) => this.data.engines[i]!.floatScript).map((i) => {
       void this.need(i);
       return row(this.data.engines[i]!.shortTitle, this.valueAt(i, x, y), digits, i === a || i === b ? 'chosen' : '');
     });
-    const title = (engine: number): string => this.data.engines[engine]?.shortTitle ?? '';
-    rows.push(row(`${title(a)} − ${title(b)}`, this.differenceAt(a, b, x, y), 3, 'sum'));
+    rows.push(row('Difference', this.differenceAt(a, b, x, y), 3, 'sum'));
     this.values.replaceChildren(...rows);
   }
 
