@@ -77,6 +77,24 @@ TEST(Cells, CarryTheValuesOfTheirAxesIntoTheScene) {
   }
 }
 
+TEST(GridFormat, ItsExamplesAreReadAndHaveAsManyCellsAsItSays) {
+  const std::string page =
+      read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/grid_format.md", 1 << 20);
+  std::vector<std::size_t> counts;
+  for (auto at = page.find("```xml"); at != page.npos; at = page.find("```xml", at + 1)) {
+    std::string text = page.substr(at + 6, page.find("```", at + 6) - at - 6);
+    for (auto file = text.find("../scenes/"); file != text.npos; file = text.find("../scenes/"))
+      text.replace(file, 10, kSceneFiles);
+    const TemporaryDirectory directory;
+    write_file(directory.path() / "g.xml", text);
+    const Grid grid = read_grid(directory.path() / "g.xml");
+    counts.push_back(cells_of(grid).size());
+  }
+  EXPECT_EQ(counts, (std::vector<std::size_t>{4, 48 - 16 - 12 + 4 + 1}));
+  EXPECT_THAT(page, testing::HasSubstr("25 cells remain"));
+  EXPECT_THAT(page, testing::HasSubstr(std::to_string(kMaxCells) + " cells together"));
+}
+
 TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
   const std::pair<const char*, const char*> bad[] = {
       {"<axis name=\"modle\" values=\"a\"/>",
