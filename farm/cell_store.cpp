@@ -49,10 +49,11 @@ std::vector<std::string> named_files(const Json& record) {
 
 }  // namespace
 
-CellStore::CellStore(const fs::path& farm_directory, const Cell& cell)
+CellStore::CellStore(const fs::path& farm_directory, const Grid& grid, const Cell& cell)
     : cell_(&cell),
+      scene_(scene_of(grid, cell)),
       directory_(farm_directory / "cells" / cell.id),
-      scene_xml_(scene_to_xml(cell.scene)) {}
+      scene_xml_(scene_to_xml(scene_)) {}
 
 void CellStore::prepare(bool again) const {
   make_directories(directory_);

@@ -15,9 +15,10 @@ namespace lobelia {
 /// equal to today's. No hashes: a person can read why something was made again.
 class CellStore {
  public:
-  CellStore(const std::filesystem::path& farm_directory, const Cell& cell);
+  CellStore(const std::filesystem::path& farm_directory, const Grid& grid, const Cell& cell);
 
   const Cell& cell() const { return *cell_; }
+  const Scene& scene() const { return scene_; }
   std::filesystem::path file(const std::string& name) const { return directory_ / name; }
 
   /// Makes the directory, writes scene.xml, removes what a killed run left behind and the cell's
@@ -44,6 +45,7 @@ class CellStore {
 
  private:
   const Cell* cell_;
+  Scene scene_;
   std::filesystem::path directory_;
   std::string scene_xml_;
 };

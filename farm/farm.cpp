@@ -74,7 +74,7 @@ class Farm {
         options_(options),
         cells_(cells_of(grid)),
         progress_(options, cells_.size() * (2 + grid.engines.size())) {
-    for (const auto& cell : cells_) stores_.emplace_back(directory, cell);
+    for (const auto& cell : cells_) stores_.emplace_back(directory, grid, cell);
     problems_.resize(cells_.size());
     not_comparable_.resize(cells_.size());
     status_.assign(cells_.size(), "missing");
@@ -162,16 +162,17 @@ class Farm {
       // Cells side by side, each on one thread: a cell is too small to be divided.
       RenderOptions single;
       single.threads = 1;
-      const RenderResult result = render(cells_[i].scene, single);
+      const RenderResult result = render(stores_[i].scene(), single);
       const std::string file = std::string(kOurs) + ".exr";
-      Json record = render_record(cells_[i].scene, result,
+      Json record = render_record(stores_[i].scene(), result,
                                   {"lobelia", "render", "scene.xml", "-o", file}, file);
       record["inputs"] = stores_[i].inputs("");
       // An engine's average is compared with it, by the noise of both.
-      const Image error = needs_replicates(cells_[i].scene)
-                              ? standard_error_of_render(cells_[i].scene, single)
+      const Image error = needs_replicates(stores_[i].scene())
+                              ? standard_error_of_render(stores_[i].scene(), single)
                               : Image();
-      stores_[i].store_image(kOurs, result.image, error, render_metadata(cells_[i].scene), record);
+      stores_[i].store_image(kOurs, result.image, error, render_metadata(stores_[i].scene()),
+                             record);
       progress_.step(kOurs);
     });
     summary_.rendered += todo.size();
@@ -189,7 +190,7 @@ class Farm {
       std::vector<std::size_t>& todo = todos[e];
       std::size_t refused = 0;
       for (const std::size_t i : unfinished) {
-        if (const std::string why = engines_[e].engine->why_not(cells_[i].scene, {});
+        if (const std::string why = engines_[e].engine->why_not(stores_[i].scene(), {});
             !why.empty()) {
           not_comparable_[i].push_back({engines_[e].name, why});
           ++refused;
@@ -222,7 +223,7 @@ class Farm {
 
   void render_with(EngineHere& here, const std::vector<std::size_t>& todo) {
     std::vector<Scene> scenes;
-    for (const std::size_t i : todo) scenes.push_back(cells_[i].scene);
+    for (const std::size_t i : todo) scenes.push_back(stores_[i].scene());
     if (scenes.empty()) return;
     ReferenceOptions options;
     options.threads = options_.threads;
@@ -252,7 +253,7 @@ class Farm {
     result.record["command"] = std::move(command);
     result.record["image"] = {
         {"file", file}, {"width", result.image.width()}, {"height", result.image.height()}};
-    const ImageMetadata metadata = reference_metadata(cells_[i].scene, result.record);
+    const ImageMetadata metadata = reference_metadata(stores_[i].scene(), result.record);
     result.record["inputs"] = stores_[i].inputs(here.version);
     stores_[i].store_image(here.name, result.image, result.standard_error, metadata, result.record);
     const std::scoped_lock lock(mutex_);
@@ -344,8 +345,8 @@ class Farm {
 
   FarmSummary summarise() {
     summary_.cells = cells_.size();
-    for (const Cell& cell : cells_)
-      for (const Material& material : cell.scene.materials)
+    for (const CellStore& store : stores_)
+      for (const Material& material : store.scene().materials)
         if (std::string text = warning(material.highlight); !text.empty())
           summary_.warnings.insert(std::move(text));
     summary_.foreign = count_foreign_cells();

@@ -92,7 +92,7 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   const Image& ours = pictures.front().second;
   const double exposure = cell_exposure(ours);
   // A tolerance for each pixel is one of pictures without noise.
-  const bool exact = truth::why_not_evaluated(cell.scene).empty();
+  const bool exact = truth::why_not_evaluated(store.scene()).empty();
   const auto is_judged = [&](const std::string& engine) {
     return engine != kOurs && (exact || (has_error(store, kOurs) && has_error(store, engine)));
   };
@@ -108,7 +108,7 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
            "judges that"});
   }
   const auto edges =
-      exact && pictures.size() > 1 ? truth::edge_ring(cell.scene) : std::vector<std::uint8_t>();
+      exact && pictures.size() > 1 ? truth::edge_ring(store.scene()) : std::vector<std::uint8_t>();
 
   Json record = make_record("cell");
   record["id"] = cell.id;
@@ -116,9 +116,9 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
   for (const auto& [name, value] : cell.axes) record["axes"][name] = value;
   std::string status = !problems.empty() ? "failed" : judged ? "pass" : "unchecked";
   record["status"] = status;  // keeps its place near the top
-  if (!cell.scene.spheres.empty())
+  if (!store.scene().spheres.empty())
     record["highlight"] = highlight_record(
-        cell.scene.materials.at(std::size_t(cell.scene.spheres.front().material)).highlight);
+        store.scene().materials.at(std::size_t(store.scene().spheres.front().material)).highlight);
   record["exposureStops"] = exposure;
   record["images"] = Json::array();
   record["comparisons"] = Json::array();
@@ -131,13 +131,13 @@ std::string finish_cell(const CellStore& store, const std::vector<std::string>& 
     if (is_pass(verdict) || status == "failed" || status == "differs") continue;
     status = verdict == Verdict::kUndecided ? "undecided" : "differs";
   }
-  if (!cell.scene.lights.empty() && !cell.scene.spheres.empty() &&
-      beyond_single_rays(cell.scene).empty()) {
+  if (!store.scene().lights.empty() && !store.scene().spheres.empty() &&
+      beyond_single_rays(store.scene()).empty()) {
     NamedImages named;
     // The profile draws the formula under that name already.
     for (const auto& [engine, image] : pictures)
       if (engine != kAnalyticName) named.emplace_back(engine, &image);
-    write_record(store.file("profile.json"), profile_scene(cell.scene, 0, 0, named));
+    write_record(store.file("profile.json"), profile_scene(store.scene(), 0, 0, named));
     record["profile"] = "profile.json";
   }
   record["notComparable"] = Json::array();

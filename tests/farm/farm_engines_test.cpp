@@ -41,7 +41,7 @@ TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
   EXPECT_EQ(run_farm(real, out(), {}).rendered, 0u);
 
   // Three black pixels where the highlight is brightest are not three pixels of a silhouette.
-  const Scene scene = cells_of(real).front().scene;
+  const Scene scene = scene_of(real, cells_of(real).front());
   Image broken = read_image(in_cell("n16", "lobelia.exr"));
   for (int x = 0; x < 3; ++x) {
     const auto values = broken.values();

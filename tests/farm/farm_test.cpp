@@ -171,7 +171,7 @@ TEST_F(FarmTest, AnInterruptedAgainIsTakenUpWhereItStopped) {
   const Grid two = grid("16, 32");
   run_farm(two, out(), {});
   const auto cells = cells_of(two);
-  CellStore(out(), cells.front()).prepare(true);  // what --again does first
+  CellStore(out(), two, cells.front()).prepare(true);  // what --again does first
   EXPECT_EQ(run_farm(two, out(), {}).rendered, 1u);
 }
 
