@@ -17,7 +17,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_a
 
 /// Running groups, 0 where none; more at once than any engine starts. One that finds no place is
 /// still killed by whoever waits for it, only not by a second Ctrl-C.
-std::array<std::atomic<pid_t>, 256> g_groups{};
+std::array<std::atomic<pid_t>, 4096> g_groups{};
 
 /// timeout(1) and others send a signal to the process and to its group: that is one wish, told twice.
 constexpr std::int64_t kOneWishNanoseconds = 300'000'000;
