@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <future>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -78,7 +79,8 @@ pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& opt
     posix_spawn_file_actions_addchdir_np(spawn.actions(), options.working_directory.c_str());
   posix_spawnattr_setflags(spawn.attributes(), POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(spawn.attributes(), 0);
-  const std::vector<std::string> variables = environment_with(options.environment);
+  const std::vector<std::string> variables =
+      options.only_environment ? options.environment : environment_with(options.environment);
   std::vector<char*> argv, envp;
   for (const auto& variable : variables) envp.push_back(const_cast<char*>(variable.c_str()));
   envp.push_back(nullptr);
@@ -203,7 +205,8 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
       if (!reaped) ::waitpid(pid, nullptr, 0);
     }
   } guard{pid, ends[0]};
-  const InterruptibleGroup interruptible(pid);
+  std::optional<InterruptibleGroup> interruptible;
+  if (!options.uninterruptible) interruptible.emplace(pid);
 
   if (options.on_start) options.on_start(writes_limited);
   ProcessResult result;
@@ -234,7 +237,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     }
     if (!ended) guard.reaped = ended = ::wait4(pid, &status, WNOHANG, &used) == pid;
     if (!ended && !result.timed_out && !result.no_progress && !result.interrupted) {
-      if (interrupted() || (options.stop && *options.stop))
+      if ((interrupted() && !options.uninterruptible) || (options.stop && *options.stop))
         stop(result.interrupted);
       else if (seconds() > options.timeout)
         stop(result.timed_out);

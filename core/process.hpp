@@ -15,6 +15,9 @@ namespace lobelia {
 struct ProcessOptions {
   std::filesystem::path working_directory;  ///< empty: ours
   std::vector<std::string> environment;     ///< "NAME=value", in place of ours or besides
+  bool only_environment = false;            ///< it gets nothing of ours besides
+  /// Neither the first interruption ends it nor the second: for a short step that must not be cut in two.
+  bool uninterruptible = false;
   std::filesystem::path writable;  ///< the only place where it may write; empty: wherever we may
   std::filesystem::path log;       ///< receives stdout and stderr; empty: dropped
   int input = -1;  ///< a file descriptor for its stdin, which stays the caller's; -1: /dev/null

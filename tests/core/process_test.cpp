@@ -150,6 +150,13 @@ TEST(Process, SeesOurEnvironmentWithTheChangesAsked) {
   EXPECT_EQ(result.output_tail, "/somewhere|a b|path\n");
 }
 
+TEST(Process, SeesNothingButWhatItIsGivenIfAsked) {
+  ProcessOptions options;
+  options.environment = {"LOBELIA_TEST=a b"};
+  options.only_environment = true;
+  EXPECT_EQ(run_process({"/usr/bin/env"}, options).output_tail, "LOBELIA_TEST=a b\n");
+}
+
 TEST(Process, WritesItsOutputToTheLog) {
   const TemporaryDirectory directory;
   ProcessOptions options;
