@@ -54,9 +54,12 @@ std::string unknown_subcommand(CLI::App& app, int argc, char** argv) {
     std::vector<std::string_view> names;
     for (const auto* sub : command->get_subcommands({})) names.push_back(sub->get_name());
     if (names.empty()) break;
-    if (std::find(names.begin(), names.end(), argv[i]) == names.end())
+    if (std::find(names.begin(), names.end(), argv[i]) == names.end()) {
+      // `farm GRID` and `farm status DIR`: what is no subcommand is a file.
+      if (command->get_require_subcommand_min() == 0) break;
       return fmt::format("unknown subcommand '{}'; allowed: {}{}", printable(argv[i]), join(names),
                          did_you_mean(argv[i], names));
+    }
     command = command->get_subcommand(argv[i]);
   }
   return "";
