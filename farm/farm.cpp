@@ -24,7 +24,7 @@ FarmSummary run_farm(const Grid& grid, const fs::path& directory, const FarmOpti
     run.run(session.waiting_cells(), [&](std::size_t cell) { session.finish_cell(cell); });
   } catch (...) {
     try {
-      session.write_farm_record();
+      session.show_what_is_there();
     } catch (const Error&) {  // the first failure is the one to tell
     }
     throw;

@@ -159,6 +159,17 @@ void FarmSession::finish_cell(std::size_t cell) {
         fmt::format("{}: {}: {}", work_.cells.cells[cell].id, problem.engine, problem.message));
 }
 
+void FarmSession::show_what_is_there() {
+  for (const std::size_t cell : waiting_cells_) {
+    if (status_[cell] != "missing") continue;
+    const auto jobs = work_.graph.of_cell(cell);
+    if (std::any_of(jobs.begin(), jobs.end(),
+                    [&](const Job& job) { return job.exists && cache_.has(job.key); }))
+      finish_cell(cell);
+  }
+  write_farm_record();
+}
+
 void FarmSession::write_farm_record() const {
   const Grid& grid = work_.grid;
   Json record = make_record("farm");

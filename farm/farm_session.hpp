@@ -42,6 +42,8 @@ class FarmSession {
 
   /// Puts a cell together from what is there now; what is not there is a problem if it has failed. From any thread.
   void finish_cell(std::size_t cell);
+  /// After an end that came too early: every cell of which something has been made, and farm.json.
+  void show_what_is_there();
   void write_farm_record() const;
   FarmSummary summarise(const JobRunWork& done);
 
