@@ -23,9 +23,10 @@ namespace lobelia {
 namespace {
 namespace fs = std::filesystem;
 
-/// POV-Ray 3.7 sleeps through most of the 0.7 s that a small picture takes it; a large one works.
-constexpr double kSecondsAsleep = 0.6;
+/// POV-Ray 3.7 sleeps through most of the 0.7 to 1.1 s that a small picture takes it; a large one works.
+constexpr double kSecondsAsleep = 1;
 constexpr int kProcessesPerProcessor = 16;
+constexpr double kFirstPerProcessor = 12;  // until one has ended and told how long it worked
 constexpr std::size_t kLargePixels = 1 << 20;
 
 constexpr EngineProbe kProbe{"povray", "POV-Ray ", [](int major, int minor) {
@@ -94,7 +95,7 @@ class Gate {
 
  private:
   int limit() const {
-    const double each = mean_ > 0 ? 1 + kSecondsAsleep / mean_ : 4;
+    const double each = mean_ > 0 ? 1 + kSecondsAsleep / mean_ : kFirstPerProcessor;
     return int(std::clamp(each * processors_, 1.0, double(most_)));
   }
   const int processors_, most_;
