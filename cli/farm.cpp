@@ -7,6 +7,7 @@
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
+#include "cli/farm_slurm.hpp"
 #include "cli/farm_upkeep.hpp"
 #include "cli/progress.hpp"
 #include "cli/warnings.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct Options {
   std::string grid, directory, cache, filter;
   EnginePrograms programs;
+  SlurmSettings slurm;
   int threads = 0, attempts = 3;
   double time_limit = 600, no_progress_limit = 300;
   bool again = false, quiet = false, dry_run = false, fail_fast = false, keep_going = false;
@@ -59,7 +61,7 @@ void dry_run(const Grid& grid, const Options& options) {
 std::string work_text(const FarmSummary& summary) {
   const JobRunWork& work = summary.work;
   std::string text;
-  if (work.made > 0)
+  if (work.wall_seconds > 0 && work.made > 0)
     text += fmt::format(
         "cores: {:.0f} % of {} x {:.1f} s went to engines and kernels; own cost {:.2f} ms for each result\n",
         100 * work.busy(), work.processors, work.wall_seconds,
@@ -70,29 +72,7 @@ std::string work_text(const FarmSummary& summary) {
   return text;
 }
 
-ExitCode run(const Options& options) {
-  const Grid grid = read_grid(options.grid);
-  if (options.dry_run) {
-    dry_run(grid, options);
-    return ExitCode::kSuccess;
-  }
-  ProgressLine line(!options.quiet);
-  FarmOptions farm = farm_options(options);
-  farm.on_progress = [&](const FarmProgress& progress) {
-    if (progress.total > 0)
-      line.show(double(progress.done) / double(progress.total), progress.running);
-  };
-  FarmSummary summary;
-  try {
-    summary = run_farm(grid, options.directory, farm);
-  } catch (const Error& error) {
-    line.clear();
-    if (error.code() != ExitCode::kInterrupted) throw;
-    throw Error(error.code(),
-                "interrupted; what is done is kept, and the same command goes on from there");
-  }
-  line.clear();
-
+ExitCode report(const FarmSummary& summary, const Options& options) {
   for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
   for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
   if (summary.foreign > 0)
@@ -114,6 +94,52 @@ ExitCode run(const Options& options) {
   if (!options.quiet) fmt::print("{}", work_text(summary));
   if (summary.failed > 0) return ExitCode::kOutput;
   return summary.differs + summary.undecided > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
+}
+
+ExitCode run_on_cluster(const Grid& grid, const Options& options) {
+  const SlurmFarmSummary summary =
+      follow(options.slurm.run_options(), options.quiet, [&](const SlurmRunOptions& slurm) {
+        return run_farm_on_slurm(grid, options.grid, options.directory, farm_options(options),
+                                 slurm);
+      });
+  if (summary.slurm.detached) {
+    fmt::print("submitted; 'lobelia farm status {}' looks at it\n", options.directory);
+    return ExitCode::kSuccess;
+  }
+  const ExitCode code = report(summary.farm, options);
+  if (code != ExitCode::kOutput && !summary.slurm.missing.empty()) {
+    fmt::print(stderr,
+               "lobelia: {} jobs have no result after {} rounds; the same command tries again\n",
+               summary.slurm.missing.size(), summary.slurm.rounds);
+    return ExitCode::kOutput;
+  }
+  return code;
+}
+
+ExitCode run(const Options& options) {
+  const Grid grid = read_grid(options.grid);
+  if (options.dry_run) {
+    dry_run(grid, options);
+    return ExitCode::kSuccess;
+  }
+  if (options.slurm.is_wanted()) return run_on_cluster(grid, options);
+  ProgressLine line(!options.quiet);
+  FarmOptions farm = farm_options(options);
+  farm.on_progress = [&](const FarmProgress& progress) {
+    if (progress.total > 0)
+      line.show(double(progress.done) / double(progress.total), progress.running);
+  };
+  FarmSummary summary;
+  try {
+    summary = run_farm(grid, options.directory, farm);
+  } catch (const Error& error) {
+    line.clear();
+    if (error.code() != ExitCode::kInterrupted) throw;
+    throw Error(error.code(),
+                "interrupted; what is done is kept, and the same command goes on from there");
+  }
+  line.clear();
+  return report(summary, options);
 }
 
 }  // namespace
@@ -161,7 +187,9 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--again", options->again, "Make everything again, in the cache or not");
   command->add_flag("-q,--quiet", options->quiet, "No progress");
   options->programs.add_to(*command);
+  options->slurm.add_to(*command);
   add_farm_upkeep(*command, exit_code);
+  add_farm_slurm(*command, exit_code);
   command->footer(
       "What the cache has is not made again, whichever grid it was made for. Ctrl-C leaves nothing\n"
       "half-written, and the same command goes on from there. An engine that is not installed is left\n"

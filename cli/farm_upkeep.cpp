@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/farm_slurm.hpp"
 #include "cli/progress.hpp"
 #include "core/text.hpp"
 #include "farm/upkeep.hpp"
@@ -21,16 +22,35 @@ std::string size_text(std::uint64_t bytes) {
   return fmt::format("{:.{}f} {}", value, unit == 0 ? 0 : 1, kUnits[unit]);
 }
 
+/// Of the run on a cluster, if there is one that lives.
+std::string cluster_text(const std::string& directory) {
+  const SlurmStatus status = slurm_status(slurm_run_directory(directory));
+  if (!status.problem.empty()) return fmt::format("Slurm: {}\n", status.problem);
+  if (status.living.empty()) return "";
+  return fmt::format(
+      "Slurm, round {}: {} elements pending, {} running{}; 'lobelia farm status --attach {}' follows it\n",
+      status.round, status.elements.pending, status.elements.running,
+      status.elements.reason.empty() ? "" : " (" + status.elements.reason + ")", directory);
+}
+
 void add_status(CLI::App& farm) {
   struct Options {
     std::string directory;
-    bool json = false;
+    bool json = false, attach = false;
   };
   auto* command = farm.add_subcommand("status", "What has become of a farm's cells so far");
   auto options = std::make_shared<Options>();
   command->add_option("DIR", options->directory, "The farm's directory")->required();
   command->add_flag("--json", options->json, "As a record (kind farm-status, docs/records.md)");
+  command->add_flag("--attach", options->attach,
+                    "Go back to a run on a cluster and follow it to its end");
   command->callback([options] {
+    if (options->attach) {
+      SlurmRunOptions slurm = SlurmSettings().run_options();
+      follow(slurm, false, [&](const SlurmRunOptions& followed) {
+        return attach_to_slurm_run(options->directory, followed);
+      });
+    }
     const Json status = farm_status(options->directory);
     if (options->json) {
       fmt::print("{}", record_text(status));
@@ -48,6 +68,7 @@ void add_status(CLI::App& farm) {
         counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", n, name);
     fmt::print("{} cells: {}{}\n", status.at("cells").get<std::size_t>(), counts,
                status.at("atWork").get<bool>() ? "; a farm is at work on it" : "");
+    fmt::print("{}", cluster_text(options->directory));
   });
 }
 

@@ -164,7 +164,9 @@ void FarmSession::show_what_is_there() {
     if (status_[cell] != "missing") continue;
     const auto jobs = work_.graph.of_cell(cell);
     if (std::any_of(jobs.begin(), jobs.end(),
-                    [&](const Job& job) { return job.exists && cache_.has(job.key); }))
+                    [&](const Job& job) {
+                      return job.exists && (cache_.has(job.key) || cache_.failure(job.key));
+                    }))
       finish_cell(cell);
   }
   write_farm_record();
