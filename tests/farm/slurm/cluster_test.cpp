@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "farm/slurm/slurm_client.hpp"
+#include "farm/slurm/doctor.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/farm/slurm/toy_work.hpp"
 
@@ -121,6 +121,18 @@ TEST_F(SlurmCluster, IsEmptyAfterCtrlCAndTheNextRunMakesOnlyWhatIsMissing) {
   EXPECT_FALSE(outcome.attached);
   EXPECT_EQ(toy.results(), toy.wanted());
   EXPECT_EQ(toy.started().size(), before + 24 - done);
+}
+
+TEST_F(SlurmCluster, IsFoundFitByTheDoctor) {
+  DoctorOptions checked;
+  checked.directory = directory.path();
+  checked.program = LOBELIA_DOCTOR_NODE;
+  checked.poll = std::chrono::milliseconds(100);
+  const auto checks = doctor(checked);
+  EXPECT_EQ(checks.size(), 12u);
+  for (const auto& check : checks)  // KillWait is short here
+    EXPECT_TRUE(check.verdict == DoctorCheck::Verdict::kOk || check.name == "KillWait")
+        << doctor_text(checks);
 }
 
 TEST_F(SlurmCluster, ThatIsDrainedIsReportedAndNotWaitedFor) {

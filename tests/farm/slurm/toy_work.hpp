@@ -28,9 +28,11 @@ class ToyWork {
  public:
   /// Jobs "job000", ... of phase 0, each `seconds` long.
   ToyWork(const fs::path& directory, int jobs, double seconds) : directory_(directory) {
-    for (const char* sub : {"results", "run/chunks"}) fs::create_directories(directory / sub);
+    for (const char* sub : {"results", "run/chunks", "it's a $program"})
+      fs::create_directories(directory / sub);
     for (int i = 0; i < jobs; ++i) add({fmt::format("job{:03}", i), 0, seconds, "toy"});
-    // Its name has what a shell would trip over.
+    // Its directory has what a shell would trip over. Its own name may have no blank: by proctrack/linuxproc of
+    // Slurm 22.05 such a process gets no signal.
     write_file(program(), R"(#!/bin/sh
 # farm exec-chunk RUN NUMBER, or farm finish RUN
 results=$(dirname "$3")/results
@@ -53,7 +55,7 @@ exit ${failed:-0}
   }
 
   void add(const SlurmJob& job) { jobs_.push_back(job); }
-  fs::path program() const { return directory_ / "it's a $toy"; }
+  fs::path program() const { return directory_ / "it's a $program" / "toy"; }
   fs::path run_directory() const { return directory_ / "run"; }
 
   SlurmWork work() {
@@ -113,6 +115,16 @@ inline SlurmRunOptions quick(std::string& said) {
   return options;
 }
 
+/// Whether it becomes true within `seconds`.
+inline bool eventually(const std::function<bool()>& condition, double seconds = 30) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (std::chrono::steady_clock::now() < end) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return condition();
+}
+
 /// A client in a process of its own, to be killed and interrupted.
 class ClientProcess {
  public:
@@ -143,10 +155,12 @@ class ClientProcess {
   ClientProcess& operator=(const ClientProcess&) = delete;
 
   void signal(int number) const { ::kill(pid_, number); }
-  /// Its exit code, or 128 + signal.
+  /// Its exit code, or 128 + signal; 0 is also that it was killed after a minute, which fails the test.
   int wait() {
     int status = 0;
-    ::waitpid(pid_, &status, 0);
+    const bool ended = eventually([&] { return ::waitpid(pid_, &status, WNOHANG) == pid_; }, 60);
+    EXPECT_TRUE(ended) << "the client does not end";
+    if (!ended) return 0;
     pid_ = 0;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
@@ -154,15 +168,5 @@ class ClientProcess {
  private:
   pid_t pid_ = 0;
 };
-
-/// Whether it becomes true within `seconds`.
-inline bool eventually(const std::function<bool()>& condition, double seconds = 30) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (std::chrono::steady_clock::now() < end) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return condition();
-}
 
 }  // namespace lobelia
