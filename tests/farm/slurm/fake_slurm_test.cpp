@@ -238,6 +238,19 @@ elif [ $n -lt 10 ]; then echo '0|PENDING|JobHeldUser|'; echo '1|PENDING|ReqNodeN
   EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
 }
 
+TEST_F(FakeSlurm, ThatRunsSomethingNowAndThenHasNotStalled) {
+  jobs(1);
+  options.first_poll = options.last_poll = std::chrono::milliseconds(20);
+  options.stall = std::chrono::seconds(1);
+  // Held at every other answer, for longer than the limit in all.
+  fake("squeue", R"(
+case "$*" in *--me*) exit 0;; esac
+now=$(date +%s%N); [ -e "$d/began" ] || echo $now > "$d/began"
+[ $((now - $(cat "$d/began"))) -gt 2000000000 ] && exit 0
+if [ -e "$d/odd" ]; then rm "$d/odd"; echo '0|RUNNING|None|n1'; else touch "$d/odd"; echo '0|PENDING|JobHeldUser|'; fi)");
+  EXPECT_THAT(run_on_slurm(toy.work(), options).missing, IsEmpty());
+}
+
 TEST_F(FakeSlurm, LeftAloneAfterSubmissionIsNotWaitedForOrCancelled) {
   jobs(1);
   options.detach = true;
