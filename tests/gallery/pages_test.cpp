@@ -159,5 +159,22 @@ TEST(GalleryPages, a_directory_without_a_farm_is_an_input_error_that_says_what_t
   EXPECT_TRUE(std::filesystem::is_empty(empty.path()));
 }
 
+TEST(GalleryPages, a_cell_that_the_grid_excludes_leaves_an_empty_place) {
+  FakeFarm farm;
+  auto& cells = farm.farm()["cells"];
+  for (std::size_t i = cells.size(); i-- > 0;)
+    if (cells[i]["id"] == FakeFarm::kDiffers) cells.erase(i);
+  farm.write();
+  write_gallery(farm.directory());
+  const Site site(farm.directory());
+  const auto& index = site.page("index.html");
+  EXPECT_EQ(index.select_nodes("//td[@data-status]").size(), 3u);
+  const auto row = index.select_nodes("//table[@class='grid']/tbody/tr[1]/td");
+  ASSERT_EQ(row.size(), 2u);
+  EXPECT_STREQ(row[0].node().attribute("class").value(), "cell pass");
+  EXPECT_STREQ(row[1].node().attribute("class").value(), "none");
+  EXPECT_THAT(site.bad_links(), IsEmpty());
+}
+
 }  // namespace
 }  // namespace lobelia::gallery
