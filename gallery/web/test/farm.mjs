@@ -1,13 +1,13 @@
 // A farm's directory without a farm: records as docs/records.md lays them out, and pictures of a made-up highlight.
 import { mkdirSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { crc32 as zlibCrc32, deflateSync } from 'node:zlib';
+import * as zlib from 'node:zlib';
 
 const made = (kind, rest) => ({ schemaVersion: 1, kind, madeBy: 'lobelia test', ...rest });
 const json = (file, record) => writeFileSync(file, JSON.stringify(record));
 
 function crc32(bytes) {
-  if (zlibCrc32) return zlibCrc32(bytes);  // not in node 18
+  if (zlib.crc32) return zlib.crc32(bytes);  // not in node 18
   let crc = ~0;
   for (const byte of bytes) {
     crc ^= byte;
@@ -30,7 +30,7 @@ export function png(width, height, rgbOf) {
   head.writeUInt32BE(width, 0);
   head.writeUInt32BE(height, 4);
   head.set([8, 2, 0, 0, 0], 8);
-  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', deflateSync(raw)),
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', zlib.deflateSync(raw)),
     chunk('IEND', Buffer.alloc(0))]);
 }
 
