@@ -49,6 +49,30 @@ for (const from of ['file', 'server']) {
   });
 }
 
+test('the policy of a page lets nothing in from elsewhere, and runs no text as code', async () => {
+  for (const base of [fileUrl(site), server.url]) {
+    const page = await open(browser, base + kCell);
+    const [blocked, ran] = await page.evaluate(async () => {
+      const seen = new Set(), add = (tag, properties) => document.head.append(Object.assign(document.createElement(tag), properties));
+      document.addEventListener('securitypolicyviolation', (event) => seen.add(event.effectiveDirective));
+      const elsewhere = 'http://127.0.0.1:9/';
+      await fetch(elsewhere).catch(() => {});
+      add('img', { src: elsewhere });
+      add('script', { src: elsewhere });
+      add('link', { rel: 'stylesheet', href: elsewhere });
+      add('script', { textContent: 'globalThis.ran = 1' });
+      const link = Object.assign(document.createElement('a'), { href: 'javascript:globalThis.ran = 2' });
+      document.body.append(link);
+      link.click();
+      await new Promise((done) => setTimeout(done, 300));
+      return [[...seen].sort(), globalThis.ran];
+    });
+    assert.deepEqual(blocked, ['connect-src', 'img-src', 'script-src-elem', 'style-src-elem']);
+    assert.equal(ran, undefined);
+    await page.context().close();
+  }
+});
+
 test('a difference of two parts in a million is read to more digits than half floats have', async () => {
   const page = await cellPage('#a=povray&b=lobelia&mode=diff', 2);
   await page.locator('.stage').hover({ position: await middle(page.locator('.stage')) });
