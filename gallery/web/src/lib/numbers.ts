@@ -45,7 +45,9 @@ function trimmed(text: string): string {
 }
 
 /** Two digits, as a share of something is rarely worth more. */
-export function percentText(share: number): string { return numberText(100 * share, 2) + ' %'; }
+export function percentText(share: number): string {
+  return numberText(100 * share, 2) + (Number.isNaN(share) ? '' : ' %');
+}
 
 export function secondsText(seconds: number): string {
   if (seconds < 1e-3) return numberText(seconds * 1e6) + ' µs';

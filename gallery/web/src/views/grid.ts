@@ -41,7 +41,7 @@ class GridView {
     const { rows, groups, columns } = data.layout;
     this.state = new HashState({
       rows: String(rows), cols: String(columns), group: String(groups), find: '', status: '', order: 'grid',
-      colour: this.colourChoices()[0]?.value ?? '',
+      colour: this.colourChoices()[0]?.value ?? 'status',
     });
     const named = data.axes.map((axis, i) => ({ value: String(i), label: axis.name }));
     const axis = (label: string, key: 'rows' | 'cols' | 'group'): ReturnType<typeof select> =>
@@ -250,7 +250,12 @@ class GridView {
         return h('td', { class: index > 0 && i === 0 ? 'first' : undefined }, ...there.map((cell) => this.cell(cell).element));
       })))));
     const count = groups.length * columns.length;
-    return h('section', { class: 'grid-section', 'aria-labelledby': id }, h('h2', { id }, label),
-      h('table', { class: count > 12 ? 'grid wide' : 'grid', 'aria-labelledby': id }, head, body));
+    const isWide = count > 12;
+    const table = h('table', { class: isWide ? 'grid wide' : 'grid', 'aria-labelledby': id },
+      h('colgroup', {}, rows < 0 ? null : h('col', { class: 'heads' }), ...Array.from({ length: count }, () => h('col'))), head, body);
+    // Cells of one size, as large as is of use, and no smaller than can be seen: then the section scrolls.
+    table.style.width = `min(100%, ${8 + 11.7 * count}rem)`;
+    table.style.minWidth = `${isWide ? 6.5 + 4.3 * count : 0}rem`;
+    return h('section', { class: 'grid-section', 'aria-labelledby': id }, h('h2', { id }, label), table);
   }
 }
