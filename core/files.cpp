@@ -3,13 +3,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <random>
 #include <utility>
 
 #include "core/error.hpp"
@@ -56,10 +57,11 @@ fs::path final_target(const fs::path& path) {
   return target;
 }
 
+/// By chance besides the process's number, which another machine or container may have too.
 fs::path temporary_name(const fs::path& path) {
-  static std::atomic<unsigned> counter{0};
+  static thread_local std::random_device device;
   return path.parent_path() /
-         fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), counter++);
+         fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), device());
 }
 
 }  // namespace
@@ -94,6 +96,7 @@ PartFile::PartFile(const fs::path& path)
     : path_(path), target_(final_target(path)), part_(temporary_name(target_)) {
   fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd_ < 0) output_error(path, errno);
+  ::flock(fd_, LOCK_EX);  // by which others see that it is not abandoned
 }
 
 PartFile::~PartFile() {
@@ -186,6 +189,9 @@ void remove_abandoned_files(const fs::path& directory) {
         !parse_integer(name.substr(dot + 1, dash - dot - 1), pid) || pid <= 0)
       continue;
     if (::kill(pid_t(pid), 0) == 0 || errno != ESRCH) continue;
+    // There is no such process here; on another machine there may be.
+    const FileDescriptor file{::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
+    if (file.fd < 0 || ::flock(file.fd, LOCK_EX | LOCK_NB) != 0) continue;
     fs::remove(entry.path(), error);
   }
 }

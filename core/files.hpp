@@ -59,7 +59,7 @@ class TemporaryDirectory {
 };
 
 /// Removes from `directory` the temporary files of write_file (".NAME.PID-N.part") whose process is
-/// gone: what a killed run left behind.
+/// gone, on this machine or another: what a killed run left behind.
 void remove_abandoned_files(const std::filesystem::path& directory);
 
 }  // namespace lobelia
