@@ -60,6 +60,7 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   summary_.absent_engines = work_.absences();
   summary_.cells = work_.graph.cell_count();
   cache_.remove_abandoned();
+  remove_abandoned_temporaries();
   make_directories(directory_);
   remove_abandoned_files(directory_);
   look_at_cells();
@@ -163,10 +164,9 @@ void FarmSession::show_what_is_there() {
   for (const std::size_t cell : waiting_cells_) {
     if (status_[cell] != "missing") continue;
     const auto jobs = work_.graph.of_cell(cell);
-    if (std::any_of(jobs.begin(), jobs.end(),
-                    [&](const Job& job) {
-                      return job.exists && (cache_.has(job.key) || cache_.failure(job.key));
-                    }))
+    if (std::any_of(jobs.begin(), jobs.end(), [&](const Job& job) {
+          return job.exists && (cache_.has(job.key) || cache_.failure(job.key));
+        }))
       finish_cell(cell);
   }
   write_farm_record();
