@@ -20,6 +20,8 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr char kTemporaryName[] = "lobelia-temporary-";
+
 /// Closes on every way out; close() errors are looked at where they matter.
 struct FileDescriptor {
   int fd = -1;
@@ -167,14 +169,32 @@ TemporaryDirectory::TemporaryDirectory() {
   if (error)
     throw Error(ExitCode::kOutput,
                 fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
-  std::string name = (parent / "lobelia-XXXXXX").string();
+  std::string name = (parent / kTemporaryName).string() + "XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
   path_ = name;
+  alive_ = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (alive_ >= 0) ::flock(alive_, LOCK_EX);
 }
 
 TemporaryDirectory::~TemporaryDirectory() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+  if (alive_ >= 0) ::close(alive_);
+}
+
+void remove_abandoned_temporaries() {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(error), error)) {
+    if (!entry.path().filename().native().starts_with(kTemporaryName)) continue;
+    const FileDescriptor directory{
+        ::open(entry.path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)};
+    struct stat status {};
+    // One that is empty may have been made just now, and be locked next.
+    if (directory.fd < 0 || ::fstat(directory.fd, &status) != 0 || status.st_uid != ::geteuid() ||
+        ::flock(directory.fd, LOCK_EX | LOCK_NB) != 0 || fs::is_empty(entry.path(), error) || error)
+      continue;
+    fs::remove_all(entry.path(), error);
+  }
 }
 
 void remove_abandoned_files(const fs::path& directory) {

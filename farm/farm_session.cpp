@@ -72,6 +72,7 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   summary_.absent_engines = work_.absences();
   summary_.cells = work_.graph.cell_count();
   cache_.remove_abandoned();
+  remove_abandoned_temporaries();
   make_directories(directory_);
   remove_abandoned_files(directory_);
   look_at_cells();
