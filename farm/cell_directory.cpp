@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <random>
 #include <set>
 
 #include "core/error.hpp"
@@ -49,32 +50,35 @@ bool is_same_file(const fs::path& cached, const fs::path& there) {
               fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
 }
 
-/// A link, or where the cache is on another file system a copy of the same age.
-void place_file(const fs::path& cached, const fs::path& target) {
-  if (is_same_file(cached, target)) return;
-  const fs::path part =
-      target.parent_path() / fmt::format(".{}.{}-0.part", target.filename().string(), ::getpid());
-  ::unlink(part.c_str());
-  if (::link(cached.c_str(), part.c_str()) != 0) {
-    if (errno == ENOENT || errno == ENOSPC || errno == EROFS || errno == EACCES)
-      fail(target, errno);
-    struct stat status {};
-    std::error_code error;
-    fs::copy_file(cached, part, error);
-    if (error || ::stat(cached.c_str(), &status) != 0) {
-      ::unlink(part.c_str());
-      fail(target, error ? error.value() : errno);
-    }
-    const timespec times[2] = {status.st_atim, status.st_mtim};
-    ::utimensat(AT_FDCWD, part.c_str(), times, 0);
-  }
-  // rename() of two names of one file does nothing and leaves both.
-  if (::rename(part.c_str(), target.c_str()) != 0) {
-    const int error = errno;
+/// A link to `cached` under `part`, or where the cache is on another file system a copy of the same age.
+void link_or_copy(const fs::path& cached, const fs::path& part, const fs::path& target) {
+  if (::link(cached.c_str(), part.c_str()) == 0) return;
+  if (errno == ENOENT || errno == ENOSPC || errno == EROFS || errno == EACCES) fail(target, errno);
+  struct stat status {};
+  std::error_code error;
+  fs::copy_file(cached, part, error);
+  if (error || ::stat(cached.c_str(), &status) != 0) {
+    const int number = error ? error.value() : errno;
     ::unlink(part.c_str());
-    fail(target, error);
+    fail(target, number);
   }
-  ::unlink(part.c_str());
+  const timespec times[2] = {status.st_atim, status.st_mtim};
+  ::utimensat(AT_FDCWD, part.c_str(), times, 0);
+}
+
+void place_file(const fs::path& cached, const fs::path& target) {
+  static thread_local std::random_device device;
+  for (int attempt = 0; !is_same_file(cached, target); ++attempt) {
+    const fs::path part =
+        target.parent_path() /
+        fmt::format(".{}.{}-{}.part", target.filename().string(), ::getpid(), device());
+    link_or_copy(cached, part, target);
+    const int error = ::rename(part.c_str(), target.c_str()) == 0 ? 0 : errno;
+    // rename() of two names of one file does nothing and leaves both.
+    ::unlink(part.c_str());
+    // ENOENT: on another machine somebody took the part for one that was left behind.
+    if (error != 0 && (error != ENOENT || attempt == 3)) fail(target, error);
+  }
 }
 
 std::optional<Json> read_cell_record(const fs::path& directory) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/text.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -131,6 +132,7 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
     if (!in_use)
       throw Error(ExitCode::kOutput, fmt::format("{}: 'lobelia farm gc' is at work in this cache",
                                                  cache.directory().string()));
+    remove_abandoned_temporaries();
     JobRun run(graph, cache, options, states_of(cells, graph, cache));
     std::vector<std::size_t> order(graph.cell_count());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -16,6 +16,9 @@
 
 namespace lobelia {
 
+/// More would make records that nobody reads (docs/scale.md); several farms may share a cache.
+inline constexpr std::size_t kMaxFarmCells = 150000;
+
 struct FarmOptions : JobRunOptions {
   std::filesystem::path cache;       ///< empty: DIRECTORY/cache
   JobFilter filter;                  ///< jobs that may be done
@@ -39,7 +42,7 @@ struct FarmSummary {
 
 /// Throws Error(kInterrupted) on Ctrl-C, after farm.json has been written with what is done;
 /// Error(kOutput) if the directory or the cache cannot be written; Error(kEngine) if one of `programs` is not
-/// the engine that it should be.
+/// the engine that it should be; Error(kInput) for more than kMaxFarmCells.
 FarmSummary run_farm(const Grid& grid, const std::filesystem::path& directory,
                      const FarmOptions& options);
 

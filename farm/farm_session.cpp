@@ -44,8 +44,20 @@ std::vector<std::string> FarmWork::absences() const {
   return sentences;
 }
 
+namespace {
+const Grid& checked(const Grid& grid) {
+  if (grid.cell_count() > kMaxFarmCells)
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: {} cells; a farm has at most {}: cut the grid into several, which may "
+                    "share a cache (--cache)",
+                    grid.file_name, grid.cell_count(), kMaxFarmCells));
+  return grid;
+}
+}  // namespace
+
 FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const FarmOptions& options)
-    : work_(grid, options),
+    : work_(checked(grid), options),
       directory_(directory),
       options_(options),
       cache_(cache_directory(options.cache, directory)),
@@ -60,6 +72,7 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   summary_.absent_engines = work_.absences();
   summary_.cells = work_.graph.cell_count();
   cache_.remove_abandoned();
+  remove_abandoned_temporaries();
   make_directories(directory_);
   remove_abandoned_files(directory_);
   look_at_cells();
@@ -163,10 +176,9 @@ void FarmSession::show_what_is_there() {
   for (const std::size_t cell : waiting_cells_) {
     if (status_[cell] != "missing") continue;
     const auto jobs = work_.graph.of_cell(cell);
-    if (std::any_of(jobs.begin(), jobs.end(),
-                    [&](const Job& job) {
-                      return job.exists && (cache_.has(job.key) || cache_.failure(job.key));
-                    }))
+    if (std::any_of(jobs.begin(), jobs.end(), [&](const Job& job) {
+          return job.exists && (cache_.has(job.key) || cache_.failure(job.key));
+        }))
       finish_cell(cell);
   }
   write_farm_record();

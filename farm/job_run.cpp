@@ -609,7 +609,18 @@ struct JobRun::Impl {
     work.own_cpu_seconds = cpu_seconds_of(RUSAGE_SELF) - own_before - work.kernel_cpu_seconds;
     if (broken) std::rethrow_exception(broken);
     throw_if_interrupted();
+    tell_of_failures();
     settle_cells();
+  }
+
+  /// Of cells that are not finished because a failure has ended it all.
+  void tell_of_failures() {
+    const std::scoped_lock lock(mutex);
+    for (const auto& [cell, waiting] : waiting_in_cell) {
+      const auto jobs = std::span(states).subspan(graph.render(cell), graph.stride());
+      if (waiting > 0 && std::ranges::find(jobs, JobState::kFailed) != jobs.end())
+        cells_done.push_back(cell);
+    }
   }
 };
 

@@ -67,8 +67,8 @@ class JobRun {
          std::vector<JobState> states);
   ~JobRun();
 
-  /// Does all that is waiting, cells in this order; calls `on_cell` when nothing of a cell is waiting any more, from
-  /// any thread. What is waiting has inputs that are done or waiting. Failures are the jobs' own, and nothing else's; the cache keeps them. Throws Error(kInterrupted) on Ctrl-C,
+  /// Does all that is waiting, cells in this order; calls `on_cell` when nothing of a cell is waiting any more, or a failure
+  /// in it has ended it all, from any thread. What is waiting has inputs that are done or waiting. Failures are the jobs' own, and nothing else's; the cache keeps them. Throws Error(kInterrupted) on Ctrl-C,
   /// Error(kOutput) if results cannot be kept.
   void run(const std::vector<std::size_t>& order, const std::function<void(std::size_t)>& on_cell);
 

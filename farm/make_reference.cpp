@@ -1,10 +1,14 @@
 #include <system_error>
 
+#include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "farm/make_result.hpp"
 #include "reference_scenes/reference_metadata.hpp"
 
 namespace lobelia {
+namespace {
+constexpr std::uint64_t kMaxLogBytes = 1 << 30;  // each pass and sample of a scene adds to it
+}
 
 Json make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
                     ReferenceResult result, const std::filesystem::path& log,
@@ -23,8 +27,9 @@ Json make_reference(const Scene& scene, const FarmEngine& engine, const std::str
   }
   read_whole_picture(draft.file(file), scene);
   write_record(draft.file(engine.name + ".json"), result.record);
-  std::error_code none;  // an engine may have had nothing to say
-  if (!log.empty()) std::filesystem::copy_file(log, draft.file(engine.name + ".log"), none);
+  // An engine may have had nothing to say.
+  if (std::error_code none; !log.empty() && std::filesystem::exists(log, none))
+    write_file(draft.file(engine.name + ".log"), read_file(log, kMaxLogBytes));
 
   Json made{{"command", std::move(command)}};
   for (const char* key : {"engineCommands", "witness"})

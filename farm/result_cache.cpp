@@ -37,6 +37,12 @@ std::int64_t modified(const struct stat& status) {
               fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error)));
 }
 
+/// Whoever is killed while it writes leaves nothing but a draft: nowhere else are there half-written files, and no
+/// other farm has to tell whose they are.
+void move(const fs::path& from, const fs::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) fail(to, "write", errno);
+}
+
 /// The pictures of a record, which its times and hosts are no part of.
 std::vector<std::pair<std::string, std::string>> pictures(const Json& record) {
   std::vector<std::pair<std::string, std::string>> found;
@@ -107,13 +113,19 @@ fs::path prepared(fs::path directory) {
     throw Error(ExitCode::kInput, fmt::format("{}: not empty and not a cache (it has no file '{}')",
                                               directory.string(), kMarkerFile));
   for (const char* part : {"results", "failures", "making"}) make_directories(directory / part);
-  write_file(marker, kLayout);
   return directory;
 }
 }  // namespace
 
 ResultCache::ResultCache(fs::path directory)
-    : directory_(prepared(fs::absolute(directory))), locks_(directory_ / "locks") {}
+    : directory_(prepared(fs::absolute(directory))), locks_(directory_ / "locks") {
+  const fs::path marker = directory_ / kMarkerFile;
+  std::error_code ignored;
+  if (fs::exists(marker, ignored)) return;
+  const ResultDraft made = draft();
+  write_file(made.file(kMarkerFile), kLayout);
+  move(made.file(kMarkerFile), marker);
+}
 
 fs::path ResultCache::result_directory(const ResultKey& key) const {
   const std::string text = key.text();
@@ -237,11 +249,15 @@ std::optional<ByteLocks::Claim> ResultCache::try_use(bool shared) const {
 void ResultCache::keep_failure(const ResultKey& key, const Json& record,
                                const fs::path& log) const {
   make_directories(failure_file(key, "").parent_path());
+  const ResultDraft made = draft();
   std::error_code ignored;
+  write_record(made.file("json"), record);
   ::unlink(failure_file(key, ".log").c_str());
-  if (!log.empty() && fs::file_size(log, ignored) <= kMaxLogBytes && !ignored)
-    write_file(failure_file(key, ".log"), read_file(log, kMaxLogBytes));
-  write_record(failure_file(key, ".json"), record);
+  if (!log.empty() && fs::file_size(log, ignored) <= kMaxLogBytes && !ignored) {
+    write_file(made.file("log"), read_file(log, kMaxLogBytes));
+    move(made.file("log"), failure_file(key, ".log"));
+  }
+  move(made.file("json"), failure_file(key, ".json"));
 }
 
 fs::path ResultCache::failure_log(const ResultKey& key) const {

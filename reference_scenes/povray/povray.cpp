@@ -171,8 +171,9 @@ void Povray::run_pov(PassResult& result, const Job& job, const PovrayPass& pass,
   if (result.failure) return;
   Image image;
   result.failure = read_engine_picture(kPovrayInfo, home / (stem + ".exr"), job.film, image);
-  if (result.failure.kind == FailureClass::kNoOutput)
-    result.failure.message += ": " + last_words(ended.output_tail);
+  if (const std::string words = last_words(ended.output_tail);
+      result.failure.kind == FailureClass::kNoOutput && !words.empty())
+    result.failure.message += ": " + words;
   if (result.failure) return;
   // Of two passes the second shows half of what the first has left out.
   const bool first = result.image.pixel_count() == 0;
