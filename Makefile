@@ -10,6 +10,7 @@ FUZZ_SECONDS ?= 60
 
 # SETUP=no: for systems whose packages have other names than Debian's.
 setup     = $(if $(filter no,$(SETUP)),@:,@scripts/setup)
+npm       = $(if $(filter no,$(SETUP)),@:,@scripts/web)
 configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
@@ -37,6 +38,7 @@ references: ## measures how far ours and every engine are from the formulas, int
 
 test: ## builds everything and runs the test suite
 	$(setup) build engines browser slurm
+	$(npm)
 	$(configure)
 	$(build)
 	ctest --preset "$(PRESET)" --parallel "$(JOBS)"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
 
 namespace lobelia::gallery {
@@ -64,6 +65,7 @@ CellImage read_image(const fs::path& directory, const Fields& entry) {
   const std::string record = entry.plain_name("record");
   image.record = if_there(directory, record);
   try {
+    if (!image.exr.empty()) image.exr_sha256 = hex(sha256_of_file(directory / image.exr));
     if (record.empty()) throw Error(ExitCode::kInput, "cell.json names no record of this picture");
     // Ours is a render, everybody else's a reference.
     const char* kind = image.engine == kOurEngine ? "render" : "reference";
@@ -89,6 +91,14 @@ void read_comparison_record(const Json& record, CellComparison& comparison) {
     comparison.limits.push_back({limit.text("metric"), limit.number("limit").value_or(0),
                                  limit.number("value").value_or(0), limit.flag("pass"),
                                  limit.text("standing") == "open"});
+  }
+  if (const auto bars = fields.object("errorBars")) {
+    for (const auto& [metric, bar] : bars->object_members()) {
+      const auto low = bar.number("low"), high = bar.number("high");
+      if (low && high)
+        comparison.error_bars.push_back(
+            {metric, *low, *high, bar.number("noiseFloor").value_or(0)});
+    }
   }
   if (const auto tolerance = fields.object("tolerance")) {
     comparison.tolerance = Tolerance{tolerance->number("relative"), tolerance->number("ofPeak"),
@@ -190,6 +200,25 @@ CellData read_cell(const fs::path& directory, const CellEntry& entry) {
     cell.unreadable = without_directory(error.what(), here);
   }
   return cell;
+}
+
+std::vector<std::string> files_of(const CellData& cell) {
+  std::vector<std::string> files;
+  const auto add = [&](const std::string& file) {
+    if (!file.empty()) files.push_back(file);
+  };
+  if (cell.has_scene) add("scene.xml");
+  if (cell.has_record) add("cell.json");
+  for (const CellImage& image : cell.images) {
+    for (const std::string& file : {image.exr, image.record, image.log}) add(file);
+    if (image.png.shown() && image.png.is_published) add(image.png.file);
+  }
+  for (const CellComparison& comparison : cell.comparisons) {
+    add(comparison.record);
+    if (comparison.png.shown() && comparison.png.is_published) add(comparison.png.file);
+  }
+  if (cell.profile.problem.empty()) add(cell.profile.file);
+  return files;
 }
 
 }  // namespace lobelia::gallery

@@ -24,7 +24,9 @@ struct CellImage {
   std::string engine;
   Picture png;
   std::string exr, record, log;  ///< plain names of files that exist; else empty
-  std::string problem;           ///< why its record cannot be read
+  std::string exr_sha256;        ///< empty without a file
+  std::string float_script;  ///< published beside the page, with its values (float_pictures.hpp)
+  std::string problem;       ///< why its record cannot be read
   std::string made_by, version, witness;
   std::string command;  ///< as a shell reads it
   std::vector<std::string> engine_commands;
@@ -38,6 +40,12 @@ struct MetricLimit {
   double limit = 0, value = 0;
   bool pass = false;
   bool open = false;  ///< it is up to the noise
+};
+
+/// What a metric would be with endless samples lies between; `floor` is what the noise alone shows, in the mean.
+struct ErrorBar {
+  std::string metric;
+  double low = 0, high = 0, floor = 0;
 };
 
 struct Tolerance {
@@ -54,6 +62,7 @@ struct CellComparison {
   std::optional<double> nonfinite_a, nonfinite_b;
   NamedNumbers metrics;
   std::vector<MetricLimit> limits;
+  std::vector<ErrorBar> error_bars;  ///< where the noise is known
   std::optional<Tolerance> tolerance;
   NamedTexts viewing;
 
@@ -86,5 +95,8 @@ struct CellData {
 
 /// Reads DIR/cells/ID/cell.json and all that it names. `entry` is the cell's line in farm.json.
 CellData read_cell(const std::filesystem::path& directory, const CellEntry& entry);
+
+/// Plain names of all files of the cell's directory that its page may show or link to.
+std::vector<std::string> files_of(const CellData& cell);
 
 }  // namespace lobelia::gallery

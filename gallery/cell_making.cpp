@@ -44,7 +44,13 @@ void write_engine(Html& html, const EngineEntry& engine, const CellImage* image)
   if (!image->problem.empty()) write_absence(html, "Its record cannot be read. " + image->problem);
   {
     const Tag list(html, "dl", {{"class", "facts"}});
-    write_fact(html, "Version", image->version);
+    if (!image->version.empty()) {
+      const Tag item(html, "div");
+      html.element("dt", "Version");
+      const Tag value(html, "dd");
+      html.element("code", {{"class", "copied"}, {"data-what", "the version of " + engine.title}},
+                   image->version);
+    }
     write_fact(html, "Written by", image->made_by);
     write_fact(html, "Witness", image->witness);
     write_fact(html, "Time", seconds_words(image->seconds));
@@ -61,6 +67,13 @@ void write_engine(Html& html, const EngineEntry& engine, const CellImage* image)
       lines += (lines.empty() ? "" : "\n") + command;
     }
     write_command(html, lines);
+  }
+  if (!image->exr_sha256.empty()) {
+    const Tag line(html, "p", {{"class", "hashes"}});
+    html.text("SHA-256 of the linear picture: ");
+    html.element("code",
+                 {{"class", "copied"}, {"data-what", "the hash of the picture by " + engine.title}},
+                 image->exr_sha256);
   }
   const Tag files(html, "ul", {{"class", "files"}});
   write_file_link(html, image->exr, "linear float picture");

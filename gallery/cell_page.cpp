@@ -4,6 +4,7 @@
 
 #include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
+#include "gallery/metric_notes.hpp"
 #include "gallery/names.hpp"
 #include "gallery/page.hpp"
 
@@ -73,6 +74,44 @@ void write_navigation(Html& html, const FarmData& farm, const CellEntry& entry) 
   }
 }
 
+std::string time_text(const CellImage* image) {
+  if (!image) return "–";
+  for (const auto& [stage, seconds] : image->seconds)
+    if (stage == "total") return seconds_text(seconds);
+  return "–";
+}
+
+/// How far each is from ours, in the one figure that the grid has too, and what time each took.
+void write_agreement(Html& html, const FarmData& farm, const CellData& cell) {
+  constexpr char kFigure[] = "max_rel_peak";
+  if (cell.comparisons.empty()) return;
+  const Tag table(html, "table", {{"class", "agreement"}});
+  {
+    const Tag head(html, "thead");
+    const Tag row(html, "tr");
+    for (const std::string& title : {std::string("Picture"), metric_note(kFigure).title,
+                                     std::string("Verdict"), std::string("Time")})
+      html.element("th", {{"scope", "col"}}, title);
+  }
+  const Tag body(html, "tbody");
+  for (const CellComparison& comparison : cell.comparisons) {
+    const Tag row(html, "tr");
+    html.element("th", {{"scope", "row"}}, farm.engine_title(comparison.b));
+    const auto worst = comparison.metric(kFigure);
+    html.element("td", {{"class", "number"}}, worst ? metric_text(kFigure, *worst) : "–");
+    std::string words = verdict_words(comparison);
+    if (const double outliers = comparison.metric("outliers").value_or(0); outliers > 0)
+      words += ", " + count_text(outliers) + " px beyond the tolerance";
+    html.element("td", words);
+    html.element("td", time_text(cell.find_image(comparison.b)));
+  }
+  const Tag row(html, "tr");
+  html.element("th", {{"scope", "row"}}, farm.engine_title(kOurEngine));
+  html.element("td", {{"class", "number"}}, "–");
+  html.element("td", "ours");
+  html.element("td", time_text(cell.find_image(kOurEngine)));
+}
+
 void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
   const Tag box(html, "div", {{"class", "verdict " + std::string(info(cell.status).name)}});
   {
@@ -81,6 +120,7 @@ void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
     html.text(" ");
     html.text(info(cell.status).meaning);
   }
+  write_agreement(html, farm, cell);
   if (!cell.unreadable.empty()) html.element("p", cell.unreadable);
   for (const CellProblem& problem : cell.problems) {
     const Tag line(html, "p");
@@ -110,18 +150,20 @@ void write_highlight(Html& html, const CellData& cell) {
 
 }  // namespace
 
-std::string cell_page(const FarmData& farm, const CellEntry& entry, const CellData& cell) {
+std::string cell_page(const SiteFrame& site, const FarmData& farm, const CellEntry& entry,
+                      const CellData& cell) {
   Html html;
   {
     const Tag header(html, "header");
-    {
-      const Tag back(html, "p", {{"class", "back"}});
-      html.element("a", {{"href", std::string(kRoot) + "index.html"}}, "↑ " + farm.title);
-    }
     html.element("h1", entry.label.empty() ? entry.id : entry.label);
-    write_navigation(html, farm, entry);
+    const Tag columns(html, "div", {{"class", "cell-head"}});
+    {
+      const Tag left(html, "div");
+      write_navigation(html, farm, entry);
+      write_highlight(html, cell);
+    }
+    const Tag right(html, "div");
     write_verdict(html, farm, cell);
-    write_highlight(html, cell);
   }
   if (cell.has_record) {
     write_pictures(html, farm, cell);
@@ -130,9 +172,16 @@ std::string cell_page(const FarmData& farm, const CellEntry& entry, const CellDa
     write_plan(html, cell);
   }
   write_making(html, farm, cell);
-  return finish_page({(entry.label.empty() ? entry.id : entry.label) + " · " + farm.title, "cell",
-                      kRoot, cell.made_by.empty() ? farm.made_by : cell.made_by},
-                     html);
+  const std::string folder = link_to({"cells", entry.id}) + "/";
+  const CellImage* ours = cell.find_image(kOurEngine);
+  const PageFrame frame{entry.label.empty() ? entry.id : entry.label,
+                        "cell",
+                        kRoot,
+                        folder + "index.html",
+                        cell.made_by.empty() ? farm.made_by : cell.made_by,
+                        kCellData,
+                        ours && ours->png.shown() ? folder + link_to({ours->png.file}) : ""};
+  return finish_page(site, frame, html);
 }
 
 }  // namespace lobelia::gallery

@@ -4,9 +4,13 @@
 #include <string>
 
 #include "gallery/cell_data.hpp"
+#include "gallery/page.hpp"
 
 namespace lobelia::gallery {
 
-std::string cell_page(const FarmData& farm, const CellEntry& entry, const CellData& cell);
+inline constexpr char kCellData[] = "data.js";  ///< beside the page
+
+std::string cell_page(const SiteFrame& site, const FarmData& farm, const CellEntry& entry,
+                      const CellData& cell);
 
 }  // namespace lobelia::gallery

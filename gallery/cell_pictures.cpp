@@ -24,12 +24,18 @@ void write_size_choice(Html& html) {
 void write_image(Html& html, const Picture& picture, const std::string& alt) {
   // Scrolls by itself when enlarged, and gallery.js keeps all of them at the same place.
   const Tag frame(html, "div", {{"class", "picture"}, {"tabindex", "0"}});
-  const bool small = picture.width <= 320;
-  html.empty("img", {{"src", link_to({picture.file})},
-                     {"alt", alt},
-                     {"width", std::to_string(picture.width)},
-                     {"height", std::to_string(picture.height)},
-                     {"class", small ? "small" : "large"}});
+  const SmallPicture look = picture.first_look();
+  const auto write = [&] {
+    html.empty("img", {{"src", link_to({look.file})},
+                       {"alt", alt},
+                       {"width", std::to_string(look.width)},
+                       {"height", std::to_string(look.height)},
+                       {"loading", "lazy"},
+                       {"class", picture.width <= 320 ? "small" : "large"}});
+  };
+  if (look.file == picture.file || !picture.is_published) return write();
+  const Tag link(html, "a", {{"href", link_to({picture.file})}, {"title", "The whole picture"}});
+  write();
 }
 
 std::string why_no_picture(const EngineEntry& engine, const CellData& cell) {

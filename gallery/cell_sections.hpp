@@ -17,4 +17,7 @@ void write_plan(Html& html, const CellData& cell);
 /// Commands, versions, times and files of each picture.
 void write_making(Html& html, const FarmData& farm, const CellData& cell);
 
+/// "✓ pass", or why there is none.
+std::string verdict_words(const CellComparison& comparison);
+
 }  // namespace lobelia::gallery

@@ -63,6 +63,13 @@ CellSummary summarise(const FarmData& farm, const CellEntry& entry, const CellDa
       summary.figures.push_back(figure(engine, cell));
     }
   }
+  for (const CellComparison& comparison : cell.comparisons) {
+    if (comparison.a != kOurEngine) continue;
+    NamedNumbers numbers;
+    for (const auto& metric : comparison.metrics)
+      if (!is_coordinate(metric.first)) numbers.push_back(metric);
+    summary.metrics.emplace_back(comparison.b, std::move(numbers));
+  }
   if (summary.status != CellStatus::kPass) summary.reasons = reasons_of(farm, cell);
   return summary;
 }

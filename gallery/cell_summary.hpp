@@ -20,6 +20,8 @@ struct CellSummary {
   Picture picture;                    ///< ours
   std::vector<EngineFigure> figures;  ///< one per reference engine that is there
   std::vector<std::string> reasons;   ///< why it is not a pass
+  /// Of each engine that was compared with ours, all metrics but coordinates.
+  std::vector<std::pair<std::string, NamedNumbers>> metrics;
 };
 
 CellSummary summarise(const FarmData& farm, const CellEntry& entry, const CellData& cell);

@@ -8,8 +8,6 @@
 namespace lobelia::gallery {
 namespace {
 
-bool is_coordinate(const std::string& id) { return id.ends_with(".x") || id.ends_with(".y"); }
-
 /// Ids of all metrics, in the order in which the records have them.
 std::vector<std::string> metric_ids(const CellData& cell) {
   std::vector<std::string> ids;
@@ -53,6 +51,12 @@ void write_metric_row(Html& html, const CellData& cell, const std::string& id) {
   for (const CellComparison& comparison : cell.comparisons) {
     const Tag value(html, "td", {{"class", "number"}});
     html.text(value_text(comparison, id));
+    for (const ErrorBar& bar : comparison.error_bars) {
+      if (bar.metric != id) continue;
+      html.element("small", "from " + metric_text(id, bar.low) + " to " +
+                                metric_text(id, bar.high) + " without noise; noise alone shows " +
+                                metric_text(id, bar.floor));
+    }
     const std::string limit = limit_text(comparison, id);
     if (limit.empty()) continue;
     html.element("small", {{"class", limit.starts_with("≠") ? "over" : "within"}}, limit);
@@ -111,6 +115,15 @@ void write_metric_head(Html& html, const FarmData& farm, const CellData& cell) {
 
 }  // namespace
 
+std::string verdict_words(const CellComparison& comparison) {
+  if (!comparison.problem.empty()) return comparison.problem;
+  const std::string& verdict = comparison.verdict;
+  if (verdict == "pass" || verdict == "same") return "✓ " + verdict;
+  if (verdict == "differs" || verdict == "different") return "≠ " + verdict;
+  if (verdict == "undecided") return "± " + verdict;
+  return "✕ " + (verdict.empty() ? "no verdict" : verdict);
+}
+
 void write_numbers(Html& html, const FarmData& farm, const CellData& cell) {
   const Tag section(html, "section", {{"aria-labelledby", "numbers"}});
   html.element("h2", {{"id", "numbers"}}, "The numbers");
@@ -122,14 +135,7 @@ void write_numbers(Html& html, const FarmData& farm, const CellData& cell) {
   const Tag table(html, "table", {{"class", "metrics"}});
   write_metric_head(html, farm, cell);
   const Tag tbody(html, "tbody");
-  write_words_row(html, cell, "Verdict", [](const CellComparison& comparison) {
-    if (!comparison.problem.empty()) return comparison.problem;
-    const std::string& verdict = comparison.verdict;
-    if (verdict == "pass" || verdict == "same") return "✓ " + verdict;
-    if (verdict == "differs" || verdict == "different") return "≠ " + verdict;
-    if (verdict == "undecided") return "± " + verdict;
-    return "✕ " + (verdict.empty() ? "no verdict" : verdict);
-  });
+  write_words_row(html, cell, "Verdict", verdict_words);
   write_words_row(html, cell, "Pixels that are not finite", nonfinite_text);
   write_words_row(html, cell, "Tolerance of each pixel", tolerance_text);
   for (const std::string& id : metric_ids(cell)) write_metric_row(html, cell, id);

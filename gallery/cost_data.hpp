@@ -9,7 +9,7 @@
 
 namespace lobelia::gallery {
 
-inline constexpr char kCostRecord[] = "cost/cost.json", kCostPage[] = "cost.html";
+inline constexpr char kCostRecord[] = "cost/cost.json", kCostTable[] = "cost/cost.csv";
 
 struct CostWay {
   std::string name;

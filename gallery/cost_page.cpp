@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/error_time_chart.hpp"
 #include "core/html.hpp"
 #include "core/numbers.hpp"
+#include "gallery/cost_data.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {
@@ -105,24 +107,7 @@ void write_table(Html& html, const CostTable& table, std::size_t number) {
   write_ways(html, table);
 }
 
-void write_way_back(Html& html) {
-  const Tag nav(html, "nav", {{"aria-label", "Up"}});
-  html.element("a", {{"href", "index.html"}}, "All cells");
-}
-
-}  // namespace
-
-std::string absent_cost_page(const std::string& why) {
-  Html html;
-  write_way_back(html);
-  html.element("h1", kTitle);
-  write_absence(html, "It cannot be shown: " + why);
-  return finish_page({kTitle, "index", "", ""}, html);
-}
-
-std::string cost_page(const CostData& cost) {
-  Html html;
-  write_way_back(html);
+void write_cost(Html& html, const CostData& cost) {
   {
     const Tag header(html, "header");
     html.element("h1", kTitle);
@@ -149,7 +134,7 @@ std::string cost_page(const CostData& cost) {
       html.text("All of it is in ");
       html.element("a", {{"href", kCostRecord}}, "cost.json");
       html.text(" and ");
-      html.element("a", {{"href", "cost/cost.csv"}}, "cost.csv");
+      html.element("a", {{"href", kCostTable}}, "cost.csv");
       html.text(".");
     }
     const Tag list(html, "dl");
@@ -159,7 +144,25 @@ std::string cost_page(const CostData& cost) {
       html.element("dd", value);
     }
   }
-  return finish_page({kTitle, "index", "", cost.made_by}, html);
+}
+
+}  // namespace
+
+std::optional<ViewPage> cost_view(const std::filesystem::path& run) {
+  if (!std::filesystem::exists(run / kCostRecord)) return std::nullopt;
+  ViewPage page{kTitle, "", {}, nullptr, {}};
+  try {
+    const CostData cost = read_cost(run);
+    page.made_by = cost.made_by;
+    write_cost(page.main, cost);
+    for (const char* file : {kCostRecord, kCostTable})
+      if (std::filesystem::is_regular_file(run / file)) page.files.push_back(file);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    page.main.element("h1", kTitle);
+    write_absence(page.main, std::string("It cannot be shown: ") + error.what());
+  }
+  return page;
 }
 
 }  // namespace lobelia::gallery

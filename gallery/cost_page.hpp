@@ -1,14 +1,14 @@
-// What accuracy costs in time, as a page: a chart and a table for each thing that was measured.
+// The page of what accuracy costs in time.
 #pragma once
 
-#include <string>
+#include <filesystem>
+#include <optional>
 
-#include "gallery/cost_data.hpp"
+#include "gallery/views.hpp"
 
 namespace lobelia::gallery {
 
-std::string cost_page(const CostData& cost);
-/// In place of it, why there is none.
-std::string absent_cost_page(const std::string& why);
+/// Of RUN/cost/cost.json; empty where there is none.
+std::optional<ViewPage> cost_view(const std::filesystem::path& run);
 
 }  // namespace lobelia::gallery

@@ -1,15 +1,23 @@
 #include "gallery/gallery.hpp"
 
+#include <fmt/format.h>
+
+#include <regex>
 #include <string_view>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/text.hpp"
+#include "gallery/cell_json.hpp"
 #include "gallery/cell_page.hpp"
 #include "gallery/cell_summary.hpp"
-#include "gallery/cost_page.hpp"
+#include "gallery/float_pictures.hpp"
+#include "gallery/grid_json.hpp"
 #include "gallery/index_page.hpp"
 #include "gallery/page.hpp"
+#include "gallery/publisher.hpp"
+#include "gallery/small_picture.hpp"
+#include "gallery/views.hpp"
 
 namespace lobelia {
 
@@ -21,41 +29,82 @@ extern const std::string_view gallery_script;
 namespace gallery {
 namespace {
 
-/// Whether costs were measured. A record that cannot be read is said on their page.
-bool write_cost_page(const std::filesystem::path& directory) {
-  if (!std::filesystem::exists(directory / kCostRecord)) return false;
-  std::string page;
-  try {
-    page = cost_page(read_cost(directory));
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput) throw;
-    page = absent_cost_page(error.what());
+namespace fs = std::filesystem;
+
+/// "https://example.org/a" with a slash at its end. Throws Error(kUsage).
+std::string checked_base_url(const std::string& url) {
+  static const std::regex kUrl(
+      R"re(https?://[A-Za-z0-9.-]+(:[0-9]{1,5})?(/[A-Za-z0-9._~%-]+)*/?)re");
+  if (url.empty()) return url;
+  if (url.size() > 1000 || !std::regex_match(url, kUrl)) {
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("--base-url: '{}' must be like https://example.org/a/folder", printable(url)));
   }
-  write_file(directory / kCostPage, page);
-  return true;
+  return url.back() == '/' ? url : url + '/';
+}
+
+void require_title(const std::string& title) {
+  if (title.size() > 300) throw Error(ExitCode::kUsage, "--title: at most 300 bytes");
+}
+
+/// The files of the run that a cell's page shows or links to.
+void copy_cell_files(const fs::path& run, const CellData& cell, Publisher& publisher) {
+  const std::string folder = "cells/" + cell.id + "/";
+  for (const std::string& file : files_of(cell)) publisher.copy(run, folder + file);
 }
 
 }  // namespace
 
-std::filesystem::path write_gallery(const std::filesystem::path& directory) {
-  const FarmData farm = read_farm(directory);
-  write_file(directory / kStyleFile, embedded::gallery_style);
-  write_file(directory / kScriptFile, embedded::gallery_script);
+fs::path write_gallery(const fs::path& run, const GalleryOptions& options) {
+  SiteFrame site{options.title, checked_base_url(options.base_url), {{"index.html", "Grid"}}};
+  require_title(options.title);
+  FarmData farm = read_farm(run);
+  if (site.title.empty()) site.title = farm.title;
+  farm.title = site.title;
+  Publisher publisher(options.site.empty() ? run : options.site);
+  publisher.write(kStyleFile, embedded::gallery_style);
+  publisher.write(kScriptFile, embedded::gallery_script);
+
+  std::vector<std::pair<const View*, ViewPage>> pages;
+  for (const View& view : views()) {
+    if (auto page = view.draw(run)) {
+      site.pages.push_back({std::string(view.file), std::string(view.title)});
+      pages.emplace_back(&view, std::move(*page));
+    }
+  }
+  for (const auto& [view, page] : pages) {
+    PageFrame frame{
+        page.title, std::string(view->name), "", std::string(view->file), page.made_by, "", ""};
+    if (!page.data.is_null()) {
+      frame.data = std::string(view->name) + ".data.js";
+      publisher.write(frame.data, data_script("page", page.data));
+    }
+    for (const std::string& file : page.files) publisher.copy(run, file);
+    publisher.write(frame.path, finish_page(site, frame, page.main));
+  }
+
   std::vector<CellSummary> summaries;
   summaries.reserve(farm.cells.size());
   // One cell at a time: thousands of profiles need not be in memory together.
   for (const CellEntry& entry : farm.cells) {
     throw_if_interrupted();
-    const CellData cell = read_cell(directory, entry);
-    const auto here = directory / "cells" / entry.id;
-    make_directories(here);
-    write_file(here / "index.html", cell_page(farm, entry, cell));
+    CellData cell = read_cell(run, entry);
+    if (options.metrics_only)
+      for (CellImage& image : cell.images) image.exr.clear();
+    publish_small_pictures(run, cell, options.metrics_only, publisher);
+    if (!options.metrics_only) publish_float_pictures(run, cell, publisher);
+    const std::string folder = "cells/" + entry.id + "/";
+    copy_cell_files(run, cell, publisher);
+    publisher.write(folder + kCellData, data_script("page", cell_json(farm, entry, cell)));
+    publisher.write(folder + "index.html", cell_page(site, farm, entry, cell));
     summaries.push_back(summarise(farm, entry, cell));
   }
-  const bool has_cost = write_cost_page(directory);
   // Last, so that an index never names a page that is not there.
-  write_file(directory / "index.html", index_page(farm, summaries, has_cost));
-  return directory / "index.html";
+  publisher.write(kGridData, data_script("page", grid_json(farm, summaries)));
+  publisher.write("index.html", index_page(site, farm, summaries));
+  publisher.finish();
+  return publisher.site() / "index.html";
 }
 
 }  // namespace gallery

@@ -5,14 +5,27 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace lobelia::gallery {
 
-/// Reads DIR/farm.json and the records it names; writes DIR/index.html, DIR/style.css,
-/// DIR/gallery.js and DIR/cells/ID/index.html. Draws what the records say and computes nothing
-/// but the subtraction of two curves for a chart. A record of one cell that cannot be read is said
-/// on that cell's page; Error(kInput) only if farm.json itself cannot be read. Returns the path of
+struct GalleryOptions {
+  std::filesystem::path site;  ///< where to; empty: the run's own directory
+  bool metrics_only = false;   ///< no float pictures: numbers, curves and thumbnails
+  std::string title;           ///< in place of the grid's; empty: that
+  std::string base_url;  ///< where it will be published, for links to it by others; empty: unknown
+};
+
+/// Reads RUN/farm.json and the records it names; writes index.html, a page for every cell and for every view
+/// that has something to show, their script, style and data, and gallery.json, which lists them. In another
+/// directory than the run's also copies of the files that pages show or link to. Files that are as they should
+/// be are not touched, and those that an earlier publication wrote there and this one does not are removed.
+///
+/// Draws what the records say and computes nothing but the subtraction of two curves or pictures for a
+/// drawing. A record of one cell that cannot be read is said on that cell's page; Error(kInput) only if
+/// farm.json itself cannot be read, Error(kUsage) for a title or base URL that is none. Returns the path of
 /// the index.
-std::filesystem::path write_gallery(const std::filesystem::path& directory);
+std::filesystem::path write_gallery(const std::filesystem::path& run,
+                                    const GalleryOptions& options = {});
 
 }  // namespace lobelia::gallery

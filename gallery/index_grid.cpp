@@ -115,10 +115,11 @@ class GridWriter {
     {
       const Tag link(html_, "a", {{"href", link_to({"cells", cell.entry->id, "index.html"})}});
       if (cell.picture.shown()) {
-        html_.empty("img", {{"src", link_to({"cells", cell.entry->id, cell.picture.file})},
+        const SmallPicture picture = cell.picture.first_look();
+        html_.empty("img", {{"src", link_to({"cells", cell.entry->id, picture.file})},
                             {"alt", words},
-                            {"width", std::to_string(cell.picture.width)},
-                            {"height", std::to_string(cell.picture.height)},
+                            {"width", std::to_string(picture.width)},
+                            {"height", std::to_string(picture.height)},
                             {"loading", "lazy"},
                             {"decoding", "async"}});
       } else {

@@ -6,11 +6,15 @@
 
 #include "core/html.hpp"
 #include "gallery/cell_summary.hpp"
+#include "gallery/page.hpp"
 
 namespace lobelia::gallery {
 
-/// `cells` in the order of farm.cells; `has_cost`: there is a page of what accuracy costs.
-std::string index_page(const FarmData& farm, const std::vector<CellSummary>& cells, bool has_cost);
+inline constexpr char kGridData[] = "grid.data.js";
+
+/// `cells` in the order of farm.cells.
+std::string index_page(const SiteFrame& site, const FarmData& farm,
+                       const std::vector<CellSummary>& cells);
 
 /// The grid as thumbnails, a table for each section (index_grid.cpp).
 void write_grid(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells);

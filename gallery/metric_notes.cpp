@@ -65,6 +65,23 @@ constexpr Entry kEntries[] = {
      "A few pixels may be: on the silhouette and on the terminator rounding decides what a ray "
      "hits.",
      MetricUnit::kCount},
+    {"outliers.off_edge", "Of these, away from the edges",
+     "Not on a silhouette, a terminator or a shadow’s edge, where only rounding decides.",
+     MetricUnit::kCount},
+    {"z.max", "Largest difference, in units of its noise",
+     "As a standard normal number; beyond the critical one it is no chance.", MetricUnit::kPlain},
+    {"z.critical", "Critical number of the noise",
+     "What as many pixels and regions as were looked at exceed by chance in few pictures alone.",
+     MetricUnit::kPlain},
+    {"z.beyond", "Pixels beyond the noise",
+     "Pixels with a value that differs by more than noise explains.", MetricUnit::kCount},
+    {"z.beyond.off_edge", "Of these, away from the edges", "Not on an edge of the scene.",
+     MetricUnit::kCount},
+    {"z.regions", "Regions beyond the noise",
+     "Squares of 2, 4, 8, ... pixels whose sum differs by more than noise explains.",
+     MetricUnit::kCount},
+    {"z.open", "Pixels that noise leaves open", "Not sure to lie within the tolerance.",
+     MetricUnit::kCount},
     {"mae.mask", "Mean difference, inside the mask", "Of the pixels that see a surface.",
      MetricUnit::kRadiance},
     {"rmse.mask", "Root mean square difference, inside the mask",
@@ -79,10 +96,28 @@ constexpr Entry kEntries[] = {
 
 MetricNote metric_note(std::string_view id) {
   for (const Entry& entry : kEntries) {
-    if (entry.id == id) return {std::string(entry.title), entry.meaning, entry.unit};
+    if (entry.id != id) continue;
+    const bool more_is_better = id == "psnr" || id == "ssim" || id == "ms_ssim";
+    return {std::string(entry.title), entry.meaning, entry.unit, more_is_better};
   }
-  return {std::string(id), "", MetricUnit::kPlain};
+  return {std::string(id), "", MetricUnit::kPlain, false};
 }
+
+std::string unit_name(MetricUnit unit) {
+  switch (unit) {
+    case MetricUnit::kShare:
+      return "share";
+    case MetricUnit::kCount:
+      return "count";
+    case MetricUnit::kRadiance:
+      return "radiance";
+    case MetricUnit::kPlain:
+      break;
+  }
+  return "plain";
+}
+
+bool is_coordinate(std::string_view id) { return id.ends_with(".x") || id.ends_with(".y"); }
 
 std::string metric_text(std::string_view id, double value) {
   switch (metric_note(id).unit) {

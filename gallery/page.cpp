@@ -3,25 +3,62 @@
 #include "core/version.hpp"
 
 namespace lobelia::gallery {
+namespace {
 
-std::string finish_page(const PageFrame& frame, const Html& main) {
+constexpr char kIcon[] =
+    "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E%3Ccircle cx='8' cy='8' "
+    "r='8' fill='%23223'/%3E%3Ccircle cx='10' cy='6' r='2.5' fill='%23fff'/%3E%3C/svg%3E";
+
+void write_head(Html& html, const SiteFrame& site, const PageFrame& frame) {
+  const auto meta = [&](const char* key, const char* name, const std::string& content) {
+    html.empty("meta", {{key, name}, {"content", content}});
+  };
+  const Tag head(html, "head");
+  html.empty("meta", {{"charset", "utf-8"}});
+  // Before anything that it is to govern.
+  meta("http-equiv", "Content-Security-Policy", kContentSecurityPolicy);
+  meta("name", "viewport", "width=device-width, initial-scale=1");
+  meta("name", "color-scheme", "light dark");
+  meta("name", "referrer", "no-referrer");
+  html.element("title", frame.title == site.title ? site.title : frame.title + " · " + site.title);
+  if (!site.base_url.empty()) {
+    html.empty("link", {{"rel", "canonical"}, {"href", site.base_url + frame.path}});
+    meta("property", "og:title", frame.title);
+    meta("property", "og:site_name", site.title);
+    meta("property", "og:url", site.base_url + frame.path);
+    if (!frame.picture.empty()) meta("property", "og:image", site.base_url + frame.picture);
+  }
+  // Inside the page, or a browser would ask the server for /favicon.ico.
+  html.empty("link", {{"rel", "icon"}, {"href", kIcon}});
+  html.empty("link", {{"rel", "stylesheet"}, {"href", frame.root + kStyleFile}});
+  // Classic scripts: browsers refuse modules on file://.
+  html.element("script", {{"src", frame.root + kScriptFile}, {"defer", "defer"}}, "");
+  if (!frame.data.empty()) html.element("script", {{"src", frame.data}, {"defer", "defer"}}, "");
+}
+
+void write_navigation(Html& html, const SiteFrame& site, const PageFrame& frame) {
+  const Tag header(html, "header", {{"class", "site"}});
+  html.element("a", {{"class", "site-title"}, {"href", frame.root + site.pages.front().file}},
+               frame.path == site.pages.front().file ? "Lobelia" : site.title);
+  const Tag nav(html, "nav", {{"aria-label", "Views"}});
+  for (const PageLink& page : site.pages) {
+    Attributes attributes = {{"href", frame.root + page.file}};
+    if (page.file == frame.path) attributes.push_back({"aria-current", "page"});
+    html.element("a", attributes, page.title);
+  }
+}
+
+}  // namespace
+
+std::string finish_page(const SiteFrame& site, const PageFrame& frame, const Html& main) {
   Html html;
   html.raw("<!DOCTYPE html>\n");
   {
     const Tag root(html, "html", {{"lang", "en"}});
-    {
-      const Tag head(html, "head");
-      html.empty("meta", {{"charset", "utf-8"}});
-      html.empty("meta",
-                 {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
-      html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
-      html.element("title", frame.title);
-      html.empty("link", {{"rel", "stylesheet"}, {"href", frame.root + kStyleFile}});
-      // A classic script: browsers refuse modules on file://.
-      html.element("script", {{"src", frame.root + kScriptFile}, {"defer", "defer"}}, "");
-    }
-    const Tag body(html, "body", {{"class", frame.kind}});
+    write_head(html, site, frame);
+    const Tag body(html, "body", {{"class", "view-" + frame.view}, {"data-view", frame.view}});
     html.element("a", {{"class", "skip"}, {"href", "#main"}}, "Skip to the content");
+    if (!site.pages.empty()) write_navigation(html, site, frame);
     {
       const Tag content(html, "main", {{"id", "main"}});
       html.raw(main.str());
@@ -32,6 +69,17 @@ std::string finish_page(const PageFrame& frame, const Html& main) {
     html.text(". Numbers are those of the records, rounded for print.");
   }
   return html.str();
+}
+
+std::string data_script(std::string_view name, const Json& data) {
+  const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string script = "lobelia('" + std::string(name) + "','";
+  script.reserve(script.size() + json.size() + json.size() / 16);
+  for (const char c : json) {
+    if (c == '\\' || c == '\'') script += '\\';
+    script += c;
+  }
+  return script + "');\n";
 }
 
 void write_status(Html& html, CellStatus status) {

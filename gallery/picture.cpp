@@ -21,7 +21,8 @@ std::uint32_t big_endian(const char* at) {
 }  // namespace
 
 Picture look_at_picture(const std::filesystem::path& directory, const std::string& file) {
-  Picture picture{file, 0, 0, ""};
+  Picture picture;
+  picture.file = file;
   if (file.empty()) {
     picture.why_not = "The record names no picture.";
     return picture;

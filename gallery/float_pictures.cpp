@@ -1,0 +1,147 @@
+#include "gallery/float_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "gallery/half_picture.hpp"
+#include "gallery/page.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kFormat[] = "float picture 1";  // of the scripts; another number makes them anew
+constexpr std::size_t kReferencePixels = 512 * 512;
+
+std::optional<Image> read_if_possible(const fs::path& path) {
+  try {
+    return read_image(path);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    return std::nullopt;
+  }
+}
+
+bool is_finite(const Image& image) {
+  return std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); });
+}
+
+Image difference(const Image& theirs, const Image& ours) {
+  Image result = theirs;
+  for (std::size_t i = 0; i < result.values().size(); ++i) result.values()[i] -= ours.values()[i];
+  return result;
+}
+
+std::string script_of(const HalfPicture& picture, bool from_ours) {
+  return data_script("float picture", {{"width", picture.width},
+                                       {"height", picture.height},
+                                       {"fromOurs", from_ours},
+                                       {"scaleLog2", picture.scale_log2},
+                                       {"mantissaBits", picture.mantissa_bits},
+                                       {"least", picture.least},
+                                       {"predicted", picture.is_predicted},
+                                       {"planes", picture.base64}});
+}
+
+/// All scripts of a cell, made together when the first is asked for: a second publication reads no picture.
+class CellScripts {
+ public:
+  CellScripts(fs::path here, const CellData& cell) : here_(std::move(here)), cell_(cell) {}
+
+  std::string of(const std::string& engine) {
+    if (!made_) make();
+    made_ = true;
+    return scripts_[engine];
+  }
+
+ private:
+  struct Part {
+    std::string engine;
+    Image image;
+    bool from_ours;
+  };
+
+  void make() {
+    const CellImage* our_image = cell_.find_image(kOurEngine);
+    std::optional<Image> ours = read_if_possible(here_ / our_image->exr);
+    if (!ours) return;
+    std::vector<Part> others;
+    // What is not finite in ours would hide theirs in a difference.
+    const bool from_ours = is_finite(*ours);
+    for (const CellImage& image : cell_.images) {
+      if (&image == our_image || image.exr.empty()) continue;
+      auto theirs = read_if_possible(here_ / image.exr);
+      if (!theirs || theirs->width() != ours->width() || theirs->height() != ours->height())
+        continue;
+      others.push_back(
+          {image.engine, from_ours ? difference(*theirs, *ours) : std::move(*theirs), from_ours});
+    }
+    const std::size_t most =
+        kFloatPictureBytes * std::max(ours->pixel_count(), kReferencePixels) / kReferencePixels;
+    std::vector<Part> first;
+    first.push_back({kOurEngine, std::move(*ours), false});
+    const std::size_t used = add_as_fine_as_fits(first, most);
+    add_as_fine_as_fits(others, most - std::min(most, used));
+  }
+
+  /// All with the finest precision that fits, found by bisection; with the coarsest if not even that fits.
+  std::size_t add_as_fine_as_fits(const std::vector<Part>& parts, std::size_t most) {
+    int fits = kCoarsest, too_fine = kFinest + 1;
+    std::size_t used = 0;
+    for (int precision = kFinest; used == 0 || too_fine - fits > 1;) {
+      std::map<std::string, std::string> scripts;
+      std::size_t size = 0;
+      for (const Part& part : parts)
+        size +=
+            (scripts[part.engine] = script_of(half_picture(part.image, precision), part.from_ours))
+                .size();
+      if (size > most && precision > kCoarsest) {
+        too_fine = precision;
+      } else {
+        fits = precision;
+        used = size;
+        for (auto& [engine, script] : scripts) scripts_[engine] = std::move(script);
+      }
+      precision = used == 0 && too_fine - fits <= 1 ? kCoarsest : (fits + too_fine) / 2;
+      if (parts.empty()) break;
+    }
+    return used;
+  }
+
+  fs::path here_;
+  const CellData& cell_;
+  bool made_ = false;
+  std::map<std::string, std::string> scripts_;
+};
+
+}  // namespace
+
+void publish_float_pictures(const fs::path& run, CellData& cell, Publisher& publisher) {
+  const CellImage* our_image = cell.find_image(kOurEngine);
+  if (!our_image || our_image->exr.empty()) return;
+  // Each script depends on all pictures of the cell, by the bytes that are left for it.
+  std::string all_hashes;
+  for (const CellImage& image : cell.images)
+    all_hashes += (all_hashes.empty() ? "" : " ") + image.exr_sha256;
+  CellScripts scripts(run / "cells" / cell.id, cell);
+  for (CellImage& image : cell.images) {
+    if (image.exr.empty()) continue;
+    const std::string file = image.engine + ".float.js";
+    const bool made =
+        publisher.derive("cells/" + cell.id + "/" + file,
+                         fmt::format("{} of {}, {}", kFormat, kFloatPictureBytes, all_hashes),
+                         [&] { return scripts.of(image.engine); });
+    if (made) image.float_script = file;
+  }
+}
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,143 @@
+#include "gallery/half_picture.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+constexpr int kHalfMantissa = 10;
+constexpr int kTopExponent =
+    15;  // the largest value goes just below 2^15, well within a half float
+
+/// Round to nearest, ties to even. `value` is at most 2^15 in magnitude, or not finite.
+std::uint16_t half_of(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const auto sign = static_cast<std::uint16_t>(bits >> 16 & 0x8000u);
+  if (std::isnan(value)) return sign | 0x7e00u;
+  if (std::isinf(value)) return sign | 0x7c00u;
+  const float size = std::abs(value);
+  if (size < 0x1p-14f)  // subnormal: multiples of 2^-24
+    return sign | static_cast<std::uint16_t>(std::nearbyint(size * 0x1p24f));
+  const std::uint32_t magnitude = bits & 0x7fffffffu;
+  const std::uint32_t rounded = magnitude + 0xfffu + (magnitude >> 13 & 1u);
+  return sign | static_cast<std::uint16_t>((rounded >> 13) - ((127 - 15) << 10));
+}
+
+/// Without the last `dropped` bits, rounded; ordered as the values are, so that near values are near numbers.
+int ordered(std::uint16_t half, int dropped) {
+  const int magnitude = half & 0x7fff;
+  const int kept = (magnitude >= 0x7c00 ? magnitude : magnitude + (1 << dropped >> 1)) >> dropped;
+  return half & 0x8000 ? -kept : kept;
+}
+
+/// Median edge detection (LOCO-I, Weinberger, Seroussi, Sapiro 2000): what the pixels left of and above one
+/// make likely, on a slope as at an edge.
+int predicted(int left, int above, int above_left) {
+  if (above_left >= std::max(left, above)) return std::min(left, above);
+  if (above_left <= std::min(left, above)) return std::max(left, above);
+  return left + above - above_left;
+}
+
+/// What the prediction leaves: of each channel the low bytes, then the high ones. Green is taken as its
+/// difference from red, and blue from green: grey costs nothing more.
+/// Without prediction they are the values themselves, which is shorter where they are noise.
+std::string residuals(std::span<const std::uint16_t> halves, int width, int height, int dropped,
+                      bool is_predicted) {
+  const std::size_t pixels = std::size_t(width) * height;
+  std::string bytes(6 * pixels, '\0');
+  std::vector<int> plane(pixels);
+  for (int channel = 0; channel < 3; ++channel) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const int value = ordered(halves[3 * i + channel], dropped);
+      const int before = channel == 0 ? 0 : ordered(halves[3 * i + channel - 1], dropped);
+      plane[i] = static_cast<std::int16_t>(value - before);  // modulo 2^16, as the reader computes
+    }
+    char* low = bytes.data() + 2 * pixels * channel;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const bool first_column = i % width == 0, first_row = i < std::size_t(width);
+      const int left = first_column ? (first_row ? 0 : plane[i - width]) : plane[i - 1];
+      const int above = first_row ? left : plane[i - width];
+      const int above_left = first_column || first_row ? left : plane[i - width - 1];
+      const int rest = static_cast<std::int16_t>(
+          plane[i] - (is_predicted ? predicted(left, above, above_left) : 0));
+      // Signs to the end: 0, -1, 1, -2, 2 are 0, 1, 2, 3, 4.
+      const auto code =
+          static_cast<std::uint32_t>(rest) << 1 ^ static_cast<std::uint32_t>(rest >> 31);
+      low[i] = static_cast<char>(code & 0xff);
+      low[pixels + i] = static_cast<char>(code >> 8 & 0xff);
+    }
+  }
+  return bytes;
+}
+
+std::string deflated(const std::string& bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string result(size, '\0');
+  const auto* from = reinterpret_cast<const Bytef*>(bytes.data());
+  if (compress2(reinterpret_cast<Bytef*>(result.data()), &size, from,
+                static_cast<uLong>(bytes.size()), 6) != Z_OK)
+    throw Error(ExitCode::kInternal, "zlib: not enough memory for a picture");
+  result.resize(size);
+  return result;
+}
+
+std::string base64(const std::string& bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t at) {
+      return at < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[at])} : 0u;
+    };
+    const std::uint32_t three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    text += kDigits[three >> 18];
+    text += kDigits[three >> 12 & 63];
+    text += i + 1 < bytes.size() ? kDigits[three >> 6 & 63] : '=';
+    text += i + 2 < bytes.size() ? kDigits[three & 63] : '=';
+  }
+  return text;
+}
+
+float largest_of(const Image& image) {
+  float largest = 0;
+  for (const float value : image.values())
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+}  // namespace
+
+HalfPicture half_picture(const Image& image, int precision) {
+  HalfPicture result{image.width(), image.height(), 0, std::max(1, precision), 0, true, ""};
+  const float largest = largest_of(image);
+  int exponent = 0;
+  std::frexp(largest, &exponent);  // largest < 2^exponent
+  if (largest > 0) result.scale_log2 = kTopExponent - exponent;
+  if (precision < 1) result.least = std::ldexp(double{largest}, -14 - 2 * precision);
+  std::vector<std::uint16_t> halves;
+  halves.reserve(image.values().size());
+  for (const float value : image.values()) {
+    const bool is_small = std::abs(value) < result.least;
+    halves.push_back(half_of(is_small ? 0.0f : std::ldexp(value, result.scale_log2)));
+  }
+  const auto packed = [&](bool is_predicted) {
+    return deflated(residuals(halves, image.width(), image.height(),
+                              kHalfMantissa - result.mantissa_bits, is_predicted));
+  };
+  const std::string predicted_bytes = packed(true), plain_bytes = packed(false);
+  result.is_predicted = predicted_bytes.size() <= plain_bytes.size();
+  result.base64 = base64(result.is_predicted ? predicted_bytes : plain_bytes);
+  return result;
+}
+
+}  // namespace lobelia::gallery

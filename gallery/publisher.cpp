@@ -1,0 +1,156 @@
+#include "gallery/publisher.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/record.hpp"
+#include "gallery/fields.hpp"
+#include "gallery/names.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kList[] = "gallery.json";
+
+bool is_path_of_plain_names(const std::string& name) {
+  std::size_t from = 0;
+  for (auto slash = name.find('/');; slash = name.find('/', from)) {
+    if (!is_plain_name(std::string_view(name).substr(from, slash - from))) return false;
+    if (slash == std::string::npos) return true;
+    from = slash + 1;
+  }
+}
+
+/// `make` a file under a temporary name, then give it its own. Not flushed to the disk as records are: there are
+/// tens of thousands, and a site that a crash has damaged is published again.
+void place(const fs::path& path, const std::function<bool(const fs::path&)>& make) {
+  make_directories(path.parent_path());
+  const fs::path part =
+      path.parent_path() / fmt::format(".{}.{}-0.part", path.filename().string(), ::getpid());
+  errno = 0;
+  std::error_code error;
+  const bool made = make(part);
+  if (!made) error = std::error_code(errno ? errno : EIO, std::generic_category());
+  if (made) fs::rename(part, path, error);
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  throw Error(ExitCode::kOutput, fmt::format("{}: {}", path.string(), error.message()));
+}
+
+/// With all links followed.
+bool is_within(const fs::path& directory, const fs::path& path) {
+  std::error_code error, other;
+  const fs::path root = fs::canonical(directory, error), real = fs::canonical(path, other);
+  return !error && !other &&
+         std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
+}
+
+bool is_same_text(const fs::path& path, std::string_view content) {
+  std::error_code error;
+  if (fs::is_symlink(path, error) || fs::file_size(path, error) != content.size() || error)
+    return false;
+  return read_file(path, content.size()) == content;
+}
+
+}  // namespace
+
+Publisher::Publisher(fs::path site) : site_(std::move(site)) {
+  make_directories(site_);
+  std::error_code ignored;
+  if (!fs::exists(site_ / kList, ignored)) return;
+  try {
+    const Json record = read_record(site_ / kList, "gallery");
+    const Fields fields(record, kList);
+    for (std::string& name : fields.texts("files"))
+      if (is_path_of_plain_names(name)) earlier_.insert(std::move(name));
+    if (const auto keys = fields.object("madeOf"))
+      for (auto& [name, key] : keys->described_members()) earlier_keys_.emplace(name, key);
+  } catch (const Error&) {
+    earlier_.clear();  // then nothing is removed, which harms nobody
+  }
+}
+
+void Publisher::write(const std::string& name, std::string_view content) {
+  files_.insert(name);
+  const fs::path path = site_ / name;
+  if (is_same_text(path, content)) return;
+  place(path, [&](const fs::path& part) {
+    std::ofstream out(part, std::ios::binary);
+    out.write(content.data(), static_cast<std::streamsize>(content.size()));
+    return bool(out.flush());
+  });
+  ++written_;
+}
+
+void Publisher::copy(const fs::path& run, const std::string& name) {
+  const fs::path from = run / name, to = site_ / name;
+  std::error_code error;
+  if (fs::equivalent(from, to, error)) return;
+  if (!is_within(run, from))
+    throw Error(ExitCode::kInput,
+                from.string() + ": a link that leads out of the run is not published");
+  files_.insert(name);
+  const auto time = fs::last_write_time(from, error);
+  if (!error && fs::file_size(from, error) == fs::file_size(to, error) && !error &&
+      fs::last_write_time(to, error) == time && !error)
+    return;
+  place(to, [&](const fs::path& part) {
+    std::error_code failed;
+    fs::copy_file(from, part, failed);
+    if (!failed) fs::last_write_time(part, time, failed);
+    errno = failed.value();
+    return !failed;
+  });
+  ++written_;
+}
+
+bool Publisher::derive(const std::string& name, const std::string& key,
+                       const std::function<std::string()>& make) {
+  const auto earlier = earlier_keys_.find(name);
+  std::error_code ignored;
+  if (earlier != earlier_keys_.end() && earlier->second == key &&
+      fs::is_regular_file(site_ / name, ignored)) {
+    files_.insert(name);
+  } else {
+    const std::string content = make();
+    if (content.empty()) return false;
+    write(name, content);
+  }
+  keys_[name] = key;
+  return true;
+}
+
+void Publisher::remove_stale(const std::string& name) {
+  const fs::path path = site_ / name;
+  std::error_code error;
+  if (!is_within(site_, path.parent_path())) return;
+  if (!fs::is_regular_file(fs::symlink_status(path, error)) || !fs::remove(path, error)) return;
+  ++removed_;
+  // An empty directory is nobody's; remove() leaves any other.
+  for (fs::path up = path.parent_path();
+       up != site_ && fs::is_empty(up, error) && !error && fs::remove(up, error);)
+    up = up.parent_path();
+}
+
+void Publisher::finish() {
+  for (const std::string& name : earlier_)
+    if (!files_.contains(name)) remove_stale(name);
+  Json record = make_record("gallery");
+  record["files"] = Json(std::vector<std::string>(files_.begin(), files_.end()));
+  record["madeOf"] = Json::object();
+  for (const auto& [name, key] : keys_) record["madeOf"][name] = key;
+  const std::string text = record_text(record);
+  if (!is_same_text(site_ / kList, text)) write_file(site_ / kList, text);
+}
+
+}  // namespace lobelia::gallery

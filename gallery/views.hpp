@@ -1,0 +1,35 @@
+// The pages of the site beside the grid and the cells: each is a file, and a line in views.cpp.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/html.hpp"
+#include "core/record.hpp"
+
+namespace lobelia::gallery {
+
+/// A page as its view draws it; the head, the navigation and the foot come around it.
+struct ViewPage {
+  std::string title;
+  std::string made_by;  ///< of its records, for the foot
+  Html main;            ///< complete without script
+  Json data;            ///< what pageData() of gallery/web gives its script; null: nothing
+  std::vector<std::string> files;  ///< that it links to, below the run's directory; copied with it
+};
+
+struct View {
+  std::string_view name;   ///< also in gallery/web/src/views.ts, if a script makes more of it
+  std::string_view title;  ///< in the navigation
+  std::string_view file;   ///< "cost.html"
+  /// Empty if the run has nothing for it. A record that cannot be read is said on the page.
+  std::optional<ViewPage> (*draw)(const std::filesystem::path& run);
+};
+
+std::span<const View> views();
+
+}  // namespace lobelia::gallery

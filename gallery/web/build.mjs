@@ -1,0 +1,22 @@
+// Bundles src/ into dist/gallery.js and dist/gallery.css, which are committed: the program that
+// embeds them is built without node. `node build.mjs DIR` writes elsewhere; a test compares the two.
+import { build } from 'esbuild';
+import { fileURLToPath } from 'node:url';
+import path from 'node:path';
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const out = path.resolve(process.argv[2] ?? path.join(here, 'dist'));
+
+await build({
+  absWorkingDir: here,
+  entryPoints: { gallery: 'src/main.ts' },
+  bundle: true,
+  minify: true,
+  // A classic script: browsers refuse modules on file://.
+  format: 'iife',
+  target: ['es2022', 'chrome108', 'firefox113', 'safari16.4'],
+  charset: 'utf8',
+  legalComments: 'none',
+  logLevel: 'warning',
+  outdir: out,
+});

@@ -1,0 +1,28 @@
+// Colour maps by ten stops, interpolated as they are: viridis and inferno (Smith and van der Walt 2015).
+
+const kStops = {
+  viridis: ['440154', '482878', '3e4989', '31688e', '26828e', '1f9e89', '35b779', '6ece58', 'b5de2b', 'fde725'],
+  inferno: ['000004', '1b0c41', '4a0c6b', '781c6d', 'a52c60', 'cf4446', 'ed6925', 'fb9b06', 'f7d13d', 'fcffa4'],
+} as const;
+
+export type ColourMap = keyof typeof kStops;
+export const kStopCount = 10;
+
+/** sRGB, 0 to 1: what a shader takes. */
+export function stopsOf(map: ColourMap): Float32Array {
+  const channels = kStops[map].flatMap((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255));
+  return new Float32Array(channels);
+}
+
+export function cssGradient(map: ColourMap, direction = 'to right'): string {
+  return `linear-gradient(${direction}, ${kStops[map].map((hex) => '#' + hex).join(', ')})`;
+}
+
+/** The colour at `share` of the map, for a cell of the grid. */
+export function colourAt(map: ColourMap, share: number): string {
+  const stops = stopsOf(map), at = Math.min(1, Math.max(0, share)) * (kStopCount - 1);
+  const from = Math.min(kStopCount - 2, Math.floor(at)), part = at - from;
+  const channel = (c: number): number =>
+    Math.round(255 * (stops[3 * from + c]! * (1 - part) + stops[3 * from + 3 + c]! * part));
+  return `rgb(${channel(0)} ${channel(1)} ${channel(2)})`;
+}

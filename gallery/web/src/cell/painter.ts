@@ -1,0 +1,27 @@
+// What a stage wants painted. Two can: gl_painter.ts from float pictures, png_painter.ts from what is for the eye.
+
+/** Pixel (x, y) of the picture is at the pane's left top; `zoom` device pixels to one of its. */
+export interface Viewport { readonly x: number; readonly y: number; readonly zoom: number }
+
+export interface Rectangle { readonly x: number; readonly y: number; readonly width: number; readonly height: number }
+
+export type Measure = 'absolute' | 'relative' | 'signed';
+
+export type Content =
+  | { readonly kind: 'picture'; readonly engine: number }
+  | { readonly kind: 'difference'; readonly a: number; readonly b: number; readonly measure: Measure; readonly white: number };
+
+export interface Pane { readonly at: Rectangle; readonly view: Viewport; readonly content: Content }
+
+export interface Look {
+  readonly stops: number;
+  readonly falseColour: boolean;
+  /** The largest value of false colour, and how many powers of ten below it are told apart. */
+  readonly top: number;
+  readonly decades: number;
+}
+
+export interface Painter {
+  /** In device pixels. */
+  paint(width: number, height: number, panes: readonly Pane[], look: Look): void;
+}

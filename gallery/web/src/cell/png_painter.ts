@@ -1,0 +1,60 @@
+// Where there are no float pictures, or no WebGL 2: the 8-bit pictures, at the one exposure that they have.
+import type { CellData, PictureFile } from './data';
+import type { Painter, Pane, Viewport } from './painter';
+
+export class PngPainter implements Painter {
+  private readonly images = new Map<string, HTMLImageElement>();
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly data: CellData,
+              private readonly repaint: () => void, private readonly isWaiting: () => boolean) {}
+
+  paint(width: number, height: number, panes: readonly Pane[]): void {
+    this.canvas.width = width;
+    this.canvas.height = height;
+    const context = this.canvas.getContext('2d');
+    if (!context) return;
+    context.fillStyle = '#212124';
+    context.fillRect(0, 0, width, height);
+    for (const { at, view, content } of panes) {
+      context.save();
+      context.beginPath();
+      context.rect(at.x, at.y, at.width, at.height);
+      context.clip();
+      context.imageSmoothingEnabled = view.zoom < 1;
+      if (content.kind === 'picture') {
+        this.draw(context, this.data.engines[content.engine]?.picture, at, view);
+      } else {
+        this.drawDifference(context, content.a, content.b, at, view);
+      }
+      context.restore();
+    }
+  }
+
+  private drawDifference(context: CanvasRenderingContext2D, a: number, b: number,
+                         at: Pane['at'], view: Viewport): void {
+    const first = this.data.engines[a], second = this.data.engines[b];
+    const recorded = this.data.comparisons.find((c) =>
+      (c.a === first?.name && c.b === second?.name) || (c.b === first?.name && c.a === second?.name));
+    if (recorded?.picture) return this.draw(context, recorded.picture, at, view);
+    this.draw(context, first?.picture, at, view);
+    context.globalCompositeOperation = 'difference';
+    this.draw(context, second?.picture, at, view);
+  }
+
+  private draw(context: CanvasRenderingContext2D, file: PictureFile | null | undefined,
+               at: Pane['at'], view: Viewport): void {
+    if (!file) return;
+    // The whole picture only where no float picture is to come.
+    const source = this.isWaiting() ? file.small : file.src;
+    let image = this.images.get(source);
+    if (!image) {
+      image = new Image();
+      image.src = source;
+      image.addEventListener('load', this.repaint);
+      this.images.set(source, image);
+    }
+    if (!image.complete || image.naturalWidth === 0) return;
+    context.drawImage(image, at.x - view.x * view.zoom, at.y - view.y * view.zoom,
+      file.width * view.zoom, file.height * view.zoom);
+  }
+}

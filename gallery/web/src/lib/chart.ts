@@ -1,0 +1,225 @@
+// A chart of lines or points that tells the values under the pointer, or at the arrow keys.
+import { h, svg } from './dom';
+import { clamp, numberText } from './numbers';
+
+export interface Series {
+  readonly name: string;
+  readonly x: readonly number[];
+  readonly y: readonly number[];
+  /** 0 is broad and pale, to lie under the others; 1 to 5 have colours and dashes of their own. */
+  readonly style: number;
+}
+
+export interface Axis {
+  readonly label: string;
+  readonly from: number;
+  readonly to: number;
+  readonly logarithmic?: boolean;
+}
+
+export interface Band { readonly title: string; readonly from: number; readonly to: number }
+
+export interface ChartContent {
+  readonly x: Axis;
+  readonly y: Axis;
+  readonly series: readonly Series[];
+  readonly bands?: readonly Band[];
+  /** A value that everything is held to: 1 of a ratio. */
+  readonly level?: number;
+}
+
+const kWidth = 900, kLeft = 76, kRight = 16, kTop = 20, kBottom = 44;
+export const kDashes = ['', '', '7 4', '2 3', '10 3 2 3', '5 2'];
+
+/** Round numbers from `from` to `to`, about `count` of them; decades on a logarithmic axis. */
+export function ticks(axis: Axis, count: number): number[] {
+  const result: number[] = [];
+  if (axis.logarithmic) {
+    const first = Math.ceil(Math.log10(axis.from) - 1e-9), last = Math.floor(Math.log10(axis.to) + 1e-9);
+    const step = Math.max(1, Math.ceil((last - first) / count));
+    for (let e = first; e <= last; e += step) result.push(10 ** e);
+    return result;
+  }
+  const rough = (axis.to - axis.from) / count, power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((n) => n * power).find((s) => s >= rough) ?? rough;
+  for (let i = Math.ceil(axis.from / step - 1e-9); i * step <= axis.to + 1e-9 * step; ++i) result.push(i * step);
+  return result;
+}
+
+export class Chart {
+  readonly element: HTMLElement;
+  private readonly drawing: SVGSVGElement;
+  private readonly readout = h('output', { class: 'readout' });
+  private readonly hidden = new Set<string>();
+  private readonly legend = h('div', { class: 'legend-row' });
+  private content: ChartContent | undefined;
+  private at: number | undefined;
+  private readonly rule = svg('g', { class: 'rule' });
+
+  constructor(private readonly title: string, private readonly height: number) {
+    this.drawing = svg('svg', {
+      class: 'chart interactive', viewBox: `0 0 ${kWidth} ${height}`, tabindex: 0, role: 'img', 'aria-label': title,
+    });
+    this.drawing.addEventListener('pointermove', (event) => {
+      const box = this.drawing.getBoundingClientRect();
+      this.show(this.toX((event.clientX - box.left) * kWidth / box.width));
+    });
+    this.drawing.addEventListener('pointerleave', () => this.show(undefined));
+    this.drawing.addEventListener('keydown', (event) => this.key(event));
+    this.element = h('div', { class: 'chart-box' }, this.legend, this.drawing, this.readout);
+  }
+
+  update(content: ChartContent): void {
+    this.content = content;
+    this.drawLegend();
+    this.draw();
+  }
+
+  private drawLegend(): void {
+    const series = this.content?.series ?? [];
+    this.legend.replaceChildren(...series.map((s) => {
+      const box = h('input', { type: 'checkbox' });
+      box.checked = !this.hidden.has(s.name);
+      box.addEventListener('change', () => {
+        if (box.checked) this.hidden.delete(s.name); else this.hidden.add(s.name);
+        this.draw();
+      });
+      const sample = svg('svg', { class: 'chart sample', width: 28, height: 10, 'aria-hidden': 'true' },
+        svg('line', { class: `series series-${s.style}`, x1: 0, x2: 28, y1: 5, y2: 5,
+          'stroke-width': s.style === 0 ? 6 : 2, 'stroke-dasharray': kDashes[s.style] ?? '' }));
+      return h('label', {}, box, sample, s.name);
+    }));
+  }
+
+  private toX(across: number): number | undefined {
+    if (!this.content) return undefined;
+    const { x } = this.content, share = clamp((across - kLeft) / (kWidth - kLeft - kRight), 0, 1);
+    return x.logarithmic ? x.from * (x.to / x.from) ** share : x.from + (x.to - x.from) * share;
+  }
+
+  private across(value: number): number {
+    const { from, to, logarithmic } = this.content!.x;
+    const share = logarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
+    return kLeft + share * (kWidth - kLeft - kRight);
+  }
+
+  private down(value: number): number {
+    const { from, to, logarithmic } = this.content!.y;
+    const share = logarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
+    return kTop + (1 - clamp(share, -0.02, 1.02)) * (this.height - kTop - kBottom);
+  }
+
+  private draw(): void {
+    if (!this.content) return;
+    const { x, y, series, bands = [], level } = this.content;
+    const bottom = this.height - kBottom, right = kWidth - kRight;
+    const parts: SVGElement[] = [];
+    bands.forEach((band, i) => {
+      const left = this.across(clamp(band.from, x.from, x.to)), end = this.across(clamp(band.to, x.from, x.to));
+      if (end <= left) return;
+      parts.push(svg('rect', { class: `band-${i % 2}`, x: left, y: kTop, width: end - left, height: bottom - kTop }),
+        svg('text', { class: 'band-label', x: left + 4, y: kTop - 6 }, band.title));
+    });
+    for (const value of ticks(y, 6)) {
+      const at = this.down(value);
+      parts.push(svg('line', { class: 'grid-line', x1: kLeft, x2: right, y1: at, y2: at }),
+        svg('text', { class: 'tick-label', x: kLeft - 8, y: at + 4, 'text-anchor': 'end' }, tickText(value, y)));
+    }
+    for (const value of ticks(x, 9)) {
+      const at = this.across(value);
+      parts.push(svg('line', { class: 'tick', x1: at, x2: at, y1: bottom, y2: bottom + 5 }),
+        svg('text', { class: 'tick-label', x: at, y: bottom + 18, 'text-anchor': 'middle' }, tickText(value, x)));
+    }
+    if (level !== undefined) {
+      const at = this.down(level);
+      parts.push(svg('line', { class: 'axis', x1: kLeft, x2: right, y1: at, y2: at }));
+    }
+    parts.push(svg('line', { class: 'axis', x1: kLeft, x2: right, y1: bottom, y2: bottom }),
+      svg('line', { class: 'axis', x1: kLeft, x2: kLeft, y1: kTop, y2: bottom }),
+      svg('text', { class: 'axis-label', x: right, y: this.height - 6, 'text-anchor': 'end' }, x.label),
+      svg('text', { class: 'axis-label', transform: `translate(14 ${(kTop + bottom) / 2}) rotate(-90)`,
+        'text-anchor': 'middle' }, y.label));
+    for (const s of series) {
+      if (this.hidden.has(s.name)) continue;
+      parts.push(svg('path', { class: `series series-${s.style}`, fill: 'none', d: this.path(s),
+        'stroke-width': s.style === 0 ? 6 : 1.8, 'stroke-dasharray': kDashes[s.style] ?? '' }));
+    }
+    this.drawing.replaceChildren(...parts, this.rule);
+    this.show(this.at);
+  }
+
+  private path(s: Series): string {
+    const { x, y } = this.content!;
+    let path = '', pen = false;
+    s.x.forEach((value, i) => {
+      const height = s.y[i]!;
+      const drawn = Number.isFinite(height) && value >= x.from && value <= x.to && (!y.logarithmic || height > 0);
+      if (drawn) path += `${pen ? 'L' : 'M'}${this.across(value).toFixed(1)} ${this.down(height).toFixed(1)}`;
+      pen = drawn;
+    });
+    return path;
+  }
+
+  private key(event: KeyboardEvent): void {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    const xs = this.content?.series[0]?.x;
+    if (!step || !xs?.length) return;
+    event.preventDefault();
+    const now = this.at === undefined ? (step > 0 ? -1 : xs.length) : nearest(xs, this.at);
+    this.show(xs[clamp(now + step, 0, xs.length - 1)]);
+  }
+
+  /** The values at the point that is nearest to `value`. */
+  private show(value: number | undefined): void {
+    this.at = value;
+    const series = this.content?.series.filter((s) => !this.hidden.has(s.name)) ?? [];
+    const xs = series[0]?.x;
+    if (value === undefined || !xs?.length || !this.content) {
+      this.rule.replaceChildren();
+      this.readout.textContent = 'Point at the chart, or use its arrow keys, to read values.';
+      return;
+    }
+    const i = nearest(xs, value), at = this.across(xs[i]!);
+    const marks = series.filter((s) => Number.isFinite(s.y[i]) && !(this.content!.y.logarithmic && s.y[i]! <= 0))
+      .map((s) => svg('circle', { class: `marker-${s.style}`, cx: at, cy: this.down(s.y[i]!), r: 3.5 }));
+    this.rule.replaceChildren(
+      svg('line', { class: 'axis', x1: at, x2: at, y1: kTop, y2: this.height - kBottom }), ...marks);
+    this.readout.textContent = `at ${numberText(xs[i]!, 4)}: ` +
+      series.map((s) => `${s.name} ${numberText(s.y[i]!, 5)}`).join(' · ');
+    this.drawing.setAttribute('aria-label', `${this.title}; ${this.readout.textContent}`);
+  }
+}
+
+function tickText(value: number, axis: Axis): string {
+  if (!axis.logarithmic) {
+    const size = Math.max(Math.abs(axis.from), Math.abs(axis.to));
+    const digits = clamp(Math.ceil(Math.log10(size / (axis.to - axis.from))) + 3, 3, 12);
+    return Math.abs(value) < 1e-9 * size ? '0' : numberText(value, digits);
+  }
+  return numberText(value).replace('1 × ', '');
+}
+
+function nearest(sorted: readonly number[], value: number): number {
+  let best = 0;
+  for (let i = 1; i < sorted.length; ++i)
+    if (Math.abs(sorted[i]! - value) < Math.abs(sorted[best]! - value)) best = i;
+  return best;
+}
+
+/** From a round number under the least to one over the largest; of values that are drawn. */
+export function rangeOf(values: Iterable<number>, logarithmic: boolean, mostDecades = 10): { from: number; to: number } {
+  let low = Infinity, high = -Infinity;
+  for (const value of values) {
+    if (!Number.isFinite(value) || Math.abs(value) > 1e250 || (logarithmic && value < 1e-250)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  if (low > high) return logarithmic ? { from: 0.1, to: 1 } : { from: 0, to: 1 };
+  if (logarithmic) {
+    const to = 10 ** Math.ceil(Math.log10(high)), from = 10 ** Math.floor(Math.log10(low));
+    return { from: from === to ? to / 10 : Math.max(from, to * 10 ** -mostDecades), to };
+  }
+  if (low === high) return { from: Math.min(0, low), to: Math.max(high, 0) || 1 };
+  const steps = ticks({ label: '', from: low, to: high }, 5), step = (steps[1] ?? high) - (steps[0] ?? low);
+  return { from: Math.floor(low / step) * step, to: Math.ceil(high / step) * step };
+}

@@ -1,0 +1,21 @@
+// A copy button on everything that somebody may want to type elsewhere: commands and hashes.
+import { button } from './dom';
+
+export function addCopyButtons(root: ParentNode = document): void {
+  if (!navigator.clipboard) return;
+  for (const place of root.querySelectorAll<HTMLElement>('pre.command, code.copied')) {
+    const text = place.textContent ?? '';
+    const what = place.dataset['what'] ?? 'the command';
+    const control = button('Copy', () => {
+      navigator.clipboard.writeText(text).then(
+        () => { control.textContent = 'Copied'; },
+        () => { control.textContent = 'Select and copy by hand'; });
+    }, { class: 'copy', 'aria-label': `Copy ${what}` });
+    if (place.tagName === 'PRE') {
+      place.classList.add('copyable');
+      place.append(control);
+    } else {
+      place.after(control);
+    }
+  }
+}

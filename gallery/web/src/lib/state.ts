@@ -1,0 +1,46 @@
+// What the reader sees, in the URL's hash, so that a link shows the same: #a=lobelia&b=povray&mode=slide.
+// A hash without '=' is an anchor of the page and left alone.
+
+export class HashState<Key extends string> {
+  private values = new Map<string, string>();
+  private readonly listeners: (() => void)[] = [];
+
+  /** What is at its default does not stand in the link. */
+  constructor(private readonly defaults: Readonly<Record<Key, string>>) {
+    this.read();
+    addEventListener('hashchange', () => {
+      if (!this.read()) return;
+      for (const listener of this.listeners) listener();
+    });
+  }
+
+  get(key: Key): string { return this.values.get(key) ?? this.defaults[key]; }
+
+  number(key: Key): number {
+    const value = Number(this.get(key));
+    return Number.isFinite(value) ? value : Number(this.defaults[key]);
+  }
+
+  /** Replaces the address in place: the way back leads to the page before, not through every drag. */
+  set(changes: Partial<Record<Key, string>>): void {
+    for (const [key, value] of Object.entries(changes) as [Key, string][]) {
+      if (value === this.defaults[key]) this.values.delete(key);
+      else this.values.set(key, value);
+    }
+    const query = new URLSearchParams([...this.values]).toString();
+    if (query === '' && !location.hash.includes('=')) return;
+    history.replaceState(history.state, '', query === '' ? '#top' : '#' + query);
+  }
+
+  /** Called when somebody else changed the hash: a link, the way back. */
+  onChange(listener: () => void): void { this.listeners.push(listener); }
+
+  private read(): boolean {
+    const text = location.hash.slice(1);
+    if (text !== '' && !text.includes('=')) return false;
+    this.values = new Map();
+    for (const [key, value] of new URLSearchParams(text))
+      if (Object.hasOwn(this.defaults, key)) this.values.set(key, value);
+    return true;
+  }
+}
