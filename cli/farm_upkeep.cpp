@@ -67,7 +67,7 @@ void add_status(CLI::App& farm) {
       if (const auto n = count.get<std::size_t>(); n > 0)
         counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", n, name);
     fmt::print("{} cells: {}{}\n", status.at("cells").get<std::size_t>(), counts,
-               status.at("atWork").get<bool>() ? "; a farm is at work on it" : "");
+               status.at("atWork").get<bool>() ? "; a farm is at work in its cache" : "");
     fmt::print("{}", cluster_text(options->directory));
   });
 }

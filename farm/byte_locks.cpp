@@ -9,14 +9,19 @@
 namespace lobelia {
 namespace {
 
-/// Locks of the open file, not of the process: POSIX's own would end with any descriptor of the file that the
-/// process closes, and would not tell two objects of one process apart.
-int lock(int fd, short type, std::int64_t byte) {
+struct flock range_of(short type, std::int64_t byte) {
   struct flock range {};
   range.l_type = type;
   range.l_whence = SEEK_SET;
   range.l_start = byte;
   range.l_len = 1;
+  return range;
+}
+
+/// Locks of the open file, not of the process: POSIX's own would end with any descriptor of the file that the
+/// process closes, and would not tell two objects of one process apart.
+int lock(int fd, short type, std::int64_t byte) {
+  struct flock range = range_of(type, byte);
   return ::fcntl(fd, F_OFD_SETLK, &range);
 }
 
@@ -49,6 +54,12 @@ std::optional<ByteLocks::Claim> ByteLocks::try_claim(std::uint64_t number, bool 
   if (lock(fd_, shared ? F_RDLCK : F_WRLCK, byte) == 0) return Claim(fd_, byte);
   if (errno == EAGAIN || errno == EACCES) return std::nullopt;
   return Claim(-1, 0);
+}
+
+bool ByteLocks::is_claimed(std::uint64_t number) const {
+  if (!works_) return false;
+  struct flock range = range_of(F_WRLCK, byte_of(number));
+  return ::fcntl(fd_, F_OFD_GETLK, &range) == 0 && range.l_type != F_UNLCK;
 }
 
 }  // namespace lobelia

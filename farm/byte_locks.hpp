@@ -34,6 +34,8 @@ class ByteLocks {
 
   /// For the place that `number` names; none while another object holds it, unless both are `shared`.
   std::optional<Claim> try_claim(std::uint64_t number, bool shared = false) const;
+  /// Whether another object holds it, shared or not; asking keeps nobody from it.
+  bool is_claimed(std::uint64_t number) const;
   /// Whether locks mean anything here.
   bool works() const { return works_; }
 

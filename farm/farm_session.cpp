@@ -19,6 +19,23 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
+/// Whatever is in one of them may be taken away as none of its own.
+fs::path apart(const fs::path& cache, const fs::path& directory) {
+  const fs::path a = fs::weakly_canonical(fs::absolute(cache)),
+                 b = fs::weakly_canonical(fs::absolute(directory));
+  const auto is_in = [](const fs::path& inner, const fs::path& outer) {
+    const fs::path between = inner.lexically_relative(outer);
+    return !between.empty() && *between.begin() != "..";
+  };
+  bool inside = is_in(a, b / "cells");
+  for (const char* part : {"results", "failures", "making"}) inside = inside || is_in(b, a / part);
+  if (inside)
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: the cache {} may not lie among a farm's cells, nor a farm in a cache",
+                            directory.string(), cache.string()));
+  return cache;
+}
+
 /// Jobs that are to be done though one of their inputs neither is there nor will be: the filter leaves it out.
 void leave_out_what_waits_for_nothing(const JobGraph& graph, std::vector<JobState>& states,
                                       std::size_t cell) {
@@ -60,7 +77,7 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
     : work_(checked(grid), options),
       directory_(directory),
       options_(options),
-      cache_(cache_directory(options.cache, directory)),
+      cache_(apart(cache_directory(options.cache, directory), directory)),
       in_use_(cache_.try_use(true)),
       states_(work_.graph.size(), JobState::kAbsent),
       status_(work_.graph.cell_count(), "missing") {

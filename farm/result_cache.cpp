@@ -91,6 +91,11 @@ std::vector<ResultKey> keys_on_shelves(const fs::path& directory) {
 
 }  // namespace
 
+std::string seal_of(Json record) {
+  record.erase("seal");
+  return hex(sha256(record.dump()));
+}
+
 ResultDraft::~ResultDraft() {
   std::error_code ignored;
   if (!directory_.empty()) fs::remove_all(directory_, ignored);
@@ -160,6 +165,10 @@ std::optional<Json> ResultCache::find(const ResultKey& key, Look look, std::stri
       why_not = "damaged: its record is of another result";
       return std::nullopt;
     }
+    if (record.at("seal") != seal_of(record)) {
+      why_not = "damaged: its record has another content";
+      return std::nullopt;
+    }
     for (const auto& one : record.at("files")) {
       const std::string name = one.at("name");
       const std::string damage =
@@ -206,16 +215,18 @@ Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key, Json 
                      {"modified", modified(status)}});
   }
   record["files"] = std::move(files);
+  record["seal"] = seal_of(record);
   write_record(draft.file(kManifestFile), record);
 
   const fs::path target = result_directory(key);
   if (::mkdir(target.parent_path().c_str(), 0777) != 0 && errno != EEXIST)
     fail(target.parent_path(), "make the directory", errno);
   for (int attempt = 0;; ++attempt) {
-    // A directory replaces none that has something in it: the first one stays, whoever comes later.
+    // A directory replaces none that has something in it, and nothing that is none: the first one stays,
+    // whoever comes later.
     if (::rename(draft.directory().c_str(), target.c_str()) == 0) break;
     const int error = errno;
-    if (error != ENOTEMPTY && error != EEXIST) fail(target, "write", error);
+    if (error != ENOTEMPTY && error != EEXIST && error != ENOTDIR) fail(target, "write", error);
     if (const auto there = find(key))
       return pictures(*there) == pictures(record) ? Publication::kThere : Publication::kDifferent;
     if (attempt == 3) fail(target, "replace a damaged result", error);
@@ -241,6 +252,8 @@ void ResultCache::discard(const ResultKey& key) const {
 std::optional<ByteLocks::Claim> ResultCache::try_claim(const ResultKey& key) const {
   return locks_.try_claim(number_of(key));
 }
+
+bool ResultCache::is_in_use() const { return locks_.is_claimed(kUseLock); }
 
 std::optional<ByteLocks::Claim> ResultCache::try_use(bool shared) const {
   return locks_.try_claim(kUseLock, shared);

@@ -25,6 +25,10 @@ namespace lobelia {
 
 inline constexpr char kManifestFile[] = "result.json";
 
+/// Of a result's record, which has it as `seal`: the hash of everything else in it. A disk may err in the record
+/// as well as in a picture.
+std::string seal_of(Json record);
+
 /// A result in the making: a directory to put files into. Taken away with all of them unless it is published.
 class ResultDraft {
  public:
@@ -85,6 +89,8 @@ class ResultCache {
 
   /// To be held while a result is being made; none while someone else makes it.
   std::optional<ByteLocks::Claim> try_claim(const ResultKey& key) const;
+  /// Whether a farm uses it, without keeping anybody from it.
+  bool is_in_use() const;
   /// To be held by whoever uses the cache (shared) or takes results away that others may need (not shared).
   std::optional<ByteLocks::Claim> try_use(bool shared) const;
 

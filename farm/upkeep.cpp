@@ -40,11 +40,15 @@ std::string why_not_readable(const fs::path& file) {
 }
 
 std::string title_of(const ResultKey& key, const std::optional<Json>& record) {
-  std::string title = key.text();
-  if (!record) return title;
-  return fmt::format("{} ({}{} of {})", title, record->value("job", "?"),
-                     record->contains("engine") ? " by " + record->value("engine", "") : "",
-                     printable(record->value("firstMadeFor", "?")));
+  if (!record) return key.text();
+  const auto text = [&](const char* name) {
+    const auto found = record->find(name);
+    return found != record->end() && found->is_string() ? printable(found->get<std::string>())
+                                                        : std::string("?");
+  };
+  return fmt::format("{} ({}{} of {})", key.text(), text("job"),
+                     record->contains("engine") ? " by " + text("engine") : "",
+                     text("firstMadeFor"));
 }
 
 std::uint64_t bytes_of(const Json& record) {
@@ -53,8 +57,24 @@ std::uint64_t bytes_of(const Json& record) {
   return sum;
 }
 
+/// Whoever reads it takes cells away by their names.
 Json read_farm_record(const fs::path& directory) {
-  return read_record(directory / "farm.json", "farm");
+  Json record = read_record(directory / "farm.json", "farm");
+  try {
+    for (const char* name : {"title", "cache"})
+      if (record.contains(name)) record.at(name).get_ref<const std::string&>();
+    for (const auto& cell : record.at("cells").get_ref<const Json::array_t&>()) {
+      cell.at("status").get_ref<const std::string&>();
+      if (const std::string id = cell.at("id");
+          id.empty() || id.front() == '.' || id.find('/') != id.npos)
+        throw Error(ExitCode::kInput, fmt::format("{}: no name of a cell: '{}'",
+                                                  (directory / "farm.json").string(), printable(id)));
+    }
+  } catch (const Json::exception& error) {
+    throw Error(ExitCode::kInput, fmt::format("{}: not a farm's record: {}",
+                                              (directory / "farm.json").string(), error.what()));
+  }
+  return record;
 }
 
 /// The number of the file's last change, for an order.
@@ -229,10 +249,10 @@ Json farm_status(const fs::path& directory) {
         status = own.at("status");
         for (const auto& problem : own.at("problems"))
           failures.push_back({{"cell", id},
-                              {"engine", problem.at("engine")},
+                              {"engine", problem.at("engine").get<std::string>()},
                               {"failure", problem.value("failure", "")},
                               {"attempts", problem.value("attempts", 0)},
-                              {"message", problem.at("message")}});
+                              {"message", problem.at("message").get<std::string>()}});
       } catch (const std::exception&) {  // being written, or broken: as the farm's record has it
       }
     }
@@ -243,7 +263,7 @@ Json farm_status(const fs::path& directory) {
     record["status"][status] = counts[status];
   bool at_work = false;
   try {
-    at_work = !ResultCache(cache_of(directory)).try_use(false);
+    at_work = ResultCache(cache_of(directory)).is_in_use();
   } catch (const Error&) {  // without its cache nobody is
   }
   record["atWork"] = at_work;

@@ -60,6 +60,10 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
   ProcessResult result;
   try {
     result = run_process({status.program.string(), "--version"}, options);
+    // An engine that was killed here would be left out of all that follows.
+    if (status.version.empty() && result.exit_code > kSignalBase && !result.timed_out &&
+        !result.interrupted)
+      result = run_process({status.program.string(), "--version"}, options);
   } catch (const Error& error) {
     status.why = error.what();
     return status;

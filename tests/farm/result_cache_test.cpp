@@ -103,14 +103,23 @@ TEST_F(ResultCacheTest, BelievesNoRecordThatPointsElsewhere) {
   for (const char* name : {"../../../../secret", "/etc/passwd", "", ".", ".."}) {
     Json bad = good;
     bad["files"][0]["name"] = name;
+    bad["seal"] = seal_of(bad);
     fs::permissions(cache.file(key_, kManifestFile), fs::perms::owner_all);
     write_record(cache.file(key_, kManifestFile), bad);
     EXPECT_FALSE(cache.find(key_)) << name;
   }
   Json swapped = good;
   swapped["key"] = other_.text();
+  swapped["seal"] = seal_of(swapped);
   write_record(cache.file(key_, kManifestFile), swapped);
   EXPECT_FALSE(cache.find(key_));
+  Json altered = good;
+  altered["files"][0]["modified"] = 7;
+  write_record(cache.file(key_, kManifestFile), altered);
+  EXPECT_FALSE(cache.find(key_)) << "not as it was sealed";
+  altered["seal"] = seal_of(altered);
+  write_record(cache.file(key_, kManifestFile), altered);
+  EXPECT_TRUE(cache.find(key_));
   for (const char* text : {"", "{", "[]", "{\"schemaVersion\":1,\"kind\":\"result\"}"}) {
     write_file(cache.file(key_, kManifestFile), text);
     EXPECT_FALSE(cache.find(key_)) << text;

@@ -92,6 +92,14 @@ TEST_F(OddEngine, ThatFailsAtFirstIsTriedAgainAndTheRecordSaysHowOften) {
       read_record(result_of("n8", "reference-povray") / "result.json", "result").at("attempts"), 1);
 }
 
+TEST_F(OddEngine, ThatIsKilledWhenItIsAskedItsVersionIsAskedAgain) {
+  undisturbed();
+  const std::string dies = "if " + first_times("failures", 1) + "; then kill -KILL $$; fi\n";
+  const std::string well = read_file(fake_povray(), 1 << 20);
+  script("povray", dies + well);
+  expect_mended(run(), pictures());
+}
+
 TEST_F(OddEngine, IsTriedNoMoreOftenThanWasAllowed) {
   undisturbed();
   fake_povray("if [ $cell = n16 ] && " + first_times("failures", 2) + "; then kill -SEGV $$; fi");

@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include <fstream>
+#include <random>
 
 #include "failing_farm.hpp"
 
@@ -34,21 +35,20 @@ class DamagedCache : public FailingFarm {
 };
 
 TEST_F(DamagedCache, OfWhateverFileIsMadeAgainAsFarAsItIsDamaged) {
-  std::vector<fs::path> files;
   const std::pair<const char*, std::size_t> jobs[] = {
       {"render", 1}, {"reference-povray", 1}, {"compare-povray", 0}, {"profile", 0}};
   for (const auto& [job, pictures_lost] : jobs) {
+    std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(result_of("n16", job)))
-      files.push_back(entry.path());
-    for (const auto& file : files) {
-      SCOPED_TRACE(file.filename().string());
-      flip_a_bit(file);
-      expect_mended(run(), pictures_lost);
-      fs::permissions(file, fs::perms::owner_write, fs::perm_options::add);
-      fs::resize_file(file, fs::file_size(file) / 2);
-      expect_mended(run(), pictures_lost);
+      names.push_back(entry.path().filename().string());
+    for (const auto& name : names) {
+      SCOPED_TRACE(std::string(job) + " " + name);
+      flip_a_bit(result_of("n16", job) / name);
+      const fs::path truncated = result_of("n64", job) / name;
+      fs::permissions(truncated, fs::perms::owner_write, fs::perm_options::add);
+      fs::resize_file(truncated, fs::file_size(truncated) / 2);
+      expect_mended(run(), 2 * pictures_lost);
     }
-    files.clear();
   }
 }
 
@@ -100,36 +100,36 @@ TEST_F(DamagedCache, WithAnythingInPlaceOfAResultHasNoneThere) {
 }
 
 TEST_F(DamagedCache, BelievesNoHostileRecord) {
-  const char* const jobs[] = {"render", "reference-povray", "compare-povray", "profile"};
-  for (const char* job : jobs) {
-    const fs::path file = result_of("n16", job) / "result.json";
-    const Json whole = Json::parse(read_file(file, 1 << 20));
-    std::vector<std::string> hostile = {
-        "", "null", "[]", "{}", "12", "{\"kind\": \"result\"}", std::string(100000, '[')};
-    for (const auto& [key, value] : whole.items())
-      for (const Json& other : {Json(nullptr), Json(-1), Json("../../x"), Json::array({1}), Json::object()}) {
-        if (key != "files" && key != "verdict" && key != "entry" && key != "from" && key != "key" &&
-            key != "warnings" && key != "exposureStops" && key != "highlight")
-          continue;
-        Json record = whole;
-        record[key] = other;
-        hostile.push_back(record.dump());
+  std::vector<std::pair<fs::path, std::string>> hostile;
+  for (const char* cell : {"n8", "n16", "n32", "n64"})
+    for (const char* job : {"render", "reference-povray", "compare-povray", "profile"}) {
+      const fs::path file = result_of(cell, job) / "result.json";
+      const Json whole = Json::parse(read_file(file, 1 << 20));
+      for (const char* text : {"", "null", "[]", "{}", "12", "{\"kind\": \"result\"}"})
+        hostile.emplace_back(file, text);
+      hostile.emplace_back(file, std::string(100000, '['));
+      for (const auto& [key, value] : whole.items()) {
+        Json without = whole;
+        without.erase(key);
+        hostile.emplace_back(file, without.dump());
+        for (const Json& other : {Json(nullptr), Json(-1), Json("../../x"), Json::array({1})}) {
+          Json record = whole;
+          record[key] = other;
+          hostile.emplace_back(file, record.dump());
+        }
       }
-    for (const char* key : {"exposureStops", "verdict", "entry", "from", "files"})
-      if (whole.contains(key)) {
-        Json record = whole;
-        record.erase(key);
-        hostile.push_back(record.dump());
-      }
-    for (std::size_t i = 0; i < hostile.size() && !HasFailure(); ++i) {
-      SCOPED_TRACE(fmt::format("{}: {}", job, hostile[i].substr(0, 3000)));
-      replace(file, hostile[i]);
-      const FarmRun second = run();
-      EXPECT_EQ(second.exit_code, 0) << second.output;
-      EXPECT_THAT(differences(undisturbed(), results_of(out())), testing::IsEmpty());
     }
+  // Some of every file at a time.
+  constexpr std::size_t kRounds = 12;
+  std::mt19937 random(1);
+  std::ranges::shuffle(hostile, random);
+  for (std::size_t round = 0; round < kRounds && !HasFailure(); ++round) {
+    for (std::size_t i = round; i < hostile.size(); i += kRounds)
+      replace(hostile[i].first, hostile[i].second);
+    const FarmRun second = run();
+    EXPECT_EQ(second.rendered, pictures()) << "every record was wrong";
+    expect_mended(second);
   }
-  expect_nothing_half_written();
 }
 
 TEST_F(DamagedCache, OfWhichAllIsTakenAwayByGcIsFilledAgain) {

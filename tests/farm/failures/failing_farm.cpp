@@ -45,6 +45,12 @@ std::string first_difference(const std::string& a, const std::string& b) {
                      printable(a.substr(from, 80), 200));
 }
 
+bool is_asked_its_version(const fs::path& process) {
+  std::ifstream file(process / "cmdline");
+  const std::string words((std::istreambuf_iterator<char>(file)), {});
+  return words.find("--version") != words.npos;
+}
+
 std::size_t number_before(const std::string& text, const std::string& words) {
   const auto end = text.rfind(words);
   if (end == text.npos) return 0;
@@ -156,7 +162,7 @@ std::vector<int> RunningFarm::children(const std::string& name) const {
     if (open == text.npos || close == text.npos) continue;
     const auto fields = split(text.substr(close + 1), " ");
     if (text.substr(open + 1, close - open - 1) == name && fields.size() > 1 && fields[0] != "Z" &&
-        fields[1] == std::to_string(pid_))
+        fields[1] == std::to_string(pid_) && !is_asked_its_version(entry.path()))
       found.push_back(std::stoi(text));
   }
   return found;

@@ -73,5 +73,68 @@ TEST_F(KilledFarm, AgainAndAgainEndsWhereOneThatWasLeftAloneDoes) {
   expect_mended(run());
 }
 
+TEST_F(KilledFarm, OfThousandsOfCellsIsInterruptedAndGoesOn) {
+  std::vector<std::string> exponents;
+  for (int i = 1; i <= 5000; ++i) exponents.push_back(std::to_string(i));
+  grid(exponents, "", 8);
+  fs::remove(root() / "povray");
+  std::size_t before = 0;
+  for (const int number : {SIGINT, SIGKILL, SIGTERM}) {
+    RunningFarm farm(command({"--filter", "*render"}), root());
+    // Counting them all takes longer than making some: those of a few shelves tell.
+    const auto some = [&] {
+      std::size_t count = 0;
+      for (const char* shelf : {"00", "11", "22", "33"})
+        if (const fs::path there = cache() / "results" / shelf; fs::exists(there))
+          count += std::size_t(std::distance(fs::directory_iterator(there), {}));
+      return count;
+    };
+    while (some() < before + 10 && !farm.has_ended())
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    before = some();
+    farm.signal(number);
+    EXPECT_EQ(farm.wait(), number == SIGKILL ? 128 + SIGKILL : 130) << farm.output();
+  }
+  const std::size_t there = cached_pictures();
+  EXPECT_GT(there, 1000u);
+  EXPECT_LT(there, 5000u);
+  const FarmRun last = run({"--filter", "*render"});
+  EXPECT_EQ(last.exit_code, 0) << last.output;
+  EXPECT_EQ(last.rendered, 5000 - there);
+  EXPECT_EQ(last.kept, there);
+  expect_nothing_half_written();
+}
+
+TEST_F(KilledFarm, AndOneWhoseClockJumpsBackKeepToWhatIsThere) {
+  fs::path library;
+  for (const auto& entry : fs::directory_iterator("/usr/lib"))
+    if (const fs::path here = entry.path() / "faketime" / "libfaketimeMT.so.1"; fs::exists(here))
+      library = here;
+  if (library.empty()) GTEST_SKIP() << "no libfaketime (package faketime)";
+  undisturbed();
+  fake_povray("sleep 0.2");
+  const fs::path clock = root() / "clock";
+  for (const char* stat : {"NO_FAKE_STAT=1", "FAKETIME_FORCE_MONOTONIC_FIX=1"}) {
+    SCOPED_TRACE(stat);
+    forget_everything();
+    const std::vector<std::string> environment{
+        // The second one is there to keep the first from the engines, which may not write where it would.
+        "LD_PRELOAD=" + library.string() + ":" LOBELIA_DYING_CALLS, "FAKETIME_TIMESTAMP_FILE=" + clock.string(),
+        "FAKETIME_NO_CACHE=1", "FAKETIME_DONT_FAKE_MONOTONIC=1", stat};
+    write_file(clock, "+400d");
+    RunningFarm farm(command(), root(), environment);
+    while (cached_pictures() < 2 && !farm.has_ended())
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    write_file(clock, "-400d");
+    EXPECT_EQ(farm.wait(), 0) << farm.output();
+    expect_mended(run_command(command(), environment), 0);
+    write_file(clock, "+1d");
+    expect_mended(run_command(command(), environment), 0);
+    const FarmRun gc = run_command({"farm", "gc", "cache"}, environment);
+    EXPECT_THAT(gc.output, testing::HasSubstr("0 results removed")) << gc.output;
+    expect_mended(run(), 0);
+  }
+}
+
 }  // namespace
 }  // namespace lobelia

@@ -1,0 +1,87 @@
+// POV-Ray and Blender themselves, killed at their work.
+#include <signal.h>
+
+#include <thread>
+
+#include "failing_farm.hpp"
+#include "farm/farm_engines.hpp"
+
+namespace lobelia {
+namespace {
+
+class KilledEngine : public FailingFarm {
+ protected:
+  void SetUp() override {
+    for (const auto& here : find_engines({"povray", "blender"}, {}))
+      if (!here.is_here()) GTEST_SKIP() << absence(here);
+    grid({"8", "16", "32", "64"}, "<engine name=\"povray\"/><engine name=\"blender\"/>", 64);
+    const FarmRun done =
+        run_command({"farm", "grid.xml", "-o", "alone", "--cache", "alone-cache"});
+    ASSERT_EQ(done.exit_code, 0) << done.output;
+    ASSERT_EQ(done.rendered, 12u);
+  }
+  void expect_as_alone() const {
+    EXPECT_THAT(differences(results_of(root() / "alone"), results_of(out())), testing::IsEmpty());
+    expect_nothing_half_written();
+  }
+  static void wait_for_a(const std::string& program, RunningFarm& farm) {
+    while (farm.children(program).empty() && !farm.has_ended())
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+};
+
+TEST_F(KilledEngine, IsStartedAgainAndTheRecordSaysSo) {
+  RunningFarm farm(command(), root());
+  for (const char* program : {"povray", "blender"}) {
+    wait_for_a(program, farm);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const auto at_work = farm.children(program);
+    ASSERT_FALSE(at_work.empty()) << program << farm.output();
+    for (const int pid : at_work) ::kill(pid, SIGKILL);
+  }
+  EXPECT_EQ(farm.wait(), 0) << farm.output();
+  std::size_t again = 0;
+  for (const char* cell : {"n8", "n16", "n32", "n64"})
+    for (const char* job : {"reference-povray", "reference-blender"})
+      if (read_record(result_of(cell, job) / "result.json", "result").at("attempts") > 1) ++again;
+  EXPECT_GE(again, 1u);
+  expect_as_alone();
+  EXPECT_EQ(run().rendered, 0u);
+}
+
+TEST_F(KilledEngine, ThatHasNoFurtherAttemptIsAFailureUntilTheNextRun) {
+  {
+    RunningFarm farm(command({"--attempts", "1"}), root());
+    wait_for_a("povray", farm);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    for (const int pid : farm.children("povray")) ::kill(pid, SIGKILL);
+    EXPECT_EQ(farm.wait(), 4) << farm.output();
+    EXPECT_THAT(farm.output(), testing::HasSubstr("povray: POV-Ray was ended by signal 9"));
+  }
+  const std::size_t there = cached_pictures();
+  const FarmRun second = run();
+  EXPECT_EQ(second.exit_code, 0) << second.output;
+  EXPECT_EQ(second.rendered, 12 - there);
+  expect_as_alone();
+}
+
+TEST_F(KilledEngine, AndItsFarmTooLoseNoMoreThanTheyWereAt) {
+  for (const int milliseconds : {300, 700, 1100, 1500}) {
+    SCOPED_TRACE(milliseconds);
+    for (const auto& directory : {out(), cache()}) fs::remove_all(directory);
+    {
+      RunningFarm farm(command(), root());
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      farm.signal(SIGKILL);
+      farm.wait();
+    }
+    const std::size_t there = cached_pictures();
+    const FarmRun second = run();
+    EXPECT_EQ(second.exit_code, 0) << second.output;
+    EXPECT_EQ(second.rendered, 12 - there) << second.output;
+    expect_as_alone();
+  }
+}
+
+}  // namespace
+}  // namespace lobelia
