@@ -15,10 +15,19 @@
 namespace lobelia {
 namespace {
 
+/// As the options of the command line are held to.
+double limit(const Json& chunk, const char* name, double least, double most) {
+  const double value = chunk.at("limits").at(name).get<double>();
+  if (!(value >= least && value <= most))
+    throw Error(ExitCode::kInput, fmt::format("a chunk's limit {} is {}; allowed: {} to {}", name,
+                                              value, least, most));
+  return value;
+}
+
 /// Engines as the plan has them; whether they are here is seen when they are asked for a picture.
 std::vector<FarmEngine> planned_engines(const Json& chunk) {
   std::vector<FarmEngine> engines;
-  for (const auto& planned : chunk.at("engines")) {
+  for (const auto& planned : chunk.at("engines").get_ref<const Json::array_t&>()) {
     const std::string name = planned.at("name");
     engines.push_back({make_engine(name, planned.value("program", std::string())), name,
                        planned.at("version").get<std::string>()});
@@ -34,7 +43,7 @@ struct ChunkCells {
 
 ChunkCells read_cells(const Json& chunk, const std::string& file_name) {
   ChunkCells cells;
-  for (const auto& one : chunk.at("cells")) {
+  for (const auto& one : chunk.at("cells").get_ref<const Json::array_t&>()) {
     Cell cell;
     cell.id = one.at("id");
     cell.engines = one.at("engines").get<std::vector<std::string>>();
@@ -115,11 +124,10 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
                               printable(chunk.at("program").get<std::string>()), program_id()));
     JobRunOptions options;
     options.threads = threads;
-    const Json& limits = chunk.at("limits");
-    options.time_limit = std::chrono::duration<double>(limits.at("timeLimit").get<double>());
+    options.time_limit = std::chrono::duration<double>(limit(chunk, "timeLimit", 0.1, 1e6));
     options.no_progress_limit =
-        std::chrono::duration<double>(limits.at("noProgressLimit").get<double>());
-    options.attempts = limits.at("attempts");
+        std::chrono::duration<double>(limit(chunk, "noProgressLimit", 0, 1e6));
+    options.attempts = int(limit(chunk, "attempts", 1, 100));
     const std::vector<FarmEngine> engines = planned_engines(chunk);
     for (std::size_t e = 0; e < engines.size(); ++e)
       if (const auto& planned = chunk.at("engines")[e]; planned.contains("program"))

@@ -30,9 +30,10 @@ fs::path apart(const fs::path& cache, const fs::path& directory) {
   bool inside = is_in(a, b / "cells");
   for (const char* part : {"results", "failures", "making"}) inside = inside || is_in(b, a / part);
   if (inside)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{}: the cache {} may not lie among a farm's cells, nor a farm in a cache",
-                            directory.string(), cache.string()));
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("{}: the cache {} may not lie among a farm's cells, nor a farm in a cache",
+                    directory.string(), cache.string()));
   return cache;
 }
 

@@ -67,8 +67,9 @@ Json read_farm_record(const fs::path& directory) {
       cell.at("status").get_ref<const std::string&>();
       if (const std::string id = cell.at("id");
           id.empty() || id.front() == '.' || id.find('/') != id.npos)
-        throw Error(ExitCode::kInput, fmt::format("{}: no name of a cell: '{}'",
-                                                  (directory / "farm.json").string(), printable(id)));
+        throw Error(ExitCode::kInput,
+                    fmt::format("{}: no name of a cell: '{}'", (directory / "farm.json").string(),
+                                printable(id)));
     }
   } catch (const Json::exception& error) {
     throw Error(ExitCode::kInput, fmt::format("{}: not a farm's record: {}",

@@ -140,8 +140,10 @@ TEST_F(DamagedCache, OfWhichAllIsTakenAwayByGcIsFilledAgain) {
 }
 
 TEST_F(DamagedCache, DoesNotMatterToCellsThatAreDamagedToo) {
-  for (const char* text : {"", "null", "[]", "{\"kind\": \"cell\"}", "{\"schemaVersion\": 1, \"kind\": \"cell\"}",
-                           "{\"schemaVersion\": 1, \"kind\": \"cell\", \"status\": 1, \"problems\": 3, \"results\": []}"}) {
+  for (
+      const char* text :
+      {"", "null", "[]", "{\"kind\": \"cell\"}", "{\"schemaVersion\": 1, \"kind\": \"cell\"}",
+       "{\"schemaVersion\": 1, \"kind\": \"cell\", \"status\": 1, \"problems\": 3, \"results\": []}"}) {
     SCOPED_TRACE(text);
     replace(out() / "cells" / "n16" / "cell.json", text);
     expect_mended(run(), 0);
@@ -187,11 +189,12 @@ TEST_F(DamagedCache, CommandsThatTakeThingsAwayWantToKnowThatItIsAFarms) {
     EXPECT_EQ(std::ranges::count(refused.output, '\n'), 1) << refused.output;
   }
   EXPECT_TRUE(fs::exists(root() / "home" / "cells" / "precious"));
-  for (const char* record :
-       {"{\"schemaVersion\": 1, \"kind\": \"farm\"}",
-        "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": 7, \"cache\": 8, \"title\": []}",
-        "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": [{\"id\": 3}], \"cache\": \"../cache\"}",
-        "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": [{\"id\": \"../../x\", \"status\": []}]}"}) {
+  for (
+      const char* record :
+      {"{\"schemaVersion\": 1, \"kind\": \"farm\"}",
+       "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": 7, \"cache\": 8, \"title\": []}",
+       "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": [{\"id\": 3}], \"cache\": \"../cache\"}",
+       "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": [{\"id\": \"../../x\", \"status\": []}]}"}) {
     std::ofstream(root() / "home" / "farm.json") << record;
     for (const char* command : {"clean", "status"}) {
       const FarmRun refused = run_command({"farm", command, "home"});

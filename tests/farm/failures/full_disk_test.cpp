@@ -11,7 +11,8 @@ class Disk : public FailingFarm {
  protected:
   void SetUp() override {
     ProcessOptions options;
-    if (run_process({"/bin/sh", "-c", "unshare -rm sh -c 'mount -t tmpfs none /mnt'"}, options).exit_code != 0)
+    if (run_process({"/bin/sh", "-c", "unshare -rm sh -c 'mount -t tmpfs none /mnt'"}, options)
+            .exit_code != 0)
       GTEST_SKIP() << "no mount namespaces here: unshare -rm is not allowed";
     undisturbed();
     fake_povray();
@@ -21,8 +22,8 @@ class Disk : public FailingFarm {
   std::string in_namespace(const std::string& text) const {
     std::string farm = LOBELIA_PROGRAM;
     for (const auto& argument : command()) farm += " '" + argument + "'";
-    script("in_namespace", "cd '" + root().string() + "'; export TMPDIR=$PWD/tmp\nfarm() { " + farm +
-                               " \"$@\"; }\n" + text);
+    script("in_namespace", "cd '" + root().string() + "'; export TMPDIR=$PWD/tmp\nfarm() { " +
+                               farm + " \"$@\"; }\n" + text);
     ProcessOptions options;
     options.timeout = std::chrono::seconds(100);
     options.log = root() / "log";
@@ -37,15 +38,16 @@ TEST_F(Disk, ThatIsFullEndsTheFarmWithOneLineAndWithRoomItGoesOn) {
   for (const int kilobytes : {4, 16, 40, 60, 90, 120, 200}) {
     SCOPED_TRACE(kilobytes);
     fs::remove_all(out());
-    const std::string said = in_namespace(fmt::format(
-        "mount -t tmpfs -o size={}k none cache\n"
-        "farm -q > first 2>&1; echo first $?; wc -l < first; cat first\n"
-        "find cache/making cache/failures -type f; find cache out -name '*.part'\n"
-        "mount -o remount,size=100M cache\n"
-        "echo second; farm; echo second $?; find cache/making -mindepth 1\n",
-        kilobytes));
+    const std::string said = in_namespace(
+        fmt::format("mount -t tmpfs -o size={}k none cache\n"
+                    "farm -q > first 2>&1; echo first $?; wc -l < first; cat first\n"
+                    "find cache/making cache/failures -type f; find cache out -name '*.part'\n"
+                    "mount -o remount,size=100M cache\n"
+                    "echo second; farm; echo second $?; find cache/making -mindepth 1\n",
+                    kilobytes));
     EXPECT_THAT(said, testing::StartsWith("first 4\n1\nlobelia: "));
-    EXPECT_THAT(said, HasSubstr("No space left on device\nsecond\n4 cells: 0 failed, 0 differ, 4 pass;"));
+    EXPECT_THAT(said,
+                HasSubstr("No space left on device\nsecond\n4 cells: 0 failed, 0 differ, 4 pass;"));
     EXPECT_THAT(said, testing::EndsWith("second 0\n"));
     EXPECT_THAT(differences(undisturbed(), results_of(out())), testing::IsEmpty());
   }
@@ -62,7 +64,8 @@ TEST_F(Disk, OfTheFarmsDirectoryMayBeFullToo) {
         "echo second; farm; echo second $?; cp -a out/. there\n",
         kilobytes));
     EXPECT_THAT(said, testing::StartsWith("first 4\n1\nlobelia: "));
-    EXPECT_THAT(said, HasSubstr("No space left on device\nsecond\n4 cells: 0 failed, 0 differ, 4 pass;"));
+    EXPECT_THAT(said,
+                HasSubstr("No space left on device\nsecond\n4 cells: 0 failed, 0 differ, 4 pass;"));
     EXPECT_THAT(differences(undisturbed(), results_of(root() / "there")), testing::IsEmpty());
   }
 }

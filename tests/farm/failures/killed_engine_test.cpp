@@ -15,8 +15,7 @@ class KilledEngine : public FailingFarm {
     for (const auto& here : find_engines({"povray", "blender"}, {}))
       if (!here.is_here()) GTEST_SKIP() << absence(here);
     grid({"8", "16", "32", "64"}, "<engine name=\"povray\"/><engine name=\"blender\"/>", 64);
-    const FarmRun done =
-        run_command({"farm", "grid.xml", "-o", "alone", "--cache", "alone-cache"});
+    const FarmRun done = run_command({"farm", "grid.xml", "-o", "alone", "--cache", "alone-cache"});
     ASSERT_EQ(done.exit_code, 0) << done.output;
     ASSERT_EQ(done.rendered, 12u);
   }

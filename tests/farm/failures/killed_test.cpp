@@ -4,6 +4,7 @@
 #include <random>
 #include <thread>
 
+#include "core/process.hpp"
 #include "failing_farm.hpp"
 
 namespace lobelia {
@@ -11,6 +12,11 @@ namespace {
 
 class KilledFarm : public FailingFarm {
  protected:
+  static ProcessOptions asked(const std::vector<std::string>& environment) {
+    ProcessOptions options;
+    options.environment = environment;
+    return options;
+  }
   void forget_everything() const {
     for (const auto& directory : {out(), cache()}) fs::remove_all(directory);
   }
@@ -119,12 +125,15 @@ TEST_F(KilledFarm, AndOneWhoseClockJumpsBackKeepToWhatIsThere) {
     forget_everything();
     const std::vector<std::string> environment{
         // The second one is there to keep the first from the engines, which may not write where it would.
-        "LD_PRELOAD=" + library.string() + ":" LOBELIA_DYING_CALLS, "FAKETIME_TIMESTAMP_FILE=" + clock.string(),
-        "FAKETIME_NO_CACHE=1", "FAKETIME_DONT_FAKE_MONOTONIC=1", stat};
+        "LD_PRELOAD=" + library.string() + ":" LOBELIA_DYING_CALLS,
+        "FAKETIME_TIMESTAMP_FILE=" + clock.string(), "FAKETIME_NO_CACHE=1",
+        "FAKETIME_DONT_FAKE_MONOTONIC=1", stat};
     write_file(clock, "+400d");
     RunningFarm farm(command(), root(), environment);
     while (cached_pictures() < 2 && !farm.has_ended())
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const ProcessResult date = run_process({"/bin/date", "+%Y"}, asked(environment));
+    EXPECT_NE(date.output_tail, run_process({"/bin/date", "+%Y"}, asked({})).output_tail);
     write_file(clock, "-400d");
     EXPECT_EQ(farm.wait(), 0) << farm.output();
     expect_mended(run_command(command(), environment), 0);

@@ -1,0 +1,79 @@
+// Chunks that no farm of ours has planned.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "farm/chunk.hpp"
+#include "farm/job_graph.hpp"
+
+namespace lobelia {
+namespace {
+
+class HostileChunk : public testing::Test {
+ protected:
+  HostileChunk() {
+    good_ = make_record("farm-chunk");
+    good_["program"] = program_id();
+    good_["cache"] = (directory_.path() / "cache").string();
+    good_["limits"] = {{"timeLimit", 60}, {"noProgressLimit", 60}, {"attempts", 1}};
+    good_["engines"] = Json::array();
+    good_["cells"] = {
+        {{"id", "a"},
+         {"engines", Json::array()},
+         {"scene",
+          read_file(LOBELIA_SOURCE_DIR "/reference_scenes/scenes/oblique_45.xml", 1 << 20)},
+         {"jobs", {"a-render"}}}};
+  }
+  ChunkSummary exec(const std::string& text) const {
+    write_file(directory_.path() / "chunk.json", text);
+    return exec_chunk(directory_.path() / "chunk.json", 1);
+  }
+  const TemporaryDirectory directory_;
+  Json good_;
+};
+
+TEST_F(HostileChunk, IsRefusedWithOneSentenceWhateverIsWrongInIt) {
+  std::vector<std::string> texts{"", "{}", "[]", "null", std::string(100000, '[')};
+  const Json others[] = {nullptr,
+                         -1,
+                         "",
+                         "x",
+                         Json::array(),
+                         Json::array({1}),
+                         Json::object(),
+                         Json::array({Json::object()})};
+  for (const auto& [key, value] : good_.items()) {
+    if (key == "madeBy") continue;
+    Json without = good_;
+    without.erase(key);
+    texts.push_back(without.dump());
+    for (const Json& other : others) {
+      // Without cells, or engines, there is nothing to be done, and a cache may have any name.
+      if (other.type() == value.type() && (other.empty() || key == "cache")) continue;
+      Json chunk = good_;
+      chunk[key] = other;
+      texts.push_back(chunk.dump());
+    }
+  }
+  for (const char* key : {"timeLimit", "noProgressLimit", "attempts"})
+    for (const Json& other : {Json(nullptr), Json("x"), Json(-5), Json(1e300), Json(1e12)}) {
+      Json chunk = good_;
+      chunk["limits"][key] = other;
+      texts.push_back(chunk.dump());
+    }
+  EXPECT_EQ(exec(good_.dump()).done, 1u) << "what is not altered is done";
+  for (const auto& text : texts) {
+    try {
+      exec(text);
+      ADD_FAILURE() << "taken for a chunk: " << text.substr(0, 2000);
+    } catch (const Error& error) {
+      EXPECT_THAT(int(error.code()), testing::AnyOf(2, 3, 4)) << error.what();
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what() << " of " << text.substr(0, 2000);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lobelia
