@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "gallery/grid_layout.hpp"
 #include "gallery/metric_notes.hpp"
 #include "gallery/names.hpp"
 
@@ -30,6 +31,15 @@ Json grid_json(const FarmData& farm, const std::vector<CellSummary>& cells) {
     if (engine.name == kOurEngine || !engine.available) continue;
     data["engines"].push_back(
         {{"name", engine.name}, {"title", engine.title}, {"shortTitle", engine.short_title}});
+  }
+  const GridLayout layout = lay_out(farm);
+  data["layout"] = {{"rows", layout.rows}, {"groups", layout.groups}, {"columns", layout.columns}};
+  data["statuses"] = Json::array();
+  for (const CellStatus status : kCellStatuses) {
+    const StatusInfo& s = info(status);
+    data["statuses"].push_back({{"name", std::string(s.name)},
+                                {"word", std::string(s.word)},
+                                {"mark", std::string(s.mark)}});
   }
   // Metrics by column: a name stands once, not once a cell.
   std::map<std::string, std::size_t> column;
@@ -60,6 +70,7 @@ Json grid_json(const FarmData& farm, const std::vector<CellSummary>& cells) {
     }
     Json one = {{"id", cell.entry->id},
                 {"label", cell.entry->label},
+                {"href", link_to({"cells", cell.entry->id, "index.html"})},
                 {"status", std::string(info(cell.status).name)},
                 {"at", cell.entry->at},
                 {"metrics", values}};

@@ -29,9 +29,31 @@ std::string reference_titles(const FarmData& farm, bool available_only) {
   return words;
 }
 
-void write_introduction(Html& html, const FarmData& farm) {
-  const Tag header(html, "header");
-  html.element("h1", farm.title);
+void write_counts(Html& html, const std::vector<CellSummary>& cells) {
+  const Tag list(html, "ul", {{"class", "counts"}});
+  {
+    const Tag item(html, "li");
+    html.element("strong", count_text(static_cast<double>(cells.size())));
+    html.text(cells.size() == 1 ? " cell" : " cells");
+  }
+  for (const CellStatus status : kCellStatuses) {
+    const auto count = std::count_if(
+        cells.begin(), cells.end(), [&](const CellSummary& cell) { return cell.status == status; });
+    if (count == 0 && status != CellStatus::kPass) continue;
+    const Tag item(html, "li");
+    html.element("strong", count_text(static_cast<double>(count)));
+    html.text(" ");
+    write_status(html, status);
+  }
+}
+
+void write_introduction(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
+  const Tag header(html, "header", {{"class", "top"}});
+  {
+    const Tag left(html, "div");
+    html.element("h1", farm.title);
+    write_counts(html, cells);
+  }
   const std::string references = reference_titles(farm, true);
   const bool has_formulas = std::ranges::any_of(
       farm.engines, [](const EngineEntry& e) { return e.name == "analytic" && e.available; });
@@ -64,24 +86,6 @@ void write_missing_engines(Html& html, const FarmData& farm) {
     if (engine.install.empty()) continue;
     html.element("p", "To get it, type this and run the farm again; it does only what is missing:");
     write_command(html, engine.install);
-  }
-}
-
-void write_counts(Html& html, const std::vector<CellSummary>& cells) {
-  const Tag list(html, "ul", {{"class", "counts"}});
-  {
-    const Tag item(html, "li");
-    html.element("strong", count_text(static_cast<double>(cells.size())));
-    html.text(cells.size() == 1 ? " cell" : " cells");
-  }
-  for (const CellStatus status : kCellStatuses) {
-    const auto count = std::count_if(
-        cells.begin(), cells.end(), [&](const CellSummary& cell) { return cell.status == status; });
-    if (count == 0 && status != CellStatus::kPass) continue;
-    const Tag item(html, "li");
-    html.element("strong", count_text(static_cast<double>(count)));
-    html.text(" ");
-    write_status(html, status);
   }
 }
 
@@ -168,19 +172,12 @@ void write_attention(Html& html, const std::vector<CellSummary>& cells) {
 std::string index_page(const SiteFrame& site, const FarmData& farm,
                        const std::vector<CellSummary>& cells) {
   Html html;
-  {
-    const Tag top(html, "div", {{"class", "top"}});
-    {
-      const Tag left(html, "div");
-      write_introduction(html, farm);
-      write_counts(html, cells);
-    }
-    write_making(html, farm);
-  }
+  write_introduction(html, farm, cells);
   write_missing_engines(html, farm);
-  write_legend(html, farm, cells);
   write_attention(html, cells);
   write_grid(html, farm, cells);
+  write_legend(html, farm, cells);
+  write_making(html, farm);
   return finish_page(site, {site.title, "grid", "", "index.html", farm.made_by, kGridData, ""},
                      html);
 }

@@ -5,6 +5,10 @@
 namespace lobelia::gallery {
 namespace {
 
+constexpr char kIcon[] =
+    "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E%3Ccircle cx='8' cy='8' "
+    "r='8' fill='%23223'/%3E%3Ccircle cx='10' cy='6' r='2.5' fill='%23fff'/%3E%3C/svg%3E";
+
 void write_head(Html& html, const SiteFrame& site, const PageFrame& frame) {
   const auto meta = [&](const char* key, const char* name, const std::string& content) {
     html.empty("meta", {{key, name}, {"content", content}});
@@ -24,6 +28,8 @@ void write_head(Html& html, const SiteFrame& site, const PageFrame& frame) {
     meta("property", "og:url", site.base_url + frame.path);
     if (!frame.picture.empty()) meta("property", "og:image", site.base_url + frame.picture);
   }
+  // Inside the page, or a browser would ask the server for /favicon.ico.
+  html.empty("link", {{"rel", "icon"}, {"href", kIcon}});
   html.empty("link", {{"rel", "stylesheet"}, {"href", frame.root + kStyleFile}});
   // Classic scripts: browsers refuse modules on file://.
   html.element("script", {{"src", frame.root + kScriptFile}, {"defer", "defer"}}, "");
@@ -33,7 +39,7 @@ void write_head(Html& html, const SiteFrame& site, const PageFrame& frame) {
 void write_navigation(Html& html, const SiteFrame& site, const PageFrame& frame) {
   const Tag header(html, "header", {{"class", "site"}});
   html.element("a", {{"class", "site-title"}, {"href", frame.root + site.pages.front().file}},
-               site.title);
+               frame.path == site.pages.front().file ? "Lobelia" : site.title);
   const Tag nav(html, "nav", {{"aria-label", "Views"}});
   for (const PageLink& page : site.pages) {
     Attributes attributes = {{"href", frame.root + page.file}};

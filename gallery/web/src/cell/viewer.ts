@@ -216,7 +216,6 @@ export class Viewer {
       await before;
       try {
         const picture = await loadFloatPicture(source);
-        if (picture.fromOurs) await this.need(0);
         this.floats.set(engine, picture);
       } finally {
         done();

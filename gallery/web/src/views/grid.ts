@@ -1,6 +1,247 @@
+// The grid: any two axes as rows and columns, coloured by any metric, filtered, failures first.
+import { colourAt, cssGradient } from '../cell/colours';
+import type { GridCell, GridData, GridMetric } from '../grid_data';
 import { pageData } from '../lib/data';
+import { announce, button, h, isTyping, select } from '../lib/dom';
+import { numberText, percentText, toNumber } from '../lib/numbers';
+import { HashState } from '../lib/state';
+
+/** Worst first: what a reader has to look at. */
+const kSeverity = ['failed', 'unreadable', 'differs', 'undecided', 'unchecked', 'missing', 'pass'];
+const kNone = '-1';
 
 export function grid(main: HTMLElement): void {
-  pageData();
-  void main;
+  const data = pageData<GridData>();
+  const first = main.querySelector('.grid-section');
+  if (data && first && data.cells.length > 0) new GridView(main, first, data);
+}
+
+export function metricText(metric: GridMetric, value: number): string {
+  if (Number.isNaN(value)) return '–';
+  return metric.unit === 'share' ? percentText(value) : metric.unit === 'count' ? numberText(value, 9) : numberText(value);
+}
+
+const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+class GridView {
+  private readonly state;
+  private readonly place = h('div', { id: 'grid', class: 'grid-place' });
+  private readonly count = h('output', { class: 'count' });
+  private readonly legend = h('div', { class: 'legend-bar' });
+  private readonly find = h('input', { type: 'search', placeholder: 'blinn 128', id: 'find', 'aria-keyshortcuts': '/' });
+  private readonly axes: Record<'rows' | 'cols' | 'group', ReturnType<typeof select>>;
+  private readonly colour: ReturnType<typeof select>;
+  private readonly status: ReturnType<typeof select>;
+  private readonly order: ReturnType<typeof select>;
+  private readonly made = new Map<GridCell, { element: HTMLElement; value: HTMLElement; swatch: HTMLElement }>();
+  private readonly haystack = new Map<GridCell, string>();
+
+  constructor(main: HTMLElement, first: Element, private readonly data: GridData) {
+    const { rows, groups, columns } = data.layout;
+    this.state = new HashState({
+      rows: String(rows), cols: String(columns), group: String(groups), find: '', status: '', order: 'grid',
+      colour: this.colourChoices()[0]?.value ?? '',
+    });
+    const named = data.axes.map((axis, i) => ({ value: String(i), label: axis.name }));
+    const axis = (label: string, key: 'rows' | 'cols' | 'group'): ReturnType<typeof select> =>
+      select(label, key === 'cols' ? named : [...named, { value: kNone, label: 'none' }], '', (value) => this.takeAxis(key, value));
+    this.axes = { rows: axis('Rows', 'rows'), cols: axis('Columns', 'cols'), group: axis('Grouped by', 'group') };
+    this.colour = select('Colour', [...this.colourChoices(), { value: 'status', label: 'status alone' }], '',
+      (colour) => this.change({ colour }));
+    this.status = select('Status', [{ value: '', label: 'any' },
+      ...data.statuses.filter((s) => data.cells.some((c) => c.status === s.name)).map((s) => ({ value: s.name, label: s.word }))], '',
+      (status) => this.change({ status }));
+    this.order = select('Order', [{ value: 'grid', label: 'the grid' }, { value: 'worst', label: 'failures first' }], '',
+      (order) => this.change({ order }));
+    this.find.addEventListener('input', () => this.change({ find: this.find.value }));
+    for (const cell of data.cells) this.haystack.set(cell, `${cell.label} ${cell.id} ${cell.status}`.toLowerCase());
+
+    const bar = h('div', { class: 'grid-bar', role: 'search', 'aria-label': 'The grid' },
+      h('label', {}, h('span', {}, 'Find'), this.find), this.status.element, this.order.element, this.colour.element,
+      h('div', { class: 'axes-choice' }, this.axes.rows.element,
+        button('⇄', () => this.takeAxis('rows', this.state.get('cols')),
+          { 'aria-label': 'Exchange rows and columns', title: 'Exchange rows and columns (x)', 'aria-keyshortcuts': 'x' }),
+        this.axes.cols.element, ...(data.axes.length > 2 ? [this.axes.group.element] : [])),
+      this.count, this.legend);
+    first.before(bar, this.place);
+    for (const section of main.querySelectorAll('.grid-section')) section.remove();
+    this.state.onChange(() => this.refresh());
+    document.addEventListener('keydown', (event) => this.key(event));
+    this.refresh();
+  }
+
+  private colourChoices(): { value: string; label: string }[] {
+    return this.data.engines.flatMap((engine) => {
+      const has = this.data.metrics.filter((_, m) => this.data.cells.some((c) => typeof c.metrics[engine.name]?.[m] === 'number'));
+      const list = has.map((metric) => ({ value: `${engine.name}/${metric.id}`, label: `${engine.shortTitle}: ${metric.title}` }));
+      const main = list.findIndex((c) => c.value.endsWith('/max_rel_peak'));
+      return main > 0 ? [list[main]!, ...list.slice(0, main), ...list.slice(main + 1)] : list;
+    });
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (isTyping(event)) return;
+    if (event.key === '/') this.find.focus();
+    else if (event.key === 'x') this.takeAxis('rows', this.state.get('cols'));
+    else return;
+    event.preventDefault();
+  }
+
+  /** An axis has one place: whoever had it takes what is given up for it. */
+  private takeAxis(key: 'rows' | 'cols' | 'group', value: string): void {
+    const before = this.state.get(key), changes: Partial<Record<typeof key, string>> = { [key]: value };
+    for (const other of ['rows', 'cols', 'group'] as const)
+      if (other !== key && value !== kNone && this.state.get(other) === value) changes[other] = before;
+    if (changes.cols === kNone) changes.cols = this.data.axes.findIndex((_, i) => String(i) !== value).toString();
+    this.change(changes);
+  }
+
+  private change(changes: Parameters<GridView['state']['set']>[0]): void {
+    this.state.set(changes);
+    this.refresh();
+  }
+
+  private axis(key: 'rows' | 'cols' | 'group'): number {
+    const axis = this.state.number(key);
+    return Number.isInteger(axis) && axis >= 0 && axis < this.data.axes.length ? axis : -1;
+  }
+
+  private refresh(): void {
+    const { state } = this;
+    if (this.find.value !== state.get('find')) this.find.value = state.get('find');
+    for (const key of ['rows', 'cols', 'group'] as const) this.axes[key].set(state.get(key));
+    this.colour.set(state.get('colour'));
+    this.status.set(state.get('status'));
+    this.order.set(state.get('order'));
+    const words = state.get('find').toLowerCase().split(/\s+/).filter(Boolean), status = state.get('status');
+    const shown = this.data.cells.filter((cell) => (!status || cell.status === status) &&
+      words.every((word) => this.haystack.get(cell)!.includes(word)));
+    const text = `showing ${shown.length} of ${this.data.cells.length}`;
+    if (this.count.textContent && this.count.textContent !== text) announce(text);
+    this.count.textContent = text;
+    this.paint(shown);
+    this.place.replaceChildren(...(shown.length === 0 ? [h('p', { class: 'absent' }, 'No cell is like that.')]
+      : state.get('order') === 'worst' ? [this.list(shown)] : this.sections(shown)));
+  }
+
+  // ---- colours
+
+  private metric(): { engine: string; index: number; metric: GridMetric } | undefined {
+    const text = this.state.get('colour'), slash = text.indexOf('/');
+    const index = this.data.metrics.findIndex((m) => m.id === text.slice(slash + 1));
+    const engine = text.slice(0, slash), metric = this.data.metrics[index];
+    return slash > 0 && metric && this.data.engines.some((e) => e.name === engine) ? { engine, index, metric } : undefined;
+  }
+
+  private valueOf(cell: GridCell): number {
+    const by = this.metric();
+    return by ? toNumber(cell.metrics[by.engine]?.[by.index]) : NaN;
+  }
+
+  private paint(shown: readonly GridCell[]): void {
+    const by = this.metric();
+    const values = by ? this.data.cells.map((c) => this.valueOf(c)).filter(Number.isFinite) : [];
+    const positive = values.filter((v) => v > 0), low = Math.min(...positive), high = Math.max(...positive);
+    // Errors span decades; what has a best value does not.
+    const logarithmic = by !== undefined && !by.metric.moreIsBetter && positive.length > 0 && high > 20 * low;
+    const from = logarithmic ? low : Math.min(...values), to = logarithmic ? high : Math.max(...values);
+    for (const cell of shown) {
+      const parts = this.cell(cell), value = this.valueOf(cell);
+      const share = logarithmic ? (value > 0 ? Math.log(value / from) / Math.log(to / from) : 0) : (value - from) / (to - from || 1);
+      const isShown = by !== undefined && !Number.isNaN(value);
+      parts.value.textContent = by ? metricText(by.metric, value) : '';
+      parts.swatch.style.background = isShown ? colourAt('viridis', Number.isFinite(value) ? share : 1) : '';
+      parts.swatch.hidden = !isShown;
+    }
+    if (!by || values.length === 0) { this.legend.replaceChildren(); return; }
+    const ramp = h('span', { class: 'ramp' });
+    ramp.style.background = cssGradient('viridis');
+    this.legend.replaceChildren(h('span', {}, metricText(by.metric, from)), ramp, h('span', {}, metricText(by.metric, to)),
+      h('span', {}, (logarithmic ? 'logarithmic. ' : '') + by.metric.meaning));
+  }
+
+  // ---- cells
+
+  private cell(cell: GridCell): { element: HTMLElement; value: HTMLElement; swatch: HTMLElement } {
+    const known = this.made.get(cell);
+    if (known) return known;
+    const status = this.data.statuses.find((s) => s.name === cell.status);
+    const words = `${cell.label || cell.id}: ${status?.word ?? cell.status}`;
+    const picture = cell.picture
+      ? h('img', { loading: 'lazy', decoding: 'async', alt: words, width: cell.picture.width, height: cell.picture.height, src: cell.picture.src })
+      : h('span', { class: 'no-picture' }, 'no picture', h('span', { class: 'unseen' }, ', ' + words));
+    const swatch = h('span', { class: 'swatch', hidden: true }), value = h('span', { class: 'value' });
+    const element = h('div', { class: `cell ${cell.status}` },
+      h('a', { href: cell.href, title: words }, picture, swatch),
+      h('span', { class: 'cell-foot' }, h('span', { class: `status ${cell.status}`, title: status?.word },
+        h('span', { 'aria-hidden': 'true' }, status?.mark ?? ''), h('span', { class: 'unseen' }, status?.word ?? '')), value));
+    const parts = { element, value, swatch };
+    this.made.set(cell, parts);
+    return parts;
+  }
+
+  private list(shown: readonly GridCell[]): HTMLElement {
+    const by = this.metric();
+    const badness = (cell: GridCell): number => {
+      const value = this.valueOf(cell);
+      return Number.isNaN(value) ? -Infinity : by?.metric.moreIsBetter ? -value : value;
+    };
+    const rank = (cell: GridCell): number => kSeverity.indexOf(cell.status);
+    const sorted = [...shown].sort((p, q) => rank(p) - rank(q) || (badness(q) > badness(p) ? 1 : badness(q) < badness(p) ? -1 : 0));
+    return h('ul', { class: 'cell-list' }, ...sorted.map((cell) =>
+      h('li', {}, this.cell(cell).element, h('a', { href: cell.href, class: 'cell-name' }, cell.label || cell.id))));
+  }
+
+  private sections(shown: readonly GridCell[]): HTMLElement[] {
+    const { axes } = this.data, rows = this.axis('rows'), cols = this.axis('cols'), group = this.axis('group');
+    const rest = axes.map((_, i) => i).filter((i) => ![rows, cols, group].includes(i));
+    const bySection = new Map<string, GridCell[]>();
+    const homeless: GridCell[] = [];
+    for (const cell of shown) {
+      if (cell.at.includes(-1)) { homeless.push(cell); continue; }
+      const key = rest.map((i) => String(cell.at[i]).padStart(6, '0')).join(' ');
+      const list = bySection.get(key);
+      if (list) list.push(cell); else bySection.set(key, [cell]);
+    }
+    const sections = [...bySection].sort(([p], [q]) => (p < q ? -1 : 1)).map(([, cells], i) => {
+      const label = rest.map((axis) => `${axes[axis]!.name}: ${axes[axis]!.values[cells[0]!.at[axis]!]}`).join(' · ');
+      return this.section(`grid-${i + 1}`, sentence(label) || 'The grid', cells, rows, cols, group);
+    });
+    if (homeless.length > 0)
+      sections.push(h('section', { class: 'grid-section' }, h('h2', {}, 'Cells that have no place on the axes'), this.list(homeless)));
+    return sections;
+  }
+
+  private section(id: string, label: string, cells: readonly GridCell[], rows: number, cols: number, group: number): HTMLElement {
+    const values = (axis: number): number[] =>
+      axis < 0 ? [-1] : [...new Set(cells.map((c) => c.at[axis]!))].sort((p, q) => p - q);
+    const at = (cell: GridCell, axis: number): number => (axis < 0 ? -1 : cell.at[axis]!);
+    const byPlace = new Map<string, GridCell[]>();
+    for (const cell of cells) {
+      const key = `${at(cell, rows)} ${at(cell, group)} ${at(cell, cols)}`, there = byPlace.get(key);
+      if (there) there.push(cell); else byPlace.set(key, [cell]);
+    }
+    const groups = values(group), columns = values(cols), { axes } = this.data;
+    const name = (axis: number, value: number): string => {
+      const text = axes[axis]?.values[value] ?? '';
+      return text.includes('=') || !/^[\d.]/.test(text) ? text : `${axes[axis]!.name} ${text}`;
+    };
+    const corner = (span: number): HTMLElement[] =>
+      rows < 0 ? [] : [h('th', { scope: 'col', class: 'corner', rowspan: span }, axes[rows]!.name)];
+    const head = h('thead');
+    if (group >= 0)
+      head.append(h('tr', { class: 'groups' }, ...corner(2),
+        ...groups.map((g) => h('th', { scope: 'colgroup', colspan: columns.length }, name(group, g)))));
+    head.append(h('tr', { class: 'columns' }, ...(group >= 0 ? [] : corner(1)),
+      ...groups.flatMap((_, g) => columns.map((c, i) => h('th', { scope: 'col', class: g > 0 && i === 0 ? 'first' : undefined }, name(cols, c))))));
+    const body = h('tbody', {}, ...values(rows).map((row) => h('tr', {},
+      ...(rows < 0 ? [] : [h('th', { scope: 'row' }, name(rows, row))]),
+      ...groups.flatMap((g, index) => columns.map((c, i) => {
+        const there = byPlace.get(`${row} ${g} ${c}`) ?? [];
+        return h('td', { class: index > 0 && i === 0 ? 'first' : undefined }, ...there.map((cell) => this.cell(cell).element));
+      })))));
+    const count = groups.length * columns.length;
+    return h('section', { class: 'grid-section', 'aria-labelledby': id }, h('h2', { id }, label),
+      h('table', { class: count > 12 ? 'grid wide' : 'grid', 'aria-labelledby': id }, head, body));
+  }
 }

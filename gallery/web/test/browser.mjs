@@ -1,0 +1,94 @@
+// A gallery in Debian's Chromium, from file:// and from `lobelia gallery serve`, with everything that must not happen
+// made a failure: complaints, requests elsewhere, dialogs.
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const web = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '..');
+export const program = process.env.LOBELIA_PROGRAM ?? path.resolve(web, '../../build/release/bin/lobelia');
+const axe = path.join(web, 'node_modules/axe-core/axe.min.js');
+
+export const lobelia = (...args) => execFileSync(program, args, { encoding: 'utf8' });
+
+/** A directory that goes with the process. */
+export function scratch() {
+  const directory = mkdtempSync(path.join(tmpdir(), 'lobelia-web-'));
+  process.on('exit', () => rmSync(directory, { recursive: true, force: true }));
+  return directory;
+}
+
+export async function serve(site) {
+  const server = spawn(program, ['gallery', 'serve', site, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  process.on('exit', () => server.kill());
+  const url = await new Promise((resolve, reject) => {
+    server.stdout.once('data', (text) => resolve(String(text).trim()));
+    server.once('exit', (code) => reject(new Error(`serve ended with ${code}`)));
+  });
+  return { url, stop: () => new Promise((done) => { server.once('exit', done); server.kill('SIGINT'); }) };
+}
+
+export const fileUrl = (site) => pathToFileURL(site).href + '/';
+
+/** SwiftShader draws WebGL where there is no graphics processor. */
+export const launch = (args = []) => chromium.launch({
+  executablePath: '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', ...args],
+});
+
+export async function open(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: 'reduce', ...options });
+  const page = await context.newPage();
+  const problems = [];
+  page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text())) problems.push(message.text()); });
+  page.on('pageerror', (error) => problems.push(String(error)));
+  page.on('dialog', (dialog) => { problems.push('dialog ' + dialog.message()); void dialog.dismiss(); });
+  const origin = new URL(url);
+  page.on('request', (request) => {
+    const to = new URL(request.url());
+    if (to.protocol !== 'data:' && (to.protocol !== origin.protocol || to.host !== origin.host)) problems.push('asked ' + request.url());
+  });
+  page.problems = problems;
+  await page.goto(url);
+  return page;
+}
+
+/** Nothing that open() listens for has happened. */
+export async function close(page) {
+  assert.deepEqual(page.problems, []);
+  await page.context().close();
+}
+
+export async function requireAccessible(page, what) {
+  // As a string through the debugger: the page's own policy lets no script in.
+  await page.evaluate(readFileSync(axe, 'utf8') + ';0');
+  const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ['violations'], preload: false }));
+  assert.deepEqual(violations.map((v) => `${what}: ${v.id}: ${v.nodes.slice(0, 3).map((n) => n.target.join(' ') + ' ' + n.failureSummary).join('; ')}`), []);
+}
+
+/** Waits until the text of the first such element fits: pages paint when the browser is ready to. */
+export async function says(page, selector, pattern) {
+  const text = async () => (await page.locator(selector).first().textContent()) ?? '';
+  for (const end = Date.now() + 5000; Date.now() < end;) {
+    if (pattern.test(await text())) return;
+    await page.waitForTimeout(20);
+  }
+  assert.match(await text(), pattern);
+}
+
+/** The viewer has its float pictures. */
+export const ready = (page, count = 2) => page.waitForFunction((n) => Number(document.querySelector('.stage')?.dataset.ready) >= n, count);
+
+/** A pixel of the stage as it is seen, at shares of its width and height. */
+export async function seenAt(page, shareX, shareY) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return page.evaluate(([x, y]) => {
+    const canvas = document.querySelector('.stage canvas'), gl = canvas.getContext('webgl2');
+    const pixel = new Uint8Array(4);
+    gl.readPixels(Math.floor(x * canvas.width), Math.floor((1 - y) * canvas.height), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    return [...pixel.subarray(0, 3)];
+  }, [shareX, shareY]);
+}

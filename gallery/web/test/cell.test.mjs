@@ -1,0 +1,258 @@
+// The page of a cell, from file:// and from a server.
+import assert from 'node:assert/strict';
+import { readdirSync, statSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { close, fileUrl, launch, lobelia, open, ready, requireAccessible, says, scratch, seenAt, serve } from './browser.mjs';
+import { errorOf, kPeak, ours, writeFarm } from './farm.mjs';
+
+const kSize = 64;
+const directory = scratch(), run = path.join(directory, 'run'), site = path.join(directory, 'site');
+const kCell = 'cells/phong-16/index.html';
+let browser, server;
+
+before(async () => {
+  writeFarm(run, { axes: { model: ['phong', 'blinn'], exponent: ['16', '128'] }, size: kSize });
+  lobelia('gallery', run, '-o', site);
+  [browser, server] = await Promise.all([launch(), serve(site)]);
+});
+after(async () => { await browser?.close(); await server?.stop(); });
+
+const cellPage = async (hash = '', count = 2) => {
+  const page = await open(browser, fileUrl(site) + kCell + hash);
+  await ready(page, count);
+  return page;
+};
+const encoded = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(1, v) ** (1 / 2.4) - 0.055));
+const near = (seen, wanted, by = 2) =>
+  seen.forEach((v, i) => assert.ok(Math.abs(v - wanted[i]) <= by, `${seen} is not ${wanted}`));
+const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
+
+for (const from of ['file', 'server']) {
+  test(`opens from a ${from} without a complaint, and shows the float values of a pixel`, async () => {
+    const page = await open(browser, (from === 'file' ? fileUrl(site) : server.url) + kCell);
+    await ready(page);
+    const stage = page.locator('.stage');
+    await stage.focus();
+    await page.keyboard.press('ArrowLeft');  // from the middle
+    await says(page, '.where', /Pixel \(31, 32\)/);
+    await says(page, '.pixel-values tbody td', /\d/);
+    const red = ours(31, 32, kSize)[0];
+    const shown = Number((await page.locator('.pixel-values tbody tr').first().locator('td').first().textContent()).replace('−', '-'));
+    assert.ok(Math.abs(shown / red - 1) < 1e-3, `${shown} is not ${red}`);
+    await close(page);
+  });
+}
+
+test('a difference of two parts in a million is read to more digits than half floats have', async () => {
+  const page = await cellPage('#a=povray&b=lobelia&mode=diff', 2);
+  await page.locator('.stage').focus();
+  await page.keyboard.press('ArrowRight');
+  const cell = page.locator('.pixel-values tr.sum td').first();
+  await page.waitForFunction(() => /\d/.test(document.querySelector('.pixel-values tr.sum td')?.textContent ?? ''));
+  const wanted = Math.fround(ours(33, 32, kSize)[0] * (1 + errorOf.povray)) - ours(33, 32, kSize)[0];
+  const shown = Number((await cell.textContent()).replace(/−/g, '-'));
+  assert.ok(Math.abs(shown / wanted - 1) < 0.01, `${shown} is not ${wanted}`);
+  await close(page);
+});
+
+test('exposure acts on the linear values', async () => {
+  const page = await cellPage('#mode=flip&ev=-1');
+  const peak = [0.5, 1 / 3];  // near enough to the brightest pixel
+  const value = ours(32, 21, kSize);
+  near(await seenAt(page, ...peak), value.map((v) => encoded(v / 2)), 4);
+  await page.keyboard.press('E');  // half a stop darker
+  near(await seenAt(page, ...peak), value.map((v) => encoded(v * 2 ** -1.5)), 4);
+  assert.equal((await hashOf(page)).ev, '-1.5');
+  await close(page);
+});
+
+test('the divider shows one picture left of it and the other right of it', async () => {
+  // At an exposure where a thousandth cannot be seen nothing moves; so as false difference: the sides are named.
+  const page = await cellPage('#mode=slide');
+  const range = page.getByRole('slider', { name: 'Divider' });
+  await range.focus();
+  await page.keyboard.press('Home');
+  assert.equal((await hashOf(page)).split, '0');
+  await page.keyboard.press('End');
+  assert.equal((await hashOf(page)).split, '100');
+  const box = await page.locator('.stage').boundingBox();
+  await page.mouse.move(box.x + box.width - 2, box.y + 200);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 4, box.y + 200);
+  await page.mouse.up();
+  assert.ok(Math.abs(Number((await hashOf(page)).split) - 25) < 1);
+  await close(page);
+});
+
+test('keys choose pictures and ways to compare, and the link says which', async () => {
+  const page = await cellPage();
+  await page.keyboard.press('4');
+  await page.keyboard.press('Shift+Digit2');
+  await page.keyboard.press('d');
+  let hash = await hashOf(page);
+  assert.deepEqual([hash.a, hash.b, hash.mode], ['blender', 'analytic', 'diff']);
+  await says(page, '.tags', /^Blender Cycles − Analytic$/);
+  await page.keyboard.press('x');
+  await page.keyboard.press('s');
+  await says(page, '.tags', /^AnalyticBlender Cycles$/);
+  await page.keyboard.press('f');
+  await says(page, '.tags', /^Analytic$/);
+  await page.keyboard.press('f');
+  await says(page, '.tags', /^Blender Cycles$/);
+  // The same again from the link alone.
+  const again = await open(browser, page.url());
+  await ready(again);
+  await says(again, '.tags', /^Blender Cycles$/);
+  await close(again);
+  await close(page);
+});
+
+test('letters typed into a field are no commands', async () => {
+  const page = await cellPage();
+  await page.locator('select').first().focus();
+  await page.keyboard.press('d');
+  assert.equal((await hashOf(page)).mode, undefined);
+  await close(page);
+});
+
+test('zoom and pan go down to the pixel, together in both pictures', async () => {
+  const page = await cellPage('#mode=side');
+  await page.locator('.stage').focus();
+  for (let i = 0; i < 12; ++i) await page.keyboard.press('+');
+  const hash = await hashOf(page);
+  assert.ok(Number(hash.z) >= 32, `zoom ${hash.z}`);
+  await page.keyboard.press('Shift+ArrowRight');
+  assert.ok(Number((await hashOf(page)).x) > Number(hash.x));
+  const left = await seenAt(page, 0.1, 0.5), right = await seenAt(page, 0.6, 0.5);
+  near(left, right, 3);
+  await page.keyboard.press('0');
+  assert.equal((await hashOf(page)).z, undefined);
+  await close(page);
+});
+
+test('a difference has the scale that its legend prints, and false colour tells small ones apart', async () => {
+  const page = await cellPage('#a=blender&b=lobelia&mode=diff');
+  const [wide] = await seenAt(page, 0.5, 1 / 3);
+  assert.ok(wide > 240, `the largest difference is white: ${wide}`);
+  await says(page, '.legend-bar', /0\.0025 = 0\.1 % of the peak/);
+  await page.keyboard.press('E');
+  await page.keyboard.press('E');  // a stop down: half as bright, and white stands for twice as much
+  const [half] = await seenAt(page, 0.5, 1 / 3);
+  assert.ok(half > 120 && half < 135, String(half));
+  await says(page, '.legend-bar', /0\.005 =/);
+  await page.getByRole('checkbox', { name: 'False colour' }).check();
+  const colour = await seenAt(page, 0.5, 1 / 3);
+  assert.ok(colour[0] > 200 && colour[2] < 190, `inferno, near its top: ${colour}`);
+  await close(page);
+});
+
+test('a line drawn across the picture shows its profile', async () => {
+  const page = await cellPage('#mode=flip');
+  await page.getByRole('button', { name: 'Draw a line' }).click();
+  const box = await page.locator('.stage').boundingBox();
+  await page.mouse.move(box.x + box.width * 0.4, box.y + box.height * 0.3);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.4, { steps: 4 });
+  await page.mouse.up();
+  assert.match((await hashOf(page)).line, /^\d+,\d+,\d+,\d+$/);
+  const chart = page.locator('.line-box svg.chart.interactive');
+  await chart.waitFor();
+  assert.equal(await chart.locator('path.series').count(), 2);
+  await chart.focus();
+  await page.keyboard.press('ArrowRight');
+  assert.match(await page.locator('.line-box .readout').textContent(), /at 0: Lobelia \d/);
+  await close(page);
+});
+
+test('the highlight is drawn linear, logarithmic and as a ratio, with zones and values', async () => {
+  const page = await cellPage();
+  const figure = page.locator('.chart-figure.scripted-only');
+  assert.equal(await figure.locator('.band-label').count(), 3);
+  for (const [scale, words] of [['log', /radiance/], ['ratio', /engine \/ formula/], ['error', /formula/]]) {
+    await page.locator('#profile-scale').selectOption(scale);
+    assert.equal((await hashOf(page)).scale, scale);
+    assert.match(await figure.locator('svg.interactive').textContent(), words);
+    assert.ok(await figure.locator('path.series').count() >= 2);
+  }
+  const series = figure.getByRole('checkbox').first(), lines = await figure.locator('path.series').count();
+  await series.uncheck();
+  assert.equal(await figure.locator('path.series').count(), lines - 1);
+  await close(page);
+});
+
+test('commands, versions and hashes are there to be copied', async () => {
+  const page = await cellPage();
+  const labels = await page.locator('button.copy').evaluateAll((list) => list.map((b) => b.getAttribute('aria-label')));
+  for (const what of ['Copy the command', 'Copy the version of POV-Ray', 'Copy the hash of the picture by Lobelia'])
+    assert.ok(labels.includes(what), what);
+  assert.match(await page.locator('.hashes code').first().textContent(), /^[0-9a-f]{64}$/);
+  await close(page);
+});
+
+test('without script every picture and number is there', async () => {
+  const page = await open(browser, fileUrl(site) + kCell, { javaScriptEnabled: false });
+  assert.equal(await page.locator('section.pictures img').count(), 7);
+  assert.ok(await page.locator('section.pictures img').first().isVisible());
+  assert.match(await page.locator('table.metrics').textContent(), /Largest difference, of the peak/);
+  assert.ok(await page.locator('.chart-figure svg').first().isVisible());
+  await close(page);
+});
+
+test('on paper the pictures are there, and the controls are not', async () => {
+  const page = await cellPage();
+  await page.emulateMedia({ media: 'print' });
+  assert.ok(await page.locator('section.pictures').isVisible());
+  assert.ok(!await page.locator('.viewer').isVisible());
+  await close(page);
+});
+
+test('without WebGL 2 or float pictures it says so and shows the 8-bit ones', async () => {
+  const plain = await launch(['--disable-gpu', '--disable-3d-apis']);
+  const page = await open(plain, fileUrl(site) + kCell);
+  await page.getByText('no WebGL 2').waitFor();
+  page.problems.length = 0;
+  await page.context().close();
+  await plain.close();
+  const bare = path.join(directory, 'bare');
+  lobelia('gallery', run, '-o', bare, '--metrics-only');
+  assert.deepEqual(readdirSync(bare, { recursive: true }).filter((f) => /\.exr$|\.float\.js$/.test(f)), []);
+  const small = await open(browser, fileUrl(bare) + kCell + '#mode=diff&a=lobelia&b=povray');
+  await small.getByText('no float pictures').waitFor();
+  await close(small);
+});
+
+test('axe finds nothing, in light and in dark, at rest and with everything open', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    const page = await open(browser, fileUrl(site) + kCell + '#mode=diff&colour=false&line=3,3,40,40&scale=ratio', { colorScheme });
+    await ready(page);
+    await page.locator('.keys summary').click();
+    await requireAccessible(page, `cell in ${colorScheme}`);
+    await close(page);
+  }
+});
+
+test('a cell of 512 x 512 pixels weighs less than a megabyte, everything that its page can load taken together', async () => {
+  const big = path.join(directory, 'big'), bigSite = path.join(directory, 'big-site');
+  writeFarm(big, { axes: { model: ['phong'] }, size: 512 });
+  lobelia('gallery', big, '-o', bigSite);
+  const cell = path.join(bigSite, 'cells/phong');
+  const shown = readdirSync(cell).filter((f) => /\.(html|js)$/.test(f) || /\.png$/.test(f) && !readdirSync(cell).includes(f.replace(/\.png$/, '.small.png')));
+  const total = [...shown.map((f) => path.join(cell, f)), ...['gallery.js', 'gallery.css'].map((f) => path.join(bigSite, f))]
+    .reduce((sum, f) => sum + statSync(f).size, 0);
+  assert.ok(shown.some((f) => f === 'blender.float.js'));
+  assert.ok(total < 1e6, `${total} bytes`);
+});
+
+test('a hash that makes no sense does no harm', async () => {
+  const page = await cellPage('#a=<img src=x onerror=alert(1)>&mode=__proto__&z=nan&x=1e999&line=1,2,3&ev=x&measure=constructor&colour=%ff');
+  await says(page, '.tags', /^LobeliaPOV-Ray$/);
+  await close(page);
+});
+
+test('a damaged float picture is told, and the page goes on', async () => {
+  writeFileSync(path.join(site, 'cells/blinn-16/povray.float.js'), "lobelia('something else','{}');");
+  const page = await open(browser, fileUrl(site) + 'cells/blinn-16/index.html');
+  await page.getByText('holds no "float picture"').waitFor();
+  await close(page);
+});

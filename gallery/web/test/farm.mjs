@@ -1,0 +1,141 @@
+// A farm's directory without a farm: records as docs/records.md lays them out, and pictures of a made-up highlight.
+import { mkdirSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { crc32 as zlibCrc32, deflateSync } from 'node:zlib';
+
+const made = (kind, rest) => ({ schemaVersion: 1, kind, madeBy: 'lobelia test', ...rest });
+const json = (file, record) => writeFileSync(file, JSON.stringify(record));
+
+function crc32(bytes) {
+  if (zlibCrc32) return zlibCrc32(bytes);  // not in node 18
+  let crc = ~0;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let k = 0; k < 8; ++k) crc = crc >>> 1 ^ (crc & 1 ? 0xedb88320 : 0);
+  }
+  return ~crc >>> 0;
+}
+
+export function png(width, height, rgbOf) {
+  const raw = Buffer.alloc(height * (1 + 3 * width));
+  for (let y = 0; y < height; ++y)
+    for (let x = 0; x < width; ++x) raw.set(rgbOf(x, y), y * (1 + 3 * width) + 1 + 3 * x);
+  const chunk = (type, data) => {
+    const body = Buffer.concat([Buffer.from(type), data]), ends = Buffer.alloc(8);
+    ends.writeUInt32BE(data.length, 0);
+    ends.writeUInt32BE(crc32(body), 4);
+    return Buffer.concat([ends.subarray(0, 4), body, ends.subarray(4)]);
+  };
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  head.set([8, 2, 0, 0, 0], 8);
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', deflateSync(raw)),
+    chunk('IEND', Buffer.alloc(0))]);
+}
+
+/** Float32, not compressed. */
+export function exr(width, height, rgbOf) {
+  const parts = [Buffer.from([0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0])];
+  const i32 = (...values) => { const b = Buffer.alloc(4 * values.length); values.forEach((v, i) => b.writeInt32LE(v, 4 * i)); return b; };
+  const f32 = (...values) => { const b = Buffer.alloc(4 * values.length); values.forEach((v, i) => b.writeFloatLE(v, 4 * i)); return b; };
+  const attribute = (name, type, value) =>
+    parts.push(Buffer.from(`${name}\0${type}\0`), i32(value.length), value);
+  const channel = (name) => Buffer.concat([Buffer.from(name + '\0'), i32(2), Buffer.alloc(4), i32(1, 1)]);
+  attribute('channels', 'chlist', Buffer.concat([channel('B'), channel('G'), channel('R'), Buffer.alloc(1)]));
+  attribute('compression', 'compression', Buffer.from([0]));
+  attribute('dataWindow', 'box2i', i32(0, 0, width - 1, height - 1));
+  attribute('displayWindow', 'box2i', i32(0, 0, width - 1, height - 1));
+  attribute('lineOrder', 'lineOrder', Buffer.from([0]));
+  attribute('pixelAspectRatio', 'float', f32(1));
+  attribute('screenWindowCenter', 'v2f', f32(0, 0));
+  attribute('screenWindowWidth', 'float', f32(1));
+  parts.push(Buffer.alloc(1));
+  const header = Buffer.concat(parts), row = 12 * width, offsets = Buffer.alloc(8 * height);
+  const rows = [];
+  for (let y = 0; y < height; ++y) {
+    offsets.writeBigUInt64LE(BigInt(header.length + offsets.length + y * (8 + row)), 8 * y);
+    const values = Buffer.alloc(row);
+    for (let x = 0; x < width; ++x) {
+      const rgb = rgbOf(x, y);
+      for (let c = 0; c < 3; ++c) values.writeFloatLE(rgb[2 - c], 4 * (c * width + x));
+    }
+    rows.push(i32(y, row), values);
+  }
+  return Buffer.concat([header, offsets, ...rows]);
+}
+
+const encode = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(v, 1) ** (1 / 2.4) - 0.055));
+
+/** Ours at (x, y); each engine adds an error of its own. */
+export const kPeak = 2.5;
+export const ours = (x, y, size) => {
+  const r2 = ((x - size / 2) ** 2 + (y - size / 3) ** 2) / size ** 2;
+  const v = kPeak * Math.exp(-40 * r2);
+  return [Math.fround(v), Math.fround(v / 2), Math.fround(v / 4)];
+};
+export const errorOf = { analytic: 0, povray: 2e-6, blender: 1e-3 };
+
+const kEngines = [['lobelia', 'Lobelia'], ['analytic', 'Analytic'], ['povray', 'POV-Ray'], ['blender', 'Blender Cycles']];
+
+function writeCell(cell, id, axes, status, size, pictures) {
+  mkdirSync(cell, { recursive: true });
+  writeFileSync(path.join(cell, 'scene.xml'), '<scene/>');
+  const images = [];
+  for (const [engine] of pictures === 'thumbnail' ? kEngines.slice(0, 1) : pictures ? kEngines : []) {
+    const value = (x, y) => ours(x, y, size).map((v) => v * (1 + (errorOf[engine] ?? 0)));
+    writeFileSync(path.join(cell, `${engine}.png`), png(size, size, (x, y) => value(x, y).map((v) => encode(v / kPeak))));
+    writeFileSync(path.join(cell, `${engine}.exr`), exr(size, size, value));
+    json(path.join(cell, `${engine}.json`), made(engine === 'lobelia' ? 'render' : 'reference', {
+      engine: { name: engine, version: '1.2.3' }, command: ['lobelia', 'render', 'scene.xml'], seconds: { total: 0.25 },
+      rays: { camera: 4 }, plan: { effects: [{ name: 'shadows', on: false, reason: 'one convex body' }] }, witness: 'native',
+    }));
+    images.push({ engine, exr: `${engine}.exr`, png: `${engine}.png`, record: `${engine}.json` });
+  }
+  const comparisons = [];
+  for (const [engine] of pictures === true ? kEngines.slice(1) : []) {
+    const worst = errorOf[engine];
+    json(path.join(cell, `lobelia-${engine}.json`), made('comparison', {
+      verdict: status === 'differs' && engine === 'blender' ? 'differs' : 'pass', a: 'lobelia.exr', b: `${engine}.exr`, nonfinite: { a: 0, b: 0 },
+      viewing: { exposureStops: -1.3, pixelsPerDegree: 67 },
+      metrics: { rmse: worst * 0.1, max_abs: worst * kPeak, 'max_abs.x': 3, 'max_abs.y': 4, max_rel_peak: worst, ssim: 1 - worst },
+      limits: [{ metric: 'max_rel_peak', limit: 1e-2, value: worst, pass: true }],
+    }));
+    writeFileSync(path.join(cell, `lobelia-${engine}.png`), png(size, size, (x, y) => ours(x, y, size).map((v) => encode(v / kPeak))));
+    comparisons.push({ a: 'lobelia', b: engine, record: `lobelia-${engine}.json`, png: `lobelia-${engine}.png`,
+      difference: { whiteAt: (worst || 1e-6) * kPeak, relativeToPeak: worst || 1e-6 } });
+  }
+  const degrees = Array.from({ length: 60 }, (_, i) => i + 0.5), curve = degrees.map((d) => kPeak * Math.exp(-d * d / 200));
+  json(path.join(cell, 'profile.json'), made('profile', {
+    light: 0, sphere: 0, angle: 'reflection',
+    zones: { epicentreDegrees: [0, 10], flankDegrees: [10, 20], bloomingDegrees: [20, 40] },
+    curve: { angleDegrees: degrees, pixels: degrees.map(() => 3), analytic: curve,
+      ...Object.fromEntries(['lobelia', 'povray', 'blender'].map((e) => [e, curve.map((v, i) => v * (1 + (errorOf[e] ?? 0) * Math.cos(i)))])) },
+    images: { lobelia: { peak: 2.5, halfWidthDegrees: 11.8, energy: 0.01 } },
+    differences: { 'lobelia-povray': { epicentre: { maxAbs: 1e-3 } } },
+  }));
+  json(path.join(cell, 'cell.json'), made('cell', { id, axes, status, exposureStops: Math.log2(1 / kPeak),
+    highlight: { model: 'phong_rdf', exponent: 16 }, images, comparisons, profile: 'profile.json',
+    problems: status === 'failed' ? [{ engine: 'blender', message: 'stopped after 600 s' }] : [] }));
+}
+
+/**
+ * Writes a farm. `axes`: { model: ['a', 'b'] }; `cell`: what to change of a cell of the product, by its number;
+ * its `pictures` are true, false, or 'thumbnail' for ours alone.
+ */
+export function writeFarm(directory, { title = 'A small farm', axes, size = 64, cell = () => ({}) }) {
+  const names = Object.keys(axes);
+  let places = [{}];
+  for (const name of names) places = places.flatMap((place) => axes[name].map((value) => ({ ...place, [name]: value })));
+  const cells = places.map((place, i) => ({ id: Object.values(place).join('-'), status: 'pass', axes: place, pictures: true, ...cell(i, place) }));
+  mkdirSync(path.join(directory, 'cells'), { recursive: true });
+  json(path.join(directory, 'farm.json'), made('farm', {
+    title, grid: 'small.xml', command: 'lobelia farm small.xml -o out', host: { processor: 'abacus', threads: 2 },
+    axes: names.map((name) => ({ name, values: axes[name].map((value) => ({ value, label: value })) })),
+    engines: kEngines.map(([name, engineTitle]) => ({ name, title: engineTitle, version: '1.2.3', available: true })),
+    cells: cells.map(({ id, status, axes: at }) => ({ id, status, axes: at })),
+  }));
+  for (const { id, axes: at, status, pictures } of cells)
+    if (status !== 'missing') writeCell(path.join(directory, 'cells', id), id, at, status, size, pictures);
+  return cells;
+}

@@ -1,0 +1,141 @@
+// The grid: axes, colours, filter, thousands of cells, hostile names.
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { close, fileUrl, launch, lobelia, open, requireAccessible, scratch, serve } from './browser.mjs';
+import { writeFarm } from './farm.mjs';
+
+const kHostile = '<img src=x onerror=alert(1)>';
+const directory = scratch(), site = path.join(directory, 'site'), many = path.join(directory, 'many');
+let browser, server;
+
+before(async () => {
+  const status = { 3: 'failed', 5: 'differs', 7: 'missing' };
+  writeFarm(path.join(directory, 'run'), {
+    title: `A farm ${kHostile}`, size: 16,
+    axes: { model: ['phong', 'blinn', kHostile], exponent: ['16', '128'], light: ['front', 'side'] },
+    cell: (i) => ({ status: status[i] ?? 'pass' }),
+  });
+  lobelia('gallery', path.join(directory, 'run'), '-o', site);
+  const list = (name, count) => Array.from({ length: count }, (_, i) => `${name} ${i}`);
+  // One picture for all would do, but a page of 2000 that come from 2000 files is what is asked about.
+  writeFarm(path.join(directory, 'many-run'), {
+    size: 4, axes: { model: list('model', 50), exponent: list('exponent', 40) },
+    cell: (i) => ({ pictures: i % 4 === 0 && 'thumbnail', status: i % 4 === 0 ? 'pass' : 'unchecked' }),
+  });
+  lobelia('gallery', path.join(directory, 'many-run'), '-o', many);
+  [browser, server] = await Promise.all([launch(), serve(site)]);
+});
+after(async () => { await browser?.close(); await server?.stop(); });
+
+const grid = (hash = '', base = fileUrl(site)) => open(browser, base + 'index.html' + hash);
+const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
+const heads = (page) => page.locator('.grid').first().locator('tbody th').allTextContents();
+
+for (const from of ['file', 'server']) {
+  test(`opens from a ${from} without a complaint, every cell in its place`, async () => {
+    const page = await grid('', from === 'file' ? fileUrl(site) : server.url);
+    assert.equal(await page.locator('.count').textContent(), 'showing 12 of 12');
+    assert.deepEqual(await heads(page), ['phong', 'blinn', kHostile]);
+    assert.equal(await page.locator('.grid .cell').count(), 12);
+    await close(page);
+  });
+}
+
+test('rows and columns can be exchanged, and any axis can be either', async () => {
+  const page = await grid();
+  const columns = await page.locator('.grid').first().locator('.columns th').count();
+  assert.ok(columns >= 2);
+  await page.getByRole('button', { name: 'Exchange rows and columns' }).click();
+  assert.deepEqual((await heads(page)).sort(), ['front', 'side']);
+  await page.getByRole('combobox', { name: 'Rows', exact: true }).selectOption({ label: 'exponent' });
+  assert.deepEqual(await heads(page), ['exponent 16', 'exponent 128']);
+  const again = await open(browser, page.url());
+  assert.deepEqual(await heads(again), ['exponent 16', 'exponent 128']);
+  assert.equal(await again.locator('.grid .cell').count(), 12);
+  await close(again);
+  await close(page);
+});
+
+test('text and status filter, and say how many are left', async () => {
+  const page = await grid();
+  await page.keyboard.press('/');
+  await page.keyboard.type('blinn SIDE');
+  assert.equal(await page.locator('.count').textContent(), 'showing 2 of 12');
+  assert.equal(await page.locator('.grid .cell').count(), 2);
+  await page.locator('#find').fill('');
+  await page.getByRole('combobox', { name: 'Status', exact: true }).selectOption('failed');
+  assert.equal(await page.locator('.count').textContent(), 'showing 1 of 12');
+  assert.equal((await hashOf(page)).status, 'failed');
+  await page.locator('#find').fill('no such cell');
+  await page.getByText('No cell is like that.').waitFor();
+  await close(page);
+});
+
+test('failures can come first, then the largest differences', async () => {
+  const page = await grid('#order=worst');
+  const statuses = await page.locator('.cell-list .cell').evaluateAll((cells) => cells.map((c) => c.className.replace('cell ', '')));
+  assert.deepEqual(statuses.slice(0, 3), ['failed', 'differs', 'missing']);
+  assert.ok(statuses.slice(3).every((s) => s === 'pass'));
+  await close(page);
+});
+
+test('any metric of any engine colours the cells, and its scale is shown', async () => {
+  const page = await grid();
+  for (const [label, words] of [['Blender: Largest difference, of the peak', /0\.1 %/], ['POV-Ray: Largest difference', /5e−6/]]) {
+    await page.getByRole('combobox', { name: 'Colour', exact: true }).selectOption({ label });
+    assert.match(await page.locator('.legend-bar').textContent(), words);
+    assert.match(await page.locator('.cell .value').first().textContent(), words);
+    assert.notEqual(await page.locator('.swatch').first().evaluate((s) => s.style.background), '');
+  }
+  await page.getByRole('combobox', { name: 'Colour', exact: true }).selectOption('status');
+  assert.equal(await page.locator('.swatch:visible').count(), 0);
+  await close(page);
+});
+
+test('a cell leads to its page, and one named like markup is text everywhere', async () => {
+  const page = await grid();
+  await page.getByRole('link', { name: kHostile }).first().click();
+  await page.waitForSelector('h1');
+  assert.ok((await page.locator('h1').textContent()).includes(kHostile));
+  assert.equal(await page.evaluate(() => document.querySelectorAll('img[onerror]').length), 0);
+  await page.waitForFunction(() => Number(document.querySelector('.stage')?.dataset.ready) >= 2);
+  assert.ok(existsSync(path.join(site, 'cells', `${kHostile}-16-front`, 'lobelia.float.js')));
+  await close(page);
+});
+
+test('two thousand cells are all there, but only the pictures in view are loaded', async () => {
+  const page = await open(browser, fileUrl(many) + 'index.html');
+  assert.equal(await page.locator('.count').textContent(), 'showing 2000 of 2000');
+  assert.equal(await page.locator('.cell').count(), 2000);
+  assert.equal(await page.locator('.cell img:not([loading=lazy])').count(), 0);
+  await page.locator('#find').fill('model 7');
+  assert.equal(await page.locator('.count').textContent(), 'showing 40 of 2000');
+  await page.getByRole('button', { name: 'Exchange rows and columns' }).click();
+  assert.equal(await page.locator('.cell').count(), 40);
+  await close(page);
+  const long = await open(browser, fileUrl(many) + 'index.html#order=worst&status=pass');
+  await long.waitForFunction(() => document.querySelector('.cell img')?.complete);
+  const pictures = await long.evaluate(() => [...document.querySelectorAll('.cell img')].map((i) => i.complete && i.naturalWidth > 0));
+  assert.equal(pictures.length, 500);
+  const loaded = pictures.filter(Boolean).length;
+  assert.ok(loaded > 0 && loaded < 300, `${loaded} of 500 pictures`);
+  await close(long);
+});
+
+test('without script the grid and its links are there', async () => {
+  const page = await open(browser, fileUrl(site) + 'index.html', { javaScriptEnabled: false });
+  assert.equal(await page.locator('td.cell a img').count(), 11);
+  await close(page);
+});
+
+test('axe finds nothing in the grid and in the list, in light and in dark', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    for (const hash of ['', '#order=worst&find=blinn']) {
+      const page = await open(browser, fileUrl(site) + 'index.html' + hash, { colorScheme });
+      await requireAccessible(page, `grid ${hash} in ${colorScheme}`);
+      await close(page);
+    }
+  }
+});
