@@ -17,7 +17,7 @@ namespace {
 constexpr double kRightAngle = std::numbers::pi / 2;
 constexpr int kCurvePoints = 80, kAlbedoPoints = 20;
 // Values are stored as multiples of this: of their logarithm, or of a root that is at most 1.
-constexpr double kLogarithmUnit = 5e-5, kRootUnit = 1e-6;
+constexpr double kLogarithmUnit = 1e-4, kRootUnit = 1e-6;
 constexpr double kLeast = 1e-40;  // stands for 0, which has no logarithm
 
 /// Angles that crowd where a highlight of this exponent is: 0 to `reach`, `points` of them after 0.
@@ -108,8 +108,12 @@ Json highlight_table(ModelId model, LobeId lobe, std::span<const double> exponen
     json["paper"] = coefficients(model, lobe, Normalisation::kPaper, exponents);
   json["unit"] = kLogarithmUnit;
   json["seen"] = albedos(model, lobe, exponents, directional_albedo);
+  // Without what grows without bound: a cubic follows the rest.
+  const auto lit_foreshortened = [](const Highlight& h, double incidence) {
+    return directional_albedo_of_light(h, incidence) * std::cos(incidence);
+  };
   if (reciprocity_gap({model, lobe, Normalisation::kExact, exponents.front()}) > kSame)
-    json["lit"] = albedos(model, lobe, exponents, directional_albedo_of_light);
+    json["lit"] = albedos(model, lobe, exponents, lit_foreshortened);
   return json;
 }
 

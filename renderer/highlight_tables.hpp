@@ -20,6 +20,9 @@ std::vector<double> table_exponents();
 inline constexpr double kCurveTableError = 2e-4, kAlbedoTableError = 2e-3, kWidthTableError = 1e-4,
                         kCoefficientTableError = 1e-3;
 
+/// By how much the cubic through four neighbouring incidences may be off between them, of 1 or of an albedo above it.
+inline constexpr double kAlbedoDrawnError = 1e-2;
+
 /// Record of kind highlight-tables (docs/records.md) at these exponents, each at least 1. Computes on all processors;
 /// for table_exponents() a few seconds.
 Json highlight_tables(std::span<const double> exponents);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "renderer/albedo.hpp"
 #include "renderer/highlight_tables.hpp"
 
 namespace lobelia {
@@ -93,6 +94,37 @@ TEST_F(HighlightTables, GiveBetweenTheirExponentsWhatTheRendererGives) {
                                    [&](const Json& at) { return at[i].get<double>() * unit; }),
                       exact[side][e][i].get<double>() * unit, kAlbedoTableError)
               << name << " " << side << " at " << n << ", point " << i;
+      }
+    }
+  }
+}
+
+/// Incidence of a place between the numbers of an albedo, counted from grazing.
+double incidence(double place, double last, double n) {
+  const double most = std::asinh(kMostGrazing * std::sqrt(n));
+  return kMostGrazing * (1 - std::sinh(most * place / last) / std::sinh(most));
+}
+
+TEST_F(HighlightTables, AreDenseEnoughInIncidenceForACubicThroughFourNeighbours) {
+  for (const Json& highlight : (*table_)["highlights"]) {
+    const Highlight h{*find_model(highlight["model"].get<std::string>()),
+                      *find_lobe(highlight["lobe"].get<std::string>())};
+    for (const char* side : {"seen", "lit"}) {
+      if (!highlight.contains(side)) continue;
+      const auto albedo = side[0] == 's' ? directional_albedo : directional_albedo_of_light;
+      for (const std::size_t e : {0u, 12u, 24u, 42u}) {
+        const double n = (*table_)["exponents"][e];
+        const auto row = highlight[side][e].get<std::vector<double>>();
+        for (std::size_t i = 1; i + 2 < row.size(); ++i) {
+          const double at = incidence(double(i) + 0.5, double(row.size() - 1), n);
+          const double middle = (9 * (row[i] + row[i + 1]) - row[i - 1] - row[i + 2]) / 16 *
+                                highlight["unit"].get<double>();
+          const double truth = albedo({h.model, h.lobe, Normalisation::kExact, n}, at);
+          const double drawn = std::exp(middle) / (side[0] == 'l' ? std::cos(at) : 1);
+          EXPECT_NEAR(drawn, truth, kAlbedoDrawnError * std::max(1.0, truth))
+              << highlight["model"] << " " << highlight["lobe"] << " " << side << " at " << n
+              << ", point " << i;
+        }
       }
     }
   }
