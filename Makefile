@@ -37,7 +37,7 @@ references: ## measures how far ours and every engine are from the formulas, int
 	"build/$(PRESET)/bin/lobelia" verify references -o out/references
 
 test: ## builds everything and runs the test suite
-	$(setup) build engines browser
+	$(setup) build engines browser slurm
 	$(npm)
 	$(configure)
 	$(build)

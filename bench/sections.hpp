@@ -13,6 +13,7 @@ void threads();                 ///< efficiency on 1 to all processors
 void sizes(const std::string& program);  ///< whole commands, 256^2 to 8192^2, with peak memory
 void comparisons(
     const std::string& program);  ///< of large pictures with peak memory, and of folders
+void plan();                      ///< cells of a grid, planned per second
 void exr();                       ///< packing and writing pictures
 
 }  // namespace lobelia::bench

@@ -5,7 +5,7 @@
 
 #include "bench/sections.hpp"
 
-/// speed lobes|pictures|threads|exr, speed trace SCENE, speed sizes|comparisons PROGRAM
+/// speed lobes|pictures|threads|plan|exr, speed trace SCENE, speed sizes|comparisons PROGRAM
 int main(int count, char** arguments) {
   using namespace lobelia::bench;
   const std::string_view what = count > 1 ? arguments[1] : "";
@@ -22,6 +22,8 @@ int main(int count, char** arguments) {
     sizes(which);
   else if (what == "comparisons")
     comparisons(which);
+  else if (what == "plan")
+    plan();
   else if (what == "exr")
     exr();
   else

@@ -7,6 +7,8 @@
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
+#include "cli/farm_slurm.hpp"
+#include "cli/farm_upkeep.hpp"
 #include "cli/progress.hpp"
 #include "cli/warnings.hpp"
 
@@ -14,29 +16,122 @@ namespace lobelia::cli {
 namespace {
 
 struct Options {
-  std::string grid, directory;
+  std::string grid, directory, cache, filter;
   EnginePrograms programs;
-  int threads = 0;
-  double time_limit = 600;
-  bool again = false, quiet = false;
+  SlurmSettings slurm;
+  int threads = 0, attempts = 3;
+  double time_limit = 600, no_progress_limit = 300;
+  bool again = false, quiet = false, dry_run = false, fail_fast = false, keep_going = false;
 };
+
+FarmOptions farm_options(const Options& options) {
+  FarmOptions farm;
+  farm.programs = options.programs.given();
+  farm.threads = options.threads;
+  farm.attempts = options.attempts;
+  farm.time_limit = std::chrono::duration<double>(options.time_limit);
+  farm.no_progress_limit = std::chrono::duration<double>(options.no_progress_limit);
+  farm.fail_fast = options.fail_fast;
+  farm.again = options.again;
+  farm.cache = options.cache;
+  farm.filter = JobFilter(options.filter);
+  farm.command = command_line();
+  return farm;
+}
+
+void dry_run(const Grid& grid, const Options& options) {
+  fmt::memory_buffer lines;
+  const auto flush = [&] {
+    std::fwrite(lines.data(), 1, lines.size(), stdout);
+    lines.clear();
+  };
+  const FarmPlan plan =
+      plan_farm(grid, options.directory, farm_options(options),
+                [&](const std::string& name, const std::string& reason) {
+                  fmt::format_to(std::back_inserter(lines), "{}: {}\n", name, reason);
+                  if (lines.size() > 1 << 16) flush();
+                });
+  flush();
+  for (const auto& sentence : plan.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
+  fmt::print("{} cells, {} jobs: {} to be done, {} not\n", plan.cells, plan.jobs, plan.wanted,
+             plan.jobs - plan.wanted);
+}
+
+/// How well the machine was used, and what the farm itself cost.
+std::string work_text(const FarmSummary& summary) {
+  const JobRunWork& work = summary.work;
+  std::string text;
+  if (work.wall_seconds > 0 && work.made > 0)
+    text += fmt::format(
+        "cores: {:.0f} % of {} x {:.1f} s went to engines and kernels; own cost {:.2f} ms for each result\n",
+        100 * work.busy(), work.processors, work.wall_seconds,
+        1000 * work.own_cpu_seconds / double(work.made));
+  if (summary.cached_cells > 0)
+    text += fmt::format("cache: {} cells were there, {:.3f} ms each\n", summary.cached_cells,
+                        1000 * summary.cached_seconds / double(summary.cells));
+  return text;
+}
+
+ExitCode report(const FarmSummary& summary, const Options& options) {
+  for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
+  for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
+  if (summary.foreign > 0)
+    fmt::print(stderr, "lobelia: {}/cells also holds {} cells that are not of this grid\n",
+               options.directory, summary.foreign);
+  if (summary.work.different > 0)
+    fmt::print(
+        stderr,
+        "lobelia: {} results that another farm made first have other pixels than ours; theirs stay\n",
+        summary.work.different);
+  for (const auto& warning : summary.warnings) warn(warning);
+  const auto some = [](std::size_t count, const char* what) {
+    return count > 0 ? fmt::format(", {} {}", count, what) : "";
+  };
+  fmt::print("{} cells: {} failed, {} differ, {} pass{}{}{}; {} pictures rendered, {} kept\n",
+             summary.cells, summary.failed, summary.differs, summary.pass,
+             some(summary.undecided, "undecided"), some(summary.unchecked, "not compared"),
+             some(summary.missing, "not done"), summary.rendered, summary.kept);
+  if (!options.quiet) fmt::print("{}", work_text(summary));
+  if (summary.failed > 0) return ExitCode::kOutput;
+  return summary.differs + summary.undecided > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
+}
+
+ExitCode run_on_cluster(const Grid& grid, const Options& options) {
+  const SlurmFarmSummary summary =
+      follow(options.slurm.run_options(), options.quiet, [&](const SlurmRunOptions& slurm) {
+        return run_farm_on_slurm(grid, options.grid, options.directory, farm_options(options),
+                                 slurm);
+      });
+  if (summary.slurm.detached) {
+    fmt::print("submitted; 'lobelia farm status {}' looks at it\n", options.directory);
+    return ExitCode::kSuccess;
+  }
+  const ExitCode code = report(summary.farm, options);
+  if (code != ExitCode::kOutput && !summary.slurm.missing.empty()) {
+    fmt::print(stderr,
+               "lobelia: {} jobs have no result after {} rounds; the same command tries again\n",
+               summary.slurm.missing.size(), summary.slurm.rounds);
+    return ExitCode::kOutput;
+  }
+  return code;
+}
 
 ExitCode run(const Options& options) {
   const Grid grid = read_grid(options.grid);
+  if (options.dry_run) {
+    dry_run(grid, options);
+    return ExitCode::kSuccess;
+  }
+  if (options.slurm.is_wanted()) return run_on_cluster(grid, options);
   ProgressLine line(!options.quiet);
-  FarmOptions farm_options;
-  farm_options.programs = options.programs.given();
-  farm_options.threads = options.threads;
-  farm_options.time_limit = std::chrono::duration<double>(options.time_limit);
-  farm_options.again = options.again;
-  farm_options.command = command_line();
-  farm_options.on_progress = [&](const FarmProgress& progress) {
+  FarmOptions farm = farm_options(options);
+  farm.on_progress = [&](const FarmProgress& progress) {
     if (progress.total > 0)
       line.show(double(progress.done) / double(progress.total), progress.running);
   };
   FarmSummary summary;
   try {
-    summary = run_farm(grid, options.directory, farm_options);
+    summary = run_farm(grid, options.directory, farm);
   } catch (const Error& error) {
     line.clear();
     if (error.code() != ExitCode::kInterrupted) throw;
@@ -44,20 +139,7 @@ ExitCode run(const Options& options) {
                 "interrupted; what is done is kept, and the same command goes on from there");
   }
   line.clear();
-
-  for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
-  if (summary.foreign > 0)
-    fmt::print(stderr, "lobelia: {}/cells also holds {} cells that are not of this grid\n",
-               options.directory, summary.foreign);
-  for (const auto& warning : summary.warnings) warn(warning);
-  for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
-  fmt::print("{} cells: {} pass, {} differ, {} failed{}{}; {} pictures rendered, {} kept\n",
-             summary.cells, summary.pass, summary.differs, summary.failed,
-             summary.undecided > 0 ? fmt::format(", {} undecided", summary.undecided) : "",
-             summary.unchecked > 0 ? fmt::format(", {} not compared", summary.unchecked) : "",
-             summary.rendered, summary.kept);
-  if (summary.failed > 0) return ExitCode::kEngine;
-  return summary.differs + summary.undecided > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
+  return report(summary, options);
 }
 
 }  // namespace
@@ -65,28 +147,63 @@ ExitCode run(const Options& options) {
 void add_farm(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("farm", "Render, reference and compare every cell of a grid");
   auto options = std::make_shared<Options>();
-  command->add_option("GRID", options->grid, "Grid file (docs/grid_format.md)")->required();
+  command->add_option("GRID", options->grid, "Grid file (docs/grid_format.md)");
   command->add_option("-o,--output", options->directory, "Directory for pictures and records")
-      ->required()
       ->type_name("DIR");
+  command
+      ->add_option(
+          "--cache", options->cache,
+          "Where results are kept, for any number of grids; $LOBELIA_CACHE, else DIR/cache")
+      ->type_name("DIR");
+  command->add_flag("--dry-run", options->dry_run, "Only list the jobs and why each is to be done");
+  command
+      ->add_option(
+          "--filter", options->filter,
+          "Only jobs of these names: 'phong*:-*blender' is those that begin with phong and do "
+          "not end in blender")
+      ->type_name("PATTERNS");
   command->add_option("--threads", options->threads, "Threads; 0 is all processors")
       ->check(between(0, 1024))
       ->capture_default_str();
-  command
-      ->add_option("--time-limit", options->time_limit, "Seconds an engine may take for a picture")
+  command->add_option("--time-limit", options->time_limit, "Seconds that a picture may take")
       ->check(between(0.1, 1e6))
       ->capture_default_str();
-  command->add_flag("--again", options->again, "Make everything again, current or not");
+  command
+      ->add_option("--no-progress-limit", options->no_progress_limit,
+                   "Seconds in which an engine may say and write nothing; 0 is any")
+      ->check(between(0, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--attempts", options->attempts,
+                   "At a picture that fails in a way that may not repeat itself")
+      ->check(between(1, 100))
+      ->capture_default_str();
+  auto* fail_fast =
+      command->add_flag("--fail-fast", options->fail_fast, "Stop at the first failure");
+  command
+      ->add_flag("--keep-going", options->keep_going,
+                 "A failure stops nothing else (as without it)")
+      ->excludes(fail_fast);
+  command->add_flag("--again", options->again, "Make everything again, in the cache or not");
   command->add_flag("-q,--quiet", options->quiet, "No progress");
   options->programs.add_to(*command);
+  options->slurm.add_to(*command);
+  add_farm_upkeep(*command, exit_code);
+  add_farm_slurm(*command, exit_code);
   command->footer(
-      "What is there and current is kept: a second run does only what is missing. Ctrl-C leaves\n"
-      "nothing half-written. An engine that is not installed is left out, as the records say.\n\n"
-      "Exit codes: 0 every cell agrees, 1 some differ, 3 bad grid, 4 cannot write, 5 some cell\n"
-      "could not be rendered, 130 interrupted.\n\n"
+      "What the cache has is not made again, whichever grid it was made for. Ctrl-C leaves nothing\n"
+      "half-written, and the same command goes on from there. An engine that is not installed is left\n"
+      "out, as the records say. docs/farm.md tells the rest.\n\n"
+      "Exit codes: 0 every cell agrees, 1 some differ, 3 bad grid, 4 some job failed or nothing can be\n"
+      "written, 5 a program given by its path is not that engine, 130 interrupted.\n\n"
       "Example: lobelia farm reference_scenes/grids/sphere_grid.xml -o out/gallery\n"
       "         lobelia gallery out/gallery");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([command, options, &exit_code] {
+    if (!command->get_subcommands().empty()) return;
+    if (options->grid.empty()) throw CLI::RequiredError("GRID");
+    if (options->directory.empty()) throw CLI::RequiredError("--output");
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace lobelia::cli

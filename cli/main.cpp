@@ -54,13 +54,12 @@ std::string unknown_subcommand(CLI::App& app, int argc, char** argv) {
     std::vector<std::string_view> names;
     for (const auto* sub : command->get_subcommands({})) names.push_back(sub->get_name());
     if (names.empty()) break;
-    const bool known = std::find(names.begin(), names.end(), argv[i]) != names.end();
-    // "gallery RUN" beside "gallery serve DIR": a word that is no subcommand is the operand.
-    const bool has_operand = command->get_option_no_throw("RUN") != nullptr;
-    if (!known && has_operand) break;
-    if (!known)
+    if (std::find(names.begin(), names.end(), argv[i]) == names.end()) {
+      // `farm GRID` and `farm status DIR`: what is no subcommand is a file.
+      if (command->get_require_subcommand_min() == 0) break;
       return fmt::format("unknown subcommand '{}'; allowed: {}{}", printable(argv[i]), join(names),
                          did_you_mean(argv[i], names));
+    }
     command = command->get_subcommand(argv[i]);
   }
   return "";

@@ -13,8 +13,8 @@ enum class ExitCode : int {
       1,  ///< it ran, and the answer is no: over a threshold, non-finite pixels, cells that differ
   kUsage = 2,         ///< the command line is wrong
   kInput = 3,         ///< an input cannot be read, is invalid, or does not fit the other one
-  kOutput = 4,        ///< an output cannot be written
-  kEngine = 5,        ///< a reference engine is missing or failed, a cell could not be rendered
+  kOutput = 4,        ///< an output is not there: it cannot be written, or a job of a farm failed
+  kEngine = 5,        ///< a reference engine is missing or failed
   kInternal = 70,     ///< a bug of ours
   kInterrupted = 130  ///< Ctrl-C
 };

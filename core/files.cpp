@@ -3,13 +3,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <random>
 #include <utility>
 
 #include "core/error.hpp"
@@ -18,6 +19,8 @@
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr char kTemporaryName[] = "lobelia-temporary-";
 
 /// Closes on every way out; close() errors are looked at where they matter.
 struct FileDescriptor {
@@ -56,10 +59,11 @@ fs::path final_target(const fs::path& path) {
   return target;
 }
 
+/// By chance besides the process's number, which another machine or container may have too.
 fs::path temporary_name(const fs::path& path) {
-  static std::atomic<unsigned> counter{0};
+  static thread_local std::random_device device;
   return path.parent_path() /
-         fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), counter++);
+         fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), device());
 }
 
 }  // namespace
@@ -94,6 +98,7 @@ PartFile::PartFile(const fs::path& path)
     : path_(path), target_(final_target(path)), part_(temporary_name(target_)) {
   fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd_ < 0) output_error(path, errno);
+  ::flock(fd_, LOCK_EX);  // by which others see that it is not abandoned
 }
 
 PartFile::~PartFile() {
@@ -164,14 +169,32 @@ TemporaryDirectory::TemporaryDirectory() {
   if (error)
     throw Error(ExitCode::kOutput,
                 fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
-  std::string name = (parent / "lobelia-XXXXXX").string();
+  std::string name = (parent / kTemporaryName).string() + "XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
   path_ = name;
+  alive_ = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (alive_ >= 0) ::flock(alive_, LOCK_EX);
 }
 
 TemporaryDirectory::~TemporaryDirectory() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+  if (alive_ >= 0) ::close(alive_);
+}
+
+void remove_abandoned_temporaries() {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(error), error)) {
+    if (!entry.path().filename().native().starts_with(kTemporaryName)) continue;
+    const FileDescriptor directory{
+        ::open(entry.path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)};
+    struct stat status {};
+    // One that is empty may have been made just now, and be locked next.
+    if (directory.fd < 0 || ::fstat(directory.fd, &status) != 0 || status.st_uid != ::geteuid() ||
+        ::flock(directory.fd, LOCK_EX | LOCK_NB) != 0 || fs::is_empty(entry.path(), error) || error)
+      continue;
+    fs::remove_all(entry.path(), error);
+  }
 }
 
 void remove_abandoned_files(const fs::path& directory) {
@@ -186,6 +209,9 @@ void remove_abandoned_files(const fs::path& directory) {
         !parse_integer(name.substr(dot + 1, dash - dot - 1), pid) || pid <= 0)
       continue;
     if (::kill(pid_t(pid), 0) == 0 || errno != ESRCH) continue;
+    // There is no such process here; on another machine there may be.
+    const FileDescriptor file{::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
+    if (file.fd < 0 || ::flock(file.fd, LOCK_EX | LOCK_NB) != 0) continue;
     fs::remove(entry.path(), error);
   }
 }

@@ -56,10 +56,14 @@ class TemporaryDirectory {
 
  private:
   std::filesystem::path path_;
+  int alive_ = -1;  ///< locked until this object or its process ends
 };
 
+/// Removes the directories of TemporaryDirectory that a killed process of this user has left behind.
+void remove_abandoned_temporaries();
+
 /// Removes from `directory` the temporary files of write_file (".NAME.PID-N.part") whose process is
-/// gone: what a killed run left behind.
+/// gone, on this machine or another: what a killed run left behind.
 void remove_abandoned_files(const std::filesystem::path& directory);
 
 }  // namespace lobelia

@@ -1,5 +1,7 @@
 #include "core/interrupt.hpp"
 
+#include <unistd.h>
+
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -17,12 +19,21 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_a
 
 /// Running groups, 0 where none; more at once than any engine starts. One that finds no place is
 /// still killed by whoever waits for it, only not by a second Ctrl-C.
-std::array<std::atomic<pid_t>, 256> g_groups{};
+std::array<std::atomic<pid_t>, 4096> g_groups{};
 
 /// timeout(1) and others send a signal to the process and to its group: that is one wish, told twice.
 constexpr std::int64_t kOneWishNanoseconds = 300'000'000;
 std::atomic<std::int64_t> g_first_time{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+/// Two places in turn: the handler may come while one is written.
+constexpr std::size_t kMaxLastWords = 1000;
+struct LastWords {
+  std::size_t size = 0;
+  char text[kMaxLastWords];
+};
+LastWords g_last_words[2];
+std::atomic<int> g_last_words_index{0};
 
 std::int64_t now() {  // clock_gettime may be called in a signal handler
   timespec time{};
@@ -37,6 +48,9 @@ void on_signal(int signal) {
   }
   if (now() - g_first_time < kOneWishNanoseconds) return;
   // Whoever presses Ctrl-C twice means it.
+  const LastWords& words = g_last_words[g_last_words_index];
+  if (words.size > 0 && ::write(2, words.text, words.size) < 0) {  // nothing to be done about it
+  }
   for (auto& group : g_groups)
     if (const pid_t pid = group) ::kill(-pid, SIGKILL);
   std::signal(signal, SIG_DFL);
@@ -55,6 +69,12 @@ bool interrupted() { return g_interrupted; }
 
 void throw_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted");
+}
+
+void set_last_words(std::string_view text) {
+  const int next = 1 - g_last_words_index;
+  g_last_words[next].size = text.copy(g_last_words[next].text, kMaxLastWords);
+  g_last_words_index = next;
 }
 
 InterruptibleGroup::InterruptibleGroup(pid_t group) {

@@ -3,6 +3,8 @@
 
 #include <sys/types.h>
 
+#include <string_view>
+
 namespace lobelia {
 
 /// Makes SIGINT, SIGTERM and SIGHUP set the flag. A second one, 0.3 s later or more, ends the process at
@@ -12,6 +14,10 @@ void catch_interrupts();
 bool interrupted();
 /// Throws Error(kInterrupted) if interrupted().
 void throw_if_interrupted();
+
+/// What a second Ctrl-C writes to stderr before it ends the process; at most 1000 bytes of it. Whoever holds
+/// something that goes on without us says there where. One at a time; not for several threads.
+void set_last_words(std::string_view text);
 
 /// Holds a child's process group where a second Ctrl-C finds it, for as long as this object lives.
 class InterruptibleGroup {

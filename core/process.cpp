@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <future>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -67,14 +69,18 @@ std::vector<std::string> environment_with(const std::vector<std::string>& change
 /// and the terminal's Ctrl-C is ours to pass on.
 pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& options, int output) {
   SpawnActions spawn;
-  posix_spawn_file_actions_addopen(spawn.actions(), 0, "/dev/null", O_RDONLY, 0);
+  if (options.input >= 0)
+    posix_spawn_file_actions_adddup2(spawn.actions(), options.input, 0);
+  else
+    posix_spawn_file_actions_addopen(spawn.actions(), 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(spawn.actions(), output, 1);
   posix_spawn_file_actions_adddup2(spawn.actions(), output, 2);
   if (!options.working_directory.empty())
     posix_spawn_file_actions_addchdir_np(spawn.actions(), options.working_directory.c_str());
   posix_spawnattr_setflags(spawn.attributes(), POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(spawn.attributes(), 0);
-  const std::vector<std::string> variables = environment_with(options.environment);
+  const std::vector<std::string> variables =
+      options.only_environment ? options.environment : environment_with(options.environment);
   std::vector<char*> argv, envp;
   for (const auto& variable : variables) envp.push_back(const_cast<char*>(variable.c_str()));
   envp.push_back(nullptr);
@@ -119,6 +125,51 @@ class OutputSink {
   std::string tail_, line_;
 };
 
+/// Changes whenever a file in the directory appears, goes, grows or is written. Times are only told apart,
+/// never ordered: the clock may have been set.
+std::uint64_t fingerprint(const fs::path& directory) {
+  std::uint64_t sum = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator file(directory, error), end; !error && file != end;
+       file.increment(error)) {
+    std::error_code gone;  // files come and go while we look
+    const std::uint64_t size = file->is_regular_file(gone) ? file->file_size(gone) : 0;
+    const auto written = file->last_write_time(gone).time_since_epoch().count();
+    sum += std::hash<std::string>()(
+        fmt::format("{} {} {}", file->path().native(), size, std::int64_t(written)));
+  }
+  return sum;
+}
+
+/// When the program last did something that can be seen from outside.
+class Progress {
+ public:
+  explicit Progress(const ProcessOptions& options) : options_(options) { look(); }
+  void seen() { last_ = Clock::now(); }
+  bool is_over() {
+    if (options_.no_progress_limit.count() <= 0) return false;
+    const auto limit = options_.no_progress_limit;
+    if (Clock::now() - looked_ >= std::min<std::chrono::duration<double>>(limit / 4, kLookEvery))
+      look();
+    return Clock::now() - last_ > limit;
+  }
+
+ private:
+  static constexpr std::chrono::seconds kLookEvery{1};
+  void look() {
+    looked_ = Clock::now();
+    if (options_.no_progress_limit.count() <= 0 || options_.progress_directory.empty()) return;
+    const std::uint64_t now = fingerprint(options_.progress_directory);
+    if (now != fingerprint_) seen();
+    fingerprint_ = now;
+  }
+  const ProcessOptions& options_;
+  Clock::time_point last_ = Clock::now(), looked_;
+  std::uint64_t fingerprint_ = 0;
+};
+
+double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
+
 }  // namespace
 
 ProcessResult run_process(const std::vector<std::string>& arguments,
@@ -154,7 +205,8 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
       if (!reaped) ::waitpid(pid, nullptr, 0);
     }
   } guard{pid, ends[0]};
-  const InterruptibleGroup interruptible(pid);
+  std::optional<InterruptibleGroup> interruptible;
+  if (!options.uninterruptible) interruptible.emplace(pid);
 
   if (options.on_start) options.on_start(writes_limited);
   ProcessResult result;
@@ -163,6 +215,8 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     flag = true;
     ::kill(-pid, SIGKILL);
   };
+  Progress progress(options);
+  rusage used{};
   int status = 0;
   bool ended = false, open = true;
   char buffer[16384];
@@ -172,24 +226,30 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     const int ready = open ? ::poll(&wait, 1, ended ? 0 : 50) : (::usleep(10000), 0);
     if (ready > 0) {
       const ssize_t n = ::read(ends[0], buffer, sizeof buffer);
-      if (n > 0)
+      if (n > 0) {
+        progress.seen();
         sink.take({buffer, std::size_t(n)});
-      else if (n == 0 || errno != EINTR)
+      } else if (n == 0 || errno != EINTR) {
         open = false;
+      }
     } else if (ended) {
       break;
     }
-    if (!ended) guard.reaped = ended = ::waitpid(pid, &status, WNOHANG) == pid;
-    if (!ended && !result.timed_out && !result.interrupted) {
-      if (interrupted())
+    if (!ended) guard.reaped = ended = ::wait4(pid, &status, WNOHANG, &used) == pid;
+    if (!ended && !result.timed_out && !result.no_progress && !result.interrupted) {
+      if ((interrupted() && !options.uninterruptible) || (options.stop && *options.stop))
         stop(result.interrupted);
       else if (seconds() > options.timeout)
         stop(result.timed_out);
+      else if (progress.is_over())
+        stop(result.no_progress);
     }
   }
   sink.flush_line();
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.seconds = seconds().count();
+  result.cpu_seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+  result.peak_memory_bytes = std::uint64_t(used.ru_maxrss) * 1024;
   result.output_tail = sink.tail();
   return result;
 }

@@ -1,7 +1,9 @@
 // Running another program: arguments are never seen by a shell, its output goes to a log.
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -13,9 +15,18 @@ namespace lobelia {
 struct ProcessOptions {
   std::filesystem::path working_directory;  ///< empty: ours
   std::vector<std::string> environment;     ///< "NAME=value", in place of ours or besides
+  bool only_environment = false;            ///< it gets nothing of ours besides
+  /// Neither the first interruption ends it nor the second: for a short step that must not be cut in two.
+  bool uninterruptible = false;
   std::filesystem::path writable;  ///< the only place where it may write; empty: wherever we may
   std::filesystem::path log;       ///< receives stdout and stderr; empty: dropped
+  int input = -1;  ///< a file descriptor for its stdin, which stays the caller's; -1: /dev/null
   std::chrono::duration<double> timeout = std::chrono::hours(1);
+  /// Longest time without a sign of progress: output, or any change of a file in `progress_directory`,
+  /// looked at about once a second. 0: none.
+  std::chrono::duration<double> no_progress_limit{0};
+  std::filesystem::path progress_directory;       ///< empty: only output counts
+  const std::atomic<bool>* stop = nullptr;        ///< killed, as interrupted, once this is true
   std::function<void(std::string_view)> on_line;  ///< called with each line of output, if set
   /// Called once it runs, if set: whether the kernel holds it to `writable` (core/write_limit.hpp).
   std::function<void(bool writes_limited)> on_start;
@@ -24,13 +35,17 @@ struct ProcessOptions {
 struct ProcessResult {
   int exit_code = 0;         ///< of the program, or 128 + signal
   bool timed_out = false;    ///< it was killed, with all its children
-  bool interrupted = false;  ///< killed because interrupted() became true
+  bool no_progress = false;  ///< likewise
+  bool interrupted = false;  ///< killed because interrupted() or ProcessOptions::stop became true
   double seconds = 0;        ///< wall time
-  std::string output_tail;   ///< the last 4 KiB of its output
+  double cpu_seconds =
+      0;  ///< of it and of those of its children that it waited for: user and system
+  std::uint64_t peak_memory_bytes = 0;  ///< resident, of the largest of them
+  std::string output_tail;              ///< the last 4 KiB of its output
 };
 
 /// Runs `arguments` (the first is the program's path) to its end. Its process group is killed on
-/// time-out and on interruption. Throws Error(kEngine) if it cannot be started.
+/// time-out, for want of progress and on interruption. The clock may be set meanwhile. Throws Error(kEngine) if it cannot be started.
 ProcessResult run_process(const std::vector<std::string>& arguments, const ProcessOptions& options);
 
 /// The program's path if `name` is executable (as a path, or found in $PATH), else empty.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "core/image.hpp"
 #include "core/text.hpp"
+#include "reference_scenes/engine.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -12,8 +14,8 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-/// Safe in a file name on every system: whatever else becomes '_', and so does a dot in front, which
-/// would hide the file or be a directory.
+/// Safe in a file name on every system: whatever else becomes '_', and so does in front a dot, which
+/// would hide the file or be a directory, and a dash, which would be an option.
 std::string file_token(std::string text) {
   std::replace_if(
       text.begin(), text.end(),
@@ -21,7 +23,7 @@ std::string file_token(std::string text) {
         return !std::isalnum(c) && c != '_' && c != '.' && c != '+' && c != '-';
       },
       '_');
-  if (text.starts_with('.')) text.front() = '_';
+  if (text.starts_with('.') || text.starts_with('-')) text.front() = '_';
   return text;
 }
 
@@ -45,19 +47,34 @@ AxisValue parse_model(const std::string& text, const fs::path&) {
           for_each_highlight([m = *model](Highlight& h) { h.model = m; })};
 }
 
-/// "cosine:exact": a normalisation belongs to its lobe, so the two vary together.
+LobeId lobe_of(const std::string& text) {
+  const auto lobe = find_lobe(text);
+  if (!lobe) unknown("lobe", text, lobe_names(), allowed_lobes());
+  return *lobe;
+}
+
+AxisValue parse_lobe(const std::string& text, const fs::path&) {
+  return {text, text, text, for_each_highlight([l = lobe_of(text)](Highlight& h) { h.lobe = l; })};
+}
+
+/// "exact", or "cosine:exact" where a normalisation and its lobe vary together.
 AxisValue parse_normalisation(const std::string& text, const fs::path&) {
   const auto colon = text.find(':');
-  if (colon == text.npos)
-    throw std::runtime_error(
-        fmt::format("'{}' is not LOBE:NORMALISATION, as cs16:paper is", printable(text)));
-  const std::string lobe_text = text.substr(0, colon), how_text = text.substr(colon + 1);
-  const auto lobe = find_lobe(lobe_text);
-  if (!lobe) unknown("lobe", lobe_text, lobe_names(), allowed_lobes());
+  const bool alone = colon == text.npos;
+  const std::string how_text = alone ? text : text.substr(colon + 1);
   const auto how = find_normalisation(how_text);
+  if (!how && alone)
+    throw std::runtime_error(fmt::format(
+        "'{}' is neither a normalisation ({}) nor LOBE:NORMALISATION, as cs16:paper is{}",
+        printable(text), join(normalisation_names()), did_you_mean(text, normalisation_names())));
+  if (alone)
+    return {text, text, text,
+            for_each_highlight([n = *how](Highlight& h) { h.normalisation = n; })};
+  const std::string lobe_text = text.substr(0, colon);
+  const LobeId lobe = lobe_of(lobe_text);
   if (!how) unknown("normalisation", how_text, normalisation_names(), join(normalisation_names()));
   return {text, lobe_text + ", " + how_text, lobe_text + "_" + how_text,
-          for_each_highlight([l = *lobe, n = *how](Highlight& h) {
+          for_each_highlight([l = lobe, n = *how](Highlight& h) {
             h.lobe = l;
             h.normalisation = n;
           })};
@@ -72,24 +89,86 @@ AxisValue parse_exponent(const std::string& text, const fs::path&) {
           for_each_highlight([exponent](Highlight& h) { h.exponent = exponent; })};
 }
 
+Scene scene_of_file(const std::string& text, const fs::path& directory) {
+  Scene scene = read_scene(directory / text);
+  if (const std::string picture = picture_of(scene); !picture.empty())
+    throw std::runtime_error(fmt::format("{}: {}", printable(text), picture));
+  return scene;
+}
+
+/// Named by its file, without directory and extension.
+AxisValue value_of_file(const std::string& text, const fs::path& directory) {
+  const std::string stem = (directory / text).stem().string();
+  std::string label = stem;
+  std::replace(label.begin(), label.end(), '_', ' ');
+  return {text, label, file_token(stem)};
+}
+
+AxisValue parse_scene_file(const std::string& text, const fs::path& directory) {
+  AxisValue value = value_of_file(text, directory);
+  value.scene = std::make_shared<const Scene>(scene_of_file(text, directory));
+  return value;
+}
+
 /// A scene file whose lights replace those of the grid's scene.
 AxisValue parse_light(const std::string& text, const fs::path& directory) {
-  const fs::path file = directory / text;
-  const Scene scene_of_lights = read_scene(file);
-  if (const std::string picture = picture_of(scene_of_lights); !picture.empty())
-    throw std::runtime_error(fmt::format("{}: {}", printable(text), picture));
-  const auto lights = scene_of_lights.lights;
-  std::string label = file.stem().string();
-  std::replace(label.begin(), label.end(), '_', ' ');
-  return {text, label, file_token(file.stem().string()),
-          [lights](Scene& scene) { scene.lights = lights; }};
+  AxisValue value = value_of_file(text, directory);
+  value.apply = [lights = scene_of_file(text, directory).lights](Scene& scene) {
+    scene.lights = lights;
+  };
+  return value;
+}
+
+AxisValue parse_samples(const std::string& text, const fs::path&) {
+  const Parameter& range = kSamplerParameters[0];
+  long long count = 0;
+  if (!parse_integer(text, count) || double(count) < range.min || double(count) > range.max)
+    throw std::runtime_error(
+        fmt::format("samples '{}'; allowed: whole numbers from {:.0f} to {:.0f}", printable(text),
+                    range.min, range.max));
+  return {text, fmt::format("{}", count), fmt::format("spp{}", count),
+          [count](Scene& scene) { scene.sampler.sample_count = int(count); }};
+}
+
+/// "320x240", or one number for a square.
+AxisValue parse_size(const std::string& text, const fs::path&) {
+  const auto cross = text.find('x');
+  const std::string_view whole = text;
+  long long width = 0, height = 0;
+  const bool numbers = parse_integer(whole.substr(0, cross), width) &&
+                       parse_integer(cross == text.npos ? whole : whole.substr(cross + 1), height);
+  const auto is_side = [](long long side) { return side >= 1 && side <= kMaxImageSide; };
+  if (!numbers || !is_side(width) || !is_side(height) || width * height > kMaxImagePixels)
+    throw std::runtime_error(
+        fmt::format("size '{}'; allowed: 256 or 320x240, each side from 1 to {}, {} pixels in all",
+                    printable(text), kMaxImageSide, kMaxImagePixels));
+  return {text, fmt::format("{} × {}", width, height), fmt::format("{}x{}", width, height),
+          [width, height](Scene& scene) {
+            scene.film.width = int(width);
+            scene.film.height = int(height);
+          }};
+}
+
+AxisValue parse_engine(const std::string& text, const fs::path&) {
+  std::vector<std::string_view> names;
+  for (const auto& engine : engine_infos()) {
+    if (engine.name == text) return {text, std::string(engine.title), text};
+    names.push_back(engine.name);
+  }
+  unknown("engine", text, names, join(names));
 }
 
 constexpr AxisKind kAxisKinds[] = {
+    {"scene", "scene files", parse_scene_file},
     {"model", "names of models (lobelia models)", parse_model},
-    {"normalisation", "LOBE:NORMALISATION, such as cs16:paper", parse_normalisation},
+    {"lobe", "names of lobes (lobelia models)", parse_lobe},
+    {"normalisation", "normalisations, or LOBE:NORMALISATION such as cs16:paper",
+     parse_normalisation},
     {"exponent", "numbers", parse_exponent},
     {"light", "scene files whose lights are taken", parse_light},
+    {"samples", "whole numbers, of rays a pixel", parse_samples},
+    {"size", "256 or 320x240, in pixels", parse_size},
+    {"engine", "names of engines", parse_engine},
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,8 +16,11 @@ namespace lobelia {
 struct AxisValue {
   std::string value;  ///< as in the grid file: "cs16:paper"
   std::string label;  ///< for people: "cs16, paper"
-  std::string token;  ///< for file names, of [A-Za-z0-9_.+-]: "cs16_paper"
-  std::function<void(Scene&)> apply;
+  /// For file names, of [A-Za-z0-9_.+-], with neither '.' nor '-' in front: "cs16_paper".
+  std::string token;
+  std::function<void(Scene&)> apply = {};  ///< null where it changes nothing; for any thread
+  std::shared_ptr<const Scene> scene =
+      {};  ///< takes the place of the grid's, before any apply; or null
 };
 
 struct AxisKind {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
-#include "gallery/sha256.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -61,11 +61,11 @@ CellImage read_image(const fs::path& directory, const Fields& entry) {
   if (image.engine.empty()) entry.fail("engine", "must not be empty");
   image.png = look_at_picture(directory, entry.plain_name("png"));
   image.exr = if_there(directory, entry.plain_name("exr"));
-  if (!image.exr.empty()) image.exr_sha256 = sha256_of(directory / image.exr);
   image.log = if_there(directory, image.engine + ".log");
   const std::string record = entry.plain_name("record");
   image.record = if_there(directory, record);
   try {
+    if (!image.exr.empty()) image.exr_sha256 = hex(sha256_of_file(directory / image.exr));
     if (record.empty()) throw Error(ExitCode::kInput, "cell.json names no record of this picture");
     // Ours is a render, everybody else's a reference.
     const char* kind = image.engine == kOurEngine ? "render" : "reference";

@@ -8,7 +8,10 @@ namespace {
 Json picture_json(const Picture& picture) {
   if (!picture.shown()) return nullptr;
   const std::string& file = picture.is_published ? picture.file : picture.small.file;
-  return {{"src", link_to({file})}, {"width", picture.width}, {"height", picture.height}};
+  return {{"src", link_to({file})},
+          {"small", link_to({picture.first_look().file})},
+          {"width", picture.width},
+          {"height", picture.height}};
 }
 
 Json optional_number(const std::optional<double>& value) {
@@ -54,12 +57,14 @@ Json cell_json(const FarmData& farm, const CellEntry& entry, const CellData& cel
   }
   data["comparisons"] = Json::array();
   for (const CellComparison& comparison : cell.comparisons) {
-    data["comparisons"].push_back(
-        {{"a", comparison.a},
-         {"b", comparison.b},
-         {"picture", picture_json(comparison.png)},
-         {"whiteAt", optional_number(comparison.white_at)},
-         {"relativeToPeak", optional_number(comparison.relative_to_peak)}});
+    const auto x = comparison.metric("max_abs.x"), y = comparison.metric("max_abs.y");
+    data["comparisons"].push_back({{"a", comparison.a},
+                                   {"b", comparison.b},
+                                   {"picture", picture_json(comparison.png)},
+                                   {"whiteAt", optional_number(comparison.white_at)},
+                                   {"relativeToPeak", optional_number(comparison.relative_to_peak)},
+                                   {"worstX", optional_number(x)},
+                                   {"worstY", optional_number(y)}});
   }
   data["profile"] = profile_json(cell.profile);
   return data;

@@ -74,12 +74,25 @@ void write_navigation(Html& html, const FarmData& farm, const CellEntry& entry) 
   }
 }
 
-/// How far each is from ours, in the one figure that the grid has too.
+std::string time_text(const CellImage* image) {
+  if (!image) return "–";
+  for (const auto& [stage, seconds] : image->seconds)
+    if (stage == "total") return seconds_text(seconds);
+  return "–";
+}
+
+/// How far each is from ours, in the one figure that the grid has too, and what time each took.
 void write_agreement(Html& html, const FarmData& farm, const CellData& cell) {
   constexpr char kFigure[] = "max_rel_peak";
   if (cell.comparisons.empty()) return;
   const Tag table(html, "table", {{"class", "agreement"}});
-  html.element("caption", metric_note(kFigure).title + ", over all pixels and channels");
+  {
+    const Tag head(html, "thead");
+    const Tag row(html, "tr");
+    for (const std::string& title : {std::string("Picture"), metric_note(kFigure).title,
+                                     std::string("Verdict"), std::string("Time")})
+      html.element("th", {{"scope", "col"}}, title);
+  }
   const Tag body(html, "tbody");
   for (const CellComparison& comparison : cell.comparisons) {
     const Tag row(html, "tr");
@@ -90,7 +103,13 @@ void write_agreement(Html& html, const FarmData& farm, const CellData& cell) {
     if (const double outliers = comparison.metric("outliers").value_or(0); outliers > 0)
       words += ", " + count_text(outliers) + " px beyond the tolerance";
     html.element("td", words);
+    html.element("td", time_text(cell.find_image(comparison.b)));
   }
+  const Tag row(html, "tr");
+  html.element("th", {{"scope", "row"}}, farm.engine_title(kOurEngine));
+  html.element("td", {{"class", "number"}}, "–");
+  html.element("td", "ours");
+  html.element("td", time_text(cell.find_image(kOurEngine)));
 }
 
 void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {

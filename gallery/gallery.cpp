@@ -51,7 +51,7 @@ void require_title(const std::string& title) {
 /// The files of the run that a cell's page shows or links to.
 void copy_cell_files(const fs::path& run, const CellData& cell, Publisher& publisher) {
   const std::string folder = "cells/" + cell.id + "/";
-  for (const std::string& file : files_of(cell)) publisher.copy(run / folder / file, folder + file);
+  for (const std::string& file : files_of(cell)) publisher.copy(run, folder + file);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ fs::path write_gallery(const fs::path& run, const GalleryOptions& options) {
       frame.data = std::string(view->name) + ".data.js";
       publisher.write(frame.data, data_script("page", page.data));
     }
-    for (const std::string& file : page.files) publisher.copy(run / file, file);
+    for (const std::string& file : page.files) publisher.copy(run, file);
     publisher.write(frame.path, finish_page(site, frame, page.main));
   }
 

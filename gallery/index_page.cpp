@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "core/numbers.hpp"
 #include "gallery/names.hpp"
@@ -12,6 +13,11 @@ namespace lobelia::gallery {
 namespace {
 
 constexpr std::size_t kMostReasons = 3;  // per cell; its page has them all
+// Of the cells to look at first, those that stand there and those that can be unfolded; the grid has all.
+constexpr std::size_t kMostShown = 6, kMostFolded = 200;
+/// What is worst first. A cell that was not compared or not done yet needs no look.
+constexpr CellStatus kLookOrder[] = {CellStatus::kFailed, CellStatus::kUnreadable,
+                                     CellStatus::kDiffers, CellStatus::kUndecided};
 
 /// "POV-Ray and Blender Cycles"
 std::string reference_titles(const FarmData& farm, bool available_only) {
@@ -47,31 +53,23 @@ void write_counts(Html& html, const std::vector<CellSummary>& cells) {
   }
 }
 
+bool has_formulas(const FarmData& farm) {
+  return std::ranges::any_of(
+      farm.engines, [](const EngineEntry& e) { return e.name == "analytic" && e.available; });
+}
+
 void write_introduction(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
   const Tag header(html, "header", {{"class", "top"}});
-  {
-    const Tag left(html, "div");
-    html.element("h1", farm.title);
-    write_counts(html, cells);
-  }
+  html.element("h1", farm.title);
+  write_counts(html, cells);
   const std::string references = reference_titles(farm, true);
-  const bool has_formulas = std::ranges::any_of(
-      farm.engines, [](const EngineEntry& e) { return e.name == "analytic" && e.available; });
   html.element(
       "p", {{"class", "lead"}},
-      "Every picture shows specular highlights, shaded by one reflection model with one "
-      "normalisation, drawn by Lobelia straight from the model’s formula. " +
-          (references.empty()
-               ? "No other renderer was there to compare it with."
-               : references +
-                     " drew the same scenes, and each pair was compared pixel by "
-                     "pixel. A picture is a witness of the model where the engine has it "
-                     "as its own shading; elsewhere the formula was written in the "
-                     "engine’s language by hand, and geometry, camera, light, visibility "
-                     "and arithmetic are the witness. Each cell says which." +
-                     (has_formulas ? " Analytic is the formula itself, evaluated for each pixel by "
-                                     "code of its own."
-                                   : "")));
+      references.empty()
+          ? "Specular highlights, drawn by Lobelia straight from their models’ formulas. No other "
+            "renderer was there to compare them with."
+          : "Specular highlights, drawn by Lobelia straight from their models’ formulas. " +
+                references + " drew the same scenes, and each pair was compared pixel by pixel.");
 }
 
 void write_missing_engines(Html& html, const FarmData& farm) {
@@ -133,6 +131,16 @@ void write_legend(Html& html, const FarmData& farm, const std::vector<CellSummar
       "so that sharp and broad highlights can both be seen; the cell’s page prints the "
       "exposure. Click it for all pictures, differences, curves and numbers.");
   if (!reference_titles(farm, true).empty()) {
+    html.element(
+        "p",
+        std::string(
+            "A picture is a witness of the model where the engine has it as its own shading; "
+            "elsewhere the formula was written in the engine’s language by hand, and geometry, "
+            "camera, light, visibility and arithmetic are the witness. Each cell says which.") +
+            (has_formulas(farm)
+                 ? " Analytic is the formula itself, evaluated for each pixel by code of "
+                   "its own."
+                 : ""));
     html.element("p",
                  "The small print is the worst difference against each engine: the largest "
                  "|ours − theirs| over all pixels and channels of the linear float pictures, "
@@ -142,29 +150,41 @@ void write_legend(Html& html, const FarmData& farm, const std::vector<CellSummar
   }
 }
 
-void write_attention(Html& html, const std::vector<CellSummary>& cells) {
-  const auto needs_look = [](const CellSummary& cell) {
-    return cell.status != CellStatus::kPass && cell.status != CellStatus::kMissing;
-  };
-  const auto count = std::count_if(cells.begin(), cells.end(), needs_look);
-  if (count == 0) return;
-  const Tag section(html, "section", {{"class", "attention"}, {"aria-labelledby", "attention"}});
-  html.element("h2", {{"id", "attention"}}, "Look at these first");
+void write_attention_list(Html& html, std::span<const CellSummary* const> cells) {
   const Tag list(html, "ul");
-  for (const CellSummary& cell : cells) {
-    if (!needs_look(cell)) continue;
+  for (const CellSummary* cell : cells) {
     const Tag item(html, "li");
-    write_status(html, cell.status);
+    write_status(html, cell->status);
     html.text(" ");
-    html.element("a", {{"href", link_to({"cells", cell.entry->id, "index.html"})}},
-                 cell.entry->label.empty() ? cell.entry->id : cell.entry->label);
-    for (std::size_t i = 0; i < std::min(cell.reasons.size(), kMostReasons); ++i) {
-      html.element("small", cell.reasons[i]);
+    html.element("a", {{"href", link_to({"cells", cell->entry->id, "index.html"})}},
+                 cell->entry->label.empty() ? cell->entry->id : cell->entry->label);
+    for (std::size_t i = 0; i < std::min(cell->reasons.size(), kMostReasons); ++i) {
+      html.element("small", cell->reasons[i]);
     }
-    if (cell.reasons.size() > kMostReasons) {
-      html.element("small", fmt::format("and {} more", cell.reasons.size() - kMostReasons));
+    if (cell->reasons.size() > kMostReasons) {
+      html.element("small", fmt::format("and {} more", cell->reasons.size() - kMostReasons));
     }
   }
+}
+
+void write_attention(Html& html, const std::vector<CellSummary>& cells) {
+  std::vector<const CellSummary*> first;
+  for (const CellStatus status : kLookOrder)
+    for (const CellSummary& cell : cells)
+      if (cell.status == status) first.push_back(&cell);
+  if (first.empty()) return;
+  const Tag section(html, "section", {{"class", "attention"}, {"aria-labelledby", "attention"}});
+  html.element("h2", {{"id", "attention"}}, "Look at these first");
+  const std::span<const CellSummary* const> all = first;
+  write_attention_list(html, all.first(std::min(all.size(), kMostShown)));
+  if (all.size() <= kMostShown) return;
+  const Tag details(html, "details");
+  const auto rest = all.subspan(kMostShown);
+  html.element("summary", fmt::format("{} more{}", rest.size(),
+                                      rest.size() > kMostFolded
+                                          ? fmt::format(", of which here are {}", kMostFolded)
+                                          : ""));
+  write_attention_list(html, rest.first(std::min(rest.size(), kMostFolded)));
 }
 
 }  // namespace

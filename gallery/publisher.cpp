@@ -47,6 +47,14 @@ void place(const fs::path& path, const std::function<bool(const fs::path&)>& mak
   throw Error(ExitCode::kOutput, fmt::format("{}: {}", path.string(), error.message()));
 }
 
+/// With all links followed.
+bool is_within(const fs::path& directory, const fs::path& path) {
+  std::error_code error, other;
+  const fs::path root = fs::canonical(directory, error), real = fs::canonical(path, other);
+  return !error && !other &&
+         std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
+}
+
 bool is_same_text(const fs::path& path, std::string_view content) {
   std::error_code error;
   if (fs::is_symlink(path, error) || fs::file_size(path, error) != content.size() || error)
@@ -84,10 +92,13 @@ void Publisher::write(const std::string& name, std::string_view content) {
   ++written_;
 }
 
-void Publisher::copy(const fs::path& from, const std::string& name) {
-  const fs::path to = site_ / name;
+void Publisher::copy(const fs::path& run, const std::string& name) {
+  const fs::path from = run / name, to = site_ / name;
   std::error_code error;
   if (fs::equivalent(from, to, error)) return;
+  if (!is_within(run, from))
+    throw Error(ExitCode::kInput,
+                from.string() + ": a link that leads out of the run is not published");
   files_.insert(name);
   const auto time = fs::last_write_time(from, error);
   if (!error && fs::file_size(from, error) == fs::file_size(to, error) && !error &&
@@ -122,16 +133,12 @@ bool Publisher::derive(const std::string& name, const std::string& key,
 void Publisher::remove_stale(const std::string& name) {
   const fs::path path = site_ / name;
   std::error_code error;
-  const fs::path root = fs::canonical(site_, error),
-                 parent = fs::canonical(path.parent_path(), error);
-  if (error ||
-      std::mismatch(root.begin(), root.end(), parent.begin(), parent.end()).first != root.end())
-    return;
+  if (!is_within(site_, path.parent_path())) return;
   if (!fs::is_regular_file(fs::symlink_status(path, error)) || !fs::remove(path, error)) return;
   ++removed_;
   // An empty directory is nobody's; remove() leaves any other.
-  for (fs::path up = parent;
-       up != root && fs::is_empty(up, error) && !error && fs::remove(up, error);)
+  for (fs::path up = path.parent_path();
+       up != site_ && fs::is_empty(up, error) && !error && fs::remove(up, error);)
     up = up.parent_path();
 }
 

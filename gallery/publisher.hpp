@@ -21,9 +21,10 @@ class Publisher {
 
   /// A file that has this content already is not touched. Throws Error(kOutput).
   void write(const std::string& name, std::string_view content);
-  /// The file as it is, with its time, by which an unchanged one is known the next time; nothing if `from`
-  /// is that file itself. Throws Error(kOutput).
-  void copy(const std::filesystem::path& from, const std::string& name);
+  /// The run's file of that name as it is, with its time, by which an unchanged one is known the next time; nothing
+  /// if the site is in the run. Throws Error(kInput) if a link leads out of the run: what lies elsewhere is not
+  /// to be published because a record names it. Throws Error(kOutput).
+  void copy(const std::filesystem::path& run, const std::string& name);
   /// What takes time to make: left as it is if it was made of the same `key`, which says all that decides it.
   /// False, and no file, if `make` gives nothing.
   bool derive(const std::string& name, const std::string& key,

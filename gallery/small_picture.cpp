@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
-#include "gallery/sha256.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -57,7 +57,7 @@ void publish_small(const fs::path& run, const std::string& folder, bool all, Pic
   const int width = std::max(1, static_cast<int>(picture.width * factor + 0.5));
   const int height = std::max(1, static_cast<int>(picture.height * factor + 0.5));
   const std::string name = fs::path(picture.file).stem().string() + ".small.png";
-  if (publisher.derive(folder + name, "small picture 1 of " + sha256_of(file),
+  if (publisher.derive(folder + name, "small picture 1 of " + hex(sha256_of_file(file)),
                        [&] { return small_png(file, width, height); }))
     picture.small = {name, width, height};
   if (all && !picture.small.file.empty()) picture.is_published = false;

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/finite_image.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"
@@ -45,16 +48,23 @@ std::vector<double> estimate(const SizedLights& lights, const Replicate& replica
 
 ReferenceResult average(const Scene& scene, Request& request, const ReferenceOptions& options) {
   ReferenceResult result;
-  double seconds = 0;
+  double seconds = 0, cpu_seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;
   std::size_t pictures = 0, passes = 0;
   for (auto& replicate : request.parts)
     for (ReferenceResult& part : replicate) {
       if (!part.error.empty()) {
-        if (result.error.empty()) result.error = part.error;
+        if (result.error.empty()) {
+          result.error = part.error;
+          result.failure = part.failure;
+        }
         continue;
       }
       seconds += part.record.at("seconds").at("total").get<double>();
       passes += part.record.at("passes").get<std::size_t>();
+      cpu_seconds += part.record.value("cpuSeconds", 0.0);
+      peak_memory_bytes =
+          std::max(peak_memory_bytes, part.record.value("peakMemoryBytes", std::uint64_t{0}));
       ++pictures;
     }
   result.record = request.parts.front().front().record;
@@ -88,6 +98,8 @@ ReferenceResult average(const Scene& scene, Request& request, const ReferenceOpt
   record["points"] = options.points;
   record["seed"] = options.seed;
   record["seconds"] = {{"total", seconds}};
+  if (record.contains("cpuSeconds"))
+    record_cost(record, cpu_seconds, peak_memory_bytes, record.at("threads").get<int>());
   // All alike but for the names of files.
   if (record.at("engineCommands").size() > 1)
     record["engineCommands"] = Json::array({record["engineCommands"].front()});
@@ -113,7 +125,7 @@ void Engine::render(std::span<const Scene> scenes, const ReferenceOptions& optio
   std::vector<Place> places;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     if (std::string why = why_not(scenes[i], options); !why.empty()) {
-      on_result(i, {{}, {}, why, reference_record(info(), status(), scenes[i])});
+      on_result(i, failed_result(info(), status(), scenes[i], {FailureClass::kRefused, why}));
       continue;
     }
     Request& request = requests[i];
@@ -137,6 +149,15 @@ void Engine::render(std::span<const Scene> scenes, const ReferenceOptions& optio
   ReferenceOptions for_parts = options;
   if (!options.log_directory.empty()) for_parts.log_directory = logs.path();
   std::map<std::size_t, std::string> texts;
+  std::mutex asking;
+  std::vector<std::optional<bool>> answers(scenes.size());
+  if (options.begin)
+    for_parts.begin = [&](std::size_t index) {
+      const std::scoped_lock lock(asking);
+      const std::size_t i = places[index].request;
+      if (!answers[i]) answers[i] = options.begin(i);
+      return *answers[i];
+    };
   render_simple(simple, for_parts, [&](std::size_t index, ReferenceResult part) {
     const auto [i, r, p] = places[index];
     Request& request = requests[i];
@@ -147,6 +168,11 @@ void Engine::render(std::span<const Scene> scenes, const ReferenceOptions& optio
         write_engine_log(options, info(), i, text);
         texts.erase(i);
       }
+    }
+    if (part.error.empty() && !is_finite(part.image)) {
+      part.error = fmt::format("{}'s picture has values that are not finite", info().title);
+      part.failure = FailureClass::kNonFinite;
+      part.image = {};
     }
     request.parts[r][p] = std::move(part);
     if (--request.unfinished > 0) return;

@@ -13,6 +13,7 @@
 
 #include "core/image.hpp"
 #include "core/record.hpp"
+#include "reference_scenes/failure.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -42,8 +43,11 @@ struct EngineStatus {
 };
 
 struct ReferenceOptions {
-  int threads = 0;                                                      ///< 0: all processors
+  int threads = 0;    ///< 0: all processors
+  int processes = 0;  ///< of an engine that is a program, at most at once; 0: as suits it
   std::chrono::duration<double> time_limit = std::chrono::minutes(10);  ///< for each picture
+  /// Longest time in which a program neither says nor writes anything; 0: none.
+  std::chrono::duration<double> no_progress_limit{0};
   std::filesystem::path log_directory;  ///< receives the engine's own output; empty: dropped
   /// Points of every light with a size, of the lens and of the pixel, where a scene has such; a multiple
   /// of kReplicates.
@@ -54,6 +58,10 @@ struct ReferenceOptions {
   /// Also tells in the record's `seconds` what went to `start`, `parse`, `trace` and `write`, as far as the
   /// engine tells them apart; added up over its processes and passes.
   bool stages = false;
+  /// If set, asked once of every scene given to render(), just before work on it begins: false leaves it
+  /// out, and there is no result. From any thread, never two at once; scenes that are refused are not
+  /// asked for.
+  std::function<bool(std::size_t)> begin;
 };
 
 /// Independent estimates, whose scatter tells the error of their mean.
@@ -64,9 +72,10 @@ struct ReferenceResult {
   Image image;
   Image standard_error;  ///< of the image where it is an average (replicates.hpp); otherwise empty
   std::string error;     ///< empty on success
+  FailureClass failure = FailureClass::kNone;  ///< kNone on success
   Json
       record;  ///< kind "reference": engine, version, witness (native, expressed or analytic), command
-               ///< lines, passes, seconds
+               ///< lines, passes, seconds, and of programs what they took (docs/records.md)
 };
 
 class Engine {
@@ -79,7 +88,8 @@ class Engine {
   std::string why_not(const Scene& scene, const ReferenceOptions& options) const;
 
   using OnResult = std::function<void(std::size_t, ReferenceResult)>;
-  /// Renders every scene, in any order; calls `on_result(index, result)` for each, never two at once.
+  /// Renders every scene, in any order; calls `on_result(index, result)` for each, never two at once. A
+  /// picture with values that are not finite is a failure.
   /// A scene that needs_replicates() is the average of many. One scene's failure is its result and
   /// nothing else's. Throws Error(kEngine) if the engine is not available and Error(kInterrupted)
   /// on Ctrl-C.
@@ -90,7 +100,8 @@ class Engine {
   /// The same of scenes of which a single ray through each pixel's centre tells all, under lamps without
   /// a size.
   virtual std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const = 0;
-  /// The same of such scenes, each once, several at a time if the engine likes.
+  /// The same of such scenes, each once, several at a time if the engine likes. Asks options.begin of
+  /// each, as often as it likes.
   virtual void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
                              const OnResult& on_result) = 0;
 };

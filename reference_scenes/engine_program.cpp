@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
+#include <algorithm>
 #include <cctype>
+#include <limits>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/image_io.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -15,6 +17,7 @@ namespace {
 
 constexpr double kProbeSeconds = 60;  // a cold disk under Blender may take ten
 constexpr std::size_t kMaxWords = 300;
+constexpr int kSignalBase = 128, kMostSignals = 64;  // beyond, it is an exit code of its own: 255
 
 /// "3.7.0.10" out of "POV-Ray 3.7.0.10.unofficial".
 std::string version_after(std::string_view line, std::string_view prefix) {
@@ -109,16 +112,81 @@ std::string last_words(const std::string& output_tail) {
   return printable(words, kMaxWords);
 }
 
-std::string describe_failure(const EngineInfo& engine, const ProcessResult& result,
-                             double time_limit_seconds) {
+Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
+                        const ReferenceOptions& options) {
   if (result.timed_out)
-    return fmt::format("{} was stopped after {:.6g} s, the time limit of a picture", engine.title,
-                       time_limit_seconds);
+    return {FailureClass::kTimedOut,
+            fmt::format("{} was stopped after {:.6g} s, the time limit of a picture", engine.title,
+                        options.time_limit.count())};
+  if (result.no_progress)
+    return {FailureClass::kNoProgress,
+            fmt::format("{} was stopped after {:.6g} s without a sign of progress", engine.title,
+                        options.no_progress_limit.count())};
+  if (result.exit_code == 0) return {};
   const std::string words = last_words(result.output_tail);
-  const std::string how = result.exit_code > 128
-                              ? fmt::format("was ended by signal {}", result.exit_code - 128)
-                              : fmt::format("stopped with exit code {}", result.exit_code);
-  return fmt::format("{} {}{}{}", engine.title, how, words.empty() ? "" : ": ", words);
+  const int signal = result.exit_code - kSignalBase;
+  const bool crashed = signal > 0 && signal <= kMostSignals;
+  const std::string how = crashed ? fmt::format("was ended by signal {}", signal)
+                                  : fmt::format("stopped with exit code {}", result.exit_code);
+  return {crashed ? FailureClass::kCrash : FailureClass::kExitCode,
+          fmt::format("{} {}{}{}", engine.title, how, words.empty() ? "" : ": ", words)};
+}
+
+Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arguments,
+                   ProcessOptions process, const ReferenceOptions& options, ProcessResult& result) {
+  bool started = false;
+  process.on_start = [&started, told = std::move(process.on_start)](bool writes_limited) {
+    started = true;
+    if (told) told(writes_limited);
+  };
+  try {
+    result = run_process(arguments, process);
+  } catch (const Error& error) {
+    if (started) throw;  // by whoever listens to it
+    return {find_program(arguments.front()).empty() ? FailureClass::kEngineMissing
+                                                    : FailureClass::kCrash,
+            error.what()};
+  }
+  if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
+  return process_failure(engine, result, options);
+}
+
+Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::path& file,
+                            const Film& film, Image& image) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    return {FailureClass::kNoOutput, fmt::format("{} wrote no picture", engine.title)};
+  try {
+    image = read_image(file);
+  } catch (const std::exception& error) {
+    return {FailureClass::kBadOutput,
+            fmt::format("{}'s picture cannot be used: {}", engine.title, error.what())};
+  }
+  if (image.width() != film.width || image.height() != film.height)
+    return {FailureClass::kWrongSize,
+            fmt::format("{}'s picture has another size than was asked for: {} x {}, not {} x {}",
+                        engine.title, image.width(), image.height(), film.width, film.height)};
+  return {};
+}
+
+ReferenceResult failed_result(const EngineInfo& engine, const EngineStatus& status,
+                              const Scene& scene, const Failure& failure) {
+  return {{}, {}, failure.message, failure.kind, reference_record(engine, status, scene)};
+}
+
+bool may_begin(const ReferenceOptions& options, std::size_t index) {
+  return !options.begin || options.begin(index);
+}
+
+int threads_of(const ReferenceOptions& options) {
+  return options.threads > 0 ? options.threads
+                             : int(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+void record_cost(Json& record, double cpu_seconds, std::uint64_t peak_memory_bytes, int threads) {
+  record["cpuSeconds"] = cpu_seconds;
+  record["peakMemoryBytes"] = peak_memory_bytes;
+  record["threads"] = threads;
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // Finding an engine's program, asking its version, and saying in one line why it failed.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -32,9 +33,43 @@ std::vector<std::string> private_home(const std::filesystem::path& directory);
 /// Of an engine's output the words that say most about a failure, in one line.
 std::string last_words(const std::string& output_tail);
 
-/// Why a process failed, in one line: "POV-Ray stopped with exit code 1: ...".
-std::string describe_failure(const EngineInfo& engine, const ProcessResult& result,
-                             double time_limit_seconds);
+/// Why a process failed: "POV-Ray stopped with exit code 1: ...". Nothing if it ended as it should.
+Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
+                        const ReferenceOptions& options);
+
+/// run_process, but one that cannot be started is a failure. Throws Error(kInterrupted).
+Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arguments,
+                   ProcessOptions process, const ReferenceOptions& options, ProcessResult& result);
+
+/// Reads what should be a picture of the film's size.
+Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::path& file,
+                            const Film& film, Image& image);
+
+/// A scene's result where there is no picture.
+ReferenceResult failed_result(const EngineInfo& engine, const EngineStatus& status,
+                              const Scene& scene, const Failure& failure);
+
+/// Whether work on the scene may begin.
+bool may_begin(const ReferenceOptions& options, std::size_t index);
+
+/// As many as were asked for, or one for each processor.
+int threads_of(const ReferenceOptions& options);
+
+/// An engine's output on one scene; of one that never ends what it says, the beginning.
+class EngineLog {
+ public:
+  void add(std::string_view line) {
+    if (text_.size() < kMost) text_.append(line).append("\n");
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  static constexpr std::size_t kMost = 1 << 20;
+  std::string text_;
+};
+
+/// Writes into a record what a program took: processor time, memory, threads.
+void record_cost(Json& record, double cpu_seconds, std::uint64_t peak_memory_bytes, int threads);
 
 /// Writes the engine's own output on scene `index` to ENGINE-INDEX.log in the log directory, if
 /// there is one.

@@ -43,6 +43,7 @@ class Analytic final : public Engine {
                      const OnResult& on_result) override {
     ThreadLimit limit(options.threads);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
+      if (!may_begin(options, i)) continue;
       ReferenceResult result;
       limit.run([&] { result = render_one(scenes[i], options); });
       throw_if_interrupted();
@@ -63,6 +64,7 @@ class Analytic final : public Engine {
           return too_late || interrupted();
         });
     if (too_late) {
+      result.failure = FailureClass::kTimedOut;
       result.error = fmt::format("{} was stopped after {:.6g} s, the time limit of a picture",
                                  kAnalyticInfo.title, options.time_limit.count());
       return result;

@@ -1,21 +1,24 @@
 #include "reference_scenes/blender/blender.hpp"
 
 #include <fmt/format.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <deque>
-#include <exception>
-#include <map>
+#include <mutex>
 #include <optional>
-#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/image_io.hpp"
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/blender/blender_input.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"
+#include "reference_scenes/worker_pool.hpp"
 
 namespace lobelia {
 namespace embedded {
@@ -26,7 +29,10 @@ namespace fs = std::filesystem;
 
 constexpr char kScriptFile[] = "render_scenes.py";
 constexpr char kJobFile[] = "job.json";
+constexpr char kNextFile[] = "next.json";
 constexpr int kSigAlrm = 14;
+/// Processes in a row that came to no scene at all: then none will.
+constexpr int kMostIdleStarts = 3;
 
 /// The node groups' and point primitives' interface that render_scenes.py uses.
 constexpr EngineProbe kProbe{"blender", "Blender ", [](int major, int minor) {
@@ -49,29 +55,48 @@ std::vector<std::string> blender_arguments(const std::string& program, const fs:
           (directory / kJobFile).string()};
 }
 
-Json job_json(const ReferenceOptions& options) {
-  const int processors = options.threads > 0
-                             ? options.threads
-                             : int(std::max(1u, std::thread::hardware_concurrency()));
-  const double limit = options.time_limit.count();
-  return {{"threads", processors},
-          {"secondsPerScene", limit},
-          {"secondsPerProcess", limit},
+Json job_json(int threads, const ReferenceOptions& options) {
+  return {{"threads", threads},
+          {"secondsPerScene", options.time_limit.count()},
           {"scenes", Json::array()}};
 }
 
-Image read_passes(const fs::path& directory, const std::string& name, const Scene& scene,
-                  std::size_t passes) {
-  std::vector<Image> images;
+/// Adds up a scene's passes, and removes them.
+Failure read_passes(const fs::path& directory, const std::string& name, const Scene& scene,
+                    std::size_t passes, Image& sum) {
+  std::vector<Image> images(passes);
   for (std::size_t pass = 0; pass < passes; ++pass) {
     const fs::path file = directory / fmt::format("{}-{}.exr", name, pass);
-    images.push_back(read_image(file));
-    if (images.back().width() != scene.film.width || images.back().height() != scene.film.height)
-      throw Error(ExitCode::kEngine, "another size than was asked for");
-    fs::remove(file);
+    if (Failure failure = read_engine_picture(kBlenderInfo, file, scene.film, images[pass]))
+      return failure;
+    std::error_code ignored;
+    fs::remove(file, ignored);
   }
-  return sum_of(images);
+  sum = sum_of(images);
+  return {};
 }
+
+/// Two ends of a line: ours, and that which a program has as its stdin.
+class Line {
+ public:
+  Line() {
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends_) != 0)
+      throw Error(ExitCode::kEngine, fmt::format("no socket: {}", std::strerror(errno)));
+  }
+  ~Line() {
+    for (const int end : ends_) ::close(end);
+  }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+  int theirs() const { return ends_[1]; }
+  /// A few words, which never have to wait for anyone to read them. One who has gone will be missed soon.
+  void say(std::string_view words) { ::send(ends_[0], words.data(), words.size(), MSG_NOSIGNAL); }
+  /// Nothing more to say.
+  void end() { ::shutdown(ends_[0], SHUT_WR); }
+
+ private:
+  int ends_[2];
+};
 
 /// Where the time of a scene goes, by when Blender says that it goes on.
 class StageClock {
@@ -107,112 +132,219 @@ class StageClock {
   double start_ = 0, parse_ = 0, trace_ = 0, write_ = 0;
 };
 
-/// One call of render(): scenes that wait, and the processes that take them.
-class BlenderRun {
+/// What is common to the processes of one call of render(): the scenes that wait, and whom to tell.
+struct Shared {
+  std::span<const Scene> scenes;
+  const ReferenceOptions& options;
+  const EngineStatus& status;
+  const std::function<void(std::size_t, ReferenceResult)>& on_result;
+  int threads;  ///< of one process
+  std::atomic<bool> stop{false};
+  std::mutex waiting_mutex{}, result_mutex{};
+  std::deque<std::size_t> waiting{};
+  std::atomic<int> idle_starts{0};  ///< in a row, of all processes
+
+  bool native() const { return options.witness == Witness::kNative; }
+  std::optional<std::size_t> take_next() {
+    const std::scoped_lock lock(waiting_mutex);
+    if (waiting.empty()) return {};
+    const std::size_t index = waiting.front();
+    waiting.pop_front();
+    return index;
+  }
+  void put_back(std::size_t index) {
+    const std::scoped_lock lock(waiting_mutex);
+    waiting.push_front(index);
+  }
+  void tell(std::size_t index, const EngineLog& log, ReferenceResult result) {
+    const std::scoped_lock lock(result_mutex);
+    if (stop) return;
+    if (!log.text().empty()) write_engine_log(options, kBlenderInfo, index, log.text());
+    on_result(index, std::move(result));
+  }
+};
+
+std::string name_of(std::size_t index) { return fmt::format("scene{}", index); }
+
+/// Processes one after the other, each of which is given one scene after the other for as long as it lives.
+class BlenderWorker {
  public:
-  BlenderRun(std::span<const Scene> scenes, const ReferenceOptions& options,
-             const EngineStatus& status,
-             const std::function<void(std::size_t, ReferenceResult)>& on_result)
-      : scenes_(scenes), options_(options), status_(status), on_result_(on_result) {}
+  explicit BlenderWorker(Shared& shared) : shared_(shared), options_(shared.options) {}
 
   void run() {
     write_file(directory_.path() / kScriptFile, embedded::render_scenes_py);
-    for (std::size_t i = 0; i < scenes_.size(); ++i) accept(i);
-    while (!waiting_.empty()) run_process_on_waiting();
-  }
-
- private:
-  bool native() const { return options_.witness == Witness::kNative; }
-  std::string name_of(std::size_t index) const { return fmt::format("scene{}", index); }
-
-  /// Puts the scene in line, or says at once why not.
-  void accept(std::size_t index) {
-    try {
-      inputs_[index] = blender_input(in_engine_units(scenes_[index]), name_of(index), native());
-      waiting_.push_back(index);
-    } catch (const Error& refused) {
-      on_result_(index,
-                 {{}, {}, refused.what(), reference_record(kBlenderInfo, status_, scenes_[index])});
+    while (!shared_.stop) {
+      throw_if_interrupted();
+      given_ = next();
+      if (!given_) return;
+      run_process_from(*given_);
     }
   }
 
-  /// Starts Blender once for all that wait. Whatever happens, fewer wait afterwards.
-  void run_process_on_waiting() {
-    Json job = job_json(options_);
-    for (const std::size_t index : waiting_) job["scenes"].push_back(inputs_[index]);
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Given {
+    std::size_t index = 0;
+    Json input;
+  };
+  /// Of which Blender says that it is done.
+  struct Done {
+    Given given;
+    EngineLog log;
+    StageClock clock;
+    double seconds = 0, cpu_seconds = 0;
+    std::uint64_t peak_memory_bytes = 0;
+    bool cost_told = false;
+  };
+
+  /// The next scene that may begin and that Blender can show.
+  std::optional<Given> next() {
+    while (const auto index = shared_.take_next()) {
+      if (!may_begin(options_, *index)) continue;
+      try {
+        return Given{*index, blender_input(in_engine_units(shared_.scenes[*index]), name_of(*index),
+                                           shared_.native())};
+      } catch (const Error& refused) {
+        shared_.tell(*index, {}, failed(*index, {FailureClass::kRefused, refused.what()}));
+      }
+    }
+    return {};
+  }
+
+  /// Whatever happens, fewer scenes wait afterwards, or this one does again after others were done.
+  void run_process_from(const Given& first) {
+    Json job = job_json(shared_.threads, options_);
+    job["scenes"].push_back(first.input);
+    job["goOn"] = true;
     write_file(directory_.path() / kJobFile, job.dump());
 
-    const auto arguments = blender_arguments(status_.program.string(), directory_.path());
+    const std::string program = shared_.status.program.string();
     // The temporary directory is of no use to a reader, and would make every record differ.
-    command_ = shell_join(blender_arguments(status_.program.string(), ""));
-    log_ = "$ " + command_ + "\n";
-    current_.reset();
+    command_ = shell_join(blender_arguments(program, ""));
+    begin_log();
     clock_.restart();
-    const std::size_t waited = waiting_.size();
+    begun_ = false;
+    started_ = Clock::now();
+    cpu_told_ = 0;
+    Line line;
+    line_ = &line;
     ProcessOptions process;
-    process.working_directory = directory_.path();
-    process.writable = directory_.path();
+    process.working_directory = process.writable = process.progress_directory = directory_.path();
     process.on_start = [&](bool writes_limited) { writes_limited_ = writes_limited; };
     process.environment = private_home(directory_.path());
     // The user's own configuration could give the scene's numbers other primaries.
     process.environment.emplace_back("OCIO=");
-    // It starts no scene after one time limit, and each scene has an alarm of its own; this is for
+    // It is given no scene after one time limit, and each scene has an alarm of its own; this is for
     // a Blender that never comes to that.
     process.timeout = 2 * options_.time_limit;
-    process.on_line = [&](std::string_view line) { take_line(line); };
-    ProcessResult ended = run_process(arguments, process);
-    if (ended.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
-
+    process.no_progress_limit = options_.no_progress_limit;
+    process.stop = &shared_.stop;
+    process.input = line.theirs();
+    process.on_line = [&](std::string_view text) { take_line(text); };
+    ProcessResult ended;
+    Failure failure = run_engine(kBlenderInfo, blender_arguments(program, directory_.path()),
+                                 process, options_, ended);
+    line_ = nullptr;
+    report_done();
+    if (begun_) shared_.idle_starts = 0;
+    if (!given_) return;
+    if (ended.exit_code == 128 + kSigAlrm) {
+      ended.timed_out = true;
+      failure = process_failure(kBlenderInfo, ended, options_);
+    }
+    if (!failure)
+      failure = {
+          FailureClass::kNoOutput,
+          fmt::format("Blender {}: {}",
+                      current_ ? "stopped with exit code 0 in the middle" : "rendered nothing",
+                      last_words(ended.output_tail))};
     if (current_) {  // died with a scene in its hands: that scene's result, and no one else's
-      if (ended.exit_code == 128 + kSigAlrm) ended.timed_out = true;
-      fail(*current_, describe_failure(kBlenderInfo, ended, options_.time_limit.count()));
-    } else if (waiting_.size() == waited) {  // came to no scene at all, and will not next time
-      std::string why = describe_failure(kBlenderInfo, ended, options_.time_limit.count());
-      if (ended.exit_code == 0)
-        why = fmt::format("Blender rendered nothing: {}", last_words(ended.output_tail));
-      while (!waiting_.empty()) fail(waiting_.front(), why);
+      current_ = false;
+      fail_given(failure);
+    } else if (begun_) {  // died between two
+      shared_.put_back(given_->index);
+      given_.reset();
+    } else {
+      fail_given(failure);
+      if (++shared_.idle_starts < kMostIdleStarts) return;
+      while ((given_ = next())) fail_given(failure);
     }
   }
 
   /// What it throws (a full disk, say) ends Blender and comes out of run_process.
   void take_line(std::string_view line) {
-    log_.append(line).append("\n");
+    log_.add(line);
     clock_.take(line);
     if (line.starts_with("lobelia: ")) take_message(split(line, " "));
   }
 
-  /// "lobelia: begin NAME", "lobelia: done NAME SECONDS" or "lobelia: failed NAME WHY".
+  /// "lobelia: begin NAME", "lobelia: done NAME SECONDS CPU_SECONDS PEAK_BYTES", "lobelia: failed NAME WHY" or
+  /// "lobelia: more". Between done and more nothing is read, so that Blender need not wait.
   void take_message(const std::vector<std::string>& words) {
-    if (words.size() < 3) return;
-    const auto scene = std::ranges::find_if(
-        waiting_, [&](std::size_t index) { return name_of(index) == words[2]; });
-    if (scene == waiting_.end()) return;
+    if (words.size() == 2 && words[1] == "more") {
+      go_on();
+      report_done();
+      return;
+    }
+    if (words.size() < 3 || !given_ || words[2] != name_of(given_->index)) return;
     if (words[1] == "begin") {
-      current_ = *scene;
+      report_done();
+      begun_ = current_ = true;
     } else if (words[1] == "failed") {
       std::string why;
       for (std::size_t i = 3; i < words.size(); ++i) why += " " + words[i];
-      fail(*scene, "Blender Cycles:" + printable(why, 300));
+      current_ = false;
+      fail_given({FailureClass::kExitCode, "Blender Cycles:" + printable(why, 300)});
     } else if (words[1] == "done") {
-      double seconds = 0;
-      if (words.size() > 3) parse_number(words[3], seconds);
-      succeed(*scene, seconds);
+      begun_ = true;
+      done_.emplace();
+      if (words.size() > 3) parse_number(words[3], done_->seconds);
+      long long peak = 0;
+      double cpu = 0;
+      if (words.size() > 5 && parse_number(words[4], cpu) && parse_integer(words[5], peak)) {
+        done_->cpu_seconds = cpu - cpu_told_;
+        done_->peak_memory_bytes = std::uint64_t(std::max(0LL, peak));
+        done_->cost_told = true;
+        cpu_told_ = cpu;
+      }
+      done_->given = std::move(*given_);
+      given_.reset();
+      done_->log = std::exchange(log_, {});
+      done_->clock = clock_;
+      current_ = false;
+      begin_log();
+      clock_.restart();
     }
   }
 
-  void succeed(std::size_t index, double seconds) {
-    ReferenceResult result;
-    const std::size_t passes = inputs_[index]["passes"].size();
-    try {
-      result.image = read_passes(directory_.path(), name_of(index), scenes_[index], passes);
-    } catch (const std::exception& error) {
-      fail(index, fmt::format("Blender's picture cannot be used: {}", error.what()));
+  void go_on() {
+    if (given_) return;
+    if (Clock::now() - started_ < options_.time_limit) given_ = next();
+    if (!given_) {
+      line_->end();
       return;
     }
-    result.record = reference_record(kBlenderInfo, status_, scenes_[index]);
-    result.record["witness"] = native() ? "native" : "expressed";
+    write_file(directory_.path() / kNextFile, given_->input.dump());
+    line_->say(std::string(kNextFile) + "\n");
+  }
+
+  /// Reads the picture that is ready, if one is.
+  void report_done() {
+    if (!done_) return;
+    const Done done = std::move(*done_);
+    done_.reset();
+    const std::size_t index = done.given.index, passes = done.given.input["passes"].size();
+    const Scene& scene = shared_.scenes[index];
+    ReferenceResult result;
+    if (const Failure failure =
+            read_passes(directory_.path(), name_of(index), scene, passes, result.image)) {
+      shared_.tell(index, done.log, failed(index, failure));
+      return;
+    }
+    result.record = reference_record(kBlenderInfo, shared_.status, scene);
+    result.record["witness"] = shared_.native() ? "native" : "expressed";
     result.record["method"] =
-        native()
+        shared_.native()
             ? "Cycles' Ashikhmin-Shirley closure, its geometry term taken out by its colour, under a "
               "real lamp, one pass per light and reflection"
             : "shader nodes as the colour of a surface under a real lamp, one pass per light and "
@@ -220,35 +352,45 @@ class BlenderRun {
     result.record["passes"] = passes;
     result.record["engineCommands"] = Json::array({command_});
     result.record["writesLimited"] = writes_limited_;
-    result.record["seconds"] = {{"total", seconds}};
-    if (options_.stages) clock_.report(result.record["seconds"]);
-    clock_.restart();
-    finish(index, std::move(result));
+    result.record["seconds"] = {{"total", done.seconds}};
+    if (done.cost_told)
+      record_cost(result.record, done.cpu_seconds, done.peak_memory_bytes, shared_.threads);
+    if (options_.stages) done.clock.report(result.record["seconds"]);
+    shared_.tell(index, done.log, std::move(result));
   }
 
-  void fail(std::size_t index, const std::string& why) {
-    finish(index, {{}, {}, why, reference_record(kBlenderInfo, status_, scenes_[index])});
+  void fail_given(const Failure& failure) {
+    const std::size_t index = given_->index;
+    given_.reset();
+    shared_.tell(index, log_, failed(index, failure));
+    begin_log();
   }
 
-  void finish(std::size_t index, ReferenceResult result) {
-    std::erase(waiting_, index);
-    current_.reset();
-    write_engine_log(options_, kBlenderInfo, index, log_);
-    log_ = "$ " + command_ + "\n";
-    on_result_(index, std::move(result));
+  ReferenceResult failed(std::size_t index, const Failure& failure) const {
+    return failed_result(kBlenderInfo, shared_.status, shared_.scenes[index], failure);
   }
 
-  std::span<const Scene> scenes_;
+  void begin_log() {
+    log_ = {};
+    log_.add("$ " + command_);
+  }
+
+  Shared& shared_;
   const ReferenceOptions& options_;
-  const EngineStatus& status_;
-  const std::function<void(std::size_t, ReferenceResult)>& on_result_;
   const TemporaryDirectory directory_;
-  std::map<std::size_t, Json> inputs_;
-  std::deque<std::size_t> waiting_;
-  std::optional<std::size_t> current_;  ///< begun and not done
-  StageClock clock_;                    ///< since the last scene
-  std::string command_, log_;           ///< of the process at work, since the last scene
-  bool writes_limited_ = false;         ///< likewise
+  std::optional<Given> given_;  ///< to the process, and not done
+  bool current_ = false;        ///< it has begun that one
+  std::optional<Done> done_;    ///< not yet read
+  // Of the process at work:
+  bool begun_ = false;  ///< any scene
+  Clock::time_point started_;
+  double cpu_told_ = 0;
+  Line* line_ = nullptr;
+  std::string command_;
+  bool writes_limited_ = false;
+  // Since its last scene:
+  StageClock clock_;
+  EngineLog log_;
 };
 
 class Blender final : public Engine {
@@ -274,7 +416,14 @@ class Blender final : public Engine {
   }
   void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
                      const OnResult& on_result) override {
-    BlenderRun(scenes, options, status_, on_result).run();
+    const int processors = threads_of(options);
+    // Preparing a scene keeps Blender on one processor for most of a small picture's time.
+    const int wanted = options.processes > 0 ? options.processes : processors;
+    const int processes = int(std::min(std::size_t(wanted), scenes.size()));
+    if (processes == 0) return;
+    Shared shared{scenes, options, status_, on_result, std::max(1, processors / processes)};
+    for (std::size_t i = 0; i < scenes.size(); ++i) shared.waiting.push_back(i);
+    run_workers(processes, shared.stop, [&] { BlenderWorker(shared).run(); });
   }
 
  private:
@@ -291,7 +440,7 @@ std::unique_ptr<Engine> make_blender(const fs::path& program) {
 
 void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
                         const fs::path& directory) {
-  Json job = job_json({});
+  Json job = job_json(threads_of({}), {});
   job["scenes"].push_back(
       blender_input(in_engine_units(scene), "scene0", options.witness == Witness::kNative));
   write_file(directory / kScriptFile, embedded::render_scenes_py);

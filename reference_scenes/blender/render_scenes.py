@@ -3,7 +3,7 @@
     blender -b --factory-startup -noaudio --python render_scenes.py -- job.json
 
 job.json (numbers and enumerations only):
-    {"threads": 2, "secondsPerScene": 600, "secondsPerProcess": 600, "scenes": [
+    {"threads": 2, "secondsPerScene": 600, "goOn": true, "scenes": [
       {"name": "scene0", "width": 256, "height": 256,
        "camera": {"origin": [..], "target": [..], "up": [..], "fovDegrees": 28, "offset": [0, 0]},
        "lights": [{"kind": "directional", "direction": [..], "irradiance": [r, g, b]},
@@ -21,8 +21,13 @@ by so many mirrors. Whoever asked for them adds them up, in more digits than a r
 happens is told in lines
 
     lobelia: begin NAME
-    lobelia: done NAME SECONDS
+    lobelia: done NAME SECONDS CPU_SECONDS PEAK_BYTES
     lobelia: failed NAME WHY
+    lobelia: more
+
+"more" comes with "goOn" alone, when all scenes are done: then a line of standard input names a file,
+beside job.json, with one scene more. At its end, or an empty line, so does this program.
+CPU_SECONDS and PEAK_BYTES are of the process since it started.
 
 The coefficients and lobes below are written from their formulas and not from Lobelia's source, so
 that a mistake there shows as a difference of pictures.
@@ -31,6 +36,7 @@ that a mistake there shows as a difference of pictures.
 import json
 import math
 import os
+import resource
 import re
 import signal
 import sys
@@ -568,30 +574,41 @@ def tell(*words):
     print("lobelia:", *words, flush=True)
 
 
+def jobs_scenes(job, directory):
+    """Those that the job lists; then, if someone is there to ask, those that he names files of."""
+    yield from job["scenes"]
+    while job.get("goOn"):
+        tell("more")
+        file_name = sys.stdin.readline().strip()
+        if not file_name:
+            break
+        with open(os.path.join(directory, file_name), encoding="utf-8") as file:
+            yield json.load(file)
+
+
 def main():
     job_file = os.path.abspath(sys.argv[sys.argv.index("--") + 1])
+    directory = os.path.dirname(job_file)
     with open(job_file, encoding="utf-8") as file:
         job = json.load(file)
     # A hanging renderer does not listen to Python; the system's alarm ends the process regardless.
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
-    started = time.monotonic()
-    for scene in job["scenes"]:
-        # Leaves the rest to another process, so that whoever waits for this one need not wait
-        # longer than for itself and one scene.
-        if time.monotonic() - started > job["secondsPerProcess"]:
-            break
+    for scene in jobs_scenes(job, directory):
         name = scene["name"]
         tell("begin", name)
         begun = time.monotonic()
         signal.setitimer(signal.ITIMER_REAL, job["secondsPerScene"])
         try:
             for index in range(len(scene["passes"])):
-                picture = os.path.join(os.path.dirname(job_file), "%s-%d.exr" % (name, index))
+                picture = os.path.join(directory, "%s-%d.exr" % (name, index))
                 render_pass(scene, index, job["threads"], picture)
         except Exception as error:  # one scene's failure is not the next one's
             tell("failed", name, type(error).__name__, " ".join(str(error).split()))
         else:
-            tell("done", name, "%.3f" % (time.monotonic() - begun))
+            # Of the process since its start: what it took to start is part of its first scene.
+            used = resource.getrusage(resource.RUSAGE_SELF)
+            tell("done", name, "%.3f" % (time.monotonic() - begun),
+                 "%.3f" % (used.ru_utime + used.ru_stime), used.ru_maxrss * 1024)
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
+#include <condition_variable>
 #include <map>
 #include <mutex>
-#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -18,15 +17,17 @@
 #include "reference_scenes/povray/povray_input.hpp"
 #include "reference_scenes/povray/povray_options.hpp"
 #include "reference_scenes/preparation.hpp"
+#include "reference_scenes/worker_pool.hpp"
 
 namespace lobelia {
 namespace {
 namespace fs = std::filesystem;
 
-/// POV-Ray 3.7 sleeps through most of the 0.7 s that a small picture takes it; a large one works.
-constexpr int kProcessesPerProcessor = 4;
+/// POV-Ray 3.7 sleeps through most of the 0.7 to 1.1 s that a small picture takes it; a large one works.
+constexpr double kSecondsAsleep = 1;
+constexpr int kProcessesPerProcessor = 16;
+constexpr double kFirstPerProcessor = 12;  // until one has ended and told how long it worked
 constexpr std::size_t kLargePixels = 1 << 20;
-constexpr std::uint64_t kMaxLogBytes = 16 << 20;
 
 constexpr EngineProbe kProbe{"povray", "POV-Ray ", [](int major, int minor) {
                                return major == 3 && (minor == 7 || minor == 8);
@@ -34,10 +35,12 @@ constexpr EngineProbe kProbe{"povray", "POV-Ray ", [](int major, int minor) {
 
 struct PassResult {
   Image image;
-  std::string error;
+  Failure failure;
   std::vector<std::string> commands;
+  EngineLog log;
   bool writes_limited = false;
-  double seconds = 0;
+  double seconds = 0, cpu_seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;
   double parse_seconds = 0, trace_seconds = 0;  ///< by its statistics, where they were asked for
 };
 
@@ -46,6 +49,7 @@ struct Job {
   PovrayInput input;
   Film film;
   std::vector<std::string> options;
+  int threads = 1;  ///< of each process
   std::vector<PassResult> passes;
   std::size_t unfinished = 0;
 };
@@ -67,16 +71,39 @@ double seconds_in(std::string_view line, std::string_view what) {
   return seconds;
 }
 
-/// Of the pass that shows what this one's picture rounds off.
-std::string rest_of(const std::string& stem) { return stem + "-rest"; }
+/// Lets in so many processes that the processors are busy though each of them mostly sleeps.
+class Gate {
+ public:
+  /// Of `most` processes at once.
+  Gate(int processors, int most) : processors_(processors), most_(most) {}
+  void enter() {
+    std::unique_lock lock(mutex_);
+    leave_.wait(lock, [&] { return inside_ < limit(); });
+    ++inside_;
+  }
+  /// After one process that took the processors so long; 0 of one that ended otherwise.
+  void leave(double cpu_seconds) {
+    {
+      const std::scoped_lock lock(mutex_);
+      --inside_;
+      // The last few count: the next scenes may be of another kind.
+      if (cpu_seconds > 0)
+        mean_ = mean_ > 0 ? mean_ + (cpu_seconds - mean_) / processors_ / 4 : cpu_seconds;
+    }
+    leave_.notify_all();
+  }
 
-Image read_pass(const fs::path& file, const Film& film, double gain) {
-  Image image = read_image(file);
-  if (image.width() != film.width || image.height() != film.height)
-    throw Error(ExitCode::kEngine, "POV-Ray's picture has another size than was asked for");
-  for (float& value : image.values()) value = float(value / gain);
-  return image;
-}
+ private:
+  int limit() const {
+    const double each = mean_ > 0 ? 1 + kSecondsAsleep / mean_ : kFirstPerProcessor;
+    return int(std::clamp(each * processors_, 1.0, double(most_)));
+  }
+  const int processors_, most_;
+  std::mutex mutex_;
+  std::condition_variable leave_;
+  int inside_ = 0;
+  double mean_ = 0;
+};
 
 class Povray final : public Engine {
  public:
@@ -100,104 +127,102 @@ class Povray final : public Engine {
                      const OnResult& on_result) override;
 
  private:
-  PassResult run_pass(const std::string& stem, const Job& job, const PovrayPass& pass,
-                      const ReferenceOptions& options) const;
-  PassResult run_pov(const std::string& stem, const Job& job, const PovrayPass& pass,
-                     const ReferenceOptions& options) const;
-  std::string joined_logs(std::size_t index, const std::vector<PassResult>& passes) const;
+  PassResult run_pass(const Job& job, const PovrayPass& pass, const std::string& stem,
+                      const fs::path& home, const ReferenceOptions& options,
+                      const std::atomic<bool>& stop) const;
+  void run_pov(PassResult& result, const Job& job, const PovrayPass& pass, const std::string& stem,
+               const fs::path& home, const ReferenceOptions& options,
+               const std::atomic<bool>& stop) const;
 
-  fs::path wanted_program_, directory_;
-  std::vector<std::string> environment_;
+  fs::path wanted_program_;
   EngineStatus status_;
   bool probed_ = false;
 };
 
-PassResult Povray::run_pov(const std::string& stem, const Job& job, const PovrayPass& pass,
-                           const ReferenceOptions& options) const {
-  PassResult result;
-  write_povray_ini(directory_, stem, pass.gain, job.options);
+/// Renders `stem`.pov in `home`, and adds to the result what it took.
+void Povray::run_pov(PassResult& result, const Job& job, const PovrayPass& pass,
+                     const std::string& stem, const fs::path& home, const ReferenceOptions& options,
+                     const std::atomic<bool>& stop) const {
+  write_povray_ini(home, stem, pass.gain, job.options);
   const std::vector<std::string> arguments{status_.program.string(), stem + ".ini"};
   ProcessOptions process;
-  process.working_directory = directory_;
-  process.writable = directory_;
-  process.on_start = [&](bool writes_limited) { result.writes_limited = writes_limited; };
-  process.environment = environment_;
+  process.working_directory = process.writable = process.progress_directory = home;
+  process.on_start = [&](bool writes_limited) {
+    result.writes_limited = writes_limited && (result.commands.empty() || result.writes_limited);
+  };
+  process.environment = povray_home(home, status_.version);
   process.timeout = options.time_limit;
-  process.log = directory_ / (stem + ".log");
-  if (options.stages)
-    process.on_line = [&](std::string_view line) {
-      result.parse_seconds += seconds_in(line, "Parse Time:") + seconds_in(line, "Bounding Time:");
-      result.trace_seconds += seconds_in(line, "Trace Time:");
-    };
-  const ProcessResult ended = run_process(arguments, process);
-  if (ended.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
-  result.commands.push_back(shell_join(arguments));
-  result.seconds = ended.seconds;
-  const fs::path picture = directory_ / (stem + ".exr");
-  if (ended.exit_code != 0 || ended.timed_out) {
-    result.error = describe_failure(kPovrayInfo, ended, options.time_limit.count());
-  } else if (!fs::exists(picture)) {
-    result.error = fmt::format("POV-Ray wrote no picture: {}", last_words(ended.output_tail));
-  } else {
-    try {
-      result.image = read_pass(picture, job.film, pass.gain);
-    } catch (const Error& error) {
-      result.error = fmt::format("POV-Ray's picture cannot be used: {}", error.what());
-    }
+  process.no_progress_limit = options.no_progress_limit;
+  process.stop = &stop;
+  const std::string command = shell_join(arguments);
+  result.log.add("$ " + command);
+  process.on_line = [&](std::string_view line) {
+    result.log.add(line);
+    if (!options.stages) return;
+    result.parse_seconds += seconds_in(line, "Parse Time:") + seconds_in(line, "Bounding Time:");
+    result.trace_seconds += seconds_in(line, "Trace Time:");
+  };
+  ProcessResult ended;
+  result.failure = run_engine(kPovrayInfo, arguments, process, options, ended);
+  result.commands.push_back(command);
+  result.seconds += ended.seconds;
+  result.cpu_seconds += ended.cpu_seconds;
+  result.peak_memory_bytes = std::max(result.peak_memory_bytes, ended.peak_memory_bytes);
+  if (result.failure) return;
+  Image image;
+  result.failure = read_engine_picture(kPovrayInfo, home / (stem + ".exr"), job.film, image);
+  if (const std::string words = last_words(ended.output_tail);
+      result.failure.kind == FailureClass::kNoOutput && !words.empty())
+    result.failure.message += ": " + words;
+  if (result.failure) return;
+  // Of two passes the second shows half of what the first has left out.
+  const bool first = result.image.pixel_count() == 0;
+  if (first) result.image = Image(image.width(), image.height());
+  for (std::size_t i = 0; i < image.values().size(); ++i) {
+    const float value = float(image.values()[i] / pass.gain);
+    if (first)
+      result.image.values()[i] = value;
+    else
+      result.image.values()[i] += 2 * value;
   }
-  return result;
 }
 
-/// The pass, and where it was asked for a second one that shows what half floats left out of the first.
-PassResult Povray::run_pass(const std::string& stem, const Job& job, const PovrayPass& pass,
-                            const ReferenceOptions& options) const {
-  const std::string coarse = stem + ".exr", rest = rest_of(stem);
-  write_file(directory_ / (stem + ".pov"), pass.scene());
-  PassResult result = run_pov(stem, job, pass, options);
-  if (options.fine && result.error.empty()) {
-    write_file(directory_ / (rest + ".pov"), pass.rest(coarse));
-    const PassResult left = run_pov(rest, job, pass, options);
-    result.error = left.error;
-    result.commands.push_back(left.commands.front());
-    result.seconds += left.seconds;
-    result.parse_seconds += left.parse_seconds;
-    result.trace_seconds += left.trace_seconds;
-    result.writes_limited = result.writes_limited && left.writes_limited;
-    if (left.error.empty())
-      for (std::size_t i = 0; i < result.image.values().size(); ++i)
-        result.image.values()[i] += 2 * left.image.values()[i];
+/// The pass, and where it was asked for a second one that shows what half floats left out of the first; in
+/// a directory that has nothing else, so that whatever happens there is progress of this pass.
+PassResult Povray::run_pass(const Job& job, const PovrayPass& pass, const std::string& stem,
+                            const fs::path& home, const ReferenceOptions& options,
+                            const std::atomic<bool>& stop) const {
+  make_directories(home);
+  for (const auto& [file, text] : job.input.includes) write_file(home / file, text);
+  write_file(home / (stem + ".pov"), pass.scene());
+  PassResult result;
+  run_pov(result, job, pass, stem, home, options, stop);
+  if (options.fine && !result.failure) {
+    const std::string rest = stem + "-rest";
+    write_file(home / (rest + ".pov"), pass.rest(stem + ".exr"));
+    run_pov(result, job, pass, rest, home, options, stop);
   }
   std::error_code ignored;
-  for (const std::string& picture : {coarse, rest + ".exr"})
-    fs::remove(directory_ / picture,
-               ignored);  // of many large ones only those at work lie on the disk
+  fs::remove_all(home, ignored);  // of many large pictures only those at work lie on the disk
   return result;
-}
-
-std::string Povray::joined_logs(std::size_t index, const std::vector<PassResult>& passes) const {
-  std::string text;
-  for (std::size_t p = 0; p < passes.size(); ++p) {
-    std::string stem = pass_stem(index, p);
-    for (const std::string& command : passes[p].commands) {
-      const fs::path log = directory_ / (stem + ".log");
-      text += "$ " + command + "\n";
-      if (fs::exists(log)) text += read_file(log, kMaxLogBytes);
-      stem = rest_of(stem);
-    }
-  }
-  return text;
 }
 
 ReferenceResult finish(Job& job, const ReferenceOptions& options, Json record) {
   ReferenceResult result;
   const bool fine = options.fine;
-  double seconds = 0, parse_seconds = 0, trace_seconds = 0;
+  double seconds = 0, cpu_seconds = 0, parse_seconds = 0, trace_seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;
   bool writes_limited = true;
   Json commands = Json::array();
   std::vector<Image> images;
   for (PassResult& pass : job.passes) {
-    if (result.error.empty()) result.error = pass.error;
+    if (result.error.empty() && pass.failure) {
+      result.error = pass.failure.message;
+      result.failure = pass.failure.kind;
+    }
     seconds += pass.seconds;
+    cpu_seconds += pass.cpu_seconds;
+    peak_memory_bytes = std::max(peak_memory_bytes, pass.peak_memory_bytes);
     parse_seconds += pass.parse_seconds;
     trace_seconds += pass.trace_seconds;
     writes_limited = writes_limited && pass.writes_limited;
@@ -216,80 +241,81 @@ ReferenceResult finish(Job& job, const ReferenceOptions& options, Json record) {
   record["engineOptions"] = job.options;
   record["writesLimited"] = writes_limited;
   record["seconds"] = {{"total", seconds}};
+  record_cost(record, cpu_seconds, peak_memory_bytes, job.threads);
   if (options.stages) {
     record["seconds"]["parse"] = parse_seconds;
     record["seconds"]["trace"] = trace_seconds;
   }
   result.record = std::move(record);
   if (result.error.empty()) result.image = sum_of(images);
-  job.passes.clear();
   return result;
 }
 
 void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
                            const OnResult& on_result) {
   const TemporaryDirectory directory;
-  directory_ = directory.path();
-  environment_ = povray_home(directory_, status_.version);
-
   std::vector<Job> jobs(scenes.size());
   std::vector<WorkItem> work;
-  std::map<std::string, std::string> includes;  // of all jobs: a name always has the same text
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     try {
       jobs[i].input = povray_input(in_engine_units(scenes[i]), options);
     } catch (const Error& refused) {
-      on_result(i, {{}, {}, refused.what(), reference_record(kPovrayInfo, status_, scenes[i])});
+      on_result(i, failed_result(kPovrayInfo, status_, scenes[i],
+                                 {FailureClass::kRefused, refused.what()}));
       continue;
     }
-    includes.merge(jobs[i].input.includes);
     jobs[i].film = scenes[i].film;
     jobs[i].unfinished = jobs[i].input.passes.size();
     jobs[i].passes.resize(jobs[i].unfinished);
     for (std::size_t p = 0; p < jobs[i].unfinished; ++p) work.push_back({i, p});
   }
-  for (const auto& [file, text] : includes) write_file(directory_ / file, text);
 
-  const int processors = options.threads > 0
-                             ? options.threads
-                             : int(std::max(1u, std::thread::hardware_concurrency()));
+  const int processors = threads_of(options);
   const bool large = std::ranges::any_of(jobs, [](const Job& job) {
     return std::size_t(job.film.width) * job.film.height > kLargePixels;
   });
-  const int processes = processors * (large ? 1 : kProcessesPerProcessor);
+  const int processes =
+      options.processes > 0 ? options.processes : processors * (large ? 1 : kProcessesPerProcessor);
   const int workers = int(std::min(work.size(), std::size_t(processes)));
   const int threads_each = workers > 0 ? std::max(1, processors / workers) : 1;
+  for (Job& job : jobs) {
+    job.threads = threads_each;
+    job.options = povray_options(job.film, threads_each, options.stages);
+  }
+  Gate gate(processors, processes);
   std::atomic<std::size_t> next{0};
   std::atomic<bool> stop{false};
-  std::mutex mutex;  // of the jobs' bookkeeping, on_result and the first failure
-  std::exception_ptr failure;
-  for (Job& job : jobs) job.options = povray_options(job.film, threads_each, options.stages);
-  const auto run = [&] {
-    try {
-      for (std::size_t i; !stop && (i = next++) < work.size();) {
+  std::mutex mutex;  // of the jobs' bookkeeping and on_result
+  run_workers(workers, stop, [&] {
+    for (std::size_t i; !stop && (i = next++) < work.size();) {
+      const auto [index, pass] = work[i];
+      Job& job = jobs[index];
+      PassResult result;
+      gate.enter();
+      try {
         throw_if_interrupted();
-        const auto [index, pass] = work[i];
-        Job& job = jobs[index];
+        if (stop || !may_begin(options, index)) {
+          gate.leave(0);
+          continue;
+        }
         const std::string stem = pass_stem(index, pass);
-        PassResult result = run_pass(stem, job, job.input.passes[pass], options);
-        const std::scoped_lock lock(mutex);
-        job.passes[pass] = std::move(result);
-        if (--job.unfinished > 0 || stop) continue;
-        write_engine_log(options, kPovrayInfo, index, joined_logs(index, job.passes));
-        on_result(index,
-                  finish(job, options, reference_record(kPovrayInfo, status_, scenes[index])));
+        result =
+            run_pass(job, job.input.passes[pass], stem, directory.path() / stem, options, stop);
+      } catch (...) {
+        gate.leave(0);
+        throw;
       }
-    } catch (...) {
+      gate.leave(result.cpu_seconds / double(result.commands.size()));
       const std::scoped_lock lock(mutex);
-      if (!failure) failure = std::current_exception();
-      stop = true;
+      job.passes[pass] = std::move(result);
+      if (--job.unfinished > 0 || stop) continue;
+      std::string log;
+      for (const PassResult& done : job.passes) log += done.log.text();
+      write_engine_log(options, kPovrayInfo, index, log);
+      on_result(index, finish(job, options, reference_record(kPovrayInfo, status_, scenes[index])));
+      job = {};
     }
-  };
-  {
-    std::vector<std::jthread> pool;
-    for (int i = 0; i < workers; ++i) pool.emplace_back(run);
-  }
-  if (failure) std::rethrow_exception(failure);
+  });
 }
 
 }  // namespace
@@ -313,7 +339,7 @@ void keep_povray_input(const Scene& scene, const ReferenceOptions& options,
     keep(stem, input.passes[p].scene());
     if (options.fine) {
       commands += fmt::format("# Twice this one's picture is to be added to {}.exr.\n", stem);
-      keep(rest_of(stem), input.passes[p].rest(stem + ".exr"));
+      keep(stem + "-rest", input.passes[p].rest(stem + ".exr"));
     }
   }
   write_file(directory / "povray.sh", commands);

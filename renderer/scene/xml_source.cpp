@@ -72,6 +72,10 @@ void XmlSource::throw_if_errors() const {
 
 void XmlSource::check_attributes(pugi::xml_node node,
                                  std::initializer_list<std::string_view> allowed) {
+  check_attributes(node, std::span(allowed.begin(), allowed.size()));
+}
+
+void XmlSource::check_attributes(pugi::xml_node node, std::span<const std::string_view> allowed) {
   for (const auto attribute : node.attributes()) {
     const std::string_view name = attribute.name();
     if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
@@ -79,10 +83,9 @@ void XmlSource::check_attributes(pugi::xml_node node,
       count_error();
       continue;
     }
-    const std::span<const std::string_view> names(allowed.begin(), allowed.size());
     error(attribute, node,
           fmt::format("<{}> has no attribute '{}'; allowed: {}{}", node.name(), printable(name),
-                      join(names), did_you_mean(name, names)));
+                      join(allowed), did_you_mean(name, allowed)));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pugixml.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,7 @@ class XmlSource {
 
   /// Notes an error for each attribute of `node` that is not one of `allowed`.
   void check_attributes(pugi::xml_node node, std::initializer_list<std::string_view> allowed);
+  void check_attributes(pugi::xml_node node, std::span<const std::string_view> allowed);
   /// The attribute's value; notes an error and returns "" if it is missing.
   std::string required(pugi::xml_node node, const char* attribute);
 

@@ -30,6 +30,29 @@ ExitCode code_of(const std::function<void()>& action) {
   return ExitCode::kSuccess;
 }
 
+TEST(TemporaryDirectory, OfAKilledProcessIsTakenAwayAndThoseOfTheLivingStay) {
+  const TemporaryDirectory ours;
+  write_file(ours.path() / "a.txt", "x");
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const TemporaryDirectory theirs;
+    write_file(theirs.path() / "a.txt", "x");
+    const std::string& name = theirs.path().native();
+    if (::write(ends[1], name.data(), name.size()) < 0) ::_exit(1);
+    ::kill(::getpid(), SIGKILL);
+  }
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  char name[4096] = {};
+  ASSERT_GT(::read(ends[0], name, sizeof name - 1), 0);
+  for (const int end : ends) ::close(end);
+  ASSERT_TRUE(fs::exists(name));
+  remove_abandoned_temporaries();
+  EXPECT_FALSE(fs::exists(name));
+  EXPECT_TRUE(fs::exists(ours.path() / "a.txt"));
+}
+
 TEST(WriteFile, ReplacesWhatWasThereAndLeavesNothingElse) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a.txt";

@@ -1,7 +1,9 @@
 #include "core/process.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <future>
 
@@ -53,6 +55,80 @@ TEST(Process, OverItsTimeIsKilledWithItsChildren) {
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "late"));
 }
 
+TEST(Process, WithoutAnySignOfProgressIsKilledLongBeforeItsTime) {
+  ProcessOptions options;
+  options.no_progress_limit = seconds(1);
+  const auto silent = run_process(shell("echo begun; sleep 60"), options);
+  EXPECT_TRUE(silent.no_progress);
+  EXPECT_FALSE(silent.timed_out);
+  EXPECT_EQ(silent.output_tail, "begun\n");
+}
+
+TEST(Process, ThatTalksOrWritesIsNotTakenForOneThatHangs) {
+  const auto hangs = [](bool watched, const std::string& action) {
+    return std::async(std::launch::async, [watched, action] {
+      const TemporaryDirectory directory;
+      write_file(directory.path() / "old", "x");
+      ProcessOptions options;
+      options.working_directory = directory.path();
+      options.no_progress_limit = seconds(2);
+      if (watched) options.progress_directory = directory.path();
+      return run_process(
+                 shell(fmt::format("for i in 1 2 3 4 5 6 7 8 9; do sleep 0.4; {}; done", action)),
+                 options)
+          .no_progress;
+    });
+  };
+  auto talks = hangs(false, "echo"), unwatched = hangs(false, "echo >> growing");
+  auto grows = hangs(true, "echo >> growing"), makes = hangs(true, "mkdir -p a/$i");
+  // A clock that is set back must not look like rest: every time is another, though an earlier one.
+  auto set_back = hangs(true, "touch -d \"2001-01-01 00:00:$((59 - i))\" old");
+  auto reads = hangs(true, "cat old > /dev/null");
+  EXPECT_FALSE(talks.get());
+  EXPECT_FALSE(grows.get());
+  EXPECT_FALSE(makes.get());
+  EXPECT_FALSE(set_back.get());
+  EXPECT_TRUE(unwatched.get());
+  EXPECT_TRUE(reads.get());
+}
+
+TEST(Process, TellsItsProcessorTimeAndMemoryWithItsChildrens) {
+  const auto idle = run_process(shell("sleep 0.3"), {});
+  EXPECT_LT(idle.cpu_seconds, idle.seconds);
+  // 64 MiB held by a child of the shell, which works until it has used a second.
+  const auto busy = run_process(
+      shell(
+          "(x=$(head -c 67108864 /dev/zero | tr '\\0' x); ulimit -t 1; while :; do :; done); exit 0"),
+      {});
+  EXPECT_EQ(busy.exit_code, 0);
+  EXPECT_GT(busy.cpu_seconds, 0.9);
+  EXPECT_GT(busy.peak_memory_bytes, 67108864u);
+  EXPECT_LT(busy.peak_memory_bytes, std::uint64_t{1} << 32);
+  EXPECT_LT(idle.peak_memory_bytes, 67108864u);
+}
+
+TEST(Process, ReadsWhatItIsGivenAndNothingOtherwise) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_EQ(::write(ends[1], "words\n", 6), 6);
+  ::close(ends[1]);
+  ProcessOptions options;
+  options.input = ends[0];
+  EXPECT_EQ(run_process({"/bin/cat"}, options).output_tail, "words\n");
+  ::close(ends[0]);
+  EXPECT_EQ(run_process({"/bin/cat"}, {}).output_tail, "");
+}
+
+TEST(Process, IsKilledWhenItsCallerWantsItStopped) {
+  std::atomic<bool> stop = false;
+  ProcessOptions options;
+  options.stop = &stop;
+  options.on_line = [&](std::string_view) { stop = true; };
+  const auto result = run_process(shell("echo go; sleep 60"), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.exit_code, 128 + 9);
+}
+
 TEST(Process, ThatDiesOfASignalHasItInTheExitCode) {
   EXPECT_EQ(run_process(shell("kill -SEGV $$"), {}).exit_code, 128 + 11);
 }
@@ -72,6 +148,13 @@ TEST(Process, SeesOurEnvironmentWithTheChangesAsked) {
   options.environment = {"HOME=/somewhere", "LOBELIA_TEST=a b"};
   const auto result = run_process(shell("echo \"$HOME|$LOBELIA_TEST|${PATH:+path}\""), options);
   EXPECT_EQ(result.output_tail, "/somewhere|a b|path\n");
+}
+
+TEST(Process, SeesNothingButWhatItIsGivenIfAsked) {
+  ProcessOptions options;
+  options.environment = {"LOBELIA_TEST=a b"};
+  options.only_environment = true;
+  EXPECT_EQ(run_process({"/usr/bin/env"}, options).output_tail, "LOBELIA_TEST=a b\n");
 }
 
 TEST(Process, WritesItsOutputToTheLog) {

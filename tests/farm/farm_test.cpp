@@ -1,8 +1,9 @@
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "farm/cell_store.hpp"
 #include "farm_fixture.hpp"
 
 namespace lobelia {
@@ -102,50 +103,125 @@ TEST_F(FarmTest, ASecondRunDoesOnlyWhatIsMissing) {
   FarmSummary summary = run_farm(grid("16, 32"), out(), {});
   EXPECT_EQ(summary.rendered, 0u);
   EXPECT_EQ(summary.kept, 2u);
+  EXPECT_EQ(summary.cached_cells, 2u);
   summary = run_farm(grid("16, 32, 64"), out(), {});
   EXPECT_EQ(summary.rendered, 1u);
   EXPECT_EQ(summary.foreign, 0u);
   EXPECT_EQ(run_farm(grid("16"), out(), {}).foreign, 2u);
   EXPECT_EQ(summary.unchecked, 3u);
-  fs::remove(in_cell("n32", "lobelia.exr"));
-  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 1u);
-  for (const char* file : {"lobelia.png", "profile.json", "cell.json"}) {
+  // What is gone from the directory comes back from the cache.
+  for (const char* file :
+       {"lobelia.exr", "lobelia.png", "scene.xml", "profile.json", "cell.json"}) {
     fs::remove(in_cell("n32", file));
-    EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 0u) << file;
+    EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).work.made, 0u) << file;
     EXPECT_TRUE(fs::exists(in_cell("n32", file))) << file;
   }
+  fs::remove_all(out() / "cells");
+  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).work.made, 0u);
   EXPECT_EQ(fs::last_write_time(in_cell("n16", "lobelia.exr")), before);
 }
 
-TEST_F(FarmTest, ABrokenRecordOrAChangedSceneIsMadeAgain) {
+TEST_F(FarmTest, NothingIsMadeTwiceInWhateverGridAndDirectoryItStands) {
+  FarmOptions options;
+  options.cache = directory_.path() / "cache";
+  run_farm(grid("16, 32"), out(), options);
+  FarmSummary summary = run_farm(grid("32, 64"), directory_.path() / "other", options);
+  EXPECT_EQ(summary.rendered, 1u);
+  EXPECT_EQ(summary.kept, 1u);
+  EXPECT_FALSE(fs::exists(out() / "cache"));
+  EXPECT_TRUE(fs::equivalent(directory_.path() / "other" / "cells" / "n32" / "lobelia.exr",
+                             in_cell("n32", "lobelia.exr")))
+      << "one file under two names";
+}
+
+TEST_F(FarmTest, TwoCellsOfOneSceneHaveOneResult) {
+  Grid twice = grid("16, 32");
+  for (auto& value : twice.axes[0].values) value.apply = [](Scene&) {};
+  const FarmSummary summary = run_farm(twice, out(), {});
+  EXPECT_EQ(summary.rendered, 1u);
+  EXPECT_EQ(summary.unchecked, 2u);
+}
+
+TEST_F(FarmTest, AChangedSceneIsAnotherResult) {
   run_farm(grid("16, 32"), out(), {});
-  write_file(in_cell("n16", "cell.json"), "{");
-  write_file(in_cell("n16", "lobelia.json"), "");
-  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 1u);
   Grid other = grid("16, 32");
   other.scene.film.width = 50;
   EXPECT_EQ(run_farm(other, out(), {}).rendered, 2u);
   EXPECT_EQ(read_image(in_cell("n16", "lobelia.exr")).width(), 50);
+  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 0u) << "and the first one is still there";
+  EXPECT_EQ(read_image(in_cell("n16", "lobelia.exr")).width(), 48);
 }
 
-TEST_F(FarmTest, ATruncatedPictureIsMadeAgain) {
-  run_farm(grid("16, 32"), out(), {});
-  const std::string whole = read_file(in_cell("n16", "lobelia.exr"), 1 << 24);
-  write_file(in_cell("n16", "lobelia.exr"), whole.substr(0, whole.size() / 2));
-  fs::remove(in_cell("n16", "cell.json"));
-  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).rendered, 1u);
-  EXPECT_EQ(read_file(in_cell("n16", "lobelia.exr"), 1 << 24), whole);
+TEST_F(FarmTest, WhateverIsWrongWithAFileInTheCacheItIsMadeAgainAndNothingElse) {
+  run_farm(grid("16, 32", "<engine name=\"analytic\"/>"), out(), {});
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(out() / "cache" / "results"))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  ASSERT_GE(files.size(), 10u);
+  std::size_t made = 0;
+  for (const auto& file : files) {
+    const std::string whole = read_file(file, 1 << 24);
+    for (const std::string& broken :
+         {std::string(), whole.substr(0, whole.size() / 2), std::string(whole.size(), 'x')}) {
+      fs::permissions(file, fs::perms::owner_all);
+      std::ofstream(file, std::ios::binary) << broken;  // in place, as a disk would
+      const FarmSummary again = run_farm(grid("16, 32", "<engine name=\"analytic\"/>"), out(), {});
+      EXPECT_EQ(again.pass, 2u) << file;
+      made += again.work.made;
+      EXPECT_LE(again.work.made, 4u) << file << ": a cell has four results";
+      EXPECT_GE(again.work.made, 1u) << file;
+      if (file.extension() == ".exr" || file.extension() == ".png") {
+        EXPECT_EQ(read_file(file, 1 << 24), whole) << file;
+      }
+    }
+  }
+  EXPECT_LT(made, 3 * 2 * files.size()) << "mostly one result each time";
 }
 
-TEST_F(FarmTest, ACorruptPictureFailsItsCellAloneAndIsMadeAgain) {
-  run_farm(grid("16, 32"), out(), {});
-  const auto size = fs::file_size(in_cell("n16", "lobelia.exr"));
-  write_file(in_cell("n16", "lobelia.exr"), std::string(size, 'x'));  // of the right length
-  fs::remove(in_cell("n16", "cell.json"));
-  const FarmSummary summary = run_farm(grid("16, 32"), out(), {});
-  EXPECT_EQ(summary.failed, 1u);
-  EXPECT_EQ(summary.unchecked, 1u);
-  EXPECT_EQ(run_farm(grid("16, 32"), out(), {}).unchecked, 2u);
+TEST_F(FarmTest, FilesThatNobodyMadeForACellAreTakenOutOfIt) {
+  run_farm(grid("16", "<engine name=\"analytic\"/>"), out(), {});
+  ASSERT_TRUE(fs::exists(in_cell("n16", "analytic.exr")));
+  run_farm(grid("16"), out(), {});
+  EXPECT_FALSE(fs::exists(in_cell("n16", "analytic.exr")));
+  EXPECT_FALSE(fs::exists(in_cell("n16", "lobelia-analytic.json")));
+}
+
+TEST_F(FarmTest, DoesOnlyTheJobsThatAFilterPicks) {
+  FarmOptions options;
+  options.filter = JobFilter("n16*:-*analytic");
+  const Grid two = grid("16, 32", "<engine name=\"analytic\"/>");
+  FarmSummary summary = run_farm(two, out(), options);
+  EXPECT_EQ(summary.rendered, 1u);
+  EXPECT_EQ(summary.missing, 2u) << "one has only a part of its results, and one none";
+  EXPECT_TRUE(fs::exists(in_cell("n16", "lobelia.exr")));
+  EXPECT_EQ(cell_record("n16")["status"], "missing");
+  EXPECT_EQ(run_farm(two, out(), {}).pass, 2u);
+}
+
+TEST_F(FarmTest, APlanNamesEveryJobThatIsThenDoneAndWhy) {
+  const Grid two = grid("16, 32", "<engine name=\"analytic\"/>");
+  std::map<std::string, std::string> jobs;
+  const auto plan = [&](const Grid& g, const FarmOptions& options = {}) {
+    jobs.clear();
+    return plan_farm(g, out(), options, [&](const std::string& name, const std::string& reason) {
+      EXPECT_TRUE(jobs.emplace(name, reason).second) << name;
+    });
+  };
+  EXPECT_EQ(plan(two).wanted, 8u);
+  EXPECT_EQ(jobs.at("n16/reference-analytic"), "missing");
+  EXPECT_FALSE(fs::exists(out())) << "a plan writes nothing";
+  EXPECT_EQ(run_farm(two, out(), {}).work.made, 8u);
+  EXPECT_EQ(plan(two).wanted, 0u);
+  fs::remove_all(fs::path(out() / "cache" / "results"));
+  EXPECT_EQ(plan(two).wanted, 8u);
+  EXPECT_EQ(jobs.at("n32/profile"), "lost from the cache");
+  Grid other = two;
+  other.scene.film.width = 50;
+  plan(other);
+  EXPECT_EQ(jobs.at("n16/render"), "scene changed");
+  FarmOptions options;
+  options.filter = JobFilter("*render");
+  EXPECT_EQ(plan(two, options).wanted, 2u);
 }
 
 TEST_F(FarmTest, ASceneWithNothingInItAndOneThatIsAlmostBlackAreCellsToo) {
@@ -165,14 +241,6 @@ TEST_F(FarmTest, ACellWithMoreThanASingleRayTellsHasNoProfile) {
   EXPECT_EQ(run_farm(mirror, out(), {}).unchecked, 1u);
   EXPECT_FALSE(cell_record("n16").contains("profile"));
   EXPECT_FALSE(fs::exists(in_cell("n16", "profile.json")));
-}
-
-TEST_F(FarmTest, AnInterruptedAgainIsTakenUpWhereItStopped) {
-  const Grid two = grid("16, 32");
-  run_farm(two, out(), {});
-  const auto cells = cells_of(two);
-  CellStore(out(), cells.front()).prepare(true);  // what --again does first
-  EXPECT_EQ(run_farm(two, out(), {}).rendered, 1u);
 }
 
 TEST_F(FarmTest, AgainMakesEverythingAgain) {
@@ -247,7 +315,7 @@ TEST_F(FarmTest, ReportsEveryStep) {
     total = progress.total;
   };
   run_farm(grid("16, 32, 64"), out(), options);
-  EXPECT_EQ(last, 6u);
+  EXPECT_EQ(last, 6u) << "three pictures, three profiles";
   EXPECT_EQ(total, 6u);
 }
 

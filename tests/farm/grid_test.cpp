@@ -1,34 +1,14 @@
-#include "farm/grid.hpp"
-
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <set>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "tests/farm/grid_text.hpp"
 
 namespace lobelia {
 namespace {
 
 const std::string kGrids = std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/grids/";
-const std::string kScene =
-    "<scene file=\"" + std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/head_on.xml\"/>";
-
-std::string error_of(const std::string& body) {
-  const TemporaryDirectory directory;
-  const auto path = directory.path() / "g.xml";
-  write_file(path, "<grid version=\"1\">" + body + "</grid>");
-  try {
-    read_grid(path);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kInput);
-    return error.what();
-  }
-  return "it was read";
-}
-
 TEST(SphereGrid, HasEveryModelNormalisationExponentAndLight) {
   const Grid grid = read_grid(kGrids + "sphere_grid.xml");
   const auto cells = cells_of(grid);
@@ -50,11 +30,11 @@ TEST(Grid, HasNoSceneThatIsLitByAPicture) {
           "</transform></sensor><emitter type=\"envmap\">"
           "<string name=\"filename\" value=\"sky.exr\"/></emitter></scene>"));
   const std::string file = (directory.path() / "s.xml").string();
-  const std::string axis = "<axis name=\"exponent\" values=\"16\"/>";
-  EXPECT_THAT(error_of("<scene file=\"" + file + "\"/>" + axis),
+  EXPECT_THAT(error_of("<scene file=\"" + file + "\"/>" + axis("exponent", "16")),
               testing::HasSubstr("takes light from the picture 'sky.exr'"));
-  EXPECT_THAT(error_of(kScene + "<axis name=\"light\" values=\"" + file + "\"/>"),
-              testing::HasSubstr("takes light from the picture 'sky.exr'"));
+  for (const char* name : {"light", "scene"})
+    EXPECT_THAT(error_of(kScene + axis(name, file)),
+                testing::HasSubstr("takes light from the picture 'sky.exr'"));
 }
 
 TEST(Grid, LeavesTheFilterToTheScene) {
@@ -76,8 +56,10 @@ TEST(Grid, LeavesTheFilterToTheScene) {
 }
 
 TEST(Cells, CarryTheValuesOfTheirAxesIntoTheScene) {
-  for (const auto& cell : cells_of(read_grid(kGrids + "sphere_grid.xml"))) {
-    const Highlight& h = cell.scene.materials.at(0).highlight;
+  const Grid grid = read_grid(kGrids + "sphere_grid.xml");
+  for (const auto& cell : cells_of(grid)) {
+    const Scene scene = scene_of(grid, cell);
+    const Highlight& h = scene.materials.at(0).highlight;
     for (const auto& [axis, value] : cell.axes) {
       if (axis == "model") {
         EXPECT_EQ(info(h.model).name, value);
@@ -87,7 +69,7 @@ TEST(Cells, CarryTheValuesOfTheirAxesIntoTheScene) {
         EXPECT_EQ(std::string(info(h.lobe).name) + ":" + std::string(name(h.normalisation)), value);
       } else {
         EXPECT_EQ(axis, "light");
-        EXPECT_EQ(std::holds_alternative<PointLight>(cell.scene.lights.at(0)),
+        EXPECT_EQ(std::holds_alternative<PointLight>(scene.lights.at(0)),
                   value.find("point_light") != value.npos);
       }
     }
@@ -95,13 +77,49 @@ TEST(Cells, CarryTheValuesOfTheirAxesIntoTheScene) {
   }
 }
 
+TEST(GridFormat, ItsExamplesAreReadAndHaveAsManyCellsAsItSays) {
+  const std::string page =
+      read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/grid_format.md", 1 << 20);
+  std::vector<std::size_t> counts;
+  for (auto at = page.find("```xml"); at != page.npos; at = page.find("```xml", at + 1)) {
+    std::string text = page.substr(at + 6, page.find("```", at + 6) - at - 6);
+    for (auto file = text.find("../scenes/"); file != text.npos; file = text.find("../scenes/"))
+      text.replace(file, 10, kSceneFiles);
+    const TemporaryDirectory directory;
+    write_file(directory.path() / "g.xml", text);
+    const Grid grid = read_grid(directory.path() / "g.xml");
+    counts.push_back(cells_of(grid).size());
+  }
+  EXPECT_EQ(counts, (std::vector<std::size_t>{4, 48 - 16 - 12 + 4 + 1}));
+  EXPECT_THAT(page, testing::HasSubstr("25 cells remain"));
+  EXPECT_THAT(page, testing::HasSubstr(std::to_string(kMaxCells) + " cells together"));
+}
+
 TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
   const std::pair<const char*, const char*> bad[] = {
       {"<axis name=\"modle\" values=\"a\"/>",
-       "unknown axis 'modle'; allowed: model, normalisation, "
-       "exponent, light; did you mean 'model'?"},
+       "unknown axis 'modle'; allowed: scene, model, lobe, normalisation, exponent, light, samples, "
+       "size, engine; did you mean 'model'?"},
       {"<axis name=\"model\" values=\"phong\"/>", "unknown model 'phong'; allowed: phong_rdf"},
-      {"<axis name=\"normalisation\" values=\"cs16\"/>", "'cs16' is not LOBE:NORMALISATION"},
+      {"<axis name=\"normalisation\" values=\"cs16\"/>",
+       "'cs16' is neither a normalisation (exact, paper) nor LOBE:NORMALISATION, as cs16:paper is"},
+      {"<axis name=\"normalisation\" values=\"papre\"/>", "did you mean 'paper'?"},
+      {"<axis name=\"lobe\" values=\"cosin\"/>", "unknown lobe 'cosin'; allowed: "},
+      {"<axis name=\"samples\" values=\"0\"/>",
+       "samples '0'; allowed: whole numbers from 1 to 65536"},
+      {"<axis name=\"samples\" values=\"65537\"/>", "samples '65537'; allowed"},
+      {"<axis name=\"samples\" values=\"1.5\"/>", "samples '1.5'; allowed"},
+      {"<axis name=\"size\" values=\"0x9\"/>",
+       "size '0x9'; allowed: 256 or 320x240, each side from 1 to 32768, "},
+      {"<axis name=\"size\" values=\"9x\"/>", "size '9x'; allowed"},
+      {"<axis name=\"size\" values=\"x9\"/>", "size 'x9'; allowed"},
+      {"<axis name=\"size\" values=\"9x9x9\"/>", "size '9x9x9'; allowed"},
+      {"<axis name=\"size\" values=\"32769x1\"/>", "size '32769x1'; allowed"},
+      {"<axis name=\"size\" values=\"32768\"/>", "size '32768'; allowed"},
+      {"<axis name=\"size\" values=\"256, 256x256\"/>", "would have the same file name"},
+      {"<axis name=\"engine\" values=\"blendr\"/>",
+       "unknown engine 'blendr'; allowed: povray, blender, analytic; did you mean 'blender'?"},
+      {"<axis name=\"scene\" values=\"missing.xml\"/>", "missing.xml: cannot read"},
       {"<axis name=\"normalisation\" values=\"cs16:papr\"/>", "did you mean 'paper'?"},
       {"<axis name=\"exponent\" values=\"16, -3\"/>", "exponent '-3'; allowed: 0.001 to 1e+08"},
       {"<axis name=\"exponent\" values=\"16, nan\"/>", "exponent 'nan'; allowed"},
@@ -128,14 +146,108 @@ TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
   EXPECT_THAT(error_of(kScene), testing::HasSubstr("the grid has no <axis>"));
 }
 
-TEST(GridReader, RefusesMoreCellsThanItCouldEverRender) {
-  std::string values;
-  for (int i = 1; i <= 9000; ++i) values += std::to_string(i) + " ";
-  EXPECT_THAT(error_of(kScene + "<axis name=\"exponent\" values=\"" + values +
-                       "\"/><axis name=\"model\" values=\"phong_rdf modified_phong blinn_phong_rdf "
-                       "modified_blinn_phong\"/><axis name=\"normalisation\" values=\"cosine:exact "
-                       "cs16:exact cs16:paper\"/>"),
-              testing::HasSubstr("over 100000 cells"));
+TEST(GridReader, SaysOfEveryWrongChoiceWhatIsThere) {
+  const std::string axes = kScene + axis("model", "phong_rdf, modified_phong, blinn_phong_rdf") +
+                           axis("exponent", "16, 128");
+  const std::pair<const char*, const char*> bad[] = {
+      {"<exclude modle=\"phong_rdf\"/>",
+       "<exclude> has no attribute 'modle'; allowed: model, exponent; did you mean 'model'?"},
+      {"<exclude/>", "<exclude> names no axis; allowed: model, exponent"},
+      {"<exclude exponent=\"\"/>", "no value of the axis 'exponent'"},
+      {"<exclude exponent=\"1024\"/>",
+       "the <exclude> matches no cell: '1024' is not on the axis 'exponent'; there are: 16, 128"},
+      {"<exclude exponent=\"16, 1024\"/>", "'1024' is not on the axis 'exponent'"},
+      {"<exclude model=\"modified_phon\"/>", "did you mean 'modified_phong'?"},
+      {"<exclude exponent=\"16, 128\"/>", "no cell is left"},
+      {"<include model=\"phong_rdf\"/>", "<include> needs the attribute 'exponent'"},
+      {"<include model=\"phong_rdf\" exponent=\"\"/>", "'' is not one value"},
+      {"<include model=\"phong_rdf\" exponent=\"512\" lobe=\"cosine\"/>",
+       "<include> has no attribute 'lobe'; allowed: model, exponent"},
+      {"<include model=\"phong_rdf\" exponent=\"-1\"/>", "exponent '-1'; allowed: 0.001 to 1e+08"},
+      {"<include model=\"phong_rd\" exponent=\"512\"/>", "did you mean 'phong_rdf'?"},
+      {"<include model=\"phong_rdf\" exponent=\"512, 513\"/>", "'512, 513' is not one value"},
+      {"<include model=\"phong_rdf\" exponent=\"16.0\"/>",
+       "'16.0' would have the same file name as another value of the axis 'exponent'"},
+      {"<include model=\"phong_rdf\" exponent=\"16\"/>",
+       "the cell 'phong_rdf-n16' is there already"},
+      {"<include model=\"phong_rdf\" exponent=\"5\"/><include model=\"phong_rdf\" exponent=\"5\"/>",
+       "the cell 'phong_rdf-n5' is there already"},
+  };
+  for (const auto& [body, message] : bad) {
+    const std::string error = error_of(axes + body);
+    EXPECT_THAT(error, testing::HasSubstr(message));
+    EXPECT_THAT(error, testing::HasSubstr("g.xml:1:"));
+    EXPECT_EQ(error.find('\n'), error.npos) << error;
+  }
+  EXPECT_THAT(error_of(kScene + "<list>" + axis("model", "phong_rdf, modified_phong") +
+                       axis("exponent", "16, 128") +
+                       "</list><exclude model=\"phong_rdf\" exponent=\"128\"/>"),
+              testing::HasSubstr("the <exclude> matches no cell: the values never stand together"));
+}
+
+TEST(GridReader, SaysOfEveryWrongListAndPairOfAxesWhatIsAllowed) {
+  const std::pair<std::string, const char*> bad[] = {
+      {"<list/>" + axis("size", "8"), "the <list> has no <axis>"},
+      {"<list name=\"a\">" + axis("size", "8") + "</list>", "<list> has no attribute 'name'"},
+      {"<list>" + axis("size", "8") + "<film/></list>",
+       "unknown element <film> in <list>; allowed: axis"},
+      {"<list>" + axis("size", "8, 9") + axis("samples", "1, 2, 3") + "</list>",
+       "3 values beside the 2 of the axis 'size'"},
+      {"<list>" + axis("size", "8, 9, 8") + axis("samples", "1, 2, 1") + "</list>",
+       "the values of step 3 of the <list> stand there twice"},
+      {"<list>" + axis("size", "8") + "</list>" + axis("size", "9"), "a second axis 'size'"},
+      {axis("lobe", "cosine") + axis("normalisation", "exact, cs16:paper"),
+       "LOBE:NORMALISATION 'cs16:paper' beside an axis 'lobe'; allowed there: exact, paper"},
+      {axis("lobe", "cosine") + axis("normalisation", "exact") +
+           "<include lobe=\"cosine\" normalisation=\"cs16:exact\"/>",
+       "LOBE:NORMALISATION 'cs16:exact' beside an axis 'lobe'"},
+      {axis("size", "8") + "<film width=\"8\" height=\"8\"/>",
+       "an axis 'size' beside a <film>; allowed: one of them"},
+      {axis("engine", "povray") + "<engine name=\"povray\"/>",
+       "an axis 'engine' beside <engine>; allowed: one of them"},
+  };
+  for (const auto& [body, message] : bad) {
+    const std::string error = error_of(kScene + body);
+    EXPECT_THAT(error, testing::HasSubstr(message));
+    EXPECT_EQ(error.find('\n'), error.npos) << error;
+  }
+}
+
+TEST(GridReader, RefusesCellsWhoseNamesAreTheSameOrTooLong) {
+  const TemporaryDirectory directory;
+  const std::string scene = read_file(kSceneFiles + "head_on.xml", 1 << 20);
+  const auto file = [&](const std::string& name) {
+    write_file(directory.path() / (name + ".xml"), scene);
+    return (directory.path() / (name + ".xml")).string();
+  };
+  EXPECT_THAT(error_of(axis("scene", file("a") + " " + file("a-b")) +
+                       axis("light", file("b-c") + " " + file("c"))),
+              testing::HasSubstr("two cells would be called 'a-b-c'"));
+  const std::string longest(kMaxIdBytes - 4, 'a');
+  EXPECT_EQ(cells_of(grid_of(axis("scene", file(longest)) + axis("exponent", "16")))[0].id.size(),
+            kMaxIdBytes);
+  EXPECT_THAT(error_of(axis("scene", file(longest)) + axis("exponent", "16, 128")),
+              testing::HasSubstr("has a name of 201 bytes; allowed: 200"));
+  const auto cells = cells_of(grid_of(axis("scene", file("-rf") + " " + file(".hidden"))));
+  EXPECT_EQ(cells[0].id, "_rf");
+  EXPECT_EQ(cells[1].id, "_hidden");
+}
+
+TEST(GridReader, BoundsWhatAHostileFileAsksFor) {
+  EXPECT_THAT(error_of(kScene + axis("exponent", numbers(10001))),
+              testing::HasSubstr("over 10000 values on the axis 'exponent'; allowed: 10000"));
+  std::string exclude;
+  for (int i = 0; i < 300; ++i) exclude += "<exclude samples=\"1, 2\"/>";
+  EXPECT_THAT(error_of(kScene + axis("exponent", numbers(10000)) + axis("samples", "1, 2, 3, 4") +
+                       exclude + exclude + exclude + exclude),
+              testing::HasSubstr("the <exclude> elements name over 20000000 cells together"));
+  std::string wrong;
+  for (int i = 0; i < 20000; ++i) wrong += "<exclude samples=\"9\"/><include samples=\"0\"/>";
+  EXPECT_THAT(error_of(kScene + axis("exponent", numbers(5000)) + axis("samples", "1") + wrong),
+              testing::HasSubstr("further errors"));
+  const std::string crowd = "<scene file=\"" + kSceneFiles + "effects/crowd.xml\"/>";
+  EXPECT_THAT(error_of(crowd + axis("exponent", numbers(10000)) + axis("samples", numbers(100))),
+              testing::HasSubstr("shapes, materials and lights in all; allowed: 100000000"));
 }
 
 }  // namespace

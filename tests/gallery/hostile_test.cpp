@@ -182,5 +182,21 @@ TEST(HostileRecords, curves_of_different_lengths_make_the_profile_unreadable) {
               HasSubstr("profile.json: 'curve.povray' must have as many values"));
 }
 
+TEST(HostileRecords, a_link_out_of_the_run_is_not_published) {
+  const FakeFarm farm;
+  const TemporaryDirectory elsewhere;
+  write_file(elsewhere.path() / "secret", std::string_view("secret"));
+  const auto log = farm.cell_directory(FakeFarm::kPass) / "povray.log";
+  std::filesystem::remove(log);
+  std::filesystem::create_symlink(elsewhere.path() / "secret", log);
+  const GalleryOptions options{elsewhere.path() / "site", false, "", ""};
+  EXPECT_THROW(write_gallery(farm.directory(), options), Error);
+  EXPECT_FALSE(std::filesystem::exists(options.site / "cells" / FakeFarm::kPass / "povray.log"));
+  // Within it, it may.
+  std::filesystem::remove(log);
+  std::filesystem::create_symlink("lobelia.log", log);
+  EXPECT_NO_THROW(write_gallery(farm.directory(), options));
+}
+
 }  // namespace
 }  // namespace lobelia::gallery

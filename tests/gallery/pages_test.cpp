@@ -159,5 +159,70 @@ TEST(GalleryPages, a_directory_without_a_farm_is_an_input_error_that_says_what_t
   EXPECT_TRUE(std::filesystem::is_empty(empty.path()));
 }
 
+TEST(GalleryPages, a_cell_that_the_grid_excludes_leaves_an_empty_place) {
+  FakeFarm farm;
+  auto& cells = farm.farm()["cells"];
+  for (std::size_t i = cells.size(); i-- > 0;)
+    if (cells[i]["id"] == FakeFarm::kDiffers) cells.erase(i);
+  farm.write();
+  write_gallery(farm.directory());
+  const Site site(farm.directory());
+  const auto& index = site.page("index.html");
+  EXPECT_EQ(index.select_nodes("//td[@data-status]").size(), 3u);
+  const auto row = index.select_nodes("//table[@class='grid']/tbody/tr[1]/td");
+  ASSERT_EQ(row.size(), 2u);
+  EXPECT_STREQ(row[0].node().attribute("class").value(), "cell pass");
+  EXPECT_STREQ(row[1].node().attribute("class").value(), "none");
+  EXPECT_THAT(site.bad_links(), IsEmpty());
+}
+
+TEST(GalleryPages,
+     in_a_directory_of_its_own_the_site_is_complete_and_a_second_time_changes_nothing) {
+  const FakeFarm farm;
+  const TemporaryDirectory scratch;
+  const GalleryOptions options{scratch.path() / "site", false, "", ""};
+  EXPECT_EQ(write_gallery(farm.directory(), options), scratch.path() / "site/index.html");
+  EXPECT_FALSE(std::filesystem::exists(farm.directory() / "index.html"));
+  EXPECT_THAT(Site(options.site).bad_links(), IsEmpty());
+  const auto times = [&] {
+    std::map<std::string, std::filesystem::file_time_type> result;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(options.site))
+      if (entry.is_regular_file()) result[entry.path().string()] = entry.last_write_time();
+    return result;
+  };
+  const auto before = times();
+  EXPECT_GT(before.size(), 30u);
+  write_gallery(farm.directory(), options);
+  EXPECT_EQ(times(), before);
+}
+
+TEST(GalleryPages, a_cell_that_is_gone_leaves_nothing_behind_but_what_others_put_there) {
+  FakeFarm farm;
+  const TemporaryDirectory scratch;
+  const GalleryOptions options{scratch.path(), false, "", ""};
+  write_gallery(farm.directory(), options);
+  write_file(scratch.path() / "cells" / FakeFarm::kDiffers / "mine.txt", std::string_view("mine"));
+  auto& cells = farm.farm()["cells"];
+  for (std::size_t i = cells.size(); i-- > 0;)
+    if (cells[i]["id"] == FakeFarm::kDiffers || cells[i]["id"] == FakeFarm::kFailed) cells.erase(i);
+  farm.write();
+  write_gallery(farm.directory(), options);
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "cells" / FakeFarm::kFailed));
+  const auto left = contents(scratch.path() / "cells" / FakeFarm::kDiffers);
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_EQ(left.begin()->first, "mine.txt");
+  EXPECT_THAT(Site(scratch.path()).bad_links(), IsEmpty());
+}
+
+TEST(GalleryPages, script_and_style_are_those_that_were_built) {
+  const FakeFarm farm;
+  write_gallery(farm.directory());
+  for (const char* file : {"gallery.js", "gallery.css"}) {
+    const std::filesystem::path built =
+        std::filesystem::path(LOBELIA_SOURCE_DIR) / "gallery/web/dist" / file;
+    EXPECT_EQ(read_file(farm.directory() / file, 1 << 20), read_file(built, 1 << 20)) << file;
+  }
+}
+
 }  // namespace
 }  // namespace lobelia::gallery

@@ -3,15 +3,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <bit>
+#include <cmath>
 #include <filesystem>
 #include <future>
 #include <map>
+#include <random>
+#include <set>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/write_limit.hpp"
 #include "reference_scenes/engine.hpp"
+#include "reference_scenes/engine_program.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 
 namespace lobelia {
@@ -23,10 +30,11 @@ using testing::HasSubstr;
 class FakeEngine : public testing::TestWithParam<std::string> {
  protected:
   /// A program that answers --version as the engine does and otherwise runs `body`.
-  fs::path program(const std::string& body, std::string version = "") {
+  fs::path program(const std::string& body, std::string version = "",
+                   const std::string& file = "engine") {
     if (version.empty())
       version = GetParam() == "povray" ? "POV-Ray 3.7.0.10.unofficial" : "Blender 3.4.1";
-    const fs::path path = directory_.path() / "engine";
+    const fs::path path = directory_.path() / file;
     write_file(path,
                fmt::format("#!/bin/sh\n[ \"$1\" = --version ] && echo '{}' >&2 && exit 0\n{}\n",
                            version, body));
@@ -34,12 +42,16 @@ class FakeEngine : public testing::TestWithParam<std::string> {
     return path;
   }
 
+  static std::vector<Scene> plain_scenes(int count) {
+    return std::vector<Scene>(
+        std::size_t(count),
+        sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
+  }
+
   std::map<std::size_t, std::string> errors_of(const std::string& body, int scenes = 1,
                                                double limit = 20) {
     const auto engine = make_engine(GetParam(), program(body));
-    const std::vector<Scene> all(
-        std::size_t(scenes),
-        sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
+    const std::vector<Scene> all = plain_scenes(scenes);
     ReferenceOptions options;
     options.time_limit = std::chrono::duration<double>(limit);
     options.log_directory = directory_.path();
@@ -93,6 +105,19 @@ class FakeEngine : public testing::TestWithParam<std::string> {
 
   TemporaryDirectory directory_;
 };
+
+TEST(FailureClasses, HaveEachANameAndTheSameAgainHelpsWhereTheEngineIsThereAndCan) {
+  std::set<std::string_view> names(std::begin(kFailureNames), std::end(kFailureNames));
+  EXPECT_EQ(names.size(), std::size(kFailureNames));
+  using enum FailureClass;
+  EXPECT_EQ(failure_name(kBadOutput), "unreadable output");
+  EXPECT_EQ(failure_name(kExitCode), "exit code");
+  for (const FailureClass failure :
+       {kCrash, kTimedOut, kNoProgress, kNoOutput, kWrongSize, kNonFinite, kBadOutput, kExitCode})
+    EXPECT_TRUE(worth_retrying(failure)) << failure_name(failure);
+  for (const FailureClass failure : {kNone, kEngineMissing, kRefused})
+    EXPECT_FALSE(worth_retrying(failure)) << failure_name(failure);
+}
 
 TEST_P(FakeEngine, MissingIsSaidWithHowToInstall) {
   EXPECT_THAT(unavailable_because(directory_.path() / "nothing"), HasSubstr("is not a program"));
@@ -157,42 +182,156 @@ TEST_P(FakeEngine, TextInPlaceOfAPictureIsAnError) {
               HasSubstr("picture cannot be used"));
 }
 
-TEST_P(FakeEngine, FailureIsTheResultOfItsSceneWithItsLogAndNothingElses) {
-  const std::string large = (directory_.path() / "large.exr").string();
-  write_exr(large, Image(16, 17), {});
+TEST_P(FakeEngine, FailureIsTheResultOfItsSceneWithItsClassAndItsLogAndNothingElses) {
+  const auto picture = [&](const std::string& name, int height, float first) {
+    Image image(16, height);
+    // Noise, which no compression makes so small that a part of the file has it all.
+    std::minstd_rand random;
+    for (float& value : image.values())
+      value = std::bit_cast<float>(0x3f000000u | std::uint32_t(random() >> 8));
+    image.values()[5] = first;
+    write_exr(directory_.path() / name, image, {});
+    return (directory_.path() / name).string();
+  };
+  const std::string tall = picture("tall.exr", 17, 1), whole = picture("whole.exr", 16, 1);
+  const std::string nan = picture("nan.exr", 16, NAN), infinite = picture("inf.exr", 16, -INFINITY);
   const bool povray = GetParam() == "povray";
-  const std::pair<std::string, std::string> failures[] = {
-      {"kill -SEGV $$", "was ended by signal 11"},
-      {"sleep 60", "was stopped after 2 s"},
-      {"exit 3", "stopped with exit code 3"},
-      {"exit 0", povray ? "wrote no picture" : "stopped with exit code 0"},
-      {":", povray ? "wrote no picture" : "picture cannot be used"},
-      {"head -c 9999 /dev/urandom > \"$picture\"", "picture cannot be used"},
-      {fmt::format("head -c 400 '{}' > \"$picture\"", large), "picture cannot be used"},
-      {fmt::format("cp '{}' \"$picture\"", large), "another size"}};
-  for (const auto& [bad, error] : failures) {
-    SCOPED_TRACE(bad);
-    const auto engine = make_engine(GetParam(), program(second_scene(bad)));
-    const std::vector<Scene> scenes(
-        3, sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
+  struct Case {
+    std::string bad, error;
+    FailureClass failure;
+    double limit = 60, no_progress_limit = 0;
+  };
+  using enum FailureClass;
+  const Case cases[] = {
+      {"kill -SEGV $$", "was ended by signal 11", kCrash},
+      {"kill -KILL $$", "was ended by signal 9", kCrash},
+      {"sleep 60", "was stopped after 2 s", kTimedOut, 2},
+      {"while :; do echo still; sleep 0.2; done", "was stopped after 2 s", kTimedOut, 2, 1.5},
+      {"echo x > half; sleep 60", "was stopped after 2 s without a sign of progress", kNoProgress,
+       60, 2},
+      {"exit 3", "stopped with exit code 3", kExitCode},
+      {"exit 255", "stopped with exit code 255", kExitCode},
+      {"exit 0", povray ? "wrote no picture" : "stopped with exit code 0", kNoOutput},
+      {":", "wrote no picture", kNoOutput},
+      {": > \"$picture\"", "picture cannot be used", kBadOutput},
+      {"head -c 9999 /dev/urandom > \"$picture\"", "picture cannot be used", kBadOutput},
+      {fmt::format("head -c 1500 '{}' > \"$picture\"", whole), "picture cannot be used",
+       kBadOutput},
+      {fmt::format("cp '{}' \"$picture\"", nan), "not finite", kNonFinite},
+      {fmt::format("cp '{}' \"$picture\"", infinite), "not finite", kNonFinite},
+      {fmt::format("cp '{}' \"$picture\"", tall), "another size", kWrongSize}};
+  const auto try_out = [&](const Case& c, const fs::path& path) {
+    SCOPED_TRACE(c.bad);
+    const TemporaryDirectory logs;
+    const auto engine = make_engine(GetParam(), path);
     ReferenceOptions options;
-    options.time_limit = std::chrono::seconds(2);
-    options.log_directory = directory_.path();
+    options.time_limit = std::chrono::duration<double>(c.limit);
+    options.no_progress_limit = std::chrono::duration<double>(c.no_progress_limit);
+    options.log_directory = logs.path();
     std::map<std::size_t, ReferenceResult> results;
-    engine->render(scenes, options, [&](std::size_t index, ReferenceResult result) {
+    engine->render(plain_scenes(3), options, [&](std::size_t index, ReferenceResult result) {
+      EXPECT_FALSE(results.contains(index)) << "told twice";
       results[index] = std::move(result);
     });
     ASSERT_EQ(results.size(), 3u);
     for (const std::size_t good : {0, 2}) {
       EXPECT_EQ(results[good].error, "");
+      EXPECT_EQ(results[good].failure, kNone);
       EXPECT_EQ(results[good].image.pixel_count(), 256u);
     }
-    EXPECT_THAT(results[1].error, HasSubstr(error));
+    EXPECT_THAT(results[1].error, HasSubstr(c.error));
+    EXPECT_EQ(failure_name(results[1].failure), failure_name(c.failure));
     EXPECT_EQ(results[1].image.pixel_count(), 0u);
     for (const int scene : {0, 1, 2}) {
-      const fs::path log = directory_.path() / fmt::format("{}-{}.log", GetParam(), scene);
+      const fs::path log = logs.path() / fmt::format("{}-{}.log", GetParam(), scene);
       EXPECT_EQ(read_file(log, 1 << 20).find("of the second") != std::string::npos, scene == 1);
-      fs::remove(log);
+    }
+  };
+  // All are written before any is started: one that is open for writing in a child cannot be.
+  std::vector<std::future<void>> all;
+  std::vector<fs::path> programs;
+  for (const Case& c : cases)
+    programs.push_back(program(second_scene(c.bad), "", fmt::format("engine{}", programs.size())));
+  for (std::size_t i = 0; i < programs.size(); ++i)
+    all.push_back(std::async(std::launch::async, [&, i] { try_out(cases[i], programs[i]); }));
+  for (auto& one : all) one.get();
+}
+
+TEST_P(FakeEngine, ThatIsTakenAwayMeanwhileIsMissing) {
+  const fs::path path = program(second_scene(":"));
+  const auto engine = make_engine(GetParam(), path);
+  ASSERT_TRUE(engine->status().available);
+  fs::remove(path);
+  std::size_t count = 0;
+  engine->render(plain_scenes(9), {}, [&](std::size_t, ReferenceResult result) {
+    ++count;
+    EXPECT_EQ(result.failure, FailureClass::kEngineMissing) << result.error;
+    EXPECT_FALSE(worth_retrying(result.failure));
+  });
+  EXPECT_EQ(count, 9u);
+}
+
+TEST_P(FakeEngine, IsNotAskedForWhatItCannotShow) {
+  const auto engine = make_engine(GetParam(), program("exit 1"));
+  ReferenceOptions options;
+  options.witness = Witness::kNative;
+  options.begin = [](std::size_t) -> bool { throw std::logic_error("asked for"); };
+  const Scene scene = sphere_scene({"phong_rdf", "cs16", "exact", 16}, {point_light()}, 16);
+  engine->render(std::span(&scene, 1), options, [&](std::size_t, ReferenceResult result) {
+    EXPECT_EQ(result.failure, FailureClass::kRefused);
+    EXPECT_NE(result.error, "");
+  });
+}
+
+TEST_P(FakeEngine, FloodOfWordsIsCutInTheLog) {
+  errors_of("head -c 20000000 /dev/zero | tr '\\0' x | fold; exit 1");
+  const auto size = fs::file_size(directory_.path() / (GetParam() + "-0.log"));
+  EXPECT_GT(size, 1u << 20);
+  EXPECT_LT(size, 3u << 20);
+}
+
+TEST_P(FakeEngine, LeavesOutWhatMayNotBeginAndIsAskedOnceForEach) {
+  const auto engine = make_engine(GetParam(), program(second_scene(":")));
+  std::vector<Scene> scenes = plain_scenes(12);
+  scenes[4].sampler.sample_count = scenes[7].sampler.sample_count = 4;  // averages, of many parts
+  ReferenceOptions options;
+  options.points = kReplicates;
+  std::map<std::size_t, int> asked, told;
+  std::atomic<int> at_once = 0;
+  options.begin = [&](std::size_t index) {
+    EXPECT_EQ(++at_once, 1);
+    ++asked[index];
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    --at_once;
+    return index % 3 == 0 || index == 4;
+  };
+  engine->render(scenes, options, [&](std::size_t index, ReferenceResult) { ++told[index]; });
+  using testing::Pair;
+  EXPECT_THAT(told,
+              testing::ElementsAre(Pair(0, 1), Pair(3, 1), Pair(4, 1), Pair(6, 1), Pair(9, 1)));
+  EXPECT_EQ(asked.size(), scenes.size());
+  for (const auto& [scene, times] : asked) EXPECT_EQ(times, 1) << scene;
+}
+
+TEST_P(FakeEngine, RunsInNoMoreProcessesThanItMay) {
+  for (const int processes : {1, 2}) {
+    ReferenceOptions options;
+    options.processes = processes;
+    options.threads = 4;
+    std::set<int> threads;
+    const auto engine = make_engine(GetParam(), program("sleep 0.2\n" + second_scene(":")));
+    std::size_t count = 0;
+    const auto began = std::chrono::steady_clock::now();
+    engine->render(plain_scenes(6), options, [&](std::size_t, ReferenceResult result) {
+      ++count;
+      if (result.record.contains("threads")) threads.insert(result.record.at("threads").get<int>());
+    });
+    EXPECT_EQ(count, 6u);
+    // That many sleeps, one after the other, cannot take less.
+    EXPECT_GE(std::chrono::steady_clock::now() - began,
+              std::chrono::milliseconds(1200 / processes));
+    if (GetParam() == "povray") {
+      EXPECT_THAT(threads, testing::ElementsAre(4 / processes));
     }
   }
 }
@@ -227,14 +366,101 @@ TEST_P(FakeEngine, FindsNoSettingsButOurs) {
 
 TEST_P(FakeEngine, FailureOfTheReceiverEndsTheWork) {
   const auto engine = make_engine(GetParam(), program("exit 1"));
-  const std::vector<Scene> scenes(
-      3, sphere_scene({"modified_phong", "cosine", "exact", 16}, {point_light()}, 16));
+  const std::vector<Scene> scenes = plain_scenes(3);
   EXPECT_THROW(engine->render(scenes, {},
                               [](std::size_t, ReferenceResult) {
                                 throw Error(ExitCode::kOutput, "disk full");
                               }),
                Error);
 }
+
+/// A Blender that takes one scene after the other, as ours does: it is told of each in a file.
+class FakeBlender : public FakeEngine {
+ protected:
+  /// `play` is run for each scene, whose number is $number, $count the scenes of this process so far.
+  fs::path goes_on(const std::string& play) {
+    write_exr(directory_.path() / "good.exr", Image(16, 16), {});
+    return program(fmt::format(R"sh(for job; do :; done
+here=${{job%job.json}}; file=$job; count=0
+while [ -n "$file" ]; do
+  name=$(grep -o 'scene[0-9]*"' "$file" | tr -d '"')
+  number=${{name#scene}}; count=$((count + 1))
+  echo "lobelia: begin $name"
+  {}
+  cp '{}' "$here$name-0.exr"
+  echo "lobelia: done $name 1 $((count * 3)).5 $((count * 1000))"
+  echo "lobelia: more"
+  read file || exit 0
+  file=$here$file
+done)sh",
+                               play, (directory_.path() / "good.exr").string()));
+  }
+  std::map<std::size_t, ReferenceResult> results_of(const fs::path& path, int scenes) {
+    ReferenceOptions options;
+    options.processes = 2;
+    options.log_directory = directory_.path();
+    std::map<std::size_t, ReferenceResult> results;
+    make_engine("blender", path)
+        ->render(plain_scenes(scenes), options, [&](std::size_t index, ReferenceResult result) {
+          EXPECT_FALSE(results.contains(index)) << "told twice";
+          results[index] = std::move(result);
+        });
+    EXPECT_EQ(results.size(), std::size_t(scenes));
+    return results;
+  }
+};
+
+TEST_P(FakeBlender, RendersManyScenesInFewProcessesAndTellsWhatEachTook) {
+  auto results = results_of(goes_on("sleep 0.02"), 40);
+  std::size_t first_ones = 0;
+  for (const auto& [scene, result] : results) {
+    ASSERT_EQ(result.error, "") << scene;
+    const double cpu = result.record.at("cpuSeconds"), peak = result.record.at("peakMemoryBytes");
+    if (cpu == 3.5)
+      ++first_ones;  // with what it took to start
+    else
+      EXPECT_EQ(cpu, 3) << scene;
+    EXPECT_EQ(peak == 1000, cpu == 3.5);
+    EXPECT_EQ(result.record.at("threads"), std::max(1, threads_of({}) / 2));
+    const std::string log =
+        read_file(directory_.path() / fmt::format("blender-{}.log", scene), 9999);
+    EXPECT_THAT(log, HasSubstr(fmt::format("begin scene{}\n", scene)));
+    EXPECT_EQ(log.find("begin"), log.rfind("begin")) << "its own lines alone: " << log;
+  }
+  EXPECT_THAT(first_ones, testing::AllOf(testing::Ge(1u), testing::Le(2u)));
+}
+
+TEST_P(FakeBlender, ThatDiesCostsOneSceneAndTheOthersGoOnInANewOne) {
+  // In the middle of a scene; and between two, when the next is in nobody's hands.
+  for (const auto& [scene, result] :
+       results_of(goes_on("[ $number = 5 ] && kill -SEGV $$\n[ $number = 20 ] && "
+                          "{ echo 'lobelia: failed scene20 Python no'; kill -SEGV $$; }"),
+                  30)) {
+    const bool crashed = scene == 5, said_so = scene == 20;
+    EXPECT_EQ(result.failure, crashed   ? FailureClass::kCrash
+                              : said_so ? FailureClass::kExitCode
+                                        : FailureClass::kNone)
+        << scene << result.error;
+  }
+}
+
+TEST_P(FakeBlender, ThatDiesBetweenTwoScenesIsNoneOfTheirFailures) {
+  // It asks for more, and is gone when that comes.
+  const fs::path path = goes_on("trap 'kill -SEGV $$' EXIT; [ $count = 2 ] && exec 0</dev/null");
+  for (const auto& [scene, result] : results_of(path, 20)) EXPECT_EQ(result.error, "") << scene;
+}
+
+TEST_P(FakeBlender, ThatNeverComesToASceneIsNotStartedForEach) {
+  int starts = 0;
+  for (const auto& [scene, result] : results_of(program("echo started; kill -SEGV $$"), 60)) {
+    EXPECT_EQ(result.failure, FailureClass::kCrash) << scene;
+    const fs::path log = directory_.path() / fmt::format("blender-{}.log", scene);
+    starts += read_file(log, 9999).find("\nstarted") != std::string::npos;
+  }
+  EXPECT_THAT(starts, testing::AllOf(testing::Ge(3), testing::Le(5)));
+}
+
+INSTANTIATE_TEST_SUITE_P(GoingOn, FakeBlender, testing::Values("blender"));
 
 INSTANTIATE_TEST_SUITE_P(Engines, FakeEngine, testing::Values("povray", "blender"),
                          [](const auto& test) { return test.param; });

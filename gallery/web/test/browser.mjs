@@ -46,9 +46,11 @@ export async function open(browser, url, options = {}) {
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text())) problems.push(message.text()); });
   page.on('pageerror', (error) => problems.push(String(error)));
   page.on('dialog', (dialog) => { problems.push('dialog ' + dialog.message()); void dialog.dismiss(); });
+  page.requested = new Set();
   const origin = new URL(url);
   page.on('request', (request) => {
     const to = new URL(request.url());
+    page.requested.add(request.url());
     if (to.protocol !== 'data:' && (to.protocol !== origin.protocol || to.host !== origin.host)) problems.push('asked ' + request.url());
   });
   page.problems = problems;

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readdirSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
 import { close, fileUrl, launch, lobelia, open, ready, requireAccessible, says, scratch, seenAt, serve } from './browser.mjs';
 import { errorOf, kPeak, ours, writeFarm } from './farm.mjs';
 
@@ -26,6 +27,8 @@ const cellPage = async (hash = '', count = 2) => {
 const encoded = (v) => Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.min(1, v) ** (1 / 2.4) - 0.055));
 const near = (seen, wanted, by = 2) =>
   seen.forEach((v, i) => assert.ok(Math.abs(v - wanted[i]) <= by, `${seen} is not ${wanted}`));
+/** Just right of and below the middle: in pixel (32, 32). */
+const middle = async (stage) => { const box = await stage.boundingBox(); return { x: box.width / 2 + 2, y: box.height / 2 + 2 }; };
 const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
 for (const from of ['file', 'server']) {
@@ -33,8 +36,10 @@ for (const from of ['file', 'server']) {
     const page = await open(browser, (from === 'file' ? fileUrl(site) : server.url) + kCell);
     await ready(page);
     const stage = page.locator('.stage');
+    await says(page, '.where', /^Pixel \(\d+, \d+\), where they differ most$/);
+    await stage.hover({ position: await middle(stage) });
     await stage.focus();
-    await page.keyboard.press('ArrowLeft');  // from the middle
+    await page.keyboard.press('ArrowLeft');
     await says(page, '.where', /Pixel \(31, 32\)/);
     await says(page, '.pixel-values tbody td', /\d/);
     const red = ours(31, 32, kSize)[0];
@@ -44,10 +49,36 @@ for (const from of ['file', 'server']) {
   });
 }
 
+test('the policy of a page lets nothing in from elsewhere, and runs no text as code', async () => {
+  for (const base of [fileUrl(site), server.url]) {
+    const page = await open(browser, base + kCell);
+    const [blocked, ran] = await page.evaluate(async () => {
+      const seen = new Set(), add = (tag, properties) => document.head.append(Object.assign(document.createElement(tag), properties));
+      document.addEventListener('securitypolicyviolation', (event) => seen.add(event.effectiveDirective));
+      const elsewhere = 'http://127.0.0.1:9/';
+      await fetch(elsewhere).catch(() => {});
+      add('img', { src: elsewhere });
+      add('script', { src: elsewhere });
+      add('link', { rel: 'stylesheet', href: elsewhere });
+      add('script', { textContent: 'globalThis.ran = 1' });
+      const link = Object.assign(document.createElement('a'), { href: 'javascript:globalThis.ran = 2' });
+      document.body.append(link);
+      link.click();
+      await new Promise((done) => setTimeout(done, 300));
+      return [[...seen].sort(), globalThis.ran];
+    });
+    assert.deepEqual(blocked, ['connect-src', 'img-src', 'script-src-elem', 'style-src-elem']);
+    assert.equal(ran, undefined);
+    await page.context().close();
+  }
+});
+
 test('a difference of two parts in a million is read to more digits than half floats have', async () => {
   const page = await cellPage('#a=povray&b=lobelia&mode=diff', 2);
+  await page.locator('.stage').hover({ position: await middle(page.locator('.stage')) });
   await page.locator('.stage').focus();
   await page.keyboard.press('ArrowRight');
+  await says(page, '.where', /Pixel \(33, 32\)/);
   const cell = page.locator('.pixel-values tr.sum td').first();
   await page.waitForFunction(() => /\d/.test(document.querySelector('.pixel-values tr.sum td')?.textContent ?? ''));
   const wanted = Math.fround(ours(33, 32, kSize)[0] * (1 + errorOf.povray)) - ours(33, 32, kSize)[0];
@@ -147,6 +178,16 @@ test('a difference has the scale that its legend prints, and false colour tells 
   await close(page);
 });
 
+test('the worst pixel of two pictures is found, and brought into the middle of a zoomed view', async () => {
+  const page = await cellPage('#a=blender&b=lobelia&z=20&x=5&y=5');
+  await page.keyboard.press('w');
+  // The brightest pixel: each is off by the same share.
+  await says(page, '.where', /Pixel \(32, 21\), where they differ most/);
+  const hash = await hashOf(page);
+  assert.deepEqual([hash.x, hash.y], ['32.5', '21.5']);
+  await close(page);
+});
+
 test('a line drawn across the picture shows its profile', async () => {
   const page = await cellPage('#mode=flip');
   await page.getByRole('button', { name: 'Draw a line' }).click();
@@ -232,17 +273,24 @@ test('axe finds nothing, in light and in dark, at rest and with everything open'
   }
 });
 
-test('a cell of 512 x 512 pixels weighs less than a megabyte, everything that its page can load taken together', async () => {
-  const big = path.join(directory, 'big'), bigSite = path.join(directory, 'big-site');
-  writeFarm(big, { axes: { model: ['phong'] }, size: 512 });
-  lobelia('gallery', big, '-o', bigSite);
-  const cell = path.join(bigSite, 'cells/phong');
-  const shown = readdirSync(cell).filter((f) => /\.(html|js)$/.test(f) || /\.png$/.test(f) && !readdirSync(cell).includes(f.replace(/\.png$/, '.small.png')));
-  const total = [...shown.map((f) => path.join(cell, f)), ...['gallery.js', 'gallery.css'].map((f) => path.join(bigSite, f))]
-    .reduce((sum, f) => sum + statSync(f).size, 0);
-  assert.ok(shown.some((f) => f === 'blender.float.js'));
-  assert.ok(total < 1e6, `${total} bytes`);
-});
+for (const [what, noise] of [['smooth pictures', 0], ['pictures of coloured noise in every pixel', 0.3]]) {
+  test(`a cell of 512 x 512 pixels, ${what}, weighs less than a megabyte with everything that its page can load`, async () => {
+    const big = path.join(directory, `big-${noise}`), bigSite = path.join(directory, `big-site-${noise}`);
+    writeFarm(big, { axes: { model: ['phong'] }, size: 512, noise });
+    lobelia('gallery', big, '-o', bigSite);
+    const page = await open(browser, fileUrl(bigSite) + 'cells/phong/index.html#mode=side&a=lobelia&b=blender');
+    await ready(page);
+    await page.locator('.stage').hover();  // asks for the other engines' values
+    await ready(page, 4);
+    // What an <img> of the page without script shows is loaded too, wherever it stands.
+    await page.evaluate(() => Promise.all([...document.images].map((image) => { image.loading = 'eager'; return image.decode(); })));
+    const files = [...page.requested].filter((url) => url.startsWith('file:')).map((url) => url.replace(/#.*/, ''));
+    assert.ok(files.length >= 15, files.join(' '));
+    const total = files.reduce((sum, url) => sum + statSync(fileURLToPath(url)).size, 0);
+    assert.ok(total < 1e6, `${total} bytes`);
+    await close(page);
+  });
+}
 
 test('a hash that makes no sense does no harm', async () => {
   const page = await cellPage('#a=<img src=x onerror=alert(1)>&mode=__proto__&z=nan&x=1e999&line=1,2,3&ev=x&measure=constructor&colour=%ff');

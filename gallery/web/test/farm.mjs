@@ -1,13 +1,13 @@
 // A farm's directory without a farm: records as docs/records.md lays them out, and pictures of a made-up highlight.
 import { mkdirSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { crc32 as zlibCrc32, deflateSync } from 'node:zlib';
+import * as zlib from 'node:zlib';
 
 const made = (kind, rest) => ({ schemaVersion: 1, kind, madeBy: 'lobelia test', ...rest });
 const json = (file, record) => writeFileSync(file, JSON.stringify(record));
 
 function crc32(bytes) {
-  if (zlibCrc32) return zlibCrc32(bytes);  // not in node 18
+  if (zlib.crc32) return zlib.crc32(bytes);  // not in node 18
   let crc = ~0;
   for (const byte of bytes) {
     crc ^= byte;
@@ -30,7 +30,7 @@ export function png(width, height, rgbOf) {
   head.writeUInt32BE(width, 0);
   head.writeUInt32BE(height, 4);
   head.set([8, 2, 0, 0, 0], 8);
-  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', deflateSync(raw)),
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', zlib.deflateSync(raw)),
     chunk('IEND', Buffer.alloc(0))]);
 }
 
@@ -76,29 +76,34 @@ export const ours = (x, y, size) => {
 };
 export const errorOf = { analytic: 0, povray: 2e-6, blender: 1e-3 };
 
+/** Something between -1 and 1 that looks like chance. */
+const dither = (x, y, c, seed) => { const v = Math.sin(x * 12.9898 + y * 78.233 + c * 37.7 + seed * 91.3) * 43758.5453; return 2 * (v - Math.floor(v)) - 1; };
+
 const kEngines = [['lobelia', 'Lobelia'], ['analytic', 'Analytic'], ['povray', 'POV-Ray'], ['blender', 'Blender Cycles']];
 
-function writeCell(cell, id, axes, status, size, pictures) {
+function writeCell(cell, id, axes, status, size, pictures, noise) {
   mkdirSync(cell, { recursive: true });
-  writeFileSync(path.join(cell, 'scene.xml'), '<scene/>');
+  const isFull = pictures === true;
+  if (isFull) writeFileSync(path.join(cell, 'scene.xml'), '<scene/>');
   const images = [];
-  for (const [engine] of pictures === 'thumbnail' ? kEngines.slice(0, 1) : pictures ? kEngines : []) {
-    const value = (x, y) => ours(x, y, size).map((v) => v * (1 + (errorOf[engine] ?? 0)));
+  for (const [engine] of isFull ? kEngines : pictures ? kEngines.slice(0, 1) : []) {
+    const value = (x, y) => ours(x, y, size).map((v, c) => (v + 0.2) * (1 + noise * dither(x, y, c, engine.length)) - 0.2 + v * (errorOf[engine] ?? 0));
     writeFileSync(path.join(cell, `${engine}.png`), png(size, size, (x, y) => value(x, y).map((v) => encode(v / kPeak))));
+    images.push({ engine, exr: `${engine}.exr`, png: `${engine}.png`, record: `${engine}.json` });
+    if (!isFull) continue;
     writeFileSync(path.join(cell, `${engine}.exr`), exr(size, size, value));
     json(path.join(cell, `${engine}.json`), made(engine === 'lobelia' ? 'render' : 'reference', {
       engine: { name: engine, version: '1.2.3' }, command: ['lobelia', 'render', 'scene.xml'], seconds: { total: 0.25 },
       rays: { camera: 4 }, plan: { effects: [{ name: 'shadows', on: false, reason: 'one convex body' }] }, witness: 'native',
     }));
-    images.push({ engine, exr: `${engine}.exr`, png: `${engine}.png`, record: `${engine}.json` });
   }
   const comparisons = [];
-  for (const [engine] of pictures === true ? kEngines.slice(1) : []) {
+  for (const [engine] of isFull ? kEngines.slice(1) : []) {
     const worst = errorOf[engine];
     json(path.join(cell, `lobelia-${engine}.json`), made('comparison', {
       verdict: status === 'differs' && engine === 'blender' ? 'differs' : 'pass', a: 'lobelia.exr', b: `${engine}.exr`, nonfinite: { a: 0, b: 0 },
       viewing: { exposureStops: -1.3, pixelsPerDegree: 67 },
-      metrics: { rmse: worst * 0.1, max_abs: worst * kPeak, 'max_abs.x': 3, 'max_abs.y': 4, max_rel_peak: worst, ssim: 1 - worst },
+      metrics: { rmse: worst * 0.1, max_abs: worst * kPeak, 'max_abs.x': size / 2, 'max_abs.y': Math.round(size / 3), max_rel_peak: worst, ssim: 1 - worst },
       limits: [{ metric: 'max_rel_peak', limit: 1e-2, value: worst, pass: true }],
     }));
     writeFileSync(path.join(cell, `lobelia-${engine}.png`), png(size, size, (x, y) => ours(x, y, size).map((v) => encode(v / kPeak))));
@@ -106,7 +111,7 @@ function writeCell(cell, id, axes, status, size, pictures) {
       difference: { whiteAt: (worst || 1e-6) * kPeak, relativeToPeak: worst || 1e-6 } });
   }
   const degrees = Array.from({ length: 60 }, (_, i) => i + 0.5), curve = degrees.map((d) => kPeak * Math.exp(-d * d / 200));
-  json(path.join(cell, 'profile.json'), made('profile', {
+  if (isFull) json(path.join(cell, 'profile.json'), made('profile', {
     light: 0, sphere: 0, angle: 'reflection',
     zones: { epicentreDegrees: [0, 10], flankDegrees: [10, 20], bloomingDegrees: [20, 40] },
     curve: { angleDegrees: degrees, pixels: degrees.map(() => 3), analytic: curve,
@@ -115,15 +120,15 @@ function writeCell(cell, id, axes, status, size, pictures) {
     differences: { 'lobelia-povray': { epicentre: { maxAbs: 1e-3 } } },
   }));
   json(path.join(cell, 'cell.json'), made('cell', { id, axes, status, exposureStops: Math.log2(1 / kPeak),
-    highlight: { model: 'phong_rdf', exponent: 16 }, images, comparisons, profile: 'profile.json',
+    highlight: { model: 'phong_rdf', exponent: 16 }, images, comparisons, ...(isFull ? { profile: 'profile.json' } : {}),
     problems: status === 'failed' ? [{ engine: 'blender', message: 'stopped after 600 s' }] : [] }));
 }
 
 /**
  * Writes a farm. `axes`: { model: ['a', 'b'] }; `cell`: what to change of a cell of the product, by its number;
- * its `pictures` are true, false, or 'thumbnail' for ours alone.
+ * its `pictures` are true, false, or 'thumbnail' for ours alone, as an 8-bit file. `noise` is relative, in every value by itself.
  */
-export function writeFarm(directory, { title = 'A small farm', axes, size = 64, cell = () => ({}) }) {
+export function writeFarm(directory, { title = 'A small farm', axes, size = 64, noise = 0, cell = () => ({}) }) {
   const names = Object.keys(axes);
   let places = [{}];
   for (const name of names) places = places.flatMap((place) => axes[name].map((value) => ({ ...place, [name]: value })));
@@ -136,6 +141,6 @@ export function writeFarm(directory, { title = 'A small farm', axes, size = 64, 
     cells: cells.map(({ id, status, axes: at }) => ({ id, status, axes: at })),
   }));
   for (const { id, axes: at, status, pictures } of cells)
-    if (status !== 'missing') writeCell(path.join(directory, 'cells', id), id, at, status, size, pictures);
+    if (status !== 'missing') writeCell(path.join(directory, 'cells', id), id, at, status, size, pictures, noise);
   return cells;
 }

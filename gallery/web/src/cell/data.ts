@@ -1,7 +1,8 @@
 // What gallery/cell_json.cpp writes for a cell's page.
 import type { RecordNumber } from '../lib/numbers';
 
-export interface PictureFile { readonly src: string; readonly width: number; readonly height: number }
+/** `small` is shorter to load where `src` is heavy, and `src` elsewhere; both are drawn at this size. */
+export interface PictureFile { readonly src: string; readonly small: string; readonly width: number; readonly height: number }
 
 export interface Engine {
   readonly name: string;
@@ -17,6 +18,9 @@ export interface Comparison {
   readonly picture: PictureFile | null;
   readonly whiteAt: RecordNumber;
   readonly relativeToPeak: RecordNumber;
+  /** The pixel of the largest difference. */
+  readonly worstX: RecordNumber;
+  readonly worstY: RecordNumber;
 }
 
 export interface Profile {

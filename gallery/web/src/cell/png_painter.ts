@@ -6,7 +6,7 @@ export class PngPainter implements Painter {
   private readonly images = new Map<string, HTMLImageElement>();
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly data: CellData,
-              private readonly repaint: () => void) {}
+              private readonly repaint: () => void, private readonly isWaiting: () => boolean) {}
 
   paint(width: number, height: number, panes: readonly Pane[]): void {
     this.canvas.width = width;
@@ -44,12 +44,14 @@ export class PngPainter implements Painter {
   private draw(context: CanvasRenderingContext2D, file: PictureFile | null | undefined,
                at: Pane['at'], view: Viewport): void {
     if (!file) return;
-    let image = this.images.get(file.src);
+    // The whole picture only where no float picture is to come.
+    const source = this.isWaiting() ? file.small : file.src;
+    let image = this.images.get(source);
     if (!image) {
       image = new Image();
-      image.src = file.src;
+      image.src = source;
       image.addEventListener('load', this.repaint);
-      this.images.set(file.src, image);
+      this.images.set(source, image);
     }
     if (!image.complete || image.naturalWidth === 0) return;
     context.drawImage(image, at.x - view.x * view.zoom, at.y - view.y * view.zoom,

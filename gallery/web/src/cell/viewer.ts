@@ -2,7 +2,7 @@
 // values under the cursor, and what a line across them sees.
 import { Chart, rangeOf } from '../lib/chart';
 import { announce, button, h, isTyping, select, svg } from '../lib/dom';
-import { clamp, numberText, percentText, toNumber } from '../lib/numbers';
+import { clamp, numberText, percentText, shortText, toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import { cssGradient } from './colours';
 import type { CellData } from './data';
@@ -57,14 +57,16 @@ export class Viewer {
   private readonly loading = new Map<number, Promise<void>>();
   private painter: Painter;
   private isFloat = false;
+  private isWaiting: boolean;  // for float pictures
   private width = 1;
   private height = 1;
   private cursor: { x: number; y: number } | undefined;
   private drawing = false;  // a line
   private pending = false;
-  private largest = new Map<string, number>();
+  private readonly largest = new Map<string, { value: number; x: number; y: number }>();
 
   constructor(private readonly data: CellData, private readonly state: ViewerState) {
+    this.isWaiting = Boolean(data.engines[0]?.floatScript);
     const first = data.engines.find((e) => e.picture);
     if (first?.picture) ({ width: this.width, height: this.height } = first.picture);
     const choices = this.shownEngines().map((i) => ({
@@ -102,13 +104,16 @@ export class Viewer {
             h('div', { class: 'exposure' }, this.exposureName, this.exposure),
             h('label', { class: 'check' }, this.colour, 'False colour'),
             this.measure.element),
-          h('div', { class: 'controls' },
+          h('div', { class: 'controls', role: 'group', 'aria-label': 'Zoom' },
             button('−', () => this.zoomBy(0.5), { 'aria-label': 'Zoom out' }),
             button('+', () => this.zoomBy(2), { 'aria-label': 'Zoom in' }),
             button('Fit', () => this.fit()), button('1 : 1', () => this.zoomTo(1)),
+            button('Worst pixel', () => this.goToWorst(), { title: 'Where the two differ most (w)', 'aria-keyshortcuts': 'w' })),
+          h('div', { class: 'controls', role: 'group', 'aria-label': 'A line across the picture' },
             this.lineButton,
             button('Row', () => this.lineThrough(true), { title: 'The row of the cursor' }),
-            button('Column', () => this.lineThrough(false), { title: 'The column of the cursor' })),
+            button('Column', () => this.lineThrough(false), { title: 'The column of the cursor' }),
+            button('None', () => this.change({ line: '' }), { title: 'No line' })),
           h('table', { class: 'pixel-values' },
             h('caption', {}, this.where),
             h('thead', {}, h('tr', {}, ...['', 'red', 'green', 'blue'].map((c) => h('th', { scope: 'col' }, c || h('span', { class: 'unseen' }, 'picture'))))),
@@ -116,7 +121,7 @@ export class Viewer {
           this.keysHelp())),
       this.lineBox);
 
-    this.painter = new PngPainter(this.canvas, data, () => this.schedule());
+    this.painter = new PngPainter(this.canvas, data, () => this.schedule(), () => this.isWaiting);
     this.listen();
     state.onChange(() => this.refresh());
     new ResizeObserver(() => this.schedule()).observe(this.stage);
@@ -126,7 +131,7 @@ export class Viewer {
   private keysHelp(): HTMLElement {
     const keys: readonly (readonly [string, string])[] = [
       ['1 … 9', 'first picture; with Shift the second'], ['f', 'flip between the two'], ['l s d', 'divider, side by side, difference'],
-      ['x', 'exchange the two'], ['e E', 'brighter, darker'], ['c', 'false colour'], ['+ − 0', 'zoom in, out, fit'], ['p', 'draw a line'],
+      ['x', 'exchange the two'], ['e E', 'brighter, darker'], ['c', 'false colour'], ['+ − 0', 'zoom in, out, fit'], ['w', 'where the two differ most'], ['p', 'draw a line'],
     ];
     return h('details', { class: 'keys' }, h('summary', {}, 'Keys'),
       h('dl', {}, ...keys.map(([key, what]) => h('div', {}, h('dt', {}, h('kbd', {}, key)), h('dd', {}, what)))));
@@ -179,7 +184,7 @@ export class Viewer {
     this.exposure.min = String(mode === 'diff' ? -12 : base - 10);
     this.exposure.max = String(mode === 'diff' ? 12 : base + 14);
     this.exposure.value = mode === 'diff' ? this.state.get('gain') : String(this.stops());
-    const stops = numberText(Number(this.exposure.value), 4);
+    const stops = numberText(Math.round(100 * Number(this.exposure.value)) / 100, 5);
     this.exposureName.textContent = mode === 'diff' ? `Gain of the difference ${stops} stops` : `Exposure ${stops} stops`;
     for (const which of [a, b, 0]) void this.need(which);
     this.schedule();
@@ -222,6 +227,7 @@ export class Viewer {
       }
       this.useFloats();
     } catch (error) {
+      if (engine === 0) this.isWaiting = false;
       this.tell(error instanceof Error ? error.message : String(error));
     }
     this.schedule();
@@ -244,6 +250,7 @@ export class Viewer {
           // Told below.
         }
       }
+      this.isWaiting = this.isFloat;
       if (!this.isFloat) this.tell('This browser has no WebGL 2: pictures are shown as 8-bit files, without exposure and false colour.');
       ({ width: this.width, height: this.height } = ours);
     }
@@ -277,11 +284,16 @@ export class Viewer {
 
   /** The largest difference of the two, or the largest value of one. */
   private largestOf(a: number, b: number, measure: Measure | 'value'): number {
+    return this.worst(a, b, measure)?.value || 1;
+  }
+
+  /** And where it is; undefined until the pictures are there. */
+  private worst(a: number, b: number, measure: Measure | 'value'): { value: number; x: number; y: number } | undefined {
     const key = `${a} ${b} ${measure}`, known = this.largest.get(key);
-    if (known !== undefined) return known;
+    if (known) return known;
     const first = this.floats.get(a), second = this.floats.get(b), ours = this.floats.get(0);
-    if (!first || !second || !ours) return 1;
-    let largest = 0;
+    if (!first || !second || !ours) return undefined;
+    let largest = 0, where = 0;
     for (let i = 0; i < first.values.length; ++i) {
       const base = ours.values[i]!;
       const va = first.values[i]! + (first.fromOurs ? base : 0), vb = second.values[i]! + (second.fromOurs ? base : 0);
@@ -293,18 +305,38 @@ export class Viewer {
         size = Math.abs(Number.isFinite(exact) ? exact : va - vb);
         if (measure === 'relative') size = size === 0 ? 0 : size / Math.max(Math.abs(vb), 1e-37);
       }
-      if (Number.isFinite(size) && size > largest) largest = size;
+      if (Number.isFinite(size) && size > largest) { largest = size; where = i; }
     }
     if (measure === 'relative') largest = Math.min(largest, 1);
-    this.largest.set(key, largest);
-    return largest || 1;
+    const pixel = Math.floor(where / 3);
+    const found = { value: largest, x: pixel % first.width, y: Math.floor(pixel / first.width) };
+    this.largest.set(key, found);
+    return found;
+  }
+
+  private comparisonOf(a: number, b: number): CellData['comparisons'][number] | undefined {
+    const names = [this.data.engines[a]?.name, this.data.engines[b]?.name];
+    return a === b ? undefined : this.data.comparisons.find((c) => names.includes(c.a) && names.includes(c.b) && c.a !== c.b);
+  }
+
+  /** As it was recorded, from all bits; of two that were not compared, as this page has them. */
+  private worstPixel(a: number, b: number): { x: number; y: number; value: number } | undefined {
+    const found = this.worst(a, b, 'absolute'), record = this.comparisonOf(a, b);
+    const x = toNumber(record?.worstX), y = toNumber(record?.worstY);
+    return found && Number.isInteger(x) && Number.isInteger(y) ? { ...found, x: clamp(x, 0, this.width - 1), y: clamp(y, 0, this.height - 1) } : found;
+  }
+
+  private goToWorst(): void {
+    const worst = this.worstPixel(this.chosen('a'), this.chosen('b'));
+    if (!worst) return;
+    this.setCursor(worst.x, worst.y);
+    if (this.state.get('z') !== '') this.change({ x: String(worst.x + 0.5), y: String(worst.y + 0.5) });
+    announce(`Largest difference at pixel ${worst.x}, ${worst.y}: ${numberText(worst.value)}`);
   }
 
   /** What white stands for in a difference. */
   private white(a: number, b: number): number {
-    const measure = this.measureOf(), names = [this.data.engines[a]?.name, this.data.engines[b]?.name];
-    const recorded = this.data.comparisons.find((c) => names.includes(c.a) && names.includes(c.b) && c.a !== c.b);
-    const whiteAt = recorded && a !== b ? toNumber(recorded.whiteAt) : NaN;
+    const measure = this.measureOf(), whiteAt = toNumber(this.comparisonOf(a, b)?.whiteAt);
     const base = measure !== 'relative' && whiteAt > 0 ? whiteAt : this.isFloat ? this.largestOf(a, b, measure) : 1;
     return base / 2 ** this.state.number('gain');
   }
@@ -319,9 +351,9 @@ export class Viewer {
 
   private rectangles(): Rectangle[] {
     const box = this.stage.getBoundingClientRect(), scale = devicePixelRatio;
-    const width = Math.max(1, Math.round(box.width * scale)), height = Math.max(1, Math.round(box.height * scale));
+    const width = Math.max(4, Math.round(box.width * scale)), height = Math.max(1, Math.round(box.height * scale));
     if (this.mode() !== 'side') return [{ x: 0, y: 0, width, height }];
-    const half = Math.floor(width / 2) - 1;
+    const half = Math.max(1, Math.floor(width / 2) - 1);
     return [{ x: 0, y: 0, width: half, height }, { x: half + 2, y: 0, width: width - half - 2, height }];
   }
 
@@ -388,7 +420,7 @@ export class Viewer {
       else if (isFalse) ramp.style.background = cssGradient('inferno');
       const low = measure === 'signed' ? '−' + numberText(white) : isFalse ? numberText(white * 10 ** -kDecades) : '0';
       const share = measure === 'relative' ? percentText(white) : numberText(white) + (Number.isFinite(peak) ? ` = ${percentText(white / peak)} of the peak` : '');
-      this.legend.replaceChildren(h('span', {}, low), ramp, h('span', {}, share));
+      this.legend.replaceChildren(h('span', {}, low), ramp, h('span', {}, share), this.precisionNote(a, b));
     } else if (isFalse) {
       const { top } = this.look(a, b);
       ramp.style.background = cssGradient('viridis');
@@ -398,23 +430,35 @@ export class Viewer {
     }
   }
 
+  /** How exactly this page has a difference: differences from ours are stored as such. */
+  private precisionNote(a: number, b: number): HTMLElement {
+    const stored = [a, b].flatMap((i) => { const p = this.floats.get(i); return p?.fromOurs ? [p] : []; });
+    if (stored.length === 0) return h('span', {}, this.isFloat || a === b ? '' : 'the recorded picture');
+    const bits = Math.min(...stored.map((p) => p.mantissaBits)), least = Math.max(...stored.map((p) => p.least));
+    return h('span', {}, `to ± ${percentText(2 ** -(bits + 1))}${least > 0 ? `, nothing under ${numberText(least)}` : ''} of what float32 has`);
+  }
+
   private showValues(a: number, b: number): void {
+    if (!this.cursor && this.isFloat) this.cursor = this.worstPixel(a, b);
     if (!this.cursor || !this.isFloat) {
       this.where.textContent = this.isFloat ? 'Point at a pixel to read its values' : 'Values need float pictures';
       this.values.replaceChildren();
       return;
     }
     const { x, y } = this.cursor;
-    this.where.textContent = `Pixel (${x}, ${y}), radiance`;
+    const worst = this.worstPixel(a, b);
+    const isWorst = a !== b && worst?.x === x && worst.y === y && worst.value > 0;
+    this.where.textContent = `Pixel (${x}, ${y})${isWorst ? ', where they differ most' : ''}`;
     const row = (name: string, value: readonly number[] | undefined, digits: number, chosen: string): HTMLElement =>
       h('tr', { class: chosen }, h('th', { scope: 'row' }, name),
-        ...[0, 1, 2].map((c) => h('td', {}, value ? numberText(value[c]!, digits) : '…')));
+        ...[0, 1, 2].map((c) => h('td', {}, value ? shortText(value[c]!, digits) : '…')));
+    // A value is ours and a difference: as many digits as ours was stored with.
+    const digits = 1 + Math.floor((this.floats.get(0)?.mantissaBits ?? 10) * Math.log10(2));
     const rows = this.shownEngines().filter((i) => this.data.engines[i]!.floatScript).map((i) => {
       void this.need(i);
-      return row(this.data.engines[i]!.shortTitle, this.valueAt(i, x, y), 4, i === a || i === b ? 'chosen' : '');
+      return row(this.data.engines[i]!.shortTitle, this.valueAt(i, x, y), digits, i === a || i === b ? 'chosen' : '');
     });
-    const title = (engine: number): string => this.data.engines[engine]?.shortTitle ?? '';
-    rows.push(row(`${title(a)} − ${title(b)}`, this.differenceAt(a, b, x, y), 3, 'sum'));
+    rows.push(row('Difference', this.differenceAt(a, b, x, y), 3, 'sum'));
     this.values.replaceChildren(...rows);
   }
 
@@ -595,7 +639,7 @@ export class Viewer {
       e: () => this.change({ [stops]: String(now + 0.5) }), E: () => this.change({ [stops]: String(now - 0.5) }),
       c: () => this.change({ colour: this.state.get('colour') === 'false' ? '' : 'false' }),
       '+': () => this.zoomBy(2), '=': () => this.zoomBy(2), '-': () => this.zoomBy(0.5), '0': () => this.fit(),
-      p: () => this.startLine(),
+      p: () => this.startLine(), w: () => this.goToWorst(),
     };
     const act = Object.hasOwn(acts, event.key) ? acts[event.key] : undefined;
     if (!act) return;

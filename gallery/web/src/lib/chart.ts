@@ -209,8 +209,7 @@ function tickText(value: number, axis: Axis): string {
     const digits = clamp(Math.ceil(Math.log10(size / (axis.to - axis.from))) + 3, 3, 12);
     return Math.abs(value) < 1e-9 * size ? '0' : numberText(value, digits);
   }
-  const exponent = Math.round(Math.log10(value));
-  return Math.abs(exponent) <= 3 ? numberText(value) : `1e${exponent}`.replace('-', '−');
+  return numberText(value).replace('1 × ', '');
 }
 
 function nearest(sorted: readonly number[], value: number): number {

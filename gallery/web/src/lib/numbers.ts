@@ -12,24 +12,42 @@ export function toNumber(value: RecordNumber): number {
 
 const minus = (text: string): string => text.replace(/-/g, '−');
 
-export function numberText(value: number, digits = 3): string {
-  if (Number.isNaN(value)) return 'not a number';
-  if (!Number.isFinite(value)) return value > 0 ? 'infinite' : '−infinite';
-  if (value === 0) return '0';
+function parts(value: number, digits: number, plainFrom: number): { mantissa: string; exponent: string } {
   const size = Math.abs(value);
-  if (size >= 1e-4 && size < 10 ** Math.max(6, digits)) {
+  if (value === 0) return { mantissa: '0', exponent: '' };
+  if (size >= plainFrom && size < 10 ** Math.max(6, digits)) {
     const text = value.toPrecision(digits);
-    return minus(text.includes('e') ? String(Number(text)) : trimmed(text));
+    return { mantissa: text.includes('e') ? String(Number(text)) : trimmed(text), exponent: '' };
   }
   const [mantissa = '', exponent = ''] = value.toExponential(digits - 1).split('e');
-  return minus(trimmed(mantissa) + 'e' + exponent.replace('+', ''));
+  return { mantissa: trimmed(mantissa), exponent: exponent.replace('+', '') };
+}
+
+function unusual(value: number): string | undefined {
+  return Number.isFinite(value) ? undefined : Number.isNaN(value) ? '–' : value > 0 ? 'infinite' : '−infinite';
+}
+
+/** "0.0123", "1234", "4.9 × 10⁻⁴"; "–" where it is not a number. */
+export function numberText(value: number, digits = 3): string {
+  const { mantissa, exponent } = parts(value, digits, 1e-4);
+  const raised = exponent.replace(/[-0-9]/g, (c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]!));
+  return unusual(value) ?? minus(mantissa) + (raised && ` × 10${raised}`);
+}
+
+/** "4.9e−4": for where there is little room. */
+export function shortText(value: number, digits = 3): string {
+  const { mantissa, exponent } = parts(value, digits, 1e-3);
+  return unusual(value) ?? minus(mantissa + (exponent && 'e' + exponent));
 }
 
 function trimmed(text: string): string {
   return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 }
 
-export function percentText(share: number): string { return numberText(100 * share) + ' %'; }
+/** Two digits, as a share of something is rarely worth more. */
+export function percentText(share: number): string {
+  return numberText(100 * share, 2) + (Number.isNaN(share) ? '' : ' %');
+}
 
 export function secondsText(seconds: number): string {
   if (seconds < 1e-3) return numberText(seconds * 1e6) + ' µs';

@@ -93,7 +93,10 @@ class Explorer {
       'aria-label': `Exponent ${name}` });
     const number = h('input', { type: 'number', min: first, max: last, step: 'any', id: `n${suffix}` });
     slider.addEventListener('input', () => this.change({ [`n${suffix}`]: String(Number((2 ** Number(slider.value)).toPrecision(3))) }));
-    number.addEventListener('change', () => this.change({ [`n${suffix}`]: number.value }));
+    number.addEventListener('change', () => {
+      this.change({ [`n${suffix}`]: number.value });
+      number.value = String(this.exponent(`n${suffix}`));
+    });
     const formula = h('p', { class: 'formula' });
     const body = h('div', { class: 'choice-body' }, lobe.element, model.element, norm.element,
       h('div', { class: 'exponent' }, h('label', { for: `n${suffix}` }, 'Exponent n'), slider, number), formula);

@@ -9,6 +9,8 @@ import { HashState } from '../lib/state';
 /** Worst first: what a reader has to look at. */
 const kSeverity = ['failed', 'unreadable', 'differs', 'undecided', 'unchecked', 'missing', 'pass'];
 const kNone = '-1';
+/** In place of an engine: the worst that any has. */
+const kAll = '*';
 
 export function grid(main: HTMLElement): void {
   const data = pageData<GridData>();
@@ -17,7 +19,6 @@ export function grid(main: HTMLElement): void {
 }
 
 export function metricText(metric: GridMetric, value: number): string {
-  if (Number.isNaN(value)) return '–';
   return metric.unit === 'share' ? percentText(value) : metric.unit === 'count' ? numberText(value, 9) : numberText(value);
 }
 
@@ -40,7 +41,7 @@ class GridView {
     const { rows, groups, columns } = data.layout;
     this.state = new HashState({
       rows: String(rows), cols: String(columns), group: String(groups), find: '', status: '', order: 'grid',
-      colour: this.colourChoices()[0]?.value ?? '',
+      colour: this.colourChoices()[0]?.value ?? 'status',
     });
     const named = data.axes.map((axis, i) => ({ value: String(i), label: axis.name }));
     const axis = (label: string, key: 'rows' | 'cols' | 'group'): ReturnType<typeof select> =>
@@ -71,8 +72,9 @@ class GridView {
   }
 
   private colourChoices(): { value: string; label: string }[] {
-    return this.data.engines.flatMap((engine) => {
-      const has = this.data.metrics.filter((_, m) => this.data.cells.some((c) => typeof c.metrics[engine.name]?.[m] === 'number'));
+    const engines = this.data.engines.length > 1 ? [{ name: kAll, shortTitle: 'Worst of all' }, ...this.data.engines] : this.data.engines;
+    return engines.flatMap((engine) => {
+      const has = this.data.metrics.filter((_, m) => this.data.cells.some((c) => this.valuesOf(c, engine.name, m).some(Number.isFinite)));
       const list = has.map((metric) => ({ value: `${engine.name}/${metric.id}`, label: `${engine.shortTitle}: ${metric.title}` }));
       const main = list.findIndex((c) => c.value.endsWith('/max_rel_peak'));
       return main > 0 ? [list[main]!, ...list.slice(0, main), ...list.slice(main + 1)] : list;
@@ -130,12 +132,19 @@ class GridView {
     const text = this.state.get('colour'), slash = text.indexOf('/');
     const index = this.data.metrics.findIndex((m) => m.id === text.slice(slash + 1));
     const engine = text.slice(0, slash), metric = this.data.metrics[index];
-    return slash > 0 && metric && this.data.engines.some((e) => e.name === engine) ? { engine, index, metric } : undefined;
+    const isKnown = engine === kAll || this.data.engines.some((e) => e.name === engine);
+    return slash > 0 && metric && isKnown ? { engine, index, metric } : undefined;
+  }
+
+  private valuesOf(cell: GridCell, engine: string, index: number): number[] {
+    const engines = engine === kAll ? this.data.engines.map((e) => e.name) : [engine];
+    return engines.map((name) => (Object.hasOwn(cell.metrics, name) ? toNumber(cell.metrics[name]?.[index]) : NaN))
+      .filter((value) => !Number.isNaN(value));
   }
 
   private valueOf(cell: GridCell): number {
-    const by = this.metric();
-    return by ? toNumber(cell.metrics[by.engine]?.[by.index]) : NaN;
+    const by = this.metric(), values = by ? this.valuesOf(cell, by.engine, by.index) : [];
+    return values.length === 0 ? NaN : by!.metric.moreIsBetter ? Math.min(...values) : Math.max(...values);
   }
 
   private paint(shown: readonly GridCell[]): void {
@@ -241,7 +250,12 @@ class GridView {
         return h('td', { class: index > 0 && i === 0 ? 'first' : undefined }, ...there.map((cell) => this.cell(cell).element));
       })))));
     const count = groups.length * columns.length;
-    return h('section', { class: 'grid-section', 'aria-labelledby': id }, h('h2', { id }, label),
-      h('table', { class: count > 12 ? 'grid wide' : 'grid', 'aria-labelledby': id }, head, body));
+    const isWide = count > 12;
+    const table = h('table', { class: isWide ? 'grid wide' : 'grid', 'aria-labelledby': id },
+      h('colgroup', {}, rows < 0 ? null : h('col', { class: 'heads' }), ...Array.from({ length: count }, () => h('col'))), head, body);
+    // Cells of one size, as large as is of use, and no smaller than can be seen: then the section scrolls.
+    table.style.width = `min(100%, ${8 + 11.7 * count}rem)`;
+    table.style.minWidth = `${isWide ? 6.5 + 4.3 * count : 0}rem`;
+    return h('section', { class: 'grid-section', 'aria-labelledby': id }, h('h2', { id }, label), table);
   }
 }

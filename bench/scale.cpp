@@ -1,0 +1,231 @@
+// What a farm of 1e6 cells on 1000 nodes would meet: measured as far as this machine goes, simulated beyond.
+// docs/scale.md has a run of it, and what follows.
+#include <fmt/format.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <random>
+
+#include "core/files.hpp"
+#include "core/timing.hpp"
+#include "farm/farm.hpp"
+#include "farm/result_cache.hpp"
+#include "farm/slurm/chunks.hpp"
+#include "farm/slurm/slurm_farm.hpp"
+
+namespace lobelia::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+Grid grid_of(const fs::path& directory, int cells) {
+  std::string text = fmt::format(
+      "<grid version=\"1\"><scene file=\"{}/reference_scenes/scenes/oblique_45.xml\"/>"
+      "<axis name=\"model\" values=\"phong_rdf, modified_phong, blinn_phong_rdf, blinn_phong_ndf, "
+      "modified_blinn_phong\"/><axis name=\"lobe\" values=\"cosine, cs16\"/><axis name=\"exponent\" values=\"",
+      LOBELIA_SOURCE_DIR);
+  for (int i = 1; i <= cells / 10 && i <= 10000; ++i) text += fmt::format("{} ", i * 1.25);
+  text += "\"/>";
+  if (cells > 100000)
+    text += "<axis name=\"size\" values=\"64, 96, 128, 160, 192, 224, 256, 288, 320, 352\"/>";
+  text += "<engine name=\"analytic\"/></grid>";
+  write_file(directory / "grid.xml", text);
+  return read_grid(directory / "grid.xml");
+}
+
+void planning(const fs::path& directory) {
+  fmt::print("\nPlanning, {} threads: lobelia farm --dry-run without its printing\n\n",
+             oneapi::tbb::info::default_concurrency());
+  fmt::print("| cells | jobs | plan, s | us per cell |\n|---|---|---|---|\n");
+  for (const int cells : {1000, 10000, 100000, 1000000}) {
+    const Grid grid = grid_of(directory, cells);
+    FarmPlan plan;
+    const double seconds = seconds_of([&] {
+      plan = plan_farm(grid, directory / "none", {}, [](const std::string&, const std::string&) {});
+    });
+    fmt::print("| {} | {} | {:.2f} | {:.1f} |\n", plan.cells, plan.jobs, seconds,
+               1e6 * seconds / double(plan.cells));
+  }
+}
+
+ResultKey key_of(std::size_t i) { return result_key({"scale", std::to_string(i)}); }
+
+/// Results of three small files, as many as a picture has.
+void publish(const ResultCache& cache, std::size_t i) {
+  const auto claim = cache.try_claim(key_of(i));
+  ResultDraft draft = cache.draft();
+  for (const char* name : {"lobelia.exr", "lobelia.json", "lobelia.png"})
+    write_file(draft.file(name), std::string(2000, char('a' + i % 26)));
+  cache.publish(draft, key_of(i), make_record("result"));
+}
+
+void caching(const fs::path& directory) {
+  fmt::print(
+      "\nA cache on this machine's disk; a result is three files of 2 kB and its record\n\n");
+  fmt::print(
+      "| results | published per s | entries of a shelf, mean and most | list all, ms | look at one, us | "
+      "one that is missing, us | claims per s |\n|---|---|---|---|---|---|---|\n");
+  const ResultCache cache(directory / "cache");
+  std::size_t there = 0;
+  for (const std::size_t results : {500u, 2000u, 8000u}) {
+    const double made = seconds_of([&] {
+      oneapi::tbb::parallel_for(there, results, [&](std::size_t i) { publish(cache, i); });
+    });
+    const double published = double(results - there) / made;
+    there = results;
+    std::map<char, std::size_t> shelves;
+    std::size_t listed = 0;
+    const double list = seconds_of([&] {
+      for (const ResultKey& key : cache.list()) {
+        ++shelves[char(key.digest[0])];
+        ++listed;
+      }
+    });
+    if (listed != results) fmt::print("{} results are listed\n", listed);
+    std::size_t most = 0;
+    for (const auto& [shelf, count] : shelves) most = std::max(most, count);
+    std::size_t found = 0;
+    const std::size_t looks = 1000;
+    const double look = seconds_of([&] {
+      for (std::size_t i = 0; i < looks; ++i)
+        found += cache.find(key_of(i * results / looks)) ? 1 : 0;
+    });
+    const double miss = seconds_of([&] {
+      for (std::size_t i = 0; i < looks; ++i) found += cache.has(key_of(results + i)) ? 1 : 0;
+    });
+    if (found != looks) fmt::print("{} of {} results are found\n", found, looks);
+    const double claims = seconds_of([&] {
+      for (std::size_t i = 0; i < looks; ++i) (void)cache.try_claim(key_of(i));
+    });
+    fmt::print("| {} | {:.0f} | {:.0f}, {} | {:.1f} | {:.1f} | {:.1f} | {:.0f} |\n", results,
+               published, double(results) / double(shelves.size()), most, 1e3 * list,
+               1e6 * look / double(looks), 1e6 * miss / double(looks), double(looks) / claims);
+  }
+}
+
+// ---- beyond this machine ----
+
+struct Cluster {
+  int nodes = 1, cores = 32;  ///< of a node
+  int threads = 32;           ///< of an element
+  double latency =
+      3;  ///< s, from a free place to the next element at work (measured: farm.md's stock 3 s)
+  double metadata_per_second = 2e4;  ///< operations that the shared file system's server answers
+  double failures_per_node_day = 0.01, requeue = 300;
+};
+
+/// Operations on names that a result costs the file server: its directory, its files (made, closed, looked at, made
+/// read-only), its record, the renaming, two locks.
+double metadata_of(const SlurmJob& job) { return job.phase == 0 ? 28 : 20; }
+
+struct Outcome {
+  std::size_t elements = 0;
+  double seconds = 0, busy = 0, metadata = 0, lost = 0;
+};
+
+/// Elements are handed to the place that is free first. An element's jobs share its threads evenly, and it cannot be
+/// faster than the server answers for all that run.
+Outcome simulate(const std::vector<SlurmJob>& jobs, const Cluster& cluster, std::uint64_t seed) {
+  ChunkRule rule;
+  const int places_of_node = cluster.cores / cluster.threads;
+  rule.slots = std::size_t(cluster.nodes) * std::size_t(places_of_node);
+  // An element of several threads has as many seconds of work as it takes.
+  rule.target_seconds *= cluster.threads;
+  Outcome outcome;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  double now = 0, work = 0;
+  for (const int phase : {0, 1}) {
+    std::vector<SlurmJob> of_phase;
+    for (const auto& job : jobs)
+      if (job.phase == phase) of_phase.push_back(job);
+    const auto chunks = make_chunks(of_phase, rule);
+    outcome.elements += chunks.size();
+    double operations = 0, phase_work = 0;
+    std::priority_queue<double, std::vector<double>, std::greater<>> free;
+    for (std::size_t i = 0; i < rule.slots; ++i) free.push(now);
+    double end = now;
+    for (const auto& chunk : chunks) {
+      const double cost = cost_of(of_phase, chunk);
+      phase_work += cost;
+      for (const std::size_t job : chunk) operations += metadata_of(of_phase[job]);
+      const double seconds = cost / cluster.threads;
+      double start = free.top() + cluster.latency;
+      free.pop();
+      // A node that dies takes what the element had not published yet; here: half a job a thread, and a requeue.
+      if (uniform(random) < seconds / 86400 * cluster.failures_per_node_day) {
+        outcome.lost += 1;
+        start += cluster.requeue + seconds * uniform(random);
+      }
+      free.push(start + seconds);
+      end = std::max(end, start + seconds);
+    }
+    outcome.metadata += operations;
+    now = std::max(end, now + operations / cluster.metadata_per_second);
+    work += phase_work;
+  }
+  outcome.seconds = now;
+  outcome.busy = work / (now * double(cluster.nodes) * cluster.cores);
+  return outcome;
+}
+
+std::vector<SlurmJob> jobs_of(std::size_t cells) {
+  Scene scene;
+  scene.film = {256, 256};
+  std::vector<SlurmJob> jobs;
+  jobs.reserve(cells * 8);
+  const auto add = [&](JobKind kind, const char* engine, int phase) {
+    jobs.push_back({"", phase, estimated_seconds(kind, engine, scene), engine});
+  };
+  for (std::size_t i = 0; i < cells; ++i) {
+    add(JobKind::kRender, "", 0);
+    for (const char* engine : {"analytic", "povray", "blender"}) {
+      add(JobKind::kReference, engine, 0);
+      add(JobKind::kCompare, engine, 1);
+    }
+    add(JobKind::kProfile, "", 1);
+  }
+  return jobs;
+}
+
+void simulation(std::size_t cells) {
+  const std::vector<SlurmJob> jobs = jobs_of(cells);
+  double work = 0;
+  for (const auto& job : jobs) work += job.seconds;
+  fmt::print(
+      "\nSimulated: {} cells of 256 x 256 with three engines, {} jobs, {:.0f} core hours by the estimates that chunks "
+      "are cut by; nodes of 32 cores, 3 s until an element runs, 20000 operations on names a second, a node dies "
+      "every 100 days and what it had is back after 300 s\n\n",
+      cells, jobs.size(), work / 3600);
+  fmt::print(
+      "| nodes | threads of an element | elements | time, s | cores busy | names a second | lost elements |\n"
+      "|---|---|---|---|---|---|---|\n");
+  for (const int threads : {1, 32})
+    for (const int nodes : {1, 10, 100, 1000}) {
+      Cluster cluster;
+      cluster.nodes = nodes;
+      cluster.threads = threads;
+      const Outcome outcome = simulate(jobs, cluster, 1);
+      fmt::print("| {} | {} | {} | {:.0f} | {:.0f} % | {:.0f} | {:.0f} |\n", nodes, threads,
+                 outcome.elements, outcome.seconds, 100 * outcome.busy,
+                 outcome.metadata / outcome.seconds, outcome.lost);
+    }
+}
+
+}  // namespace
+}  // namespace lobelia::bench
+
+int main() {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  using namespace lobelia;
+  const TemporaryDirectory directory;
+  bench::planning(directory.path());
+  bench::caching(directory.path());
+  bench::simulation(100000);
+  bench::simulation(1000000);
+}

@@ -1,0 +1,154 @@
+#include "cli/farm_slurm.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/between.hpp"
+#include "cli/progress.hpp"
+#include "farm/slurm/doctor.hpp"
+
+namespace lobelia::cli {
+
+void SlurmSettings::add_to(CLI::App& command) {
+  constexpr char kGroup[] = "On a cluster (docs/farm_slurm.md)";
+  command
+      .add_option("--executor", executor_,
+                  "local, or slurm: the same jobs as array jobs of a cluster")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str()
+      ->group(kGroup);
+  const auto text = [&](const char* name, std::string& value, const char* what) {
+    command.add_option(name, value, what)->group(kGroup);
+  };
+  text("--partition", slurm_.partition, "As sbatch has it; likewise the next five");
+  text("--time", slurm_.time, "Of an element: 30, 1:00:00");
+  text("--memory", slurm_.memory, "Of an element: 4G");
+  text("--account", slurm_.account, "");
+  text("--qos", slurm_.qos, "");
+  text("--constraint", slurm_.constraint, "");
+  command.add_flag("--exclusive", slurm_.exclusive, "No other job on the nodes: for timings")
+      ->group(kGroup);
+  command.add_option("--cpus-per-task", slurm_.processors, "Threads of an element")
+      ->check(between(1, 1024))
+      ->capture_default_str()
+      ->group(kGroup);
+  command.add_option("--throttle", slurm_.throttle, "Elements at once; 0 is any number")
+      ->check(between(0, 1000000))
+      ->group(kGroup);
+  command
+      .add_option("--sbatch", slurm_.raw,
+                  "Further options of sbatch, each '--name=value'; repeatable")
+      ->allow_extra_args(false)
+      ->group(kGroup);
+  command.add_option("--chunk-seconds", chunk_seconds_, "Work of an element")
+      ->check(between(0.1, 1e6))
+      ->capture_default_str()
+      ->group(kGroup);
+  command.add_option("--rounds", rounds_, "Times that what is missing is submitted")
+      ->check(between(1, 100))
+      ->capture_default_str()
+      ->group(kGroup);
+  command.add_option("--poll-seconds", poll_seconds_, "Between the first looks at the queue")
+      ->check(between(0.05, 3600))
+      ->capture_default_str()
+      ->group(kGroup);
+  command
+      .add_flag("--detach", detach_,
+                "Submit and leave; 'lobelia farm status DIR --attach' comes back")
+      ->group(kGroup);
+}
+
+SlurmRunOptions SlurmSettings::run_options() const {
+  SlurmRunOptions options;
+  options.slurm = slurm_;
+  options.chunks.target_seconds = chunk_seconds_;
+  options.chunks.least_seconds = std::min(options.chunks.least_seconds, chunk_seconds_);
+  options.rounds = rounds_;
+  options.detach = detach_;
+  options.first_poll = std::chrono::duration<double>(poll_seconds_);
+  options.last_poll =
+      std::max(options.first_poll, std::min(options.last_poll, 15 * options.first_poll));
+  options.cancel_on_interrupt = ask_whether_to_cancel;
+  options.say = [](const std::string& sentence) { fmt::print(stderr, "lobelia: {}\n", sentence); };
+  return options;
+}
+
+SlurmFarmSummary follow(SlurmRunOptions options, bool quiet,
+                        const std::function<SlurmFarmSummary(const SlurmRunOptions&)>& run) {
+  ProgressLine line(!quiet);
+  const auto say = options.say;
+  options.say = [&](const std::string& sentence) {
+    line.clear();
+    say(sentence);
+  };
+  options.on_progress = [&](const SlurmProgress& progress) {
+    const std::size_t all = progress.pending + progress.running + progress.ended;
+    if (all > 0)
+      line.show(double(progress.ended) / double(all),
+                fmt::format("round {}: {} elements pending, {} running{}", progress.round,
+                            progress.pending, progress.running,
+                            progress.reason.empty() ? "" : " (" + progress.reason + ")"));
+  };
+  return run(options);
+}
+
+void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
+  {
+    auto settings = std::make_shared<DoctorOptions>();
+    auto* command = farm.add_subcommand("doctor", "Check a Slurm cluster before the first grid");
+    auto directory = std::make_shared<std::string>();
+    command
+        ->add_option("DIR", *directory,
+                     "Where farms are to go: on a file system that the nodes share")
+        ->required();
+    command->add_option("--partition", settings->slurm.partition, "As sbatch has it");
+    command->add_option("--account", settings->slurm.account, "");
+    command->add_option("--qos", settings->slurm.qos, "");
+    command->footer("Exit codes: 0 a grid would run, 1 it would not.");
+    command->callback([settings, directory, &exit_code] {
+      settings->directory = *directory;
+      settings->program = own_program();
+      const auto checks = doctor(*settings);
+      fmt::print("{}", doctor_text(checks));
+      if (worst_of(checks) == DoctorCheck::Verdict::kFailed) exit_code = ExitCode::kDiffers;
+    });
+  }
+  {
+    struct Chunk {
+      std::string run;
+      std::size_t number = 0;
+    };
+    auto chunk = std::make_shared<Chunk>();
+    auto* command = farm.add_subcommand("exec-chunk", "What an element of a cluster's job does");
+    command->add_option("RUN", chunk->run, "The run's directory")->required();
+    command->add_option("NUMBER", chunk->number, "Of the chunk")->required();
+    command->group("");
+    command->callback([chunk, &exit_code] {
+      const ChunkSummary done = exec_slurm_chunk(chunk->run, chunk->number);
+      fmt::print("chunk {}: {} jobs, {} done, {} made here, {} failed; {:.1f} s\n", chunk->number,
+                 done.jobs, done.done, done.work.made, done.failed, done.work.wall_seconds);
+      if (done.failed > 0) exit_code = ExitCode::kOutput;
+    });
+  }
+  {
+    auto run = std::make_shared<std::string>();
+    auto* command = farm.add_subcommand("finish", "What the last element of a run does");
+    command->add_option("RUN", *run, "The run's directory")->required();
+    command->group("");
+    command->callback([run] {
+      const FarmSummary summary = finish_slurm_run(*run);
+      fmt::print("{} cells: {} failed, {} differ, {} pass, {} not done\n", summary.cells,
+                 summary.failed, summary.differs, summary.pass, summary.missing);
+    });
+  }
+  {
+    auto directory = std::make_shared<std::string>();
+    auto* command = farm.add_subcommand("doctor-on-node", "What the doctor's element does");
+    command->add_option("DIR", *directory, "Made by the doctor")->required();
+    command->group("");
+    command->callback([directory] { doctor_on_node(*directory); });
+  }
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,153 @@
+#include "cli/farm_upkeep.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli/farm_slurm.hpp"
+#include "cli/progress.hpp"
+#include "core/text.hpp"
+#include "farm/upkeep.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+std::string size_text(std::uint64_t bytes) {
+  constexpr const char* kUnits[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  double value = double(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < std::size(kUnits); ++unit) value /= 1024;
+  return fmt::format("{:.{}f} {}", value, unit == 0 ? 0 : 1, kUnits[unit]);
+}
+
+/// Of the run on a cluster, if there is one that lives.
+std::string cluster_text(const std::string& directory) {
+  const SlurmStatus status = slurm_status(slurm_run_directory(directory));
+  if (!status.problem.empty()) return fmt::format("Slurm: {}\n", status.problem);
+  if (status.living.empty()) return "";
+  return fmt::format(
+      "Slurm, round {}: {} elements pending, {} running{}; 'lobelia farm status --attach {}' follows it\n",
+      status.round, status.elements.pending, status.elements.running,
+      status.elements.reason.empty() ? "" : " (" + status.elements.reason + ")", directory);
+}
+
+void add_status(CLI::App& farm) {
+  struct Options {
+    std::string directory;
+    bool json = false, attach = false;
+  };
+  auto* command = farm.add_subcommand("status", "What has become of a farm's cells so far");
+  auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->directory, "The farm's directory")->required();
+  command->add_flag("--json", options->json, "As a record (kind farm-status, docs/records.md)");
+  command->add_flag("--attach", options->attach,
+                    "Go back to a run on a cluster and follow it to its end");
+  command->callback([options] {
+    if (options->attach) {
+      SlurmRunOptions slurm = SlurmSettings().run_options();
+      follow(slurm, false, [&](const SlurmRunOptions& followed) {
+        return attach_to_slurm_run(options->directory, followed);
+      });
+    }
+    const Json status = farm_status(options->directory);
+    if (options->json) {
+      fmt::print("{}", record_text(status));
+      return;
+    }
+    for (const auto& failure : status.at("failures"))
+      fmt::print("failed: {}: {}: {} ({} attempts): {}\n",
+                 printable(failure.at("cell").get<std::string>()),
+                 failure.at("engine").get<std::string>(), failure.at("failure").get<std::string>(),
+                 failure.at("attempts").get<int>(),
+                 printable(failure.at("message").get<std::string>(), 400));
+    std::string counts;
+    for (const auto& [name, count] : status.at("status").items())
+      if (const auto n = count.get<std::size_t>(); n > 0)
+        counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", n, name);
+    fmt::print("{} cells: {}{}\n", status.at("cells").get<std::size_t>(), counts,
+               status.at("atWork").get<bool>() ? "; a farm is at work on it" : "");
+    fmt::print("{}", cluster_text(options->directory));
+  });
+}
+
+void add_verify(CLI::App& farm, ExitCode& exit_code) {
+  struct Options {
+    std::string directory;
+    bool remove = false, quiet = false;
+  };
+  auto* command =
+      farm.add_subcommand("verify", "Read every byte of a cache again, and open every picture");
+  auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->directory, "A farm's directory, or a cache")->required();
+  command->add_flag("--remove", options->remove,
+                    "Take away what is damaged; the next farm makes it again");
+  command->add_flag("-q,--quiet", options->quiet, "No progress");
+  command->footer("Exit codes: 0 all is whole, 1 something is damaged, 3 no farm and no cache.");
+  command->callback([options, &exit_code] {
+    ProgressLine line(!options->quiet);
+    const VerifyReport report = verify_cache(
+        cache_of(options->directory), options->remove, [&](std::size_t done, std::size_t all) {
+          line.show(double(done) / double(all), fmt::format("{}/{}", done, all));
+        });
+    line.clear();
+    for (const auto& text : report.damaged) fmt::print("damaged: {}\n", text);
+    fmt::print("{} results, {} files, {}: {}\n", report.results, report.files,
+               size_text(report.bytes),
+               report.damaged.empty() ? "all whole"
+                                      : fmt::format("{} damaged{}", report.damaged.size(),
+                                                    options->remove ? ", taken away" : ""));
+    if (!report.damaged.empty() && !options->remove) exit_code = ExitCode::kDiffers;
+  });
+}
+
+void add_gc(CLI::App& farm) {
+  struct Options {
+    std::string directory, max_size;
+  };
+  auto* command = farm.add_subcommand("gc", "Make a cache smaller");
+  auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->directory, "A farm's directory, or a cache")->required();
+  command->add_option(
+      "--max-size", options->max_size,
+      "What was not used for longest goes until the rest is at most this: 10G, 500M");
+  command->footer(
+      "Without a size only what killed farms left half-made goes. Results that a farm's directory shows\n"
+      "stay on the disk as long as they lie there too (they are links).");
+  command->callback([options] {
+    std::optional<std::uint64_t> most;
+    if (!options->max_size.empty()) most = parse_size(options->max_size);
+    const GcReport report = collect_garbage(cache_of(options->directory), most);
+    fmt::print("{} results removed ({}), {} kept ({}), {} half-made ones taken away\n",
+               report.removed, size_text(report.removed_bytes), report.kept,
+               size_text(report.kept_bytes), report.abandoned);
+  });
+}
+
+void add_clean(CLI::App& farm) {
+  struct Options {
+    std::string directory;
+    bool all = false;
+  };
+  auto* command =
+      farm.add_subcommand("clean", "Take away cells that are not of a farm's grid any more");
+  auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->directory, "The farm's directory")->required();
+  command->add_flag("--all", options->all, "Every cell, and the farm's record; the cache stays");
+  command->callback([options] {
+    const CleanReport report = clean_farm(options->directory, options->all);
+    fmt::print("{} cells taken away ({} files)\n", report.cells, report.files);
+  });
+}
+
+}  // namespace
+
+void add_farm_upkeep(CLI::App& farm, ExitCode& exit_code) {
+  add_status(farm);
+  add_verify(farm, exit_code);
+  add_gc(farm);
+  add_clean(farm);
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,25 @@
+// SHA-256 (FIPS 180-4), by OpenSSL: names for what is stored by its content.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lobelia {
+
+using Sha256Digest = std::array<std::uint8_t, 32>;
+
+Sha256Digest sha256(std::string_view bytes);
+
+/// Of the whole file. Throws Error(kInput) if it cannot be read.
+Sha256Digest sha256_of_file(const std::filesystem::path& path);
+
+/// 64 lower-case hexadecimal digits, and back; `from_hex` returns false for anything else.
+std::string hex(const Sha256Digest& digest);
+bool from_hex(std::string_view text, Sha256Digest& digest);
+
+}  // namespace lobelia

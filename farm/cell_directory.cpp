@@ -1,0 +1,306 @@
+#include "farm/cell_directory.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <random>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "farm/make_result.hpp"
+#include "farm/our_name.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr char kRecordFile[] = "cell.json";
+
+/// Every file that a farm of any version may have put into a cell.
+std::set<std::string> names_of_ours() {
+  std::set<std::string> names{"profile.json", "scene.xml"};
+  std::vector<std::string> engines{kOurs};
+  for (const auto& engine : engine_infos()) engines.emplace_back(engine.name);
+  for (const auto& engine : engines) {
+    for (const char* ending : {".exr", "-error.exr", ".json", ".png", ".log"})
+      names.insert(engine + ending);
+    for (const char* ending : {".json", ".png"}) names.insert(comparison_name(engine) + ending);
+  }
+  return names;
+}
+
+/// Whether `there` is the file in the cache, or a copy of it that nobody has touched.
+bool is_same_file(const fs::path& cached, const fs::path& there) {
+  struct stat a {
+  }, b{};
+  if (::lstat(cached.c_str(), &a) != 0 || ::lstat(there.c_str(), &b) != 0) return false;
+  if (a.st_dev == b.st_dev && a.st_ino == b.st_ino) return true;
+  return a.st_size == b.st_size && a.st_mtim.tv_sec == b.st_mtim.tv_sec &&
+         a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
+}
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  throw Error(ExitCode::kOutput,
+              fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
+}
+
+/// A link to `cached` under `part`, or where the cache is on another file system a copy of the same age.
+void link_or_copy(const fs::path& cached, const fs::path& part, const fs::path& target) {
+  if (::link(cached.c_str(), part.c_str()) == 0) return;
+  if (errno == ENOENT || errno == ENOSPC || errno == EROFS || errno == EACCES) fail(target, errno);
+  struct stat status {};
+  std::error_code error;
+  fs::copy_file(cached, part, error);
+  if (error || ::stat(cached.c_str(), &status) != 0) {
+    const int number = error ? error.value() : errno;
+    ::unlink(part.c_str());
+    fail(target, number);
+  }
+  const timespec times[2] = {status.st_atim, status.st_mtim};
+  ::utimensat(AT_FDCWD, part.c_str(), times, 0);
+}
+
+void place_file(const fs::path& cached, const fs::path& target) {
+  static thread_local std::random_device device;
+  for (int attempt = 0; !is_same_file(cached, target); ++attempt) {
+    const fs::path part =
+        target.parent_path() /
+        fmt::format(".{}.{}-{}.part", target.filename().string(), ::getpid(), device());
+    link_or_copy(cached, part, target);
+    const int error = ::rename(part.c_str(), target.c_str()) == 0 ? 0 : errno;
+    // rename() of two names of one file does nothing and leaves both.
+    ::unlink(part.c_str());
+    // ENOENT: on another machine somebody took the part for one that was left behind.
+    if (error != 0 && (error != ENOENT || attempt == 3)) fail(target, error);
+  }
+}
+
+std::optional<Json> read_cell_record(const fs::path& directory) {
+  if (::access((directory / kRecordFile).c_str(), F_OK) != 0) return std::nullopt;
+  try {
+    return read_record(directory / kRecordFile, "cell");
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// The hash of one of a result's files, as its record has it.
+std::string hash_of(const Json& record, const std::string& name) {
+  for (const auto& file : record.at("files"))
+    if (file.at("name") == name) return file.at("sha256");
+  return "";
+}
+
+/// A comparison or a profile is of the very pictures that are there now, not of ones that have been made again.
+bool is_of(const Json& record, const CellRecords& records, const JobGraph& graph,
+           std::size_t cell) {
+  for (const auto& [engine, hash] : record.at("from").items()) {
+    const Json* picture = nullptr;
+    if (engine == kOurs) {
+      if (records[0]) picture = &*records[0];
+    } else {
+      for (std::size_t e = 0; e < graph.engines().size(); ++e)
+        if (graph.engines()[e].name == engine)
+          if (const auto& found = records[graph.reference(cell, e) - graph.render(cell)])
+            picture = &*found;
+    }
+    if (!picture || hash_of(*picture, picture_file(engine)) != hash) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+CellRecords find_records(const ResultCache& cache, const JobGraph& graph, std::size_t cell,
+                         std::vector<std::string>* why_not) {
+  const auto jobs = graph.of_cell(cell);
+  CellRecords records(jobs.size());
+  if (why_not) why_not->assign(jobs.size(), "");
+  for (std::size_t slot = 0; slot < jobs.size(); ++slot) {
+    if (!jobs[slot].exists) continue;
+    std::string why;
+    records[slot] = cache.find(jobs[slot].key, ResultCache::Look::kQuick, why);
+    if (records[slot] && records[slot]->contains("from") &&
+        !is_of(*records[slot], records, graph, cell)) {
+      records[slot].reset();
+      why = "its pictures are made again";
+    }
+    if (why_not) (*why_not)[slot] = std::move(why);
+  }
+  return records;
+}
+
+CellDirectory::CellDirectory(const fs::path& farm_directory, const JobGraph& graph,
+                             std::size_t cell)
+    : graph_(&graph),
+      cell_(cell),
+      directory_(farm_directory / "cells" / graph.cells().cells[cell].id) {}
+
+Json CellDirectory::results(const CellRecords& records) const {
+  Json found = Json::object();
+  const std::size_t prefix = graph_->cells().cells[cell_].id.size() + 1;
+  for (std::size_t slot = 0; slot < records.size(); ++slot)
+    if (records[slot])
+      found[graph_->name(JobIndex(graph_->render(cell_) + slot)).substr(prefix)] =
+          records[slot]->at("key");
+  return found;
+}
+
+Json CellDirectory::made_from() const {
+  Json engines = Json::object();
+  for (const auto& here : graph_->engines())
+    if (here.is_here()) engines[here.name] = here.version;
+  return {{"program", program_id()}, {"scene", graph_->scene_hash(cell_)}, {"engines", engines}};
+}
+
+std::string CellDirectory::current_status(const ResultCache& cache,
+                                          const CellRecords& records) const {
+  const auto record = read_cell_record(directory_);
+  if (!record) return "";
+  try {
+    if (!record->at("problems").empty() || record->at("results") != results(records) ||
+        record->at("madeFrom") != made_from())
+      return "";
+    for (std::size_t slot = 0; slot < records.size(); ++slot) {
+      if (!records[slot]) continue;
+      const fs::path cached =
+          cache.result_directory((*graph_)[JobIndex(graph_->render(cell_) + slot)].key);
+      for (const auto& file : records[slot]->at("files")) {
+        const std::string name = file.at("name");
+        if (!is_same_file(cached / name, directory_ / name)) return "";
+      }
+    }
+    return record->at("status").get<std::string>();
+  } catch (const Json::exception&) {
+    return "";  // not a record that we wrote
+  }
+}
+
+std::string CellDirectory::write(const ResultCache& cache, const CellRecords& records,
+                                 const std::vector<CellProblem>& problems) const {
+  const Cell& cell = graph_->cells().cells[cell_];
+  make_directories(directory_);
+  remove_abandoned_files(directory_);
+  std::error_code ignored;
+  // It speaks of files that are about to change.
+  fs::remove(directory_ / kRecordFile, ignored);
+
+  std::set<std::string> foreign = names_of_ours();
+  bool complete = true;
+  for (std::size_t slot = 0; slot < records.size(); ++slot) {
+    const Job& job = graph_->of_cell(cell_)[slot];
+    complete = complete && (!job.exists || records[slot]);
+    if (!records[slot]) continue;
+    for (const auto& file : records[slot]->at("files")) {
+      const std::string name = file.at("name");
+      place_file(cache.file(job.key, name), directory_ / name);
+      foreign.erase(name);
+    }
+  }
+  for (const auto& problem : problems) {
+    if (problem.log.empty()) continue;
+    place_file(problem.log, directory_ / (problem.engine + ".log"));
+    foreign.erase(problem.engine + ".log");
+  }
+  for (const auto& name : foreign) fs::remove(directory_ / name, ignored);
+
+  Json record = make_record("cell");
+  record["id"] = cell.id;
+  record["axes"] = Json::object();
+  for (const auto& [name, value] : cell.axes) record["axes"][name] = value;
+  record["status"] = "";  // keeps its place near the top
+  const auto& ours = records[0];
+  if (ours && ours->contains("highlight")) record["highlight"] = ours->at("highlight");
+  if (ours) record["exposureStops"] = ours->at("exposureStops");
+  record["images"] = Json::array();
+  record["comparisons"] = Json::array();
+  Json not_comparable = Json::array();
+  const auto add_image = [&](const std::string& engine, const Json& result, bool shown) {
+    Json image{{"engine", engine}, {"exr", picture_file(engine)}};
+    if (shown) image["png"] = engine + ".png";
+    image["record"] = engine + ".json";
+    image["sha256"] = hash_of(result, picture_file(engine));
+    record["images"].push_back(std::move(image));
+  };
+  if (ours) add_image(kOurs, *ours, true);
+  bool judged = false;
+  std::string worst = "pass";
+  for (std::size_t e = 0; e < graph_->engines().size(); ++e) {
+    const std::string& engine = graph_->engines()[e].name;
+    if (std::string why = graph_->refusal(cell_, e); !why.empty())
+      not_comparable.push_back({{"engine", engine}, {"because", std::move(why)}});
+    const auto& reference = records[graph_->reference(cell_, e) - graph_->render(cell_)];
+    const auto& compared = records[graph_->compare(cell_, e) - graph_->render(cell_)];
+    if (!reference || !compared) continue;
+    add_image(engine, *reference, true);
+    if (compared->contains("notComparable")) {
+      not_comparable.push_back({{"engine", engine}, {"because", compared->at("notComparable")}});
+      continue;
+    }
+    record["comparisons"].push_back(compared->at("entry"));
+    judged = true;
+    const std::string verdict = compared->at("verdict");
+    if (verdict == "undecided" && worst == "pass") worst = "undecided";
+    if (verdict != "undecided" && verdict != "pass" && verdict != "same") worst = "differs";
+  }
+  if (records.back()) record["profile"] = "profile.json";
+  record["notComparable"] = std::move(not_comparable);
+  record["problems"] = Json::array();
+  for (const auto& problem : problems)
+    record["problems"].push_back({{"engine", problem.engine},
+                                  {"message", problem.message},
+                                  {"failure", problem.failure},
+                                  {"attempts", problem.attempts}});
+  record["madeFrom"] = made_from();
+  record["results"] = results(records);
+  const std::string status = !problems.empty() ? "failed"
+                             : !complete       ? "missing"
+                             : judged          ? worst
+                                               : "unchecked";
+  record["status"] = status;
+  write_record(directory_ / kRecordFile, record);
+  return status;
+}
+
+void CellDirectory::forget() const {
+  std::error_code ignored;
+  fs::remove(directory_ / kRecordFile, ignored);
+}
+
+std::string CellDirectory::reason(JobIndex job) const {
+  if (!before_) before_ = read_cell_record(directory_);
+  const auto& record = *before_;
+  const Job& wanted = (*graph_)[job];
+  if (!record || !record->contains("madeFrom")) return "missing";
+  try {
+    const Json& before = record->at("madeFrom");
+    if (before.at("scene") != graph_->scene_hash(cell_)) return "scene changed";
+    const auto engine_reason = [&](std::size_t e) -> std::string {
+      const FarmEngine& here = graph_->engines()[e];
+      if (!before.at("engines").contains(here.name)) return "";
+      const std::string was = before.at("engines").at(here.name);
+      return was == here.version
+                 ? ""
+                 : fmt::format("engine version changed: {}, was {}", here.version, was);
+    };
+    if (wanted.engine != kNoEngine)
+      if (std::string changed = engine_reason(wanted.engine); !changed.empty()) return changed;
+    if (wanted.kind == JobKind::kProfile)
+      for (std::size_t e = 0; e < graph_->engines().size(); ++e)
+        if (std::string changed = engine_reason(e); !changed.empty()) return changed;
+    if (before.at("program") != program_id()) return "program changed";
+    const std::string name = graph_->name(job).substr(graph_->cells().cells[cell_].id.size() + 1);
+    if (record->at("results").contains(name) && record->at("results").at(name) == wanted.key.text())
+      return "lost from the cache";
+  } catch (const Json::exception&) {
+  }
+  return "missing";
+}
+
+}  // namespace lobelia

@@ -1,0 +1,62 @@
+// A cell's directory in a farm's: the files of its results, as links into the cache, and cell.json.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/record.hpp"
+#include "farm/job_graph.hpp"
+#include "farm/result_cache.hpp"
+
+namespace lobelia {
+
+/// Why a cell has no result of an engine, or of ours.
+struct CellProblem {
+  std::string engine, message;
+  std::string failure;  ///< its class, failure_name()
+  int attempts = 0;
+  std::filesystem::path log;  ///< the engine's; empty: it had nothing to say
+};
+
+/// The records of a cell's results, by place in the graph; null where there is no job or no result.
+using CellRecords = std::vector<std::optional<Json>>;
+
+/// In the result cache, each looked at; `why_not` gets a reason for each that is null though the job exists.
+CellRecords find_records(const ResultCache& cache, const JobGraph& graph, std::size_t cell,
+                         std::vector<std::string>* why_not = nullptr);
+
+class CellDirectory {
+ public:
+  CellDirectory(const std::filesystem::path& farm_directory, const JobGraph& graph,
+                std::size_t cell);
+
+  /// The status in cell.json, if that is of these results, without problems, and every file is still the one in the
+  /// cache; otherwise empty.
+  std::string current_status(const ResultCache& cache, const CellRecords& records) const;
+
+  /// Puts the results' files there, takes away what is of others, and writes cell.json last. Returns the
+  /// status: "pass", "differs", "undecided" (none differs, and a comparison is up to the noise), "unchecked" (nothing to compare with),
+  /// "failed" (if there are problems) or "missing" (something has not been done). Throws Error(kOutput).
+  std::string write(const ResultCache& cache, const CellRecords& records,
+                    const std::vector<CellProblem>& problems) const;
+
+  /// Takes cell.json away, until the cell is written again.
+  void forget() const;
+
+  /// What made the cell that is there, as far as it has a record: why a result is wanted now. As few
+  /// words: "scene changed", "engine version changed: 3.7.0.10, was 3.7.0.8", "missing".
+  std::string reason(JobIndex job) const;
+
+ private:
+  Json results(const CellRecords& records) const;
+  Json made_from() const;
+
+  const JobGraph* graph_;
+  std::size_t cell_;
+  std::filesystem::path directory_;
+  mutable std::optional<std::optional<Json>> before_;  ///< cell.json, once it was asked for
+};
+
+}  // namespace lobelia

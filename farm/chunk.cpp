@@ -1,0 +1,155 @@
+#include "farm/chunk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia {
+namespace {
+
+/// Engines as the plan has them; whether they are here is seen when they are asked for a picture.
+std::vector<FarmEngine> planned_engines(const Json& chunk) {
+  std::vector<FarmEngine> engines;
+  for (const auto& planned : chunk.at("engines")) {
+    const std::string name = planned.at("name");
+    engines.push_back({make_engine(name, planned.value("program", std::string())), name,
+                       planned.at("version").get<std::string>()});
+  }
+  return engines;
+}
+
+struct ChunkCells {
+  FarmCells farm;
+  std::vector<Scene> scenes;
+  std::vector<std::set<std::string>> jobs;  ///< names, by cell
+};
+
+ChunkCells read_cells(const Json& chunk, const std::string& file_name) {
+  ChunkCells cells;
+  for (const auto& one : chunk.at("cells")) {
+    Cell cell;
+    cell.id = one.at("id");
+    cell.engines = one.at("engines").get<std::vector<std::string>>();
+    cells.scenes.push_back(parse_scene(one.at("scene").get<std::string>(),
+                                       fmt::format("{} ({})", file_name, printable(cell.id))));
+    cells.jobs.push_back(one.at("jobs").get<std::set<std::string>>());
+    cells.farm.cells.push_back(std::move(cell));
+  }
+  return cells;
+}
+
+/// What is to be done, and what is there of what that needs.
+std::vector<JobState> states_of(const ChunkCells& cells, const JobGraph& graph,
+                                const ResultCache& cache) {
+  std::vector<JobState> states(graph.size(), JobState::kAbsent);
+  for (std::size_t cell = 0; cell < graph.cell_count(); ++cell) {
+    const CellRecords records = find_records(cache, graph, cell);
+    for (std::size_t slot = 0; slot < records.size(); ++slot) {
+      const JobIndex job = JobIndex(graph.render(cell) + slot);
+      if (!graph[job].exists) continue;
+      if (records[slot])
+        states[job] = JobState::kDone;
+      else if (cells.jobs[cell].contains(graph.name(job)))
+        states[job] = JobState::kWaiting;
+      else if (cache.failure(graph[job].key))
+        states[job] = JobState::kFailed;
+    }
+    for (std::size_t slot = 0; slot < records.size(); ++slot) {
+      const JobIndex job = JobIndex(graph.render(cell) + slot);
+      if (states[job] != JobState::kWaiting) continue;
+      for (const JobIndex input : graph.inputs(job)) {
+        const bool may_lack = graph[job].kind == JobKind::kProfile &&
+                              graph[input].kind == JobKind::kReference &&
+                              states[input] == JobState::kFailed;
+        if (states[input] != JobState::kDone && states[input] != JobState::kWaiting && !may_lack)
+          states[job] = JobState::kAbsent;
+      }
+    }
+  }
+  return states;
+}
+
+}  // namespace
+
+Json chunk_record(FarmWork& work, const ResultCache& cache, const FarmOptions& options,
+                  std::span<const JobIndex> jobs) {
+  const JobGraph& graph = work.graph;
+  Json record = make_record("farm-chunk");
+  record["program"] = program_id();
+  record["cache"] = cache.directory().string();
+  record["limits"] = {{"timeLimit", options.time_limit.count()},
+                      {"noProgressLimit", options.no_progress_limit.count()},
+                      {"attempts", options.attempts}};
+  record["engines"] = Json::array();
+  for (const auto& here : work.engines) {
+    Json engine{{"name", here.name}, {"version", here.version}};
+    if (const auto given = options.programs.find(here.name); given != options.programs.end())
+      engine["program"] = std::filesystem::absolute(given->second).string();
+    record["engines"].push_back(std::move(engine));
+  }
+  std::map<std::size_t, Json> names;
+  for (const JobIndex job : jobs) names[graph.cell_of(job)].push_back(graph.name(job));
+  record["cells"] = Json::array();
+  for (auto& [cell, of_cell] : names)
+    record["cells"].push_back({{"id", work.cells.cells[cell].id},
+                               {"engines", work.cells.cells[cell].engines},
+                               {"scene", scene_to_xml(work.cells.scene(cell))},
+                               {"jobs", std::move(of_cell)}});
+  return record;
+}
+
+ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
+  const Json chunk = read_record(file, "farm-chunk");
+  try {
+    if (chunk.at("program") != program_id())
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: planned by {}; this is {}", file.string(),
+                              printable(chunk.at("program").get<std::string>()), program_id()));
+    JobRunOptions options;
+    options.threads = threads;
+    const Json& limits = chunk.at("limits");
+    options.time_limit = std::chrono::duration<double>(limits.at("timeLimit").get<double>());
+    options.no_progress_limit =
+        std::chrono::duration<double>(limits.at("noProgressLimit").get<double>());
+    options.attempts = limits.at("attempts");
+    const std::vector<FarmEngine> engines = planned_engines(chunk);
+    for (std::size_t e = 0; e < engines.size(); ++e)
+      if (const auto& planned = chunk.at("engines")[e]; planned.contains("program"))
+        options.programs[engines[e].name] = planned.at("program").get<std::string>();
+    ChunkCells cells = read_cells(chunk, file.filename().string());
+    cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
+    JobGraph graph(cells.farm, engines);
+    const ResultCache cache(chunk.at("cache").get<std::string>());
+    const auto in_use = cache.try_use(true);
+    if (!in_use)
+      throw Error(ExitCode::kOutput, fmt::format("{}: 'lobelia farm gc' is at work in this cache",
+                                                 cache.directory().string()));
+    remove_abandoned_temporaries();
+    JobRun run(graph, cache, options, states_of(cells, graph, cache));
+    std::vector<std::size_t> order(graph.cell_count());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    run.run(order, [](std::size_t) {});
+    ChunkSummary summary;
+    summary.work = run.work();
+    for (JobIndex job = 0; job < graph.size(); ++job) {
+      if (!graph[job].exists || !cells.jobs[graph.cell_of(job)].contains(graph.name(job))) continue;
+      ++summary.jobs;
+      if (run.state(job) == JobState::kDone) ++summary.done;
+      if (run.state(job) == JobState::kFailed) ++summary.failed;
+    }
+    return summary;
+  } catch (const Json::exception& error) {
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: not a chunk of a farm: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace lobelia

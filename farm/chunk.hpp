@@ -1,0 +1,31 @@
+// A part of a farm's jobs as a file that another machine can do without the grid: scenes, engines, names of jobs.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/record.hpp"
+#include "farm/farm_session.hpp"
+#include "farm/job_run.hpp"
+
+namespace lobelia {
+
+/// The jobs of one chunk (kind "farm-chunk", docs/records.md).
+Json chunk_record(FarmWork& work, const ResultCache& cache, const FarmOptions& options,
+                  std::span<const JobIndex> jobs);
+
+struct ChunkSummary {
+  std::size_t jobs = 0;    ///< that the chunk names
+  std::size_t done = 0;    ///< whose results are in the cache now
+  std::size_t failed = 0;  ///< whose failures are
+  JobRunWork work;
+};
+
+/// Does what the file says, with `threads` threads. Jobs that are done already cost nothing; those whose inputs are neither there
+/// nor have failed are left alone. Throws Error: kInput (no such chunk, or one that another build planned),
+/// kOutput, kInterrupted.
+ChunkSummary exec_chunk(const std::filesystem::path& file, int threads);
+
+}  // namespace lobelia

@@ -1,0 +1,240 @@
+#include "farm/farm_session.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <unordered_set>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/host.hpp"
+#include "core/interrupt.hpp"
+#include "core/text.hpp"
+#include "core/threads.hpp"
+#include "farm/our_name.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+/// Jobs that are to be done though one of their inputs neither is there nor will be: the filter leaves it out.
+void leave_out_what_waits_for_nothing(const JobGraph& graph, std::vector<JobState>& states,
+                                      std::size_t cell) {
+  for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job) {
+    if (states[job] != JobState::kWaiting) continue;
+    for (const JobIndex input : graph.inputs(job))
+      if (states[input] == JobState::kAbsent) states[job] = JobState::kAbsent;
+  }
+}
+
+}  // namespace
+
+FarmWork::FarmWork(const Grid& g, const FarmOptions& options)
+    : grid(g),
+      cells{cells_of(g), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); }},
+      engines(find_engines(g.engines, options.programs)),
+      graph(cells, engines) {}
+
+std::vector<std::string> FarmWork::absences() const {
+  std::vector<std::string> sentences;
+  for (const auto& here : engines)
+    if (!here.is_here()) sentences.push_back(absence(here));
+  return sentences;
+}
+
+namespace {
+const Grid& checked(const Grid& grid) {
+  if (grid.cell_count() > kMaxFarmCells)
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: {} cells; a farm has at most {}: cut the grid into several, which may "
+                    "share a cache (--cache)",
+                    grid.file_name, grid.cell_count(), kMaxFarmCells));
+  return grid;
+}
+}  // namespace
+
+FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const FarmOptions& options)
+    : work_(checked(grid), options),
+      directory_(directory),
+      options_(options),
+      cache_(cache_directory(options.cache, directory)),
+      in_use_(cache_.try_use(true)),
+      states_(work_.graph.size(), JobState::kAbsent),
+      status_(work_.graph.cell_count(), "missing") {
+  if (!in_use_)
+    throw Error(
+        ExitCode::kOutput,
+        fmt::format("{}: 'lobelia farm gc' is at work in this cache; try again when it has ended",
+                    cache_.directory().string()));
+  summary_.absent_engines = work_.absences();
+  summary_.cells = work_.graph.cell_count();
+  cache_.remove_abandoned();
+  remove_abandoned_temporaries();
+  make_directories(directory_);
+  remove_abandoned_files(directory_);
+  look_at_cells();
+  // Now as well as at the end: a run that is killed has its record too.
+  write_farm_record();
+}
+
+void FarmSession::look_at_cells() {
+  const std::size_t count = work_.graph.cell_count();
+  std::vector<std::uint8_t> unfinished(count);
+  const auto before = std::chrono::steady_clock::now();
+  ThreadLimit(options_.threads).run([&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t cell) {
+      throw_if_interrupted();
+      unfinished[cell] = !look_at(cell);
+    });
+  });
+  summary_.cached_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  for (const std::size_t cell : coarse_to_fine(work_.cells.cells))
+    if (unfinished[cell]) waiting_cells_.push_back(cell);
+}
+
+/// Whether everything of the cell is there. Where it is not, its record goes: it would speak of other results.
+bool FarmSession::look_at(std::size_t cell) {
+  const CellRecords records = find_records(cache_, work_.graph, cell);
+  bool complete = true;
+  std::size_t kept = 0;
+  for (std::size_t slot = 0; slot < records.size(); ++slot) {
+    const JobIndex job = JobIndex(work_.graph.render(cell) + slot);
+    if (!work_.graph[job].exists) continue;
+    const bool picked =
+        options_.filter.picks_everything() || options_.filter.picks(work_.graph.name(job));
+    if (records[slot] && !(options_.again && picked)) {
+      states_[job] = JobState::kDone;
+      cache_.touch(work_.graph[job].key);
+      if (work_.graph[job].kind == JobKind::kRender || work_.graph[job].kind == JobKind::kReference)
+        ++kept;
+      continue;
+    }
+    complete = false;
+    if (!picked) continue;
+    if (options_.again) cache_.discard(work_.graph[job].key);
+    states_[job] = JobState::kWaiting;
+  }
+  leave_out_what_waits_for_nothing(work_.graph, states_, cell);
+  {
+    const std::scoped_lock lock(mutex_);
+    summary_.kept += kept;
+    if (complete) ++summary_.cached_cells;
+    take_warnings(records);
+  }
+  if (!complete) {
+    cell_directory(cell).forget();
+    return false;
+  }
+  status_[cell] = cell_directory(cell).current_status(cache_, records);
+  if (status_[cell].empty()) status_[cell] = cell_directory(cell).write(cache_, records, {});
+  return true;
+}
+
+void FarmSession::take_warnings(const CellRecords& records) {
+  if (!records[0] || !records[0]->contains("warnings")) return;
+  for (const auto& warning : records[0]->at("warnings"))
+    summary_.warnings.insert(warning.get<std::string>());
+}
+
+void FarmSession::finish_cell(std::size_t cell) {
+  JobGraph& graph = work_.graph;
+  CellRecords records = find_records(cache_, graph, cell);
+  std::vector<bool> with_engine(work_.engines.size());
+  bool lacks_one = false;
+  for (std::size_t e = 0; e < with_engine.size(); ++e) {
+    with_engine[e] = records[graph.reference(cell, e) - graph.render(cell)].has_value();
+    lacks_one = lacks_one || (graph[graph.reference(cell, e)].exists && !with_engine[e]);
+  }
+  if (lacks_one && graph[graph.profile(cell)].exists) {
+    graph.set_profile_key(cell, graph.profile_key(cell, with_engine));
+    records = find_records(cache_, graph, cell);
+  }
+  std::vector<CellProblem> problems;
+  for (std::size_t slot = 0; slot < records.size(); ++slot) {
+    const Job& job = graph.of_cell(cell)[slot];
+    if (!job.exists || records[slot]) continue;
+    const auto failure = cache_.failure(job.key);
+    if (!failure) continue;
+    problems.push_back({job.engine == kNoEngine ? kOurs : work_.engines[job.engine].name,
+                        failure->value("message", ""), failure->value("failure", ""),
+                        failure->value("attempts", 1), cache_.failure_log(job.key)});
+  }
+  std::string status = cell_directory(cell).write(cache_, records, problems);
+  const std::scoped_lock lock(mutex_);
+  status_[cell] = std::move(status);
+  take_warnings(records);
+  for (const auto& problem : problems)
+    summary_.problems.push_back(
+        fmt::format("{}: {}: {}", work_.cells.cells[cell].id, problem.engine, problem.message));
+}
+
+void FarmSession::show_what_is_there() {
+  for (const std::size_t cell : waiting_cells_) {
+    if (status_[cell] != "missing") continue;
+    const auto jobs = work_.graph.of_cell(cell);
+    if (std::any_of(jobs.begin(), jobs.end(), [&](const Job& job) {
+          return job.exists && (cache_.has(job.key) || cache_.failure(job.key));
+        }))
+      finish_cell(cell);
+  }
+  write_farm_record();
+}
+
+void FarmSession::write_farm_record() const {
+  const Grid& grid = work_.grid;
+  Json record = make_record("farm");
+  record["title"] = grid.title;
+  record["grid"] = grid.file_name;
+  record["command"] = shell_join(options_.command);
+  record["host"] = host_record();
+  record["cache"] = cache_.directory().lexically_proximate(fs::absolute(directory_)).string();
+  record["axes"] = Json::array();
+  for (const auto& axis : grid.axes) {
+    Json values = Json::array();
+    for (const auto& value : axis.values)
+      values.push_back({{"value", value.value}, {"label", value.label}});
+    record["axes"].push_back({{"name", axis.name}, {"values", std::move(values)}});
+  }
+  record["engines"] = engines_record(work_.engines);
+  record["cells"] = Json::array();
+  const std::scoped_lock lock(mutex_);
+  for (std::size_t i = 0; i < status_.size(); ++i) {
+    Json axes = Json::object();
+    for (const auto& [name, value] : work_.cells.cells[i].axes) axes[name] = value;
+    record["cells"].push_back(
+        {{"id", work_.cells.cells[i].id}, {"status", status_[i]}, {"axes", std::move(axes)}});
+  }
+  write_record(directory_ / "farm.json", record);
+}
+
+std::size_t FarmSession::count_foreign_cells() const {
+  std::unordered_set<std::string> ids;
+  for (const auto& cell : work_.cells.cells) ids.insert(cell.id);
+  std::size_t foreign = 0;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(directory_ / "cells", ignored))
+    if (!ids.contains(entry.path().filename().string())) ++foreign;
+  return foreign;
+}
+
+FarmSummary FarmSession::summarise(const JobRunWork& done) {
+  summary_.foreign = count_foreign_cells();
+  for (const auto& status : status_) {
+    if (status == "pass") ++summary_.pass;
+    if (status == "differs") ++summary_.differs;
+    if (status == "undecided") ++summary_.undecided;
+    if (status == "unchecked") ++summary_.unchecked;
+    if (status == "failed") ++summary_.failed;
+    if (status == "missing") ++summary_.missing;
+  }
+  std::sort(summary_.problems.begin(), summary_.problems.end());
+  summary_.work = done;
+  summary_.rendered = done.pictures;
+  return summary_;
+}
+
+}  // namespace lobelia

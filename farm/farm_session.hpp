@@ -1,0 +1,71 @@
+// A farm at work on a grid: what is there, what is to be made, and what has become of each cell. The way in which jobs
+// are done (here, or on a cluster) is not its business.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "farm/cell_directory.hpp"
+#include "farm/farm.hpp"
+#include "farm/farm_engines.hpp"
+#include "farm/job_graph.hpp"
+#include "farm/result_cache.hpp"
+
+namespace lobelia {
+
+/// A grid's cells with the engines that are here. Neither copied nor moved: its parts know each other.
+struct FarmWork {
+  FarmWork(const Grid& g, const FarmOptions& options);
+  FarmWork(const FarmWork&) = delete;
+  std::vector<std::string> absences() const;  ///< of engines, as sentences
+
+  const Grid& grid;
+  const FarmCells cells;
+  const std::vector<FarmEngine> engines;
+  JobGraph graph;
+};
+
+class FarmSession {
+ public:
+  /// Opens the cache, looks at every cell, puts together those whose results are all there, and writes farm.json.
+  /// Arguments must outlive it. Throws as run_farm().
+  FarmSession(const Grid& grid, const std::filesystem::path& directory, const FarmOptions& options);
+
+  FarmWork& work() { return work_; }
+  const ResultCache& cache() const { return cache_; }
+  /// Of each job: kDone where its result is there, kWaiting where it is to be made. Asked once.
+  std::vector<JobState> take_states() { return std::move(states_); }
+  /// Cells with jobs that are waiting, from coarse to fine.
+  const std::vector<std::size_t>& waiting_cells() const { return waiting_cells_; }
+
+  /// Puts a cell together from what is there now; what is not there is a problem if it has failed. From any thread.
+  void finish_cell(std::size_t cell);
+  /// After an end that came too early: every cell of which something has been made, and farm.json.
+  void show_what_is_there();
+  void write_farm_record() const;
+  FarmSummary summarise(const JobRunWork& done);
+
+ private:
+  CellDirectory cell_directory(std::size_t cell) const {
+    return CellDirectory(directory_, work_.graph, cell);
+  }
+  void look_at_cells();
+  bool look_at(std::size_t cell);
+  void take_warnings(const CellRecords& records);
+  std::size_t count_foreign_cells() const;
+
+  FarmWork work_;
+  const std::filesystem::path directory_;
+  const FarmOptions& options_;
+  const ResultCache cache_;
+  std::optional<ByteLocks::Claim> in_use_;
+  std::vector<JobState> states_;
+  std::vector<std::size_t> waiting_cells_;
+  mutable std::mutex mutex_;         // of what follows
+  std::vector<std::string> status_;  ///< by cell
+  FarmSummary summary_;
+};
+
+}  // namespace lobelia

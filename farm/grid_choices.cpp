@@ -1,0 +1,155 @@
+#include "farm/grid_choices.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::string_view kSeparators = ", \t\n\r";
+
+class ChoiceReader {
+ public:
+  ChoiceReader(XmlSource& source, std::vector<AxisTable>& axes) : source_(source), axes_(axes) {
+    for (const auto& table : axes_) names_.push_back(table.axis().name);
+  }
+
+  void exclude(pugi::xml_node node, GridPlaces& places) {
+    if (!has_known_attributes(node)) return;
+    std::vector<std::vector<bool>> chosen;
+    bool valid = true, any = false;
+    for (const auto& table : axes_) {
+      chosen.emplace_back();
+      const auto attribute = node.attribute(table.axis().name.c_str());
+      any = any || attribute;
+      if (attribute) valid = read_chosen(node, attribute, table, chosen.back()) && valid;
+    }
+    if (!any)
+      source_.error(node, fmt::format("<exclude> names no axis; allowed: {}", join(names_)));
+    if (!any || !valid) return;
+    try {
+      if (places.exclude(chosen) == 0)
+        source_.error(node, "the <exclude> matches no cell: the values never stand together");
+    } catch (const std::runtime_error& error) {
+      source_.error(node, error.what());
+    }
+  }
+
+  /// The values of the cell, or none if something is wrong.
+  std::vector<ValueIndex> include(pugi::xml_node node) {
+    if (!has_known_attributes(node)) return {};
+    std::vector<ValueIndex> at;
+    for (auto& table : axes_) {
+      const char* name = table.axis().name.c_str();
+      const std::string text = source_.required(node, name);
+      if (!node.attribute(name)) continue;
+      try {
+        const auto values = split(text, kSeparators);
+        if (values.size() != 1)
+          throw std::runtime_error(
+              fmt::format("'{}' is not one value; an <include> adds one cell", printable(text)));
+        at.push_back(table.find_or_add(values.front()));
+      } catch (const std::runtime_error& error) {
+        source_.error(node.attribute(name), node, error.what());
+      }
+    }
+    if (at.size() < axes_.size()) at.clear();
+    return at;
+  }
+
+ private:
+  bool has_known_attributes(pugi::xml_node node) {
+    if (source_.full()) {
+      source_.count_error();
+      return false;
+    }
+    bool known = true;
+    for (const auto attribute : node.attributes())
+      known = known && std::find(names_.begin(), names_.end(), attribute.name()) != names_.end();
+    if (!known) source_.check_attributes(node, names_);
+    return known;
+  }
+
+  bool read_chosen(pugi::xml_node node, pugi::xml_attribute attribute, const AxisTable& table,
+                   std::vector<bool>& chosen) {
+    const Axis& axis = table.axis();
+    chosen.resize(axis.values.size());
+    const auto texts = split(attribute.value(), kSeparators);
+    if (texts.empty())
+      source_.error(attribute, node, fmt::format("no value of the axis '{}'", axis.name));
+    for (const auto& text : texts) {
+      if (const auto index = table.find(text)) {
+        chosen[*index] = true;
+        continue;
+      }
+      std::vector<std::string_view> values;
+      for (const auto& value : axis.values) values.push_back(value.value);
+      const std::size_t shown = std::min<std::size_t>(values.size(), 12);
+      source_.error(
+          attribute, node,
+          fmt::format("the <exclude> matches no cell: '{}' is not on the axis '{}'; there "
+                      "are: {}{}{}",
+                      printable(text), axis.name,
+                      printable(join(std::span(values).first(shown)), 400),
+                      values.size() > shown ? ", ..." : "", did_you_mean(text, values)));
+      return false;
+    }
+    return !texts.empty();
+  }
+
+  XmlSource& source_;
+  std::vector<AxisTable>& axes_;
+  std::vector<std::string_view> names_;
+};
+
+void check_ids(XmlSource& source, pugi::xml_node root, const Grid& grid,
+               const std::vector<pugi::xml_node>& includes) {
+  const std::size_t width = grid.axes.size(), cells = grid.cell_count();
+  std::unordered_set<std::string> ids(cells);
+  for (std::size_t c = 0; c < cells && !source.full(); ++c) {
+    const std::size_t in_product = cells - includes.size();
+    const auto node = c < in_product ? root : includes[c - in_product];
+    std::string id = cell_id(grid, std::span(grid.places).subspan(c * width, width));
+    if (id.size() > kMaxIdBytes)
+      return source.error(node, fmt::format("the cell '{}' has a name of {} bytes; allowed: {}",
+                                            printable(id), id.size(), kMaxIdBytes));
+    const auto [at, is_new] = ids.insert(std::move(id));
+    if (is_new) continue;
+    source.error(node,
+                 c < in_product
+                     ? fmt::format("two cells would be called '{}'; rename a file or leave out "
+                                   "a value",
+                                   *at)
+                     : fmt::format("the cell '{}' is there already", *at));
+  }
+}
+
+}  // namespace
+
+void read_choices(XmlSource& source, pugi::xml_node root, std::vector<AxisTable>& axes,
+                  std::vector<GridFactor> factors, Grid& grid) {
+  ChoiceReader reader(source, axes);
+  GridPlaces product(std::move(factors));
+  for (const auto node : root.children("exclude")) reader.exclude(node, product);
+  grid.places = product.kept();
+  std::vector<pugi::xml_node> includes;
+  for (const auto node : root.children("include")) {
+    const auto at = reader.include(node);
+    if (at.empty()) continue;
+    grid.places.insert(grid.places.end(), at.begin(), at.end());
+    includes.push_back(node);
+  }
+  for (auto& table : axes) grid.axes.push_back(table.take());
+  if (grid.places.empty())
+    source.error(root, "no cell is left; an <exclude> may not take away all of them");
+  if (grid.cell_count() > kMaxCells)
+    source.error(root, fmt::format("over {} cells; allowed: {}", kMaxCells, kMaxCells));
+  else
+    check_ids(source, root, grid, includes);
+}
+
+}  // namespace lobelia

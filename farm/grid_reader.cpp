@@ -1,0 +1,300 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/image.hpp"
+#include "core/text.hpp"
+#include "farm/axis_table.hpp"
+#include "farm/grid.hpp"
+#include "farm/grid_choices.hpp"
+#include "reference_scenes/engine.hpp"
+#include "renderer/scene/scene_io.hpp"
+#include "renderer/scene/xml_source.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::size_t kMaxGridBytes = 1 << 20;
+constexpr std::size_t kMaxParts = 100000000;
+constexpr std::string_view kGridFormatVersion = "1";
+constexpr std::string_view kElements[] = {"scene",   "film",    "axis",  "list",
+                                          "exclude", "include", "engine"};
+
+class GridReader {
+ public:
+  GridReader(XmlSource& source, std::filesystem::path directory)
+      : source_(source), directory_(std::move(directory)) {}
+
+  Grid read() {
+    const auto root = source_.root();
+    if (std::string_view(root.name()) != "grid") {
+      source_.error(root, fmt::format("the root element is <{}>; a grid file begins with <grid>",
+                                      printable(root.name())));
+      source_.throw_if_errors();
+    }
+    source_.check_attributes(root, {"version", "title"});
+    if (const auto version = source_.required(root, "version");
+        !version.empty() && version != kGridFormatVersion)
+      source_.error(root.attribute("version"), root,
+                    fmt::format("format version '{}'; this program reads version {}",
+                                printable(version), kGridFormatVersion));
+    grid_.title = root.attribute("title").as_string("Highlights");
+    for (const auto node : root.children())
+      if (node.type() == pugi::node_element) read_element(node);
+    if (!seen_.contains("scene") && !axis_nodes_.contains("scene"))
+      source_.error(root, "the grid has no <scene file=\"...\"/> and no axis 'scene'");
+    if (axis_nodes_.empty()) source_.error(root, "the grid has no <axis>; it needs one");
+    if (film_ && axis_nodes_.contains("size"))
+      source_.error(axis_nodes_["size"], "an axis 'size' beside a <film>; allowed: one of them");
+    if (!grid_.engines.empty() && axis_nodes_.contains("engine"))
+      source_.error(axis_nodes_["engine"],
+                    "an axis 'engine' beside <engine>; allowed: one of them");
+    check_size(root);
+    source_.throw_if_errors();  // what follows builds on whole axes
+    read_choices(source_, root, tables_, std::move(factors_), grid_);
+    check_lobes();
+    source_.throw_if_errors();
+    finish_scenes();
+    check_parts(root);
+    source_.throw_if_errors();
+    return std::move(grid_);
+  }
+
+ private:
+  void read_element(pugi::xml_node node) {
+    const std::string_view tag = node.name();
+    if (tag == "scene" && once(node)) read_scene_file(node);
+    if (tag == "film" && once(node)) read_film(node);
+    if (tag == "axis") {
+      GridFactor factor;
+      read_axis(node, factor, false);
+      add(std::move(factor));
+    }
+    if (tag == "list") read_list(node);
+    if (tag == "engine") read_engine(node);
+    if (std::find(std::begin(kElements), std::end(kElements), tag) == std::end(kElements))
+      source_.error(node,
+                    fmt::format("unknown element <{}> in <grid>; allowed: {}{}", printable(tag),
+                                join(kElements), did_you_mean(tag, kElements)));
+  }
+
+  bool once(pugi::xml_node node) {
+    if (seen_.insert(node.name()).second) return true;
+    source_.error(node, fmt::format("a second <{}>; one is allowed", node.name()));
+    return false;
+  }
+
+  void read_scene_file(pugi::xml_node node) {
+    source_.check_attributes(node, {"file"});
+    const std::string file = source_.required(node, "file");
+    if (file.empty()) return;
+    try {
+      grid_.scene = read_scene(directory_ / file);
+      if (const std::string picture = picture_of(grid_.scene); !picture.empty())
+        source_.error(node.attribute("file"), node, picture);
+    } catch (const Error& error) {
+      source_.error(node.attribute("file"), node, error.what());
+    }
+  }
+
+  void read_film(pugi::xml_node node) {
+    source_.check_attributes(node, {"width", "height"});
+    const auto side = [&](const char* name) {
+      const std::string text = source_.required(node, name);
+      long long value = 1;
+      if (!text.empty() && (!parse_integer(text, value) || value < 1 || value > kMaxImageSide)) {
+        source_.error(node.attribute(name), node,
+                      fmt::format("{} '{}'; allowed: whole numbers from 1 to {}", name,
+                                  printable(text), kMaxImageSide));
+        value = 1;
+      }
+      return int(value);
+    };
+    film_ = Film{side("width"), side("height")};
+    if (std::int64_t{film_->width} * film_->height > kMaxImagePixels)
+      source_.error(node, fmt::format("{} x {} pixels; allowed: {} in all", film_->width,
+                                      film_->height, kMaxImagePixels));
+  }
+
+  /// Axes that advance together.
+  void read_list(pugi::xml_node node) {
+    source_.check_attributes(node, {});
+    GridFactor factor;
+    std::string_view first;
+    for (const auto child : node.children()) {
+      if (child.type() != pugi::node_element) continue;
+      if (std::string_view(child.name()) != "axis") {
+        source_.error(child, fmt::format("unknown element <{}> in <list>; allowed: axis",
+                                         printable(child.name())));
+        continue;
+      }
+      if (!read_axis(child, factor, true)) continue;
+      if (first.empty()) first = child.attribute("name").value();
+      if (factor.steps.back().size() != factor.size() && !source_.has_errors())
+        source_.error(child, fmt::format("{} values beside the {} of the axis '{}'; the axes of a "
+                                         "<list> advance together and have as many values each",
+                                         factor.steps.back().size(), factor.size(), first));
+    }
+    if (!node.child("axis")) source_.error(node, "the <list> has no <axis>; it needs one");
+    check_steps(node, factor);
+    add(std::move(factor));
+  }
+
+  /// A step that stands twice would be the same cells twice.
+  void check_steps(pugi::xml_node node, const GridFactor& factor) {
+    if (source_.has_errors() || factor.steps.empty()) return;
+    std::set<std::vector<ValueIndex>> before;
+    for (std::size_t step = 0; step < factor.size(); ++step) {
+      std::vector<ValueIndex> values;
+      for (const auto& steps : factor.steps) values.push_back(steps[step]);
+      if (!before.insert(values).second)
+        return source_.error(
+            node, fmt::format("the values of step {} of the <list> stand there twice", step + 1));
+    }
+  }
+
+  void add(GridFactor factor) {
+    if (!factor.steps.empty()) factors_.push_back(std::move(factor));
+  }
+
+  /// Adds the axis to the factor. In a list a value may stand more than once. False if there is no such axis.
+  bool read_axis(pugi::xml_node node, GridFactor& factor, bool in_list) {
+    source_.check_attributes(node, {"name", "values"});
+    const std::string name = source_.required(node, "name");
+    const std::string values = source_.required(node, "values");
+    if (name.empty() || values.empty()) return false;
+    const auto kinds = axis_kinds();
+    const auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const AxisKind& k) { return k.name == name; });
+    if (kind == kinds.end()) {
+      std::vector<std::string_view> names;
+      for (const auto& k : kinds) names.push_back(k.name);
+      source_.error(node.attribute("name"), node,
+                    fmt::format("unknown axis '{}'; allowed: {}{}", printable(name), join(names),
+                                did_you_mean(name, names)));
+      return false;
+    }
+    if (!axis_nodes_.emplace(name, node).second) {
+      source_.error(node, fmt::format("a second axis '{}'; one is allowed", name));
+      return false;
+    }
+    AxisTable& table = tables_.emplace_back(*kind, directory_);
+    auto& steps = factor.steps.emplace_back();
+    const auto texts = split(values, ", \t\n\r");
+    for (const auto& text : texts) {
+      if (source_.full()) break;
+      try {
+        if (!in_list && table.find(text))
+          throw std::runtime_error(
+              fmt::format("'{}' stands twice on the axis '{}'", printable(text), name));
+        steps.push_back(table.find_or_add(text));
+      } catch (const std::runtime_error& error) {
+        source_.error(node.attribute("values"), node, error.what());
+        // Every further one would be too many as well.
+        if (table.axis().values.size() >= kMaxAxisValues) break;
+      }
+    }
+    if (texts.empty())
+      source_.error(node,
+                    fmt::format("the axis '{}' has no values; allowed: {}", name, kind->allowed));
+    return true;
+  }
+
+  void read_engine(pugi::xml_node node) {
+    source_.check_attributes(node, {"name"});
+    const std::string name = source_.required(node, "name");
+    std::vector<std::string_view> names;
+    for (const auto& engine : engine_infos()) names.push_back(engine.name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      source_.error(node, fmt::format("unknown engine '{}'; allowed: {}{}", printable(name),
+                                      join(names), did_you_mean(name, names)));
+    else if (std::find(grid_.engines.begin(), grid_.engines.end(), name) != grid_.engines.end())
+      source_.error(node, fmt::format("a second engine '{}'; one is allowed", name));
+    else
+      grid_.engines.push_back(name);
+  }
+
+  void check_size(pugi::xml_node root) {
+    std::size_t count = 1;
+    for (const auto& factor : factors_) {
+      count *= std::max<std::size_t>(1, factor.size());
+      if (count <= kMaxCells) continue;
+      source_.error(root, fmt::format("over {} cells; allowed: {}", kMaxCells, kMaxCells));
+      return;
+    }
+  }
+
+  void check_lobes() {
+    if (!axis_nodes_.contains("lobe") || !axis_nodes_.contains("normalisation")) return;
+    for (const auto& axis : grid_.axes) {
+      if (axis.name != "normalisation") continue;
+      for (const auto& value : axis.values)
+        if (value.value.find(':') != value.value.npos)
+          return source_.error(
+              axis_nodes_["normalisation"],
+              fmt::format("LOBE:NORMALISATION '{}' beside an axis 'lobe'; allowed there: {}",
+                          value.value, join(normalisation_names())));
+    }
+  }
+
+  /// The size of <film> goes to every scene, and the filter stays the scene's.
+  void finish_scenes() {
+    const auto resize = [&](Scene& scene) {
+      if (!film_) return;
+      scene.film.width = film_->width;
+      scene.film.height = film_->height;
+    };
+    resize(grid_.scene);
+    for (auto& axis : grid_.axes) {
+      if (axis.name == "engine")
+        for (const auto& value : axis.values) grid_.engines.push_back(value.value);
+      if (axis.name != "scene") continue;
+      grid_.scene = {};  // no cell shows it
+      if (!film_) continue;
+      for (auto& value : axis.values) {
+        auto scene = std::make_shared<Scene>(*value.scene);
+        resize(*scene);
+        value.scene = std::move(scene);
+      }
+    }
+  }
+
+  /// Every cell's scene is written beside its results.
+  void check_parts(pugi::xml_node root) {
+    std::size_t parts = grid_.cell_count() * part_count(grid_.scene);
+    for (std::size_t a = 0; a < grid_.axes.size(); ++a) {
+      if (grid_.axes[a].name != "scene") continue;
+      for (std::size_t i = a; i < grid_.places.size(); i += grid_.axes.size())
+        parts += part_count(*grid_.axes[a].values[grid_.places[i]].scene);
+    }
+    if (parts > kMaxParts)
+      source_.error(root,
+                    fmt::format("{} cells of {} shapes, materials and lights in all; allowed: {}",
+                                grid_.cell_count(), parts, kMaxParts));
+  }
+
+  XmlSource& source_;
+  std::filesystem::path directory_;
+  Grid grid_;
+  std::optional<Film> film_;
+  std::set<std::string> seen_;
+  std::map<std::string, pugi::xml_node> axis_nodes_;
+  std::vector<AxisTable> tables_;
+  std::vector<GridFactor> factors_;  ///< of the axes in tables_, in that order
+};
+
+}  // namespace
+
+Grid read_grid(const std::filesystem::path& path) {
+  XmlSource source(read_file(path, kMaxGridBytes), path.string(), kMaxGridBytes);
+  Grid grid = GridReader(source, path.parent_path()).read();
+  grid.file_name = path.filename().string();
+  return grid;
+}
+
+}  // namespace lobelia

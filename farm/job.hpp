@@ -1,0 +1,45 @@
+// What a farm does for a cell: jobs, each with a result in the cache.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "farm/result_key.hpp"
+
+namespace lobelia {
+
+enum class JobKind : std::uint8_t {
+  kRender,     ///< our picture
+  kReference,  ///< an engine's picture
+  kCompare,    ///< ours with an engine's
+  kProfile,    ///< the highlight in all pictures
+};
+inline constexpr std::string_view kJobKindNames[] = {"render", "reference", "compare", "profile"};
+
+inline constexpr std::uint8_t kNoEngine = 255;
+
+struct Job {
+  ResultKey key;
+  JobKind kind = JobKind::kRender;
+  std::uint8_t engine = kNoEngine;  ///< among the farm's, for a reference and a comparison
+  bool exists = false;  ///< false: the cell has no such job (an engine that is not there, say)
+};
+
+/// "n16-head_on/compare-povray", as `--filter` sees it.
+std::string job_name(std::string_view cell_id, JobKind kind, std::string_view engine);
+
+/// GoogleTest's patterns: "a*:b?c-d*" is what matches a* or b?c and does not match d*. An empty list in front of
+/// the '-' is everything.
+class JobFilter {
+ public:
+  JobFilter() = default;
+  explicit JobFilter(std::string_view patterns) : text_(patterns) {}
+  bool picks(std::string_view name) const;
+  bool picks_everything() const { return text_.empty(); }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace lobelia

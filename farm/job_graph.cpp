@@ -1,0 +1,140 @@
+#include "farm/job_graph.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <mutex>
+#include <numeric>
+
+#include "core/build_id.hpp"
+#include "core/version.hpp"
+#include "renderer/pixel_ray.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia {
+
+const std::string& program_id() {
+  static const std::string id = std::string(kNameAndVersion) + " " + build_id();
+  return id;
+}
+
+JobGraph::JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engines)
+    : cells_(&cells),
+      engines_(&engines),
+      stride_(2 + 2 * engines.size()),
+      jobs_(cells.cells.size() * stride_),
+      scenes_(cells.cells.size()) {
+  std::mutex mutex;
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, cell_count()),
+                            [&](const auto& range) {
+                              std::map<std::size_t, std::string> refusals;
+                              for (std::size_t cell = range.begin(); cell < range.end(); ++cell)
+                                plan_cell(cell, refusals);
+                              const std::scoped_lock lock(mutex);
+                              refusals_.merge(refusals);
+                            });
+}
+
+void JobGraph::plan_cell(std::size_t cell, std::map<std::size_t, std::string>& refusals) {
+  const Scene scene = cells_->scene(cell);
+  scenes_[cell] = sha256(scene_to_xml(scene));
+  const std::string_view scene_part(reinterpret_cast<const char*>(scenes_[cell].data()),
+                                    scenes_[cell].size());
+  const auto set = [&](JobIndex at, JobKind kind, std::size_t engine, const ResultKey& key) {
+    jobs_[at] = {key, kind, std::uint8_t(engine), true};
+  };
+  const ResultKey ours = result_key({"render", program_id(), scene_part});
+  set(render(cell), JobKind::kRender, kNoEngine, ours);
+  const auto& compared_with = cells_->cells[cell].engines;
+  std::vector<bool> with_engine(engines_->size());
+  for (std::size_t e = 0; e < engines_->size(); ++e) {
+    const FarmEngine& here = (*engines_)[e];
+    if (!here.is_here() ||
+        std::find(compared_with.begin(), compared_with.end(), here.name) == compared_with.end())
+      continue;
+    if (std::string why = here.engine->why_not(scene, {}); !why.empty()) {
+      refusals.emplace(cell * engines_->size() + e, std::move(why));
+      continue;
+    }
+    const ResultKey theirs =
+        result_key({"reference", program_id(), here.name, here.version, scene_part});
+    set(reference(cell, e), JobKind::kReference, e, theirs);
+    set(compare(cell, e), JobKind::kCompare, e,
+        result_key({"compare", program_id(), as_part(ours), as_part(theirs)}));
+    with_engine[e] = true;
+  }
+  if (!scene.lights.empty() && !scene.spheres.empty() && beyond_single_rays(scene).empty())
+    set(profile(cell), JobKind::kProfile, kNoEngine, profile_key(cell, with_engine));
+}
+
+ResultKey JobGraph::profile_key(std::size_t cell, const std::vector<bool>& with_engine) const {
+  std::string references;
+  for (std::size_t e = 0; e < engines_->size(); ++e)
+    if (with_engine[e]) references += as_part(jobs_[reference(cell, e)].key);
+  return result_key({"profile", program_id(), as_part(jobs_[render(cell)].key), references});
+}
+
+std::vector<JobIndex> JobGraph::inputs(JobIndex job) const {
+  const std::size_t cell = cell_of(job);
+  switch (jobs_[job].kind) {
+    case JobKind::kRender:
+    case JobKind::kReference:
+      return {};
+    case JobKind::kCompare:
+      return {render(cell), reference(cell, jobs_[job].engine)};
+    case JobKind::kProfile:
+      break;
+  }
+  std::vector<JobIndex> pictures{render(cell)};
+  for (std::size_t e = 0; e < engines_->size(); ++e)
+    if (jobs_[reference(cell, e)].exists) pictures.push_back(reference(cell, e));
+  return pictures;
+}
+
+std::vector<JobIndex> JobGraph::dependents(JobIndex job) const {
+  const std::size_t cell = cell_of(job);
+  std::vector<JobIndex> found;
+  const auto add = [&](JobIndex at) {
+    if (jobs_[at].exists) found.push_back(at);
+  };
+  if (jobs_[job].kind == JobKind::kRender)
+    for (std::size_t e = 0; e < engines_->size(); ++e) add(compare(cell, e));
+  else if (jobs_[job].kind == JobKind::kReference)
+    add(compare(cell, jobs_[job].engine));
+  else
+    return found;
+  add(profile(cell));
+  return found;
+}
+
+std::string JobGraph::name(JobIndex job) const {
+  const Job& one = jobs_[job];
+  return job_name(cells_->cells[cell_of(job)].id, one.kind,
+                  one.engine == kNoEngine ? "" : (*engines_)[one.engine].name);
+}
+
+std::string JobGraph::refusal(std::size_t cell, std::size_t engine) const {
+  const auto found = refusals_.find(cell * engines_->size() + engine);
+  return found == refusals_.end() ? "" : found->second;
+}
+
+std::vector<std::size_t> coarse_to_fine(const std::vector<Cell>& cells) {
+  std::size_t most = 1;
+  for (const auto& cell : cells)
+    for (const auto index : cell.at) most = std::max<std::size_t>(most, index + 1);
+  // An index is of the level at which halving the axis comes to it: 0 is first, then the middle.
+  const int levels = int(std::bit_width(most - 1));
+  std::vector<int> level(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (const auto index : cells[i].at)
+      if (index > 0) level[i] = std::max(level[i], levels - std::countr_zero(std::uint64_t(index)));
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return level[a] < level[b]; });
+  return order;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,89 @@
+// Every job of every cell, with the key of its result and what it waits for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "farm/farm_engines.hpp"
+#include "farm/grid.hpp"
+#include "farm/job.hpp"
+
+namespace lobelia {
+
+/// Cells whose scenes are made when they are needed: a grid's, or a part of one on another machine.
+struct FarmCells {
+  std::vector<Cell> cells;
+  std::function<Scene(std::size_t)> scene;  ///< of a cell; from any thread
+};
+
+/// A place among all jobs.
+using JobIndex = std::uint32_t;
+
+class JobGraph {
+ public:
+  /// Keys of all jobs, on all processors. Both arguments must outlive the graph.
+  JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engines);
+
+  std::size_t cell_count() const { return cells_->cells.size(); }
+  std::size_t size() const { return jobs_.size(); }
+  const FarmCells& cells() const { return *cells_; }
+  const std::vector<FarmEngine>& engines() const { return *engines_; }
+
+  const Job& operator[](JobIndex job) const { return jobs_[job]; }
+  std::size_t cell_of(JobIndex job) const { return job / stride_; }
+  JobIndex render(std::size_t cell) const { return JobIndex(cell * stride_); }
+  JobIndex reference(std::size_t cell, std::size_t engine) const {
+    return JobIndex(cell * stride_ + 1 + engine);
+  }
+  JobIndex compare(std::size_t cell, std::size_t engine) const {
+    return JobIndex(cell * stride_ + 1 + engines_->size() + engine);
+  }
+  JobIndex profile(std::size_t cell) const { return JobIndex((cell + 1) * stride_ - 1); }
+  /// All places of a cell; some have no job.
+  std::span<const Job> of_cell(std::size_t cell) const {
+    return std::span(jobs_).subspan(cell * stride_, stride_);
+  }
+  std::size_t stride() const { return stride_; }
+
+  /// Jobs that must have their results first.
+  std::vector<JobIndex> inputs(JobIndex job) const;
+  /// Jobs that have this one among their inputs.
+  std::vector<JobIndex> dependents(JobIndex job) const;
+
+  std::string name(JobIndex job) const;
+
+  /// Why a cell is not compared with an engine that is here: it cannot show the scene. Empty if it can.
+  std::string refusal(std::size_t cell, std::size_t engine) const;
+
+  /// Of a profile whose cell lacks the pictures of some engines (they failed): the result without them.
+  ResultKey profile_key(std::size_t cell, const std::vector<bool>& with_engine) const;
+
+  void set_profile_key(std::size_t cell, const ResultKey& key) { jobs_[profile(cell)].key = key; }
+
+  /// The hash of a cell's scene file, in hexadecimal.
+  std::string scene_hash(std::size_t cell) const { return hex(scenes_[cell]); }
+
+ private:
+  void plan_cell(std::size_t cell, std::map<std::size_t, std::string>& refusals);
+
+  const FarmCells* cells_;
+  const std::vector<FarmEngine>* engines_;
+  std::size_t stride_;
+  std::vector<Job> jobs_;
+  std::vector<Sha256Digest> scenes_;
+  std::map<std::size_t, std::string> refusals_;  ///< by cell * engines + engine; few have one
+};
+
+/// What decides a result besides its scene: this program, to the build.
+const std::string& program_id();
+
+/// Cells from coarse to fine: after any part of them the ones that are done are spread over the whole grid. First
+/// the first value of each axis, then the one in the middle, then those between, and so on.
+std::vector<std::size_t> coarse_to_fine(const std::vector<Cell>& cells);
+
+}  // namespace lobelia

@@ -1,0 +1,641 @@
+#include "farm/job_run.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <ctime>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <queue>
+#include <set>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/host.hpp"
+#include "core/interrupt.hpp"
+#include "core/text.hpp"
+#include "farm/make_result.hpp"
+#include "farm/our_name.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+/// Scenes that an engine is given at a time: enough for its processes, and no burden on the memory.
+constexpr std::size_t kScenesAtATime = 1024;
+/// Between two looks at what somebody else is making.
+constexpr auto kLookAgain = std::chrono::milliseconds(50);
+
+double seconds(const timeval& time) { return double(time.tv_sec) + double(time.tv_usec) * 1e-6; }
+
+double cpu_seconds_of(int who) {
+  rusage usage{};
+  ::getrusage(who, &usage);
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double thread_cpu_seconds() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
+
+std::uint64_t own_peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t(usage.ru_maxrss) * 1024;
+}
+
+std::string host_name() {
+  char name[256] = {};
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
+
+Json host_of_result() {
+  static const Json host = [] {
+    Json record = host_record();
+    record["name"] = host_name();
+    return record;
+  }();
+  return host;
+}
+
+struct JobFailure {
+  FailureClass kind = FailureClass::kNone;
+  std::string message;
+  int attempts = 0;
+};
+
+}  // namespace
+
+struct JobRun::Impl {
+  Impl(JobGraph& g, const ResultCache& c, const JobRunOptions& o, std::vector<JobState> s)
+      : graph(g), cache(c), options(o), states(std::move(s)) {}
+
+  // ---- what is known ----
+  JobGraph& graph;
+  const ResultCache& cache;
+  const JobRunOptions& options;
+
+  mutable std::mutex mutex;  // of everything below
+  std::condition_variable changed;
+  std::vector<JobState> states;
+  JobRunWork work;
+  std::map<std::size_t, std::size_t> waiting_in_cell;
+  std::vector<std::uint32_t> rank;  ///< of a cell in the order
+  struct Later {
+    std::pair<int, std::uint32_t> order;
+    JobIndex job;
+    bool operator<(const Later& other) const { return other.order < order; }
+  };
+  std::priority_queue<Later> ready;                         ///< renders, comparisons, profiles
+  std::deque<std::pair<Clock::time_point, JobIndex>> held;  ///< somebody else is at work on it
+  std::size_t kernel_jobs_left = 0;
+  std::exception_ptr broken;  ///< what ends everything
+  bool stopped = false;       ///< by a failure, with fail_fast
+  std::function<void(std::size_t)> on_cell;
+  struct Stage {
+    std::string what;
+    std::size_t done = 0, count = 0;
+  };
+  std::vector<Stage> stages;
+  std::size_t steps_done = 0, steps = 0;
+
+  bool over() const { return broken || stopped || interrupted(); }
+
+  /// Done in this process, on one of its own threads.
+  bool is_kernel(JobIndex job) const {
+    const Job& one = graph[job];
+    return one.kind != JobKind::kReference ||
+           !graph.engines()[one.engine].engine->info().is_program;
+  }
+
+  std::string stage_of(JobIndex job) const {
+    const Job& one = graph[job];
+    if (one.kind == JobKind::kReference) return graph.engines()[one.engine].name;
+    return one.kind == JobKind::kRender ? kOurs : std::string(kJobKindNames[int(one.kind)]);
+  }
+
+  void make_ready(JobIndex job) {
+    // Comparisons first: they finish cells, and there are few of them at a time.
+    const JobKind kind = graph[job].kind;
+    const int urgency = kind == JobKind::kRender || kind == JobKind::kReference ? 1 : 0;
+    ready.push({{urgency, rank[graph.cell_of(job)]}, job});
+  }
+
+  bool inputs_are_settled(JobIndex job) const {
+    for (const JobIndex input : graph.inputs(job)) {
+      if (states[input] == JobState::kDone) continue;
+      const bool may_lack =
+          graph[job].kind == JobKind::kProfile && graph[input].kind == JobKind::kReference;
+      if (may_lack && states[input] == JobState::kFailed) continue;
+      return false;
+    }
+    return true;
+  }
+
+  /// Under the lock. What depends on it becomes ready, or cannot be done.
+  void settle(JobIndex job, JobState state) {
+    states[job] = state;
+    if (is_kernel(job)) --kernel_jobs_left;
+    count_step(job);
+    for (const JobIndex next : graph.dependents(job)) {
+      if (states[next] != JobState::kWaiting) continue;
+      const bool needed =
+          graph[next].kind == JobKind::kCompare || graph[job].kind == JobKind::kRender;
+      if (state != JobState::kDone && needed)
+        settle(next, JobState::kBlocked);
+      else if (inputs_are_settled(next))
+        make_ready(next);
+    }
+    const std::size_t cell = graph.cell_of(job);
+    if (--waiting_in_cell[cell] == 0) cells_done.push_back(cell);
+    changed.notify_all();
+  }
+
+  std::deque<std::size_t> cells_done;  ///< whose on_cell has not been called yet
+
+  void count_step(JobIndex job) {
+    ++steps_done;
+    FarmProgress progress{steps_done, steps, ""};
+    const std::string what = stage_of(job);
+    for (auto& stage : stages) {
+      if (stage.what == what) ++stage.done;
+      if (stage.done == stage.count) continue;
+      if (!progress.running.empty()) progress.running += ", ";
+      progress.running += fmt::format("{} {}/{}", stage.what, stage.done, stage.count);
+    }
+    if (options.on_progress) options.on_progress(progress);
+  }
+
+  void expect(JobIndex job) {
+    ++steps;
+    const std::string what = stage_of(job);
+    const auto stage =
+        std::find_if(stages.begin(), stages.end(), [&](const Stage& s) { return s.what == what; });
+    if (stage == stages.end())
+      stages.push_back({what, 0, 1});
+    else
+      ++stage->count;
+  }
+
+  void break_off() {
+    const std::scoped_lock lock(mutex);
+    if (!broken) broken = std::current_exception();
+    changed.notify_all();
+  }
+
+  void settle_done(JobIndex job) {
+    cache.forget_failure(graph[job].key);
+    const std::scoped_lock lock(mutex);
+    settle(job, JobState::kDone);
+  }
+
+  void settle_failed(JobIndex job, JobFailure failure, const fs::path& log) {
+    Json record = make_record("failure");
+    record["job"] = graph.name(job);
+    record["key"] = graph[job].key.text();
+    record["failure"] = failure_name(failure.kind);
+    record["message"] = failure.message;
+    record["attempts"] = failure.attempts;
+    record["host"] = host_of_result();
+    cache.keep_failure(graph[job].key, record, log);
+    const std::scoped_lock lock(mutex);
+    if (options.fail_fast) stopped = true;
+    settle(job, JobState::kFailed);
+  }
+
+  void settle_cells() {
+    while (true) {
+      std::size_t cell = 0;
+      {
+        const std::scoped_lock lock(mutex);
+        if (cells_done.empty()) return;
+        cell = cells_done.front();
+        cells_done.pop_front();
+      }
+      on_cell(cell);
+    }
+  }
+
+  // ---- results ----
+  /// Of a key: ours alone, among all processes and among the threads of this one (two cells may have one scene).
+  struct Claim {
+    Impl& run;
+    ResultKey key;
+    std::optional<ByteLocks::Claim> lock;
+    Claim(Impl& r, const ResultKey& k) : run(r), key(k) {}
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+    ~Claim() {
+      lock.reset();
+      const std::scoped_lock guard(run.mutex);
+      run.in_work.erase(key);
+    }
+  };
+  std::set<ResultKey> in_work;
+
+  std::unique_ptr<Claim> claim_of(const ResultKey& key) {
+    {
+      const std::scoped_lock guard(mutex);
+      if (!in_work.insert(key).second) return nullptr;
+    }
+    auto claim = std::make_unique<Claim>(*this, key);
+    if (auto lock = cache.try_claim(key)) claim->lock.emplace(std::move(*lock));
+    return claim->lock ? std::move(claim) : nullptr;
+  }
+
+  Json result_record(JobIndex job, int attempts) const {
+    const Job& one = graph[job];
+    const std::size_t cell = graph.cell_of(job);
+    Json record = make_record("result");
+    record["job"] = kJobKindNames[int(one.kind)];
+    if (one.engine != kNoEngine) record["engine"] = graph.engines()[one.engine].name;
+    record["firstMadeFor"] = graph.cells().cells[cell].id;
+    record["inputs"] = {{"program", program_id()}, {"scene", graph.scene_hash(cell)}};
+    if (one.engine != kNoEngine)
+      record["inputs"]["engineVersion"] = graph.engines()[one.engine].version;
+    for (const JobIndex input : graph.inputs(job)) {
+      const Job& from = graph[input];
+      const std::string engine =
+          from.engine == kNoEngine ? kOurs : graph.engines()[from.engine].name;
+      if (state_of(input) == JobState::kDone) record["inputs"][engine] = from.key.text();
+    }
+    record["host"] = host_of_result();
+    record["attempts"] = attempts;
+    return record;
+  }
+
+  JobState state_of(JobIndex job) const {
+    const std::scoped_lock lock(mutex);
+    return states[job];
+  }
+
+  void publish(JobIndex job, ResultDraft& draft, Json record) {
+    const Publication publication = cache.publish(draft, graph[job].key, std::move(record));
+    const JobKind kind = graph[job].kind;
+    {
+      const std::scoped_lock lock(mutex);
+      if (publication == Publication::kNew) {
+        ++work.made;
+        if (kind == JobKind::kRender || kind == JobKind::kReference) ++work.pictures;
+      } else {
+        ++work.found;
+        if (publication == Publication::kDifferent) ++work.different;
+      }
+    }
+    settle_done(job);
+  }
+
+  /// Of a picture that is an input: its directory, and in `from` the hash of what is read there.
+  MadePicture input_picture(JobIndex job, Json& from) const {
+    const Job& one = graph[job];
+    const std::string engine = one.engine == kNoEngine ? kOurs : graph.engines()[one.engine].name;
+    const auto record = cache.find(one.key);
+    if (!record)
+      throw Error(ExitCode::kEngine,
+                  fmt::format("{}: its result is no longer in the cache", graph.name(job)));
+    for (const auto& file : record->at("files"))
+      if (file.at("name") == picture_file(engine)) from[engine] = file.at("sha256");
+    return {engine, cache.result_directory(one.key)};
+  }
+
+  Json make(JobIndex job, const Scene& scene, const ResultDraft& draft) {
+    const std::size_t cell = graph.cell_of(job);
+    Json from = Json::object();
+    switch (graph[job].kind) {
+      case JobKind::kRender:
+        return make_render(scene, draft, options.time_limit);
+      case JobKind::kCompare: {
+        const MadePicture ours = input_picture(graph.render(cell), from);
+        const MadePicture theirs = input_picture(graph.reference(cell, graph[job].engine), from);
+        Json made = make_comparison(scene, ours, theirs, draft);
+        made["from"] = std::move(from);
+        return made;
+      }
+      case JobKind::kProfile: {
+        std::vector<MadePicture> pictures;
+        for (const JobIndex input : graph.inputs(job))
+          if (state_of(input) == JobState::kDone) pictures.push_back(input_picture(input, from));
+        Json made = make_profile(scene, pictures, draft);
+        made["from"] = std::move(from);
+        return made;
+      }
+      case JobKind::kReference:
+        break;
+    }
+    const FarmEngine& here = graph.engines()[graph[job].engine];
+    ReferenceOptions reference;
+    reference.threads = 1;
+    Json made;
+    here.engine->render({&scene, 1}, reference, [&](std::size_t, ReferenceResult result) {
+      if (!result.error.empty()) throw ResultFailure(result.failure, result.error);
+      made = make_reference(scene, here, "", std::move(result), {}, draft);
+    });
+    return made;
+  }
+
+  /// A profile whose references failed is another result, of the pictures that are there.
+  void adapt_profile(JobIndex job) {
+    if (graph[job].kind != JobKind::kProfile) return;
+    const std::size_t cell = graph.cell_of(job);
+    std::vector<bool> with_engine(graph.engines().size());
+    for (std::size_t e = 0; e < with_engine.size(); ++e)
+      with_engine[e] = state_of(graph.reference(cell, e)) == JobState::kDone;
+    const std::scoped_lock lock(mutex);
+    graph.set_profile_key(cell, graph.profile_key(cell, with_engine));
+  }
+
+  /// Whether it has been settled; false: somebody else is at work on it.
+  bool do_kernel_job(JobIndex job) {
+    adapt_profile(job);
+    const ResultKey& key = graph[job].key;
+    const auto claim = claim_of(key);
+    if (!claim) return false;
+    if (is_there(job)) return true;
+    const double cpu_before = thread_cpu_seconds();
+    const auto wall_before = Clock::now();
+    const Scene scene = graph.cells().scene(graph.cell_of(job));
+    ResultDraft draft = cache.draft();
+    Json record = result_record(job, 1);
+    try {
+      record.update(make(job, scene, draft));
+    } catch (const Error& error) {
+      // A disk that is full ends the farm; whatever is wrong with this job is its own result.
+      if (error.code() != ExitCode::kEngine && error.code() != ExitCode::kInput) throw;
+      const auto* failure = dynamic_cast<const ResultFailure*>(&error);
+      discard_unreadable_inputs(job);
+      settle_failed(job, {failure ? failure->kind() : FailureClass::kRefused, error.what(), 1}, {});
+      return true;
+    }
+    const double cpu = thread_cpu_seconds() - cpu_before;
+    record["threads"] = 1;
+    record["seconds"] = {
+        {"wall", std::chrono::duration<double>(Clock::now() - wall_before).count()}, {"cpu", cpu}};
+    record["peakMemoryBytes"] = own_peak_memory();
+    {
+      const std::scoped_lock lock(mutex);
+      work.kernel_cpu_seconds += cpu;
+    }
+    publish(job, draft, std::move(record));
+    return true;
+  }
+
+  /// Somebody made it since the farm looked: then it is settled.
+  bool is_there(JobIndex job) {
+    const auto record = cache.find(graph[job].key);
+    if (!record) return false;
+    if (record->contains("from") && !is_of_these_inputs(job, record->at("from"))) {
+      cache.discard(graph[job].key);
+      return false;
+    }
+    {
+      const std::scoped_lock lock(mutex);
+      ++work.found;
+    }
+    settle_done(job);
+    return true;
+  }
+
+  bool is_of_these_inputs(JobIndex job, const Json& made_from) const {
+    Json from = Json::object();
+    for (const JobIndex input : graph.inputs(job))
+      if (state_of(input) == JobState::kDone) input_picture(input, from);
+    return from == made_from;
+  }
+
+  /// So that they are made again next time.
+  void discard_unreadable_inputs(JobIndex job) {
+    for (const JobIndex input : graph.inputs(job))
+      if (!cache.find(graph[input].key, ResultCache::Look::kThorough))
+        cache.discard(graph[input].key);
+  }
+
+  // ---- our own threads ----
+  void kernel_thread() {
+    oneapi::tbb::task_arena alone(1);  // what divides itself elsewhere stays on this thread
+    try {
+      while (true) {
+        JobIndex job = 0;
+        {
+          std::unique_lock lock(mutex);
+          while (true) {
+            if (over() || (kernel_jobs_left == 0)) return;
+            const auto now = Clock::now();
+            while (!held.empty() && held.front().first <= now) {
+              make_ready(held.front().second);
+              held.pop_front();
+            }
+            if (!ready.empty()) break;
+            changed.wait_for(lock, kLookAgain);
+          }
+          job = ready.top().job;
+          ready.pop();
+        }
+        bool settled = false;
+        alone.execute([&] { settled = do_kernel_job(job); });
+        if (!settled) {
+          const std::scoped_lock lock(mutex);
+          held.emplace_back(Clock::now() + kLookAgain, job);
+        }
+        settle_cells();
+      }
+    } catch (...) {
+      break_off();
+    }
+  }
+
+  // ---- engines ----
+  void engine_thread(std::size_t e, std::vector<JobIndex> todo) {
+    try {
+      if (const std::string why = why_not_as_planned(graph.engines()[e]); !why.empty()) {
+        for (const JobIndex job : todo)
+          settle_failed(job, {FailureClass::kEngineMissing, why, 1}, {});
+        settle_cells();
+        return;
+      }
+      std::map<JobIndex, int> attempts;
+      while (!todo.empty()) {
+        {
+          const std::scoped_lock lock(mutex);
+          if (over()) return;
+        }
+        const std::size_t count = std::min(todo.size(), kScenesAtATime);
+        std::vector<JobIndex> batch(todo.begin(), todo.begin() + std::ptrdiff_t(count));
+        todo.erase(todo.begin(), todo.begin() + std::ptrdiff_t(count));
+        const std::size_t before = todo.size();
+        const std::vector<JobIndex> left = render_batch(e, batch, attempts);
+        todo.insert(todo.end(), left.begin(), left.end());
+        settle_cells();
+        // Nothing but what others are making: let them.
+        if (before == 0 && left.size() == batch.size()) std::this_thread::sleep_for(kLookAgain);
+      }
+    } catch (...) {
+      break_off();
+    }
+  }
+
+  /// A plan may be of another machine.
+  static std::string why_not_as_planned(const FarmEngine& here) {
+    const EngineStatus& status = here.engine->status();
+    if (!status.available) return status.why;
+    return status.version == here.version
+               ? ""
+               : fmt::format("{} is {} on this machine, and was to be {}",
+                             here.engine->info().title, status.version, here.version);
+  }
+
+  /// Returns what is to be tried again.
+  std::vector<JobIndex> render_batch(std::size_t e, const std::vector<JobIndex>& batch,
+                                     std::map<JobIndex, int>& attempts) {
+    const FarmEngine& here = graph.engines()[e];
+    std::vector<Scene> scenes;
+    scenes.reserve(batch.size());
+    for (const JobIndex job : batch) scenes.push_back(graph.cells().scene(graph.cell_of(job)));
+    std::vector<JobIndex> again;
+    std::vector<std::unique_ptr<Claim>> claims(batch.size());
+    std::vector<Clock::time_point> begun(batch.size());
+    std::mutex begin_mutex;
+
+    ReferenceOptions reference;
+    reference.threads = options.threads;
+    reference.time_limit = options.time_limit;
+    reference.no_progress_limit = options.no_progress_limit;
+    const TemporaryDirectory logs;
+    reference.log_directory = logs.path();
+    reference.begin = [&](std::size_t k) {
+      const std::scoped_lock one_at_a_time(begin_mutex);
+      begun[k] = Clock::now();
+      {
+        const std::scoped_lock lock(mutex);
+        if (over()) return false;
+      }
+      auto claim = claim_of(graph[batch[k]].key);
+      if (!claim) {
+        again.push_back(batch[k]);
+        return false;
+      }
+      if (is_there(batch[k])) return false;
+      claims[k] = std::move(claim);
+      return true;
+    };
+    here.engine->render(scenes, reference, [&](std::size_t k, ReferenceResult result) {
+      const JobIndex job = batch[k];
+      const int attempt = ++attempts[job];
+      const fs::path log = logs.path() / fmt::format("{}-{}.log", here.name, k);
+      const double wall = std::chrono::duration<double>(Clock::now() - begun[k]).count();
+      JobFailure failure{result.failure, result.error, attempt};
+      if (result.error.empty()) {
+        try {
+          keep_reference(job, scenes[k], here, std::move(result), log, attempt, wall);
+        } catch (const ResultFailure& what) {
+          failure = {what.kind(), what.what(), attempt};
+        }
+      }
+      if (!failure.message.empty()) {
+        if (worth_retrying(failure.kind) && attempt < options.attempts && !options.fail_fast) {
+          const std::scoped_lock one_at_a_time(begin_mutex);
+          again.push_back(job);
+        } else {
+          settle_failed(job, std::move(failure), log);
+        }
+      }
+      {
+        const std::scoped_lock one_at_a_time(begin_mutex);
+        claims[k].reset();
+      }
+      settle_cells();
+    });
+    return again;
+  }
+
+  void keep_reference(JobIndex job, const Scene& scene, const FarmEngine& here,
+                      ReferenceResult result, const fs::path& log, int attempt, double wall) {
+    const auto given = options.programs.find(here.name);
+    const std::string program = given == options.programs.end() ? "" : given->second.string();
+    Json record = result_record(job, attempt);
+    const Json& made_by = result.record;
+    record["threads"] = made_by.value("threads", 1);
+    record["seconds"] = {{"wall", wall}, {"cpu", made_by.value("cpuSeconds", 0.0)}};
+    record["peakMemoryBytes"] = made_by.value("peakMemoryBytes", std::uint64_t{0});
+    ResultDraft draft = cache.draft();
+    record.update(make_reference(scene, here, program, std::move(result), log, draft));
+    publish(job, draft, std::move(record));
+  }
+
+  // ---- all of it ----
+  void run(const std::vector<std::size_t>& order) {
+    const auto wall_before = Clock::now();
+    const double own_before = cpu_seconds_of(RUSAGE_SELF),
+                 engines_before = cpu_seconds_of(RUSAGE_CHILDREN);
+    rank.assign(graph.cell_count(), 0);
+    std::vector<std::vector<JobIndex>> of_engine(graph.engines().size());
+    for (std::size_t place = 0; place < order.size(); ++place) {
+      const std::size_t cell = order[place];
+      rank[cell] = std::uint32_t(place);
+      for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job) {
+        if (states[job] != JobState::kWaiting) continue;
+        ++waiting_in_cell[cell];
+        expect(job);
+        if (is_kernel(job)) {
+          ++kernel_jobs_left;
+          if (inputs_are_settled(job)) make_ready(job);
+        } else {
+          of_engine[graph[job].engine].push_back(job);
+        }
+      }
+    }
+    work.processors = options.threads > 0 ? options.threads
+                                          : int(std::max(1u, std::thread::hardware_concurrency()));
+    {
+      std::vector<std::jthread> threads;
+      for (std::size_t e = 0; e < of_engine.size(); ++e)
+        if (!of_engine[e].empty())
+          threads.emplace_back(
+              [this, e, &of_engine] { engine_thread(e, std::move(of_engine[e])); });
+      for (int i = 0; i < work.processors; ++i) threads.emplace_back([this] { kernel_thread(); });
+    }
+    work.wall_seconds = std::chrono::duration<double>(Clock::now() - wall_before).count();
+    work.engine_cpu_seconds = cpu_seconds_of(RUSAGE_CHILDREN) - engines_before;
+    work.own_cpu_seconds = cpu_seconds_of(RUSAGE_SELF) - own_before - work.kernel_cpu_seconds;
+    if (broken) std::rethrow_exception(broken);
+    throw_if_interrupted();
+    tell_of_failures();
+    settle_cells();
+  }
+
+  /// Of cells that are not finished because a failure has ended it all.
+  void tell_of_failures() {
+    const std::scoped_lock lock(mutex);
+    for (const auto& [cell, waiting] : waiting_in_cell) {
+      const auto jobs = std::span(states).subspan(graph.render(cell), graph.stride());
+      if (waiting > 0 && std::ranges::find(jobs, JobState::kFailed) != jobs.end())
+        cells_done.push_back(cell);
+    }
+  }
+};
+
+JobRun::JobRun(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options,
+               std::vector<JobState> states)
+    : impl_(std::make_unique<Impl>(graph, cache, options, std::move(states))) {}
+JobRun::~JobRun() = default;
+
+void JobRun::run(const std::vector<std::size_t>& order,
+                 const std::function<void(std::size_t)>& on_cell) {
+  impl_->on_cell = on_cell;
+  impl_->run(order);
+}
+
+JobState JobRun::state(JobIndex job) const { return impl_->state_of(job); }
+const JobRunWork& JobRun::work() const { return impl_->work; }
+
+}  // namespace lobelia

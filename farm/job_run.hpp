@@ -1,0 +1,83 @@
+// Doing jobs on this machine, as many at a time as keep its processors busy.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "farm/job_graph.hpp"
+#include "farm/result_cache.hpp"
+#include "reference_scenes/failure.hpp"
+
+namespace lobelia {
+
+struct FarmProgress {
+  std::size_t done = 0, total = 0;  ///< jobs
+  std::string running;              ///< "render 108/108, povray 17/108"
+};
+
+struct JobRunOptions {
+  std::map<std::string, std::filesystem::path> programs;  ///< in place of those in $PATH, by engine
+  int threads = 0;                                        ///< 0: all processors
+  std::chrono::duration<double> time_limit = std::chrono::minutes(10);        ///< for each picture
+  std::chrono::duration<double> no_progress_limit = std::chrono::minutes(5);  ///< of an engine
+  int attempts = 3;        ///< at a picture that fails in a way that may not repeat itself
+  bool fail_fast = false;  ///< the first failure ends it
+  std::function<void(const FarmProgress&)> on_progress;  ///< from any thread, one at a time
+};
+
+enum class JobState : std::uint8_t {
+  kAbsent,   ///< there is no such job, or nobody asked for it and it has no result
+  kWaiting,  ///< for its inputs, or for a thread
+  kDone,     ///< its result is in the cache
+  kFailed,
+  kBlocked,  ///< one of its inputs failed
+};
+
+/// What it took.
+struct JobRunWork {
+  std::size_t made = 0;       ///< results, by us and now
+  std::size_t pictures = 0;   ///< of these: renders and references
+  std::size_t found = 0;      ///< that somebody else made meanwhile
+  std::size_t different = 0;  ///< that somebody else made meanwhile, with other pixels
+  double wall_seconds = 0;
+  double engine_cpu_seconds = 0;  ///< of all their processes
+  double kernel_cpu_seconds = 0;  ///< rendering, comparing, profiles
+  double own_cpu_seconds = 0;     ///< of this process besides
+  int processors = 0;
+  /// Share of the processors' time that engines and kernels had.
+  double busy() const {
+    return wall_seconds > 0 && processors > 0
+               ? (engine_cpu_seconds + kernel_cpu_seconds) / (wall_seconds * processors)
+               : 0;
+  }
+};
+
+class JobRun {
+ public:
+  /// `states` has an entry for each job: kDone where its result is there, kWaiting where it is to be made. Results
+  /// that others share the cache for are made once: who comes second waits for the first.
+  JobRun(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options,
+         std::vector<JobState> states);
+  ~JobRun();
+
+  /// Does all that is waiting, cells in this order; calls `on_cell` when nothing of a cell is waiting any more, or a failure
+  /// in it has ended it all, from any thread. What is waiting has inputs that are done or waiting. Failures are the jobs' own, and nothing else's; the cache keeps them. Throws Error(kInterrupted) on Ctrl-C,
+  /// Error(kOutput) if results cannot be kept.
+  void run(const std::vector<std::size_t>& order, const std::function<void(std::size_t)>& on_cell);
+
+  JobState state(JobIndex job) const;
+  const JobRunWork& work() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,72 @@
+#include "compare/compare.hpp"
+#include "core/colour.hpp"
+#include "core/image_io.hpp"
+#include "farm/agreement.hpp"
+#include "farm/make_result.hpp"
+#include "farm/our_name.hpp"
+#include "reference_scenes/engine.hpp"
+#include "renderer/render_error.hpp"
+#include "verify/truth/evaluation.hpp"
+
+namespace lobelia {
+namespace {
+
+/// Whether the errors of a picture that is an average lie beside it.
+bool has_error(const MadePicture& picture) {
+  std::error_code ignored;
+  return std::filesystem::exists(picture.directory / error_file(picture.engine), ignored);
+}
+
+/// Ours are of samples that each pixel has for itself, an engine's of points that all pixels share.
+NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
+  const auto noise = [](const MadePicture& picture, int freedom, bool shared) {
+    return noise_of_standard_errors(read_image(picture.directory / error_file(picture.engine)),
+                                    freedom, shared);
+  };
+  return {.a = noise(ours, kErrorFreedom, false), .b = noise(theirs, kReplicates - 1, true)};
+}
+
+}  // namespace
+
+Json make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
+                     const ResultDraft& draft) {
+  const std::string& engine = theirs.engine;
+  const Image a = read_whole_picture(ours.directory / picture_file(kOurs), scene);
+  const Image b = read_whole_picture(theirs.directory / picture_file(engine), scene);
+  const double exposure = cell_exposure(a);
+  write_png(draft.file(engine + ".png"), to_display(b, exposure));
+
+  // A tolerance for each pixel is one of pictures without noise. Where there is noise, the tolerance is what
+  // rounding may do, and the usual limits say how fine the answer has to be.
+  const bool exact = truth::why_not_evaluated(scene).empty();
+  if (!exact && !(has_error(ours) && has_error(theirs)))
+    return {{"notComparable",
+             "its picture may have noise that is not known, and no tolerance of single pixels "
+             "judges that"}};
+  ComparisonOptions options;
+  options.viewing.exposure_stops = exposure;
+  options.tolerance =
+      agreement(engine, exact ? truth::edge_ring(scene) : std::vector<std::uint8_t>());
+  if (!exact) {
+    options.limits.assign(default_limits().begin(), default_limits().end());
+    options.noise = noise_of(ours, theirs);
+  }
+  const Comparison comparison = compare(a, b, options);
+
+  const std::string name = comparison_name(engine);
+  // White is what the tolerance allows at the brightest place, and a tenth of the peak where there is noise.
+  const double relative = exact ? options.tolerance->relative + options.tolerance->of_peak : 0.1;
+  const double white_at = relative * brightest(b);
+  write_png(draft.file(name + ".png"), difference_picture(a, b, white_at));
+  write_record(draft.file(name + ".json"),
+               comparison_record(comparison, picture_file(kOurs), picture_file(engine)));
+  return {{"verdict", verdict_name(comparison.verdict)},
+          {"entry",
+           {{"a", kOurs},
+            {"b", engine},
+            {"record", name + ".json"},
+            {"png", name + ".png"},
+            {"difference", {{"whiteAt", white_at}, {"relativeToPeak", relative}}}}}};
+}
+
+}  // namespace lobelia

@@ -1,0 +1,50 @@
+#include "farm/make_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/metrics/metric.hpp"
+#include "core/colour.hpp"
+#include "core/finite_image.hpp"
+#include "core/image_io.hpp"
+#include "farm/our_name.hpp"
+
+namespace lobelia {
+
+std::string picture_file(const std::string& engine) { return engine + ".exr"; }
+std::string error_file(const std::string& engine) { return engine + "-error.exr"; }
+std::string comparison_name(const std::string& engine) { return std::string(kOurs) + "-" + engine; }
+
+Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) {
+  const std::string name = file.filename().string();
+  Image image;
+  try {
+    image = read_image(file);
+  } catch (const Error& error) {
+    throw ResultFailure(FailureClass::kBadOutput, error.what());
+  }
+  if (image.width() != scene.film.width || image.height() != scene.film.height)
+    throw ResultFailure(
+        FailureClass::kWrongSize,
+        fmt::format("{} is {} x {}; the scene's film is {} x {}", name, image.width(),
+                    image.height(), scene.film.width, scene.film.height));
+  if (!is_finite(image))
+    throw ResultFailure(FailureClass::kNonFinite,
+                        fmt::format("{} has values that are not finite", name));
+  return image;
+}
+
+double brightest(const Image& image) {
+  double peak = 0;
+  for (const float value : image.values())
+    if (std::isfinite(value)) peak = std::max(peak, double(value));
+  return peak;
+}
+
+double cell_exposure(const Image& ours) {
+  return std::clamp(exposure_for_peak(brightest(ours)), -kMaxExposureStops, kMaxExposureStops);
+}
+
+}  // namespace lobelia

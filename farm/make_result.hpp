@@ -1,0 +1,69 @@
+// How the result of each kind of job is made: its files in a draft, and what is its own in the result's record.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/image.hpp"
+#include "core/record.hpp"
+#include "farm/farm_engines.hpp"
+#include "farm/result_cache.hpp"
+#include "reference_scenes/failure.hpp"
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// What is wrong with one result, and with nothing else.
+class ResultFailure : public Error {
+ public:
+  ResultFailure(FailureClass kind, const std::string& message)
+      : Error(ExitCode::kEngine, message), kind_(kind) {}
+  FailureClass kind() const { return kind_; }
+
+ private:
+  FailureClass kind_;
+};
+
+/// A picture that is there: an engine's result in the cache.
+struct MadePicture {
+  std::string engine;
+  std::filesystem::path directory;
+};
+
+/// ENGINE.exr, ENGINE-error.exr and so on; docs/records.md.
+std::string picture_file(const std::string& engine);
+std::string error_file(const std::string& engine);
+std::string comparison_name(const std::string& engine);
+
+/// lobelia.exr, .json and .png, scene.xml, and lobelia-error.exr where the picture is an average. Throws
+/// ResultFailure if it takes longer than `time_limit` or is not finite.
+Json make_render(const Scene& scene, const ResultDraft& draft,
+                 std::chrono::duration<double> time_limit);
+
+/// An engine's picture: ENGINE.exr, .json, .log and ENGINE-error.exr. `result` has no error; `log` may not be there.
+Json make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
+                    ReferenceResult result, const std::filesystem::path& log,
+                    const ResultDraft& draft);
+
+/// ENGINE.png at our picture's exposure, and unless its noise is not known, lobelia-ENGINE.json and .png. The record
+/// has `verdict` and `entry`, as it stands in cell.json, or `notComparable`: why not.
+Json make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
+                     const ResultDraft& draft);
+
+/// profile.json.
+Json make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
+                  const ResultDraft& draft);
+
+/// Reads a picture of a result again: ResultFailure unless it opens, has the scene's size and finite values.
+Image read_whole_picture(const std::filesystem::path& file, const Scene& scene);
+
+/// The exposure at which a cell is looked at: the brightest value of our picture becomes white.
+double cell_exposure(const Image& ours);
+
+/// The brightest finite value of a picture, at least 0.
+double brightest(const Image& image);
+
+}  // namespace lobelia

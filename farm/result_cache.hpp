@@ -1,0 +1,112 @@
+// Results by what decides them: a directory that farms share, also at the same time and from several machines.
+//
+//   CACHE/lobelia-cache             says that it is one, and of which layout
+//   CACHE/results/ab/KEY/           one result: its files and result.json, renamed into place as a whole
+//   CACHE/failures/ab/KEY.json      why there is none, and KEY.log beside it
+//   CACHE/making/                   results in the making
+//   CACHE/locks                     who is at work on what (byte_locks.hpp)
+//
+// docs/decisions/0014 says why a directory for each result.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/record.hpp"
+#include "farm/byte_locks.hpp"
+#include "farm/result_key.hpp"
+
+namespace lobelia {
+
+inline constexpr char kManifestFile[] = "result.json";
+
+/// A result in the making: a directory to put files into. Taken away with all of them unless it is published.
+class ResultDraft {
+ public:
+  ResultDraft(ResultDraft&& other) noexcept
+      : directory_(std::exchange(other.directory_, {})), alive_(std::move(other.alive_)) {}
+  ResultDraft& operator=(ResultDraft&&) = delete;
+  ~ResultDraft();
+  const std::filesystem::path& directory() const { return directory_; }
+  std::filesystem::path file(const std::string& name) const { return directory_ / name; }
+
+ private:
+  friend class ResultCache;
+  ResultDraft(std::filesystem::path directory, ByteLocks::Claim alive)
+      : directory_(std::move(directory)), alive_(std::move(alive)) {}
+  std::filesystem::path directory_;
+  ByteLocks::Claim alive_;
+};
+
+enum class Publication {
+  kNew,        ///< it is there now
+  kThere,      ///< another one was there first, with the same pictures; that one stays
+  kDifferent,  ///< likewise, but its pictures differ: what made them is not deterministic
+};
+
+class ResultCache {
+ public:
+  /// Makes the directory if it is not there. Throws Error(kOutput) if that fails, Error(kInput) if something else
+  /// is there, or a cache of another layout. One that may only be read is not an error.
+  explicit ResultCache(std::filesystem::path directory);
+
+  const std::filesystem::path& directory() const { return directory_; }
+  std::filesystem::path result_directory(const ResultKey& key) const;
+  std::filesystem::path file(const ResultKey& key, const std::string& name) const {
+    return result_directory(key) / name;
+  }
+
+  /// Every result that is there by its name, in no order. Does not look inside.
+  std::vector<ResultKey> list() const;
+  bool has(const ResultKey& key) const;
+
+  enum class Look {
+    kQuick,  ///< a file of the size and with the time of change that its record tells is taken for whole
+    kThorough,  ///< every byte is read again
+  };
+  /// The record of the result (kind "result") if it is whole, in every file; empty if it is missing or damaged.
+  std::optional<Json> find(const ResultKey& key, Look look = Look::kQuick) const;
+  /// The same, and why not, as a few words.
+  std::optional<Json> find(const ResultKey& key, Look look, std::string& why_not) const;
+
+  /// Throws Error(kOutput).
+  ResultDraft draft() const;
+  /// Adds to `record` the list of files, each with its size and hash, writes it as result.json and renames all into
+  /// place. Throws Error(kOutput).
+  Publication publish(ResultDraft& draft, const ResultKey& key, Json record) const;
+
+  /// Takes a result away, at once for everyone.
+  void discard(const ResultKey& key) const;
+
+  /// To be held while a result is being made; none while someone else makes it.
+  std::optional<ByteLocks::Claim> try_claim(const ResultKey& key) const;
+  /// To be held by whoever uses the cache (shared) or takes results away that others may need (not shared).
+  std::optional<ByteLocks::Claim> try_use(bool shared) const;
+
+  /// With the log of whoever failed, unless that is not there.
+  void keep_failure(const ResultKey& key, const Json& record,
+                    const std::filesystem::path& log = {}) const;
+  /// Where that log is, if there is one; otherwise empty.
+  std::filesystem::path failure_log(const ResultKey& key) const;
+  std::optional<Json> failure(const ResultKey& key) const;
+  std::vector<ResultKey> failures() const;  ///< that are kept, in no order
+  void forget_failure(const ResultKey& key) const;
+
+  /// Drafts that nobody works on any more; to be called before this object has any. Returns how many were there.
+  std::size_t remove_abandoned() const;
+
+  /// For gc: when it was last used (a whole day is as exact as it gets), and that it was used now.
+  void touch(const ResultKey& key) const;
+
+ private:
+  std::filesystem::path failure_file(const ResultKey& key, const char* ending) const;
+  std::filesystem::path directory_;
+  ByteLocks locks_;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,320 @@
+#include "farm/slurm/doctor.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <random>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/interrupt.hpp"
+#include "core/record.hpp"
+#include "core/text.hpp"
+#include "core/version.hpp"
+#include "farm/slurm/lock_file.hpp"
+#include "farm/slurm/slurm_client.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+using Verdict = DoctorCheck::Verdict;
+
+constexpr char kToken[] = "token";       // written here, read on the node
+constexpr char kLock[] = "lock";         // held here, tried on the node
+constexpr char kAnswer[] = "node.json";  // written on the node
+
+std::string host_name() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return host.data();
+}
+
+/// "" or what does not work.
+std::string try_rename(const fs::path& directory) {
+  try {
+    write_file(directory / "renamed", "old");
+    write_file(directory / "renamed", "new");  // by a temporary name beside it
+    return read_file(directory / "renamed", 10) == "new" ? "" : "the old file is still seen";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+std::string try_link(const fs::path& directory) {
+  const fs::path from = directory / "link-from", to = directory / "link-to";
+  try {
+    write_file(from, "linked");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ::unlink(to.c_str());
+  if (::link(from.c_str(), to.c_str()) != 0) return std::strerror(errno);
+  if (::link(from.c_str(), to.c_str()) == 0)
+    return "a second link to the same name was let through";
+  if (errno != EEXIST) return std::strerror(errno);
+  struct stat info {};
+  if (::stat(from.c_str(), &info) != 0 || info.st_nlink != 2)
+    return "the number of links is not told";
+  return "";
+}
+
+/// The client holds it: whoever gets it too is not asked in earnest.
+std::string try_lock(const fs::path& directory) {
+  const LockFile lock(directory / kLock);
+  switch (lock.state()) {
+    case LockFile::State::kTaken:
+      return "";
+    case LockFile::State::kHeld:
+      return "a lock that another machine holds was given away again";
+    case LockFile::State::kUnsupported:
+      break;
+  }
+  return "the file system has no locks there";
+}
+
+long long seconds_of(const std::map<std::string, std::string>& config, const char* key) {
+  long long value = -1;
+  const auto at = config.find(key);
+  // "30 sec"
+  if (at == config.end() ||
+      !parse_integer(std::string_view(at->second).substr(0, at->second.find(' ')), value))
+    return -1;
+  return value;
+}
+
+class Doctor {
+ public:
+  explicit Doctor(const DoctorOptions& options) : options_(options), client_(options.call_limit) {}
+
+  std::vector<DoctorCheck> operator()() {
+    if (programs() && controller()) {
+      configuration();
+      if (partition()) node();
+    }
+    return std::move(checks_);
+  }
+
+ private:
+  bool add(std::string name, Verdict verdict, std::string found, std::string advice = "") {
+    checks_.push_back({std::move(name), verdict, std::move(found), std::move(advice)});
+    return verdict != Verdict::kFailed;
+  }
+
+  bool programs() {
+    const auto absent = SlurmClient::absent_programs();
+    if (absent.empty())
+      return add("Slurm's programs", Verdict::kOk, "sbatch and the others are in $PATH");
+    return add("Slurm's programs", Verdict::kFailed,
+               fmt::format("not in $PATH: {}", fmt::join(absent, ", ")),
+               "start it on a login node of the cluster, or 'module load slurm'");
+  }
+
+  bool controller() {
+    const std::string why = client_.ping();
+    if (why.empty()) return add("controller", Verdict::kOk, "it answers");
+    return add("controller", Verdict::kFailed, why,
+               "look whether 'scontrol ping' works and whether $SLURM_CONF names the right file");
+  }
+
+  void configuration() {
+    const auto config = client_.config();
+    if (!config) {
+      add("configuration", Verdict::kWarning, config.why,
+          "array limits are taken to be Slurm's defaults");
+      return;
+    }
+    const auto size = seconds_of(*config, "MaxArraySize");
+    if (size > 100)
+      add("MaxArraySize", Verdict::kOk,
+          fmt::format("{}: arrays of up to {} elements", size, std::min(size - 1, 1000LL)));
+    else if (size > 1)
+      add("MaxArraySize", Verdict::kWarning, fmt::format("{}: few and long elements", size),
+          "ask an administrator for 1001, Slurm's default");
+    else
+      add("MaxArraySize", Verdict::kFailed, fmt::format("{}: there are no job arrays", size),
+          "ask an administrator for 1001, Slurm's default");
+    const auto kill_wait = seconds_of(*config, "KillWait");
+    add("KillWait", kill_wait >= 0 && kill_wait < 5 ? Verdict::kWarning : Verdict::kOk,
+        fmt::format("{} s between TERM and KILL", kill_wait),
+        kill_wait >= 0 && kill_wait < 5 ? "an element that is cancelled may leave a temporary file"
+                                        : "");
+    const auto timeout = seconds_of(*config, "SlurmdTimeout");
+    add("SlurmdTimeout", timeout == 0 ? Verdict::kWarning : Verdict::kOk,
+        timeout == 0 ? std::string("0: a lost node is never noticed")
+                     : fmt::format("{} s until a lost node's elements go elsewhere", timeout),
+        timeout == 0 ? "ask an administrator for 300, Slurm's default" : "");
+  }
+
+  bool partition() {
+    const std::string name =
+        options_.slurm.partition.empty() ? "default" : options_.slurm.partition;
+    const auto nodes = client_.nodes(options_.slurm.partition);
+    if (!nodes) return add("partition", Verdict::kWarning, nodes.why);
+    if (nodes->empty())
+      return add("partition", Verdict::kFailed, fmt::format("'{}': there is none", name),
+                 "'sinfo -s' lists them; name one with --partition");
+    std::size_t usable = 0, all = 0, processors = 0;
+    for (const auto& group : *nodes) {
+      all += group.nodes;
+      if (!group.up || !group.usable) continue;
+      usable += group.nodes;
+      processors += group.processors;
+    }
+    const std::string found = fmt::format("'{}': {} of {} nodes can run jobs, with {} processors",
+                                          nodes->front().partition, usable, all, processors);
+    if (usable == 0)
+      return add("partition", Verdict::kFailed, found, "'sinfo -R' says why; ask an administrator");
+    return add("partition", Verdict::kOk, found);
+  }
+
+  // ---- a job on a node
+
+  void node() {
+    const fs::path base = fs::absolute(options_.directory).lexically_normal();
+    std::random_device random;
+    const std::string token = fmt::format("{:08x}{:08x}", random(), random());
+    const fs::path directory = base / fmt::format(".doctor-{}", token);
+    make_directories(directory);
+    struct Remover {
+      const fs::path& path;
+      ~Remover() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+      }
+    } remover{directory};
+    write_file(directory / kToken, token);
+    const LockFile lock(directory / kLock);
+    const fs::path script = directory / "doctor.sh";
+    write_file(script, fmt::format("#!/bin/sh\nexec {} farm doctor-on-node {}\n",
+                                   shell_quote(fs::absolute(options_.program).string()),
+                                   shell_quote(directory.string())));
+    const std::string name = "lobelia-doctor-" + token;
+    auto arguments = sbatch_arguments(options_.slurm);
+    // Its output goes to a file only: where the directory is not shared that fails, and is seen as such.
+    arguments.insert(arguments.end(),
+                     {"--job-name=" + name, "--ntasks=1", "--output=/dev/null", "--chdir=/"});
+    const auto submission = client_.submit(arguments, script);
+    if (!submission.job) {
+      client_.cancel(name);
+      add("a job", Verdict::kFailed, submission.why,
+          "see the options for partition, account and QOS");
+      return;
+    }
+    const std::string why = wait_for_job(*submission.job, name, directory);
+    if (!why.empty()) client_.cancel(name);
+    throw_if_interrupted();
+    if (!fs::exists(directory / kAnswer)) {
+      add("a job", Verdict::kFailed, why.empty() ? "it ended and nothing of it is seen here" : why,
+          fmt::format("is {} the same on the nodes, and does {} run there?", base.string(),
+                      options_.program.string()));
+      return;
+    }
+    judge(directory, token);
+  }
+
+  /// "" once its answer is there or it has ended.
+  std::string wait_for_job(SlurmJobId job, const std::string& name, const fs::path& directory) {
+    const auto start = std::chrono::steady_clock::now();
+    std::string reason = "nothing is known of it";
+    int ended = 0;
+    while (std::chrono::steady_clock::now() - start < options_.node_limit) {
+      if (interrupted()) return "interrupted";
+      if (fs::exists(directory / kAnswer)) return "";
+      const auto elements = client_.elements(job, name);
+      const bool lives =
+          !elements || std::any_of(elements->begin(), elements->end(), [](const auto& element) {
+            return element.state != SlurmElement::State::kEnded;
+          });
+      if (elements && !elements->empty())
+        reason = fmt::format("{} ({})", elements->front().state_name, elements->front().reason);
+      // A network file system may show the answer a little after the job's end.
+      if (!lives && ++ended > 5) return fmt::format("it ended as {} and left no answer", reason);
+      std::this_thread::sleep_for(options_.poll);
+    }
+    return fmt::format("it gave no answer in {:g} s: {}", options_.node_limit.count(), reason);
+  }
+
+  void judge(const fs::path& directory, const std::string& token) {
+    Json answer;
+    try {
+      answer = read_record(directory / kAnswer, "slurm-doctor");
+      const auto text = [&](const char* key) {
+        return printable(answer.at(key).get<std::string>(), 300);
+      };
+      const std::string host = text("host");
+      add("a job", Verdict::kOk, fmt::format("it ran on {}", host));
+      const bool same = text("token") == token;
+      add("directory on a node", same ? Verdict::kOk : Verdict::kFailed,
+          same ? "what one writes the other reads" : "the node reads another file of the same name",
+          same ? "" : "results have to be on a file system that the nodes share");
+      const bool version = text("version") == kNameAndVersion;
+      add("program on a node", version ? Verdict::kOk : Verdict::kFailed,
+          fmt::format("{} there, {} here", text("version"), kNameAndVersion),
+          version ? "" : "let both be the same file, or build it the same on all");
+      const auto check = [&](const char* name, const char* key, Verdict verdict,
+                             const char* advice) {
+        const std::string problem = text(key);
+        add(name, problem.empty() ? Verdict::kOk : verdict, problem.empty() ? "they work" : problem,
+            problem.empty() ? "" : advice);
+      };
+      check("renaming on a node", "rename", Verdict::kFailed,
+            "take another file system for the results");
+      check("hard links on a node", "link", Verdict::kFailed,
+            "take another file system for the results");
+      check(
+          "locks across machines", "lock", Verdict::kWarning,
+          "start one client for a directory at a time, or have lockd (NFS) or -o flock (Lustre) turned on");
+    } catch (const Json::exception& error) {
+      add("a job", Verdict::kFailed, fmt::format("its answer is not understood: {}", error.what()));
+    } catch (const Error& error) {
+      add("a job", Verdict::kFailed, error.what());
+    }
+  }
+
+  const DoctorOptions& options_;
+  SlurmClient client_;
+  std::vector<DoctorCheck> checks_;
+};
+
+}  // namespace
+
+std::vector<DoctorCheck> doctor(const DoctorOptions& options) { return Doctor(options)(); }
+
+void doctor_on_node(const fs::path& directory) {
+  Json answer = make_record("slurm-doctor");
+  answer["host"] = host_name();
+  answer["version"] = kNameAndVersion;
+  answer["token"] = read_file(directory / kToken, 100);
+  answer["rename"] = try_rename(directory);
+  answer["link"] = try_link(directory);
+  answer["lock"] = try_lock(directory);
+  write_record(directory / kAnswer, answer);
+}
+
+DoctorCheck::Verdict worst_of(const std::vector<DoctorCheck>& checks) {
+  Verdict worst = Verdict::kOk;
+  for (const auto& check : checks) worst = std::max(worst, check.verdict);
+  return worst;
+}
+
+std::string doctor_text(const std::vector<DoctorCheck>& checks) {
+  std::string text;
+  for (const auto& check : checks) {
+    const char* verdict = check.verdict == Verdict::kOk        ? "ok"
+                          : check.verdict == Verdict::kWarning ? "warning"
+                                                               : "failed";
+    text += fmt::format("{:8} {}: {}\n", verdict, check.name, check.found);
+    if (!check.advice.empty()) text += fmt::format("{:8} -> {}\n", "", check.advice);
+  }
+  return text;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,46 @@
+// Whether a run would work on this cluster, asked before the first.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "farm/slurm/slurm_options.hpp"
+
+namespace lobelia {
+
+struct DoctorCheck {
+  enum class Verdict { kOk, kWarning, kFailed };
+  std::string name;  ///< "hard links on a node"
+  Verdict verdict = Verdict::kOk;
+  std::string found;   ///< a sentence
+  std::string advice;  ///< what to do; empty if nothing
+};
+
+struct DoctorOptions {
+  SlurmOptions slurm;               ///< where the element on a node goes
+  std::filesystem::path directory;  ///< where results would be put; made if it is not there
+  std::filesystem::path program;    ///< run on the node as `PROGRAM farm doctor-on-node DIR`
+  std::chrono::duration<double> call_limit = std::chrono::seconds(15);
+  std::chrono::duration<double> node_limit =
+      std::chrono::minutes(2);  ///< for the element, queue included
+  std::chrono::duration<double> poll = std::chrono::seconds(1);
+};
+
+/// Asks Slurm, then lets a one-element job look at `directory` from a node. What cannot be asked because something
+/// before it failed is left out. Takes as long as the queue does, `node_limit` at most; then the job is cancelled.
+/// Throws Error(kOutput) if the directory cannot be written, kInterrupted.
+std::vector<DoctorCheck> doctor(const DoctorOptions& options);
+
+/// The job's side, in a directory that doctor() made: writes what it finds to DIR/node.json.
+void doctor_on_node(const std::filesystem::path& directory);
+
+/// A line each, "ok", "warning" or "failed" first, and advice below.
+std::string doctor_text(const std::vector<DoctorCheck>& checks);
+
+/// The worst of all.
+DoctorCheck::Verdict worst_of(const std::vector<DoctorCheck>& checks);
+
+}  // namespace lobelia

@@ -1,0 +1,213 @@
+#include "farm/slurm/slurm_answers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::size_t kMostTasks = 4'000'000;  // Slurm's own limit of MaxArraySize is 4 000 001
+
+std::optional<std::size_t> digits(std::string_view text) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+std::optional<SlurmJobId> job_id(std::string_view text) {
+  const auto value = digits(text);
+  // The highest ids mean "none" and "federated" to Slurm.
+  if (!value || *value == 0 || *value >= 0xfffffff0u) return {};
+  return SlurmJobId(*value);
+}
+
+/// "RUNNING", "REQUEUE_HOLD"
+bool is_state_name(std::string_view text) {
+  return !text.empty() && text.size() <= 32 && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'A' && c <= 'Z') || c == '_';
+  });
+}
+
+SlurmElement::State state_of(std::string_view name) {
+  constexpr std::array<std::string_view, 6> pending = {
+      "PENDING", "REQUEUED", "REQUEUE_HOLD", "REQUEUE_FED", "SPECIAL_EXIT", "RESV_DEL_HOLD"};
+  constexpr std::array<std::string_view, 10> ended = {
+      "COMPLETED", "CANCELLED", "FAILED",   "TIMEOUT",       "NODE_FAIL",
+      "PREEMPTED", "BOOT_FAIL", "DEADLINE", "OUT_OF_MEMORY", "REVOKED"};
+  if (std::find(pending.begin(), pending.end(), name) != pending.end())
+    return SlurmElement::State::kPending;
+  if (std::find(ended.begin(), ended.end(), name) != ended.end())
+    return SlurmElement::State::kEnded;
+  // A newer Slurm's state is taken for one that goes on: it leaves the queue when it ends.
+  return SlurmElement::State::kRunning;
+}
+
+bool is_message(std::string_view line) {
+  return line.starts_with("squeue: ") || line.starts_with("sinfo: ") ||
+         line.starts_with("scontrol: ");
+}
+
+/// Exactly `count` fields between bars; the last but `tail` may hold bars itself.
+std::optional<std::vector<std::string_view>> fields(std::string_view line, std::size_t count,
+                                                    std::size_t tail = 0) {
+  std::vector<std::string_view> result;
+  while (result.size() + 1 + tail < count) {
+    const auto bar = line.find('|');
+    if (bar == line.npos) return {};
+    result.push_back(line.substr(0, bar));
+    line.remove_prefix(bar + 1);
+  }
+  std::vector<std::string_view> last;
+  for (std::size_t i = 0; i < tail; ++i) {
+    const auto bar = line.rfind('|');
+    if (bar == line.npos) return {};
+    last.push_back(line.substr(bar + 1));
+    line = line.substr(0, bar);
+  }
+  result.push_back(line);
+  result.insert(result.end(), last.rbegin(), last.rend());
+  return result;
+}
+
+/// "3", "3-9", "1-9:2"
+std::optional<std::size_t> count_of_range(std::string_view text) {
+  const auto dash = text.find('-');
+  if (dash == text.npos) return digits(text) ? std::optional<std::size_t>(1) : std::nullopt;
+  const auto colon = text.find(':', dash);
+  const auto first = digits(text.substr(0, dash));
+  const auto last = digits(text.substr(dash + 1, colon == text.npos ? colon : colon - dash - 1));
+  const auto step =
+      colon == text.npos ? std::optional<std::size_t>(1) : digits(text.substr(colon + 1));
+  if (!first || !last || !step || *last < *first || *last > kMostTasks || *step == 0) return {};
+  return (*last - *first) / *step + 1;
+}
+
+}  // namespace
+
+std::optional<std::size_t> count_of_array_tasks(std::string_view text) {
+  if (text == "N/A") return 1;
+  if (text.starts_with('[') != text.ends_with(']') || text.size() > 65536) return {};
+  if (text.starts_with('[')) text = text.substr(1, text.size() - 2);
+  if (const auto percent = text.rfind('%'); percent != text.npos) {
+    if (!digits(text.substr(percent + 1))) return {};
+    text = text.substr(0, percent);
+  }
+  std::size_t count = 0;
+  while (true) {
+    const auto comma = text.find(',');
+    const std::string_view part = text.substr(0, comma);
+    // squeue shortens a long list so.
+    const bool shortened = part == "..." && comma == text.npos && count > 0;
+    const auto more = shortened ? std::optional<std::size_t>(0) : count_of_range(part);
+    if (!more || (count += *more) > kMostTasks) return {};
+    if (comma == text.npos) return count;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<SlurmJobId> parse_submission(std::span<const std::string> lines) {
+  std::optional<SlurmJobId> result;
+  for (const std::string& line : lines) {
+    const auto id = job_id(std::string_view(line).substr(0, line.find(';')));
+    if (!id) continue;
+    if (result) return {};  // two answers are none
+    result = id;
+  }
+  return result;
+}
+
+std::optional<std::vector<SlurmElement>> parse_elements(std::span<const std::string> lines) {
+  std::vector<SlurmElement> result;
+  for (const std::string& line : lines) {
+    if (is_message(line)) continue;
+    const auto field = fields(line, 4, 1);
+    if (!field) return {};
+    const auto count = count_of_array_tasks((*field)[0]);
+    if (!count || !is_state_name((*field)[1])) return {};
+    result.push_back({state_of((*field)[1]), *count, std::string((*field)[1]),
+                      printable((*field)[2], 200), printable((*field)[3])});
+  }
+  return result;
+}
+
+std::optional<std::vector<SlurmLivingJob>> parse_living_jobs(std::span<const std::string> lines) {
+  std::map<SlurmJobId, SlurmLivingJob> jobs;
+  for (const std::string& line : lines) {
+    if (is_message(line)) continue;
+    const auto field = fields(line, 3);
+    if (!field) return {};
+    const auto id = job_id((*field)[0]);
+    if (!id || !is_state_name((*field)[1])) return {};
+    if (state_of((*field)[1]) == SlurmElement::State::kEnded) continue;
+    jobs[*id] = {*id, std::string((*field)[1]), printable((*field)[2], 200)};
+  }
+  std::vector<SlurmLivingJob> result;
+  for (auto& [id, job] : jobs) result.push_back(std::move(job));
+  return result;
+}
+
+std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> lines) {
+  std::vector<SlurmNodes> result;
+  for (const std::string& line : lines) {
+    if (is_message(line)) continue;
+    const auto field = fields(line, 5);
+    if (!field) return {};
+    SlurmNodes nodes;
+    std::string_view name = (*field)[0], state = (*field)[2];
+    nodes.is_default = name.ends_with('*');
+    if (nodes.is_default) name.remove_suffix(1);
+    nodes.partition = printable(name);
+    nodes.up = (*field)[1] == "up";
+    nodes.state = printable(state);
+    // "idle~" is switched off and comes when called; "idle*" and "down*" do not answer.
+    constexpr std::array<std::string_view, 9> useful = {"idle", "alloc", "mix", "comp",  "plnd",
+                                                        "resv", "boot",  "npc", "pow_up"};
+    const auto suffix = std::min(state.find_first_of("*~#!%$@^-+"), state.size());
+    nodes.usable = state.substr(suffix) != "*" &&
+                   std::find(useful.begin(), useful.end(), state.substr(0, suffix)) != useful.end();
+    const auto count = digits((*field)[3]);
+    std::array<std::size_t, 4> processors{};  // allocated, idle, other, total
+    std::string_view rest = (*field)[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto slash = rest.find('/');
+      const auto value = digits(rest.substr(0, slash));
+      if (!value || (slash == rest.npos) != (i == 3)) return {};
+      processors[i] = *value;
+      rest.remove_prefix(slash == rest.npos ? rest.size() : slash + 1);
+    }
+    if (!count || nodes.partition.empty() || state.empty()) return {};
+    nodes.nodes = *count;
+    nodes.processors = std::min(processors[0], kMostTasks) + std::min(processors[1], kMostTasks);
+    result.push_back(std::move(nodes));
+  }
+  return result;
+}
+
+std::optional<std::map<std::string, std::string>> parse_config(std::span<const std::string> lines) {
+  std::map<std::string, std::string> result;
+  for (const std::string& line : lines) {
+    const auto equals = line.find(" = ");
+    if (equals == line.npos) continue;
+    const auto key = split(std::string_view(line).substr(0, equals), " \t");
+    if (key.size() == 1) result.emplace(key.front(), printable(line.substr(equals + 3), 200));
+  }
+  if (result.empty()) return {};
+  return result;
+}
+
+bool waits_for_somebody(std::string_view reason) {
+  // job_reason_string() of Slurm's slurm_protocol_defs.c. "launch failed requeued held" and its like are states
+  // that the controller sets.
+  constexpr std::array<std::string_view, 10> reasons = {
+      "JobHeldUser",       "JobHeldAdmin",   "PartitionDown", "PartitionInactive",
+      "BadConstraints",    "InvalidAccount", "InvalidQOS",    "DependencyNeverSatisfied",
+      "AccountNotAllowed", "QOSNotAllowed"};
+  return std::find(reasons.begin(), reasons.end(), reason) != reasons.end() ||
+         reason.ends_with(" held");
+}
+
+}  // namespace lobelia

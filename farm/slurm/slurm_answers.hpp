@@ -1,0 +1,66 @@
+// What Slurm's programs print, read strictly: an answer is understood whole, or not at all.
+// Formats: the manual pages of sbatch, squeue, sinfo and scontrol, Slurm 22.05.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lobelia {
+
+using SlurmJobId = std::uint32_t;  ///< never 0
+
+/// One line of squeue: an element of an array, or several in compact form.
+struct SlurmElement {
+  enum class State { kPending, kRunning, kEnded };  ///< running: whatever is neither of the others
+  State state = State::kPending;
+  std::size_t count =
+      1;  ///< elements that the line stands for, or as many as it shows ("1_[3-9,...]")
+  std::string state_name;  ///< as printed: "RUNNING"
+  std::string reason;      ///< why it waits, or how it ended
+  std::string nodes;
+};
+
+/// A job that lives, by `squeue -o '%F|%T|%k'`.
+struct SlurmLivingJob {
+  SlurmJobId id = 0;
+  std::string state_name, comment;
+};
+
+/// One line of `sinfo -h -o '%P|%a|%t|%D|%C'`: the nodes of a partition that are in one state.
+struct SlurmNodes {
+  std::string partition;
+  bool is_default = false;
+  bool up = false;      ///< the partition
+  bool usable = false;  ///< such nodes run jobs, now or after those that they have
+  std::string state;
+  std::size_t nodes = 0, processors = 0;  ///< processors: idle or allocated
+};
+
+/// How many elements "7", "3-9", "[1,3-9:2%4]" or "N/A" stand for; nothing if it is none of them.
+std::optional<std::size_t> count_of_array_tasks(std::string_view text);
+
+/// Of `sbatch --parsable`: "12" or "12;cluster", among lines of warnings.
+std::optional<SlurmJobId> parse_submission(std::span<const std::string> lines);
+
+/// Of `squeue -h -r -o '%K|%T|%r|%N'`. Lines that begin with "squeue: " are its warnings.
+std::optional<std::vector<SlurmElement>> parse_elements(std::span<const std::string> lines);
+
+/// Each job once, whatever number of lines its array has.
+std::optional<std::vector<SlurmLivingJob>> parse_living_jobs(std::span<const std::string> lines);
+
+std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> lines);
+
+/// "Key = value" of `scontrol show config`, at least one.
+std::optional<std::map<std::string, std::string>> parse_config(std::span<const std::string> lines);
+
+/// Whether a pending element with this reason never starts without somebody's doing: it is held, or refused.
+/// Reasons that name nodes tell nothing: "ReqNodeNotAvail, UnavailableNodes:n2" is said while one of many nodes
+/// is down and the job only waits for its turn on another.
+bool waits_for_somebody(std::string_view reason);
+
+}  // namespace lobelia

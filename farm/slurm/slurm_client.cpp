@@ -1,0 +1,162 @@
+#include "farm/slurm/slurm_client.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "core/process.hpp"
+#include "core/text.hpp"
+
+extern char** environ;
+
+namespace lobelia {
+namespace {
+
+constexpr std::array<std::string_view, 5> kPrograms = {"sbatch", "squeue", "scancel", "scontrol",
+                                                       "sinfo"};
+constexpr std::size_t kMostBytes = 16u << 20;  // a line of squeue for each of 1e5 elements
+
+struct TooMuch {};
+
+/// sbatch hands all of its environment on to the job: secrets stay here, and no SBATCH_* of the user's shell
+/// changes what is submitted.
+std::vector<std::string> clean_environment() {
+  std::vector<std::string> result;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    for (const char* start :
+         {"PATH=", "HOME=", "USER=", "SLURM_CONF=", "LD_LIBRARY_PATH=", "LOBELIA_"})
+      if (text.starts_with(start)) result.emplace_back(text);
+  }
+  return result;
+}
+
+bool contains(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
+
+template <class T>
+SlurmAnswer<T> understood(std::optional<T> value, std::string_view program,
+                          const std::vector<std::string>& lines) {
+  if (value) return {std::move(value), ""};
+  return {{},
+          fmt::format("{}'s answer is not understood: '{}'", program,
+                      printable(lines.empty() ? "" : lines.front()))};
+}
+
+}  // namespace
+
+SlurmClient::SlurmClient(std::chrono::duration<double> time_limit) : time_limit_(time_limit) {}
+
+std::vector<std::string> SlurmClient::absent_programs() {
+  std::vector<std::string> result;
+  for (const auto name : kPrograms)
+    if (find_program(std::string(name)).empty()) result.emplace_back(name);
+  return result;
+}
+
+SlurmClient::Output SlurmClient::run(std::vector<std::string> arguments) const {
+  Output output;
+  const std::string name = arguments.front();
+  arguments.front() = find_program(name).string();
+  if (arguments.front().empty()) {
+    output.why = fmt::format("no program '{}' in $PATH", name);
+    return output;
+  }
+  std::size_t bytes = 0;
+  ProcessOptions options;
+  options.environment = clean_environment();
+  options.only_environment = true;
+  options.uninterruptible = true;
+  options.timeout = time_limit_;
+  options.on_line = [&](std::string_view line) {
+    if ((bytes += line.size()) > kMostBytes) throw TooMuch();
+    output.lines.emplace_back(line);
+  };
+  try {
+    const ProcessResult result = run_process(arguments, options);
+    output.in_time = !result.timed_out;
+    if (result.timed_out) {
+      output.why = fmt::format("{} gave no answer in {:g} s", name, time_limit_.count());
+    } else if (result.exit_code != 0) {
+      // The last line of several is the one that says why.
+      const std::string said = output.lines.empty() ? "" : printable(output.lines.back(), 300);
+      output.why =
+          said.empty() ? fmt::format("{} ended with exit code {}", name, result.exit_code) : said;
+    }
+  } catch (const TooMuch&) {
+    output.why = fmt::format("{}'s answer is longer than {} MiB", name, kMostBytes >> 20);
+  } catch (const Error& error) {
+    output.why = error.what();
+  }
+  return output;
+}
+
+SlurmSubmission SlurmClient::submit(const std::vector<std::string>& arguments,
+                                    const std::filesystem::path& script) const {
+  std::vector<std::string> command = {"sbatch", "--parsable"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  command.push_back(script.string());
+  const Output output = run(command);
+  SlurmSubmission result;
+  if (output.why.empty()) {
+    result.job = parse_submission(output.lines);
+    result.unclear = !result.job;
+    if (!result.job)
+      result.why = fmt::format("sbatch's answer is not understood: '{}'",
+                               printable(output.lines.empty() ? "" : output.lines.front()));
+    return result;
+  }
+  result.why = output.why;
+  result.unclear = !output.in_time;
+  for (const std::string& line : output.lines)
+    for (const char* sign : {"timed out", "onnection", "Unable to contact", "Zero Bytes"})
+      result.unclear |= contains(line, sign);
+  return result;
+}
+
+SlurmAnswer<std::vector<SlurmElement>> SlurmClient::elements(SlurmJobId job,
+                                                             const std::string& name) const {
+  const Output output = run({"squeue", "-h", "-r", "-t", "all", "-j", std::to_string(job),
+                             "--name=" + name, "-o", "%K|%T|%r|%N"});
+  if (output.why.empty()) return understood(parse_elements(output.lines), "squeue", output.lines);
+  if (contains(output.why, "Invalid job id")) return {std::vector<SlurmElement>(), ""};
+  return {{}, output.why};
+}
+
+SlurmAnswer<std::vector<SlurmLivingJob>> SlurmClient::living_jobs(const std::string& name) const {
+  const Output output = run({"squeue", "-h", "--me", "--name=" + name, "-o", "%F|%T|%k"});
+  if (!output.why.empty()) return {{}, output.why};
+  return understood(parse_living_jobs(output.lines), "squeue", output.lines);
+}
+
+std::string SlurmClient::cancel(const std::string& name) const {
+  return run({"scancel", "--me", "--name=" + name}).why;
+}
+
+std::string SlurmClient::ping() const {
+  const Output output = run({"scontrol", "ping"});
+  if (!output.why.empty()) return output.why;
+  for (const std::string& line : output.lines)
+    if (line.ends_with(" is UP")) return "";
+  return output.lines.empty() ? "scontrol ping says nothing" : printable(output.lines.front(), 300);
+}
+
+SlurmAnswer<std::map<std::string, std::string>> SlurmClient::config() const {
+  const Output output = run({"scontrol", "show", "config"});
+  if (!output.why.empty()) return {{}, output.why};
+  return understood(parse_config(output.lines), "scontrol", output.lines);
+}
+
+SlurmAnswer<std::vector<SlurmNodes>> SlurmClient::nodes(const std::string& partition) const {
+  const Output output = run({"sinfo", "-h", "-o", "%P|%a|%t|%D|%C"});
+  if (!output.why.empty()) return {{}, output.why};
+  auto all = parse_nodes(output.lines);
+  if (all)
+    std::erase_if(*all, [&](const SlurmNodes& nodes) {
+      return partition.empty() ? !nodes.is_default : nodes.partition != partition;
+    });
+  return understood(std::move(all), "sinfo", output.lines);
+}
+
+}  // namespace lobelia

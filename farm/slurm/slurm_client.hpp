@@ -1,0 +1,66 @@
+// Slurm's own programs, each run with a time limit and in a clean environment.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "farm/slurm/slurm_answers.hpp"
+
+namespace lobelia {
+
+struct SlurmSubmission {
+  std::optional<SlurmJobId> job;
+  std::string why;       ///< there is none: Slurm's words
+  bool unclear = false;  ///< no word of the controller's: it may have been taken nevertheless
+};
+
+/// What could be asked, or why there was no answer.
+template <class T>
+struct SlurmAnswer {
+  std::optional<T> value;
+  std::string why;
+  explicit operator bool() const { return value.has_value(); }
+  const T& operator*() const { return *value; }
+  const T* operator->() const { return &*value; }
+};
+
+class SlurmClient {
+ public:
+  /// `time_limit` is that of each call. Nothing is started or looked for yet.
+  explicit SlurmClient(std::chrono::duration<double> time_limit = std::chrono::seconds(15));
+
+  /// Of the five that are used, those that are not in $PATH.
+  static std::vector<std::string> absent_programs();
+
+  /// sbatch with `arguments` and a script. Not cut in two by an interruption.
+  SlurmSubmission submit(const std::vector<std::string>& arguments,
+                         const std::filesystem::path& script) const;
+  /// Every element of the job that Slurm still knows, ended ones too; none if it knows no such job of that
+  /// name (an id may be given away again).
+  SlurmAnswer<std::vector<SlurmElement>> elements(SlurmJobId job, const std::string& name) const;
+  /// The user's own jobs of that name that have not ended.
+  SlurmAnswer<std::vector<SlurmLivingJob>> living_jobs(const std::string& name) const;
+  /// All of the user's jobs of that name. Empty, or why not.
+  std::string cancel(const std::string& name) const;
+  /// Empty, or why the controller does not answer.
+  std::string ping() const;
+  SlurmAnswer<std::map<std::string, std::string>> config() const;
+  /// Of `partition`, or of the default one if empty.
+  SlurmAnswer<std::vector<SlurmNodes>> nodes(const std::string& partition) const;
+
+ private:
+  struct Output {
+    std::vector<std::string> lines;
+    std::string why;  ///< it failed; empty if not
+    bool in_time = true;
+  };
+  Output run(std::vector<std::string> arguments) const;
+
+  std::chrono::duration<double> time_limit_;
+};
+
+}  // namespace lobelia

@@ -1,0 +1,243 @@
+#include "farm/slurm/slurm_farm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
+#include "farm/farm_session.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr char kRunFile[] = "run.json";
+
+fs::path chunk_file(const fs::path& run_directory, std::size_t number) {
+  return run_directory / "chunks" / fmt::format("{}.json", number);
+}
+
+/// What may still be done for a session's cells: no result, no failure that this run kept.
+class Missing {
+ public:
+  Missing(FarmSession& session, std::vector<JobState> states)
+      : session_(session), states_(std::move(states)) {}
+
+  std::vector<SlurmJob> operator()() {
+    const JobGraph& graph = session_.work().graph;
+    jobs_.clear();
+    std::vector<SlurmJob> missing;
+    std::vector<SlurmJob> costs(graph.stride());
+    for (const std::size_t cell : session_.waiting_cells()) {
+      std::vector<JobIndex> of_cell;
+      for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job)
+        if (states_[job] == JobState::kWaiting && is_missing(job)) of_cell.push_back(job);
+      if (of_cell.empty()) continue;
+      const Scene scene = session_.work().cells.scene(cell);
+      for (const JobIndex job : of_cell) {
+        const Job& one = graph[job];
+        const std::string engine =
+            one.engine == kNoEngine ? "" : session_.work().engines[one.engine].name;
+        const bool picture = one.kind == JobKind::kRender || one.kind == JobKind::kReference;
+        missing.push_back(
+            {graph.name(job), picture ? 0 : 1, estimated_seconds(one.kind, engine, scene),
+             one.kind == JobKind::kReference ? engine : std::string(kJobKindNames[int(one.kind)])});
+        jobs_.push_back(job);
+      }
+    }
+    return missing;
+  }
+
+  std::vector<JobIndex> at(std::span<const std::size_t> places) const {
+    std::vector<JobIndex> found;
+    for (const std::size_t place : places) found.push_back(jobs_.at(place));
+    return found;
+  }
+
+  /// Of the results that were wanted at the start, those that are there now.
+  JobRunWork made() const {
+    const JobGraph& graph = session_.work().graph;
+    JobRunWork work;
+    for (JobIndex job = 0; job < graph.size(); ++job) {
+      if (states_[job] != JobState::kWaiting || !session_.cache().has(graph[job].key)) continue;
+      ++work.made;
+      if (graph[job].kind == JobKind::kRender || graph[job].kind == JobKind::kReference)
+        ++work.pictures;
+    }
+    return work;
+  }
+
+  void forget_failures() const {
+    const JobGraph& graph = session_.work().graph;
+    for (JobIndex job = 0; job < graph.size(); ++job)
+      if (states_[job] == JobState::kWaiting) session_.cache().forget_failure(graph[job].key);
+  }
+
+ private:
+  bool is_missing(JobIndex job) {
+    JobGraph& graph = session_.work().graph;
+    const ResultCache& cache = session_.cache();
+    if (graph[job].kind == JobKind::kProfile)
+      graph.set_profile_key(graph.cell_of(job), key_now(job));
+    if (cache.has(graph[job].key) || cache.failure(graph[job].key)) return false;
+    // What waits for something that failed is not to be had.
+    for (const JobIndex input : graph.inputs(job)) {
+      const bool may_lack =
+          graph[job].kind == JobKind::kProfile && graph[input].kind == JobKind::kReference;
+      if (!may_lack && !cache.has(graph[input].key) && cache.failure(graph[input].key))
+        return false;
+    }
+    return true;
+  }
+
+  /// A profile is of the pictures that did not fail.
+  ResultKey key_now(JobIndex profile) const {
+    const JobGraph& graph = session_.work().graph;
+    const std::size_t cell = graph.cell_of(profile);
+    std::vector<bool> with_engine(graph.engines().size());
+    for (std::size_t e = 0; e < with_engine.size(); ++e) {
+      const Job& reference = graph[graph.reference(cell, e)];
+      with_engine[e] = reference.exists && (session_.cache().has(reference.key) ||
+                                            !session_.cache().failure(reference.key));
+    }
+    return graph.profile_key(cell, with_engine);
+  }
+
+  FarmSession& session_;
+  std::vector<JobState> states_;
+  std::vector<JobIndex> jobs_;  ///< of the last answer
+};
+
+void write_run_record(const fs::path& run_directory, const fs::path& grid_file,
+                      const fs::path& directory, const FarmSession& session,
+                      const FarmOptions& options) {
+  Json record = make_record("farm-run");
+  record["program"] = program_id();
+  record["grid"] = fs::absolute(grid_file).string();
+  record["directory"] = fs::absolute(directory).string();
+  record["cache"] = session.cache().directory().string();
+  record["command"] = options.command;
+  record["programs"] = Json::object();
+  for (const auto& [engine, program] : options.programs)
+    record["programs"][engine] = fs::absolute(program).string();
+  write_record(run_directory / kRunFile, record);
+}
+
+struct Run {
+  fs::path grid_file, directory;
+  FarmOptions options;
+};
+
+Run read_run(const fs::path& run_directory) {
+  const Json record = read_record(run_directory / kRunFile, "farm-run");
+  try {
+    if (record.at("program") != program_id())
+      throw Error(ExitCode::kInput, fmt::format("{}: the run of another build of this program",
+                                                run_directory.string()));
+    Run run;
+    run.grid_file = record.at("grid").get<std::string>();
+    run.directory = record.at("directory").get<std::string>();
+    run.options.cache = record.at("cache").get<std::string>();
+    run.options.command = record.at("command").get<std::vector<std::string>>();
+    for (const auto& [engine, program] : record.at("programs").items())
+      run.options.programs[engine] = program.get<std::string>();
+    return run;
+  } catch (const Json::exception& error) {
+    throw Error(ExitCode::kInput, fmt::format("{}: not the record of a run: {}",
+                                              run_directory.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+fs::path own_program() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error)
+    throw Error(ExitCode::kInternal, fmt::format("the program's own path: {}", error.message()));
+  return program;
+}
+
+fs::path slurm_run_directory(const fs::path& directory) {
+  return fs::absolute(directory) / "runs" / "slurm";
+}
+
+double estimated_seconds(JobKind kind, std::string_view engine, const Scene& scene) {
+  // Of small and of large pictures on one of today's cores; chunks need no more than the order.
+  const double pixels = double(scene.film.width) * scene.film.height;
+  const double rays = pixels * std::max(1, scene.sampler.sample_count);
+  switch (kind) {
+    case JobKind::kRender:
+      return 0.02 + 5e-7 * rays;
+    case JobKind::kReference:
+      if (engine == "povray") return 0.3 + 5e-6 * rays;
+      if (engine == "blender") return 0.15 + 2e-6 * rays;
+      return 0.02 + 2e-6 * rays;
+    case JobKind::kCompare:
+      return 0.05 + 2e-6 * pixels;
+    case JobKind::kProfile:
+      return 0.02 + 1e-6 * pixels;
+  }
+  return 1;
+}
+
+SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
+                                   const fs::path& directory, const FarmOptions& options,
+                                   SlurmRunOptions slurm) {
+  FarmSession session(grid, directory, options);
+  SlurmWork work;
+  work.run_directory = slurm_run_directory(directory);
+  work.program = own_program();
+  make_directories(work.run_directory / "chunks");
+  Missing missing(session, session.take_states());
+  // Whoever comes back to jobs that live goes on with what they have found out; who begins anew tries all again.
+  if (slurm_status(work.run_directory, slurm.call_limit).living.empty()) missing.forget_failures();
+  write_run_record(work.run_directory, grid_file, directory, session, options);
+  work.missing = [&] { return missing(); };
+  work.write_chunk = [&](std::size_t number, std::span<const std::size_t> places) {
+    write_record(chunk_file(work.run_directory, number),
+                 chunk_record(session.work(), session.cache(), options, missing.at(places)));
+  };
+  SlurmFarmSummary summary;
+  try {
+    summary.slurm = run_on_slurm(work, slurm);
+  } catch (...) {
+    try {
+      session.show_what_is_there();
+    } catch (const Error&) {  // the first failure is the one to tell
+    }
+    throw;
+  }
+  session.show_what_is_there();
+  summary.farm = session.summarise(missing.made());
+  return summary;
+}
+
+ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number) {
+  int threads = 1;
+  if (const char* given = std::getenv("SLURM_CPUS_PER_TASK")) {
+    long long count = 0;
+    if (parse_integer(given, count) && count >= 1 && count <= 1024) threads = int(count);
+  }
+  return exec_chunk(chunk_file(run_directory, number), threads);
+}
+
+FarmSummary finish_slurm_run(const fs::path& run_directory) {
+  const Run run = read_run(run_directory);
+  const Grid grid = read_grid(run.grid_file);
+  FarmSession session(grid, run.directory, run.options);
+  session.show_what_is_there();
+  return session.summarise({});
+}
+
+SlurmFarmSummary attach_to_slurm_run(const fs::path& directory, const SlurmRunOptions& slurm) {
+  const Run run = read_run(slurm_run_directory(directory));
+  return run_farm_on_slurm(read_grid(run.grid_file), run.grid_file, run.directory, run.options,
+                           slurm);
+}
+
+}  // namespace lobelia

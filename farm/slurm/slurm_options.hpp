@@ -1,0 +1,22 @@
+// What a user may ask of Slurm for the elements of a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lobelia {
+
+/// Handed on as sbatch's options of the same names; empty ones are left to Slurm.
+struct SlurmOptions {
+  std::string partition, time, memory, account, qos, constraint;
+  bool exclusive = false;        ///< no other job on the node: for timings
+  int processors = 1;            ///< of each element (--cpus-per-task)
+  int throttle = 0;              ///< elements at once, 0: as many as there is room for
+  std::vector<std::string> raw;  ///< further options of sbatch, "--name" or "--name=value"
+};
+
+/// Arguments of sbatch. Throws Error(kUsage) on a value that holds control characters or is out of range, and on
+/// a raw option that does not begin with "--" or is one of those that a run sets itself.
+std::vector<std::string> sbatch_arguments(const SlurmOptions& options);
+
+}  // namespace lobelia

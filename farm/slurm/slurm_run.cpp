@@ -1,0 +1,564 @@
+#include "farm/slurm/slurm_run.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <optional>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/interrupt.hpp"
+#include "core/record.hpp"
+#include "core/text.hpp"
+#include "farm/slurm/lock_file.hpp"
+#include "farm/slurm/slurm_client.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+/// False if interrupted meanwhile and that is looked at.
+bool wait_for(Seconds time, bool until_interrupted = true) {
+  const auto end = Clock::now() + time;
+  while (Clock::now() < end) {
+    if (until_interrupted && interrupted()) return false;
+    std::this_thread::sleep_for(std::min<Seconds>(Seconds(0.05), end - Clock::now()));
+  }
+  return !(until_interrupted && interrupted());
+}
+
+std::string ids_text(const std::vector<SlurmJobId>& ids) {
+  return fmt::format("{} {}", ids.size() == 1 ? "job" : "jobs", fmt::join(ids, ", "));
+}
+
+/// slurm.json of a run directory.
+struct RunRecord {
+  struct Array {
+    SlurmJobId id = 0;
+    std::size_t first = 0, count = 0;
+    int phase = 0, round = 0;
+  };
+  std::string name;
+  int round = 0;  ///< of all clients
+  std::size_t next_chunk = 0;
+  std::vector<Array> arrays;
+};
+
+constexpr int kFinishPhase = -1;
+
+fs::path record_path(const fs::path& run_directory) { return run_directory / "slurm.json"; }
+
+/// Nothing if there is none. What is broken is no reason to stop: numbers go on from the chunks that were submitted.
+std::optional<RunRecord> read_run_record(const fs::path& run_directory) {
+  if (!fs::exists(record_path(run_directory))) return {};
+  const Json json = read_record(record_path(run_directory), "slurm-run");
+  RunRecord record;
+  try {
+    record.name = json.at("name").get<std::string>();
+    record.round = json.at("round").get<int>();
+    record.next_chunk = json.at("nextChunk").get<std::size_t>();
+    for (const Json& array : json.at("arrays"))
+      record.arrays.push_back({array.at("job").get<SlurmJobId>(),
+                               array.at("firstChunk").get<std::size_t>(),
+                               array.at("chunks").get<std::size_t>(), array.at("phase").get<int>(),
+                               array.at("round").get<int>()});
+  } catch (const Json::exception& error) {
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: {}", record_path(run_directory).string(), error.what()));
+  }
+  const bool plain = record.name.size() < 100 && record.name.starts_with("lobelia-") &&
+                     std::all_of(record.name.begin(), record.name.end(), [](char c) {
+                       return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
+                     });
+  if (!plain || record.next_chunk > 1'000'000'000 || record.round < 0)
+    throw Error(ExitCode::kInput, fmt::format("{}: its name or numbers are not those of a run",
+                                              record_path(run_directory).string()));
+  return record;
+}
+
+void write_run_record(const fs::path& run_directory, const RunRecord& record) {
+  Json json = make_record("slurm-run");
+  json["name"] = record.name;
+  json["round"] = record.round;
+  json["nextChunk"] = record.next_chunk;
+  json["arrays"] = Json::array();
+  for (const auto& array : record.arrays)
+    json["arrays"].push_back({{"job", array.id},
+                              {"firstChunk", array.first},
+                              {"chunks", array.count},
+                              {"phase", array.phase},
+                              {"round", array.round}});
+  write_record(record_path(run_directory), json);
+}
+
+/// Of the directory: another client of the same run gives its jobs the same name.
+std::string name_of_run(const fs::path& run_directory) {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  for (const char c : run_directory.string())
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return fmt::format("lobelia-{:016x}", hash);
+}
+
+class Run {
+ public:
+  Run(const SlurmWork& work, const SlurmRunOptions& options)
+      : work_(work),
+        options_(options),
+        client_(options.call_limit),
+        arguments_(sbatch_arguments(options.slurm)) {}
+
+  SlurmOutcome operator()() {
+    const auto absent = SlurmClient::absent_programs();
+    if (!absent.empty())
+      throw Error(ExitCode::kEngine, fmt::format("no Slurm here: no program '{}' in $PATH",
+                                                 fmt::join(absent, "', '")));
+    directory_ = fs::absolute(work_.run_directory).lexically_normal();
+    // In a file name sbatch's "%" can be written twice, but "\" turns all of them off.
+    if (directory_.string().find_first_of("\\\n\r") != std::string::npos)
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{}: sbatch takes no path with a backslash or a line end",
+                              printable(directory_.string(), 200)));
+    make_directories(directory_ / "log");  // without it an element fails and nobody is told why
+    make_directories(directory_ / "submit");
+    const LockFile lock(directory_ / "client.lock");
+    if (lock.state() == LockFile::State::kTaken)
+      throw Error(ExitCode::kOutput, fmt::format("{}: another client has this run ({})",
+                                                 directory_.string(), lock.holder()));
+    if (lock.state() == LockFile::State::kUnsupported)
+      say("This file system has no locks: start no second client of this run.");
+    record_ = read_run_record(directory_).value_or(RunRecord{});
+    if (record_.name.empty()) record_.name = name_of_run(directory_);
+    struct Silence {
+      ~Silence() { set_last_words(""); }
+    } silence;
+    try {
+      rounds();
+    } catch (const Error& error) {
+      // An interruption can also come out of missing() or write_chunk().
+      if (error.code() != ExitCode::kInterrupted || settled_) throw;
+      on_interrupt();
+    }
+    return outcome_;
+  }
+
+ private:
+  void rounds() {
+    while (true) {
+      auto jobs = missing();
+      if (jobs.empty()) return;
+      if (const auto living = living_at_start(); !living.empty()) {
+        outcome_.attached = true;
+        note(living);
+        say(fmt::format("Found {} of this run in the queue; waiting for them.",
+                        ids_text(ids_of(living))));
+        if (options_.detach) {
+          outcome_.detached = true;
+          return;
+        }
+        wait_until_gone(ids_of(living));
+        settle();
+        continue;
+      }
+      if (outcome_.rounds == options_.rounds) {
+        for (SlurmJob& job : jobs) outcome_.missing.push_back(std::move(job.name));
+        return;
+      }
+      const auto ids = submit_round(jobs);
+      if (options_.detach) {
+        outcome_.detached = true;
+        return;
+      }
+      wait_until_gone(ids);
+      settle();
+    }
+  }
+
+  void say(const std::string& sentence) const {
+    if (options_.say) options_.say(sentence);
+  }
+
+  std::vector<SlurmJob> missing() const {
+    auto jobs = work_.missing();
+    throw_if_interrupted();
+    return jobs;
+  }
+
+  static std::vector<SlurmJobId> ids_of(const std::vector<SlurmLivingJob>& jobs) {
+    std::vector<SlurmJobId> ids;
+    for (const auto& job : jobs) ids.push_back(job.id);
+    return ids;
+  }
+
+  /// Each once, and into the words of a second Ctrl-C.
+  void note(SlurmJobId id) {
+    if (std::find(outcome_.jobs.begin(), outcome_.jobs.end(), id) == outcome_.jobs.end())
+      outcome_.jobs.push_back(id);
+    set_last_words(fmt::format("\nleft running: {} (scancel --me --name={})\n",
+                               ids_text(outcome_.jobs), record_.name));
+  }
+  void note(const std::vector<SlurmLivingJob>& jobs) {
+    for (const auto& job : jobs) note(job.id);
+  }
+
+  /// Slurm that does not answer before anything is submitted is an error; later it is waited for.
+  std::vector<SlurmLivingJob> living_at_start() {
+    std::string why;
+    for (int attempt = 0; attempt < 3 || !outcome_.jobs.empty(); ++attempt) {
+      if (attempt > 0 && !wait_for(options_.first_poll)) throw_if_interrupted();
+      auto living = client_.living_jobs(record_.name);
+      if (living) {
+        // The last element of a round may still write its report; a new round need not wait for that.
+        std::erase_if(*living.value,
+                      [](const SlurmLivingJob& job) { return job.comment.ends_with("-finish"); });
+        return *living;
+      }
+      why = living.why;
+      throw_if_interrupted();
+    }
+    throw Error(ExitCode::kEngine, fmt::format("Slurm does not answer: {}", why));
+  }
+
+  // ---- submission
+
+  ChunkRule rule() const {
+    ChunkRule rule = options_.chunks;
+    std::size_t processors = 0;
+    if (const auto nodes = client_.nodes(options_.slurm.partition))
+      for (const auto& group : *nodes)
+        if (group.usable) processors += group.processors;
+    const std::size_t room = processors / std::size_t(options_.slurm.processors);
+    rule.slots = std::max<std::size_t>(room, 1);
+    if (options_.slurm.throttle > 0)
+      rule.slots = std::min(rule.slots, std::size_t(options_.slurm.throttle));
+    long long largest = 1001;  // Slurm's default
+    if (const auto config = client_.config())
+      if (const auto at = config->find("MaxArraySize"); at != config->end())
+        parse_integer(at->second, largest);
+    rule.most_chunks =
+        std::min(rule.most_chunks, std::size_t(std::clamp(largest - 1, 1LL, 1000LL)));
+    return rule;
+  }
+
+  std::vector<SlurmJobId> submit_round(const std::vector<SlurmJob>& jobs) {
+    const ChunkRule chunk_rule = rule();
+    ++outcome_.rounds;
+    ++record_.round;
+    std::vector<SlurmJobId> ids;
+    std::vector<int> phases;
+    for (const SlurmJob& job : jobs) phases.push_back(job.phase);
+    std::sort(phases.begin(), phases.end());
+    phases.erase(std::unique(phases.begin(), phases.end()), phases.end());
+    for (const int phase : phases) {
+      std::vector<std::size_t> of_phase;
+      std::vector<SlurmJob> part;
+      for (std::size_t i = 0; i < jobs.size(); ++i)
+        if (jobs[i].phase == phase) {
+          of_phase.push_back(i);
+          part.push_back(jobs[i]);
+        }
+      auto chunks = make_chunks(part, chunk_rule);
+      const RunRecord::Array array{0, record_.next_chunk, chunks.size(), phase, record_.round};
+      // Recorded first: a number that an element may have is not given away again.
+      record_.next_chunk += chunks.size();
+      write_run_record(directory_, record_);
+      for (std::size_t i = 0; i < chunks.size(); ++i) {
+        for (std::size_t& job : chunks[i]) job = of_phase[job];
+        work_.write_chunk(array.first + i, chunks[i]);
+        throw_if_interrupted();
+      }
+      ids.push_back(submit(array, ids));
+    }
+    say(fmt::format("Round {}: {} in {} as {}.", outcome_.rounds,
+                    jobs.size() == 1 ? "1 job" : fmt::format("{} jobs", jobs.size()),
+                    phases.size() == 1 ? "one array" : fmt::format("{} arrays", phases.size()),
+                    ids_text(ids)));
+    if (options_.finish) submit({0, 0, 1, kFinishPhase, record_.round}, ids);
+    return ids;
+  }
+
+  /// The script is a file, because that is what can be looked at when something is wrong.
+  fs::path write_script(const RunRecord::Array& array, const std::string& title) const {
+    const std::string program = shell_quote(fs::absolute(work_.program).string());
+    const std::string directory = shell_quote(directory_.string());
+    // exec: what Slurm sends reaches the program and no shell before it.
+    const std::string line =
+        array.phase == kFinishPhase
+            ? fmt::format("exec {} farm finish {}", program, directory)
+            : fmt::format("exec {} farm exec-chunk {} $(({} + SLURM_ARRAY_TASK_ID))", program,
+                          directory, array.first);
+    const fs::path path = directory_ / "submit" / (title + ".sh");
+    write_file(path, fmt::format("#!/bin/sh\n{}\n", line));
+    return path;
+  }
+
+  SlurmJobId submit(RunRecord::Array array, const std::vector<SlurmJobId>& after) {
+    const bool last = array.phase == kFinishPhase;
+    const std::string title = last ? fmt::format("{}-finish", array.round)
+                                   : fmt::format("{}-{}", array.round, array.first);
+    const std::string comment = fmt::format("lobelia {}", title);
+    std::string log = directory_.string();
+    for (std::size_t at = 0; (at = log.find('%', at)) != log.npos; at += 2) log.insert(at, 1, '%');
+    std::vector<std::string> arguments = {
+        "--job-name=" + record_.name,
+        "--comment=" + comment,
+        "--ntasks=1",
+        "--requeue",
+        "--open-mode=append",
+        "--chdir=" + directory_.string(),
+        fmt::format("--output={}/log/{}.log", log, last ? "%j" : "%A_%a")};
+    if (!last)
+      arguments.push_back(fmt::format(
+          "--array=0-{}{}", array.count - 1,
+          options_.slurm.throttle > 0 ? fmt::format("%{}", options_.slurm.throttle) : ""));
+    // afterany: one cell that fails must not cancel or hang what comes after.
+    if (!after.empty())
+      arguments.push_back(fmt::format("--dependency=afterany:{}", fmt::join(after, ":")));
+    arguments.insert(arguments.end(), arguments_.begin(), arguments_.end());
+    const fs::path script = write_script(array, title);
+    array.id = submit(arguments, script, comment);
+    record_.arrays.push_back(array);
+    write_run_record(directory_, record_);
+    note(array.id);
+    throw_if_interrupted();
+    return array.id;
+  }
+
+  SlurmJobId submit(const std::vector<std::string>& arguments, const fs::path& script,
+                    const std::string& comment) {
+    std::string why;
+    for (int attempt = 0; attempt < 3; ++attempt) {
+      if (attempt > 0) {
+        wait_for(options_.first_poll, false);
+        // It may have been taken though nobody said so.
+        if (const auto living = client_.living_jobs(record_.name))
+          for (const auto& job : *living)
+            if (job.comment == comment) return job.id;
+        throw_if_interrupted();
+      }
+      const SlurmSubmission submission = client_.submit(arguments, script);
+      if (submission.job) return *submission.job;
+      why = submission.why;
+      if (!submission.unclear) break;
+    }
+    throw Error(ExitCode::kEngine, fmt::format("Slurm did not take the job: {}", why));
+  }
+
+  // ---- waiting
+
+  /// Until none of them is in the queue, nor any other of this run's name but the last.
+  void wait_until_gone(std::vector<SlurmJobId> ids) {
+    Seconds interval = options_.first_poll;
+    while (!ids.empty()) {
+      const auto elements = client_.elements(ids.front(), record_.name);
+      throw_if_interrupted();
+      answered(elements.why);
+      if (elements) {
+        const SlurmProgress progress = count(*elements);
+        if (options_.on_progress) options_.on_progress(progress);
+        if (progress.pending + progress.running == 0) {
+          say_how_they_ended(ids.front(), *elements);
+          ids.erase(ids.begin());
+          stalled_since_.reset();
+          continue;
+        }
+        look_for_stall(*elements, progress);
+      }
+      if (!wait_for(interval)) throw_if_interrupted();
+      interval = std::min(options_.last_poll, interval * 1.3);
+    }
+  }
+
+  void answered(const std::string& why) {
+    if (!why.empty() && !silent_)
+      say(fmt::format(
+          "Slurm does not answer ({}); waiting for it. What runs is not touched by that.", why));
+    if (why.empty() && silent_) say("Slurm answers again.");
+    silent_ = !why.empty();
+  }
+
+  SlurmProgress count(const std::vector<SlurmElement>& elements) const {
+    SlurmProgress progress;
+    progress.round = outcome_.rounds;
+    for (const auto& element : elements) {
+      switch (element.state) {
+        case SlurmElement::State::kPending:
+          if (progress.pending == 0) progress.reason = element.reason;
+          progress.pending += element.count;
+          break;
+        case SlurmElement::State::kRunning:
+          progress.running += element.count;
+          break;
+        case SlurmElement::State::kEnded:
+          progress.ended += element.count;
+          break;
+      }
+    }
+    return progress;
+  }
+
+  void say_how_they_ended(SlurmJobId id, const std::vector<SlurmElement>& elements) const {
+    std::map<std::string, std::size_t> states;
+    for (const auto& element : elements)
+      if (element.state_name != "COMPLETED")
+        states[fmt::format("{} ({})", element.state_name, element.reason)] += element.count;
+    for (const auto& [state, number] : states)
+      say(fmt::format("Job {}: {} of its elements ended as {}; logs are in {}.", id, number, state,
+                      (directory_ / "log").string()));
+  }
+
+  /// Throws once nothing has run for `stall` and nothing can without somebody's doing.
+  void look_for_stall(const std::vector<SlurmElement>& elements, const SlurmProgress& progress) {
+    const bool held =
+        std::all_of(elements.begin(), elements.end(), [](const SlurmElement& element) {
+          return element.state != SlurmElement::State::kPending ||
+                 waits_for_somebody(element.reason);
+        });
+    std::string nodes_say;
+    if (progress.running > 0 || !(held || no_node_is_usable(nodes_say))) {
+      stalled_since_.reset();
+      return;
+    }
+    if (!stalled_since_) stalled_since_ = Clock::now();
+    if (Clock::now() - *stalled_since_ < options_.stall) return;
+    settled_ = true;
+    const std::string what =
+        held ? fmt::format("'scontrol release {}' frees held elements",
+                           fmt::join(outcome_.jobs, ","))
+             : fmt::format(
+                   "no node can run them ({}): 'sinfo -R' says why, and an administrator brings a "
+                   "node back with 'scontrol update NodeName=NODE State=RESUME'",
+                   nodes_say);
+    throw Error(
+        ExitCode::kEngine,
+        fmt::format(
+            "nothing runs and nothing will: {} of {} wait because of '{}'. {}; then the same "
+            "command goes on. 'scancel --me --name={}' gives them up",
+            progress.pending == 1 ? "1 element" : fmt::format("{} elements", progress.pending),
+            ids_text(outcome_.jobs), progress.reason, what, record_.name));
+  }
+
+  bool no_node_is_usable(std::string& states) const {
+    const auto nodes = client_.nodes(options_.slurm.partition);
+    if (!nodes) return false;
+    for (const auto& group : *nodes) {
+      if (group.up && group.usable) return false;
+      states += fmt::format("{}{} {}{}", states.empty() ? "" : ", ", group.nodes, group.state,
+                            group.up ? "" : " in a partition that is down");
+    }
+    return !nodes->empty();
+  }
+
+  /// A result may show late; one that is still missing then is.
+  void settle() {
+    const auto end = Clock::now() + options_.settle;
+    while (Clock::now() < end && !missing().empty())
+      if (!wait_for(std::min(options_.first_poll, options_.settle))) throw_if_interrupted();
+  }
+
+  // ---- Ctrl-C
+
+  [[noreturn]] void on_interrupt() {
+    const std::string again = "the same command goes on";
+    if (outcome_.jobs.empty() && outcome_.rounds == 0)
+      throw Error(ExitCode::kInterrupted, "interrupted; nothing was submitted");
+    const std::string ids = outcome_.jobs.empty() ? "what was submitted" : ids_text(outcome_.jobs);
+    const bool cancel =
+        !options_.detach && (!options_.cancel_on_interrupt || options_.cancel_on_interrupt());
+    if (!cancel)
+      throw Error(ExitCode::kInterrupted,
+                  fmt::format("interrupted; left running: {}; {}", ids, again));
+    say(fmt::format("Cancelling {}; once more leaves at once.", ids));
+    // By name: that finds a job too whose number was not yet read. What ignores TERM is killed after KillWait.
+    Seconds kill_wait(30);
+    if (const auto config = client_.config())
+      if (const auto at = config->find("KillWait"); at != config->end())
+        kill_wait = Seconds(std::clamp(std::strtod(at->second.c_str(), nullptr), 0.0, 600.0));
+    std::string why;
+    for (const auto end = Clock::now() + kill_wait + Seconds(15); Clock::now() < end;) {
+      why = client_.cancel(record_.name);
+      const auto living = client_.living_jobs(record_.name);
+      if (living && living->empty())
+        throw Error(ExitCode::kInterrupted,
+                    fmt::format("interrupted; cancelled {}; {}", ids, again));
+      if (!living) why = living.why;
+      wait_for(std::min(options_.first_poll, Seconds(0.5)), false);
+    }
+    throw Error(
+        ExitCode::kInterrupted,
+        fmt::format("interrupted; {} may still run{}: 'scancel --me --name={}' cancels them; {}",
+                    ids, why.empty() ? "" : fmt::format(" ({})", why), record_.name, again));
+  }
+
+  const SlurmWork& work_;
+  const SlurmRunOptions& options_;
+  SlurmClient client_;
+  std::vector<std::string> arguments_;
+  fs::path directory_;
+  RunRecord record_;
+  SlurmOutcome outcome_;
+  bool silent_ = false;   ///< Slurm, at the last call
+  bool settled_ = false;  ///< nothing is to be cancelled any more
+  std::optional<Clock::time_point> stalled_since_;
+};
+
+}  // namespace
+
+SlurmOutcome run_on_slurm(const SlurmWork& work, const SlurmRunOptions& options) {
+  return Run(work, options)();
+}
+
+bool ask_whether_to_cancel() {
+  if (!::isatty(0) || !::isatty(2)) return true;
+  while (true) {
+    std::fputs("\ncancel the jobs, or leave them running? [c/d] ", stderr);
+    char answer[64];
+    ssize_t size = 0;
+    // A signal that comes meanwhile is dealt with by its handler; the question stays.
+    while ((size = ::read(0, answer, sizeof answer)) < 0 && errno == EINTR) {
+    }
+    if (size <= 0 || answer[0] == 'c' || answer[0] == 'C') return true;
+    if (answer[0] == 'd' || answer[0] == 'D') return false;
+  }
+}
+
+SlurmStatus slurm_status(const fs::path& run_directory, std::chrono::duration<double> call_limit) {
+  SlurmStatus status;
+  const auto record = read_run_record(run_directory);
+  if (!record) return status;
+  status.name = record->name;
+  status.round = status.elements.round = record->round;
+  const SlurmClient client(call_limit);
+  const auto living = client.living_jobs(record->name);
+  if (!living) {
+    status.problem = living.why;
+    return status;
+  }
+  status.living = *living;
+  for (const auto& job : status.living) {
+    const auto elements = client.elements(job.id, record->name);
+    if (!elements) {
+      status.problem = elements.why;
+      continue;
+    }
+    for (const auto& element : *elements) {
+      if (element.state == SlurmElement::State::kPending) {
+        status.elements.pending += element.count;
+        if (status.elements.reason.empty()) status.elements.reason = element.reason;
+      }
+      if (element.state == SlurmElement::State::kRunning) status.elements.running += element.count;
+      if (element.state == SlurmElement::State::kEnded) status.elements.ended += element.count;
+    }
+  }
+  return status;
+}
+
+}  // namespace lobelia

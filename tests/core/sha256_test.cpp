@@ -1,0 +1,47 @@
+#include "core/sha256.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/build_id.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace lobelia {
+namespace {
+
+TEST(Sha256, GivesTheDigestsThatTheStandardPublishes) {
+  // FIPS 180-4's examples, and NIST's of a million letters.
+  EXPECT_EQ(hex(sha256("")), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(hex(sha256("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(hex(sha256(std::string(1000000, 'a'))),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST(Sha256, OfAFileIsThatOfItsBytes) {
+  const TemporaryDirectory directory;
+  const std::string text(300001, 'x');
+  write_file(directory.path() / "file", text);
+  EXPECT_EQ(sha256_of_file(directory.path() / "file"), sha256(text));
+  EXPECT_THROW(sha256_of_file(directory.path() / "none"), Error);
+  EXPECT_THROW(sha256_of_file(directory.path()), Error);
+}
+
+TEST(Sha256, ReadsBackItsOwnHexadecimalAndNothingElse) {
+  const Sha256Digest digest = sha256("abc");
+  Sha256Digest back{};
+  EXPECT_TRUE(from_hex(hex(digest), back));
+  EXPECT_EQ(back, digest);
+  const std::string good = hex(digest);
+  for (const std::string& bad : {std::string(), good.substr(1), good + "0", "X" + good.substr(1),
+                                 "/" + good.substr(1), ":" + good.substr(1)})
+    EXPECT_FALSE(from_hex(bad, back)) << bad;
+}
+
+TEST(BuildId, IsTheSameAsLongAsTheProgramRunsAndSafeInAText) {
+  EXPECT_GE(build_id().size(), 16u);
+  EXPECT_EQ(build_id().find_first_not_of("0123456789abcdef"), std::string::npos);
+  EXPECT_EQ(&build_id(), &build_id());
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,112 @@
+#include "farm/chunk.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "farm_fixture.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ChunkTest : public FarmTest {
+ protected:
+  /// Writes a chunk of the jobs whose names a filter picks; returns its file.
+  fs::path chunk(const Grid& grid, const std::string& patterns) const {
+    FarmOptions options;
+    FarmWork work(grid, options);
+    const ResultCache cache(out() / "cache");
+    std::vector<JobIndex> jobs;
+    for (JobIndex job = 0; job < work.graph.size(); ++job)
+      if (work.graph[job].exists && JobFilter(patterns).picks(work.graph.name(job)))
+        jobs.push_back(job);
+    const fs::path file = directory_.path() / "chunk.json";
+    write_record(file, chunk_record(work, cache, options, jobs));
+    return file;
+  }
+  Grid two() { return grid("16, 32", "<engine name=\"analytic\"/>"); }
+};
+
+TEST_F(ChunkTest, MakesTheVeryResultsThatTheFarmWouldMake) {
+  const Grid small = two();
+  for (const char* part : {"*render:*reference*", "*compare*:*profile"}) {
+    const ChunkSummary done = exec_chunk(chunk(small, part), 1);
+    EXPECT_EQ(done.jobs, 4u) << part;
+    EXPECT_EQ(done.done, 4u) << part;
+    EXPECT_EQ(done.work.made, 4u) << part;
+  }
+  const FarmSummary farm = run_farm(small, out(), {});
+  EXPECT_EQ(farm.work.made, 0u) << "everything was there, under the same keys";
+  EXPECT_EQ(farm.pass, 2u);
+}
+
+TEST_F(ChunkTest, DoesWhatIsThereNoSecondTime) {
+  const fs::path file = chunk(two(), "*");
+  EXPECT_EQ(exec_chunk(file, 2).work.made, 8u);
+  const ChunkSummary again = exec_chunk(file, 2);
+  EXPECT_EQ(again.work.made, 0u);
+  EXPECT_EQ(again.done, 8u);
+}
+
+TEST_F(ChunkTest, LeavesAloneWhatHasNoInputs) {
+  const ChunkSummary done = exec_chunk(chunk(two(), "*compare*:*profile"), 1);
+  EXPECT_EQ(done.jobs, 4u);
+  EXPECT_EQ(done.done, 0u);
+  EXPECT_EQ(done.failed, 0u) << "the next round has it";
+}
+
+TEST_F(ChunkTest, ComparesAndDrawsWhatDidNotFail) {
+  const Grid small = grid("16", "<engine name=\"analytic\"/><engine name=\"povray\"/>");
+  FarmOptions options;
+  options.attempts = 1;
+  options.programs = {{"povray", script("povray",
+                                        "echo 'POV-Ray 3.7.0.10' >&2\n"
+                                        "case \"$*\" in *version*) exit 0;; esac\n"
+                                        "exit 3\n")}};
+  FarmWork work(small, options);
+  const ResultCache cache(out() / "cache");
+  std::vector<JobIndex> pictures, rest;
+  for (JobIndex job = 0; job < work.graph.size(); ++job)
+    (work.graph[job].kind == JobKind::kRender || work.graph[job].kind == JobKind::kReference
+         ? pictures
+         : rest)
+        .push_back(job);
+  const fs::path file = directory_.path() / "chunk.json";
+  write_record(file, chunk_record(work, cache, options, pictures));
+  ChunkSummary done = exec_chunk(file, 1);
+  EXPECT_EQ(done.done, 2u);
+  EXPECT_EQ(done.failed, 1u);
+  write_record(file, chunk_record(work, cache, options, rest));
+  done = exec_chunk(file, 1);
+  EXPECT_EQ(done.done, 2u) << "one comparison, and a profile without POV-Ray";
+}
+
+TEST_F(ChunkTest, OfAnotherBuildOrNoneIsRefused) {
+  const fs::path file = chunk(two(), "*");
+  Json record = read_record(file, "farm-chunk");
+  const auto refused = [&](const Json& changed) {
+    write_record(file, changed);
+    try {
+      exec_chunk(file, 1);
+      return std::string("done");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kInput);
+      return std::string(error.what());
+    }
+  };
+  Json other = record;
+  other["program"] = "lobelia 9.9.9 abc";
+  EXPECT_THAT(refused(other), testing::HasSubstr("planned by lobelia 9.9.9 abc"));
+  for (const char* key : {"cells", "engines", "limits", "cache"}) {
+    other = record;
+    other.erase(key);
+    EXPECT_THAT(refused(other), testing::HasSubstr("not a chunk")) << key;
+  }
+  other = record;
+  other["cells"][0]["scene"] = "<scene/>";
+  EXPECT_NE(refused(other), "done");
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,188 @@
+// Engines that do whatever engines should not do.
+#include <signal.h>
+
+#include <fstream>
+
+#include "core/image_io.hpp"
+#include "failing_farm.hpp"
+#include "reference_scenes/failure.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+struct Misdeed {
+  FailureClass failure;
+  const char* shell;
+};
+
+constexpr Misdeed kMisdeeds[] = {
+    {FailureClass::kNoProgress, "sleep 600"},
+    {FailureClass::kTimedOut, "while :; do echo working; sleep 0.05; done"},
+    {FailureClass::kTimedOut, "(while :; do echo a child; sleep 0.1; done) & sleep 600"},
+    {FailureClass::kNoOutput, "exit 0"},
+    {FailureClass::kBadOutput, ": > $stem.exr; exit 0"},
+    {FailureClass::kBadOutput, "head -c 5000 /dev/urandom > $stem.exr; exit 0"},
+    {FailureClass::kBadOutput, "head -c 900 $pictures/$name.exr > $stem.exr; exit 0"},
+    {FailureClass::kBadOutput, "echo no picture > $stem.exr; exit 0"},
+    {FailureClass::kBadOutput, "mkdir $stem.exr; exit 0"},
+    {FailureClass::kBadOutput, "mkfifo $stem.exr; exit 0"},
+    {FailureClass::kWrongSize, "cp $pictures/large.exr $stem.exr; exit 0"},
+    {FailureClass::kNonFinite, "cp $pictures/nan.exr $stem.exr; exit 0"},
+    {FailureClass::kExitCode, "echo Error: no memory; exit 3"},
+    {FailureClass::kExitCode, "head -c 3000000 /dev/zero; exit 1"},
+    {FailureClass::kCrash, "kill -SEGV $$"},
+    {FailureClass::kCrash, "kill -KILL $$"},
+};
+
+/// One cell for each misdeed, and one that is well.
+class BadEngine : public FailingFarm {
+ protected:
+  BadEngine() {
+    std::vector<std::string> exponents{"1000"};
+    for (std::size_t i = 0; i < std::size(kMisdeeds); ++i)
+      exponents.push_back(std::to_string(i + 1));
+    grid(exponents);
+    fs::create_directory(root() / "pictures");
+    Image image(32, 32);
+    image.values()[40] = std::numeric_limits<float>::quiet_NaN();
+    write_exr(root() / "pictures" / "nan.exr", image, {});
+    write_exr(root() / "pictures" / "large.exr", Image(33, 32), {});
+  }
+};
+
+TEST_F(BadEngine, FailsEachTimeInItsOwnClassAndStopsNothingElse) {
+  undisturbed();
+  std::string misdeeds = "case $cell in\n";
+  for (std::size_t i = 0; i < std::size(kMisdeeds); ++i)
+    misdeeds += fmt::format("n{}) {};;\n", i + 1, kMisdeeds[i].shell);
+  fake_povray(misdeeds + "esac");
+  const FarmRun first = run({"--attempts", "2", "--no-progress-limit", "1.5", "--time-limit", "4"});
+  EXPECT_EQ(first.exit_code, 4) << first.output;
+  EXPECT_THAT(first.output, testing::StartsWith("lobelia: n10: povray: ")) << "failures come first";
+  EXPECT_THAT(first.output,
+              HasSubstr("17 cells: 16 failed, 0 differ, 1 pass; 18 pictures rendered"));
+  for (std::size_t i = 0; i < std::size(kMisdeeds); ++i) {
+    SCOPED_TRACE(kMisdeeds[i].shell);
+    const std::string cell = fmt::format("n{}", i + 1);
+    const Json failure = failure_of(cell);
+    EXPECT_EQ(failure.value("failure", ""), failure_name(kMisdeeds[i].failure)) << failure;
+    EXPECT_EQ(failure.value("attempts", 0), 2);
+    EXPECT_TRUE(fs::exists(out() / "cells" / cell / "povray.log"));
+    EXPECT_TRUE(fs::exists(out() / "cells" / cell / "lobelia.exr"));
+  }
+  expect_nothing_half_written();
+
+  fake_povray();
+  expect_mended(run(), std::size(kMisdeeds));
+}
+
+using OddEngine = FailingFarm;
+
+TEST_F(OddEngine, ThatFailsAtFirstIsTriedAgainAndTheRecordSaysHowOften) {
+  undisturbed();
+  fake_povray("if [ $cell = n16 ] && " + first_times("failures", 2) + "; then kill -SEGV $$; fi");
+  const FarmRun only = run();
+  expect_mended(only, pictures());
+  EXPECT_EQ(
+      read_record(result_of("n16", "reference-povray") / "result.json", "result").at("attempts"),
+      3);
+  EXPECT_EQ(
+      read_record(result_of("n8", "reference-povray") / "result.json", "result").at("attempts"), 1);
+}
+
+TEST_F(OddEngine, IsTriedNoMoreOftenThanWasAllowed) {
+  undisturbed();
+  fake_povray("if [ $cell = n16 ] && " + first_times("failures", 2) + "; then kill -SEGV $$; fi");
+  EXPECT_EQ(run({"--attempts", "2"}).exit_code, 4);
+  EXPECT_EQ(failure_of("n16").value("attempts", 0), 2);
+  expect_mended(run(), 1);
+}
+
+TEST_F(OddEngine, ThatGoesAwayInTheMiddleIsMissingAndWhenItComesBackGoesOn) {
+  undisturbed();
+  fake_povray();
+  // Cells come in the order n8, n32, n16, n64: the program is there for the version alone.
+  const fs::path program = root() / "povray";
+  write_file(program,
+             "#!/bin/sh\ncase \"$*\" in *version*) echo 'POV-Ray 3.7.0.10' >&2;; esac\nmv '" +
+                 program.string() + "' '" + program.string() + "-gone'\n");
+  fs::permissions(program, fs::perms::owner_all);
+  const FarmRun first = run();
+  EXPECT_EQ(first.exit_code, 4) << first.output;
+  EXPECT_EQ(failure_of("n16").value("failure", ""), "engine missing");
+  EXPECT_EQ(failure_of("n16").value("attempts", 0), 1) << "again is of no use";
+  fake_povray();
+  expect_mended(run(), 4);
+}
+
+TEST_F(OddEngine, ThatIsNotThereAtAllTakesNothingAwayFromTheCache) {
+  undisturbed();
+  fake_povray();
+  ASSERT_EQ(run().exit_code, 0);
+  const fs::path program = root() / "povray";
+  fs::rename(program, root() / "elsewhere");
+  const FarmRun without = run({"--povray", program.string()});
+  EXPECT_EQ(without.exit_code, 5) << without.output;
+  // Where it is looked for in $PATH, it is left out.
+  const FarmRun left_out = run_command(command(), {"PATH=/nonexistent"});
+  EXPECT_EQ(left_out.exit_code, 0) << left_out.output;
+  EXPECT_THAT(left_out.output, HasSubstr("POV-Ray is left out"));
+  EXPECT_THAT(left_out.output, HasSubstr("4 not compared"));
+  EXPECT_FALSE(fs::exists(out() / "cells" / "n16" / "povray.exr"));
+  fs::rename(root() / "elsewhere", program);
+  expect_mended(run(), 0);
+}
+
+TEST_F(OddEngine, EndsAFarmAtItsFirstFailureIfThatIsWanted) {
+  undisturbed();
+  fake_povray("[ $cell != n8 ] || exit 3");
+  const FarmRun first = run({"--fail-fast", "--threads", "1"});
+  EXPECT_EQ(first.exit_code, 4) << first.output;
+  EXPECT_THAT(first.output, HasSubstr("n8: povray: "));
+  EXPECT_EQ(failure_of("n8").value("failure", ""), "exit code");
+  const std::size_t there = cached_pictures();
+  fake_povray();
+  expect_mended(run(), pictures() - there);
+}
+
+TEST_F(OddEngine, StopsNothingElseIfThatIsWanted) {
+  undisturbed();
+  fake_povray("[ $cell = n8 ] || exit 3");
+  const FarmRun first = run({"--keep-going"});
+  EXPECT_EQ(first.exit_code, 4) << first.output;
+  EXPECT_THAT(first.output, HasSubstr("3 failed, 0 differ, 1 pass; 5 pictures rendered"));
+  EXPECT_EQ(run({"--keep-going", "--fail-fast"}).exit_code, 2);
+  fake_povray();
+  expect_mended(run(), 3);
+}
+
+TEST_F(OddEngine, WhosePictureIsAnotherOneMakesCellsThatDiffer) {
+  undisturbed();
+  // The picture of another cell.
+  fake_povray(
+      "if [ $cell = n16 ]; then for other in $pictures/*.cell; do read id < $other\n"
+      "if [ $id = n8 ]; then cp ${other%.cell}.exr $stem.exr; exit 0; fi; done; fi");
+  const FarmRun first = run();
+  EXPECT_EQ(first.exit_code, 1) << first.output;
+  EXPECT_THAT(first.output, HasSubstr("4 cells: 0 failed, 1 differ, 3 pass"));
+  EXPECT_EQ(run().rendered, 0u) << "an answer, and no failure";
+}
+
+TEST_F(OddEngine, IsInterruptedWithTheFarmAndLeavesNothing) {
+  undisturbed();
+  fake_povray("[ $cell = n8 ] || { echo waiting; sleep 600; }");
+  RunningFarm farm(command(), root());
+  while (cached_pictures() < 5 && !farm.has_ended()) ::usleep(10000);
+  farm.signal(SIGINT);
+  EXPECT_EQ(farm.wait(), 130) << farm.output();
+  EXPECT_THAT(farm.output(), HasSubstr("the same command goes on from there"));
+  EXPECT_EQ(cached_pictures(), 5u);
+  expect_nothing_half_written();
+  fake_povray();
+  expect_mended(run(), 3);
+}
+
+}  // namespace
+}  // namespace lobelia

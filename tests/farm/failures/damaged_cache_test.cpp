@@ -1,0 +1,205 @@
+// What others, and disks, do to a cache.
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "failing_farm.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+class DamagedCache : public FailingFarm {
+ protected:
+  DamagedCache() {
+    undisturbed();
+    fake_povray();
+    EXPECT_EQ(run().exit_code, 0);
+  }
+  static void replace(const fs::path& file, const std::string& text) {
+    fs::remove(file);
+    std::ofstream(file) << text;
+  }
+  /// In place, so that the farm's directory shows it too.
+  static void flip_a_bit(const fs::path& file) {
+    fs::permissions(file, fs::perms::owner_write, fs::perm_options::add);
+    const auto middle = std::streamoff(fs::file_size(file) / 2);
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekg(middle);
+    const int byte = stream.get();
+    stream.seekp(middle);
+    stream.put(char(byte ^ 1));
+  }
+};
+
+TEST_F(DamagedCache, OfWhateverFileIsMadeAgainAsFarAsItIsDamaged) {
+  std::vector<fs::path> files;
+  const std::pair<const char*, std::size_t> jobs[] = {
+      {"render", 1}, {"reference-povray", 1}, {"compare-povray", 0}, {"profile", 0}};
+  for (const auto& [job, pictures_lost] : jobs) {
+    for (const auto& entry : fs::directory_iterator(result_of("n16", job)))
+      files.push_back(entry.path());
+    for (const auto& file : files) {
+      SCOPED_TRACE(file.filename().string());
+      flip_a_bit(file);
+      expect_mended(run(), pictures_lost);
+      fs::permissions(file, fs::perms::owner_write, fs::perm_options::add);
+      fs::resize_file(file, fs::file_size(file) / 2);
+      expect_mended(run(), pictures_lost);
+    }
+    files.clear();
+  }
+}
+
+TEST_F(DamagedCache, ThatNobodyNoticesIsFoundByVerifyAndMadeAgain) {
+  const fs::path file = result_of("n16", "reference-povray") / "povray.exr";
+  const auto time = fs::last_write_time(file);
+  flip_a_bit(file);
+  fs::last_write_time(file, time);
+  EXPECT_EQ(run().rendered, 0u) << "its age and size are as they were";
+  const FarmRun verify = run_command({"farm", "verify", "out", "--remove"});
+  EXPECT_THAT(verify.output, HasSubstr("damaged: "));
+  EXPECT_THAT(verify.output, HasSubstr("povray.exr has another content"));
+  expect_mended(run(), 1);
+}
+
+TEST_F(DamagedCache, WithAnythingInPlaceOfAResultHasNoneThere) {
+  const fs::path outside = root() / "outside";
+  const auto with = [&](const char* what, const auto& put) {
+    SCOPED_TRACE(what);
+    const fs::path result = result_of("n16", "reference-povray");
+    fs::remove_all(result);
+    put(result);
+    expect_mended(run(), 1);
+    EXPECT_TRUE(fs::is_directory(fs::symlink_status(result)));
+  };
+  with("a file", [](const fs::path& result) { std::ofstream(result) << "x"; });
+  with("a pipe", [](const fs::path& result) { ::mkfifo(result.c_str(), 0600); });
+  with("a link to nothing",
+       [](const fs::path& result) { fs::create_symlink("/nonexistent", result); });
+  with("an empty directory", [](const fs::path& result) { fs::create_directory(result); });
+  with("a directory of other things", [](const fs::path& result) {
+    fs::create_directories(result / "a" / "b");
+    std::ofstream(result / "a" / "c") << "x";
+  });
+  with("a link to a directory of the user's", [&](const fs::path& result) {
+    fs::create_directories(outside);
+    std::ofstream(outside / "precious") << "x";
+    fs::create_symlink(outside, result);
+  });
+  EXPECT_TRUE(fs::exists(outside / "precious"));
+  with("a record that is a pipe", [](const fs::path& result) {
+    fs::create_directory(result);
+    ::mkfifo((result / "result.json").c_str(), 0600);
+  });
+  with("a record that is endless", [](const fs::path& result) {
+    fs::create_directory(result);
+    fs::create_symlink("/dev/zero", result / "result.json");
+  });
+}
+
+TEST_F(DamagedCache, BelievesNoHostileRecord) {
+  const char* const jobs[] = {"render", "reference-povray", "compare-povray", "profile"};
+  for (const char* job : jobs) {
+    const fs::path file = result_of("n16", job) / "result.json";
+    const Json whole = Json::parse(read_file(file, 1 << 20));
+    std::vector<std::string> hostile = {
+        "", "null", "[]", "{}", "12", "{\"kind\": \"result\"}", std::string(100000, '[')};
+    for (const auto& [key, value] : whole.items())
+      for (const Json& other : {Json(nullptr), Json(-1), Json("../../x"), Json::array({1}), Json::object()}) {
+        if (key != "files" && key != "verdict" && key != "entry" && key != "from" && key != "key" &&
+            key != "warnings" && key != "exposureStops" && key != "highlight")
+          continue;
+        Json record = whole;
+        record[key] = other;
+        hostile.push_back(record.dump());
+      }
+    for (const char* key : {"exposureStops", "verdict", "entry", "from", "files"})
+      if (whole.contains(key)) {
+        Json record = whole;
+        record.erase(key);
+        hostile.push_back(record.dump());
+      }
+    for (std::size_t i = 0; i < hostile.size() && !HasFailure(); ++i) {
+      SCOPED_TRACE(fmt::format("{}: {}", job, hostile[i].substr(0, 3000)));
+      replace(file, hostile[i]);
+      const FarmRun second = run();
+      EXPECT_EQ(second.exit_code, 0) << second.output;
+      EXPECT_THAT(differences(undisturbed(), results_of(out())), testing::IsEmpty());
+    }
+  }
+  expect_nothing_half_written();
+}
+
+TEST_F(DamagedCache, OfWhichAllIsTakenAwayByGcIsFilledAgain) {
+  const FarmRun gc = run_command({"farm", "gc", "cache", "--max-size", "0"});
+  EXPECT_EQ(gc.exit_code, 0) << gc.output;
+  EXPECT_EQ(cached_pictures(), 0u);
+  expect_mended(run(), pictures());
+}
+
+TEST_F(DamagedCache, DoesNotMatterToCellsThatAreDamagedToo) {
+  for (const char* text : {"", "null", "[]", "{\"kind\": \"cell\"}", "{\"schemaVersion\": 1, \"kind\": \"cell\"}",
+                           "{\"schemaVersion\": 1, \"kind\": \"cell\", \"status\": 1, \"problems\": 3, \"results\": []}"}) {
+    SCOPED_TRACE(text);
+    replace(out() / "cells" / "n16" / "cell.json", text);
+    expect_mended(run(), 0);
+  }
+  for (const char* name : {"lobelia.exr", "povray.png", "profile.json", "scene.xml"}) {
+    replace(out() / "cells" / "n8" / name, "x");
+    expect_mended(run(), 0);
+    fs::remove(out() / "cells" / "n8" / name);
+    fs::create_symlink("/nonexistent", out() / "cells" / "n8" / name);
+    expect_mended(run(), 0);
+  }
+}
+
+TEST_F(DamagedCache, ThatIsNoneIsSaidToBeNone) {
+  const auto refused = [&](const std::string& path, int code) {
+    const FarmRun farm = run_command({"farm", "grid.xml", "-o", "other", "--cache", path});
+    EXPECT_EQ(farm.exit_code, code) << path << ": " << farm.output;
+    EXPECT_EQ(std::ranges::count(farm.output, '\n'), 1) << farm.output;
+  };
+  std::ofstream(root() / "file") << "x";
+  refused("file", 4);
+  refused("grid.xml/cache", 4);
+  fs::create_directories(root() / "full" / "of");
+  refused("full", 3);
+  EXPECT_FALSE(fs::exists(root() / "full" / "results"));
+}
+
+TEST_F(DamagedCache, AndAFarmAreNotPutWhereTheyWouldBeTakenForEachOthersParts) {
+  for (const auto& [directory, cache_path] :
+       {std::pair("other", "other/cells/cache"), std::pair("other", "other/cells"),
+        std::pair("cache/making/other", "cache"), std::pair("cache/results", "cache")}) {
+    const FarmRun farm = run_command({"farm", "grid.xml", "-o", directory, "--cache", cache_path});
+    EXPECT_EQ(farm.exit_code, 2) << directory << " " << cache_path << ": " << farm.output;
+  }
+  expect_mended(run(), 0);
+}
+
+TEST_F(DamagedCache, CommandsThatTakeThingsAwayWantToKnowThatItIsAFarms) {
+  fs::create_directories(root() / "home" / "cells" / "precious");
+  for (const char* command : {"clean", "gc", "verify", "status"}) {
+    const FarmRun refused = run_command({"farm", command, "home"});
+    EXPECT_EQ(refused.exit_code, 3) << command << ": " << refused.output;
+    EXPECT_EQ(std::ranges::count(refused.output, '\n'), 1) << refused.output;
+  }
+  EXPECT_TRUE(fs::exists(root() / "home" / "cells" / "precious"));
+  for (const char* record :
+       {"{\"schemaVersion\": 1, \"kind\": \"farm\"}",
+        "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": 7, \"cache\": 8, \"title\": []}",
+        "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": [{\"id\": 3}], \"cache\": \"../cache\"}",
+        "{\"schemaVersion\": 1, \"kind\": \"farm\", \"cells\": [{\"id\": \"../../x\", \"status\": []}]}"}) {
+    std::ofstream(root() / "home" / "farm.json") << record;
+    for (const char* command : {"clean", "status"}) {
+      const FarmRun refused = run_command({"farm", command, "home"});
+      EXPECT_EQ(refused.exit_code, 3) << command << " " << record << ": " << refused.output;
+    }
+    EXPECT_TRUE(fs::exists(root() / "home" / "cells" / "precious")) << record;
+  }
+}
+
+}  // namespace
+}  // namespace lobelia

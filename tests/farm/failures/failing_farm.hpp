@@ -1,0 +1,106 @@
+// A small farm that is run as a user runs it and disturbed, and what must come out of it all the same.
+#pragma once
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/files.hpp"
+#include "core/record.hpp"
+
+namespace lobelia {
+
+namespace fs = std::filesystem;
+
+/// What a farm has made, by file: every picture and figure byte for byte; of records what does not tell when, where
+/// and at what cost they were made. Logs only by name.
+using Results = std::map<std::string, std::string>;
+Results results_of(const fs::path& farm_directory);
+
+/// Names of files that are not the same in both.
+std::vector<std::string> differences(const Results& a, const Results& b);
+
+/// The program at work.
+class RunningFarm {
+ public:
+  RunningFarm(std::vector<std::string> arguments, const fs::path& directory,
+              const std::vector<std::string>& environment = {});
+  ~RunningFarm();
+  RunningFarm(const RunningFarm&) = delete;
+  RunningFarm& operator=(const RunningFarm&) = delete;
+  void signal(int number) const;
+  /// Until it has ended: its exit code, or 128 + signal. At most 120 s.
+  int wait();
+  bool has_ended();
+  /// Processes that it started and whose program is named so.
+  std::vector<int> children(const std::string& name) const;
+  std::string output() const { return read_file(output_, 1 << 26); }  ///< so far
+
+ private:
+  fs::path output_;
+  int pid_ = 0;
+  int exit_code_ = -1;
+};
+
+struct FarmRun {
+  int exit_code = 0;
+  std::string output;
+  std::size_t rendered = 0, kept = 0;  ///< pictures, as its last line says
+};
+
+class FailingFarm : public testing::Test {
+ protected:
+  FailingFarm();
+
+  fs::path root() const { return directory_.path(); }
+  fs::path out() const { return root() / "out"; }
+  fs::path cache() const { return root() / "cache"; }
+  /// Four cells, n8 to n64, with POV-Ray's pictures, until this makes it another.
+  fs::path grid(const std::vector<std::string>& exponents,
+                const std::string& engines = "<engine name=\"povray\"/>", int size = 32);
+  std::size_t pictures() const { return pictures_; }  ///< of that grid
+
+  /// "farm GRID -o out --cache cache" and then `more`.
+  std::vector<std::string> command(const std::vector<std::string>& more = {}) const;
+  FarmRun run(const std::vector<std::string>& more = {}) const {
+    return run_command(command(more));
+  }
+  FarmRun run_command(const std::vector<std::string>& arguments,
+                      const std::vector<std::string>& environment = {}) const;
+
+  /// A program that answers as POV-Ray does and has every picture of grid() ready. `misdeeds` is shell that runs
+  /// before each picture: $cell is the cell's id, $stem.exr what is to be written. Returns its path.
+  fs::path fake_povray(const std::string& misdeeds = "") const;
+  /// A script that is no test's own.
+  fs::path script(const std::string& name, const std::string& text) const;
+  /// Shell words that are true so many times: the engine may write nothing that would count.
+  std::string first_times(const std::string& name, int times);
+
+  /// What the farm of grid() comes to when nothing happens to it; made once.
+  const Results& undisturbed();
+
+  /// After a second run: it ended well, with the undisturbed farm's results, and nothing half-written lies anywhere.
+  void expect_mended(const FarmRun& second, std::size_t lost_pictures);
+  /// Without the count.
+  void expect_mended(const FarmRun& second);
+  void expect_nothing_half_written() const;
+
+  /// Pictures in the cache.
+  std::size_t cached_pictures() const;
+  fs::path result_of(const std::string& cell, const std::string& job) const;
+  Json failure_of(const std::string& cell) const;
+
+ private:
+  const TemporaryDirectory directory_;
+  std::size_t pictures_ = 0;
+  Results undisturbed_;
+  std::vector<int> held_open_;
+};
+
+}  // namespace lobelia

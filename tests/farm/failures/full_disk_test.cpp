@@ -1,0 +1,94 @@
+// Disks of the test's own, in a mount namespace: full ones, and ones that may only be read.
+#include "core/process.hpp"
+#include "failing_farm.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+class Disk : public FailingFarm {
+ protected:
+  void SetUp() override {
+    ProcessOptions options;
+    if (run_process({"/bin/sh", "-c", "unshare -rm sh -c 'mount -t tmpfs none /mnt'"}, options).exit_code != 0)
+      GTEST_SKIP() << "no mount namespaces here: unshare -rm is not allowed";
+    undisturbed();
+    fake_povray();
+    fs::create_directories(cache());
+  }
+  /// Shell in a namespace of its own: $FARM is the farm's command, `$FARM >> a 2>&1; echo $?`.
+  std::string in_namespace(const std::string& text) const {
+    std::string farm = LOBELIA_PROGRAM;
+    for (const auto& argument : command()) farm += " '" + argument + "'";
+    script("in_namespace", "cd '" + root().string() + "'; export TMPDIR=$PWD/tmp\nfarm() { " + farm +
+                               " \"$@\"; }\n" + text);
+    ProcessOptions options;
+    options.timeout = std::chrono::seconds(100);
+    options.log = root() / "log";
+    fs::remove(options.log);
+    run_process({"/usr/bin/env", "unshare", "-rm", (root() / "in_namespace").string()}, options);
+    return read_file(options.log, 1 << 26);
+  }
+};
+
+TEST_F(Disk, ThatIsFullEndsTheFarmWithOneLineAndWithRoomItGoesOn) {
+  // So small that nothing fits at all, then a bit more of it.
+  for (const int kilobytes : {4, 16, 40, 60, 90, 120, 200}) {
+    SCOPED_TRACE(kilobytes);
+    fs::remove_all(out());
+    const std::string said = in_namespace(fmt::format(
+        "mount -t tmpfs -o size={}k none cache\n"
+        "farm -q > first 2>&1; echo first $?; wc -l < first; cat first\n"
+        "find cache/making cache/failures -type f; find cache out -name '*.part'\n"
+        "mount -o remount,size=100M cache\n"
+        "echo second; farm; echo second $?; find cache/making -mindepth 1\n",
+        kilobytes));
+    EXPECT_THAT(said, testing::StartsWith("first 4\n1\nlobelia: "));
+    EXPECT_THAT(said, HasSubstr("No space left on device\nsecond\n4 cells: 0 failed, 0 differ, 4 pass;"));
+    EXPECT_THAT(said, testing::EndsWith("second 0\n"));
+    EXPECT_THAT(differences(undisturbed(), results_of(out())), testing::IsEmpty());
+  }
+}
+
+TEST_F(Disk, OfTheFarmsDirectoryMayBeFullToo) {
+  fs::create_directories(out());
+  for (const int kilobytes : {4, 40, 100}) {
+    SCOPED_TRACE(kilobytes);
+    const std::string said = in_namespace(fmt::format(
+        "mount -t tmpfs -o size={}k none out\n"
+        "farm -q > first 2>&1; echo first $?; wc -l < first; cat first; find out -name '*.part'\n"
+        "mount -o remount,size=100M out\n"
+        "echo second; farm; echo second $?; cp -a out/. there\n",
+        kilobytes));
+    EXPECT_THAT(said, testing::StartsWith("first 4\n1\nlobelia: "));
+    EXPECT_THAT(said, HasSubstr("No space left on device\nsecond\n4 cells: 0 failed, 0 differ, 4 pass;"));
+    EXPECT_THAT(differences(undisturbed(), results_of(root() / "there")), testing::IsEmpty());
+  }
+}
+
+TEST_F(Disk, ThatMayOnlyBeReadServesWhatItHas) {
+  ASSERT_EQ(run().exit_code, 0);
+  fs::remove_all(out());
+  const std::string said = in_namespace(
+      "mount --bind cache cache && mount -o remount,bind,ro cache\n"
+      "touch cache/x 2> touched; wc -l < touched\n"
+      "farm; echo $?; farm status out; echo $?; " LOBELIA_PROGRAM " farm verify out -q; echo $?\n");
+  EXPECT_THAT(said, testing::StartsWith(
+                        "1\n4 cells: 0 failed, 0 differ, 4 pass; 0 pictures rendered, 8 kept\n"));
+  EXPECT_THAT(differences(undisturbed(), results_of(out())), testing::IsEmpty());
+  EXPECT_THAT(said, HasSubstr("all whole\n0\n"));
+}
+
+TEST_F(Disk, ThatMayOnlyBeReadSaysSoWhereSomethingIsMissing) {
+  ASSERT_EQ(run().exit_code, 0);
+  fs::remove_all(result_of("n16", "reference-povray"));
+  const std::string said = in_namespace(
+      "mount --bind cache cache && mount -o remount,bind,ro cache\n"
+      "farm -q; echo $?\n");
+  EXPECT_THAT(said, testing::MatchesRegex("lobelia: [^\n]*Read-only file system\n4\n"));
+  expect_mended(run(), 1);
+}
+
+}  // namespace
+}  // namespace lobelia

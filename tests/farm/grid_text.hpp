@@ -1,0 +1,46 @@
+// Grid files from the text of their elements.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "farm/grid.hpp"
+
+namespace lobelia {
+
+inline const std::string kSceneFiles =
+    std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/";
+inline const std::string kScene = "<scene file=\"" + kSceneFiles + "head_on.xml\"/>";
+
+inline Grid grid_of(const std::string& body) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "g.xml";
+  write_file(path, "<grid version=\"1\">" + body + "</grid>");
+  return read_grid(path);
+}
+
+inline std::string error_of(const std::string& body) {
+  try {
+    grid_of(body);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    return error.what();
+  }
+  return "it was read";
+}
+
+inline std::string axis(const std::string& name, const std::string& values) {
+  return "<axis name=\"" + name + "\" values=\"" + values + "\"/>";
+}
+
+/// "1 2 3", so many.
+inline std::string numbers(int count) {
+  std::string text;
+  for (int i = 1; i <= count; ++i) text += std::to_string(i) + " ";
+  return text;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,105 @@
+#include "farm/job_graph.hpp"
+
+#include <set>
+
+#include "farm_fixture.hpp"
+
+namespace lobelia {
+namespace {
+
+TEST(JobFilter, PicksAsGoogleTestDoes) {
+  const std::string name = "phong_rdf-n16/compare-blender";
+  for (const char* patterns :
+       {"", "*", "phong*", "nothing:phong*", "*/compare-*", "phong_rdf-n16/compare-blender",
+        "phong_rdf-n??/*", "-*povray", "phong*:-*povray", "*****b*r", ":"})
+    EXPECT_TRUE(JobFilter(patterns).picks(name) || std::string(patterns) == ":") << patterns;
+  for (const char* patterns : {"phong", "*povray", "-*blender", "phong*:-*blender",
+                               "-phong*:nothing", "phong_rdf-n?/*", "x*:y*", "-*"})
+    EXPECT_FALSE(JobFilter(patterns).picks(name)) << patterns;
+}
+
+TEST(JobFilter, TakesNoTimeOverPatternsThatAreMadeToTakeIt) {
+  std::string pattern;
+  for (int i = 0; i < 200; ++i) pattern += "*a";
+  EXPECT_FALSE(JobFilter(pattern + "b").picks(std::string(5000, 'a')));
+}
+
+class JobGraphTest : public FarmTest {
+ protected:
+  struct Planned {
+    explicit Planned(const Grid& g)
+        : grid(g),
+          cells{cells_of(grid), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); }},
+          engines(find_engines(grid.engines, {})),
+          graph(cells, engines) {}
+    Planned(const Planned&) = delete;
+    Grid grid;
+    FarmCells cells;
+    std::vector<FarmEngine> engines;
+    JobGraph graph;
+    std::set<ResultKey> keys() const {
+      std::set<ResultKey> found;
+      for (JobIndex job = 0; job < graph.size(); ++job)
+        if (graph[job].exists) found.insert(graph[job].key);
+      return found;
+    }
+  };
+};
+
+TEST_F(JobGraphTest, EveryJobOfEveryCellHasAKeyOfItsOwn) {
+  const Planned planned(grid("16, 32, 64", "<engine name=\"analytic\"/>"));
+  EXPECT_EQ(planned.keys().size(), 12u);
+  const Planned same(grid("16, 32, 64", "<engine name=\"analytic\"/>"));
+  EXPECT_EQ(planned.keys(), same.keys());
+}
+
+TEST_F(JobGraphTest, WhateverChangesTheSceneChangesAllItsKeys) {
+  const Planned planned(grid("16", "<engine name=\"analytic\"/>"));
+  const auto changes = std::vector<void (*)(Scene&)>{
+      [](Scene& s) { s.film.width += 1; },
+      [](Scene& s) { s.spheres[0].radius *= 1 + 1e-15; },
+      [](Scene& s) { s.materials[0].highlight.lobe = *find_lobe("cs16"); },
+      [](Scene& s) { s.lights.push_back(s.lights[0]); },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    Grid other = grid("16", "<engine name=\"analytic\"/>");
+    changes[i](other.scene);
+    const Planned changed(other);
+    for (const ResultKey& key : changed.keys()) EXPECT_FALSE(planned.keys().contains(key)) << i;
+  }
+}
+
+TEST_F(JobGraphTest, AJobWaitsForThoseThatMakeItsInputs) {
+  const Planned planned(grid("16", "<engine name=\"analytic\"/>"));
+  const JobGraph& graph = planned.graph;
+  EXPECT_EQ(graph.name(graph.compare(0, 0)), "n16/compare-analytic");
+  EXPECT_EQ(graph.inputs(graph.compare(0, 0)),
+            (std::vector<JobIndex>{graph.render(0), graph.reference(0, 0)}));
+  EXPECT_EQ(graph.inputs(graph.render(0)), std::vector<JobIndex>());
+  for (JobIndex job = 0; job < graph.size(); ++job)
+    for (const JobIndex input : graph.inputs(job)) {
+      const auto dependents = graph.dependents(input);
+      EXPECT_NE(std::find(dependents.begin(), dependents.end(), job), dependents.end())
+          << graph.name(job) << " waits for " << graph.name(input);
+    }
+}
+
+TEST_F(JobGraphTest, AnyPartOfTheOrderIsSpreadOverTheWholeGrid) {
+  Grid fine = grid("16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31");
+  const std::vector<Cell> cells = cells_of(fine);
+  const auto order = coarse_to_fine(cells);
+  EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), cells.size());
+  // Whatever number of cells is done: the longest stretch without one is at most about twice as long as it must be.
+  for (std::size_t done = 1; done <= order.size(); ++done) {
+    std::set<std::size_t> made(order.begin(), order.begin() + std::ptrdiff_t(done));
+    std::size_t longest = 0, since = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      since = made.contains(i) ? 0 : since + 1;
+      longest = std::max(longest, since);
+    }
+    EXPECT_LE(longest, 2 * cells.size() / done) << done;
+  }
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,77 @@
+// Slurm's programs, pretended by shell scripts.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/farm/slurm/toy_work.hpp"
+
+namespace lobelia {
+
+/// A $PATH that begins with fakes. fake sbatch runs every element at once and gives out ids from 100; squeue then
+/// knows no such job.
+class FakeSlurm : public testing::Test {
+ protected:
+  FakeSlurm() : toy(directory_.path() / "toy", 0, 0) {
+    fs::create_directories(bin());
+    ::setenv("PATH", fmt::format("{}:/usr/bin:/bin", bin().string()).c_str(), 1);
+    ::setenv("DIR", "not handed on", 1);
+    fake("sbatch", R"(
+n=$(cat "$d/id" 2>/dev/null || echo 100); echo $((n + 1)) > "$d/id"
+printf '%s\n' "$*" >> "$d/submitted"
+last=; for a; do case $a in --array=*) last=${a#--array=0-};; esac; script=$a; done
+if [ -n "$last" ]; then
+  for i in $(seq 0 ${last%\%*}); do SLURM_ARRAY_TASK_ID=$i sh "$script"; done > "$d/output" 2>&1
+else sh "$script" > "$d/output" 2>&1; fi
+echo $n)");
+    fake("squeue", R"(
+case "$*" in *--me*) exit 0;; esac
+echo "slurm_load_jobs error: Invalid job id specified" >&2; exit 1)");
+    fake("scancel", "echo \"$*\" >> \"$d/cancelled\"");
+    fake("sinfo", "echo 'render*|up|idle|2|0/4/0/4'");
+    fake("scontrol", "echo 'MaxArraySize = 1001'; echo 'KillWait = 1 sec'");
+  }
+  ~FakeSlurm() override {
+    ::setenv("PATH", path_.c_str(), 1);
+    ::unsetenv("DIR");
+  }
+
+  fs::path bin() const { return directory_.path() / "bin"; }
+  fs::path in(const std::string& name) const { return directory_.path() / name; }
+  void fake(const std::string& name, const std::string& body) {
+    write_file(bin() / name,
+               fmt::format("#!/bin/sh\nd='{}'\n{}\n", directory_.path().string(), body));
+    fs::permissions(bin() / name, fs::perms::owner_all);
+  }
+  std::vector<std::string> lines(const std::string& name) const {
+    return fs::exists(in(name)) ? split(read_file(in(name), 1 << 20), "\n")
+                                : std::vector<std::string>();
+  }
+  /// The error that the run ends with.
+  std::pair<ExitCode, std::string> failure() {
+    try {
+      run_on_slurm(toy.work(), options);
+    } catch (const Error& error) {
+      return {error.code(), error.what()};
+    }
+    return {ExitCode::kSuccess, ""};
+  }
+  void jobs(int count) {
+    for (int i = 0; i < count; ++i) toy.add({fmt::format("job{:03}", i), 0, 0, "toy"});
+  }
+
+  TemporaryDirectory directory_;
+  ToyWork toy;
+  std::string said;
+  SlurmRunOptions options = quick(said);
+
+ private:
+  std::string path_ = std::getenv("PATH");
+};
+
+}  // namespace lobelia

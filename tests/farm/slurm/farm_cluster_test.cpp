@@ -1,0 +1,118 @@
+// The farm on a real Slurm of this machine: whatever happens to the cluster, its results are the local farm's.
+#include <gmock/gmock.h>
+
+#include <thread>
+
+#include "tests/farm/failures/failing_farm.hpp"
+#include "tests/farm/slurm/test_cluster.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr std::size_t kFarmPictures = 24;
+
+/// Twelve cells with pictures of ours and of an engine that takes two seconds for each.
+class FarmOnCluster : public FailingFarm {
+ protected:
+  void SetUp() override {
+    if (const std::string why = TestCluster::why_not(); !why.empty()) GTEST_SKIP() << why;
+    grid({"8", "10", "12", "14", "16", "18", "20", "22", "24", "26", "28", "30"});
+    fake_povray("sleep 2");
+    local_ = run({"-q"});
+    ASSERT_EQ(local_.exit_code, 0) << local_.output;
+    local_results_ = results_of(out());
+    fs::rename(out(), root() / "local-out");
+    fs::rename(cache(), root() / "local-cache");
+    cluster_.up();
+  }
+  std::vector<std::string> on_slurm() const {
+    return command(
+        {"--executor", "slurm", "--poll-seconds", "0.2", "--chunk-seconds", "0.5", "-q"});
+  }
+  bool eventually(const std::function<bool()>& condition) const {
+    for (int i = 0; i < 600; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(100)))
+      if (condition()) return true;
+    return false;
+  }
+  void expect_local_results(const std::string& output) const {
+    EXPECT_THAT(differences(local_results_, results_of(out())), IsEmpty()) << output;
+    EXPECT_EQ(cached_pictures(), kFarmPictures);
+    EXPECT_TRUE(fs::is_empty(cache() / "making"));
+  }
+
+  TestCluster cluster_;
+  FarmRun local_;
+  Results local_results_;
+};
+
+TEST_F(FarmOnCluster, MakesWhatTheLocalFarmMakesThoughItsControllerIsAwayForAWhile) {
+  RunningFarm farm(on_slurm(), root());
+  ASSERT_TRUE(eventually([&] { return cached_pictures() >= 3; })) << farm.output();
+  cluster_.stop_controller();
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  cluster_.start_controller();
+  EXPECT_EQ(farm.wait(), 0) << farm.output();
+  expect_local_results(farm.output());
+
+  const FarmRun again = run_command(on_slurm());
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_EQ(again.output.find("Round"), std::string::npos)
+      << "nothing is submitted: " << again.output;
+  EXPECT_EQ(again.kept, kFarmPictures);
+}
+
+TEST_F(FarmOnCluster, LosesNothingWithAWholeNode) {
+  RunningFarm farm(on_slurm(), root());
+  ASSERT_TRUE(eventually([&] {
+    return cached_pictures() >= 3 &&
+           !cluster_.slurm({"squeue", "-h", "-t", "running", "-w", "n2"}).empty();
+  })) << farm.output();
+  cluster_.kill_node("n2");
+  EXPECT_EQ(farm.wait(), 0) << farm.output();
+  expect_local_results(farm.output());
+}
+
+TEST_F(FarmOnCluster, IsFollowedAgainAfterItsClientWasKilled) {
+  {
+    RunningFarm farm(on_slurm(), root());
+    ASSERT_TRUE(eventually([&] { return cached_pictures() >= 3; })) << farm.output();
+    farm.signal(SIGKILL);
+    farm.wait();
+  }
+  const FarmRun status = run_command({"farm", "status", "out"});
+  EXPECT_THAT(status.output, HasSubstr("farm status --attach out"));
+  const FarmRun attached = run_command({"farm", "status", "out", "--attach"});
+  EXPECT_EQ(attached.exit_code, 0) << attached.output;
+  EXPECT_THAT(attached.output, HasSubstr("12 cells: 12 pass"));
+  expect_local_results(attached.output);
+}
+
+TEST_F(FarmOnCluster, StopsAtCtrlCAndMakesTheRestAfterwards) {
+  RunningFarm farm(on_slurm(), root());
+  ASSERT_TRUE(eventually([&] { return cached_pictures() >= 3; })) << farm.output();
+  farm.signal(SIGINT);
+  EXPECT_EQ(farm.wait(), 130) << farm.output();
+  EXPECT_THAT(cluster_.slurm({"squeue", "-h"}), IsEmpty());
+  const std::size_t done = cached_pictures();
+  ASSERT_LT(done, kFarmPictures) << farm.output();
+  const FarmRun second = run_command(on_slurm());
+  EXPECT_EQ(second.exit_code, 0) << second.output;
+  EXPECT_EQ(second.rendered, kFarmPictures - done);
+  expect_local_results(second.output);
+}
+
+TEST_F(FarmOnCluster, AJobThatFailsCostsOnlyItself) {
+  fake_povray("case $cell in n20) exit 3;; esac");
+  const FarmRun farm = run_command(on_slurm());
+  EXPECT_EQ(farm.exit_code, 4) << farm.output;
+  EXPECT_THAT(farm.output, HasSubstr("n20: povray"));
+  EXPECT_EQ(cached_pictures(), kFarmPictures - 1);
+  EXPECT_EQ(read_record(out() / "cells" / "n20" / "cell.json", "cell").at("status"), "failed");
+  EXPECT_EQ(read_record(out() / "cells" / "n18" / "cell.json", "cell").at("status"), "pass");
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,194 @@
+#include "farm/slurm/slurm_answers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "core/error.hpp"
+#include "farm/slurm/slurm_options.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+using Lines = std::vector<std::string>;
+using State = SlurmElement::State;
+
+TEST(SlurmAnswers, CountTheElementsOfAnArrayInEveryForm) {
+  const std::pair<const char*, std::size_t> forms[] = {{"0", 1},
+                                                       {"N/A", 1},
+                                                       {"3-9", 7},
+                                                       {"[3-9]", 7},
+                                                       {"[3-9%2]", 7},
+                                                       {"3-9%2", 7},
+                                                       {"1,3,5-7", 5},
+                                                       {"0-9:3", 4},
+                                                       {"[1,4-5%1]", 3},
+                                                       {"1-2,...", 2},
+                                                       {"0-3999999", 4000000}};
+  for (const auto& [text, count] : forms) EXPECT_EQ(count_of_array_tasks(text), count) << text;
+  for (const char* text : {"",          "[",
+                           "]",         "[3-9",
+                           "3-9]",      "9-3",
+                           "-",         "3-",
+                           "-3",        "a",
+                           "1,,2",      ",",
+                           "1,",        "...",
+                           "1-9:0",     "1-9:",
+                           "3%",        "3%x",
+                           "1 2",       "0x3",
+                           "+3",        "99999999999999999999",
+                           "0-4000001", "0-3999999,0-3999999",
+                           "n/a"})
+    EXPECT_FALSE(count_of_array_tasks(text)) << text;
+}
+
+TEST(SlurmAnswers, OfSqueueAreElementsWithStateReasonAndNodes) {
+  const auto elements = parse_elements(Lines{
+      "0|RUNNING|None|n1", "7|PENDING|Resources|", "[8-9%2]|PENDING|launch failed requeued held|",
+      "squeue: warning: something", "3|COMPLETED|None|n2", "4|NODE_FAIL|None|n[1-2]",
+      "5|BRAND_NEW|None|n1", "6|PENDING|odd | reason|"});
+  ASSERT_TRUE(elements);
+  ASSERT_EQ(elements->size(), 7u);
+  EXPECT_EQ(elements->at(0).state, State::kRunning);
+  EXPECT_EQ(elements->at(0).nodes, "n1");
+  EXPECT_EQ(elements->at(1).reason, "Resources");
+  EXPECT_EQ(elements->at(2).count, 2u);
+  EXPECT_EQ(elements->at(2).reason, "launch failed requeued held");
+  EXPECT_EQ(elements->at(3).state, State::kEnded);
+  EXPECT_EQ(elements->at(4).state, State::kEnded);
+  EXPECT_EQ(elements->at(5).state, State::kRunning);  // unknown: it goes on
+  EXPECT_EQ(elements->at(6).reason, "odd | reason");
+  EXPECT_TRUE(parse_elements({})->empty());
+}
+
+TEST(SlurmAnswers, ThatAreCutOrOddAreNoAnswers) {
+  for (const char* line : {"3|RUNN", "3|RUNNING|None", "3", "|RUNNING|None|n1", "3||None|n1",
+                           "x|RUNNING|None|n1", "3|running|None|n1", "<html>", "3 RUNNING None n1",
+                           "slurm_load_jobs error: Socket timed out on send/recv operation"})
+    EXPECT_FALSE(parse_elements(Lines{"1|RUNNING|None|n1", line})) << line;
+  for (const char* line :
+       {"3|RUNN", "3", "0|RUNNING|x", "|RUNNING|x", "3_1|RUNNING|x", "3|Running|x",
+        "4294967290|RUNNING|x", "slurm_load_jobs error: Invalid user id"})
+    EXPECT_FALSE(parse_living_jobs(Lines{"1|RUNNING|a", line})) << line;
+  for (const char* line :
+       {"render*|up|idle|3|0/6/0", "render*|up|idle|x|0/6/0/6", "render*|up||3|0/6/0/6",
+        "|up|idle|3|0/6/0/6", "render*|up|idle|3|0/6/0/6/1", "render*|up|idle|3|0/6//6"})
+    EXPECT_FALSE(parse_nodes(Lines{line})) << line;
+  EXPECT_FALSE(parse_config(Lines{"nothing here"}));
+}
+
+TEST(SlurmAnswers, OfSbatchAreOneNumberAmongWarnings) {
+  EXPECT_EQ(parse_submission(Lines{"12"}), 12u);
+  EXPECT_EQ(parse_submission(Lines{"sbatch: warning: x", "12;cluster"}), 12u);
+  for (const Lines& lines : {Lines{}, Lines{"0"}, Lines{"-1"}, Lines{"Submitted batch job 12"},
+                             Lines{"12", "13"}, Lines{"12 "}, Lines{"4294967295"}, Lines{"12x"}})
+    EXPECT_FALSE(parse_submission(lines)) << testing::PrintToString(lines);
+}
+
+TEST(SlurmAnswers, NameALivingJobOnce) {
+  const auto jobs =
+      parse_living_jobs(Lines{"8|PENDING|lobelia 1-0", "8|RUNNING|lobelia 1-0", "9|PENDING|(null)",
+                              "7|COMPLETED|x", "6|COMPLETING|y|z"});
+  ASSERT_TRUE(jobs);
+  ASSERT_EQ(jobs->size(), 3u);
+  EXPECT_EQ(jobs->at(0).comment, "y|z");
+  EXPECT_EQ(jobs->at(1).id, 8u);
+}
+
+TEST(SlurmAnswers, SayWhichNodesAreOfUse) {
+  const auto nodes = parse_nodes(Lines{"render*|up|idle|3|0/6/0/6", "render*|up|idle*|1|0/2/0/2",
+                                       "render*|up|idle~|1|0/2/0/2", "render*|up|mix|1|1/1/0/2",
+                                       "render*|up|down*|1|0/0/2/2", "render*|up|drain|1|0/0/2/2",
+                                       "render*|up|drng|1|2/0/0/2", "old|down|idle|1|0/2/0/2"});
+  ASSERT_TRUE(nodes);
+  std::vector<bool> usable;
+  for (const auto& group : *nodes) usable.push_back(group.usable);
+  EXPECT_EQ(usable, (std::vector<bool>{true, false, true, true, false, false, false, true}));
+  EXPECT_EQ(nodes->at(0).processors, 6u);
+  EXPECT_TRUE(nodes->at(0).is_default);
+  EXPECT_EQ(nodes->at(0).partition, "render");
+  EXPECT_FALSE(nodes->at(7).up);
+}
+
+TEST(SlurmAnswers, OfTheConfigurationAreKeysAndValues) {
+  const auto config =
+      parse_config(Lines{"Configuration data as of 2026-11-21", "KillWait                = 30 sec",
+                         "MaxArraySize            = 1001", "Slurmctld(primary) at vm is UP"});
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config->at("KillWait"), "30 sec");
+  EXPECT_EQ(config->at("MaxArraySize"), "1001");
+}
+
+TEST(SlurmAnswers, OfRandomBytesAreReadOrRefusedAndNothingWorse) {
+  std::mt19937 random(1);
+  const std::string alphabet = "0123456789|[]-,%:;*/ =ADEGINPRU_\n\t\x01\xff";
+  for (int i = 0; i < 50000; ++i) {
+    Lines lines(1 + random() % 3);
+    for (auto& line : lines)
+      for (auto n = random() % 30; n > 0; --n) line += alphabet[random() % alphabet.size()];
+    for (const auto& element : parse_elements(lines).value_or(std::vector<SlurmElement>()))
+      ASSERT_GE(element.count, 1u);
+    ASSERT_GT(parse_submission(lines).value_or(1), 0u);
+    parse_living_jobs(lines);
+    parse_nodes(lines);
+    parse_config(lines);
+  }
+}
+
+TEST(SlurmAnswers, TellWhatWaitsForSomebodyFromWhatWaitsForItsTurn) {
+  for (const char* reason :
+       {"JobHeldUser", "JobHeldAdmin", "launch failed requeued held", "PartitionDown",
+        "job requeued in held state held", "DependencyNeverSatisfied"})
+    EXPECT_TRUE(waits_for_somebody(reason)) << reason;
+  for (const char* reason :
+       {"None", "Resources", "Priority", "Dependency", "BeginTime", "JobArrayTaskLimit",
+        "QOSMaxCpuPerUserLimit", "ReqNodeNotAvail, UnavailableNodes:n2", "Licenses"})
+    EXPECT_FALSE(waits_for_somebody(reason)) << reason;
+}
+
+TEST(SlurmOptions, BecomeArgumentsOfSbatch) {
+  SlurmOptions options;
+  options.partition = "render";
+  options.time = "1:00:00";
+  options.memory = "4G";
+  options.account = "lab";
+  options.qos = "low";
+  options.constraint = "avx2&fast";
+  options.exclusive = true;
+  options.processors = 4;
+  options.raw = {"--nice=100", "--exclude=n7"};
+  EXPECT_EQ(sbatch_arguments(options),
+            (Lines{"--partition=render", "--time=1:00:00", "--mem=4G", "--account=lab", "--qos=low",
+                   "--constraint=avx2&fast", "--exclusive", "--cpus-per-task=4", "--nice=100",
+                   "--exclude=n7"}));
+  EXPECT_EQ(sbatch_arguments({}), Lines{"--cpus-per-task=1"});
+}
+
+TEST(SlurmOptions, ThatWouldBreakTheRunAreRefused) {
+  const auto refused = [](auto change) {
+    SlurmOptions options;
+    change(options);
+    try {
+      sbatch_arguments(options);
+    } catch (const Error& error) {
+      return error.code() == ExitCode::kUsage;
+    }
+    return false;
+  };
+  for (const char* raw : {"-n4", "script.sh", "--", "", "--x\n--y", "--array=0-3", "--job-name=a",
+                          "--wrap=id", "--output=x", "--dependency=singleton", "--depend=x",
+                          "--arr=1", "--export=NONE", "--no-requeue", "--wait"})
+    EXPECT_TRUE(refused([raw](SlurmOptions& o) { o.raw = {raw}; })) << raw;
+  for (const char* raw :
+       {"--nice", "--exclude=n7", "--gres=gpu:1", "--mail-type=END", "--reservation=x"})
+    EXPECT_FALSE(refused([&](SlurmOptions& o) { o.raw = {raw}; })) << raw;
+  EXPECT_TRUE(refused([](SlurmOptions& o) { o.partition = "a\nb"; }));
+  EXPECT_TRUE(refused([](SlurmOptions& o) { o.time = std::string(2000, '1'); }));
+  EXPECT_TRUE(refused([](SlurmOptions& o) { o.processors = 0; }));
+  EXPECT_TRUE(refused([](SlurmOptions& o) { o.throttle = -1; }));
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,71 @@
+// A real Slurm cluster of three nodes on this machine, for one test (tests/farm/slurm/cluster).
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "core/files.hpp"
+#include "core/process.hpp"
+
+namespace lobelia {
+
+class TestCluster {
+ public:
+  TestCluster() { ::setenv("SLURM_CONF", (directory_.path() / "slurm.conf").c_str(), 1); }
+  ~TestCluster() {
+    if (up_) run({"down"});
+    ::unsetenv("SLURM_CONF");
+  }
+  TestCluster(const TestCluster&) = delete;
+  TestCluster& operator=(const TestCluster&) = delete;
+
+  /// Why there can be none here; empty if there can.
+  static std::string why_not() {
+    const ProcessResult result = run_process({script(), "can"}, {});
+    return result.exit_code == 0 ? "" : result.output_tail;
+  }
+  void up() {
+    up_ = true;
+    run({"up"});
+  }
+  /// kill -9 of everything on it, as if the power were gone.
+  void kill_node(const std::string& node) const { run({"kill-node"}, node); }
+  void start_node(const std::string& node) const { run({"start-node"}, node); }
+  void stop_controller() const { run({"stop-controller"}); }
+  void start_controller() const { run({"start-controller"}); }
+  void drain(const std::string& nodes) const {
+    slurm({"scontrol", "update", "NodeName=" + nodes, "State=DRAIN", "Reason=test"});
+  }
+  void resume(const std::string& nodes) const {
+    slurm({"scontrol", "update", "NodeName=" + nodes, "State=RESUME"});
+  }
+  /// What one of Slurm's programs prints.
+  std::string slurm(std::vector<std::string> arguments) const {
+    arguments.front() = find_program(arguments.front()).string();
+    ProcessOptions options;
+    options.timeout = std::chrono::seconds(20);
+    const ProcessResult result = run_process(arguments, options);
+    EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+    return result.output_tail;
+  }
+
+ private:
+  static std::string script() { return LOBELIA_SOURCE_DIR "/tests/farm/slurm/cluster"; }
+  void run(std::vector<std::string> arguments, const std::string& node = "") const {
+    arguments.insert(arguments.begin(), script());
+    arguments.push_back(directory_.path().string());
+    if (!node.empty()) arguments.push_back(node);
+    ProcessOptions options;
+    options.timeout = std::chrono::seconds(60);
+    const ProcessResult result = run_process(arguments, options);
+    ASSERT_EQ(result.exit_code, 0) << result.output_tail;
+  }
+
+  TemporaryDirectory directory_;
+  bool up_ = false;
+};
+
+}  // namespace lobelia
