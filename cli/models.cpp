@@ -5,10 +5,12 @@
 
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
+#include "core/files.hpp"
 #include "core/record.hpp"
 #include "core/text.hpp"
 #include "renderer/albedo.hpp"
 #include "renderer/catalogue_record.hpp"
+#include "renderer/highlight_tables.hpp"
 #include "renderer/scene/scene_format.hpp"
 
 namespace lobelia::cli {
@@ -89,14 +91,27 @@ void print_measured(double exponent) {
       "reciprocity holds.\n");
 }
 
-void run(bool json, double exponent) {
-  if (json) {
-    fmt::print("{}", record_text(catalogue_record(exponent)));
+struct Options {
+  bool json = false;
+  double exponent = 64;
+  std::string tables;
+};
+
+void run(const Options& options, bool has_exponent) {
+  if (!options.tables.empty()) {
+    require_writable(options.tables);
+    const std::vector<double> exponents =
+        has_exponent ? std::vector{options.exponent} : table_exponents();
+    write_record(options.tables, highlight_tables(exponents));
+    return;
+  }
+  if (options.json) {
+    fmt::print("{}", record_text(catalogue_record(options.exponent)));
     return;
   }
   print_catalogues();
   print_costs();
-  print_measured(exponent);
+  print_measured(options.exponent);
 }
 
 }  // namespace
@@ -104,13 +119,24 @@ void run(bool json, double exponent) {
 void add_models(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "models", "List models, lobes and normalisations: formulas, cost, what was measured of them");
-  auto json = std::make_shared<bool>(false);
-  auto exponent = std::make_shared<double>(64);
-  command->add_flag("--json", *json, "Print the catalogue as JSON");
-  command->add_option("--exponent", *exponent, "Exponent n at which to measure")
-      ->check(between(kMinExponent, kMaxExponent))
-      ->capture_default_str();
-  command->callback([json, exponent] { run(*json, *exponent); });
+  auto options = std::make_shared<Options>();
+  auto* json = command->add_flag("--json", options->json, "Print the catalogue as JSON");
+  auto* exponent =
+      command->add_option("--exponent", options->exponent, "Exponent n at which to measure")
+          ->check(between(kMinExponent, kMaxExponent))
+          ->capture_default_str();
+  command
+      ->add_option(
+          "--tables", options->tables,
+          "Write curves and albedos of every highlight over the exponent (kind highlight-tables) to "
+          "FILE instead; with --exponent, which is at least 1 then, at that one alone")
+      ->type_name("FILE")
+      ->excludes(json);
+  command->callback([options, exponent] {
+    if (!options->tables.empty() && options->exponent < 1)
+      throw CLI::ValidationError("--exponent", "with --tables it is at least 1");
+    run(*options, exponent->count() > 0);
+  });
 }
 
 }  // namespace lobelia::cli

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "cli/commands.hpp"
 #include "core/files.hpp"
 #include "verify/paper/catalogue.hpp"
 #include "verify/paper/errata.hpp"
@@ -22,8 +23,13 @@ void run_paper(const PaperOptions& options) {
   if (!options.json.empty()) require_writable(options.json);
   if (!options.plots.empty()) make_directories(options.plots);
   const auto claims = paper::measure_all();
-  if (!options.json.empty()) write_record(options.json, paper::paper_record(claims));
-  if (!options.plots.empty()) paper::write_plots(options.plots);
+  std::vector<paper::Plot> plots;
+  if (!options.plots.empty()) {
+    plots = paper::plots();
+    paper::write_plots(options.plots, plots);
+  }
+  if (!options.json.empty())
+    write_record(options.json, paper::paper_record(claims, command_line(), plots));
   fmt::print("{}", options.errata ? paper::errata_document(claims) : paper::table_text(claims));
 }
 
@@ -35,7 +41,9 @@ void add_verify_paper(CLI::App& verify) {
   auto options = std::make_shared<PaperOptions>();
   command->add_option("--json", options->json, "Write the record (kind verify-paper) to FILE")
       ->type_name("FILE");
-  command->add_option("--plots", options->plots, "Write the curves as SVG files into DIR")
+  command
+      ->add_option("--plots", options->plots,
+                   "Write the curves as SVG files into DIR, and into the record of --json")
       ->type_name("DIR");
   command->add_flag("--errata", options->errata, "Print docs/errata.md instead of the table");
   command->footer(

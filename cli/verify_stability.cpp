@@ -32,6 +32,7 @@ ExitCode run(const Options& options) {
   ProgressLine progress(!options.quiet);
   report.rows = stability::all_rows(lobes, [&](double done) { progress.show(done, "hard cases"); });
   progress.clear();
+  if (!options.json.empty()) report.curves = stability::error_curves();
   // One thread, after everything else: nothing of ours disturbs it.
   if (!options.no_timing) {
     report.stalls = stability::measure_stalls(lobes);

@@ -45,6 +45,7 @@ void add(ChartSeries& series, const TimedError& point, double x, double y, doubl
   series.x_error.push_back(point.cost_error / unit);
   series.y_error.push_back(point.error_error);
   series.point_labels.push_back(point.label);
+  if (!point.key.empty()) series.point_keys.push_back(point.key);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct TimedError {
   double error = 0;        ///< not negative
   double error_error = 0;  ///< half length of its error bar
   bool on_front = false;
+  std::string key = {};  ///< of ChartSeries::point_keys
 };
 
 struct ErrorTimes {

@@ -219,7 +219,9 @@ class Drawing {
     for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
       const double x = series.x[i], y = series.y[i];
       if (!is_shown(x, y)) continue;
-      const Tag group(html_, "g", {{"class", "point"}});
+      Attributes attributes{{"class", "point"}};
+      if (i < series.point_keys.size()) attributes.push_back({"data-key", series.point_keys[i]});
+      const Tag group(html_, "g", attributes);
       if (i < series.point_labels.size()) html_.element("title", series.point_labels[i]);
       const std::string name = fmt::format("error-bar marker-{}", series.style);
       if (const double half = value(series.x_error, i); half > 0)

@@ -30,6 +30,7 @@ struct ChartSeries {
   std::vector<std::string> point_labels = {};
   /// Drawn below and left of a point, where nothing dominates it; of names that would overlap the first.
   std::vector<std::string> point_names = {};
+  std::vector<std::string> point_keys = {};  ///< "data-key", by which a script knows a point
 };
 
 struct Chart {

@@ -51,10 +51,8 @@ CostTable read_table(const Fields& fields) {
 
 }  // namespace
 
-CostData read_cost(const std::filesystem::path& directory) {
-  const Json record = read_record(directory / kCostRecord, "cost");
-  const Fields fields(record, kCostRecord);
-  CostData data{shell_join(fields.texts("command")), fields.text("madeBy"), {}, {}};
+CostData read_cost(const Fields& fields) {
+  CostData data{shell_join(fields.texts("command")), {}, {}};
   if (const auto host = fields.object("host")) data.host = host->described_members();
   for (const Fields& table : fields.objects("tables")) data.tables.push_back(read_table(table));
   return data;

@@ -1,7 +1,6 @@
 // What cost.json says, read with care.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -32,12 +31,12 @@ struct CostTable {
 };
 
 struct CostData {
-  std::string command, made_by;
+  std::string command;
   NamedTexts host;
   std::vector<CostTable> tables;
 };
 
-/// Of a farm's directory. Throws Error(kInput) for a record that is not one.
-CostData read_cost(const std::filesystem::path& directory);
+/// Throws Error(kInput) for a record that is not one.
+CostData read_cost(const Fields& fields);
 
 }  // namespace lobelia::gallery

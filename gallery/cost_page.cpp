@@ -5,17 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/error_time_chart.hpp"
 #include "core/html.hpp"
 #include "core/numbers.hpp"
 #include "gallery/cost_data.hpp"
 #include "gallery/page.hpp"
+#include "gallery/record_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
 constexpr char kTitle[] = "What accuracy costs in time";
+constexpr int kChartWidth = 800;           // beside a table
 constexpr std::size_t kMostSentences = 8;  // of a front; the rest can be unfolded
 
 std::string cost_text(const CostTable& table, double cost) {
@@ -32,12 +33,16 @@ bool is_on(const CostError& error, const CostWay& way) {
 std::string chart_of(const CostTable& table, std::size_t e, const std::string& id) {
   ErrorTimes times{id, table.title, table.per, table.cost_unit, table.errors[e].meaning, {}};
   for (const CostWay& way : table.ways)
-    times.points.push_back({way.name,
-                            fmt::format("{}: {}, {} {}", way.name, cost_text(table, way.median),
-                                        table.errors[e].id, error_text(way.errors[e])),
-                            way.median, way.spread * way.median, way.errors[e],
-                            way.error_spreads[e], is_on(table.errors[e], way)});
-  return draw_chart(error_time_chart(times));
+    times.points.push_back(
+        {way.name,
+         fmt::format("{}: {} ± {} %, {} {}", way.name, cost_text(table, way.median),
+                     number_text(100 * way.spread, 2), table.errors[e].id,
+                     error_text(way.errors[e])),
+         way.median, way.spread * way.median, way.errors[e], way.error_spreads[e],
+         is_on(table.errors[e], way), way.name});
+  Chart chart = error_time_chart(times);
+  chart.width = kChartWidth;
+  return draw_chart(chart);
 }
 
 void write_sentences(Html& html, const std::vector<std::string>& sentences) {
@@ -54,9 +59,13 @@ void write_sentences(Html& html, const std::vector<std::string>& sentences) {
 }
 
 void write_ways(Html& html, const CostTable& table) {
-  const Tag details(html, "details");
+  const Tag details(html, "details", {{"class", "ways"}});
   html.element("summary", fmt::format("All {} ways, the fastest first", table.ways.size()));
-  const Tag scroll(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
+  const Tag scroll(html, "div",
+                   {{"class", "table-wrap"},
+                    {"tabindex", "0"},
+                    {"role", "region"},
+                    {"aria-label", "Ways: " + table.title}});
   const Tag element(html, "table", {{"class", "figures"}});
   {
     const Tag head(html, "thead");
@@ -78,7 +87,7 @@ void write_ways(Html& html, const CostTable& table) {
   });
   const Tag body(html, "tbody");
   for (const CostWay* way : ways) {
-    const Tag row(html, "tr");
+    const Tag row(html, "tr", {{"data-key", way->name}});
     html.element("th", {{"scope", "row"}}, way->name);
     html.element("td", {{"class", "number"}}, cost_text(table, way->median));
     html.element("td", {{"class", "number"}}, fmt::format("{} %", number_text(100 * way->spread)));
@@ -94,16 +103,20 @@ void write_ways(Html& html, const CostTable& table) {
 void write_table(Html& html, const CostTable& table, std::size_t number) {
   const Tag section(html, "section", {{"id", fmt::format("table-{}", number)}});
   html.element("h2", table.title);
-  for (std::size_t e = 0; e < table.errors.size(); ++e) {
-    const CostError& error = table.errors[e];
-    html.element("h3", error.meaning);
-    {
-      const Tag figure(html, "figure", {{"class", "chart-figure"}});
-      html.raw(chart_of(table, e, fmt::format("cost-{}-{}", number, e)));
+  const Tag pair(html, "div", {{"class", "cost-pair"}});
+  {
+    const Tag charts(html, "div");
+    for (std::size_t e = 0; e < table.errors.size(); ++e) {
+      const CostError& error = table.errors[e];
+      html.element("h3", error.meaning);
+      {
+        const Tag figure(html, "figure", {{"class", "chart-figure"}});
+        html.raw(chart_of(table, e, fmt::format("cost-{}-{}", number, e)));
+      }
+      write_sentences(html, error.in_words);
     }
-    write_sentences(html, error.in_words);
+    for (const std::string& remark : table.remarks) html.element("p", remark);
   }
-  for (const std::string& remark : table.remarks) html.element("p", remark);
   write_ways(html, table);
 }
 
@@ -149,20 +162,10 @@ void write_cost(Html& html, const CostData& cost) {
 }  // namespace
 
 std::optional<ViewPage> cost_view(const std::filesystem::path& run) {
-  if (!std::filesystem::exists(run / kCostRecord)) return std::nullopt;
-  ViewPage page{kTitle, "", {}, nullptr, {}};
-  try {
-    const CostData cost = read_cost(run);
-    page.made_by = cost.made_by;
-    write_cost(page.main, cost);
-    for (const char* file : {kCostRecord, kCostTable})
-      if (std::filesystem::is_regular_file(run / file)) page.files.push_back(file);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput) throw;
-    page.main.element("h1", kTitle);
-    write_absence(page.main, std::string("It cannot be shown: ") + error.what());
-  }
-  return page;
+  return record_page(run, kCostRecord, "cost", kTitle, [&](ViewPage& page, const Fields& record) {
+    write_cost(page.main, read_cost(record));
+    if (std::filesystem::is_regular_file(run / kCostTable)) page.files.push_back(kCostTable);
+  });
 }
 
 }  // namespace lobelia::gallery

@@ -38,6 +38,18 @@ std::string describe(const Json& value) {
   return words;
 }
 
+std::optional<std::vector<double>> all_numbers(const Json& value) {
+  if (!value.is_array()) return std::nullopt;
+  std::vector<double> result;
+  result.reserve(value.size());
+  for (const Json& item : value) {
+    const auto number = as_number(item);
+    if (!number) return std::nullopt;
+    result.push_back(*number);
+  }
+  return result;
+}
+
 }  // namespace
 
 Fields::Fields(const Json& json, std::string file, std::string path)
@@ -105,14 +117,21 @@ std::vector<std::string> Fields::texts(const std::string& key) const {
 
 std::vector<double> Fields::numbers(const std::string& key) const {
   const Json* value = find(key);
-  std::vector<double> result;
+  if (!value) return {};
+  auto result = all_numbers(*value);
+  if (!result) fail(key, "must be an array of numbers");
+  return *std::move(result);
+}
+
+std::vector<std::vector<double>> Fields::rows(const std::string& key) const {
+  const Json* value = find(key);
+  std::vector<std::vector<double>> result;
   if (!value) return result;
-  if (!value->is_array()) fail(key, "must be an array of numbers");
-  result.reserve(value->size());
-  for (const Json& item : *value) {
-    const auto number = as_number(item);
-    if (!number) fail(key, "must be an array of numbers");
-    result.push_back(*number);
+  if (!value->is_array()) fail(key, "must be an array of arrays of numbers");
+  for (const Json& row : *value) {
+    auto numbers = all_numbers(row);
+    if (!numbers) fail(key, "must be an array of arrays of numbers");
+    result.push_back(*std::move(numbers));
   }
   return result;
 }

@@ -26,6 +26,8 @@ class Fields {
   std::string plain_name(const std::string& key) const;
   std::vector<std::string> texts(const std::string& key) const;
   std::vector<double> numbers(const std::string& key) const;
+  std::vector<std::vector<double>> rows(
+      const std::string& key) const;  ///< an array of arrays of numbers
   std::optional<Fields> object(const std::string& key) const;
   std::vector<Fields> objects(const std::string& key) const;
 

@@ -17,21 +17,23 @@ class GalleryScript : public ::testing::Test {
   /// Runs the script with a farm that exits with `farm_status`; returns the script's exit code.
   int run(int farm_status) {
     const fs::path program = scratch_ / "lobelia";
-    write(program,
-          "#!/bin/sh\nif [ $1 = gallery ]; then echo \"$2/index.html\"; exit 0; fi\n"
-          "echo \"$1|$2|$3|$4\"\nmkdir -p \"$4\"\nexit " +
-              std::to_string(farm_status) + "\n");
+    write(
+        program,
+        "#!/bin/sh\necho \"$1|$2|$3\" >> \"$(dirname \"$0\")/calls\"\nif [ $1 = gallery ]; then echo \"$2/index.html\"; exit 0; fi\n"
+        "echo \"$1|$2|$3|$4\"\nmkdir -p \"$4\"\nexit " +
+            std::to_string(farm_status) + "\n");
     fs::permissions(program, fs::perms::owner_all);
     const std::string command = "'" LOBELIA_SOURCE_DIR "/scripts/gallery' '" + program.string() +
                                 "' grid.xml '" + (scratch_ / "a place").string() + "' > '" +
                                 (scratch_ / "said").string() + "'";
     const int status = std::system(command.c_str());
     said = read(scratch_ / "said");
+    calls = read(scratch_ / "calls");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
   Scratch scratch_;
-  std::string said;
+  std::string said, calls;
 };
 
 TEST_F(GalleryScript, the_last_line_is_the_path_of_the_gallery) {
@@ -48,6 +50,14 @@ TEST_F(GalleryScript, cells_that_differ_are_shown_and_the_exit_code_says_so) {
 TEST_F(GalleryScript, an_interrupted_farm_makes_no_gallery) {
   EXPECT_EQ(run(130), 130);
   EXPECT_THAT(said, Not(HasSubstr("index.html")));
+}
+
+TEST_F(GalleryScript, measures_what_the_views_show_where_it_is_not_there) {
+  write(scratch_ / "a place/paper/paper.json", "{}");
+  EXPECT_EQ(run(0), 0);
+  EXPECT_THAT(calls, HasSubstr("models|--tables|"));
+  EXPECT_THAT(calls, HasSubstr("verify|stability|"));
+  EXPECT_THAT(calls, Not(HasSubstr("verify|paper|")));
 }
 
 }  // namespace

@@ -47,6 +47,37 @@ TEST(ARow, IsOutsideOverItsBoundWithAWrongPixelWithNoNumberAndWithADenormalOne) 
   EXPECT_FALSE(is_within(wrong));
 }
 
+TEST(AReport, RecordsTheWorstOfEachExponentAndWhatIsHardAboutACase) {
+  Report report;
+  report.rows = {row("flank, oblique", "cosine", 1, 1.5, 1), row("angle", "cosine", 1, 1.25, 1)};
+  report.rows[1].exponent = 1e6;
+  const auto summaries = by_exponent(report.rows);
+  ASSERT_EQ(summaries.size(), 2u);
+  EXPECT_EQ(summaries[0].exponent, 16);
+  EXPECT_EQ(summaries[0].naive.of_peak, 0.5);
+  EXPECT_EQ(summaries[1].exponent, 1e6);
+  const Json record = report_record(report, {"lobelia"}, "", false);
+  ASSERT_EQ(record["groups"].size(), 1u);
+  EXPECT_THAT(record["groups"][0]["meaning"].get<std::string>(), HasSubstr("as vectors"));
+  EXPECT_THAT(record["byCase"][0]["meaning"].get<std::string>(), HasSubstr("One width"));
+  EXPECT_FALSE(record["byCase"][1].contains("meaning"));
+  EXPECT_EQ(record["byExponent"][1]["exponent"], 1e6);
+}
+
+TEST(ErrorCurves, AreOursWithinWhatAPictureMayBeOffAndTheTextbooksOnlyWhereTheHighlightIsBroad) {
+  for (const ErrorCurve& curve : error_curves()) {
+    double ours = 0, naive = 0;
+    ASSERT_EQ(curve.truth.size(), curve.degrees.size());
+    for (std::size_t i = 0; i < curve.truth.size(); ++i) {
+      ours = std::max(ours, std::abs(curve.ours[i] - curve.truth[i]));
+      naive = std::max(naive, std::abs(curve.naive[i] - curve.truth[i]));
+    }
+    EXPECT_LT(ours, 1e-5) << curve.exponent;
+    EXPECT_EQ(naive < 1e-4, curve.exponent < 100) << curve.exponent;
+    EXPECT_LT(curve.truth.back(), 1.1e-3);
+  }
+}
+
 TEST(AReport, ShowsTheWorstOfEachLobeAndCaseAndSaysWhatIsOutside) {
   Report report;
   report.rows = {row("a", "cosine", 1, 1.5, 1), row("a", "cs16", 1, 1.25, 1 + 5e-7),

@@ -1,6 +1,7 @@
 #include "verify/paper/plots.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "core/files.hpp"
 #include "verify/paper/albedo.hpp"
@@ -153,27 +154,48 @@ Chart albedos(Held held, Chart result) {
 }  // namespace
 
 std::vector<Plot> plots() {
-  const ChartAxis incidence{"incidence (degrees)", 0, 89.5};
-  return {
-      {"cs16_error.svg", cs16_error()},
-      {"residuals.svg", residuals()},
-      {"residual_row_4.svg", residual_of_row_4()},
-      {"lobes.svg", lobes()},
-      {"lobe_errors.svg", lobe_errors()},
-      {"albedo_lit.svg",
-       albedos(Held::kBeam, chart("albedo-lit", "A beam's power that is reflected, n = 64, cos^n",
-                                  "Reflected over arriving power over the angle of incidence.",
-                                  incidence, {"share reflected", 0, 2}))},
-      {"albedo_seen.svg",
-       albedos(Held::kEye, chart("albedo-seen", "Seen in surroundings of radiance 1, n = 64, cos^n",
-                                 "Radiance seen over the angle of the eye from the normal.",
-                                 {"angle of the eye (degrees)", 0, 89.5}, {"radiance", 0, 1.2}))},
+  static const ChartAxis incidence{"incidence (degrees)", 0, 89.5};
+  struct Drawn {
+    const char* file;
+    Chart (*draw)();
+    std::vector<std::string_view> claims;
   };
+  const std::vector<Drawn> all{
+      {"cs16_error.svg", cs16_error, {"cs16-largest-error", "cs16-smallest-error"}},
+      {"residuals.svg",
+       residuals,
+       {"residual-phong-rdf", "residual-modified-phong", "residual-blinn-phong-rdf",
+        "residual-blinn-phong-rdf-cut"}},
+      {"residual_row_4.svg", residual_of_row_4, {"residual-modified-blinn-phong"}},
+      {"lobes.svg", lobes, {"cs16-tail", "schlick-epicentre", "schlick-tail", "gauss-accuracy"}},
+      {"lobe_errors.svg", lobe_errors, {"schlick-epicentre", "gauss-accuracy"}},
+      {"albedo_lit.svg",
+       [] {
+         return albedos(Held::kBeam,
+                        chart("albedo-lit", "A beam's power that is reflected, n = 64, cos^n",
+                              "Reflected over arriving power over the angle of incidence.",
+                              incidence, {"share reflected", 0, 2}));
+       },
+       {"energy-brdf", "energy-rdf-lit"}},
+      {"albedo_seen.svg",
+       [] {
+         return albedos(Held::kEye,
+                        chart("albedo-seen", "Seen in surroundings of radiance 1, n = 64, cos^n",
+                              "Radiance seen over the angle of the eye from the normal.",
+                              {"angle of the eye (degrees)", 0, 89.5}, {"radiance", 0, 1.2}));
+       },
+       {"energy-rdf-seen", "energy-brdf"}},
+  };
+  std::vector<Plot> drawn(all.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    drawn[i] = {all[i].file, all[i].draw(), all[i].claims};
+  });
+  return drawn;
 }
 
-void write_plots(const std::filesystem::path& directory) {
+void write_plots(const std::filesystem::path& directory, std::span<const Plot> plots) {
   make_directories(directory);
-  for (const Plot& plot : plots()) write_file(directory / plot.file, draw_chart_file(plot.chart));
+  for (const Plot& plot : plots) write_file(directory / plot.file, draw_chart_file(plot.chart));
 }
 
 }  // namespace lobelia::paper

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/svg_chart.hpp"
@@ -12,10 +14,12 @@ namespace lobelia::paper {
 struct Plot {
   std::string file;  ///< "residuals.svg"
   Chart chart;
+  std::vector<std::string_view> claims;  ///< that it shows, by their names
 };
+/// Drawn on all processors.
 std::vector<Plot> plots();
 
 /// Writes them all into `directory`, which is made if it is not there.
-void write_plots(const std::filesystem::path& directory);
+void write_plots(const std::filesystem::path& directory, std::span<const Plot> plots);
 
 }  // namespace lobelia::paper

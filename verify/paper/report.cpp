@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/chart_record.hpp"
+
 namespace lobelia::paper {
 namespace {
 
@@ -36,8 +38,10 @@ std::string table_text(std::span<const Claim> claims) {
   return text + "\n" + counts_text(claims) + "\n";
 }
 
-Json paper_record(std::span<const Claim> claims) {
+Json paper_record(std::span<const Claim> claims, const std::vector<std::string>& command,
+                  std::span<const Plot> plots) {
   Json record = make_record("verify-paper");
+  if (!command.empty()) record["command"] = command;
   record["confirmed"] = count(claims, Verdict::kConfirmed);
   record["notReproduced"] = count(claims, Verdict::kNotReproduced);
   record["found"] = count(claims, Verdict::kFound);
@@ -57,6 +61,11 @@ Json paper_record(std::span<const Claim> claims) {
                                 {"definition", claim.definition},
                                 {"verdict", name(claim.verdict)},
                                 {"reason", claim.reason}});
+  }
+  for (const Plot& plot : plots) {
+    Json figure = chart_record(plot.chart);
+    figure["claims"] = plot.claims;
+    record["figures"].push_back(figure);
   }
   return record;
 }

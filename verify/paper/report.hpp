@@ -3,9 +3,11 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/record.hpp"
 #include "verify/paper/claim.hpp"
+#include "verify/paper/plots.hpp"
 
 namespace lobelia::paper {
 
@@ -15,6 +17,8 @@ std::string text_of(const Figure& figure);
 std::string counts_text(std::span<const Claim> claims);
 /// One line a claim: verdict, name, printed, measured; then the counts.
 std::string table_text(std::span<const Claim> claims);
-Json paper_record(std::span<const Claim> claims);
+/// `command` is what made it. "figures" are the plots' charts; missing where none were drawn.
+Json paper_record(std::span<const Claim> claims, const std::vector<std::string>& command = {},
+                  std::span<const Plot> plots = {});
 
 }  // namespace lobelia::paper

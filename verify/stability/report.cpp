@@ -20,14 +20,18 @@ void widen(Answer& worst, const Answer& other) {
 
 /// In the order in which they are first met.
 template <class Name>
-std::vector<Summary> summarise(const Rows& rows, Name name_of) {
+std::vector<Summary> summarise(const Rows& rows, Name name_of, bool by_exponent = false) {
   std::vector<Summary> summaries;
   for (const Row& row : rows) {
     const std::string& name = name_of(row);
+    const double exponent = by_exponent ? row.exponent : 0;
     auto found = std::find_if(summaries.begin(), summaries.end(), [&](const Summary& s) {
-      return s.group == row.group && s.name == name;
+      return s.group == row.group && s.name == name && s.exponent == exponent;
     });
-    if (found == summaries.end()) found = summaries.insert(summaries.end(), {row.group, name});
+    if (found == summaries.end()) {
+      found = summaries.insert(summaries.end(), {row.group, name});
+      found->exponent = exponent;
+    }
     ++found->cases;
     found->outside += !row.within;
     widen(found->naive, row.naive);
@@ -71,6 +75,10 @@ std::vector<Summary> by_lobe(const Rows& rows) {
 }
 std::vector<Summary> by_case(const Rows& rows) {
   return summarise(rows, [](const Row& row) -> const std::string& { return row.name; });
+}
+std::vector<Summary> by_exponent(const Rows& rows) {
+  return summarise(
+      rows, [](const Row& row) -> const std::string& { return row.lobe; }, true);
 }
 
 }  // namespace lobelia::stability

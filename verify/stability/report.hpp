@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/record.hpp"
+#include "verify/stability/error_curves.hpp"
 #include "verify/stability/pictures.hpp"
 #include "verify/stability/row.hpp"
 #include "verify/stability/timing.hpp"
@@ -17,7 +18,8 @@ struct Report {
   std::vector<Stall> stalls;  ///< empty: not measured
   std::vector<Price> prices;
   std::vector<PicturePair> pictures;  ///< empty: not made
-  std::size_t outside() const;        ///< rows that are not within their bounds
+  std::vector<ErrorCurve> curves;
+  std::size_t outside() const;  ///< rows that are not within their bounds
 };
 
 /// Every case of these lobes, on all processors. `on_progress` gets the fraction done, from any thread.
@@ -30,9 +32,12 @@ struct Summary {
   int cases = 0, outside = 0;
   Answer naive = {}, ours = {};  ///< the largest error of each kind; no value
   double of_bound = 0;           ///< the largest part of a bound that is used up
+  double exponent = 0;           ///< of by_exponent alone
 };
 std::vector<Summary> by_lobe(const Rows& rows);
 std::vector<Summary> by_case(const Rows& rows);
+/// The worst of each group, lobe and exponent; the name is the lobe's.
+std::vector<Summary> by_exponent(const Rows& rows);
 
 /// `all`: every row, instead of the worst for each lobe and case.
 std::string report_text(const Report& report, bool all);

@@ -1,4 +1,5 @@
 #include "renderer/kernels/kernels.hpp"
+#include "verify/stability/meanings.hpp"
 #include "verify/stability/report.hpp"
 
 namespace lobelia::stability {
@@ -15,15 +16,28 @@ Json with_value(const Answer& a) {
 
 Json summaries(const std::vector<Summary>& all, const char* name) {
   Json array = Json::array();
-  for (const Summary& s : all)
-    array.push_back({{"group", s.group},
-                     {name, s.name},
-                     {"cases", s.cases},
-                     {"outside", s.outside},
-                     {"naive", errors(s.naive)},
-                     {"ours", errors(s.ours)},
-                     {"ofBound", s.of_bound}});
+  for (const Summary& s : all) {
+    Json json{{"group", s.group}, {name, s.name}};
+    if (s.exponent > 0) json["exponent"] = s.exponent;
+    const std::string_view meaning = meaning_of_case(s.group, s.name);
+    if (!meaning.empty()) json["meaning"] = meaning;
+    json.update({{"cases", s.cases},
+                 {"outside", s.outside},
+                 {"naive", errors(s.naive)},
+                 {"ours", errors(s.ours)},
+                 {"ofBound", s.of_bound}});
+    array.push_back(json);
+  }
   return array;
+}
+
+Json curve_json(const ErrorCurve& c) {
+  Json json{{"exponent", c.exponent}, {"model", c.model}, {"lobe", c.lobe}};
+  json["degrees"] = c.degrees;
+  for (const auto& [name, values] :
+       {std::pair{"truth", &c.truth}, {"naive", &c.naive}, {"ours", &c.ours}})
+    for (const double value : *values) json[name].push_back(number_or_name(value));
+  return json;
 }
 
 Json row_json(const Row& r) {
@@ -59,8 +73,15 @@ Json report_record(const Report& report, const std::vector<std::string>& command
   record["instructionSet"] = kernels().instruction_set;
   record["cases"] = report.rows.size();
   record["outside"] = report.outside();
+  for (const Summary& s : by_case(report.rows)) {
+    const Json group{{"name", s.group}, {"meaning", meaning_of_group(s.group)}};
+    if (!record.contains("groups") || record["groups"].back() != group)
+      record["groups"].push_back(group);
+  }
   record["byLobe"] = summaries(by_lobe(report.rows), "lobe");
   record["byCase"] = summaries(by_case(report.rows), "case");
+  record["byExponent"] = summaries(by_exponent(report.rows), "lobe");
+  for (const ErrorCurve& curve : report.curves) record["curves"].push_back(curve_json(curve));
   for (const Row& row : report.rows)
     if (all || !row.within) record["rows"].push_back(row_json(row));
   for (const Stall& s : report.stalls)

@@ -3,6 +3,7 @@
 
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/reflector.hpp"
+#include "verify/stability/by_kernel.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/long_double.hpp"
 #include "verify/stability/naive.hpp"
@@ -59,7 +60,15 @@ std::vector<Case> cases(double n) {
   };
 }
 
-/// In the precision that the plan would choose.
+Row new_row(const Highlight& h, const std::string& name) {
+  Row row{"vectors", name, std::string(info(h.model).name), std::string(info(h.lobe).name),
+          h.exponent};
+  row.bound_ulp = std::numeric_limits<double>::infinity();
+  return row;
+}
+
+}  // namespace
+
 double by_kernel(const Highlight& h, const ScreenedVectors& v, double& bound) {
   const Precision precision = sufficient_precision(h, v.half_length);
   bound = shading_error_bound(precision, h, v.half_length);
@@ -70,15 +79,6 @@ double by_kernel(const Highlight& h, const ScreenedVectors& v, double& bound) {
   kernels().shade(h, precision)(h, 1, normal, to_eye, to_light, value);
   return value[0];
 }
-
-Row new_row(const Highlight& h, const std::string& name) {
-  Row row{"vectors", name, std::string(info(h.model).name), std::string(info(h.lobe).name),
-          h.exponent};
-  row.bound_ulp = std::numeric_limits<double>::infinity();
-  return row;
-}
-
-}  // namespace
 
 Rows vector_rows(LobeId lobe) {
   Rows rows;

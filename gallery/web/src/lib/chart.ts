@@ -15,6 +15,8 @@ export interface Axis {
   readonly from: number;
   readonly to: number;
   readonly logarithmic?: boolean;
+  /** In place of round numbers. */
+  readonly ticks?: readonly number[];
 }
 
 export interface Band { readonly title: string; readonly from: number; readonly to: number }
@@ -33,6 +35,7 @@ export const kDashes = ['', '', '7 4', '2 3', '10 3 2 3', '5 2'];
 
 /** Round numbers from `from` to `to`, about `count` of them; decades on a logarithmic axis. */
 export function ticks(axis: Axis, count: number): number[] {
+  if (axis.ticks?.length) return [...axis.ticks];
   const result: number[] = [];
   if (axis.logarithmic) {
     const first = Math.ceil(Math.log10(axis.from) - 1e-9), last = Math.floor(Math.log10(axis.to) + 1e-9);
@@ -180,17 +183,27 @@ export class Chart {
       return;
     }
     const i = nearest(xs, value), at = this.across(xs[i]!);
-    const marks = series.filter((s) => Number.isFinite(s.y[i]) && !(this.content!.y.logarithmic && s.y[i]! <= 0))
-      .map((s) => svg('circle', { class: `marker-${s.style}`, cx: at, cy: this.down(s.y[i]!), r: 3.5 }));
+    const there = series.map((s) => ({ name: s.name, style: s.style, y: s.x === xs ? s.y[i]! : between(s, xs[i]!) }));
+    const marks = there.filter((s) => Number.isFinite(s.y) && !(this.content!.y.logarithmic && s.y <= 0))
+      .map((s) => svg('circle', { class: `marker-${s.style}`, cx: at, cy: this.down(s.y), r: 3.5 }));
     this.rule.replaceChildren(
       svg('line', { class: 'axis', x1: at, x2: at, y1: kTop, y2: this.height - kBottom }), ...marks);
     this.readout.textContent = `at ${numberText(xs[i]!, 4)}: ` +
-      series.map((s) => `${s.name} ${numberText(s.y[i]!, 5)}`).join(' · ');
+      there.map((s) => `${s.name} ${numberText(s.y, 5)}`).join(' · ');
     this.drawing.setAttribute('aria-label', `${this.title}; ${this.readout.textContent}`);
   }
 }
 
+/** The series' line at x; no number where it has none. */
+function between(s: Series, x: number): number {
+  const after = s.x.findIndex((v, i) => v >= x && (i === 0 ? v === x : s.x[i - 1]! <= x));
+  if (after <= 0) return after < 0 ? NaN : s.y[0]!;
+  const from = s.x[after - 1]!, to = s.x[after]!;
+  return from === to ? s.y[after]! : s.y[after - 1]! + (s.y[after]! - s.y[after - 1]!) * (x - from) / (to - from);
+}
+
 function tickText(value: number, axis: Axis): string {
+  if (axis.ticks?.length) return numberText(value, 4);
   if (!axis.logarithmic) {
     const size = Math.max(Math.abs(axis.from), Math.abs(axis.to));
     const digits = clamp(Math.ceil(Math.log10(size / (axis.to - axis.from))) + 3, 3, 12);

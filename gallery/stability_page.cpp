@@ -1,0 +1,285 @@
+#include "gallery/stability_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/numbers.hpp"
+#include "core/svg_chart.hpp"
+#include "gallery/names.hpp"
+#include "gallery/page.hpp"
+#include "gallery/picture.hpp"
+#include "gallery/record_page.hpp"
+#include "gallery/stability_data.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+constexpr char kRecord[] = "stability/stability.json", kDirectory[] = "stability";
+constexpr char kTitle[] = "The hard cases";
+constexpr double kLeastError = 1e-18, kMostError = 10;  // of charts; no number is drawn at the top
+constexpr char kShownGroup[] = "lobe";
+constexpr double kShownExponent = 1e6;
+
+std::string error_text(double error) {
+  return std::isfinite(error) ? number_text(error, 2) : "no number";
+}
+
+double drawn(double error) {
+  return std::isfinite(error) ? std::min(error, kMostError) : kMostError;
+}
+
+std::string power_text(double exponent) {
+  return exponent >= 1e4 ? power_of_ten_text(int(std::lround(std::log10(exponent))))
+                         : number_text(exponent, 4);
+}
+
+Chart new_chart(const char* id, const std::string& title, const std::string& description) {
+  Chart chart;
+  chart.id = id;
+  chart.title = title;
+  chart.description = description;
+  chart.width = 760;
+  chart.height = 400;
+  chart.y = {"largest error, of the peak", kLeastError, kMostError, true};
+  return chart;
+}
+
+/// The worst of all lobes over the exponent.
+Chart exponent_chart(const StabilityData& data) {
+  Chart chart = new_chart("over-exponent", "Error over exponent",
+                          "The largest error of all lobes, textbook and ours, over the exponent.");
+  std::map<double, std::pair<double, double>> worst;
+  for (const StabilitySummary& s : data.by_exponent) {
+    if (s.group != kShownGroup || !(s.exponent > 0)) continue;
+    auto& [naive, ours] = worst[s.exponent];
+    naive = std::max(naive, drawn(s.naive.of_peak));
+    ours = std::max(ours, drawn(s.ours.of_peak));
+  }
+  if (worst.size() < 2) return chart;
+  chart.x = {"exponent n", worst.begin()->first, worst.rbegin()->first, true};
+  chart.series = {{"naive float32", {}, {}, 2}, {"ours", {}, {}, 1}};
+  for (const auto& [n, errors] : worst) {
+    chart.series[0].x.push_back(n), chart.series[0].y.push_back(errors.first);
+    chart.series[1].x.push_back(n), chart.series[1].y.push_back(errors.second);
+  }
+  return chart;
+}
+
+const StabilityCurve* shown_curve(const StabilityData& data) {
+  const auto at = std::ranges::find(data.curves, kShownExponent, &StabilityCurve::exponent);
+  if (at != data.curves.end()) return &*at;
+  return data.curves.empty() ? nullptr : &data.curves.back();
+}
+
+/// The highlight itself, as the textbook draws it and as it is.
+Chart angle_chart(const StabilityCurve& curve) {
+  Chart chart =
+      new_chart("over-angle", "A highlight's flank",
+                "The highlight over the angle: the truth, the textbook's float32 and ours.");
+  double most = 1;
+  for (const double value : curve.naive)
+    if (std::isfinite(value)) most = std::clamp(value, most, 2.0);
+  chart.y = {"value, of the peak", 0, most * 1.05, false};
+  chart.x = {"angle between light and mirror direction (degrees)", 0, 1, false};
+  if (!curve.degrees.empty() && curve.degrees.back() > 0) chart.x.to = curve.degrees.back();
+  chart.series = {{"truth", curve.degrees, curve.truth, 0},
+                  {"naive float32", curve.degrees, curve.naive, 2},
+                  {"ours", curve.degrees, curve.ours, 1}};
+  return chart;
+}
+
+void write_chart(Html& html, const Chart& chart, const std::string& words) {
+  const Tag figure(html, "figure", {{"class", "chart-figure"}, {"id", chart.id + "-figure"}});
+  html.element("h3", chart.title);
+  html.raw(draw_chart(chart));
+  html.element("figcaption", words);
+}
+
+void write_charts(Html& html, const StabilityData& data) {
+  const Chart over_exponent = exponent_chart(data);
+  const StabilityCurve* curve = shown_curve(data);
+  if (over_exponent.series.empty() && !curve) return;
+  const Tag section(html, "section", {{"class", "charts"}});
+  html.element("h2", "How the error grows");
+  const Tag grid(html, "div", {{"class", "figure-grid"}});
+  if (!over_exponent.series.empty())
+    write_chart(html, over_exponent,
+                "The worst of all lobes, against a reference of 50 digits. A line at the "
+                "top edge means that the textbook gave no number.");
+  if (curve)
+    write_chart(
+        html, angle_chart(*curve),
+        fmt::format(
+            "A modified Phong highlight of n = {}: the textbook's float32 has lost the angle, "
+            "ours lies on the truth.",
+            power_text(curve->exponent)));
+}
+
+void write_picture(Html& html, ViewPage& page, const std::filesystem::path& run,
+                   const std::string& file, const std::string& words) {
+  const Tag figure(html, "figure");
+  html.element("figcaption", words);
+  const Picture picture = look_at_picture(run / kDirectory, file);
+  if (!picture.shown()) {
+    write_absence(html, picture.file.empty() ? "not recorded" : picture.why_not);
+    return;
+  }
+  page.files.push_back(std::string(kDirectory) + "/" + file);
+  html.empty("img", {{"src", link_to({kDirectory, file})},
+                     {"alt", words},
+                     {"width", std::to_string(picture.width)},
+                     {"height", std::to_string(picture.height)},
+                     {"loading", "lazy"}});
+}
+
+void write_pictures(ViewPage& page, const std::filesystem::path& run, const StabilityData& data) {
+  if (data.pictures.empty()) return;
+  Html& html = page.main;
+  const Tag section(html, "section");
+  html.element("h2", "Close to a highlight");
+  html.element(
+      "p",
+      "A modified Phong highlight that fills the picture. Errors relative to the peak: black 10⁻⁸ "
+      "and below, blue 10⁻⁶, red 10⁻⁴, yellow 10⁻², white 1; magenta is no number.");
+  for (const StabilityPicture& picture : data.pictures) {
+    html.element("h3", "n = " + power_text(picture.exponent));
+    const Tag row(html, "div", {{"class", "picture-four"}});
+    write_picture(html, page, run, picture.naive, "naive float32");
+    write_picture(html, page, run, picture.ours, "ours");
+    write_picture(html, page, run, picture.naive_error,
+                  "error of naive: at most " + error_text(picture.naive_off));
+    write_picture(html, page, run, picture.ours_error,
+                  "error of ours: at most " + error_text(picture.ours_off));
+  }
+}
+
+void write_error(Html& html, const WorstError& error) {
+  html.element("td", {{"class", std::isfinite(error.of_peak) ? "number" : "number over"}},
+               error_text(error.of_peak));
+  html.element("td", {{"class", "number"}}, error_text(error.ulp));
+  html.element("td", {{"class", error.wrong_pixels > 0 ? "number over" : "number"}},
+               count_text(error.wrong_pixels));
+}
+
+void write_case(Html& html, const StabilitySummary& one) {
+  const Tag row(html, "tr");
+  {
+    const Tag head(html, "th", {{"scope", "row"}});
+    html.text(one.name);
+    if (!one.meaning.empty()) html.element("small", one.meaning);
+  }
+  html.element("td", {{"class", "number"}}, count_text(one.cases));
+  write_error(html, one.naive);
+  write_error(html, one.ours);
+  html.element("td", {{"class", "number"}},
+               std::isfinite(one.of_bound)
+                   ? fmt::format("{:.0f} %", 100 * std::min(one.of_bound, 1e6))
+                   : "–");
+  const Tag verdict(html, "td");
+  write_status(html, one.outside > 0 ? CellStatus::kDiffers : CellStatus::kPass);
+}
+
+void write_group(Html& html, const StabilityData& data, const std::string& group,
+                 const std::string& meaning) {
+  Attributes attributes{{"class", "case-group"}, {"id", "group-" + group}};
+  if (group == kShownGroup) attributes.push_back({"open", "open"});
+  const Tag details(html, "details", attributes);
+  html.element("summary", meaning.empty() ? group : group + ": " + meaning);
+  const Tag scroll(html, "div",
+                   {{"class", "table-wrap"},
+                    {"tabindex", "0"},
+                    {"role", "region"},
+                    {"aria-label", "Cases: " + group}});
+  const Tag table(html, "table", {{"class", "figures cases"}});
+  {
+    const Tag head(html, "thead");
+    {
+      const Tag row(html, "tr");
+      html.element("td", {{"colspan", "2"}}, "");
+      html.element("th", {{"scope", "colgroup"}, {"colspan", "3"}}, "naive float32");
+      html.element("th", {{"scope", "colgroup"}, {"colspan", "3"}}, "ours");
+      html.element("td", {{"colspan", "2"}}, "");
+    }
+    const Tag row(html, "tr");
+    for (const char* column : {"case", "tried", "of peak", "ulp", "wrong pixels", "of peak", "ulp",
+                               "wrong pixels", "of its bound", "verdict"})
+      html.element("th", {{"scope", "col"}}, column);
+  }
+  const Tag body(html, "tbody");
+  for (const StabilitySummary& one : data.by_case)
+    if (one.group == group) write_case(html, one);
+}
+
+Json error_json(const WorstError& e) {
+  return Json::array({number_or_name(e.of_peak), number_or_name(e.ulp)});
+}
+
+Json page_data(const StabilityData& data) {
+  Json json{{"summaries", Json::array()}, {"curves", Json::array()}};
+  for (const StabilitySummary& s : data.by_exponent)
+    json["summaries"].push_back({{"group", s.group},
+                                 {"lobe", s.name},
+                                 {"exponent", number_or_name(s.exponent)},
+                                 {"naive", error_json(s.naive)},
+                                 {"ours", error_json(s.ours)}});
+  for (const StabilityCurve& c : data.curves) {
+    Json curve{{"exponent", number_or_name(c.exponent)}};
+    for (const auto& [name, values] : {std::pair{"degrees", &c.degrees},
+                                       {"truth", &c.truth},
+                                       {"naive", &c.naive},
+                                       {"ours", &c.ours}}) {
+      curve[name] = Json::array();
+      for (const double value : *values) curve[name].push_back(number_or_name(value));
+    }
+    json["curves"].push_back(curve);
+  }
+  return json;
+}
+
+void draw(ViewPage& page, const std::filesystem::path& run, const Fields& record) {
+  const StabilityData data = read_stability(record);
+  Html& html = page.main;
+  write_lead(
+      html, kTitle,
+      "Where float32 and geometry go wrong, the textbook's formulas (naive, without care) stand beside "
+      "what Lobelia does, each held to a reference in 50 digits that shares no code with either.");
+  {
+    const Tag list(html, "ul", {{"class", "counts"}});
+    {
+      const Tag item(html, "li");
+      html.element("strong", count_text(data.cases));
+      html.text(" cases");
+    }
+    const Tag item(html, "li");
+    html.element("strong", count_text(data.outside));
+    html.text(" outside their stated bounds");
+  }
+  write_charts(html, data);
+  write_pictures(page, run, data);
+  {
+    const Tag section(html, "section", {{"class", "all-cases"}});
+    html.element("h2", "Case by case");
+    html.element(
+        "p",
+        "The largest error of each kind: relative to the highlight's peak, and in units in the last "
+        "place of float32 at the true value. Of its bound: how much of the stated bound the worst "
+        "case uses.");
+    for (const auto& [group, meaning] : data.groups) write_group(html, data, group, meaning);
+  }
+  write_source(html, data.command, kRecord);
+  if (!data.instruction_set.empty())
+    html.element("p", "Instruction set: " + data.instruction_set + ".");
+  page.data = page_data(data);
+}
+
+}  // namespace
+
+std::optional<ViewPage> stability_view(const std::filesystem::path& run) {
+  return record_page(run, kRecord, "verify-stability", kTitle,
+                     [&](ViewPage& page, const Fields& record) { draw(page, run, record); });
+}
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,120 @@
+// Tables that the library wrote (docs/records.md, highlight-tables; gallery/explorer_page.cpp), interpolated over the
+// exponent. What a lobe or a model is stands nowhere here.
+
+export interface LobeTable {
+  readonly name: string; readonly title: string; readonly formula: string;
+  readonly order: number; readonly unit: number;
+  readonly reach: readonly number[]; readonly halfWidth: readonly number[];
+  readonly curves: readonly (readonly number[])[];
+}
+export interface ModelTable {
+  readonly name: string; readonly title: string; readonly angle: string; readonly appliesCosine: boolean;
+  readonly coefficient: string;
+}
+export interface HighlightTable {
+  readonly model: string; readonly lobe: string; readonly unit: number;
+  readonly exact: readonly number[]; readonly paper?: readonly number[];
+  readonly seen: readonly (readonly number[])[]; readonly lit?: readonly (readonly number[])[];
+}
+export interface Tables {
+  readonly exponents: readonly number[]; readonly perOctave: number; readonly mostGrazing: number;
+  readonly models: readonly ModelTable[]; readonly lobes: readonly LobeTable[];
+  readonly highlights: readonly HighlightTable[];
+}
+
+export interface Curve { readonly x: number[]; readonly y: number[] }
+
+const kDegree = Math.PI / 180, kFiner = 4;
+
+/** Rows of second differences: how the page's data keeps them, because they are short. */
+function summed(rows: readonly (readonly number[])[]): number[][] {
+  const result: number[][] = [];
+  rows.forEach((row, r) => {
+    const before = result[r - 1], earlier = result[r - 2];
+    result.push(row.map((value, i) => value + (earlier ? 2 * before![i]! - earlier[i]! : before?.[i] ?? 0)));
+  });
+  return result;
+}
+
+/** Four times as many points, by the cubic through the four nearest: for a line without corners. */
+export function refined(values: readonly number[]): number[] {
+  const last = values.length - 1, result: number[] = [];
+  for (let i = 0; i <= last * kFiner; ++i) {
+    const at = i / kFiner, first = Math.max(0, Math.min(last - 3, Math.floor(at) - 1));
+    if (i % kFiner === 0 || last < 3) { result.push(values[Math.round(at)]!); continue; }
+    let sum = 0;
+    for (let j = 0; j < 4; ++j) {
+      let weight = 1;
+      for (let k = 0; k < 4; ++k) if (k !== j) weight *= (at - first - k) / (j - k);
+      sum += weight * values[first + j]!;
+    }
+    result.push(sum);
+  }
+  return result;
+}
+
+export function unpacked(packed: Tables): Tables {
+  return {
+    ...packed,
+    lobes: packed.lobes.map((l) => ({ ...l, curves: summed(l.curves) })),
+    highlights: packed.highlights.map((h) => ({ ...h, seen: summed(h.seen), ...(h.lit && { lit: summed(h.lit) }) })),
+  };
+}
+
+/** Angles that crowd where a highlight is. */
+function spread(reach: number, n: number, count: number): number[] {
+  const most = Math.asinh(reach * Math.sqrt(n));
+  return Array.from({ length: count }, (_, i) => reach * Math.sinh(most * i / (count - 1)) / Math.sinh(most));
+}
+
+/** Everything about one exponent. */
+export class AtExponent {
+  private readonly first: number;
+  private readonly weights: number[];
+
+  constructor(private readonly tables: Tables, readonly n: number) {
+    const { exponents, perOctave } = tables;
+    const octaves = (exponents.length - 1) / perOctave;
+    const at = Math.log2(n / exponents[0]!), octave = Math.max(0, Math.min(octaves - 1, Math.floor(at)));
+    this.first = octave * perOctave;
+    const u = (at - octave) * perOctave, places = Array.from({ length: perOctave + 1 }, (_, i) => i);
+    this.weights = places.map((i) => places.reduce((w, k) => (k === i ? w : w * (u - k) / (i - k)), 1));
+  }
+
+  private number(values: readonly number[]): number {
+    return Math.exp(this.weights.reduce((sum, w, i) => sum + w * Math.log(values[this.first + i]!), 0));
+  }
+
+  private row(rows: readonly (readonly number[])[]): number[] {
+    const first = rows[this.first]!;
+    return first.map((_, j) => this.weights.reduce((sum, w, i) => sum + w * rows[this.first + i]![j]!, 0));
+  }
+
+  /** Degrees at which the lobe has fallen to half. */
+  halfWidth(lobe: LobeTable): number { return this.number(lobe.halfWidth) / kDegree; }
+  /** Degrees beyond which the lobe is 0. */
+  reach(lobe: LobeTable): number { return this.number(lobe.reach) / kDegree; }
+
+  /** The lobe over the angle that it sees, in degrees; 1 at 0. */
+  curve(lobe: LobeTable): Curve {
+    const numbers = this.row(lobe.curves);
+    return {
+      x: spread(this.number(lobe.reach), this.n, numbers.length).map((a) => a / kDegree),
+      y: numbers.map((v) => (lobe.order > 0 ? Math.max(0, v * lobe.unit) ** lobe.order : Math.exp(v * lobe.unit))),
+    };
+  }
+
+  coefficient(highlight: HighlightTable, normalisation: string): number {
+    return this.number((normalisation === 'paper' && highlight.paper) || highlight.exact);
+  }
+
+  /** Over incidence in degrees from 0 on: seen under a uniform sky, or (`lit`) what leaves of a beam. */
+  albedo(highlight: HighlightTable, normalisation: string, lit: boolean): Curve {
+    const values = refined(this.row((lit && highlight.lit) || highlight.seen));
+    const times = this.coefficient(highlight, normalisation) / this.coefficient(highlight, 'exact');
+    const grazing = this.tables.mostGrazing, x = spread(grazing, this.n, values.length).map((a) => grazing - a);
+    // What is lit is kept without its 1/(N.L), which has no bound.
+    const y = values.map((v, i) => times * Math.exp(v * highlight.unit) / (lit && highlight.lit ? Math.cos(x[i]!) : 1));
+    return { x: x.map((a) => a / kDegree).reverse(), y: y.reverse() };
+  }
+}
