@@ -147,7 +147,8 @@ class Explorer {
     this.curves.update({
       x: { label: `angle between ${[...angles].join(' (A), ')}${angles.size > 1 ? ' (B)' : ''}, degrees`, from: 0, to: Math.min(90, end) || 90 },
       y: { label: ofPeak ? 'of the peak' : 'radiance per unit irradiance', ...y, logarithmic },
-      series, bands: [],
+      // Below the chart there is no line, and no value to read there either.
+      series: logarithmic ? series.map((s) => ({ ...s, y: s.y.map((v) => (v < y.from / 2 ? NaN : v)) })) : series,
     });
   }
 
