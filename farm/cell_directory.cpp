@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kRecordFile[] = "cell.json";
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
 
 /// Every file that a farm of any version may have put into a cell.
 std::set<std::string> names_of_ours() {
@@ -58,12 +59,11 @@ void place_file(const fs::path& cached, const fs::path& target) {
   if (::link(cached.c_str(), part.c_str()) != 0) {
     if (errno == ENOENT || errno == ENOSPC || errno == EROFS || errno == EACCES)
       fail(target, errno);
+    write_file(part, read_file(cached, kMaxFileBytes));
     struct stat status {};
-    std::error_code error;
-    fs::copy_file(cached, part, error);
-    if (error || ::stat(cached.c_str(), &status) != 0) {
+    if (::stat(cached.c_str(), &status) != 0) {
       ::unlink(part.c_str());
-      fail(target, error ? error.value() : errno);
+      fail(target, errno);
     }
     const timespec times[2] = {status.st_atim, status.st_mtim};
     ::utimensat(AT_FDCWD, part.c_str(), times, 0);
