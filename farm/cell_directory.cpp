@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kRecordFile[] = "cell.json";
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
 
 /// Every file that a farm of any version may have put into a cell.
 std::set<std::string> names_of_ours() {
@@ -54,11 +55,10 @@ bool is_same_file(const fs::path& cached, const fs::path& there) {
 void link_or_copy(const fs::path& cached, const fs::path& part, const fs::path& target) {
   if (::link(cached.c_str(), part.c_str()) == 0) return;
   if (errno == ENOENT || errno == ENOSPC || errno == EROFS || errno == EACCES) fail(target, errno);
+  write_file(part, read_file(cached, kMaxFileBytes));
   struct stat status {};
-  std::error_code error;
-  fs::copy_file(cached, part, error);
-  if (error || ::stat(cached.c_str(), &status) != 0) {
-    const int number = error ? error.value() : errno;
+  if (::stat(cached.c_str(), &status) != 0) {
+    const int number = errno;
     ::unlink(part.c_str());
     fail(target, number);
   }

@@ -23,7 +23,7 @@ class HostileChunk : public testing::Test {
          {"engines", Json::array()},
          {"scene",
           read_file(LOBELIA_SOURCE_DIR "/reference_scenes/scenes/oblique_45.xml", 1 << 20)},
-         {"jobs", {"a-render"}}}};
+         {"jobs", {"a/render"}}}};
   }
   ChunkSummary exec(const std::string& text) const {
     write_file(directory_.path() / "chunk.json", text);

@@ -81,7 +81,8 @@ TEST_F(KilledFarm, AgainAndAgainEndsWhereOneThatWasLeftAloneDoes) {
 
 TEST_F(KilledFarm, OfThousandsOfCellsIsInterruptedAndGoesOn) {
   std::vector<std::string> exponents;
-  for (int i = 1; i <= 5000; ++i) exponents.push_back(std::to_string(i));
+  constexpr std::size_t kCells = 2000;
+  for (std::size_t i = 1; i <= kCells; ++i) exponents.push_back(std::to_string(i));
   grid(exponents, "", 8);
   fs::remove(root() / "povray");
   std::size_t before = 0;
@@ -102,11 +103,11 @@ TEST_F(KilledFarm, OfThousandsOfCellsIsInterruptedAndGoesOn) {
     EXPECT_EQ(farm.wait(), number == SIGKILL ? 128 + SIGKILL : 130) << farm.output();
   }
   const std::size_t there = cached_pictures();
-  EXPECT_GT(there, 1000u);
-  EXPECT_LT(there, 5000u);
+  EXPECT_GT(there, 500u);
+  EXPECT_LT(there, kCells);
   const FarmRun last = run({"--filter", "*render"});
   EXPECT_EQ(last.exit_code, 0) << last.output;
-  EXPECT_EQ(last.rendered, 5000 - there);
+  EXPECT_EQ(last.rendered, kCells - there);
   EXPECT_EQ(last.kept, there);
   expect_nothing_half_written();
 }
