@@ -95,7 +95,9 @@ TEST_F(RacingFarms, AndGcTakeTurns) {
     const int code = gc.wait();
     EXPECT_THAT(code, testing::AnyOf(0, 4)) << gc.output();
     EXPECT_THAT(farm.exit_code, testing::AnyOf(0, 4)) << farm.output;
-    if (farm.exit_code == 4) EXPECT_THAT(farm.output, HasSubstr("'lobelia farm gc' is at work"));
+    if (farm.exit_code == 4) {
+      EXPECT_THAT(farm.output, HasSubstr("'lobelia farm gc' is at work"));
+    }
   }
   expect_mended(run());
 }
