@@ -131,7 +131,8 @@ std::set<std::string> series_colours(const std::string& css) {
 TEST(SvgChart, has_the_same_colours_alone_and_in_the_gallery) {
   const auto alone = series_colours(read_file(LOBELIA_SOURCE_DIR "/core/svg_chart.css", 1 << 20));
   EXPECT_EQ(alone.size(), 10u) << "five in the light, five in the dark";
-  EXPECT_EQ(alone, series_colours(read_file(LOBELIA_SOURCE_DIR "/gallery/web/style.css", 1 << 20)));
+  EXPECT_EQ(alone, series_colours(
+                       read_file(LOBELIA_SOURCE_DIR "/gallery/web/src/style/base.css", 1 << 20)));
 }
 
 }  // namespace
