@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "core/error.hpp"
@@ -11,8 +12,16 @@
 
 namespace lobelia {
 
-inline const std::string kSceneFiles =
-    std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/";
+/// By a link, because a file's name on an axis ends at a blank and the source's directory may have one.
+inline std::string scene_files() {
+  static const TemporaryDirectory directory;
+  const auto link = directory.path() / "scenes";
+  if (!std::filesystem::exists(link))
+    std::filesystem::create_symlink(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes",
+                                    link);
+  return link.string() + "/";
+}
+inline const std::string kSceneFiles = scene_files();
 inline const std::string kScene = "<scene file=\"" + kSceneFiles + "head_on.xml\"/>";
 
 inline Grid grid_of(const std::string& body) {
