@@ -1,7 +1,9 @@
 #include "core/host.hpp"
 
 #include <sys/utsname.h>
+#include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <thread>
 
@@ -17,6 +19,12 @@ std::string processor_name() {
 }
 
 }  // namespace
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  ::gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
 
 Json host_record() {
   utsname system{};

@@ -24,7 +24,7 @@ constexpr char kRecordFile[] = "cell.json";
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
 
 /// Every file that a farm of any version may have put into a cell.
-std::set<std::string> names_of_ours() {
+std::set<std::string> list_names_of_ours() {
   std::set<std::string> names{"profile.json", "scene.xml"};
   std::vector<std::string> engines{kOurs};
   for (const auto& engine : engine_infos()) engines.emplace_back(engine.name);
@@ -33,6 +33,11 @@ std::set<std::string> names_of_ours() {
       names.insert(engine + ending);
     for (const char* ending : {".json", ".png"}) names.insert(comparison_name(engine) + ending);
   }
+  return names;
+}
+
+const std::set<std::string>& names_of_ours() {
+  static const std::set<std::string> names = list_names_of_ours();
   return names;
 }
 

@@ -71,17 +71,7 @@ std::vector<JobState> states_of(const ChunkCells& cells, const JobGraph& graph,
       else if (cache.failure(graph[job].key))
         states[job] = JobState::kFailed;
     }
-    for (std::size_t slot = 0; slot < records.size(); ++slot) {
-      const JobIndex job = JobIndex(graph.render(cell) + slot);
-      if (states[job] != JobState::kWaiting) continue;
-      for (const JobIndex input : graph.inputs(job)) {
-        const bool may_lack = graph[job].kind == JobKind::kProfile &&
-                              graph[input].kind == JobKind::kReference &&
-                              states[input] == JobState::kFailed;
-        if (states[input] != JobState::kDone && states[input] != JobState::kWaiting && !may_lack)
-          states[job] = JobState::kAbsent;
-      }
-    }
+    leave_out_what_waits_for_nothing(graph, states, cell);
   }
   return states;
 }
@@ -136,10 +126,7 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
     cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
     JobGraph graph(cells.farm, engines);
     const ResultCache cache(chunk.at("cache").get<std::string>());
-    const auto in_use = cache.try_use(true);
-    if (!in_use)
-      throw Error(ExitCode::kOutput, fmt::format("{}: 'lobelia farm gc' is at work in this cache",
-                                                 cache.directory().string()));
+    const auto in_use = cache.use();
     remove_abandoned_temporaries();
     JobRun run(graph, cache, options, states_of(cells, graph, cache));
     std::vector<std::size_t> order(graph.cell_count());

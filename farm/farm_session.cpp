@@ -13,7 +13,6 @@
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
-#include "farm/our_name.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -35,16 +34,6 @@ fs::path apart(const fs::path& cache, const fs::path& directory) {
         fmt::format("{}: the cache {} may not lie among a farm's cells, nor a farm in a cache",
                     directory.string(), cache.string()));
   return cache;
-}
-
-/// Jobs that are to be done though one of their inputs neither is there nor will be: the filter leaves it out.
-void leave_out_what_waits_for_nothing(const JobGraph& graph, std::vector<JobState>& states,
-                                      std::size_t cell) {
-  for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job) {
-    if (states[job] != JobState::kWaiting) continue;
-    for (const JobIndex input : graph.inputs(job))
-      if (states[input] == JobState::kAbsent) states[job] = JobState::kAbsent;
-  }
 }
 
 }  // namespace
@@ -79,14 +68,9 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
       directory_(directory),
       options_(options),
       cache_(apart(cache_directory(options.cache, directory), directory)),
-      in_use_(cache_.try_use(true)),
+      in_use_(cache_.use()),
       states_(work_.graph.size(), JobState::kAbsent),
       status_(work_.graph.cell_count(), "missing") {
-  if (!in_use_)
-    throw Error(
-        ExitCode::kOutput,
-        fmt::format("{}: 'lobelia farm gc' is at work in this cache; try again when it has ended",
-                    cache_.directory().string()));
   summary_.absent_engines = work_.absences();
   summary_.cells = work_.graph.cell_count();
   cache_.remove_abandoned();
@@ -127,8 +111,7 @@ bool FarmSession::look_at(std::size_t cell) {
     if (records[slot] && !(options_.again && picked)) {
       states_[job] = JobState::kDone;
       cache_.touch(work_.graph[job].key);
-      if (work_.graph[job].kind == JobKind::kRender || work_.graph[job].kind == JobKind::kReference)
-        ++kept;
+      if (is_picture(work_.graph[job].kind)) ++kept;
       continue;
     }
     complete = false;
@@ -161,14 +144,14 @@ void FarmSession::take_warnings(const CellRecords& records) {
 void FarmSession::finish_cell(std::size_t cell) {
   JobGraph& graph = work_.graph;
   CellRecords records = find_records(cache_, graph, cell);
-  std::vector<bool> with_engine(work_.engines.size());
   bool lacks_one = false;
-  for (std::size_t e = 0; e < with_engine.size(); ++e) {
-    with_engine[e] = records[graph.reference(cell, e) - graph.render(cell)].has_value();
-    lacks_one = lacks_one || (graph[graph.reference(cell, e)].exists && !with_engine[e]);
+  for (std::size_t e = 0; e < work_.engines.size(); ++e) {
+    const JobIndex reference = graph.reference(cell, e);
+    lacks_one = lacks_one || (graph[reference].exists && !records[reference - graph.render(cell)]);
   }
   if (lacks_one && graph[graph.profile(cell)].exists) {
-    graph.set_profile_key(cell, graph.profile_key(cell, with_engine));
+    graph.narrow_profile(
+        cell, [&](JobIndex picture) { return records[picture - graph.render(cell)].has_value(); });
     records = find_records(cache_, graph, cell);
   }
   std::vector<CellProblem> problems;
@@ -177,7 +160,7 @@ void FarmSession::finish_cell(std::size_t cell) {
     if (!job.exists || records[slot]) continue;
     const auto failure = cache_.failure(job.key);
     if (!failure) continue;
-    problems.push_back({job.engine == kNoEngine ? kOurs : work_.engines[job.engine].name,
+    problems.push_back({graph.whose(JobIndex(graph.render(cell) + slot)),
                         failure->value("message", ""), failure->value("failure", ""),
                         failure->value("attempts", 1), cache_.failure_log(job.key)});
   }

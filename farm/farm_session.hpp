@@ -60,7 +60,7 @@ class FarmSession {
   const std::filesystem::path directory_;
   const FarmOptions& options_;
   const ResultCache cache_;
-  std::optional<ByteLocks::Claim> in_use_;
+  const ByteLocks::Claim in_use_;
   std::vector<JobState> states_;
   std::vector<std::size_t> waiting_cells_;
   mutable std::mutex mutex_;         // of what follows

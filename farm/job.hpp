@@ -17,6 +17,10 @@ enum class JobKind : std::uint8_t {
 };
 inline constexpr std::string_view kJobKindNames[] = {"render", "reference", "compare", "profile"};
 
+constexpr bool is_picture(JobKind kind) {
+  return kind == JobKind::kRender || kind == JobKind::kReference;
+}
+
 inline constexpr std::uint8_t kNoEngine = 255;
 
 struct Job {

@@ -10,6 +10,7 @@
 
 #include "core/build_id.hpp"
 #include "core/version.hpp"
+#include "farm/our_name.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -76,6 +77,13 @@ ResultKey JobGraph::profile_key(std::size_t cell, const std::vector<bool>& with_
   return result_key({"profile", program_id(), as_part(jobs_[render(cell)].key), references});
 }
 
+void JobGraph::narrow_profile(std::size_t cell, const std::function<bool(JobIndex)>& has_picture) {
+  std::vector<bool> with_engine(engines_->size());
+  for (std::size_t e = 0; e < with_engine.size(); ++e)
+    with_engine[e] = jobs_[reference(cell, e)].exists && has_picture(reference(cell, e));
+  jobs_[profile(cell)].key = profile_key(cell, with_engine);
+}
+
 std::vector<JobIndex> JobGraph::inputs(JobIndex job) const {
   const std::size_t cell = cell_of(job);
   switch (jobs_[job].kind) {
@@ -113,6 +121,11 @@ std::string JobGraph::name(JobIndex job) const {
   const Job& one = jobs_[job];
   return job_name(cells_->cells[cell_of(job)].id, one.kind,
                   one.engine == kNoEngine ? "" : (*engines_)[one.engine].name);
+}
+
+std::string JobGraph::whose(JobIndex job) const {
+  const std::uint8_t engine = jobs_[job].engine;
+  return engine == kNoEngine ? kOurs : (*engines_)[engine].name;
 }
 
 std::string JobGraph::refusal(std::size_t cell, std::size_t engine) const {

@@ -56,19 +56,25 @@ class JobGraph {
   std::vector<JobIndex> dependents(JobIndex job) const;
 
   std::string name(JobIndex job) const;
+  /// Whose picture a job is about: an engine's, or ours.
+  std::string whose(JobIndex job) const;
 
   /// Why a cell is not compared with an engine that is here: it cannot show the scene. Empty if it can.
   std::string refusal(std::size_t cell, std::size_t engine) const;
 
-  /// Of a profile whose cell lacks the pictures of some engines (they failed): the result without them.
-  ResultKey profile_key(std::size_t cell, const std::vector<bool>& with_engine) const;
-
-  void set_profile_key(std::size_t cell, const ResultKey& key) { jobs_[profile(cell)].key = key; }
+  /// Whether a job can be done without this input of it if that has failed: a profile draws what pictures there are.
+  bool may_lack(JobIndex job, JobIndex input) const {
+    return jobs_[job].kind == JobKind::kProfile && jobs_[input].kind == JobKind::kReference;
+  }
+  /// Makes the profile of a cell that of our picture and of those engines' for whose job `has_picture` holds: without
+  /// the others it is another result.
+  void narrow_profile(std::size_t cell, const std::function<bool(JobIndex)>& has_picture);
 
   /// The hash of a cell's scene file, in hexadecimal.
   std::string scene_hash(std::size_t cell) const { return hex(scenes_[cell]); }
 
  private:
+  ResultKey profile_key(std::size_t cell, const std::vector<bool>& with_engine) const;
   void plan_cell(std::size_t cell, std::map<std::size_t, std::string>& refusals);
 
   const FarmCells* cells_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -52,12 +51,6 @@ std::uint64_t own_peak_memory() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return std::uint64_t(usage.ru_maxrss) * 1024;
-}
-
-std::string host_name() {
-  char name[256] = {};
-  ::gethostname(name, sizeof name - 1);
-  return name;
 }
 
 Json host_of_result() {
@@ -127,17 +120,14 @@ struct JobRun::Impl {
 
   void make_ready(JobIndex job) {
     // Comparisons first: they finish cells, and there are few of them at a time.
-    const JobKind kind = graph[job].kind;
-    const int urgency = kind == JobKind::kRender || kind == JobKind::kReference ? 1 : 0;
+    const int urgency = is_picture(graph[job].kind) ? 1 : 0;
     ready.push({{urgency, rank[graph.cell_of(job)]}, job});
   }
 
   bool inputs_are_settled(JobIndex job) const {
     for (const JobIndex input : graph.inputs(job)) {
       if (states[input] == JobState::kDone) continue;
-      const bool may_lack =
-          graph[job].kind == JobKind::kProfile && graph[input].kind == JobKind::kReference;
-      if (may_lack && states[input] == JobState::kFailed) continue;
+      if (graph.may_lack(job, input) && states[input] == JobState::kFailed) continue;
       return false;
     }
     return true;
@@ -150,9 +140,7 @@ struct JobRun::Impl {
     count_step(job);
     for (const JobIndex next : graph.dependents(job)) {
       if (states[next] != JobState::kWaiting) continue;
-      const bool needed =
-          graph[next].kind == JobKind::kCompare || graph[job].kind == JobKind::kRender;
-      if (state != JobState::kDone && needed)
+      if (state != JobState::kDone && !graph.may_lack(next, job))
         settle(next, JobState::kBlocked);
       else if (inputs_are_settled(next))
         make_ready(next);
@@ -265,10 +253,8 @@ struct JobRun::Impl {
     if (one.engine != kNoEngine)
       record["inputs"]["engineVersion"] = graph.engines()[one.engine].version;
     for (const JobIndex input : graph.inputs(job)) {
-      const Job& from = graph[input];
-      const std::string engine =
-          from.engine == kNoEngine ? kOurs : graph.engines()[from.engine].name;
-      if (state_of(input) == JobState::kDone) record["inputs"][engine] = from.key.text();
+      if (state_of(input) == JobState::kDone)
+        record["inputs"][graph.whose(input)] = graph[input].key.text();
     }
     record["host"] = host_of_result();
     record["attempts"] = attempts;
@@ -282,12 +268,11 @@ struct JobRun::Impl {
 
   void publish(JobIndex job, ResultDraft& draft, Json record) {
     const Publication publication = cache.publish(draft, graph[job].key, std::move(record));
-    const JobKind kind = graph[job].kind;
     {
       const std::scoped_lock lock(mutex);
       if (publication == Publication::kNew) {
         ++work.made;
-        if (kind == JobKind::kRender || kind == JobKind::kReference) ++work.pictures;
+        if (is_picture(graph[job].kind)) ++work.pictures;
       } else {
         ++work.found;
         if (publication == Publication::kDifferent) ++work.different;
@@ -299,7 +284,7 @@ struct JobRun::Impl {
   /// Of a picture that is an input: its directory, and in `from` the hash of what is read there.
   MadePicture input_picture(JobIndex job, Json& from) const {
     const Job& one = graph[job];
-    const std::string engine = one.engine == kNoEngine ? kOurs : graph.engines()[one.engine].name;
+    const std::string engine = graph.whose(job);
     const auto record = cache.find(one.key);
     if (!record)
       throw Error(ExitCode::kEngine,
@@ -344,20 +329,13 @@ struct JobRun::Impl {
     return made;
   }
 
-  /// A profile whose references failed is another result, of the pictures that are there.
-  void adapt_profile(JobIndex job) {
-    if (graph[job].kind != JobKind::kProfile) return;
-    const std::size_t cell = graph.cell_of(job);
-    std::vector<bool> with_engine(graph.engines().size());
-    for (std::size_t e = 0; e < with_engine.size(); ++e)
-      with_engine[e] = state_of(graph.reference(cell, e)) == JobState::kDone;
-    const std::scoped_lock lock(mutex);
-    graph.set_profile_key(cell, graph.profile_key(cell, with_engine));
-  }
-
   /// Whether it has been settled; false: somebody else is at work on it.
   bool do_kernel_job(JobIndex job) {
-    adapt_profile(job);
+    if (graph[job].kind == JobKind::kProfile) {
+      const std::scoped_lock lock(mutex);
+      graph.narrow_profile(graph.cell_of(job),
+                           [&](JobIndex picture) { return states[picture] == JobState::kDone; });
+    }
     const ResultKey& key = graph[job].key;
     const auto claim = claim_of(key);
     if (!claim) return false;
@@ -623,6 +601,17 @@ struct JobRun::Impl {
     }
   }
 };
+
+void leave_out_what_waits_for_nothing(const JobGraph& graph, std::vector<JobState>& states,
+                                      std::size_t cell) {
+  for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job) {
+    if (states[job] != JobState::kWaiting) continue;
+    for (const JobIndex input : graph.inputs(job))
+      if (states[input] == JobState::kAbsent ||
+          (states[input] == JobState::kFailed && !graph.may_lack(job, input)))
+        states[job] = JobState::kAbsent;
+  }
+}
 
 JobRun::JobRun(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options,
                std::vector<JobState> states)

@@ -59,6 +59,11 @@ struct JobRunWork {
   }
 };
 
+/// Takes from the jobs of a cell that are waiting those of which an input neither is there nor will be: a filter leaves it
+/// out, or it has failed.
+void leave_out_what_waits_for_nothing(const JobGraph& graph, std::vector<JobState>& states,
+                                      std::size_t cell);
+
 class JobRun {
  public:
   /// `states` has an entry for each job: kDone where its result is there, kWaiting where it is to be made. Results

@@ -17,7 +17,6 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kMarkerFile[] = "lobelia-cache";
 constexpr char kLayout[] = "1\n";
 constexpr std::uint64_t kUseLock = ~std::uint64_t{0};
 constexpr std::uint64_t kMaxLogBytes = 64 << 20;
@@ -57,11 +56,6 @@ std::string random_name() {
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
-/// A name in a record is that of a file beside it and nothing else.
-bool is_plain(const std::string& name) {
-  return !name.empty() && name.find('/') == name.npos && name.front() != '.';
-}
-
 /// Why a file is not what its record says; empty if it is.
 std::string damage_of(const fs::path& path, const Json& file, ResultCache::Look look) {
   struct stat status {};
@@ -91,6 +85,10 @@ std::vector<ResultKey> keys_on_shelves(const fs::path& directory) {
 
 }  // namespace
 
+bool is_plain_file_name(const std::string& name) {
+  return !name.empty() && name.find('/') == name.npos && name.front() != '.';
+}
+
 std::string seal_of(Json record) {
   record.erase("seal");
   return hex(sha256(record.dump()));
@@ -104,7 +102,7 @@ ResultDraft::~ResultDraft() {
 namespace {
 /// Makes what a cache consists of, unless it is there; before the locks' file can be opened.
 fs::path prepared(fs::path directory) {
-  const fs::path marker = directory / kMarkerFile;
+  const fs::path marker = directory / kCacheMarkerFile;
   std::error_code ignored;
   if (fs::exists(marker, ignored)) {
     if (read_file(marker, 64) != kLayout)
@@ -116,7 +114,7 @@ fs::path prepared(fs::path directory) {
   if (fs::is_directory(directory, ignored) && !fs::is_empty(directory, ignored) &&
       !fs::exists(directory / "results", ignored))
     throw Error(ExitCode::kInput, fmt::format("{}: not empty and not a cache (it has no file '{}')",
-                                              directory.string(), kMarkerFile));
+                                              directory.string(), kCacheMarkerFile));
   for (const char* part : {"results", "failures", "making"}) make_directories(directory / part);
   return directory;
 }
@@ -124,12 +122,12 @@ fs::path prepared(fs::path directory) {
 
 ResultCache::ResultCache(fs::path directory)
     : directory_(prepared(fs::absolute(directory))), locks_(directory_ / "locks") {
-  const fs::path marker = directory_ / kMarkerFile;
+  const fs::path marker = directory_ / kCacheMarkerFile;
   std::error_code ignored;
   if (fs::exists(marker, ignored)) return;
   const ResultDraft made = draft();
-  write_file(made.file(kMarkerFile), kLayout);
-  move(made.file(kMarkerFile), marker);
+  write_file(made.file(kCacheMarkerFile), kLayout);
+  move(made.file(kCacheMarkerFile), marker);
 }
 
 fs::path ResultCache::result_directory(const ResultKey& key) const {
@@ -172,7 +170,7 @@ std::optional<Json> ResultCache::find(const ResultKey& key, Look look, std::stri
     for (const auto& one : record.at("files")) {
       const std::string name = one.at("name");
       const std::string damage =
-          is_plain(name) ? damage_of(file(key, name), one, look) : "has no plain name";
+          is_plain_file_name(name) ? damage_of(file(key, name), one, look) : "has no plain name";
       if (damage.empty()) continue;
       why_not = fmt::format("damaged: {} {}", name, damage);
       return std::nullopt;
@@ -257,6 +255,16 @@ bool ResultCache::is_in_use() const { return locks_.is_claimed(kUseLock); }
 
 std::optional<ByteLocks::Claim> ResultCache::try_use(bool shared) const {
   return locks_.try_claim(kUseLock, shared);
+}
+
+ByteLocks::Claim ResultCache::use() const {
+  auto claim = try_use(true);
+  if (!claim)
+    throw Error(
+        ExitCode::kOutput,
+        fmt::format("{}: 'lobelia farm gc' is at work in this cache; try again when it has ended",
+                    directory_.string()));
+  return std::move(*claim);
 }
 
 void ResultCache::keep_failure(const ResultKey& key, const Json& record,

@@ -24,6 +24,10 @@
 namespace lobelia {
 
 inline constexpr char kManifestFile[] = "result.json";
+inline constexpr char kCacheMarkerFile[] = "lobelia-cache";  ///< by which a cache is known
+
+/// A name in a record is that of a file beside it and nothing else.
+bool is_plain_file_name(const std::string& name);
 
 /// Of a result's record, which has it as `seal`: the hash of everything else in it. A disk may err in the record
 /// as well as in a picture.
@@ -93,6 +97,8 @@ class ResultCache {
   bool is_in_use() const;
   /// To be held by whoever uses the cache (shared) or takes results away that others may need (not shared).
   std::optional<ByteLocks::Claim> try_use(bool shared) const;
+  /// Shared; Error(kOutput) while somebody takes results away.
+  ByteLocks::Claim use() const;
 
   /// With the log of whoever failed, unless that is not there.
   void keep_failure(const ResultKey& key, const Json& record,

@@ -65,8 +65,7 @@ Json read_farm_record(const fs::path& directory) {
       if (record.contains(name)) record.at(name).get_ref<const std::string&>();
     for (const auto& cell : record.at("cells").get_ref<const Json::array_t&>()) {
       cell.at("status").get_ref<const std::string&>();
-      if (const std::string id = cell.at("id");
-          id.empty() || id.front() == '.' || id.find('/') != id.npos)
+      if (const std::string id = cell.at("id"); !is_plain_file_name(id))
         throw Error(ExitCode::kInput,
                     fmt::format("{}: no name of a cell: '{}'", (directory / "farm.json").string(),
                                 printable(id)));
@@ -89,7 +88,7 @@ std::pair<std::int64_t, std::int64_t> changed(const fs::path& path) {
 
 fs::path cache_of(const fs::path& path) {
   std::error_code ignored;
-  if (fs::exists(path / "lobelia-cache", ignored)) return path;
+  if (fs::exists(path / kCacheMarkerFile, ignored)) return path;
   if (!fs::exists(path / "farm.json", ignored))
     throw Error(
         ExitCode::kInput,
@@ -98,7 +97,7 @@ fs::path cache_of(const fs::path& path) {
                     path.string()));
   const Json record = read_farm_record(path);
   const fs::path cache = path / record.value("cache", std::string("cache"));
-  if (!fs::exists(cache / "lobelia-cache", ignored))
+  if (!fs::exists(cache / kCacheMarkerFile, ignored))
     throw Error(ExitCode::kInput, fmt::format("{}: its cache {} is not there", path.string(),
                                               cache.lexically_normal().string()));
   return cache.lexically_normal();

@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/interrupt.hpp"
 #include "core/record.hpp"
 #include "core/text.hpp"
@@ -30,12 +31,6 @@ using Verdict = DoctorCheck::Verdict;
 constexpr char kToken[] = "token";       // written here, read on the node
 constexpr char kLock[] = "lock";         // held here, tried on the node
 constexpr char kAnswer[] = "node.json";  // written on the node
-
-std::string host_name() {
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
-  return host.data();
-}
 
 /// "" or what does not work.
 std::string try_rename(const fs::path& directory) {

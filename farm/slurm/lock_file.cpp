@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/host.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -22,9 +23,7 @@ LockFile::LockFile(const std::filesystem::path& path) {
   lock.l_whence = SEEK_SET;
   if (::fcntl(fd_, F_OFD_SETLK, &lock) == 0) {
     state_ = State::kHeld;
-    std::array<char, 256> host{};
-    ::gethostname(host.data(), host.size() - 1);
-    const std::string text = fmt::format("{} {}\n", host.data(), ::getpid());
+    const std::string text = fmt::format("{} {}\n", host_name(), ::getpid());
     // Only for messages: a disk that is full keeps nobody from holding the lock.
     if (::ftruncate(fd_, 0) != 0 || ::pwrite(fd_, text.data(), text.size(), 0) < 0) errno = 0;
   } else {

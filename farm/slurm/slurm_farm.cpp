@@ -31,7 +31,6 @@ class Missing {
     const JobGraph& graph = session_.work().graph;
     jobs_.clear();
     std::vector<SlurmJob> missing;
-    std::vector<SlurmJob> costs(graph.stride());
     for (const std::size_t cell : session_.waiting_cells()) {
       std::vector<JobIndex> of_cell;
       for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job)
@@ -40,12 +39,11 @@ class Missing {
       const Scene scene = session_.work().cells.scene(cell);
       for (const JobIndex job : of_cell) {
         const Job& one = graph[job];
-        const std::string engine =
-            one.engine == kNoEngine ? "" : session_.work().engines[one.engine].name;
-        const bool picture = one.kind == JobKind::kRender || one.kind == JobKind::kReference;
+        const std::string whose = graph.whose(job);
         missing.push_back(
-            {graph.name(job), picture ? 0 : 1, estimated_seconds(one.kind, engine, scene),
-             one.kind == JobKind::kReference ? engine : std::string(kJobKindNames[int(one.kind)])});
+            {graph.name(job), is_picture(one.kind) ? 0 : 1,
+             estimated_seconds(one.kind, whose, scene),
+             one.kind == JobKind::kReference ? whose : std::string(kJobKindNames[int(one.kind)])});
         jobs_.push_back(job);
       }
     }
@@ -65,8 +63,7 @@ class Missing {
     for (JobIndex job = 0; job < graph.size(); ++job) {
       if (states_[job] != JobState::kWaiting || !session_.cache().has(graph[job].key)) continue;
       ++work.made;
-      if (graph[job].kind == JobKind::kRender || graph[job].kind == JobKind::kReference)
-        ++work.pictures;
+      if (is_picture(graph[job].kind)) ++work.pictures;
     }
     return work;
   }
@@ -82,29 +79,16 @@ class Missing {
     JobGraph& graph = session_.work().graph;
     const ResultCache& cache = session_.cache();
     if (graph[job].kind == JobKind::kProfile)
-      graph.set_profile_key(graph.cell_of(job), key_now(job));
+      graph.narrow_profile(graph.cell_of(job), [&](JobIndex picture) {
+        return cache.has(graph[picture].key) || !cache.failure(graph[picture].key);
+      });
     if (cache.has(graph[job].key) || cache.failure(graph[job].key)) return false;
     // What waits for something that failed is not to be had.
-    for (const JobIndex input : graph.inputs(job)) {
-      const bool may_lack =
-          graph[job].kind == JobKind::kProfile && graph[input].kind == JobKind::kReference;
-      if (!may_lack && !cache.has(graph[input].key) && cache.failure(graph[input].key))
+    for (const JobIndex input : graph.inputs(job))
+      if (!graph.may_lack(job, input) && !cache.has(graph[input].key) &&
+          cache.failure(graph[input].key))
         return false;
-    }
     return true;
-  }
-
-  /// A profile is of the pictures that did not fail.
-  ResultKey key_now(JobIndex profile) const {
-    const JobGraph& graph = session_.work().graph;
-    const std::size_t cell = graph.cell_of(profile);
-    std::vector<bool> with_engine(graph.engines().size());
-    for (std::size_t e = 0; e < with_engine.size(); ++e) {
-      const Job& reference = graph[graph.reference(cell, e)];
-      with_engine[e] = reference.exists && (session_.cache().has(reference.key) ||
-                                            !session_.cache().failure(reference.key));
-    }
-    return graph.profile_key(cell, with_engine);
   }
 
   FarmSession& session_;

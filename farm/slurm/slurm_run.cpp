@@ -15,6 +15,7 @@
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "core/record.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/slurm/lock_file.hpp"
 #include "farm/slurm/slurm_client.hpp"
@@ -102,10 +103,7 @@ void write_run_record(const fs::path& run_directory, const RunRecord& record) {
 
 /// Of the directory: another client of the same run gives its jobs the same name.
 std::string name_of_run(const fs::path& run_directory) {
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  for (const char c : run_directory.string())
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return fmt::format("lobelia-{:016x}", hash);
+  return "lobelia-" + hex(sha256(run_directory.string())).substr(0, 16);
 }
 
 class Run {

@@ -60,10 +60,7 @@ TEST_F(ChunkTest, ComparesAndDrawsWhatDidNotFail) {
   const Grid small = grid("16", "<engine name=\"analytic\"/><engine name=\"povray\"/>");
   FarmOptions options;
   options.attempts = 1;
-  options.programs = {{"povray", script("povray",
-                                        "echo 'POV-Ray 3.7.0.10' >&2\n"
-                                        "case \"$*\" in *version*) exit 0;; esac\n"
-                                        "exit 3\n")}};
+  options.programs = {{"povray", failing_povray()}};
   FarmWork work(small, options);
   const ResultCache cache(out() / "cache");
   std::vector<JobIndex> pictures, rest;

@@ -39,6 +39,14 @@ class FarmTest : public testing::Test {
     return path;
   }
 
+  /// A program that answers as POV-Ray does, and fails at every picture after what `words` do in a shell.
+  std::filesystem::path failing_povray(const std::string& words = "") const {
+    return script("povray",
+                  "echo 'POV-Ray 3.7.0.10' >&2\n"
+                  "case \"$*\" in *version*) exit 0;; esac\n" +
+                      words + "exit 3\n");
+  }
+
   TemporaryDirectory directory_;
 };
 

@@ -276,10 +276,7 @@ TEST_F(FarmTest, AnAbsentEngineIsLeftOutAndNamedWithTheWayToGetIt) {
 
 TEST_F(FarmTest, AnEngineThatFailsIsThatCellsResultAndNothingElses) {
   FarmOptions options;
-  options.programs = {{"povray", script("povray",
-                                        "echo 'POV-Ray 3.7.0.10' >&2\n"
-                                        "case \"$*\" in *version*) exit 0;; esac\n"
-                                        "echo out of memory\nexit 3\n")}};
+  options.programs = {{"povray", failing_povray("echo out of memory\n")}};
   const WithoutPrograms nothing_in_path;
   const FarmSummary summary = run_farm(grid("16, 32", kBothEngines), out(), options);
   EXPECT_EQ(summary.failed, 2u);

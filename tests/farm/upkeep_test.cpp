@@ -119,10 +119,7 @@ TEST_F(UpkeepTest, StatusTellsWhatHasBecomeOfEachCell) {
   EXPECT_TRUE(status.at("failures").empty());
   FarmOptions options;
   options.attempts = 2;
-  options.programs = {{"povray", script("povray",
-                                        "echo 'POV-Ray 3.7.0.10' >&2\n"
-                                        "case \"$*\" in *version*) exit 0;; esac\n"
-                                        "exit 3\n")}};
+  options.programs = {{"povray", failing_povray()}};
   run_farm(grid("16", "<engine name=\"povray\"/>"), out(), options);
   status = farm_status(out());
   EXPECT_EQ(status.at("status").at("failed"), 1);

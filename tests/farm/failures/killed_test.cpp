@@ -102,7 +102,7 @@ TEST_F(KilledFarm, OfThousandsOfCellsIsInterruptedAndGoesOn) {
           count += std::size_t(std::distance(fs::directory_iterator(there), {}));
       return count;
     };
-    while (some() < before + 10 && !farm.has_ended())
+    while (some() < before + 6 && !farm.has_ended())
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     before = some();
     farm.signal(number);
