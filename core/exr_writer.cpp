@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
 #include <thread>
 
 #include "core/error.hpp"
@@ -87,6 +88,19 @@ class Stream : public Imf::OStream {
 
 }  // namespace
 
+namespace {
+int pool_threads = 0;
+}
+
+void ExrWriter::set_pool(int threads) {
+  // OpenEXR's pool is one for the process, and must not change while another writer uses it.
+  static std::once_flag once;
+  std::call_once(once, [&] {
+    Imf::setGlobalThreadCount(threads);
+    pool_threads = threads;
+  });
+}
+
 struct ExrWriter::State {
   Stream stream;
   std::unique_ptr<Imf::OutputFile> output;  // closed before the stream
@@ -108,13 +122,8 @@ struct ExrWriter::State {
 ExrWriter::ExrWriter(const std::filesystem::path& path, int width, int height,
                      const ImageMetadata& metadata, ExrOptions options)
     : width_(width), height_(height), state_(new State{Stream(path), nullptr}) {
-  // OpenEXR's pool is one for the process, and must not change while another writer uses it.
-  static const int pool = [] {
-    const int processors = std::max(1, int(std::thread::hardware_concurrency()));
-    Imf::setGlobalThreadCount(processors);
-    return processors;
-  }();
-  const int threads = std::min(pool, oneapi::tbb::this_task_arena::max_concurrency());
+  set_pool(std::max(1, int(std::thread::hardware_concurrency())));
+  const int threads = std::min(pool_threads, oneapi::tbb::this_task_arena::max_concurrency());
   state_->guarded([&] {
     state_->output = std::make_unique<Imf::OutputFile>(
         state_->stream, header(width, height, metadata, options), threads);

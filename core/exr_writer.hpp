@@ -39,6 +39,10 @@ class ExrWriter {
   /// After the last row.
   void finish();
 
+  /// How many threads compress, for all writers of this process; 0: those that write. To be called before the first
+  /// writer, or without effect; otherwise there is one for each processor.
+  static void set_pool(int threads);
+
  private:
   struct State;
   int width_, height_, next_row_ = 0;

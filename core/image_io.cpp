@@ -53,6 +53,11 @@ void write_png(const fs::path& path, const DisplayImage& image, const ImageMetad
   write_file(path, module().encode_png(image, metadata));
 }
 
+void code_pictures_on_calling_threads() {
+  ExrWriter::set_pool(0);
+  module().decode_on_calling_threads();
+}
+
 ColourTable colour_table(std::string_view name) { return module().colour_table(name); }
 
 }  // namespace lobelia

@@ -38,6 +38,10 @@ void write_exr(const std::filesystem::path& path, const Image& image,
 void write_png(const std::filesystem::path& path, const DisplayImage& image,
                const ImageMetadata& metadata = {});
 
+/// For a process that sees to many pictures at once: from now on each is encoded and decoded on the thread that asks for
+/// it, and not on threads that all pictures share. To be said before the first one, while none is being written.
+void code_pictures_on_calling_threads();
+
 /// sRGB colours for values from 0 to 1, evenly spaced.
 inline constexpr int kColourTableSize = 256;
 using ColourTable = std::array<std::array<std::uint8_t, 3>, kColourTableSize>;

@@ -256,4 +256,5 @@ ColourTable table_of_colours(std::string_view name) {
 extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
 const lobelia::ImageIoTable lobelia_image_io_table = {
-    lobelia::read, lobelia::list_layers, lobelia::encode_png, lobelia::table_of_colours};
+    lobelia::read, lobelia::list_layers, lobelia::encode_png, lobelia::table_of_colours,
+    [] { OIIO::attribute("exr_threads", -1); }};

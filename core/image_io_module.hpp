@@ -11,6 +11,7 @@ struct ImageIoTable {
   std::vector<std::string> (*layer_names)(const std::filesystem::path&);
   std::vector<std::uint8_t> (*encode_png)(const DisplayImage&, const ImageMetadata&);
   ColourTable (*colour_table)(std::string_view);
+  void (*decode_on_calling_threads)();
 };
 
 inline constexpr char kImageIoModuleFile[] = "lobelia_image_io.so";

@@ -18,6 +18,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
+#include "core/image_io.hpp"
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
 #include "farm/make_result.hpp"
@@ -360,10 +361,7 @@ struct JobRun::Impl {
     record["seconds"] = {
         {"wall", std::chrono::duration<double>(Clock::now() - wall_before).count()}, {"cpu", cpu}};
     record["peakMemoryBytes"] = own_peak_memory();
-    {
-      const std::scoped_lock lock(mutex);
-      work.kernel_cpu_seconds += cpu;
-    }
+    count_kernel(cpu);
     publish(job, draft, std::move(record));
     return true;
   }
@@ -396,6 +394,11 @@ struct JobRun::Impl {
     for (const JobIndex input : graph.inputs(job))
       if (!cache.find(graph[input].key, ResultCache::Look::kThorough))
         cache.discard(graph[input].key);
+  }
+
+  void count_kernel(double cpu_seconds) {
+    const std::scoped_lock lock(mutex);
+    work.kernel_cpu_seconds += cpu_seconds;
   }
 
   // ---- our own threads ----
@@ -546,7 +549,9 @@ struct JobRun::Impl {
     record["seconds"] = {{"wall", wall}, {"cpu", made_by.value("cpuSeconds", 0.0)}};
     record["peakMemoryBytes"] = made_by.value("peakMemoryBytes", std::uint64_t{0});
     ResultDraft draft = cache.draft();
+    const double cpu_before = thread_cpu_seconds();
     record.update(make_reference(scene, here, program, std::move(result), log, draft));
+    count_kernel(thread_cpu_seconds() - cpu_before);
     publish(job, draft, std::move(record));
   }
 
@@ -574,6 +579,7 @@ struct JobRun::Impl {
     }
     work.processors = options.threads > 0 ? options.threads
                                           : int(std::max(1u, std::thread::hardware_concurrency()));
+    if (steps > 0) code_pictures_on_calling_threads();
     {
       std::vector<std::jthread> threads;
       for (std::size_t e = 0; e < of_engine.size(); ++e)

@@ -48,7 +48,7 @@ struct JobRunWork {
   std::size_t different = 0;  ///< that somebody else made meanwhile, with other pixels
   double wall_seconds = 0;
   double engine_cpu_seconds = 0;  ///< of all their processes
-  double kernel_cpu_seconds = 0;  ///< rendering, comparing, profiles
+  double kernel_cpu_seconds = 0;  ///< making our results: pictures, comparisons, profiles
   double own_cpu_seconds = 0;     ///< of this process besides
   int processors = 0;
   /// Share of the processors' time that engines and kernels had.

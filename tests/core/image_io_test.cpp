@@ -59,6 +59,25 @@ TEST(Exr, IsTheSameFileForTheSamePictureASecondLater) {
             read_file(directory.path() / "b.exr", 1 << 20));
 }
 
+std::ptrdiff_t threads_of_this_process() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+}
+
+TEST(Exr, IsCodedOnTheCallingThreadWhereAProcessAsksForThat) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // in a process that has written none before
+  const auto threads_started = [] {
+    const TemporaryDirectory directory;
+    code_pictures_on_calling_threads();
+    const auto before = threads_of_this_process();
+    const Image image = ramp(64, 256);
+    write_exr(directory.path() / "ramp.exr", image, {});
+    const Image back = read_image(directory.path() / "ramp.exr");
+    const bool same = std::ranges::equal(back.values(), image.values());
+    return same ? int(threads_of_this_process() - before) : -1;
+  };
+  EXPECT_EXIT(std::_Exit(threads_started()), testing::ExitedWithCode(0), "");
+}
+
 TEST(Png, IsDecodedFromSrgbToLinearLight) {
   const TemporaryDirectory directory;
   DisplayImage image{2, 1, {0, 128, 255, 1, 2, 3}};
