@@ -85,6 +85,10 @@ void read_comparison_record(const Json& record, CellComparison& comparison) {
   }
   if (const auto viewing = fields.object("viewing")) {
     comparison.viewing = viewing->described_members();
+    if (!viewing->object("display")) {
+      comparison.exposure_stops = viewing->number("exposureStops");
+      comparison.pixels_per_degree = viewing->number("pixelsPerDegree");
+    }
   }
   if (const auto metrics = fields.object("metrics")) comparison.metrics = metrics->number_members();
   for (const Fields& limit : fields.objects("limits")) {

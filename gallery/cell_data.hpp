@@ -52,6 +52,12 @@ struct Tolerance {
   std::optional<double> relative, of_peak, allowed_outliers;
 };
 
+/// A difference for each pixel, published beside the page (difference_maps.hpp).
+struct PublishedMap {
+  std::string id, title, meaning;
+  std::string script;
+};
+
 struct CellComparison {
   std::string a, b;  ///< engines
   Picture png;
@@ -65,6 +71,8 @@ struct CellComparison {
   std::vector<ErrorBar> error_bars;  ///< where the noise is known
   std::optional<Tolerance> tolerance;
   NamedTexts viewing;
+  std::optional<double> exposure_stops, pixels_per_degree;  ///< the same of a plain sRGB display
+  std::vector<PublishedMap> maps;
 
   std::optional<double> metric(const std::string& id) const;
 };

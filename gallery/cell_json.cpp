@@ -24,6 +24,16 @@ Json numbers_json(const std::vector<double>& values) {
   return result;
 }
 
+Json maps_json(const std::vector<PublishedMap>& maps) {
+  Json result = Json::array();
+  for (const PublishedMap& map : maps)
+    result.push_back({{"id", map.id},
+                      {"title", map.title},
+                      {"meaning", map.meaning},
+                      {"script", link_to({map.script})}});
+  return result;
+}
+
 Json profile_json(const ProfileData& profile) {
   if (profile.degrees.empty() || !profile.problem.empty()) return nullptr;
   Json result = {{"angle", profile.angle}, {"degrees", numbers_json(profile.degrees)}};
@@ -63,6 +73,7 @@ Json cell_json(const FarmData& farm, const CellEntry& entry, const CellData& cel
                                    {"picture", picture_json(comparison.png)},
                                    {"whiteAt", optional_number(comparison.white_at)},
                                    {"relativeToPeak", optional_number(comparison.relative_to_peak)},
+                                   {"maps", maps_json(comparison.maps)},
                                    {"worstX", optional_number(x)},
                                    {"worstY", optional_number(y)}});
   }

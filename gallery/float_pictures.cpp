@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "gallery/half_picture.hpp"
-#include "gallery/page.hpp"
+#include "gallery/packed_images.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -20,16 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kFormat[] = "float picture 1";  // of the scripts; another number makes them anew
-constexpr std::size_t kReferencePixels = 512 * 512;
-
-std::optional<Image> read_if_possible(const fs::path& path) {
-  try {
-    return read_image(path);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput) throw;
-    return std::nullopt;
-  }
-}
 
 bool is_finite(const Image& image) {
   return std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); });
@@ -41,15 +31,34 @@ Image difference(const Image& theirs, const Image& ours) {
   return result;
 }
 
-std::string script_of(const HalfPicture& picture, bool from_ours) {
-  return data_script("float picture", {{"width", picture.width},
-                                       {"height", picture.height},
-                                       {"fromOurs", from_ours},
-                                       {"scaleLog2", picture.scale_log2},
-                                       {"mantissaBits", picture.mantissa_bits},
-                                       {"least", picture.least},
-                                       {"predicted", picture.is_predicted},
-                                       {"planes", picture.base64}});
+struct PackedImage {
+  std::string name;
+  Image image;
+  bool from_ours;
+};
+
+/// Adds a script of each by its name, all with the finest precision with which they fit into `most` bytes; with the
+/// coarsest if not even those do. Returns the bytes.
+std::size_t pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t most,
+                                 std::map<std::string, std::string>& scripts) {
+  if (images.empty()) return 0;
+  int fits = kCoarsest, too_fine = kFinest + 1;  // by bisection
+  std::size_t used = 0;
+  for (int precision = kFinest; used == 0 || too_fine - fits > 1;) {
+    std::map<std::string, std::string> made;
+    std::size_t size = 0;
+    for (const PackedImage& one : images)
+      size += (made[one.name] = packed_image(one.image, precision, one.from_ours, 1)).size();
+    if (size > most && precision > kCoarsest) {
+      too_fine = precision;
+    } else {
+      fits = precision;
+      used = size;
+      for (auto& [name, script] : made) scripts[name] = std::move(script);
+    }
+    precision = used == 0 && too_fine - fits <= 1 ? kCoarsest : (fits + too_fine) / 2;
+  }
+  return used;
 }
 
 /// All scripts of a cell, made together when the first is asked for: a second publication reads no picture.
@@ -64,17 +73,11 @@ class CellScripts {
   }
 
  private:
-  struct Part {
-    std::string engine;
-    Image image;
-    bool from_ours;
-  };
-
   void make() {
     const CellImage* our_image = cell_.find_image(kOurEngine);
     std::optional<Image> ours = read_if_possible(here_ / our_image->exr);
     if (!ours) return;
-    std::vector<Part> others;
+    std::vector<PackedImage> others;
     // What is not finite in ours would hide theirs in a difference.
     const bool from_ours = is_finite(*ours);
     for (const CellImage& image : cell_.images) {
@@ -85,36 +88,11 @@ class CellScripts {
       others.push_back(
           {image.engine, from_ours ? difference(*theirs, *ours) : std::move(*theirs), from_ours});
     }
-    const std::size_t most =
-        kFloatPictureBytes * std::max(ours->pixel_count(), kReferencePixels) / kReferencePixels;
-    std::vector<Part> first;
+    const std::size_t most = bytes_for(*ours, kFloatPictureBytes);
+    std::vector<PackedImage> first;
     first.push_back({kOurEngine, std::move(*ours), false});
-    const std::size_t used = add_as_fine_as_fits(first, most);
-    add_as_fine_as_fits(others, most - std::min(most, used));
-  }
-
-  /// All with the finest precision that fits, found by bisection; with the coarsest if not even that fits.
-  std::size_t add_as_fine_as_fits(const std::vector<Part>& parts, std::size_t most) {
-    int fits = kCoarsest, too_fine = kFinest + 1;
-    std::size_t used = 0;
-    for (int precision = kFinest; used == 0 || too_fine - fits > 1;) {
-      std::map<std::string, std::string> scripts;
-      std::size_t size = 0;
-      for (const Part& part : parts)
-        size +=
-            (scripts[part.engine] = script_of(half_picture(part.image, precision), part.from_ours))
-                .size();
-      if (size > most && precision > kCoarsest) {
-        too_fine = precision;
-      } else {
-        fits = precision;
-        used = size;
-        for (auto& [engine, script] : scripts) scripts_[engine] = std::move(script);
-      }
-      precision = used == 0 && too_fine - fits <= 1 ? kCoarsest : (fits + too_fine) / 2;
-      if (parts.empty()) break;
-    }
-    return used;
+    const std::size_t used = pack_as_fine_as_fits(first, most, scripts_);
+    pack_as_fine_as_fits(others, most - std::min(most, used), scripts_);
   }
 
   fs::path here_;

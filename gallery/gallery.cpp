@@ -1,6 +1,7 @@
 #include "gallery/gallery.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <regex>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "gallery/cell_json.hpp"
 #include "gallery/cell_page.hpp"
 #include "gallery/cell_summary.hpp"
+#include "gallery/difference_maps.hpp"
 #include "gallery/float_pictures.hpp"
 #include "gallery/grid_json.hpp"
 #include "gallery/index_page.hpp"
@@ -54,6 +56,23 @@ void copy_cell_files(const fs::path& run, const CellData& cell, Publisher& publi
   for (const std::string& file : files_of(cell)) publisher.copy(run, folder + file);
 }
 
+CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, const SiteFrame& site,
+                         const FarmData& farm, const CellEntry& entry, Publisher& publisher) {
+  CellData cell = read_cell(run, entry);
+  if (options.metrics_only)
+    for (CellImage& image : cell.images) image.exr.clear();
+  publish_small_pictures(run, cell, options.metrics_only, publisher);
+  if (!options.metrics_only) {
+    publish_float_pictures(run, cell, publisher);
+    publish_difference_maps(run, options.maps, cell, publisher);
+  }
+  const std::string folder = "cells/" + entry.id + "/";
+  copy_cell_files(run, cell, publisher);
+  publisher.write(folder + kCellData, data_script("page", cell_json(farm, entry, cell)));
+  publisher.write(folder + "index.html", cell_page(site, farm, entry, cell));
+  return summarise(farm, entry, cell);
+}
+
 }  // namespace
 
 fs::path write_gallery(const fs::path& run, const GalleryOptions& options) {
@@ -84,22 +103,12 @@ fs::path write_gallery(const fs::path& run, const GalleryOptions& options) {
     publisher.write(frame.path, finish_page(site, frame, page.main));
   }
 
-  std::vector<CellSummary> summaries;
-  summaries.reserve(farm.cells.size());
-  // One cell at a time: thousands of profiles need not be in memory together.
-  for (const CellEntry& entry : farm.cells) {
+  std::vector<CellSummary> summaries(farm.cells.size());
+  // As many cells at a time as there are threads: thousands of profiles need not be in memory together.
+  oneapi::tbb::parallel_for(std::size_t{0}, farm.cells.size(), [&](std::size_t i) {
     throw_if_interrupted();
-    CellData cell = read_cell(run, entry);
-    if (options.metrics_only)
-      for (CellImage& image : cell.images) image.exr.clear();
-    publish_small_pictures(run, cell, options.metrics_only, publisher);
-    if (!options.metrics_only) publish_float_pictures(run, cell, publisher);
-    const std::string folder = "cells/" + entry.id + "/";
-    copy_cell_files(run, cell, publisher);
-    publisher.write(folder + kCellData, data_script("page", cell_json(farm, entry, cell)));
-    publisher.write(folder + "index.html", cell_page(site, farm, entry, cell));
-    summaries.push_back(summarise(farm, entry, cell));
-  }
+    summaries[i] = publish_cell(run, options, site, farm, farm.cells[i], publisher);
+  });
   // Last, so that an index never names a page that is not there.
   publisher.write(kGridData, data_script("page", grid_json(farm, summaries)));
   publisher.write("index.html", index_page(site, farm, summaries));

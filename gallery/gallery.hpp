@@ -5,13 +5,32 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
+
+#include "core/image.hpp"
 
 namespace lobelia::gallery {
+
+/// How the pictures of a comparison were looked at.
+struct MapViewing {
+  double exposure_stops, pixels_per_degree;
+};
+
+/// A difference for the eye that a page can show pixel by pixel. What it is, the room's user knows.
+struct MapKind {
+  std::string id, title,
+      meaning;  ///< "flip.ldr", as the metric's figures begin; words for a reader
+  /// One value of each pixel, from 0; 1 is a difference that is noticed. `b` is the reference, of the size of `a`.
+  std::function<std::vector<float>(const Image& a, const Image& b, const MapViewing& viewing)>
+      measure;
+};
 
 struct GalleryOptions {
   std::filesystem::path site;  ///< where to; empty: the run's own directory
   bool metrics_only = false;   ///< no float pictures: numbers, curves and thumbnails
+  std::vector<MapKind> maps;   ///< of every comparison, unless metrics_only
   std::string title;           ///< in place of the grid's; empty: that
   std::string base_url;  ///< where it will be published, for links to it by others; empty: unknown
 };
@@ -22,7 +41,7 @@ struct GalleryOptions {
 /// be are not touched, and those that an earlier publication wrote there and this one does not are removed.
 ///
 /// Draws what the records say and computes nothing but the subtraction of two curves or pictures for a
-/// drawing. A record of one cell that cannot be read is said on that cell's page; Error(kInput) only if
+/// drawing, and the maps that it is given. A record of one cell that cannot be read is said on that cell's page; Error(kInput) only if
 /// farm.json itself cannot be read, Error(kUsage) for a title or base URL that is none. Returns the path of
 /// the index.
 std::filesystem::path write_gallery(const std::filesystem::path& run,

@@ -80,8 +80,18 @@ Publisher::Publisher(fs::path site) : site_(std::move(site)) {
   }
 }
 
-void Publisher::write(const std::string& name, std::string_view content) {
+void Publisher::publishes(const std::string& name) {
+  const std::scoped_lock lock(mutex_);
   files_.insert(name);
+}
+
+void Publisher::count_written() {
+  const std::scoped_lock lock(mutex_);
+  ++written_;
+}
+
+void Publisher::write(const std::string& name, std::string_view content) {
+  publishes(name);
   const fs::path path = site_ / name;
   if (is_same_text(path, content)) return;
   place(path, [&](const fs::path& part) {
@@ -89,7 +99,7 @@ void Publisher::write(const std::string& name, std::string_view content) {
     out.write(content.data(), static_cast<std::streamsize>(content.size()));
     return bool(out.flush());
   });
-  ++written_;
+  count_written();
 }
 
 void Publisher::copy(const fs::path& run, const std::string& name) {
@@ -99,7 +109,7 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
   if (!is_within(run, from))
     throw Error(ExitCode::kInput,
                 from.string() + ": a link that leads out of the run is not published");
-  files_.insert(name);
+  publishes(name);
   const auto time = fs::last_write_time(from, error);
   if (!error && fs::file_size(from, error) == fs::file_size(to, error) && !error &&
       fs::last_write_time(to, error) == time && !error)
@@ -111,7 +121,7 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
     errno = failed.value();
     return !failed;
   });
-  ++written_;
+  count_written();
 }
 
 bool Publisher::derive(const std::string& name, const std::string& key,
@@ -120,12 +130,13 @@ bool Publisher::derive(const std::string& name, const std::string& key,
   std::error_code ignored;
   if (earlier != earlier_keys_.end() && earlier->second == key &&
       fs::is_regular_file(site_ / name, ignored)) {
-    files_.insert(name);
+    publishes(name);
   } else {
     const std::string content = make();
     if (content.empty()) return false;
     write(name, content);
   }
+  const std::scoped_lock lock(mutex_);
   keys_[name] = key;
   return true;
 }

@@ -4,13 +4,15 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <string_view>
 
 namespace lobelia::gallery {
 
-/// Names are paths below the site's directory, with '/', of plain names (names.hpp).
+/// Names are paths below the site's directory, with '/', of plain names (names.hpp). Several threads may write, each
+/// its own files; finish() comes after them.
 class Publisher {
  public:
   /// Creates the directory. Reads which files an earlier publication wrote; a list that cannot be read is
@@ -40,8 +42,11 @@ class Publisher {
 
  private:
   void remove_stale(const std::string& name);
+  void publishes(const std::string& name);
+  void count_written();
 
   std::filesystem::path site_;
+  std::mutex mutex_;  ///< of what follows
   std::set<std::string> files_, earlier_;
   std::map<std::string, std::string> keys_, earlier_keys_;  ///< of what was derived, by name
   int written_ = 0, removed_ = 0;

@@ -8,7 +8,7 @@
 
 namespace lobelia::gallery {
 
-inline constexpr int kSmallSide = 192;  ///< pixels, of the longer side
+inline constexpr int kSmallSide = 160;  ///< pixels, of the longer side
 inline constexpr std::uintmax_t kLightBytes =
     48 << 10;  ///< a picture up to this size is shown as it is
 

@@ -19,6 +19,6 @@ std::vector<float> measure(const MapInput& input) {
 
 extern const DifferenceMap absolute_map;
 constinit const DifferenceMap absolute_map{"abs", "radiance", "largest |A - B| of R, G and B",
-                                           false, measure};
+                                           false, false,      measure};
 
 }  // namespace lobelia

@@ -14,7 +14,7 @@ std::vector<float> measure(const MapInput& input) {
 
 extern const DifferenceMap ciede2000_map;
 constinit const DifferenceMap ciede2000_map{
-    "ciede2000", "CIEDE2000", "colour difference as shown, 1 is about just noticeable", false,
-    measure};
+    "ciede2000", "CIEDE2000", "colour difference as shown, 1 is about just noticeable",
+    false,       true,        measure};
 
 }  // namespace lobelia

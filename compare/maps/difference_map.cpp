@@ -16,12 +16,13 @@
 
 namespace lobelia {
 
-extern const DifferenceMap absolute_map, signed_map, relative_map, ciede2000_map, flip_ldr_map;
+extern const DifferenceMap absolute_map, signed_map, relative_map, ciede2000_map, delta_e_itp_map,
+    flip_ldr_map;
 
 namespace {
 
-constexpr const DifferenceMap* kMaps[] = {&absolute_map, &signed_map, &relative_map, &ciede2000_map,
-                                          &flip_ldr_map};
+constexpr const DifferenceMap* kMaps[] = {&absolute_map,  &signed_map,      &relative_map,
+                                          &ciede2000_map, &delta_e_itp_map, &flip_ldr_map};
 
 constexpr std::string_view kColourMaps[] = {kDefaultColourMap, "inferno", "plasma",
                                             "viridis",         "turbo",   kSignedColourMap};

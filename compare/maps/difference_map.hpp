@@ -24,6 +24,8 @@ struct DifferenceMap {
   std::string_view id;  ///< "ciede2000": name on the command line
   std::string_view unit, meaning;
   bool is_signed;  ///< values below 0 say something: its colours diverge from 0
+  bool
+      is_visual;  ///< of what an eye sees under the viewing condition, and not of the values; from 0 to about 1
   /// One value a pixel in reading order; values of `a` and `b` are finite.
   std::vector<float> (*measure)(const MapInput& input);
 };

@@ -12,8 +12,8 @@ std::vector<float> measure(const MapInput& input) {
 }  // namespace
 
 extern const DifferenceMap flip_ldr_map;
-constinit const DifferenceMap flip_ldr_map{"flip.ldr", "LDR-FLIP, 0 to 1",
-                                           "what is noticed when the two are shown in turn", false,
-                                           measure};
+constinit const DifferenceMap flip_ldr_map{
+    "flip.ldr", "LDR-FLIP, 0 to 1", "what is noticed when the two are shown in turn", false, true,
+    measure};
 
 }  // namespace lobelia

@@ -27,7 +27,8 @@ std::vector<float> measure(const MapInput& input) {
 }  // namespace
 
 extern const DifferenceMap relative_map;
-constinit const DifferenceMap relative_map{"relative", "share of the reference",
-                                           "largest |A - B| / |B| of R, G and B", false, measure};
+constinit const DifferenceMap relative_map{
+    "relative", "share of the reference", "largest |A - B| / |B| of R, G and B", false, false,
+    measure};
 
 }  // namespace lobelia

@@ -19,6 +19,6 @@ std::vector<float> measure(const MapInput& input) {
 
 extern const DifferenceMap signed_map;
 constinit const DifferenceMap signed_map{"signed", "radiance", "mean of A - B over R, G and B",
-                                         true, measure};
+                                         true,     false,      measure};
 
 }  // namespace lobelia

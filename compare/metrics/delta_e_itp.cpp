@@ -17,7 +17,6 @@
 #include <algorithm>
 
 #include "compare/metrics/metric.hpp"
-#include "compare/metrics/pixel_differences.hpp"
 
 // As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
 #ifndef __OPTIMIZE__
@@ -124,8 +123,7 @@ HWY_EXPORT(itp_of_one);
 HWY_EXPORT(delta_e_itp_of_one);
 
 void measure(const MetricInput& input, std::span<double> values) {
-  PixelDifferences differences =
-      pixel_differences(input.shown_a, input.shown_b, HWY_DYNAMIC_DISPATCH(delta_e_itp_lanes));
+  PixelDifferences differences = delta_e_itp_of_pixels(input.shown_a, input.shown_b);
   std::fill(values.begin(), values.end(), 0.0);
   if (differences.values.empty()) return;
   values[0] = differences.mean;
@@ -140,6 +138,10 @@ double pq_signal(double luminance) { return HWY_DYNAMIC_DISPATCH(pq_signal_of_on
 Itp itp_from_display(Rgb shown) { return HWY_DYNAMIC_DISPATCH(itp_of_one)(shown); }
 
 double delta_e_itp(Itp a, Itp b) { return HWY_DYNAMIC_DISPATCH(delta_e_itp_of_one)(a, b); }
+
+PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b) {
+  return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(delta_e_itp_lanes));
+}
 
 extern const Metric delta_e_itp_metric;
 constinit const Metric delta_e_itp_metric{kOutputs, Family::kColour, Needs::kNothing,

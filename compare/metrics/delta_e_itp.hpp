@@ -1,6 +1,7 @@
 // The colour difference delta E ITP of two colours.
 #pragma once
 
+#include "compare/metrics/pixel_differences.hpp"
 #include "core/vec.hpp"
 
 namespace lobelia {
@@ -17,5 +18,8 @@ double pq_signal(double luminance);
 Itp itp_from_display(Rgb shown);
 
 double delta_e_itp(Itp a, Itp b);
+
+/// That of each pixel.
+PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b);
 
 }  // namespace lobelia

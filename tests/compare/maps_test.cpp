@@ -84,6 +84,9 @@ TEST(DifferenceMaps, AddUpToTheMetricsOfTheirName) {
   EXPECT_NEAR(mean(map("ciede2000")), measured.value("ciede2000.mean"), 1e-5);
   EXPECT_FLOAT_EQ(float(largest_magnitude(map("ciede2000"))),
                   float(measured.value("ciede2000.max")));
+  EXPECT_NEAR(mean(map("delta_e_itp")), measured.value("delta_e_itp.mean"), 1e-5);
+  EXPECT_FLOAT_EQ(float(largest_magnitude(map("delta_e_itp"))),
+                  float(measured.value("delta_e_itp.max")));
   EXPECT_NEAR(mean(map("flip.ldr")), measured.value("flip.ldr.mean"), 1e-7);
   EXPECT_FLOAT_EQ(float(largest_magnitude(map("flip.ldr"))), float(measured.value("flip.ldr.max")));
 }

@@ -189,7 +189,8 @@ TEST(HostileRecords, a_link_out_of_the_run_is_not_published) {
   const auto log = farm.cell_directory(FakeFarm::kPass) / "povray.log";
   std::filesystem::remove(log);
   std::filesystem::create_symlink(elsewhere.path() / "secret", log);
-  const GalleryOptions options{elsewhere.path() / "site", false, "", ""};
+  GalleryOptions options;
+  options.site = elsewhere.path() / "site";
   EXPECT_THROW(write_gallery(farm.directory(), options), Error);
   EXPECT_FALSE(std::filesystem::exists(options.site / "cells" / FakeFarm::kPass / "povray.log"));
   // Within it, it may.

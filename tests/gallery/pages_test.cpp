@@ -180,7 +180,8 @@ TEST(GalleryPages,
      in_a_directory_of_its_own_the_site_is_complete_and_a_second_time_changes_nothing) {
   const FakeFarm farm;
   const TemporaryDirectory scratch;
-  const GalleryOptions options{scratch.path() / "site", false, "", ""};
+  GalleryOptions options;
+  options.site = scratch.path() / "site";
   EXPECT_EQ(write_gallery(farm.directory(), options), scratch.path() / "site/index.html");
   EXPECT_FALSE(std::filesystem::exists(farm.directory() / "index.html"));
   EXPECT_THAT(Site(options.site).bad_links(), IsEmpty());
@@ -199,7 +200,8 @@ TEST(GalleryPages,
 TEST(GalleryPages, a_cell_that_is_gone_leaves_nothing_behind_but_what_others_put_there) {
   FakeFarm farm;
   const TemporaryDirectory scratch;
-  const GalleryOptions options{scratch.path(), false, "", ""};
+  GalleryOptions options;
+  options.site = scratch.path();
   write_gallery(farm.directory(), options);
   write_file(scratch.path() / "cells" / FakeFarm::kDiffers / "mine.txt", std::string_view("mine"));
   auto& cells = farm.farm()["cells"];

@@ -1,6 +1,6 @@
 // The page of a cell, from file:// and from a server.
 import assert from 'node:assert/strict';
-import { readdirSync, statSync, writeFileSync } from 'node:fs';
+import { readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
@@ -178,6 +178,34 @@ test('a difference has the scale that its legend prints, and false colour tells 
   await close(page);
 });
 
+test('a map by a metric has the largest value that the metric has, and is dark where nobody notices a difference', async () => {
+  const cell = path.join(run, path.dirname(kCell)), record = path.join(directory, 'compared.json');
+  lobelia('compare', path.join(cell, 'lobelia.exr'), path.join(cell, 'blender.exr'), '--exposure', '-1.3', '--pixels-per-degree', '67', '--json', record);
+  const { metrics } = JSON.parse(readFileSync(record));
+  const page = await cellPage('#a=lobelia&b=blender&mode=diff&measure=ciede2000');
+  const largest = async (title) => {
+    await says(page, '.legend-bar', new RegExp(`${title}: .*the largest is [0-9]`));
+    return Number(/the largest is ([0-9.e-]+)/.exec(await page.locator('.legend-bar').textContent())[1]);
+  };
+  const isNear = (seen, wanted) => assert.ok(Math.abs(seen / wanted - 1) < 0.01, `${seen} is not ${wanted}`);
+  isNear(await largest('CIEDE2000'), metrics['ciede2000.max']);
+  const value = page.locator('.pixel-values tr.sum').filter({ hasText: 'CIEDE2000' }).locator('td');
+  isNear(Number(await value.textContent()), metrics['ciede2000.max']);  // the cursor is where they differ most
+  assert.ok(metrics['ciede2000.max'] < 0.2, 'too little to be noticed');
+  const dark = await seenAt(page, 0.5, 1 / 3);
+  assert.ok(Math.max(...dark) < 100, String(dark));
+  for (let i = 0; i < 20; ++i) await page.keyboard.press('e');  // ten stops
+  near(await seenAt(page, 0.5, 1 / 3), [252, 253, 191]);  // the top of magma
+  for (const [id, title] of [['delta_e_itp', 'delta E ITP'], ['flip.ldr', 'LDR-FLIP, 0 to 1']]) {
+    await page.getByLabel('Measure').selectOption({ label: title });
+    assert.equal((await hashOf(page)).measure, id);
+    isNear(await largest(title), metrics[`${id}.max`]);
+  }
+  await page.getByLabel('First').selectOption('povray');
+  await says(page, '.legend-bar', /LDR-FLIP, 0 to 1 was made of ours and each engine/);
+  await close(page);
+});
+
 test('the worst pixel of two pictures is found, and brought into the middle of a zoomed view', async () => {
   const page = await cellPage('#a=blender&b=lobelia&z=20&x=5&y=5');
   await page.keyboard.press('w');
@@ -282,10 +310,16 @@ for (const [what, noise] of [['smooth pictures', 0], ['pictures of coloured nois
     await ready(page);
     await page.locator('.stage').hover();  // asks for the other engines' values
     await ready(page, 4);
+    for (const [id, title] of [['ciede2000', 'CIEDE2000'], ['delta_e_itp', 'delta E ITP'], ['flip.ldr', 'LDR-FLIP']])
+      for (const [engine, name] of [['analytic', 'Analytic'], ['povray', 'POV-Ray'], ['blender', 'Blender']]) {
+        await page.evaluate(([b, measure]) => { location.hash = `#mode=diff&a=lobelia&b=${b}&measure=${measure}`; }, [engine, id]);
+        await says(page, '.tags', new RegExp(name));
+        await says(page, '.legend-bar', new RegExp(`${title}.*the largest is`));
+      }
     // What an <img> of the page without script shows is loaded too, wherever it stands.
     await page.evaluate(() => Promise.all([...document.images].map((image) => { image.loading = 'eager'; return image.decode(); })));
     const files = [...page.requested].filter((url) => url.startsWith('file:')).map((url) => url.replace(/#.*/, ''));
-    assert.ok(files.length >= 15, files.join(' '));
+    assert.ok(files.length >= 24, files.join(' '));
     const total = files.reduce((sum, url) => sum + statSync(fileURLToPath(url)).size, 0);
     assert.ok(total < 1e6, `${total} bytes`);
     await close(page);

@@ -1,8 +1,9 @@
-// Colour maps by ten stops, interpolated as they are: viridis and inferno (Smith and van der Walt 2015).
+// Colour maps by ten stops, interpolated as they are: viridis, inferno and magma (Smith and van der Walt 2015).
 
 const kStops = {
   viridis: ['440154', '482878', '3e4989', '31688e', '26828e', '1f9e89', '35b779', '6ece58', 'b5de2b', 'fde725'],
   inferno: ['000004', '1b0c41', '4a0c6b', '781c6d', 'a52c60', 'cf4446', 'ed6925', 'fb9b06', 'f7d13d', 'fcffa4'],
+  magma: ['000004', '180f3e', '451077', '721f81', '9f2f7f', 'cd4071', 'f1605d', 'fd9567', 'fec98d', 'fcfdbf'],
 } as const;
 
 export type ColourMap = keyof typeof kStops;

@@ -1,5 +1,6 @@
 // What gallery/cell_json.cpp writes for a cell's page.
 import type { RecordNumber } from '../lib/numbers';
+import type { DifferenceMap } from './maps';
 
 /** `small` is shorter to load where `src` is heavy, and `src` elsewhere; both are drawn at this size. */
 export interface PictureFile { readonly src: string; readonly small: string; readonly width: number; readonly height: number }
@@ -18,6 +19,7 @@ export interface Comparison {
   readonly picture: PictureFile | null;
   readonly whiteAt: RecordNumber;
   readonly relativeToPeak: RecordNumber;
+  readonly maps: readonly DifferenceMap[];
   /** The pixel of the largest difference. */
   readonly worstX: RecordNumber;
   readonly worstY: RecordNumber;

@@ -7,13 +7,15 @@ export interface FloatPicture {
   /** Values, or where `fromOurs` their difference from ours: three to a pixel, row 0 on top. */
   readonly values: Float32Array;
   readonly fromOurs: boolean;
+  /** Each pixel stands for so many of the cell's in either direction. */
+  readonly block: number;
   readonly mantissaBits: number;
   /** What is smaller was taken for 0. */
   readonly least: number;
 }
 
 interface Packed {
-  width: number; height: number; fromOurs: boolean; scaleLog2: number; mantissaBits: number; least: number;
+  width: number; height: number; fromOurs: boolean; block: number; scaleLog2: number; mantissaBits: number; least: number;
   predicted: boolean; planes: string;
 }
 
@@ -61,8 +63,16 @@ function unpacked(bytes: Uint8Array, packed: Packed): Float32Array {
   return values;
 }
 
-/** Throws what a reader may be told. */
-export async function loadFloatPicture(source: string): Promise<FloatPicture> {
+let before: Promise<unknown> = Promise.resolve();
+
+/** Throws what a reader may be told. One after the other: scripts hand over under one name. */
+export function loadFloatPicture(source: string): Promise<FloatPicture> {
+  const picture = before.then(() => loadOne(source));
+  before = picture.catch(() => undefined);
+  return picture;
+}
+
+async function loadOne(source: string): Promise<FloatPicture> {
   const packed = await load<Packed>('float picture', source);
   const bytes = await inflated(packed.planes);
   if (bytes.length !== 6 * packed.width * packed.height) throw new Error(source + ' is damaged');

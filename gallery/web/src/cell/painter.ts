@@ -1,5 +1,7 @@
 // What a stage wants painted. Two can: gl_painter.ts from float pictures, png_painter.ts from what is for the eye.
 
+import type { FloatPicture } from './half_picture';
+
 /** Pixel (x, y) of the picture is at the pane's left top; `zoom` device pixels to one of its. */
 export interface Viewport { readonly x: number; readonly y: number; readonly zoom: number }
 
@@ -9,7 +11,8 @@ export type Measure = 'absolute' | 'relative' | 'signed';
 
 export type Content =
   | { readonly kind: 'picture'; readonly engine: number }
-  | { readonly kind: 'difference'; readonly a: number; readonly b: number; readonly measure: Measure; readonly white: number };
+  | { readonly kind: 'difference'; readonly a: number; readonly b: number; readonly measure: Measure; readonly white: number }
+  | { readonly kind: 'map'; readonly picture: FloatPicture; readonly white: number };
 
 export interface Pane { readonly at: Rectangle; readonly view: Viewport; readonly content: Content }
 

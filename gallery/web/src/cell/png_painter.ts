@@ -23,7 +23,7 @@ export class PngPainter implements Painter {
       context.imageSmoothingEnabled = view.zoom < 1;
       if (content.kind === 'picture') {
         this.draw(context, this.data.engines[content.engine]?.picture, at, view);
-      } else {
+      } else if (content.kind === 'difference') {
         this.drawDifference(context, content.a, content.b, at, view);
       }
       context.restore();

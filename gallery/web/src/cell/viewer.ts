@@ -9,6 +9,7 @@ import type { CellData } from './data';
 import { GlPainter } from './gl_painter';
 import { loadFloatPicture, type FloatPicture } from './half_picture';
 import { lineAcross, sampled } from './line';
+import { DifferenceMaps, valueOfMap, type LoadedMap } from './maps';
 import type { Content, Look, Measure, Painter, Pane, Rectangle, Viewport } from './painter';
 import { PngPainter } from './png_painter';
 
@@ -24,6 +25,7 @@ const kMeasures = [
   { value: 'signed', label: 'a − b, signed' },
 ] as const;
 const kDecades = 6, kMostZoom = 64;
+const kLeastOfMap = 2 ** -10;  // gallery/difference_maps.hpp
 
 const kDefaults = {
   a: '', b: '', mode: 'slide', shown: 'a', ev: '', colour: '', gain: '0', measure: 'absolute',
@@ -54,6 +56,7 @@ export class Viewer {
   private readonly lineButton: HTMLButtonElement;
 
   private readonly floats = new Map<number, FloatPicture>();
+  private readonly maps = new DifferenceMaps(() => this.schedule(), (words) => this.tell(words));
   private readonly loading = new Map<number, Promise<void>>();
   private painter: Painter;
   private isFloat = false;
@@ -76,7 +79,7 @@ export class Viewer {
       a: select('First', choices, '', (a) => this.change({ a })),
       b: select('Second', choices, '', (b) => this.change({ b })),
     };
-    this.measure = select('Measure', kMeasures, '', (measure) => this.change({ measure }));
+    this.measure = select('Measure', [...kMeasures, ...this.mapChoices()], '', (measure) => this.change({ measure }));
     this.exposure.addEventListener('input', () =>
       this.change(this.mode() === 'diff' ? { gain: this.exposure.value } : { ev: this.exposure.value }));
     this.colour.addEventListener('change', () => this.change({ colour: this.colour.checked ? 'false' : '' }));
@@ -163,6 +166,24 @@ export class Viewer {
 
   private measureOf(): Measure { return kMeasures.find((m) => m.value === this.state.get('measure'))?.value ?? 'absolute'; }
 
+  /** Maps by a metric that this cell has of some pair. */
+  private mapChoices(): { value: string; label: string }[] {
+    const titles = new Map(this.data.comparisons.flatMap((c) => c.maps.map((m) => [m.id, m.title] as const)));
+    return [...titles].map(([value, label]) => ({ value, label }));
+  }
+
+  private mapAsked(): { value: string; label: string } | undefined {
+    const measure = this.state.get('measure');
+    return kMeasures.some((m) => m.value === measure) ? undefined : this.mapChoices().find((m) => m.value === measure);
+  }
+
+  /** Where it is asked for, there of these two, and has come. */
+  private mapOf(a: number, b: number): LoadedMap | undefined {
+    const asked = this.mode() === 'diff' && this.isFloat ? this.mapAsked() : undefined;
+    const map = asked && this.comparisonOf(a, b)?.maps.find((m) => m.id === asked.value);
+    return map && this.maps.of(map);
+  }
+
   private change(changes: Parameters<ViewerState['set']>[0]): void {
     this.state.set(changes);
     this.refresh();
@@ -173,7 +194,7 @@ export class Viewer {
     const a = this.chosen('a'), b = this.chosen('b'), mode = this.mode();
     this.pick.a.set(this.data.engines[a]?.name ?? '');
     this.pick.b.set(this.data.engines[b]?.name ?? '');
-    this.measure.set(this.measureOf());
+    this.measure.set(this.mapAsked()?.value ?? this.measureOf());
     this.measure.element.hidden = mode !== 'diff';
     for (const control of this.modes.querySelectorAll('button'))
       control.setAttribute('aria-pressed', String(control.dataset['mode'] === mode));
@@ -214,17 +235,7 @@ export class Viewer {
       return;
     }
     try {
-      // One after the other: scripts hand over under one name.
-      const before = this.queue;
-      let done = (): void => {};
-      this.queue = new Promise((resolve) => { done = resolve; });
-      await before;
-      try {
-        const picture = await loadFloatPicture(source);
-        this.floats.set(engine, picture);
-      } finally {
-        done();
-      }
+      this.floats.set(engine, await loadFloatPicture(source));
       this.useFloats();
     } catch (error) {
       if (engine === 0) this.isWaiting = false;
@@ -232,7 +243,6 @@ export class Viewer {
     }
     this.schedule();
   }
-  private queue: Promise<void> = Promise.resolve();
 
   private useFloats(): void {
     const ours = this.floats.get(0);
@@ -321,6 +331,8 @@ export class Viewer {
 
   /** As it was recorded, from all bits; of two that were not compared, as this page has them. */
   private worstPixel(a: number, b: number): { x: number; y: number; value: number } | undefined {
+    const map = this.mapOf(a, b);
+    if (map) return map.worst;
     const found = this.worst(a, b, 'absolute'), record = this.comparisonOf(a, b);
     const x = toNumber(record?.worstX), y = toNumber(record?.worstY);
     return found && Number.isInteger(x) && Number.isInteger(y) ? { ...found, x: clamp(x, 0, this.width - 1), y: clamp(y, 0, this.height - 1) } : found;
@@ -336,6 +348,9 @@ export class Viewer {
 
   /** What white stands for in a difference. */
   private white(a: number, b: number): number {
+    const map = this.mapOf(a, b);
+    // What nobody notices stays dark, however large it is beside the rest.
+    if (map) return Math.max(1, map.worst.value) / 2 ** this.state.number('gain');
     const measure = this.measureOf(), whiteAt = toNumber(this.comparisonOf(a, b)?.whiteAt);
     const base = measure !== 'relative' && whiteAt > 0 ? whiteAt : this.isFloat ? this.largestOf(a, b, measure) : 1;
     return base / 2 ** this.state.number('gain');
@@ -385,7 +400,8 @@ export class Viewer {
     } else if (mode === 'flip') {
       list.push({ at: all, view, content: picture(isFlipped ? b : a) });
     } else {
-      list.push({ at: all, view, content: { kind: 'difference', a, b, measure: this.measureOf(), white: this.white(a, b) } });
+      const map = this.mapOf(a, b), white = this.white(a, b);
+      list.push({ at: all, view, content: map ? { kind: 'map', picture: map.picture, white } : { kind: 'difference', a, b, measure: this.measureOf(), white } });
     }
     const width = mode === 'side' ? panes[1]!.x + panes[1]!.width : all.width;
     this.painter.paint(width, all.height, list, this.look(a, b));
@@ -414,13 +430,19 @@ export class Viewer {
   private showLegend(mode: string, a: number, b: number): void {
     const ramp = h('span', { class: 'ramp' });
     const isFalse = this.state.get('colour') === 'false' && this.isFloat;
-    if (mode === 'diff') {
+    const map = this.mapOf(a, b);
+    if (map) {
+      const white = this.white(a, b), { least, block } = map.picture;
+      ramp.style.background = cssGradient('magma');
+      this.legend.replaceChildren(h('span', {}, isFalse ? numberText(white * 10 ** -kDecades) : '0'), ramp, h('span', {}, numberText(white)),
+        h('span', {}, `${map.title}: ${map.meaning}; the largest is ${numberText(map.worst.value)}, and what is under ${numberText(Math.max(least, kLeastOfMap))} counts as 0${block > 1 ? `; each ${block} × ${block} pixels by their largest` : ''}`));
+    } else if (mode === 'diff') {
       const white = this.white(a, b), measure = this.measureOf(), peak = this.isFloat ? this.largestOf(b, b, 'value') : NaN;
       if (measure === 'signed') ramp.style.background = 'linear-gradient(to right, rgb(76 166 255), rgb(15 15 15), rgb(255 115 51))';
       else if (isFalse) ramp.style.background = cssGradient('inferno');
       const low = measure === 'signed' ? '−' + numberText(white) : isFalse ? numberText(white * 10 ** -kDecades) : '0';
       const share = measure === 'relative' ? percentText(white) : numberText(white) + (Number.isFinite(peak) ? ` = ${percentText(white / peak)} of the peak` : '');
-      this.legend.replaceChildren(h('span', {}, low), ramp, h('span', {}, share), this.precisionNote(a, b));
+      this.legend.replaceChildren(h('span', {}, low), ramp, h('span', {}, share), this.missingMap() ?? this.precisionNote(a, b));
     } else if (isFalse) {
       const { top } = this.look(a, b);
       ramp.style.background = cssGradient('viridis');
@@ -428,6 +450,13 @@ export class Viewer {
     } else {
       this.legend.replaceChildren(h('span', {}, `radiance times ${numberText(2 ** this.stops())}, as sRGB`));
     }
+  }
+
+  /** Why the difference of values stands in place of a map that was asked for. */
+  private missingMap(): HTMLElement | undefined {
+    const asked = this.mapAsked(), there = asked && this.comparisonOf(this.chosen('a'), this.chosen('b'))?.maps.some((m) => m.id === asked.value);
+    return !asked ? undefined : h('span', {}, there ? this.isFloat ? `${asked.label} is on its way` : `${asked.label} needs float pictures and WebGL 2`
+      : `|a − b|: ${asked.label} was made of ours and each engine`);
   }
 
   /** How exactly this page has a difference: differences from ours are stored as such. */
@@ -459,6 +488,9 @@ export class Viewer {
       return row(this.data.engines[i]!.shortTitle, this.valueAt(i, x, y), digits, i === a || i === b ? 'chosen' : '');
     });
     rows.push(row('Difference', this.differenceAt(a, b, x, y), 3, 'sum'));
+    const map = this.mapOf(a, b), mapped = map && valueOfMap(map, x, y);
+    if (map && mapped !== undefined)
+      rows.push(h('tr', { class: 'sum' }, h('th', { scope: 'row' }, map.title), h('td', { colspan: 3 }, shortText(mapped, 3))));
     this.values.replaceChildren(...rows);
   }
 

@@ -1,0 +1,90 @@
+#include "gallery/difference_maps.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "gallery/packed_images.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kFormat[] = "map 1";    // of the scripts; another number makes them anew
+constexpr int kPrecisions[] = {6, 2};  // bits: 1 % of a value, and enough for its colour
+constexpr int kMostBlock = 16;
+
+/// The pictures of a cell, each read when it is first asked for: a second publication reads none.
+class CellPictures {
+ public:
+  explicit CellPictures(fs::path here) : here_(std::move(here)) {}
+  const std::optional<Image>& of(const CellImage& image) {
+    const auto known = pictures_.find(image.exr);
+    if (known != pictures_.end()) return known->second;
+    return pictures_[image.exr] = read_if_possible(here_ / image.exr);
+  }
+
+ private:
+  fs::path here_;
+  std::map<std::string, std::optional<Image>> pictures_;
+};
+
+/// Grey, which costs no more than one channel; of each block of pixels the largest, so that nothing large is lost.
+Image picture_of(const std::vector<float>& values, int width, int height, int block) {
+  Image image((width + block - 1) / block, (height + block - 1) / block);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float value = values[std::size_t(y) * std::size_t(width) + std::size_t(x)];
+      for (float& shown : image.pixel(x / block, y / block))
+        if (value >= kLeastOfMap && !(value <= shown)) shown = value;
+    }
+  return image;
+}
+
+std::string script_of(const MapKind& kind, const MapViewing& viewing, const std::optional<Image>& a,
+                      const std::optional<Image>& b, std::size_t of_512) {
+  if (!a || !b || a->width() != b->width() || a->height() != b->height()) return "";
+  const auto values = kind.measure(*a, *b, viewing);
+  const std::size_t most = bytes_for(*a, of_512);
+  std::string script;
+  // Of noise even few bits in every pixel are too many.
+  for (int block = 1; block <= kMostBlock; block *= 2)
+    for (const int precision : kPrecisions) {
+      script =
+          packed_image(picture_of(values, a->width(), a->height(), block), precision, false, block);
+      if (script.size() <= most) return script;
+    }
+  return script;
+}
+
+}  // namespace
+
+void publish_difference_maps(const fs::path& run, const std::vector<MapKind>& kinds, CellData& cell,
+                             Publisher& publisher) {
+  if (kinds.empty()) return;
+  CellPictures pictures(run / "cells" / cell.id);
+  for (CellComparison& comparison : cell.comparisons) {
+    const CellImage* a = cell.find_image(comparison.a);
+    const CellImage* b = cell.find_image(comparison.b);
+    if (!a || !b || a->exr.empty() || b->exr.empty() || !comparison.exposure_stops ||
+        !comparison.pixels_per_degree)
+      continue;
+    const MapViewing viewing{*comparison.exposure_stops, *comparison.pixels_per_degree};
+    const std::size_t bytes = kMapBytes / (kinds.size() * cell.comparisons.size());
+    for (const MapKind& kind : kinds) {
+      const std::string file = fmt::format("{}.map.{}.js", comparison.b, kind.id);
+      const std::string key = fmt::format(
+          "{} of {}: {} of {} and {}, {} stops, {} pixels per degree", kFormat, bytes, kind.id,
+          a->exr_sha256, b->exr_sha256, viewing.exposure_stops, viewing.pixels_per_degree);
+      if (publisher.derive("cells/" + cell.id + "/" + file, key, [&] {
+            return script_of(kind, viewing, pictures.of(*a), pictures.of(*b), bytes);
+          }))
+        comparison.maps.push_back({kind.id, kind.title, kind.meaning, file});
+    }
+  }
+}
+
+}  // namespace lobelia::gallery

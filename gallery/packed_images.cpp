@@ -1,0 +1,41 @@
+#include "gallery/packed_images.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "gallery/half_picture.hpp"
+#include "gallery/page.hpp"
+
+namespace lobelia::gallery {
+namespace {
+constexpr std::size_t kReferencePixels = 512 * 512;
+}
+
+std::string packed_image(const Image& image, int precision, bool from_ours, int block) {
+  const HalfPicture picture = half_picture(image, precision);
+  return data_script("float picture", {{"width", picture.width},
+                                       {"height", picture.height},
+                                       {"fromOurs", from_ours},
+                                       {"block", block},
+                                       {"scaleLog2", picture.scale_log2},
+                                       {"mantissaBits", picture.mantissa_bits},
+                                       {"least", picture.least},
+                                       {"predicted", picture.is_predicted},
+                                       {"planes", picture.base64}});
+}
+
+std::optional<Image> read_if_possible(const std::filesystem::path& path) {
+  try {
+    return read_image(path);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    return std::nullopt;
+  }
+}
+
+std::size_t bytes_for(const Image& image, std::size_t of_512) {
+  return of_512 * std::max(image.pixel_count(), kReferencePixels) / kReferencePixels;
+}
+
+}  // namespace lobelia::gallery

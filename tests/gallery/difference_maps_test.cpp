@@ -1,0 +1,109 @@
+// Which maps a site has, and when they are made.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "gallery/gallery.hpp"
+#include "tests/gallery/fake_farm.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Image flat(int width, int height, float value) {
+  Image image(width, height);
+  std::fill(image.values().begin(), image.values().end(), value);
+  return image;
+}
+
+class DifferenceMaps : public ::testing::Test {
+ protected:
+  DifferenceMaps() {
+    write_picture("lobelia", flat(3, 2, 1));
+    write_picture("povray", flat(3, 2, 0.75f));
+    options_.site = elsewhere_.path() / "site";
+    options_.maps = {{"probe", "Probe", "what a test asks for",
+                      [this](const Image& a, const Image& b, const MapViewing& viewing) {
+                        ++measured_;
+                        seen_ = viewing;
+                        return std::vector<float>(a.pixel_count(), a.values()[0] - b.values()[0]);
+                      }}};
+  }
+  void write_picture(const std::string& engine, const Image& image) const {
+    const auto path = farm_.cell_directory(FakeFarm::kPass) / (engine + ".exr");
+    std::filesystem::remove(path);
+    write_exr(path, image, {});
+  }
+  std::string cell_data() const {
+    return read_file(options_.site / "cells" / FakeFarm::kPass / "data.js", 1 << 20);
+  }
+  std::filesystem::path script() const {
+    return options_.site / "cells" / FakeFarm::kPass / "povray.map.probe.js";
+  }
+  void publish() { write_gallery(farm_.directory(), options_); }
+
+  FakeFarm farm_;
+  TemporaryDirectory elsewhere_;
+  GalleryOptions options_;
+  std::atomic<int> measured_{0};
+  MapViewing seen_{};
+};
+
+TEST_F(DifferenceMaps, AreOfEachComparisonUnderItsViewingCondition) {
+  farm_.change(FakeFarm::kPass, "lobelia-povray.json", "comparison", [](Json& record) {
+    record["viewing"] = {{"exposureStops", -2.5}, {"pixelsPerDegree", 40}};
+  });
+  publish();
+  EXPECT_THAT(cell_data(), HasSubstr("povray.map.probe.js"));
+  EXPECT_THAT(read_file(script(), 1 << 20), HasSubstr(R"("width":3,"height":2)"));
+  EXPECT_EQ(seen_.exposure_stops, -2.5);
+  EXPECT_EQ(seen_.pixels_per_degree, 40);
+}
+
+TEST_F(DifferenceMaps, AreMadeAgainOnlyWhereAPictureOrTheViewingIsAnother) {
+  publish();
+  const int first = measured_;
+  EXPECT_GT(first, 0);
+  publish();
+  EXPECT_EQ(measured_, first);
+  write_picture("povray", flat(3, 2, 0.5f));
+  publish();
+  EXPECT_EQ(measured_, first + 1);
+  farm_.change(FakeFarm::kPass, "lobelia-povray.json", "comparison",
+               [](Json& record) { record["viewing"]["exposureStops"] = 3; });
+  publish();
+  EXPECT_EQ(measured_, first + 2);
+}
+
+TEST_F(DifferenceMaps, AreNotThereWhereTheyWouldSayNothingTrue) {
+  publish();
+  ASSERT_TRUE(std::filesystem::exists(script()));
+  const auto is_gone = [&] {
+    publish();
+    return !std::filesystem::exists(script()) &&
+           cell_data().find("povray.map") == std::string::npos;
+  };
+  // Seen through a display that is not known here.
+  farm_.change(FakeFarm::kPass, "lobelia-povray.json", "comparison", [](Json& record) {
+    record["viewing"]["display"] = {{"view", "Film"}};
+  });
+  EXPECT_TRUE(is_gone());
+  farm_.change(FakeFarm::kPass, "lobelia-povray.json", "comparison",
+               [](Json& record) { record["viewing"].erase("display"); });
+  EXPECT_FALSE(is_gone());
+  write_picture("povray", flat(2, 2, 1));  // not of the size of ours
+  EXPECT_TRUE(is_gone());
+  write_picture("povray", flat(3, 2, 1));
+  EXPECT_FALSE(is_gone());
+  options_.metrics_only = true;
+  EXPECT_TRUE(is_gone());
+}
+
+}  // namespace
+}  // namespace lobelia::gallery
