@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kFormat[] = "float picture 1";  // of the scripts; another number makes them anew
+constexpr char kFormat[] = "float picture 2";  // of the scripts; another number makes them anew
 
 bool is_finite(const Image& image) {
   return std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); });
@@ -37,11 +37,16 @@ struct PackedImage {
   bool from_ours;
 };
 
+struct Packing {
+  std::size_t bytes;
+  int precision;
+};
+
 /// Adds a script of each by its name, all with the finest precision with which they fit into `most` bytes; with the
-/// coarsest if not even those do. Returns the bytes.
-std::size_t pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t most,
-                                 std::map<std::string, std::string>& scripts) {
-  if (images.empty()) return 0;
+/// coarsest if not even those do.
+Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t most,
+                             std::map<std::string, std::string>& scripts) {
+  if (images.empty()) return {0, kFinest};
   int fits = kCoarsest, too_fine = kFinest + 1;  // by bisection
   std::size_t used = 0;
   for (int precision = kFinest; used == 0 || too_fine - fits > 1;) {
@@ -58,7 +63,7 @@ std::size_t pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::si
     }
     precision = used == 0 && too_fine - fits <= 1 ? kCoarsest : (fits + too_fine) / 2;
   }
-  return used;
+  return {used, fits};
 }
 
 /// All scripts of a cell, made together when the first is asked for: a second publication reads no picture.
@@ -91,8 +96,12 @@ class CellScripts {
     const std::size_t most = bytes_for(*ours, kFloatPictureBytes);
     std::vector<PackedImage> first;
     first.push_back({kOurEngine, std::move(*ours), false});
-    const std::size_t used = pack_as_fine_as_fits(first, most, scripts_);
-    pack_as_fine_as_fits(others, most - std::min(most, used), scripts_);
+    // Noise takes all that it gets: half is for the others, and what they leave for ours again.
+    const Packing half = pack_as_fine_as_fits(first, most / 2, scripts_);
+    const std::size_t rest = most - std::min(most, half.bytes);
+    const Packing theirs = pack_as_fine_as_fits(others, rest, scripts_);
+    if (half.precision < kFinest && theirs.bytes < rest)
+      pack_as_fine_as_fits(first, most - theirs.bytes, scripts_);
   }
 
   fs::path here_;

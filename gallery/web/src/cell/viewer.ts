@@ -432,10 +432,10 @@ export class Viewer {
     const isFalse = this.state.get('colour') === 'false' && this.isFloat;
     const map = this.mapOf(a, b);
     if (map) {
-      const white = this.white(a, b), { least, block } = map.picture;
+      const white = this.white(a, b), { least, block, mantissaBits } = map.picture;
       ramp.style.background = cssGradient('magma');
       this.legend.replaceChildren(h('span', {}, isFalse ? numberText(white * 10 ** -kDecades) : '0'), ramp, h('span', {}, numberText(white)),
-        h('span', {}, `${map.title}: ${map.meaning}; the largest is ${numberText(map.worst.value)}, and what is under ${numberText(Math.max(least, kLeastOfMap))} counts as 0${block > 1 ? `; each ${block} × ${block} pixels by their largest` : ''}`));
+        h('span', {}, `${map.title}: ${map.meaning}; the largest is ${numberText(map.worst.value)}, and what is under ${numberText(Math.max(least, kLeastOfMap))} counts as 0${mantissaBits < 4 ? `; to ± ${percentText(2 ** -(mantissaBits + 1))}` : ''}${block > 1 ? `; each ${block} × ${block} pixels by their largest` : ''}`));
     } else if (mode === 'diff') {
       const white = this.white(a, b), measure = this.measureOf(), peak = this.isFloat ? this.largestOf(b, b, 'value') : NaN;
       if (measure === 'signed') ramp.style.background = 'linear-gradient(to right, rgb(76 166 255), rgb(15 15 15), rgb(255 115 51))';
