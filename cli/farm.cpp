@@ -10,13 +10,15 @@
 #include "cli/farm_slurm.hpp"
 #include "cli/farm_upkeep.hpp"
 #include "cli/progress.hpp"
+#include "cli/publish.hpp"
 #include "cli/warnings.hpp"
+#include "core/files.hpp"
 
 namespace lobelia::cli {
 namespace {
 
 struct Options {
-  std::string grid, directory, cache, filter;
+  std::string grid, directory, cache, filter, gallery;
   EnginePrograms programs;
   SlurmSettings slurm;
   int threads = 0, attempts = 3;
@@ -36,6 +38,7 @@ FarmOptions farm_options(const Options& options) {
   farm.cache = options.cache;
   farm.filter = JobFilter(options.filter);
   farm.command = command_line();
+  farm.gallery = options.gallery;
   return farm;
 }
 
@@ -107,6 +110,7 @@ ExitCode run_on_cluster(const Grid& grid, const Options& options) {
     return ExitCode::kSuccess;
   }
   const ExitCode code = report(summary.farm, options);
+  publish_if_wanted(options.directory, options.gallery);
   if (code != ExitCode::kOutput && !summary.slurm.missing.empty()) {
     fmt::print(stderr,
                "lobelia: {} jobs have no result after {} rounds; the same command tries again\n",
@@ -121,6 +125,11 @@ ExitCode run(const Options& options) {
   if (options.dry_run) {
     dry_run(grid, options);
     return ExitCode::kSuccess;
+  }
+  if (!options.gallery.empty()) {
+    // Better said now than after a night.
+    make_directories(options.gallery);
+    require_writable(std::filesystem::path(options.gallery) / "index.html");
   }
   if (options.slurm.is_wanted()) return run_on_cluster(grid, options);
   ProgressLine line(!options.quiet);
@@ -139,7 +148,9 @@ ExitCode run(const Options& options) {
                 "interrupted; what is done is kept, and the same command goes on from there");
   }
   line.clear();
-  return report(summary, options);
+  const ExitCode code = report(summary, options);
+  publish_if_wanted(options.directory, options.gallery);
+  return code;
 }
 
 }  // namespace
@@ -184,6 +195,10 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       ->add_flag("--keep-going", options->keep_going,
                  "A failure stops nothing else (as without it)")
       ->excludes(fail_fast);
+  command
+      ->add_option("--gallery", options->gallery,
+                   "Then publish its gallery there (DIR itself, or another directory)")
+      ->type_name("SITE");
   command->add_flag("--again", options->again, "Make everything again, in the cache or not");
   command->add_flag("-q,--quiet", options->quiet, "No progress");
   options->programs.add_to(*command);

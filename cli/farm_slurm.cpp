@@ -6,6 +6,7 @@
 
 #include "cli/between.hpp"
 #include "cli/progress.hpp"
+#include "cli/publish.hpp"
 #include "farm/slurm/doctor.hpp"
 
 namespace lobelia::cli {
@@ -137,9 +138,11 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
     command->add_option("RUN", *run, "The run's directory")->required();
     command->group("");
     command->callback([run] {
-      const FarmSummary summary = finish_slurm_run(*run);
+      const SlurmEnd end = finish_slurm_run(*run);
+      const FarmSummary& summary = end.farm;
       fmt::print("{} cells: {} failed, {} differ, {} pass, {} not done\n", summary.cells,
                  summary.failed, summary.differs, summary.pass, summary.missing);
+      publish_if_wanted(end.directory, end.gallery);
     });
   }
   {

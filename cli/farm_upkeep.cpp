@@ -8,6 +8,7 @@
 
 #include "cli/farm_slurm.hpp"
 #include "cli/progress.hpp"
+#include "cli/publish.hpp"
 #include "core/text.hpp"
 #include "farm/upkeep.hpp"
 
@@ -47,9 +48,10 @@ void add_status(CLI::App& farm) {
   command->callback([options] {
     if (options->attach) {
       SlurmRunOptions slurm = SlurmSettings().run_options();
-      follow(slurm, false, [&](const SlurmRunOptions& followed) {
-        return attach_to_slurm_run(options->directory, followed);
+      const auto followed = follow(slurm, false, [&](const SlurmRunOptions& with_progress) {
+        return attach_to_slurm_run(options->directory, with_progress);
       });
+      publish_if_wanted(options->directory, followed.gallery);
     }
     const Json status = farm_status(options->directory);
     if (options->json) {

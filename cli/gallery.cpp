@@ -9,25 +9,11 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "compare/maps/difference_map.hpp"
+#include "cli/publish.hpp"
 #include "gallery/preview_server.hpp"
 
 namespace lobelia::cli {
 namespace {
-
-/// Those for the eye; those of values a page can draw by itself.
-std::vector<gallery::MapKind> visual_maps() {
-  std::vector<gallery::MapKind> kinds;
-  for (const DifferenceMap* map : difference_maps()) {
-    if (!map->is_visual) continue;
-    kinds.push_back({std::string(map->id), std::string(map->unit), std::string(map->meaning),
-                     [map](const Image& a, const Image& b, const gallery::MapViewing& viewing) {
-                       return measure_difference_map(
-                           *map, a, b, {viewing.exposure_stops, viewing.pixels_per_degree});
-                     }});
-  }
-  return kinds;
-}
 
 void add_serve(CLI::App& gallery) {
   auto* command =
@@ -79,8 +65,7 @@ void add_gallery(CLI::App& app, ExitCode&) {
   command->callback([command, run, options] {
     if (!command->get_subcommands().empty()) return;
     if (run->empty()) throw CLI::RequiredError("RUN");
-    options->maps = visual_maps();
-    fmt::print("{}\n", gallery::write_gallery(*run, *options).string());
+    fmt::print("{}\n", publish(*run, *options).string());
   });
 }
 

@@ -24,6 +24,9 @@ struct FarmOptions : JobRunOptions {
   JobFilter filter;                  ///< jobs that may be done
   bool again = false;                ///< make every one of them again
   std::vector<std::string> command;  ///< for the record
+  /// Where whoever asked will publish what comes of it; a cluster's run has that done by its last element. Empty:
+  /// nowhere.
+  std::filesystem::path gallery;
 };
 
 struct FarmSummary {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <random>
 #include <vector>
 
 #include "core/error.hpp"
@@ -34,8 +35,8 @@ bool is_path_of_plain_names(const std::string& name) {
 /// tens of thousands, and a site that a crash has damaged is published again.
 void place(const fs::path& path, const std::function<bool(const fs::path&)>& make) {
   make_directories(path.parent_path());
-  const fs::path part =
-      path.parent_path() / fmt::format(".{}.{}-0.part", path.filename().string(), ::getpid());
+  const fs::path part = path.parent_path() / fmt::format(".{}.{}-{}.part", path.filename().string(),
+                                                         ::getpid(), std::random_device()());
   errno = 0;
   std::error_code error;
   const bool made = make(part);

@@ -105,6 +105,7 @@ void write_run_record(const fs::path& run_directory, const fs::path& grid_file,
   record["directory"] = fs::absolute(directory).string();
   record["cache"] = session.cache().directory().string();
   record["command"] = options.command;
+  if (!options.gallery.empty()) record["gallery"] = fs::absolute(options.gallery).string();
   record["programs"] = Json::object();
   for (const auto& [engine, program] : options.programs)
     record["programs"][engine] = fs::absolute(program).string();
@@ -127,6 +128,7 @@ Run read_run(const fs::path& run_directory) {
     run.directory = record.at("directory").get<std::string>();
     run.options.cache = record.at("cache").get<std::string>();
     run.options.command = record.at("command").get<std::vector<std::string>>();
+    run.options.gallery = record.value("gallery", std::string());
     for (const auto& [engine, program] : record.at("programs").items())
       run.options.programs[engine] = program.get<std::string>();
     return run;
@@ -187,6 +189,7 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
                  chunk_record(session.work(), session.cache(), options, missing.at(places)));
   };
   SlurmFarmSummary summary;
+  summary.gallery = options.gallery;
   try {
     summary.slurm = run_on_slurm(work, slurm);
   } catch (...) {
@@ -210,12 +213,12 @@ ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number)
   return exec_chunk(chunk_file(run_directory, number), threads);
 }
 
-FarmSummary finish_slurm_run(const fs::path& run_directory) {
+SlurmEnd finish_slurm_run(const fs::path& run_directory) {
   const Run run = read_run(run_directory);
   const Grid grid = read_grid(run.grid_file);
   FarmSession session(grid, run.directory, run.options);
   session.show_what_is_there();
-  return session.summarise({});
+  return {session.summarise({}), run.directory, run.options.gallery};
 }
 
 SlurmFarmSummary attach_to_slurm_run(const fs::path& directory, const SlurmRunOptions& slurm) {

@@ -13,6 +13,12 @@ namespace lobelia {
 struct SlurmFarmSummary {
   FarmSummary farm;
   SlurmOutcome slurm;
+  std::filesystem::path gallery;  ///< FarmOptions::gallery
+};
+
+struct SlurmEnd {
+  FarmSummary farm;
+  std::filesystem::path directory, gallery;
 };
 
 /// As run_farm(), by the nodes of a cluster that share the file system of `directory` and of the cache. `grid_file` is
@@ -33,7 +39,7 @@ std::filesystem::path slurm_run_directory(const std::filesystem::path& directory
 ChunkSummary exec_slurm_chunk(const std::filesystem::path& run_directory, std::size_t number);
 
 /// What the last element does: puts the farm's directory together from what the others made.
-FarmSummary finish_slurm_run(const std::filesystem::path& run_directory);
+SlurmEnd finish_slurm_run(const std::filesystem::path& run_directory);
 
 /// The program that runs, by the path under which the nodes find it too.
 std::filesystem::path own_program();

@@ -123,34 +123,6 @@ TEST(RenderCommand, TakesTwoSignalsInOneBreathForOneWish) {
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
 }
 
-TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
-  const TemporaryDirectory directory;
-  // An engine that would take a minute; known in the list of processes by its odd time.
-  write_file(directory.path() / "slow-povray",
-             "#!/bin/sh\ncase \"$*\" in *version*) echo 'POV-Ray 3.7.0.10' >&2; exit 0;; esac\n"
-             "exec sleep 61.7\n");
-  write_file(directory.path() / "grid.xml",
-             "<grid version=\"1\"><scene file=\"" + kScenes +
-                 "head_on.xml\"/><film width=\"32\" height=\"32\"/><axis name=\"model\" "
-                 "values=\"modified_phong\"/><engine name=\"povray\"/></grid>");
-  const auto result = run_shell(
-      "chmod +x slow-povray\n"
-      "timeout --preserve-status -s INT 4 \"$LOBELIA\" farm grid.xml -o out -q "
-      "--povray ./slow-povray\n"
-      "code=$?\n"
-      "find out -name '*.part' -o -name '.*'\n"
-      "grep -l 'sleep.61[.]7' /proc/[0-9]*/cmdline 2>/dev/null | grep -v self\n"
-      "exit $code",
-      directory.path());
-  EXPECT_EQ(result.exit_code, 130) << result.output_tail;
-  EXPECT_EQ(
-      result.output_tail,
-      "lobelia: interrupted; what is done is kept, and the same command goes on from there\n");
-  const auto out = directory.path() / "out";
-  EXPECT_EQ(read_record(out / "farm.json", "farm")["cells"][0]["status"], "missing");
-  EXPECT_TRUE(std::filesystem::exists(out / "cells/modified_phong/lobelia.exr"));
-}
-
 TEST(RenderCommand, WithoutTheImageModuleIsStillHelpful) {
   // The module is loaded only to read pictures and for PNGs: help, plans and EXRs need none of its 260
   // libraries.
