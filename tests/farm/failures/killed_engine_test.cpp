@@ -65,14 +65,19 @@ TEST_F(KilledEngine, ThatHasNoFurtherAttemptIsAFailureUntilTheNextRun) {
 }
 
 TEST_F(KilledEngine, AndItsFarmTooLoseNoMoreThanTheyWereAt) {
+  std::size_t engines_seen = 0;
   for (const int milliseconds : {300, 700, 1100, 1500}) {
     SCOPED_TRACE(milliseconds);
     for (const auto& directory : {out(), cache()}) fs::remove_all(directory);
     {
       RunningFarm farm(command(), root());
       std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      std::vector<int> engines = farm.children("povray");
+      for (const int pid : farm.children("blender")) engines.push_back(pid);
+      engines_seen += engines.size();
       farm.signal(SIGKILL);
       farm.wait();
+      EXPECT_TRUE(end_soon(engines));
     }
     const std::size_t there = cached_pictures();
     const FarmRun second = run();
@@ -80,6 +85,7 @@ TEST_F(KilledEngine, AndItsFarmTooLoseNoMoreThanTheyWereAt) {
     EXPECT_EQ(second.rendered, 12 - there) << second.output;
     expect_as_alone();
   }
+  EXPECT_GT(engines_seen, 0u) << "or nothing is said about them";
 }
 
 }  // namespace
