@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/peak_memory.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
 #include "core/write_limit.hpp"
@@ -117,6 +118,31 @@ class Progress {
   std::uint64_t fingerprint_ = 0;
 };
 
+/// wait4 tells the peak of the program, but at least our own, which the program began with. So it is exact above that,
+/// and below it there is what could be seen while the program ran.
+class PeakMemory {
+ public:
+  explicit PeakMemory(pid_t pid) : pid_(pid) {
+    rusage ours{};
+    ::getrusage(RUSAGE_SELF, &ours);
+    ours_ = bytes(ours);
+  }
+  void look() {
+    if (Clock::now() < next_ || seen_ > ours_) return;
+    seen_ = std::max(seen_, peak_memory_of_family(pid_));
+    next_ = Clock::now() + std::chrono::milliseconds(50);
+  }
+  std::uint64_t at_end(const rusage& used) const {
+    return bytes(used) > ours_ ? bytes(used) : seen_;
+  }
+
+ private:
+  static std::uint64_t bytes(const rusage& usage) { return std::uint64_t(usage.ru_maxrss) * 1024; }
+  pid_t pid_;
+  std::uint64_t ours_ = 0, seen_ = 0;
+  Clock::time_point next_;
+};
+
 double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
 }  // namespace
@@ -171,6 +197,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     ::kill(-pid, SIGKILL);
   };
   Progress progress(options);
+  PeakMemory memory(pid);
   rusage used{};
   int status = 0;
   bool ended = false, open = true;
@@ -190,6 +217,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     } else if (ended) {
       break;
     }
+    memory.look();
     if (!ended) guard.reaped = ended = ::wait4(pid, &status, WNOHANG, &used) == pid;
     if (!ended && !result.timed_out && !result.no_progress && !result.interrupted) {
       if ((interrupted() && !options.uninterruptible) || (options.stop && *options.stop))
@@ -204,7 +232,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.seconds = seconds().count();
   result.cpu_seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
-  result.peak_memory_bytes = std::uint64_t(used.ru_maxrss) * 1024;
+  result.peak_memory_bytes = memory.at_end(used);
   result.output_tail = sink.tail();
   return result;
 }

@@ -41,8 +41,9 @@ struct ProcessResult {
   double seconds = 0;        ///< wall time
   double cpu_seconds =
       0;  ///< of it and of those of its children that it waited for: user and system
-  std::uint64_t peak_memory_bytes = 0;  ///< resident, of the largest of them
-  std::string output_tail;              ///< the last 4 KiB of its output
+  /// Resident, of the largest of them. If that is less than our own peak, as it was seen every 50 ms; 0: ended too soon.
+  std::uint64_t peak_memory_bytes = 0;
+  std::string output_tail;  ///< the last 4 KiB of its output
 };
 
 /// Runs `arguments` (the first is the program's path) to its end. Its process group is killed on
