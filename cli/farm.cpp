@@ -56,6 +56,7 @@ void dry_run(const Grid& grid, const Options& options) {
                 });
   flush();
   for (const auto& sentence : plan.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
+  if (!plan.warning.empty()) warn(plan.warning);
   fmt::print("{} cells, {} jobs: {} to be done, {} not\n", plan.cells, plan.jobs, plan.wanted,
              plan.jobs - plan.wanted);
 }
@@ -106,6 +107,7 @@ ExitCode run_on_cluster(const Grid& grid, const Options& options) {
                                  slurm);
       });
   if (summary.slurm.detached) {
+    for (const auto& warning : summary.farm.warnings) warn(warning);
     fmt::print("submitted; 'lobelia farm status {}' looks at it\n", options.directory);
     return ExitCode::kSuccess;
   }

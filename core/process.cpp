@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,11 +12,12 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <future>
 #include <optional>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/peak_memory.hpp"
+#include "core/spawn.hpp"
 #include "core/text.hpp"
 #include "core/write_limit.hpp"
 
@@ -31,26 +31,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kTailBytes = 4096;
 constexpr std::size_t kMaxLineBytes = 65536;  // a program that never ends its line is cut there
 
-class SpawnActions {
- public:
-  SpawnActions() {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawnattr_init(&attributes_);
-  }
-  ~SpawnActions() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  SpawnActions(const SpawnActions&) = delete;
-  SpawnActions& operator=(const SpawnActions&) = delete;
-  posix_spawn_file_actions_t* actions() { return &actions_; }
-  posix_spawnattr_t* attributes() { return &attributes_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-};
-
 /// Ours, with `changes` ("NAME=value") in place of the variables of those names.
 std::vector<std::string> environment_with(const std::vector<std::string>& changes) {
   std::vector<std::string> result = changes;
@@ -63,36 +43,6 @@ std::vector<std::string> environment_with(const std::vector<std::string>& change
     if (!changed) result.emplace_back(text);
   }
   return result;
-}
-
-/// Starts the program in a process group of its own, so that a time-out reaches its children too
-/// and the terminal's Ctrl-C is ours to pass on.
-pid_t start(const std::vector<std::string>& arguments, const ProcessOptions& options, int output) {
-  SpawnActions spawn;
-  if (options.input >= 0)
-    posix_spawn_file_actions_adddup2(spawn.actions(), options.input, 0);
-  else
-    posix_spawn_file_actions_addopen(spawn.actions(), 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(spawn.actions(), output, 1);
-  posix_spawn_file_actions_adddup2(spawn.actions(), output, 2);
-  if (!options.working_directory.empty())
-    posix_spawn_file_actions_addchdir_np(spawn.actions(), options.working_directory.c_str());
-  posix_spawnattr_setflags(spawn.attributes(), POSIX_SPAWN_SETPGROUP);
-  posix_spawnattr_setpgroup(spawn.attributes(), 0);
-  const std::vector<std::string> variables =
-      options.only_environment ? options.environment : environment_with(options.environment);
-  std::vector<char*> argv, envp;
-  for (const auto& variable : variables) envp.push_back(const_cast<char*>(variable.c_str()));
-  envp.push_back(nullptr);
-  for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  pid_t pid = 0;
-  const int error =
-      posix_spawn(&pid, argv[0], spawn.actions(), spawn.attributes(), argv.data(), envp.data());
-  if (error != 0)
-    throw Error(ExitCode::kEngine,
-                fmt::format("{}: cannot be started: {}", arguments.front(), std::strerror(error)));
-  return pid;
 }
 
 /// Takes output in pieces of any size and hands on lines.
@@ -168,6 +118,31 @@ class Progress {
   std::uint64_t fingerprint_ = 0;
 };
 
+/// wait4 tells the peak of the program, but at least our own, which the program began with. So it is exact above that,
+/// and below it there is what could be seen while the program ran.
+class PeakMemory {
+ public:
+  explicit PeakMemory(pid_t pid) : pid_(pid) {
+    rusage ours{};
+    ::getrusage(RUSAGE_SELF, &ours);
+    ours_ = bytes(ours);
+  }
+  void look() {
+    if (Clock::now() < next_ || seen_ > ours_) return;
+    seen_ = std::max(seen_, peak_memory_of_family(pid_));
+    next_ = Clock::now() + std::chrono::milliseconds(50);
+  }
+  std::uint64_t at_end(const rusage& used) const {
+    return bytes(used) > ours_ ? bytes(used) : seen_;
+  }
+
+ private:
+  static std::uint64_t bytes(const rusage& usage) { return std::uint64_t(usage.ru_maxrss) * 1024; }
+  pid_t pid_;
+  std::uint64_t ours_ = 0, seen_ = 0;
+  Clock::time_point next_;
+};
+
 double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
 }  // namespace
@@ -179,20 +154,26 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     throw Error(ExitCode::kEngine, fmt::format("no pipe: {}", std::strerror(errno)));
   const auto started = Clock::now();
   OutputSink sink(options);
-  bool writes_limited = false;
-  pid_t pid = 0;
+  Spawned spawned;
   try {
-    // The limit holds for the thread that sets it and for what that starts: a thread for this alone.
-    pid = options.writable.empty() ? start(arguments, options, ends[1])
-                                   : std::async(std::launch::async, [&] {
-                                       writes_limited = limit_writes_to(options.writable);
-                                       return start(arguments, options, ends[1]);
-                                     }).get();
+    std::optional<WriteLimit> limit;
+    if (!options.writable.empty()) limit.emplace(options.writable);
+    // From this thread, which waits for its end: a program that dies with us dies with the thread that started it.
+    spawned =
+        spawn({.arguments = arguments,
+               .environment = options.only_environment ? options.environment
+                                                       : environment_with(options.environment),
+               .working_directory = options.working_directory,
+               .input = options.input,
+               .output = ends[1],
+               .limit = limit ? &*limit : nullptr,
+               .dies_with_us = !options.uninterruptible});
   } catch (...) {
     ::close(ends[0]);
     ::close(ends[1]);
     throw;
   }
+  const pid_t pid = spawned.pid;
   ::close(ends[1]);
   // Whatever way this function is left, also by an exception of on_line: nothing keeps running.
   struct Guard {
@@ -208,7 +189,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   std::optional<InterruptibleGroup> interruptible;
   if (!options.uninterruptible) interruptible.emplace(pid);
 
-  if (options.on_start) options.on_start(writes_limited);
+  if (options.on_start) options.on_start(spawned.writes_limited);
   ProcessResult result;
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started); };
   const auto stop = [&](bool& flag) {
@@ -216,6 +197,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     ::kill(-pid, SIGKILL);
   };
   Progress progress(options);
+  PeakMemory memory(pid);
   rusage used{};
   int status = 0;
   bool ended = false, open = true;
@@ -235,6 +217,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     } else if (ended) {
       break;
     }
+    memory.look();
     if (!ended) guard.reaped = ended = ::wait4(pid, &status, WNOHANG, &used) == pid;
     if (!ended && !result.timed_out && !result.no_progress && !result.interrupted) {
       if ((interrupted() && !options.uninterruptible) || (options.stop && *options.stop))
@@ -249,7 +232,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.seconds = seconds().count();
   result.cpu_seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
-  result.peak_memory_bytes = std::uint64_t(used.ru_maxrss) * 1024;
+  result.peak_memory_bytes = memory.at_end(used);
   result.output_tail = sink.tail();
   return result;
 }

@@ -16,7 +16,8 @@ struct ProcessOptions {
   std::filesystem::path working_directory;  ///< empty: ours
   std::vector<std::string> environment;     ///< "NAME=value", in place of ours or besides
   bool only_environment = false;            ///< it gets nothing of ours besides
-  /// Neither the first interruption ends it nor the second: for a short step that must not be cut in two.
+  /// Neither the first interruption ends it nor the second, nor that we are killed: for a short step that must
+  /// not be cut in two.
   bool uninterruptible = false;
   std::filesystem::path writable;  ///< the only place where it may write; empty: wherever we may
   std::filesystem::path log;       ///< receives stdout and stderr; empty: dropped
@@ -40,12 +41,14 @@ struct ProcessResult {
   double seconds = 0;        ///< wall time
   double cpu_seconds =
       0;  ///< of it and of those of its children that it waited for: user and system
-  std::uint64_t peak_memory_bytes = 0;  ///< resident, of the largest of them
-  std::string output_tail;              ///< the last 4 KiB of its output
+  /// Resident, of the largest of them. If that is less than our own peak, as it was seen every 50 ms; 0: ended too soon.
+  std::uint64_t peak_memory_bytes = 0;
+  std::string output_tail;  ///< the last 4 KiB of its output
 };
 
 /// Runs `arguments` (the first is the program's path) to its end. Its process group is killed on
-/// time-out, for want of progress and on interruption. The clock may be set meanwhile. Throws Error(kEngine) if it cannot be started.
+/// time-out, for want of progress and on interruption. If we are killed ourselves, so is the program, but not
+/// what it started. The clock may be set meanwhile. Throws Error(kEngine) if it cannot be started.
 ProcessResult run_process(const std::vector<std::string>& arguments, const ProcessOptions& options);
 
 /// The program's path if `name` is executable (as a path, or found in $PATH), else empty.

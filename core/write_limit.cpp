@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <linux/landlock.h>
-#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -12,14 +11,6 @@ namespace lobelia {
 namespace {
 
 constexpr std::uint64_t kTruncate = 1 << 14;  // in the headers from Linux 6.2 on
-
-/// A file descriptor that is closed when it goes.
-struct Descriptor {
-  int fd;
-  ~Descriptor() {
-    if (fd >= 0) ::close(fd);
-  }
-};
 
 /// Everything that alters a file or a directory, as far as this kernel can forbid it.
 std::uint64_t writing(long version) {
@@ -34,27 +25,36 @@ std::uint64_t writing(long version) {
 }
 
 bool allow(int ruleset, const std::filesystem::path& path, std::uint64_t rights) {
-  const Descriptor place{::open(path.c_str(), O_PATH | O_CLOEXEC)};
-  const landlock_path_beneath_attr rule{rights, place.fd};
-  return ::syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
+  const int place = ::open(path.c_str(), O_PATH | O_CLOEXEC);
+  if (place < 0) return false;
+  const landlock_path_beneath_attr rule{rights, place};
+  const long added =
+      ::syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+  ::close(place);
+  return added == 0;
 }
 
 }  // namespace
 
-bool limit_writes_to(const std::filesystem::path& directory) {
+WriteLimit::WriteLimit(const std::filesystem::path& directory) {
   const long version =
       ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
-  if (version < 1) return false;
+  if (version < 1) return;
   landlock_ruleset_attr attributes{};
   attributes.handled_access_fs = writing(version);
-  const Descriptor ruleset{
-      int(::syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes, 0))};
-  if (ruleset.fd < 0 || !allow(ruleset.fd, directory, attributes.handled_access_fs)) return false;
-  allow(ruleset.fd, "/dev/null",
+  ruleset_ = int(::syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes, 0));
+  if (ruleset_ < 0) return;
+  if (!allow(ruleset_, directory, attributes.handled_access_fs)) {
+    ::close(ruleset_);
+    ruleset_ = -1;
+    return;
+  }
+  allow(ruleset_, "/dev/null",
         attributes.handled_access_fs & (LANDLOCK_ACCESS_FS_WRITE_FILE | kTruncate));
-  // Without root's rights the kernel wants to be sure that no set-user-ID program is misled.
-  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-         ::syscall(SYS_landlock_restrict_self, ruleset.fd, 0) == 0;
+}
+
+WriteLimit::~WriteLimit() {
+  if (ruleset_ >= 0) ::close(ruleset_);
 }
 
 }  // namespace lobelia

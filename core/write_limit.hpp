@@ -5,10 +5,20 @@
 
 namespace lobelia {
 
-/// From now on the calling thread, and every process that it starts, creates, changes and removes
-/// files below `directory` only, /dev/null aside; reading stays free. It cannot be taken back, and
-/// other threads are as free as before. False, and nothing limited, where the kernel has no
-/// Landlock (Linux 5.13 and later, unless it was left out or is forbidden by a container).
-bool limit_writes_to(const std::filesystem::path& directory);
+/// What core/spawn.hpp holds a program and all that it starts to: they create, change and remove files
+/// below `directory` only, /dev/null aside; reading stays free.
+class WriteLimit {
+ public:
+  explicit WriteLimit(const std::filesystem::path& directory);
+  ~WriteLimit();
+  WriteLimit(const WriteLimit&) = delete;
+  WriteLimit& operator=(const WriteLimit&) = delete;
+  /// Of Landlock, ours; -1 where the kernel has none (Linux 5.13 and later, unless it was left out or is
+  /// forbidden by a container).
+  int ruleset() const { return ruleset_; }
+
+ private:
+  int ruleset_ = -1;
+};
 
 }  // namespace lobelia

@@ -50,6 +50,7 @@ FarmPlan plan_farm(
   FarmPlan plan;
   plan.cells = graph.cell_count();
   plan.absent_engines = work.absences();
+  plan.warning = work.filter_warning(options.filter);
   for (const std::size_t cell : coarse_to_fine(work.cells.cells)) {
     const CellDirectory before(directory, graph, cell);
     for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job) {

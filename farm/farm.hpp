@@ -38,7 +38,7 @@ struct FarmSummary {
   std::size_t cached_cells = 0;             ///< of which everything was there
   double cached_seconds = 0;                ///< for looking at all cells, this program's own time
   std::vector<std::string> absent_engines;  ///< sentences: which, why, how to get it
-  std::set<std::string> warnings;           ///< of the cells' highlights, each once
+  std::set<std::string> warnings;           ///< of the filter and the cells' highlights, each once
   std::vector<std::string> problems;        ///< "cell: engine: message", the first failures first
   JobRunWork work;
 };
@@ -52,6 +52,7 @@ FarmSummary run_farm(const Grid& grid, const std::filesystem::path& directory,
 struct FarmPlan {
   std::size_t cells = 0, jobs = 0, wanted = 0;
   std::vector<std::string> absent_engines;
+  std::string warning;  ///< of the filter; empty: none
 };
 
 /// What run_farm would do, in its order: calls `on_job` with the name of each job and why it is wanted ("missing",

@@ -51,6 +51,20 @@ std::vector<std::string> FarmWork::absences() const {
   return sentences;
 }
 
+std::string FarmWork::filter_warning(const JobFilter& filter) const {
+  if (filter.picks_everything()) return "";
+  std::string first;
+  for (JobIndex job = 0; job < graph.size(); ++job) {
+    if (!graph[job].exists) continue;
+    const std::string name = graph.name(job);
+    if (filter.picks(name)) return "";
+    if (first.empty()) first = name;
+  }
+  if (first.empty()) return "";
+  return fmt::format("--filter '{}' picks no job of this grid; the first is named '{}'",
+                     printable(filter.text()), first);
+}
+
 namespace {
 const Grid& checked(const Grid& grid) {
   if (grid.cell_count() > kMaxFarmCells)
@@ -73,6 +87,8 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
       status_(work_.graph.cell_count(), "missing") {
   summary_.absent_engines = work_.absences();
   summary_.cells = work_.graph.cell_count();
+  if (std::string warning = work_.filter_warning(options.filter); !warning.empty())
+    summary_.warnings.insert(std::move(warning));
   cache_.remove_abandoned();
   remove_abandoned_temporaries();
   make_directories(directory_);

@@ -20,6 +20,8 @@ struct FarmWork {
   FarmWork(const Grid& g, const FarmOptions& options);
   FarmWork(const FarmWork&) = delete;
   std::vector<std::string> absences() const;  ///< of engines, as sentences
+  /// A sentence if there are jobs and the filter picks none of them, else empty.
+  std::string filter_warning(const JobFilter& filter) const;
 
   const Grid& grid;
   const FarmCells cells;

@@ -41,6 +41,7 @@ class JobFilter {
   explicit JobFilter(std::string_view patterns) : text_(patterns) {}
   bool picks(std::string_view name) const;
   bool picks_everything() const { return text_.empty(); }
+  const std::string& text() const { return text_; }
 
  private:
   std::string text_;

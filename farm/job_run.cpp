@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -20,6 +21,7 @@
 #include "core/host.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
+#include "core/peak_memory.hpp"
 #include "core/text.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
@@ -46,12 +48,6 @@ double thread_cpu_seconds() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-}
-
-std::uint64_t own_peak_memory() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return std::uint64_t(usage.ru_maxrss) * 1024;
 }
 
 Json host_of_result() {
@@ -360,7 +356,7 @@ struct JobRun::Impl {
     record["threads"] = 1;
     record["seconds"] = {
         {"wall", std::chrono::duration<double>(Clock::now() - wall_before).count()}, {"cpu", cpu}};
-    record["peakMemoryBytes"] = own_peak_memory();
+    record["peakMemoryBytes"] = peak_memory_of(::getpid());
     count_kernel(cpu);
     publish(job, draft, std::move(record));
     return true;

@@ -36,7 +36,6 @@ that a mistake there shows as a difference of pictures.
 import json
 import math
 import os
-import resource
 import re
 import signal
 import sys
@@ -586,6 +585,15 @@ def jobs_scenes(job, directory):
             yield json.load(file)
 
 
+def peak_memory():
+    """Bytes, resident, since Blender started. getrusage would tell at least those of the process that started it."""
+    with open("/proc/self/status", encoding="ascii", errors="replace") as status:
+        for line in status:
+            if line.startswith("VmHWM:"):
+                return int(line.split()[1]) * 1024
+    return 0
+
+
 def main():
     job_file = os.path.abspath(sys.argv[sys.argv.index("--") + 1])
     directory = os.path.dirname(job_file)
@@ -606,9 +614,8 @@ def main():
             tell("failed", name, type(error).__name__, " ".join(str(error).split()))
         else:
             # Of the process since its start: what it took to start is part of its first scene.
-            used = resource.getrusage(resource.RUSAGE_SELF)
-            tell("done", name, "%.3f" % (time.monotonic() - begun),
-                 "%.3f" % (used.ru_utime + used.ru_stime), used.ru_maxrss * 1024)
+            used = time.process_time()
+            tell("done", name, "%.3f" % (time.monotonic() - begun), "%.3f" % used, peak_memory())
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 

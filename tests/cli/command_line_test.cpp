@@ -173,5 +173,22 @@ TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--json", "no/such/a.json"}).exit_code, 4);
 }
 
+TEST(Farm, WhoseFilterPicksNoJobSaysSoInOneLine) {
+  const TemporaryDirectory directory;
+  write_file(directory.path() / "grid.xml",
+             "<grid version=\"1\"><scene file=\"" + kScenes +
+                 "head_on.xml\"/><axis name=\"exponent\" values=\"16\"/></grid>");
+  for (const std::string more : {"--dry-run", "--quiet"}) {
+    const auto result =
+        run_shell("\"$LOBELIA\" farm grid.xml -o out --filter 'n17*' " + more + " 2>&1 >/dev/null",
+                  directory.path());
+    EXPECT_EQ(result.exit_code, 0) << more;
+    EXPECT_EQ(result.output_tail,
+              "lobelia: warning: --filter 'n17*' picks no job of this grid; the first is named "
+              "'n16/render'\n")
+        << more;
+  }
+}
+
 }  // namespace
 }  // namespace lobelia

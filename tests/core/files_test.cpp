@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 
 #include "core/error.hpp"
 
@@ -31,6 +32,11 @@ ExitCode code_of(const std::function<void()>& action) {
 }
 
 TEST(TemporaryDirectory, OfAKilledProcessIsTakenAwayAndThoseOfTheLivingStay) {
+  // A place of its own: in the system's, any farm that begins takes them away too.
+  const TemporaryDirectory place;
+  const char* const before = std::getenv("TMPDIR");
+  const std::string system = before ? before : "";
+  ::setenv("TMPDIR", place.path().c_str(), 1);
   const TemporaryDirectory ours;
   write_file(ours.path() / "a.txt", "x");
   int ends[2];
@@ -51,6 +57,7 @@ TEST(TemporaryDirectory, OfAKilledProcessIsTakenAwayAndThoseOfTheLivingStay) {
   remove_abandoned_temporaries();
   EXPECT_FALSE(fs::exists(name));
   EXPECT_TRUE(fs::exists(ours.path() / "a.txt"));
+  before ? ::setenv("TMPDIR", system.c_str(), 1) : ::unsetenv("TMPDIR");
 }
 
 TEST(WriteFile, ReplacesWhatWasThereAndLeavesNothingElse) {

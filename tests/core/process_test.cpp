@@ -1,10 +1,14 @@
 #include "core/process.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <future>
 
 #include "core/error.hpp"
@@ -92,7 +96,9 @@ TEST(Process, ThatTalksOrWritesIsNotTakenForOneThatHangs) {
   EXPECT_TRUE(reads.get());
 }
 
-TEST(Process, TellsItsProcessorTimeAndMemoryWithItsChildrens) {
+TEST(Process, TellsItsProcessorTimeAndMemoryWithItsChildrensAndNotOurs) {
+  // What we have had is not theirs, though the kernel hands it on to whoever is started.
+  ASSERT_NE(std::string(256 << 20, 'x'), "");
   const auto idle = run_process(shell("sleep 0.3"), {});
   EXPECT_LT(idle.cpu_seconds, idle.seconds);
   // 64 MiB held by a child of the shell, which works until it has used a second.
@@ -133,14 +139,77 @@ TEST(Process, ThatDiesOfASignalHasItInTheExitCode) {
   EXPECT_EQ(run_process(shell("kill -SEGV $$"), {}).exit_code, 128 + 11);
 }
 
-TEST(Process, ThatIsMissingIsAnEngineError) {
-  try {
-    run_process({"/no/such/program"}, {});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kEngine);
-    EXPECT_THAT(error.what(), testing::HasSubstr("/no/such/program"));
+TEST(Process, ThatCannotBeStartedIsAnEngineErrorThatSaysWhy) {
+  const auto why = [](const std::string& program, const ProcessOptions& options) -> std::string {
+    try {
+      run_process({program}, options);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kEngine);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why("/no/such/program", {}),
+            "/no/such/program: cannot be started: No such file or directory");
+  EXPECT_EQ(why("/etc/passwd", {}), "/etc/passwd: cannot be started: Permission denied");
+  ProcessOptions nowhere;
+  nowhere.working_directory = "/etc/passwd";
+  EXPECT_EQ(why("/bin/true", nowhere), "/bin/true: cannot be started: Not a directory");
+}
+
+/// A program's own words on its signals: the lines SigBlk and SigIgn of its status.
+std::string signals_of(const ProcessOptions& options) {
+  return run_process({"/bin/grep", "-E", "SigBlk|SigIgn", "/proc/self/status"}, options)
+      .output_tail;
+}
+
+TEST(Process, IgnoresAndBlocksTheSignalsThatWeDo) {
+  EXPECT_EQ(signals_of({}), "SigBlk:\t0000000000000000\nSigIgn:\t0000000000000000\n");
+  const auto handler = std::signal(SIGUSR1, [](int) {});
+  const auto ignored = std::signal(SIGUSR2, SIG_IGN);
+  sigset_t blocked, before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &blocked, &before);
+  EXPECT_EQ(signals_of({}), "SigBlk:\t0000000000004000\nSigIgn:\t0000000000000800\n");
+  sigset_t now;
+  pthread_sigmask(SIG_SETMASK, &before, &now);
+  EXPECT_TRUE(sigismember(&now, SIGTERM));
+  EXPECT_FALSE(sigismember(&now, SIGINT)) << "ours is as it was";
+  struct sigaction ours {};
+  sigaction(SIGUSR1, nullptr, &ours);
+  EXPECT_NE(ours.sa_handler, SIG_DFL) << "so are our handlers";
+  std::signal(SIGUSR1, handler);
+  std::signal(SIGUSR2, ignored);
+}
+
+/// Whether the program goes on when the process is killed that runs it.
+bool outlives(bool uninterruptible) {
+  int ends[2];
+  EXPECT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  const pid_t killed = ::fork();
+  if (killed == 0) {
+    ProcessOptions options;
+    options.input = ends[0];
+    options.uninterruptible = uninterruptible;
+    options.on_line = [](std::string_view) { ::kill(::getpid(), SIGKILL); };
+    run_process(shell("echo begun; read end"), options);
+    ::_exit(0);
   }
+  ::close(ends[0]);
+  int status = 0;
+  EXPECT_EQ(::waitpid(killed, &status, 0), killed);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  // As long as somebody has the end to read from, there is no error at ours.
+  pollfd reader{ends[1], 0, 0};
+  const bool ended = ::poll(&reader, 1, uninterruptible ? 300 : 20000) == 1;
+  ::close(ends[1]);
+  return !ended;
+}
+
+TEST(Process, DoesNotOutliveUsUnlessItMustNotBeCutInTwo) {
+  EXPECT_FALSE(outlives(false));
+  EXPECT_TRUE(outlives(true));
 }
 
 TEST(Process, SeesOurEnvironmentWithTheChangesAsked) {
@@ -183,7 +252,7 @@ TEST(Process, WritesNowhereButWhereItMay) {
       options);
   EXPECT_EQ(read_file(own.path() / "d/mine", 100), "mine\n");
   EXPECT_THAT(result.output_tail, testing::HasSubstr("null is free\n"));
-  const bool can_limit = std::async(std::launch::async, limit_writes_to, own.path()).get();
+  const bool can_limit = WriteLimit(own.path()).ruleset() >= 0;
   EXPECT_EQ(limited, can_limit);
   if (!can_limit) GTEST_SKIP() << "this kernel has no Landlock to limit writing with";
   EXPECT_TRUE(result.output_tail.ends_with("as it was")) << "reading is free";

@@ -198,6 +198,22 @@ TEST_F(FarmTest, DoesOnlyTheJobsThatAFilterPicks) {
   EXPECT_EQ(run_farm(two, out(), {}).pass, 2u);
 }
 
+TEST_F(FarmTest, WarnsOfAFilterThatPicksNoJobOfTheGridAndOfNoOther) {
+  const Grid two = grid("16, 32", "<engine name=\"analytic\"/>");
+  FarmOptions options;
+  options.filter = JobFilter("n99*");
+  const std::string warning =
+      "--filter 'n99*' picks no job of this grid; the first is named 'n16/render'";
+  EXPECT_EQ(plan_farm(two, out(), options, [](auto&&...) {}).warning, warning);
+  EXPECT_THAT(run_farm(two, out(), options).warnings, testing::Contains(warning));
+  // The last job of all; and again, when there is nothing to be done for it.
+  for (const char* filter : {"n32/profile", "n32/profile", "", "*"}) {
+    options.filter = JobFilter(filter);
+    EXPECT_EQ(plan_farm(two, out(), options, [](auto&&...) {}).warning, "") << filter;
+    EXPECT_THAT(run_farm(two, out(), options).warnings, testing::IsEmpty()) << filter;
+  }
+}
+
 TEST_F(FarmTest, APlanNamesEveryJobThatIsThenDoneAndWhy) {
   const Grid two = grid("16, 32", "<engine name=\"analytic\"/>");
   std::map<std::string, std::string> jobs;

@@ -45,6 +45,24 @@ std::string first_difference(const std::string& a, const std::string& b) {
                      printable(a.substr(from, 80), 200));
 }
 
+struct ProcessState {
+  std::string name, state, parent;
+  /// A zombie is not, and where process 1 reaps late there are many.
+  bool is_alive() const { return !state.empty() && state != "Z" && state != "X"; }
+};
+
+/// Empty if there is no such process: they come and go while we look.
+ProcessState state_of(const fs::path& process) {
+  std::ifstream file(process / "stat");
+  std::string text;  // "123 (povray) S 100 ..."
+  if (!std::getline(file, text)) return {};
+  const auto open = text.find('('), close = text.rfind(')');
+  if (open == text.npos || close == text.npos) return {};
+  const auto fields = split(text.substr(close + 1), " ");
+  if (fields.size() < 2) return {};
+  return {text.substr(open + 1, close - open - 1), fields[0], fields[1]};
+}
+
 bool is_asked_its_version(const fs::path& process) {
   std::ifstream file(process / "cmdline");
   const std::string words((std::istreambuf_iterator<char>(file)), {});
@@ -154,18 +172,23 @@ std::vector<int> RunningFarm::children(const std::string& name) const {
   std::vector<int> found;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
-    std::ifstream file(entry.path() / "stat");
-    std::string text;
-    // "123 (povray) S 100 ..."; processes come and go while we look.
-    if (!std::getline(file, text)) continue;
-    const auto open = text.find('('), close = text.rfind(')');
-    if (open == text.npos || close == text.npos) continue;
-    const auto fields = split(text.substr(close + 1), " ");
-    if (text.substr(open + 1, close - open - 1) == name && fields.size() > 1 && fields[0] != "Z" &&
-        fields[1] == std::to_string(pid_) && !is_asked_its_version(entry.path()))
-      found.push_back(std::stoi(text));
+    const ProcessState process = state_of(entry.path());
+    if (process.name == name && process.is_alive() && process.parent == std::to_string(pid_) &&
+        !is_asked_its_version(entry.path()))
+      found.push_back(std::stoi(entry.path().filename()));
   }
   return found;
+}
+
+bool end_soon(const std::vector<int>& processes) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (std::any_of(processes.begin(), processes.end(), [](int process) {
+    return state_of(fs::path("/proc") / std::to_string(process)).is_alive();
+  })) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return true;
 }
 
 FailingFarm::FailingFarm() {

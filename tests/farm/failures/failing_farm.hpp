@@ -48,6 +48,9 @@ class RunningFarm {
   int exit_code_ = -1;
 };
 
+/// Whether these processes are gone within 20 s.
+bool end_soon(const std::vector<int>& processes);
+
 struct FarmRun {
   int exit_code = 0;
   std::string output;

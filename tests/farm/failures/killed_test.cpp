@@ -1,5 +1,6 @@
 // A farm that is killed at any moment.
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <random>
 #include <thread>
@@ -82,6 +83,25 @@ TEST_F(KilledFarm, AgainAndAgainEndsWhereOneThatWasLeftAloneDoes) {
     farm.signal(SIGKILL);
     farm.wait();
   }
+  expect_mended(run());
+}
+
+TEST_F(KilledFarm, LeavesNoEngineBehindThatHangs) {
+  undisturbed();
+  const fs::path queue = root() / "queue";
+  ASSERT_EQ(::mkfifo(queue.c_str(), 0600), 0);
+  fake_povray("read nothing < '" + queue.string() + "'");  // waits for a writer that never comes
+  RunningFarm farm(command({"--no-progress-limit", "0"}), root());
+  std::vector<int> engines;
+  while ((engines = farm.children("povray")).size() < 2 && !farm.has_ended())
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  engines = farm.children("povray");
+  EXPECT_GE(engines.size(), 2u) << farm.output();
+  farm.signal(SIGKILL);
+  EXPECT_EQ(farm.wait(), 128 + SIGKILL);
+  EXPECT_TRUE(end_soon(engines));
+  fake_povray();
   expect_mended(run());
 }
 

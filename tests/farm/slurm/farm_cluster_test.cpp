@@ -20,12 +20,13 @@ class FarmOnCluster : public FailingFarm {
   void SetUp() override {
     if (const std::string why = TestCluster::why_not(); !why.empty()) GTEST_SKIP() << why;
     grid({"8", "10", "12", "14", "16", "18", "20", "22", "24", "26", "28", "30"});
-    fake_povray("sleep 2");
+    fake_povray();
     local_ = run({"-q"});
     ASSERT_EQ(local_.exit_code, 0) << local_.output;
     local_results_ = results_of(out());
     fs::rename(out(), root() / "local-out");
     fs::rename(cache(), root() / "local-cache");
+    fake_povray("sleep 2");
     cluster_.up();
   }
   std::vector<std::string> on_slurm() const {

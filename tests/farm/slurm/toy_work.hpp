@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <string>
 #include <thread>
@@ -76,11 +77,12 @@ exit ${failed:-0}
             }};
   }
 
-  /// What lies in results/, hidden files too.
+  /// What lies in results/, hidden files too, of which one may go while we look.
   std::map<std::string, std::string> results() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(directory_ / "results"))
-      all[entry.path().filename()] = read_file(entry.path(), 1000);
+      if (std::ifstream file(entry.path()); file)
+        all[entry.path().filename()] = {std::istreambuf_iterator<char>(file), {}};
     return all;
   }
   std::map<std::string, std::string> wanted() const {
