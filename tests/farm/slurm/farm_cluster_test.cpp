@@ -91,6 +91,20 @@ TEST_F(FarmOnCluster, IsFollowedAgainAfterItsClientWasKilled) {
   expect_local_results(attached.output);
 }
 
+TEST_F(FarmOnCluster, EndsWithItsGalleryThoughNobodyWaits) {
+  fake_povray();
+  std::vector<std::string> words = on_slurm();
+  words.insert(words.end(), {"--detach", "--gallery", "site"});
+  const FarmRun detached = run_command(words);
+  EXPECT_EQ(detached.exit_code, 0) << detached.output;
+  EXPECT_THAT(detached.output, HasSubstr("submitted"));
+  const fs::path page = root() / "site" / "cells" / "n30" / "index.html";
+  ASSERT_TRUE(eventually([&] { return cluster_.slurm({"squeue", "-h"}).empty(); }));
+  EXPECT_THAT(read_file(page, 1 << 20), HasSubstr("✓ pass"));
+  EXPECT_TRUE(fs::exists(root() / "site" / "index.html"));
+  expect_local_results(detached.output);
+}
+
 TEST_F(FarmOnCluster, StopsAtCtrlCAndMakesTheRestAfterwards) {
   RunningFarm farm(on_slurm(), root());
   ASSERT_TRUE(eventually([&] { return cached_pictures() >= 3; })) << farm.output();
