@@ -84,7 +84,7 @@ void write_figures(Html& html, const std::string& caption, const std::vector<std
       if (std::find(columns.begin(), columns.end(), id) == columns.end()) columns.push_back(id);
     }
   }
-  const Tag wrap(html, "div", {{"class", "table-wrap"}});
+  const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table", {{"class", "figures"}});
   html.element("caption", caption);
   {

@@ -131,7 +131,7 @@ void write_numbers(Html& html, const FarmData& farm, const CellData& cell) {
     write_absence(html, "Our picture was compared with no other: no reference picture was there.");
     return;
   }
-  const Tag wrap(html, "div", {{"class", "table-wrap"}});
+  const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table", {{"class", "metrics"}});
   write_metric_head(html, farm, cell);
   const Tag tbody(html, "tbody");
@@ -151,7 +151,7 @@ void write_plan(Html& html, const CellData& cell) {
     return;
   }
   html.element("p", "Which effects this scene calls for; our renderer simulates nothing else.");
-  const Tag wrap(html, "div", {{"class", "table-wrap"}});
+  const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table");
   {
     const Tag thead(html, "thead");

@@ -60,7 +60,9 @@ void write_sentences(Html& html, const std::vector<std::string>& sentences) {
 
 void write_ways(Html& html, const CostTable& table) {
   const Tag details(html, "details", {{"class", "ways"}});
-  html.element("summary", fmt::format("All {} ways, the fastest first", table.ways.size()));
+  html.element("summary", table.ways.size() == 1
+                              ? "The one way"
+                              : fmt::format("All {} ways, the fastest first", table.ways.size()));
   const Tag scroll(html, "div",
                    {{"class", "table-wrap"},
                     {"tabindex", "0"},

@@ -326,6 +326,46 @@ for (const [what, noise] of [['smooth pictures', 0], ['pictures of coloured nois
   });
 }
 
+test('what is under the rounding of a half float is 0, and no value has more digits than were stored', async () => {
+  const page = await cellPage('#at=0,63', 2);  // 5e-12, where a step is 7e-12
+  await page.locator('.stage').hover({ position: { x: 5, y: 5 } });  // beside the picture: asks for all engines
+  await ready(page, 4);
+  await page.mouse.move(0, 0);
+  await page.reload();
+  await ready(page, 4);
+  await says(page, '.where', /Pixel \(0, 63\)/);
+  await page.waitForFunction(() => !document.querySelector('.pixel-values').textContent.includes('…'));
+  const rows = await page.locator('.pixel-values tbody tr:not(.sum)').allTextContents();
+  assert.equal(rows.length, 4);
+  for (const row of rows) assert.match(row, /^\D+(0|[1-9]e−1[12])(0|[1-9]e−1[12])(0|[1-9]e−1[12])$/);
+  await close(page);
+});
+
+test('the pixel that was chosen is in the link, and the next cell is seen as this one is', async () => {
+  const page = await cellPage('#mode=diff&b=blender&gain=2');
+  await page.locator('.stage').focus();
+  await page.keyboard.press('w');
+  await page.keyboard.press('ArrowRight');
+  const { at } = await hashOf(page);
+  assert.equal(at, '33,21');
+  await page.getByRole('link', { name: '128' }).first().click();
+  await page.waitForURL(/phong-128/);
+  await ready(page);
+  assert.deepEqual(await hashOf(page), { mode: 'diff', b: 'blender', gain: '2', at });
+  await says(page, '.where', /Pixel \(33, 21\)/);
+  await close(page);
+});
+
+test('an exposure beyond the bounds is taken for the nearest that there is, and the label says which', async () => {
+  const page = await cellPage('#mode=flip&ev=999');
+  await says(page, '.exposure label', /^Exposure 12\.68 stops$/);  // 14 above that of the pictures
+  await page.keyboard.press('e');
+  assert.ok(Math.abs(Number((await hashOf(page)).ev) - 12.678) < 1e-3);
+  await page.keyboard.press('E');
+  await says(page, '.exposure label', /^Exposure 12\.18 stops$/);
+  await close(page);
+});
+
 test('a hash that makes no sense does no harm', async () => {
   const page = await cellPage('#a=<img src=x onerror=alert(1)>&mode=__proto__&z=nan&x=1e999&line=1,2,3&ev=x&measure=constructor&colour=%ff');
   await says(page, '.tags', /^LobeliaPOV-Ray$/);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { close, fileUrl, launch, lobelia, open, requireAccessible, scratch, serve } from './browser.mjs';
+import { close, fileUrl, launch, lobelia, open, requireAccessible, says, scratch, serve } from './browser.mjs';
 import { writeFarm } from './farm.mjs';
 
 const kHostile = '<img src=x onerror=alert(1)>';
@@ -91,6 +91,21 @@ test('any metric of any engine colours the cells, and its scale is shown', async
   }
   await page.getByRole('combobox', { name: 'Colour', exact: true }).selectOption('status');
   assert.equal(await page.locator('.swatch:visible').count(), 0);
+  await close(page);
+});
+
+test('an error that has a sign is coloured and ranked by its size', async () => {
+  const page = await grid('#colour=*/drift');
+  await says(page, '.grid-bar .legend-bar', /Coloured without its sign/);
+  // POV-Ray's is the largest, below 0.
+  await says(page, '.cell-foot .value', /^−2 × 10⁻⁷/);
+  await close(page);
+});
+
+test('a link that makes no sense shows what there is without', async () => {
+  const page = await grid('#rows=99&cols=-7&group=x&status=bogus&colour=zz&order=?');
+  await says(page, '.count', /^showing (\d+) of \1$/);
+  for (const list of await page.locator('.grid-bar select').all()) assert.ok(await list.evaluate((element) => element.selectedIndex >= 0));
   await close(page);
 });
 

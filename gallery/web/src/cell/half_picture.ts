@@ -9,6 +9,7 @@ export interface FloatPicture {
   readonly fromOurs: boolean;
   /** Each pixel stands for so many of the cell's in either direction. */
   readonly block: number;
+  readonly scaleLog2: number;
   readonly mantissaBits: number;
   /** What is smaller was taken for 0. */
   readonly least: number;
@@ -61,6 +62,13 @@ function unpacked(bytes: Uint8Array, packed: Packed): Float32Array {
     }
   }
   return values;
+}
+
+/** How far a value may be from the one that it was stored for. */
+export function roundingAt(picture: FloatPicture, value: number): number {
+  const size = Math.abs(value) * 2 ** picture.scaleLog2;
+  const exponent = size >= 2 ** -14 ? Math.floor(Math.log2(size)) : -14;  // below, steps are all the same
+  return Math.max(2 ** (exponent - picture.mantissaBits - 1 - picture.scaleLog2), picture.least);
 }
 
 let before: Promise<unknown> = Promise.resolve();

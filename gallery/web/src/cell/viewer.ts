@@ -7,7 +7,7 @@ import { HashState } from '../lib/state';
 import { cssGradient } from './colours';
 import type { CellData } from './data';
 import { GlPainter } from './gl_painter';
-import { loadFloatPicture, type FloatPicture } from './half_picture';
+import { loadFloatPicture, roundingAt, type FloatPicture } from './half_picture';
 import { lineAcross, sampled } from './line';
 import { DifferenceMaps, valueOfMap, type LoadedMap } from './maps';
 import type { Content, Look, Measure, Painter, Pane, Rectangle, Viewport } from './painter';
@@ -25,11 +25,12 @@ const kMeasures = [
   { value: 'signed', label: 'a − b, signed' },
 ] as const;
 const kDecades = 6, kMostZoom = 64;
+const kStops = { from: -10, to: 14 }, kMostGain = 12;
 const kLeastOfMap = 2 ** -10;  // gallery/difference_maps.hpp
 
 const kDefaults = {
   a: '', b: '', mode: 'slide', shown: 'a', ev: '', colour: '', gain: '0', measure: 'absolute',
-  x: '', y: '', z: '', split: '50', line: '', scale: 'linear',
+  x: '', y: '', z: '', at: '', split: '50', line: '', scale: 'linear',
 };
 export type ViewerState = HashState<keyof typeof kDefaults>;
 export const viewerState = (): ViewerState => new HashState(kDefaults);
@@ -126,7 +127,7 @@ export class Viewer {
 
     this.painter = new PngPainter(this.canvas, data, () => this.schedule(), () => this.isWaiting);
     this.listen();
-    state.onChange(() => this.refresh());
+    state.onChange(() => { this.cursor = undefined; this.refresh(); });
     new ResizeObserver(() => this.schedule()).observe(this.stage);
     this.refresh();
   }
@@ -202,11 +203,14 @@ export class Viewer {
     this.divider.value = this.state.get('split');
     this.colour.checked = this.state.get('colour') === 'false';
     const base = this.baseStops();
-    this.exposure.min = String(mode === 'diff' ? -12 : base - 10);
-    this.exposure.max = String(mode === 'diff' ? 12 : base + 14);
-    this.exposure.value = mode === 'diff' ? this.state.get('gain') : String(this.stops());
-    const stops = numberText(Math.round(100 * Number(this.exposure.value)) / 100, 5);
+    this.exposure.min = String(mode === 'diff' ? -kMostGain : base + kStops.from);
+    this.exposure.max = String(mode === 'diff' ? kMostGain : base + kStops.to);
+    const chosen = mode === 'diff' ? this.gain() : this.stops();
+    this.exposure.value = String(chosen);  // which has steps
+    const stops = numberText(Math.round(100 * chosen) / 100, 5);
     this.exposureName.textContent = mode === 'diff' ? `Gain of the difference ${stops} stops` : `Exposure ${stops} stops`;
+    // A finger scrolls the page, but over an enlarged picture or with a line to draw.
+    this.stage.style.touchAction = this.state.get('z') === '' && !this.drawing ? 'pan-y pinch-zoom' : 'none';
     for (const which of [a, b, 0]) void this.need(which);
     this.schedule();
   }
@@ -216,7 +220,12 @@ export class Viewer {
     return Number.isFinite(stops) ? stops : 0;
   }
 
-  private stops(): number { return this.state.get('ev') === '' ? this.baseStops() : this.state.number('ev'); }
+  private stops(): number {
+    const base = this.baseStops();
+    return this.state.get('ev') === '' ? base : clamp(this.state.number('ev'), base + kStops.from, base + kStops.to);
+  }
+
+  private gain(): number { return clamp(this.state.number('gain'), -kMostGain, kMostGain); }
 
   // ---- pictures
 
@@ -274,8 +283,23 @@ export class Viewer {
     const picture = this.floats.get(engine), ours = this.floats.get(0);
     if (!picture || (picture.fromOurs && !ours) || x < 0 || y < 0 || x >= picture.width || y >= picture.height) return undefined;
     const at = 3 * (y * picture.width + x);
-    const value = (c: number): number => picture.values[at + c]! + (picture.fromOurs ? ours!.values[at + c]! : 0);
+    const value = (c: number): number => {
+      const stored = picture.values[at + c]!;
+      if (!picture.fromOurs) return stored;
+      // Ours was rounded, the difference from it was not: what is left may be nothing but that.
+      const sum = stored + ours!.values[at + c]!;
+      return Math.abs(sum) <= roundingAt(ours!, ours!.values[at + c]!) ? 0 : sum;
+    };
     return [value(0), value(1), value(2)];
+  }
+
+  /** As many digits as it was stored with: that of ours and of the difference from it. */
+  private valueText(engine: number, x: number, y: number, c: number, value: number): string {
+    const picture = this.floats.get(engine), ours = this.floats.get(0);
+    if (!picture || !ours || value === 0 || !Number.isFinite(value)) return shortText(value);
+    const at = 3 * (y * picture.width + x) + c;
+    const rounding = roundingAt(ours, ours.values[at]!) + (picture.fromOurs ? roundingAt(picture, picture.values[at]!) : 0);
+    return shortText(value, clamp(1 + Math.floor(Math.log10(Math.abs(value) / rounding)), 1, 4));
   }
 
   private differenceAt(a: number, b: number, x: number, y: number): [number, number, number] | undefined {
@@ -333,6 +357,7 @@ export class Viewer {
   private worstPixel(a: number, b: number): { x: number; y: number; value: number } | undefined {
     const map = this.mapOf(a, b);
     if (map) return map.worst;
+    if (this.mode() === 'diff' && this.measureOf() === 'relative') return this.worst(a, b, 'relative');
     const found = this.worst(a, b, 'absolute'), record = this.comparisonOf(a, b);
     const x = toNumber(record?.worstX), y = toNumber(record?.worstY);
     return found && Number.isInteger(x) && Number.isInteger(y) ? { ...found, x: clamp(x, 0, this.width - 1), y: clamp(y, 0, this.height - 1) } : found;
@@ -341,7 +366,7 @@ export class Viewer {
   private goToWorst(): void {
     const worst = this.worstPixel(this.chosen('a'), this.chosen('b'));
     if (!worst) return;
-    this.setCursor(worst.x, worst.y);
+    this.setCursor(worst.x, worst.y, true);
     if (this.state.get('z') !== '') this.change({ x: String(worst.x + 0.5), y: String(worst.y + 0.5) });
     announce(`Largest difference at pixel ${worst.x}, ${worst.y}: ${numberText(worst.value)}`);
   }
@@ -350,10 +375,10 @@ export class Viewer {
   private white(a: number, b: number): number {
     const map = this.mapOf(a, b);
     // What nobody notices stays dark, however large it is beside the rest.
-    if (map) return Math.max(1, map.worst.value) / 2 ** this.state.number('gain');
+    if (map) return Math.max(1, map.worst.value) / 2 ** this.gain();
     const measure = this.measureOf(), whiteAt = toNumber(this.comparisonOf(a, b)?.whiteAt);
     const base = measure !== 'relative' && whiteAt > 0 ? whiteAt : this.isFloat ? this.largestOf(a, b, measure) : 1;
-    return base / 2 ** this.state.number('gain');
+    return base / 2 ** this.gain();
   }
 
   // ---- painting
@@ -408,7 +433,7 @@ export class Viewer {
     this.showTags(mode, a, b, isFlipped);
     this.showLegend(mode, a, b);
     this.showValues(a, b);
-    this.showOverlay(panes, view);
+    this.showOverlay(panes, view, this.cursorNow(a, b));
     this.showLine(a, b);
   }
 
@@ -468,33 +493,31 @@ export class Viewer {
   }
 
   private showValues(a: number, b: number): void {
-    if (!this.cursor && this.isFloat) this.cursor = this.worstPixel(a, b);
-    if (!this.cursor || !this.isFloat) {
+    const cursor = this.cursorNow(a, b);
+    if (!cursor || !this.isFloat) {
       this.where.textContent = this.isFloat ? 'Point at a pixel to read its values' : 'Values need float pictures';
       this.values.replaceChildren();
       return;
     }
-    const { x, y } = this.cursor;
+    const { x, y } = cursor;
     const worst = this.worstPixel(a, b);
     const isWorst = a !== b && worst?.x === x && worst.y === y && worst.value > 0;
     this.where.textContent = `Pixel (${x}, ${y})${isWorst ? ', where they differ most' : ''}`;
-    const row = (name: string, value: readonly number[] | undefined, digits: number, chosen: string): HTMLElement =>
+    const row = (name: string, value: readonly number[] | undefined, text: (value: number, c: number) => string, chosen: string): HTMLElement =>
       h('tr', { class: chosen }, h('th', { scope: 'row' }, name),
-        ...[0, 1, 2].map((c) => h('td', {}, value ? shortText(value[c]!, digits) : '…')));
-    // A value is ours and a difference: as many digits as ours was stored with.
-    const digits = 1 + Math.floor((this.floats.get(0)?.mantissaBits ?? 10) * Math.log10(2));
+        ...[0, 1, 2].map((c) => h('td', {}, value ? text(value[c]!, c) : '…')));
     const rows = this.shownEngines().filter((i) => this.data.engines[i]!.floatScript).map((i) => {
       void this.need(i);
-      return row(this.data.engines[i]!.shortTitle, this.valueAt(i, x, y), digits, i === a || i === b ? 'chosen' : '');
+      return row(this.data.engines[i]!.shortTitle, this.valueAt(i, x, y), (value, c) => this.valueText(i, x, y, c, value), i === a || i === b ? 'chosen' : '');
     });
-    rows.push(row('Difference', this.differenceAt(a, b, x, y), 3, 'sum'));
+    rows.push(row('Difference', this.differenceAt(a, b, x, y), (value) => shortText(value), 'sum'));
     const map = this.mapOf(a, b), mapped = map && valueOfMap(map, x, y);
     if (map && mapped !== undefined)
       rows.push(h('tr', { class: 'sum' }, h('th', { scope: 'row' }, map.title), h('td', { colspan: 3 }, shortText(mapped, 3))));
     this.values.replaceChildren(...rows);
   }
 
-  private showOverlay(panes: readonly Rectangle[], view: Viewport): void {
+  private showOverlay(panes: readonly Rectangle[], view: Viewport, cursor: { x: number; y: number } | undefined): void {
     const scale = devicePixelRatio, parts: SVGElement[] = [];
     const line = this.line();
     for (const pane of panes) {
@@ -504,14 +527,14 @@ export class Viewer {
         const ends = { x1: across(line.x0 + 0.5), y1: down(line.y0 + 0.5), x2: across(line.x1 + 0.5), y2: down(line.y1 + 0.5) };
         parts.push(svg('line', { ...ends, class: 'line-halo' }), svg('line', { ...ends, class: 'line' }));
       }
-      if (this.cursor) {
+      if (cursor) {
         const size = Math.max(view.zoom / scale, 5), middle = 0.5 - size * scale / view.zoom / 2;
-        parts.push(svg('rect', { class: 'pixel', x: across(this.cursor.x + middle), y: down(this.cursor.y + middle), width: size, height: size }));
+        parts.push(svg('rect', { class: 'pixel', x: across(cursor.x + middle), y: down(cursor.y + middle), width: size, height: size }));
       }
     }
     if (this.mode() === 'slide') {
       const at = `${clamp(this.state.number('split'), 0, 100)}%`;
-      parts.push(svg('line', { class: 'split', x1: at, x2: at, y1: 0, y2: '100%' }));
+      parts.push(svg('line', { class: 'line-halo', x1: at, x2: at, y1: 0, y2: '100%' }), svg('line', { class: 'split', x1: at, x2: at, y1: 0, y2: '100%' }));
     }
     this.overlay.replaceChildren(...parts);
   }
@@ -532,7 +555,7 @@ export class Viewer {
   }
 
   private lineThrough(isRow: boolean): void {
-    const { x, y } = this.cursor ?? { x: Math.floor(this.width / 2), y: Math.floor(this.height / 2) };
+    const { x, y } = this.cursorNow(this.chosen('a'), this.chosen('b')) ?? { x: Math.floor(this.width / 2), y: Math.floor(this.height / 2) };
     this.change({ line: isRow ? `0,${y},${this.width - 1},${y}` : `${x},0,${x},${this.height - 1}` });
   }
 
@@ -587,8 +610,17 @@ export class Viewer {
     return { x: view.x + (across - pane.x) / view.zoom, y: view.y + (down - pane.y) / view.zoom };
   }
 
-  private setCursor(x: number, y: number): void {
+  /** Under the pointer; else where the link says; else where the two differ most. */
+  private cursorNow(a: number, b: number): { x: number; y: number } | undefined {
+    const [x = NaN, y = NaN] = this.state.get('at').split(',').map(Number);
+    const linked = Number.isInteger(x) && Number.isInteger(y) && x >= 0 && y >= 0 && x < this.width && y < this.height;
+    return this.cursor ?? (linked ? { x, y } : this.isFloat ? this.worstPixel(a, b) : undefined);
+  }
+
+  /** `keep`: a link has it too. */
+  private setCursor(x: number, y: number, keep = false): void {
     this.cursor = { x: clamp(Math.floor(x), 0, this.width - 1), y: clamp(Math.floor(y), 0, this.height - 1) };
+    if (keep) this.state.set({ at: `${this.cursor.x},${this.cursor.y}` });
     this.schedule();
   }
 
@@ -610,7 +642,7 @@ export class Viewer {
       this.stage.classList.toggle('at-divider', held?.kind === 'split' || (!held && isAtDivider(event)));
       if (!held) return;
       if (held.kind === 'line') {
-        this.change({ line: [held.x, held.y, point.x, point.y].map((v) => Math.floor(v)).join(',') });
+        this.change({ line: [held.x, held.y, point.x, point.y].map((v, i) => clamp(Math.floor(v), 0, (i % 2 ? this.height : this.width) - 1)).join(',') });
       } else if (held.kind === 'split') {
         const box = this.stage.getBoundingClientRect();
         this.change({ split: clamp(100 * (event.clientX - box.left) / box.width, 0, 100).toFixed(1) });
@@ -621,6 +653,7 @@ export class Viewer {
     });
     const release = (): void => {
       if (held?.kind === 'line') this.startLine();
+      else if (held?.kind === 'pan' && this.cursor) this.setCursor(this.cursor.x, this.cursor.y, true);
       held = undefined;
     };
     this.stage.addEventListener('pointerup', release);
@@ -647,8 +680,8 @@ export class Viewer {
       this.moveTo(view.x + at.width / 2 / view.zoom + dx * stride, view.y + at.height / 2 / view.zoom + dy * stride, view.zoom / devicePixelRatio);
       return;
     }
-    const { x, y } = this.cursor ?? { x: Math.floor(this.width / 2), y: Math.floor(this.height / 2) };
-    this.setCursor(x + dx, y + dy);
+    const { x, y } = this.cursorNow(this.chosen('a'), this.chosen('b')) ?? { x: Math.floor(this.width / 2), y: Math.floor(this.height / 2) };
+    this.setCursor(x + dx, y + dy, true);
     const ours = this.valueAt(this.chosen('a'), this.cursor!.x, this.cursor!.y);
     if (ours) announce(`Pixel ${this.cursor!.x}, ${this.cursor!.y}: ${ours.map((v) => numberText(v)).join(', ')}`);
   }
@@ -663,12 +696,17 @@ export class Viewer {
       return event.preventDefault();
     }
     const stops = this.mode() === 'diff' ? 'gain' : 'ev';
-    const now = this.mode() === 'diff' ? this.state.number('gain') : this.stops();
+    const now = this.mode() === 'diff' ? this.gain() : this.stops();
+    const brighten = (by: number): void => {
+      this.change({ [stops]: String(now + by) });
+      this.change({ [stops]: String(this.mode() === 'diff' ? this.gain() : this.stops()) });
+    };
     const acts: Record<string, () => void> = {
       f: () => this.change({ mode: 'flip', shown: this.mode() === 'flip' && this.state.get('shown') === 'a' ? 'b' : 'a' }),
       l: () => this.change({ mode: 'slide' }), s: () => this.change({ mode: 'side' }), d: () => this.change({ mode: 'diff' }),
       x: () => this.exchange(),
-      e: () => this.change({ [stops]: String(now + 0.5) }), E: () => this.change({ [stops]: String(now - 0.5) }),
+      e: () => brighten(0.5), E: () => brighten(-0.5),
+      Escape: () => { if (this.drawing) this.startLine(); },
       c: () => this.change({ colour: this.state.get('colour') === 'false' ? '' : 'false' }),
       '+': () => this.zoomBy(2), '=': () => this.zoomBy(2), '-': () => this.zoomBy(0.5), '0': () => this.fit(),
       p: () => this.startLine(), w: () => this.goToWorst(),

@@ -30,6 +30,7 @@ export interface ChartContent {
   readonly level?: number;
 }
 
+let charts = 0;
 const kWidth = 900, kLeft = 76, kRight = 16, kTop = 20, kBottom = 44;
 export const kDashes = ['', '', '7 4', '2 3', '10 3 2 3', '5 2'];
 
@@ -58,6 +59,7 @@ export class Chart {
   private content: ChartContent | undefined;
   private at: number | undefined;
   private readonly rule = svg('g', { class: 'rule' });
+  private readonly clip = `chart-${++charts}-inside`;
 
   constructor(private readonly title: string, private readonly height: number) {
     this.drawing = svg('svg', {
@@ -109,7 +111,7 @@ export class Chart {
   private down(value: number): number {
     const { from, to, logarithmic } = this.content!.y;
     const share = logarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
-    return kTop + (1 - clamp(share, -0.02, 1.02)) * (this.height - kTop - kBottom);
+    return kTop + (1 - clamp(share, -100, 100)) * (this.height - kTop - kBottom);
   }
 
   private draw(): void {
@@ -133,7 +135,7 @@ export class Chart {
       parts.push(svg('line', { class: 'tick', x1: at, x2: at, y1: bottom, y2: bottom + 5 }),
         svg('text', { class: 'tick-label', x: at, y: bottom + 18, 'text-anchor': 'middle' }, tickText(value, x)));
     }
-    if (level !== undefined) {
+    if (level !== undefined && level >= y.from && level <= y.to) {
       const at = this.down(level);
       parts.push(svg('line', { class: 'axis', x1: kLeft, x2: right, y1: at, y2: at }));
     }
@@ -142,9 +144,12 @@ export class Chart {
       svg('text', { class: 'axis-label', x: right, y: this.height - 6, 'text-anchor': 'end' }, x.label),
       svg('text', { class: 'axis-label', transform: `translate(14 ${(kTop + bottom) / 2}) rotate(-90)`,
         'text-anchor': 'middle' }, y.label));
+    // A curve that leaves the chart ends at its edge.
+    const inside = svg('g', { 'clip-path': `url(#${this.clip})` });
+    parts.push(svg('clipPath', { id: this.clip }, svg('rect', { x: kLeft, y: kTop - 3, width: right - kLeft + 3, height: bottom - kTop + 6 })), inside);
     for (const s of series) {
       if (this.hidden.has(s.name)) continue;
-      parts.push(svg('path', { class: `series series-${s.style}`, fill: 'none', d: this.path(s),
+      inside.append(svg('path', { class: `series series-${s.style}`, fill: 'none', d: this.path(s),
         'stroke-width': s.style === 0 ? 6 : 1.8, 'stroke-dasharray': kDashes[s.style] ?? '' }));
     }
     this.drawing.replaceChildren(...parts, this.rule);
@@ -184,7 +189,8 @@ export class Chart {
     }
     const i = nearest(xs, value), at = this.across(xs[i]!);
     const there = series.map((s) => ({ name: s.name, style: s.style, y: s.x === xs ? s.y[i]! : between(s, xs[i]!) }));
-    const marks = there.filter((s) => Number.isFinite(s.y) && !(this.content!.y.logarithmic && s.y <= 0))
+    const { from, to } = this.content.y;
+    const marks = there.filter((s) => s.y >= from && s.y <= to)
       .map((s) => svg('circle', { class: `marker-${s.style}`, cx: at, cy: this.down(s.y), r: 3.5 }));
     this.rule.replaceChildren(
       svg('line', { class: 'axis', x1: at, x2: at, y1: kTop, y2: this.height - kBottom }), ...marks);

@@ -4,9 +4,19 @@ import { profileView } from '../cell/profile_view';
 import { Viewer, viewerState } from '../cell/viewer';
 import { pageData } from '../lib/data';
 
+/** The next cell is seen as this one is: the link takes the state along. */
+function takeStateAlong(main: HTMLElement): void {
+  const take = (event: Event): void => {
+    const link = event.target instanceof Element ? event.target.closest<HTMLAnchorElement>('nav.axes a') : null;
+    if (link) link.hash = location.hash.includes('=') ? location.hash : '';
+  };
+  for (const kind of ['pointerdown', 'focusin', 'click'] as const) main.addEventListener(kind, take);
+}
+
 export function cell(main: HTMLElement): void {
   const data = pageData<CellData>();
   if (!data) return;
+  takeStateAlong(main);
   const state = viewerState();
   const pictures = main.querySelector('section.pictures');
   if (pictures && data.engines.some((e) => e.picture)) {

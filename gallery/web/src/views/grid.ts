@@ -103,19 +103,25 @@ class GridView {
     this.refresh();
   }
 
+  /** What the link says; of one that makes no sense, what would be there without. */
   private axis(key: 'rows' | 'cols' | 'group'): number {
-    const axis = this.state.number(key);
-    return Number.isInteger(axis) && axis >= 0 && axis < this.data.axes.length ? axis : -1;
+    const { rows, groups, columns } = this.data.layout, usual = { rows, cols: columns, group: groups }[key];
+    const asked = this.state.number(key), isAxis = Number.isInteger(asked) && asked >= 0 && asked < this.data.axes.length;
+    const axis = isAxis || (asked === -1 && key !== 'cols') ? asked : usual;
+    // An axis has one place.
+    const taken = key === 'cols' ? [] : key === 'rows' ? [this.axis('cols')] : [this.axis('cols'), this.axis('rows')];
+    return taken.includes(axis) ? -1 : axis;
   }
 
   private refresh(): void {
     const { state } = this;
     if (this.find.value !== state.get('find')) this.find.value = state.get('find');
-    for (const key of ['rows', 'cols', 'group'] as const) this.axes[key].set(state.get(key));
-    this.colour.set(state.get('colour'));
-    this.status.set(state.get('status'));
-    this.order.set(state.get('order'));
-    const words = state.get('find').toLowerCase().split(/\s+/).filter(Boolean), status = state.get('status');
+    for (const key of ['rows', 'cols', 'group'] as const) this.axes[key].set(String(this.axis(key)));
+    const status = this.data.statuses.some((s) => s.name === state.get('status')) ? state.get('status') : '';
+    this.colour.set(this.metric() ? state.get('colour') : 'status');
+    this.status.set(status);
+    this.order.set(state.get('order') === 'worst' ? 'worst' : 'grid');
+    const words = state.get('find').toLowerCase().split(/\s+/).filter(Boolean);
     const shown = this.data.cells.filter((cell) => (!status || cell.status === status) &&
       words.every((word) => this.haystack.get(cell)!.includes(word)));
     const text = `showing ${shown.length} of ${this.data.cells.length}`;
@@ -144,19 +150,27 @@ class GridView {
 
   private valueOf(cell: GridCell): number {
     const by = this.metric(), values = by ? this.valuesOf(cell, by.engine, by.index) : [];
-    return values.length === 0 ? NaN : by!.metric.moreIsBetter ? Math.min(...values) : Math.max(...values);
+    if (values.length === 0) return NaN;
+    return by!.metric.moreIsBetter ? Math.min(...values) : values.reduce((p, q) => (Math.abs(q) > Math.abs(p) ? q : p));
+  }
+
+  /** How large it is: of an error that has a sign, without it. */
+  private sizeOf(cell: GridCell): number {
+    const value = this.valueOf(cell);
+    return this.metric()?.metric.moreIsBetter ? value : Math.abs(value);
   }
 
   private paint(shown: readonly GridCell[]): void {
     const by = this.metric();
-    const values = by ? this.data.cells.map((c) => this.valueOf(c)).filter(Number.isFinite) : [];
+    const values = by ? this.data.cells.map((c) => this.sizeOf(c)).filter(Number.isFinite) : [];
+    const isSigned = by !== undefined && this.data.cells.some((c) => this.valueOf(c) < 0);
     const positive = values.filter((v) => v > 0), low = Math.min(...positive), high = Math.max(...positive);
     // Errors span decades; what has a best value does not.
     const logarithmic = by !== undefined && !by.metric.moreIsBetter && positive.length > 0 && high > 20 * low;
     const from = logarithmic ? low : Math.min(...values), to = logarithmic ? high : Math.max(...values);
     for (const cell of shown) {
-      const parts = this.cell(cell), value = this.valueOf(cell);
-      const share = logarithmic ? (value > 0 ? Math.log(value / from) / Math.log(to / from) : 0) : (value - from) / (to - from || 1);
+      const parts = this.cell(cell), value = this.valueOf(cell), size = this.sizeOf(cell);
+      const share = logarithmic ? (size > 0 ? Math.log(size / from) / Math.log(to / from) : 0) : (size - from) / (to - from || 1);
       const isShown = by !== undefined && !Number.isNaN(value);
       parts.value.textContent = by ? metricText(by.metric, value) : '';
       parts.swatch.style.background = isShown ? colourAt('viridis', Number.isFinite(value) ? share : 1) : '';
@@ -166,7 +180,7 @@ class GridView {
     const ramp = h('span', { class: 'ramp' });
     ramp.style.background = cssGradient('viridis');
     this.legend.replaceChildren(h('span', {}, metricText(by.metric, from)), ramp, h('span', {}, metricText(by.metric, to)),
-      h('span', {}, (logarithmic ? 'logarithmic. ' : '') + by.metric.meaning));
+      h('span', {}, (logarithmic ? 'logarithmic. ' : '') + (isSigned ? 'Coloured without its sign. ' : '') + by.metric.meaning));
   }
 
   // ---- cells
@@ -192,8 +206,8 @@ class GridView {
   private list(shown: readonly GridCell[]): HTMLElement {
     const by = this.metric();
     const badness = (cell: GridCell): number => {
-      const value = this.valueOf(cell);
-      return Number.isNaN(value) ? -Infinity : by?.metric.moreIsBetter ? -value : value;
+      const size = this.sizeOf(cell);
+      return Number.isNaN(size) ? -Infinity : by?.metric.moreIsBetter ? -size : size;
     };
     const rank = (cell: GridCell): number => kSeverity.indexOf(cell.status);
     const sorted = [...shown].sort((p, q) => rank(p) - rank(q) || (badness(q) > badness(p) ? 1 : badness(q) < badness(p) ? -1 : 0));
@@ -255,7 +269,7 @@ class GridView {
       h('colgroup', {}, rows < 0 ? null : h('col', { class: 'heads' }), ...Array.from({ length: count }, () => h('col'))), head, body);
     // Cells of one size, as large as is of use, and no smaller than can be seen: then the section scrolls.
     table.style.width = `min(100%, ${8 + 11.7 * count}rem)`;
-    table.style.minWidth = `${isWide ? 6.5 + 4.3 * count : 0}rem`;
+    table.style.setProperty('--columns', String(count));
     return h('section', { class: 'grid-section', 'aria-labelledby': id }, h('h2', { id }, label), table);
   }
 }

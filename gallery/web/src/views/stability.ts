@@ -32,6 +32,8 @@ function replace(main: HTMLElement, id: string, content: HTMLElement): void {
   if (!drawing) return;
   drawing.classList.add('without-script');
   content.classList.add('scripted-only');
+  // It tells of what the drawing shows; what is chosen stands in the lists.
+  drawing.parentElement?.querySelector('figcaption')?.classList.add('without-script');
   drawing.after(content);
 }
 
@@ -57,7 +59,7 @@ function overExponent(data: Data, state: State): HTMLElement {
     }
     const x = [...worst.keys()].sort((a, b) => a - b);
     const values = x.flatMap((n) => [worst.get(n)!.naive, worst.get(n)!.ours]);
-    const range = rangeOf(values.some((v) => v === Infinity) ? [...values, kNoNumber[k]!] : values, true, 20);
+    const range = rangeOf(values.some((v) => v === Infinity) ? [...values, kNoNumber[k]!] : values, true, 45);
     // What is no number is at the top, what is exact below the chart.
     const y = (name: 'naive' | 'ours'): number[] => x.map((n) => Math.min(worst.get(n)![name], range.to));
     chart.update({
@@ -68,7 +70,8 @@ function overExponent(data: Data, state: State): HTMLElement {
   }
   state.onChange(draw);
   draw();
-  return h('div', {}, h('div', { class: 'controls' }, group.element, lobe.element, kind.element), chart.element);
+  return h('div', {}, h('div', { class: 'controls' }, group.element, lobe.element, kind.element), chart.element,
+    h('p', { class: 'note' }, 'Against a reference of 50 digits. A line at the top edge means that the textbook gave no number.'));
 }
 
 function overAngle(data: Data, exponents: string[], state: State): HTMLElement {
