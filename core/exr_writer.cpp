@@ -86,11 +86,9 @@ class Stream : public Imf::OStream {
   std::exception_ptr failure_;
 };
 
-}  // namespace
+int pool_threads = 0;  // of OpenEXR, as set_pool() made it
 
-namespace {
-int pool_threads = 0;
-}
+}  // namespace
 
 void ExrWriter::set_pool(int threads) {
   // OpenEXR's pool is one for the process, and must not change while another writer uses it.
