@@ -11,26 +11,9 @@
 namespace lobelia::gallery {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr char kFormat[] = "map 1";    // of the scripts; another number makes them anew
 constexpr int kPrecisions[] = {6, 2};  // bits: 1 % of a value, and enough for its colour
 constexpr int kMostBlock = 16;
-
-/// The pictures of a cell, each read when it is first asked for: a second publication reads none.
-class CellPictures {
- public:
-  explicit CellPictures(fs::path here) : here_(std::move(here)) {}
-  const std::optional<Image>& of(const CellImage& image) {
-    const auto known = pictures_.find(image.exr);
-    if (known != pictures_.end()) return known->second;
-    return pictures_[image.exr] = read_if_possible(here_ / image.exr);
-  }
-
- private:
-  fs::path here_;
-  std::map<std::string, std::optional<Image>> pictures_;
-};
 
 /// Grey, which costs no more than one channel; of each block of pixels the largest, so that nothing large is lost.
 Image picture_of(const std::vector<float>& values, int width, int height, int block) {
@@ -62,10 +45,9 @@ std::string script_of(const MapKind& kind, const MapViewing& viewing, const std:
 
 }  // namespace
 
-void publish_difference_maps(const fs::path& run, const std::vector<MapKind>& kinds, CellData& cell,
-                             Publisher& publisher) {
+void publish_difference_maps(CellPictures& pictures, const std::vector<MapKind>& kinds,
+                             CellData& cell, Publisher& publisher) {
   if (kinds.empty()) return;
-  CellPictures pictures(run / "cells" / cell.id);
   for (CellComparison& comparison : cell.comparisons) {
     const CellImage* a = cell.find_image(comparison.a);
     const CellImage* b = cell.find_image(comparison.b);
@@ -80,7 +62,7 @@ void publish_difference_maps(const fs::path& run, const std::vector<MapKind>& ki
           "{} of {}: {} of {} and {}, {} stops, {} pixels per degree", kFormat, bytes, kind.id,
           a->exr_sha256, b->exr_sha256, viewing.exposure_stops, viewing.pixels_per_degree);
       if (publisher.derive("cells/" + cell.id + "/" + file, key, [&] {
-            return script_of(kind, viewing, pictures.of(*a), pictures.of(*b), bytes);
+            return script_of(kind, viewing, pictures.of(a->exr), pictures.of(b->exr), bytes);
           }))
         comparison.maps.push_back({kind.id, kind.title, kind.meaning, file});
     }

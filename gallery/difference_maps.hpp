@@ -1,11 +1,11 @@
 // Where two pictures look different, for the script of a cell's page.
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "gallery/cell_data.hpp"
 #include "gallery/gallery.hpp"
+#include "gallery/packed_images.hpp"
 #include "gallery/publisher.hpp"
 
 namespace lobelia::gallery {
@@ -18,7 +18,7 @@ inline constexpr float kLeastOfMap = 0x1p-10f;
 /// Writes "ENGINE.map.ID.js" for each kind and each comparison of two pictures of one size on a plain display, and
 /// says so in the comparisons' `maps`. One that is too large, as of noise, has of each block of pixels the largest
 /// value alone.
-void publish_difference_maps(const std::filesystem::path& run, const std::vector<MapKind>& kinds,
+void publish_difference_maps(CellPictures& pictures, const std::vector<MapKind>& kinds,
                              CellData& cell, Publisher& publisher);
 
 }  // namespace lobelia::gallery

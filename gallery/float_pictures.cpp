@@ -17,8 +17,6 @@
 namespace lobelia::gallery {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr char kFormat[] = "float picture 2";  // of the scripts; another number makes them anew
 
 bool is_finite(const Image& image) {
@@ -69,7 +67,7 @@ Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t
 /// All scripts of a cell, made together when the first is asked for: a second publication reads no picture.
 class CellScripts {
  public:
-  CellScripts(fs::path here, const CellData& cell) : here_(std::move(here)), cell_(cell) {}
+  CellScripts(CellPictures& pictures, const CellData& cell) : pictures_(pictures), cell_(cell) {}
 
   std::string of(const std::string& engine) {
     if (!made_) make();
@@ -80,22 +78,21 @@ class CellScripts {
  private:
   void make() {
     const CellImage* our_image = cell_.find_image(kOurEngine);
-    std::optional<Image> ours = read_if_possible(here_ / our_image->exr);
+    const std::optional<Image>& ours = pictures_.of(our_image->exr);
     if (!ours) return;
     std::vector<PackedImage> others;
     // What is not finite in ours would hide theirs in a difference.
     const bool from_ours = is_finite(*ours);
     for (const CellImage& image : cell_.images) {
       if (&image == our_image || image.exr.empty()) continue;
-      auto theirs = read_if_possible(here_ / image.exr);
+      const std::optional<Image>& theirs = pictures_.of(image.exr);
       if (!theirs || theirs->width() != ours->width() || theirs->height() != ours->height())
         continue;
-      others.push_back(
-          {image.engine, from_ours ? difference(*theirs, *ours) : std::move(*theirs), from_ours});
+      others.push_back({image.engine, from_ours ? difference(*theirs, *ours) : *theirs, from_ours});
     }
     const std::size_t most = bytes_for(*ours, kFloatPictureBytes);
     std::vector<PackedImage> first;
-    first.push_back({kOurEngine, std::move(*ours), false});
+    first.push_back({kOurEngine, *ours, false});
     // Noise takes all that it gets: half is for the others, and what they leave for ours again.
     const Packing half = pack_as_fine_as_fits(first, most / 2, scripts_);
     const std::size_t rest = most - std::min(most, half.bytes);
@@ -104,7 +101,7 @@ class CellScripts {
       pack_as_fine_as_fits(first, most - theirs.bytes, scripts_);
   }
 
-  fs::path here_;
+  CellPictures& pictures_;
   const CellData& cell_;
   bool made_ = false;
   std::map<std::string, std::string> scripts_;
@@ -112,14 +109,14 @@ class CellScripts {
 
 }  // namespace
 
-void publish_float_pictures(const fs::path& run, CellData& cell, Publisher& publisher) {
+void publish_float_pictures(CellPictures& pictures, CellData& cell, Publisher& publisher) {
   const CellImage* our_image = cell.find_image(kOurEngine);
   if (!our_image || our_image->exr.empty()) return;
   // Each script depends on all pictures of the cell, by the bytes that are left for it.
   std::string all_hashes;
   for (const CellImage& image : cell.images)
     all_hashes += (all_hashes.empty() ? "" : " ") + image.exr_sha256;
-  CellScripts scripts(run / "cells" / cell.id, cell);
+  CellScripts scripts(pictures, cell);
   for (CellImage& image : cell.images) {
     if (image.exr.empty()) continue;
     const std::string file = image.engine + ".float.js";

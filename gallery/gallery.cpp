@@ -63,8 +63,9 @@ CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, con
     for (CellImage& image : cell.images) image.exr.clear();
   publish_small_pictures(run, cell, options.metrics_only, publisher);
   if (!options.metrics_only) {
-    publish_float_pictures(run, cell, publisher);
-    publish_difference_maps(run, options.maps, cell, publisher);
+    CellPictures pictures(run / "cells" / cell.id);
+    publish_float_pictures(pictures, cell, publisher);
+    publish_difference_maps(pictures, options.maps, cell, publisher);
   }
   const std::string folder = "cells/" + entry.id + "/";
   copy_cell_files(run, cell, publisher);

@@ -25,13 +25,15 @@ std::string packed_image(const Image& image, int precision, bool from_ours, int 
                                        {"planes", picture.base64}});
 }
 
-std::optional<Image> read_if_possible(const std::filesystem::path& path) {
+const std::optional<Image>& CellPictures::of(const std::string& file) {
+  const auto [place, is_new] = pictures_.try_emplace(file);
+  if (!is_new) return place->second;
   try {
-    return read_image(path);
+    place->second = read_image(directory_ / file);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;
-    return std::nullopt;
   }
+  return place->second;
 }
 
 std::size_t bytes_for(const Image& image, std::size_t of_512) {
