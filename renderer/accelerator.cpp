@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,7 @@ struct Search : RTCIntersectContext {
   Vec3 origin, direction;
   double start;  ///< of the ray that Embree traces, along ours
   int leaves;
+  std::span<const int> touched;
   double distance;  ///< nearest so far, or how far to look
   int found;
 };
@@ -79,11 +81,13 @@ struct Accelerator::State {
     if (!a->valid[0]) return;
     auto& search = *static_cast<Search*>(a->context);
     const auto& state = *static_cast<const State*>(a->geometryUserPtr);
-    if (int(a->primID) == search.leaves) return;
+    const int index = int(a->primID);
+    if (index == search.leaves || std::ranges::find(search.touched, index) != search.touched.end())
+      return;
     const Sphere& sphere = state.spheres[a->primID];
     if (!blocks(sphere, inner_radius(sphere), search.origin, search.direction, search.distance))
       return;
-    search.found = int(a->primID);
+    search.found = index;
     reinterpret_cast<RTCRay*>(a->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 
@@ -156,9 +160,11 @@ Accelerator::Hit Accelerator::nearest(Vec3 origin, Vec3 direction, int leaves) c
   return search.found < 0 ? Hit{} : Hit{search.found, search.distance};
 }
 
-bool Accelerator::blocked(Vec3 point, Vec3 to_light, double distance, int leaves) const {
+bool Accelerator::blocked(Vec3 point, Vec3 to_light, double distance, int leaves,
+                          std::span<const int> touched) const {
   Search search{};
   search.origin = point, search.direction = to_light, search.leaves = leaves;
+  search.touched = touched;
   search.distance = distance, search.found = -1;
   RTCRay ray{};
   if (!state_->begin(search, ray)) return false;

@@ -25,8 +25,10 @@ class Accelerator {
   /// The nearest sphere in front of `origin` but for `leaves` (-1: none); of two at the same distance
   /// the one with the lower index. `direction` is of unit length.
   Hit nearest(Vec3 origin, Vec3 direction, int leaves) const;
-  /// Whether one but for `leaves` stands between the point and what is at `distance`.
-  bool blocked(Vec3 point, Vec3 to_light, double distance, int leaves) const;
+  /// Whether one but for `leaves` and those that the light lies on stands between the point and what is
+  /// at `distance`.
+  bool blocked(Vec3 point, Vec3 to_light, double distance, int leaves,
+               std::span<const int> touched = {}) const;
 
  private:
   struct State;

@@ -56,6 +56,8 @@ bool FusedRenderer::can_render(const Scene& scene, const Plan& plan) {
   for (const auto& by_sphere : plan.occluders)
     for (const auto& occluders : by_sphere)
       if (!occluders.empty()) return false;
+  for (const auto& touched : plan.contacts)
+    if (!touched.empty()) return false;
   // A sphere's kernel is of one precision.
   for (const auto& by_sphere : plan.precision)
     if (by_sphere != plan.precision[0]) return false;

@@ -5,17 +5,20 @@
 #include <limits>
 #include <numbers>
 
+#include "renderer/scene/contact.hpp"
+
 namespace lobelia {
 
 double nearest_surface(const PointLight& light, const Scene& scene) {
   double nearest = std::numeric_limits<double>::infinity();
+  const double close = closeness(scene);
   for (const Sphere& sphere : scene.spheres) {
     const double distance = length(light.position - sphere.center) - sphere.radius;
-    if (distance > 0) nearest = std::min(nearest, distance);
+    if (distance > 0 && !lies_on(light, sphere, close)) nearest = std::min(nearest, distance);
   }
   for (const Plane& plane : scene.planes) {
     const double distance = std::abs(dot(light.position - plane.point, plane.normal));
-    if (distance > 0) nearest = std::min(nearest, distance);
+    if (distance > 0 && !lies_on(light, plane, close)) nearest = std::min(nearest, distance);
   }
   return std::isfinite(nearest) ? nearest : 1.0;
 }

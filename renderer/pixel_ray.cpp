@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "renderer/scene/contact.hpp"
 
 namespace lobelia {
 namespace {
@@ -77,11 +78,15 @@ void for_each_pixel_of(const Scene& scene, int sphere,
 }
 
 std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& hit) {
-  const Illumination here = illuminate(scene.lights.at(std::size_t(light)), hit.point);
+  const Light& lamp = scene.lights.at(std::size_t(light));
+  const Illumination here = illuminate(lamp, hit.point);
   if (!(dot(hit.normal, here.to_light) > 0)) return std::nullopt;
   // Above the horizon the sphere itself is behind the ray and never met.
   const auto before = nearest_hit(scene, hit.point, here.to_light);
-  if (before && length(before->point - hit.point) < here.distance) return std::nullopt;
+  if (!before || !(length(before->point - hit.point) < here.distance)) return here;
+  const Sphere& sphere = scene.spheres[std::size_t(before->sphere)];
+  if (!lies_on(lamp, sphere, closeness(scene)) || horizon_of(lamp, sphere)->is_below(hit.point))
+    return std::nullopt;
   return here;
 }
 

@@ -36,7 +36,7 @@ void for_each_pixel_of(
     const std::function<void(std::size_t i, const Hit& hit, Vec3 to_eye)>& visit);
 
 /// What a directional or a point light brings to a point of a sphere; nothing where it is below the horizon
-/// or another sphere stands before it.
+/// or another sphere stands before it. (A lamp that lies on a sphere is hidden by it below its horizon.)
 std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& hit);
 
 }  // namespace lobelia

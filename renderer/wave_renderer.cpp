@@ -294,6 +294,7 @@ void WaveRenderer::add_emitters(Wave& wave, Workspace& work) const {
     if (is_delta(light) || (is_black(strength(light)) && plan_.policy != EffectPolicy::kAll))
       continue;
     const Environment* environment = environments_[l].get();
+    const bool on_surface = !plan_.contacts[l].empty();
     if (!environment) {
       if (rectangles_[l])
         light_kernels().meet_rectangle(*rectangles_[l], wave.count, wave.origin, wave.to_eye,
@@ -305,8 +306,11 @@ void WaveRenderer::add_emitters(Wave& wave, Workspace& work) const {
     }
     for (std::size_t i = 0; i < wave.count; ++i) {
       if (!environment && !(work.met.distance[i] < kInfinity)) continue;
-      const bool hidden =
-          environment ? wave.surface[i] >= 0 : !(work.met.distance[i] < wave.distance[i]);
+      bool hidden = environment ? wave.surface[i] >= 0 : !(work.met.distance[i] < wave.distance[i]);
+      if (on_surface) {
+        if (plan_.lies_on(l, int(wave.leaves[i]))) continue;
+        hidden &= !plan_.lies_on(l, int(wave.surface[i]));
+      }
       if (hidden && (plan_.experiment.shadows || !scattered)) continue;
       const LightStrategy strategy =
           scattered ? plan_.strategy[l][std::size_t(wave.material[i])] : LightStrategy::kSurface;
@@ -398,7 +402,9 @@ void WaveRenderer::shade(Wave& wave, Workspace& work) const {
 
 void WaveRenderer::shade_group(Wave& wave, Group group, std::size_t hits, Workspace& work) const {
   for (std::size_t l = 0; l < scene_.lights.size(); ++l)
-    if (is_delta(scene_.lights[l]))
+    if (plan_.lies_on(l, group.surface))
+      continue;
+    else if (is_delta(scene_.lights[l]))
       light_delta(wave, group, l, hits, work);
     else if (plan_.strategy[l][std::size_t(group.material)] != LightStrategy::kSurface)
       light_sized(wave, group, l, hits, work);
@@ -431,30 +437,39 @@ void WaveRenderer::find_visible(std::size_t light, Group group, std::size_t hits
       wave_kernels().plane_hides(scene_.planes[std::size_t(k)], hits, work.point, work.to_light,
                                  work.distance, work.visible);
     work.work.of<effects::Ground>() += hits * occluders.planes.size();
+    for (const Horizon& horizon : occluders.horizons)
+      for (std::size_t i = 0; i < hits; ++i)
+        if (horizon.is_below(get(work.point, i))) work.visible[i] = 0;
     for (std::size_t i = 0; i < hits; ++i) work.falloff[i] *= work.visible[i];
   } else {
     for (std::size_t i = 0; i < hits; ++i) {
       const int surface = work.surface[i];
       const Occluders& occluders = plan_.occluders_of(light, std::size_t(surface));
+      const Vec3 point = get(work.point, i);
+      if (plan_.lies_on(light, surface) ||
+          std::ranges::any_of(occluders.horizons,
+                              [&](const Horizon& h) { return h.is_below(point); }))
+        work.falloff[i] = 0;
       if (occluders.empty()) continue;
       ++rays;
-      if (accelerator_->blocked(get(work.point, i), get(work.to_light, i), work.distance[i],
-                                surface))
+      if (accelerator_->blocked(point, get(work.to_light, i), work.distance[i], surface,
+                                plan_.contacts[light]))
         work.falloff[i] = 0;
     }
-    hide_behind_planes(hits, work);
+    hide_behind_planes(light, hits, work);
   }
   work.work.shadow_rays += rays;
   work.work.of<effects::Shadows>() += rays;
 }
 
 /// Of hits on any surface.
-void WaveRenderer::hide_behind_planes(std::size_t hits, Workspace& work) const {
+void WaveRenderer::hide_behind_planes(std::size_t light, std::size_t hits, Workspace& work) const {
   for (std::size_t k = 0; k < scene_.planes.size(); ++k) {
+    const int own = int(scene_.spheres.size() + k);
+    if (plan_.lies_on(light, own)) continue;
     std::fill_n(work.visible, hits, 1.0);
     wave_kernels().plane_hides(scene_.planes[k], hits, work.point, work.to_light, work.distance,
                                work.visible);
-    const int own = int(scene_.spheres.size() + k);
     for (std::size_t i = 0; i < hits; ++i)
       if (work.surface[i] != own) work.falloff[i] *= work.visible[i];
     work.work.of<effects::Ground>() += hits;

@@ -68,7 +68,7 @@ class WaveRenderer {
   void find_visible(std::size_t light, Group group, std::size_t hits, Workspace& work) const;
   void add_light(Group group, Precision precision, Rgb emitted, const Rgb* tints, std::size_t hits,
                  Workspace& work) const;
-  void hide_behind_planes(std::size_t hits, Workspace& work) const;
+  void hide_behind_planes(std::size_t light, std::size_t hits, Workspace& work) const;
   void spawn_mirror(const Wave& wave, Group group, bool one_of_two, std::size_t hits,
                     Workspace& work) const;
   void spawn_scattered(const Wave& wave, Group group, bool one_of_two, std::size_t hits,

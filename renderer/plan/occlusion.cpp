@@ -96,9 +96,21 @@ Occluders occluders_of(const Scene& scene, const Place& light, std::size_t surfa
   return found;
 }
 
+/// Takes out a surface that the light lies on.
+void leave_out(const Scene& scene, const Light& light, int surface, Occluders& occluders) {
+  const int spheres = int(scene.spheres.size());
+  if (surface >= spheres) {
+    std::erase(occluders.planes, surface - spheres);
+  } else if (std::erase(occluders.spheres, surface) > 0 || occluders.any_sphere) {
+    if (const auto horizon = horizon_of(light, scene.spheres[std::size_t(surface)]))
+      occluders.horizons.push_back(*horizon);
+  }
+}
+
 }  // namespace
 
-std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, EffectPolicy policy) {
+std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, const Contacts& contacts,
+                                                   EffectPolicy policy) {
   const bool all = policy == EffectPolicy::kAll;
   const std::size_t surfaces = scene.spheres.size() + scene.planes.size();
   std::vector<std::vector<Occluders>> found(scene.lights.size());
@@ -107,12 +119,14 @@ std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, EffectPol
       Occluders& any = found[l].emplace_back();
       any.any_sphere = true;
       for (std::size_t k = 0; k < scene.planes.size(); ++k) any.planes.push_back(int(k));
-      continue;
+    } else {
+      found[l].resize(surfaces);
+      if (is_black(strength(scene.lights[l])) && !all) continue;
+      const Place light = place(scene.lights[l]);
+      for (std::size_t s = 0; s < surfaces; ++s) found[l][s] = occluders_of(scene, light, s, all);
     }
-    found[l].resize(surfaces);
-    if (is_black(strength(scene.lights[l])) && !all) continue;
-    const Place light = place(scene.lights[l]);
-    for (std::size_t s = 0; s < surfaces; ++s) found[l][s] = occluders_of(scene, light, s, all);
+    for (const int touched : contacts[l])
+      for (Occluders& o : found[l]) leave_out(scene, scene.lights[l], touched, o);
   }
   return found;
 }

@@ -163,6 +163,7 @@ Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision>
   Plan plan;
   plan.policy = policy;
   plan.experiment = experiment;
+  plan.contacts = find_contacts(scene);
   decide_effects(Effects{}, scene, policy, plan);
   for (const Light& light : scene.lights) {
     auto& row = plan.strategy.emplace_back();

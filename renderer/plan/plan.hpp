@@ -9,6 +9,7 @@
 
 #include "renderer/plan/effect.hpp"
 #include "renderer/precision.hpp"
+#include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -44,13 +45,23 @@ struct Occluders {
   bool any_sphere = false;   ///< too many to say which
   std::vector<int> spheres;  ///< else these
   std::vector<int> planes;
-  bool empty() const { return !any_sphere && spheres.empty() && planes.empty(); }
+  std::vector<Horizon> horizons;  ///< of spheres that the light lies on
+  bool empty() const {
+    return !any_sphere && spheres.empty() && planes.empty() && horizons.empty();
+  }
 };
 
 struct Plan {
   std::vector<EffectDecision> effects;  ///< in the order of the catalogue
   EffectPolicy policy = EffectPolicy::kAsCalledFor;
   Experiment experiment;
+
+  /// A light neither lights a surface that it lies on nor is hidden by it, but for its horizon.
+  Contacts contacts;
+  bool lies_on(std::size_t light, int surface) const {
+    const std::vector<int>& c = contacts[light];
+    return !c.empty() && std::find(c.begin(), c.end(), surface) != c.end();
+  }
 
   /// occluders[light][surface]: spheres first, then planes; or one entry for all (find_occluders).
   std::vector<std::vector<Occluders>> occluders;

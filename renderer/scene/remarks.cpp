@@ -7,13 +7,18 @@
 #include <numbers>
 #include <optional>
 
+#include "renderer/scene/contact.hpp"
+
 namespace lobelia {
 namespace {
 
-/// The first sphere that the point is inside.
-std::optional<std::size_t> holder(const Scene& scene, Vec3 point) {
-  for (std::size_t k = 0; k < scene.spheres.size(); ++k)
-    if (length(point - scene.spheres[k].center) < inner_radius(scene.spheres[k])) return k;
+/// The first sphere that the point is inside, by more than `margin`.
+std::optional<std::size_t> holder(const Scene& scene, Vec3 point, double margin = 0) {
+  for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
+    const Sphere& sphere = scene.spheres[k];
+    const double inner = std::min(inner_radius(sphere), sphere.radius - margin);
+    if (length(point - sphere.center) < inner) return k;
+  }
   return std::nullopt;
 }
 
@@ -55,9 +60,10 @@ std::vector<std::string> remarks(const Scene& scene) {
            std::none_of(scene.spheres.begin(), scene.spheres.end(),
                         [&](const Sphere& s) { return may_be_seen(scene, frame, s); }))
     found.push_back("the camera looks away from every sphere: the picture is black");
+  const double close = closeness(scene);
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
     if (const auto* point = std::get_if<PointLight>(&scene.lights[l]))
-      if (const auto k = holder(scene, point->position))
+      if (const auto k = holder(scene, point->position, close))
         found.push_back(fmt::format(
             "light {} is inside sphere {}, which hides it: it lights nothing outside", l, *k));
   return found;

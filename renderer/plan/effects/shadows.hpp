@@ -16,12 +16,12 @@ struct Shadows {
       plan.occluders.assign(scene.lights.size(), {Occluders{}});
       return {kName, kWork, false, "left out, to see what they are worth"};
     }
-    plan.occluders = find_occluders(scene, policy);
+    plan.occluders = find_occluders(scene, plan.contacts, policy);
     std::size_t pairs = 0;
     bool uncounted = false;
     for (const auto& row : plan.occluders)
       for (const Occluders& o : row) {
-        pairs += o.spheres.size() + o.planes.size();
+        pairs += o.spheres.size() + o.planes.size() + o.horizons.size();
         uncounted |= o.any_sphere;
       }
     const bool on = uncounted || pairs > 0;

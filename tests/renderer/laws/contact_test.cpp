@@ -1,0 +1,441 @@
+// Lights that lie on a surface. Scenes are random: any plane, body and lamp, at any scale and place. The surface
+// is black, so that it shows in a picture by what it hides alone.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "renderer/frame.hpp"
+#include "renderer/peak_bound.hpp"
+#include "renderer/pixel_ray.hpp"
+#include "renderer/render.hpp"
+#include "renderer/scene/contact.hpp"
+#include "renderer/scene/remarks.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr int kSide = 24;
+constexpr double kScales[] = {1e-3, 1, 1e4};
+/// From the origin, in scales.
+constexpr double kAway[] = {0, 1e5};
+constexpr int kSeeds = 12;
+
+/// A scene of spheres, and what becomes of its lights by a lamp that lies on a surface.
+class RandomScene {
+ public:
+  RandomScene(double scale, double away, int seed)
+      : scale_(scale), random_(std::uint64_t(seed)), frame_(tangents(unit())) {
+    middle_ = scale * away * unit();
+    normal_ = cross(frame_.first, frame_.second);
+    scene.film = {kSide, kSide};
+    for (int i = 0; i < 3; ++i) {
+      Material m;
+      m.highlight = {
+          ModelId{std::uint8_t(random_() % models().size())}, *find_lobe("cosine"), {}, 20};
+      m.specular_reflectance = {0.4, 0.4, 0.4};
+      m.diffuse_reflectance = {0.5, 0.5, 0.5};
+      scene.materials.push_back(m);
+    }
+    scene.materials.push_back({"black", scene.materials[0].highlight, {}, {}});
+    // On both sides of the plane, and one that it may cut.
+    add_sphere({0, 0, 1.5}, 0.8, 0);
+    add_sphere({0, 0, -1.5}, 0.8, 1);
+    add_sphere({0.5 * even(), 0.5 * even(), 0}, 0.5, 2);
+    scene.camera = {at({6 * even(), 6, 2 * even()}), at({0, 0, 0}), normal_, 50};
+  }
+
+  double even() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
+  Vec3 unit() { return normalize({even(), even(), even() + 1e-3}); }
+  double scale() const { return scale_; }
+  Vec3 normal() const { return normal_; }
+  Vec3 along() const { return frame_.first; }
+
+  /// The place of (x, y) in the plane, z above it.
+  Vec3 at(Vec3 v) const { return middle_ + scale_ * turned(v); }
+  Vec3 turned(Vec3 v) const { return v.x * frame_.first + v.y * frame_.second + v.z * normal_; }
+  /// In the plane, aside of the spheres.
+  Vec3 aside() {
+    const double turn = std::numbers::pi * even(), radius = 2 + 0.5 * even();
+    return {radius * std::cos(turn), radius * std::sin(turn), 0};
+  }
+  void add_sphere(Vec3 center, double radius, int material) {
+    scene.spheres.push_back({at(center + 0.3 * Vec3{even(), even(), even()}),
+                             scale_ * radius * (1 + 0.2 * even()), material});
+  }
+  /// Of no effect but that other inner loops are chosen.
+  void add_crowd(int count) {
+    for (int i = 0; i < count; ++i)
+      scene.spheres.push_back({at({20 + i % 20 * 0.1, -20, i * 0.01}), scale_ * 1e-3, 3});
+  }
+  Plane black_plane() {
+    return {at({5 * even(), 5 * even(), 0}), random_() % 2 ? normal_ : -normal_, 3, 3, 1};
+  }
+  Rgb power(double strength) const { return strength * Rgb{1, 0.5, 0.25}; }
+  PointLight lamp(Vec3 place) {
+    PointLight lamp{place, power(9 * scale_ * scale_)};
+    if (random_() % 3 == 0) lamp.normal = unit();
+    return lamp;
+  }
+  double height(Vec3 p) const { return dot(p - middle_, normal_) / scale_; }
+
+  Scene scene;
+
+ private:
+  double scale_;
+  std::mt19937_64 random_;
+  Tangents frame_;
+  Vec3 middle_, normal_;
+};
+
+/// f(random scene, name) of many.
+template <class F>
+void for_random_scenes(const F& f) {
+  for (const double scale : kScales)
+    for (const double away : kAway)
+      for (int seed = 0; seed < kSeeds; ++seed) {
+        RandomScene random(scale, away, seed);
+        SCOPED_TRACE(fmt::format("scale {}, {} away, seed {}", scale, away, seed));
+        f(random);
+        if (testing::Test::HasFatalFailure()) return;
+      }
+}
+
+/// What a pixel's centre shows.
+struct Seen {
+  int surface = -1;  ///< spheres first, then planes
+  Vec3 point;
+};
+Seen seen(const Scene& scene, int x, int y) {
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const Vec3 direction = normalize(centre_ray(frame, x, y));
+  Seen nearest;
+  double distance = std::numeric_limits<double>::infinity();
+  if (const auto hit = nearest_hit(scene, frame.origin, direction)) {
+    nearest = {hit->sphere, hit->point};
+    distance = length(hit->point - frame.origin);
+  }
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
+    const double t = dot(plane.point - frame.origin, plane.normal) / dot(direction, plane.normal);
+    if (t > 0 && t < distance) {
+      nearest = {int(scene.spheres.size() + k), frame.origin + t * direction};
+      distance = t;
+    }
+  }
+  return nearest;
+}
+
+template <class F>
+void for_pixels(const Scene& scene, const F& f) {
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) f(x, y, seen(scene, x, y));
+}
+
+Scene lights_of(Scene scene) {
+  scene.spheres.clear();
+  scene.planes.clear();
+  return scene;
+}
+
+/// In how many pixels a picture is another's.
+struct Tally {
+  int lit = 0, dark = 0, beyond = 0;
+  void expect(float value, float expected, int x, int y) {
+    EXPECT_EQ(value, expected) << x << ", " << y;
+    (expected > 0 ? lit : dark) += 1;
+  }
+};
+
+TEST(APointLampInAPlane, LightsBothSidesAsIfThePlaneWereNotThere) {
+  Tally tally;
+  int above = 0, below = 0;
+  for (const int crowd : {0, 40, 300})
+    for_random_scenes([&](RandomScene& random) {
+      Scene& scene = random.scene;
+      random.add_crowd(crowd);
+      scene.lights = {random.lamp(random.at(random.aside()))};
+      const Image without = render(scene, {}).image;
+      scene.planes = {random.black_plane()};
+      const Image with = render(scene, {}).image;
+      for_pixels(scene, [&](int x, int y, const Seen& seen) {
+        if (seen.surface < 0 || std::abs(random.height(seen.point)) < 1e-6) return;
+        const bool is_plane = seen.surface == int(scene.spheres.size());
+        tally.expect(with.pixel(x, y)[0], is_plane ? 0 : without.pixel(x, y)[0], x, y);
+        if (with.pixel(x, y)[0] > 0) (random.height(seen.point) > 0 ? above : below) += 1;
+      });
+    });
+  EXPECT_GT(above, 200);
+  EXPECT_GT(below, 500);
+}
+
+TEST(APointLampInAPlane, LightsNothingOfThePlaneItself) {
+  for_random_scenes([&](RandomScene& random) {
+    Scene& scene = random.scene;
+    scene.lights = {random.lamp(random.at(random.aside()))};
+    scene.planes = {random.black_plane()};
+    scene.planes[0].material = scene.planes[0].checker_material = 0;
+    const Image image = render(scene, {}).image;
+    for_pixels(scene, [&](int x, int y, const Seen& seen) {
+      if (seen.surface == int(scene.spheres.size())) {
+        EXPECT_EQ(image.pixel(x, y)[0], 0) << x << ", " << y;
+      }
+    });
+    EXPECT_TRUE(std::isfinite(peak_bound(scene, scene.lights)));
+    EXPECT_LT(peak_bound(scene, scene.lights), 1e4) << "of a lamp that is far from what it lights";
+  });
+}
+
+TEST(APointLampAHairBesideAPlane, LightsItsOwnSideAndLeavesTheOtherDark) {
+  Tally tally;
+  for (const int crowd : {0, 40})
+    for_random_scenes([&](RandomScene& random) {
+      Scene& scene = random.scene;
+      random.add_crowd(crowd);
+      scene.planes = {random.black_plane()};
+      const Vec3 place = random.at(random.aside());
+      scene.lights = {random.lamp(place)};
+      const double hair = 10 * closeness(scene);
+      for (const double aside : {hair, -hair}) {
+        std::get<PointLight>(scene.lights[0]).position = place + aside * random.normal();
+        Scene open = scene;
+        open.planes.clear();
+        const Image without = render(open, {}).image, with = render(scene, {}).image;
+        for_pixels(scene, [&](int x, int y, const Seen& seen) {
+          const double height = random.height(seen.point);
+          if (seen.surface < 0 || seen.surface == int(scene.spheres.size()) ||
+              std::abs(height) < 1e-6)
+            return;
+          const bool shows = height * aside > 0;
+          tally.expect(with.pixel(x, y)[0], shows ? without.pixel(x, y)[0] : 0, x, y);
+        });
+      }
+    });
+  EXPECT_GT(tally.lit, 400);
+  EXPECT_GT(tally.dark, 5000);
+}
+
+TEST(ARectangleInAPlane, ShinesAsIfThePlaneWereNotThereAndIsSeen) {
+  Tally spheres, plane;
+  for (const int crowd : {0, 40})
+    for_random_scenes([&](RandomScene& random) {
+      Scene& scene = random.scene;
+      random.add_crowd(crowd);
+      const double turn = random.even(), size = 0.6 * random.scale();
+      const Vec3 u = random.turned({std::cos(turn), std::sin(turn), 0});
+      const Vec3 v = random.turned({-std::sin(turn), std::cos(turn), 0});
+      scene.lights = {RectangleLight{random.at(random.aside()), size * u,
+                                     (random.even() > 0 ? size : -size) * v, random.power(5)}};
+      const Image lights = render(lights_of(scene), {}).image;
+      const Image without = render(scene, {}).image;
+      scene.planes = {random.black_plane()};
+      const Image with = render(scene, {}).image;
+      for_pixels(scene, [&](int x, int y, const Seen& seen) {
+        if (seen.surface >= 0 && std::abs(random.height(seen.point)) < 1e-6 &&
+            seen.surface < int(scene.spheres.size()))
+          return;
+        if (seen.surface == int(scene.spheres.size()))
+          plane.expect(with.pixel(x, y)[0], lights.pixel(x, y)[0], x, y);
+        else
+          spheres.expect(with.pixel(x, y)[0], without.pixel(x, y)[0], x, y);
+      });
+    });
+  EXPECT_GT(spheres.lit, 500);
+  EXPECT_GT(plane.lit, 100) << "the lamp itself";
+}
+
+TEST(ARectangleAHairBehindAPlane, IsHiddenByIt) {
+  int dark = 0;
+  for_random_scenes([&](RandomScene& random) {
+    Scene& scene = random.scene;
+    scene.planes = {random.black_plane()};
+    const Vec3 u = random.turned({0.6 * random.scale(), 0, 0});
+    const Vec3 v = random.turned({0, 0.6 * random.scale(), 0});
+    const Vec3 place = random.at(random.aside());
+    scene.lights = {RectangleLight{place, u, v, random.power(5)}};
+    const double hair = 10 * closeness(scene);
+    std::get<RectangleLight>(scene.lights[0]).center = place - hair * random.normal();
+    const Image with = render(scene, {}).image;
+    for_pixels(scene, [&](int x, int y, const Seen& seen) {
+      if (std::abs(random.height(seen.point)) < 1e-6) return;
+      EXPECT_EQ(with.pixel(x, y)[0], 0) << x << ", " << y;
+      ++dark;
+    });
+  });
+  EXPECT_GT(dark, 5000);
+}
+
+TEST(ALampOnASphere, LightsWhatIsAboveItsHorizonAsIfTheSphereWereNotThere) {
+  Tally tally;
+  for (const int crowd : {0, 40, 300})
+    for_random_scenes([&](RandomScene& random) {
+      Scene& scene = random.scene;
+      random.add_crowd(crowd);
+      const Vec3 up = random.unit();
+      const Sphere body{random.at(2 * random.aside()), 0.7 * random.scale(), 3};
+      scene.lights = {random.lamp(body.center + body.radius * up)};
+      const Image without = render(scene, {}).image;
+      const Scene bodiless = scene;
+      scene.spheres.push_back(body);
+      const Image with = render(scene, {}).image;
+      const Vec3 lamp = std::get<PointLight>(scene.lights[0]).position;
+      for_pixels(scene, [&](int x, int y, const Seen& seen) {
+        const double above = dot(seen.point - lamp, up) / random.scale();
+        if (seen.surface < 0 || (seen.surface < 3 && std::abs(above) < 1e-6)) return;
+        const bool shows = seen.surface < 3 && above > 0;
+        tally.expect(with.pixel(x, y)[0], shows ? without.pixel(x, y)[0] : 0, x, y);
+        if (seen.surface >= 3) return;
+        const Vec3 center = scene.spheres[std::size_t(seen.surface)].center;
+        const Hit hit{seen.surface, seen.point, normalize(seen.point - center)};
+        EXPECT_EQ(light_at(scene, 0, hit).has_value(),
+                  shows && light_at(bodiless, 0, hit).has_value());
+      });
+    });
+  EXPECT_GT(tally.lit, 1000);
+  EXPECT_GT(tally.dark, 5000);
+}
+
+TEST(ALampAHairInsideASphere, LightsNothingAndOneAHairOutsideAllThatItSees) {
+  Tally tally;
+  for_random_scenes([&](RandomScene& random) {
+    Scene& scene = random.scene;
+    const Vec3 up = random.unit();
+    const Sphere body{random.at(2 * random.aside()), 0.7 * random.scale(), 3};
+    scene.lights = {random.lamp(body.center)};
+    scene.spheres.push_back(body);
+    const double hair = 10 * closeness(scene);
+    Vec3& place = std::get<PointLight>(scene.lights[0]).position;
+    place = body.center + (body.radius - hair) * up;
+    EXPECT_EQ(remarks(scene).size(), 1u) << "that the sphere hides it";
+    const Image inside = render(scene, {}).image;
+    place = body.center + (body.radius + hair) * up;
+    EXPECT_EQ(remarks(scene).size(), 0u);
+    const Image outside = render(scene, {}).image;
+    scene.spheres.pop_back();
+    const Image without = render(scene, {}).image;
+    scene.spheres.push_back(body);
+    for_pixels(scene, [&](int x, int y, const Seen& seen) {
+      if (seen.surface < 0) return;
+      tally.expect(inside.pixel(x, y)[0], 0, x, y);
+      // It sees over its horizon by the square root of a hair.
+      const double above = dot(seen.point - place, up) / length(seen.point - place);
+      if (seen.surface == 3 || std::abs(above) < 1e-2) return;
+      tally.expect(outside.pixel(x, y)[0], above > 0 ? without.pixel(x, y)[0] : 0, x, y);
+    });
+  });
+  EXPECT_GT(tally.lit, 300);
+}
+
+TEST(ABallOfLightAroundASphereOfItsSize, ShinesAsIfTheSphereWereNotThereAndIsSeen) {
+  Tally spheres, bulb;
+  for (const int crowd : {0, 40, 300})
+    for_random_scenes([&](RandomScene& random) {
+      Scene& scene = random.scene;
+      random.add_crowd(crowd);
+      const Sphere body{random.at(random.aside() + Vec3{0, 0, random.even()}), 0.3 * random.scale(),
+                        3};
+      scene.lights = {SphereLight{body.center, body.radius, random.power(5)}};
+      const Image lights = render(lights_of(scene), {}).image;
+      const Image without = render(scene, {}).image;
+      scene.spheres.push_back(body);
+      const Image with = render(scene, {}).image;
+      for_pixels(scene, [&](int x, int y, const Seen& seen) {
+        if (seen.surface < 3)
+          spheres.expect(with.pixel(x, y)[0], without.pixel(x, y)[0], x, y);
+        else
+          bulb.expect(with.pixel(x, y)[0], lights.pixel(x, y)[0], x, y);
+      });
+    });
+  EXPECT_GT(spheres.lit, 2500);
+  EXPECT_GT(bulb.lit, 300);
+  EXPECT_EQ(bulb.dark, 0);
+}
+
+double mean(const Image& image) {
+  double sum = 0;
+  for (const float v : image.values()) sum += v;
+  return sum / double(image.values().size());
+}
+
+/// As in a room: mirrors and inter-reflection show the lamp and what it lies on.
+Scene room() {
+  Scene scene;
+  scene.camera = {{0, 0.2, 6}, {0, 0.8, 0}, {0, 1, 0}, 60};
+  scene.film = {48, 48};
+  scene.sampler.sample_count = 64;
+  Material matt, mirror;
+  matt.highlight = {*find_model("modified_phong"), *find_lobe("cosine"), {}, 20};
+  matt.specular_reflectance = {0.3, 0.3, 0.3};
+  matt.diffuse_reflectance = {0.5, 0.5, 0.5};
+  mirror = matt;
+  mirror.mirror_reflectance = {0.6, 0.6, 0.6};
+  scene.materials = {matt, mirror};
+  scene.spheres = {{{0, 0, 0}, 1, 1}, {{1.4, 2, -0.5}, 0.6, 0}};
+  scene.planes = {{{0, 3, 0}, {0, -1, 0}, 0, 0, 1}, {{0, -1, 0}, {0, 1, 0}, 0, 0, 1}};
+  return scene;
+}
+
+TEST(ALightOnASurface, IsTheLimitOfOneThatComesNearToItsBrightSide) {
+  Scene scene = room();
+  scene.spheres.push_back({{-1.5, 1.5, 0.5}, 0.4, 0});
+  constexpr double kNear = 1e-7;
+  // On the ceiling, on the third sphere, around it; each a hair before it as well.
+  const std::pair<Light, Light> lights[] = {
+      {RectangleLight{{0, 3, 0}, {1, 0, 0}, {0, 0, 1}, {5, 5, 5}},
+       RectangleLight{{0, 3 - kNear, 0}, {1, 0, 0}, {0, 0, 1}, {5, 5, 5}}},
+      {PointLight{{-1.1, 1.5, 0.5}, {5, 5, 5}}, PointLight{{-1.1 + kNear, 1.5, 0.5}, {5, 5, 5}}},
+      {PointLight{{1, 3, 1}, {5, 5, 5}, {0, -1, 0}},
+       PointLight{{1, 3 - kNear, 1}, {5, 5, 5}, {0, -1, 0}}},
+      {SphereLight{{-1.5, 1.5, 0.5}, 0.4, {5, 5, 5}},
+       SphereLight{{-1.5, 1.5, 0.5}, 0.4 + kNear, {5, 5, 5}}}};
+  for (const auto& [on, before] : lights)
+    for (const Depth depth : {Depth{0, 0}, {2, 0}, {0, 1}, {2, 2}}) {
+      scene.depth = depth;
+      scene.lights = {on};
+      ASSERT_EQ(find_contacts(scene)[0].size(), 1u);
+      const Image here = render(scene, {}).image;
+      scene.lights = {before};
+      ASSERT_TRUE(find_contacts(scene)[0].empty());
+      const Image there = render(scene, {}).image;
+      EXPECT_NEAR(mean(here) / mean(there), 1, 1e-3);
+      int apart = 0;
+      for (std::size_t i = 0; i < here.values().size(); ++i)
+        apart += std::abs(here.values()[i] - there.values()[i]) > 0.02 * mean(there);
+      // Of a few paths a hair decides where they turn.
+      EXPECT_LT(apart, 0.02 * double(here.values().size()));
+    }
+}
+
+TEST(ABallOfLightThatTouchesAPlane, GivesAllItsLightToItsSide) {
+  Scene scene = room();
+  scene.sampler.sample_count = 16;
+  scene.planes.erase(scene.planes.begin());
+  scene.materials.push_back({"black", scene.materials[0].highlight, {}, {}});
+  scene.lights = {SphereLight{{-1.5, 2.5, 0.5}, 0.5, {5, 5, 5}}};
+  const double alone = mean(render(scene, {}).image);
+  scene.planes.push_back({{7, 3, 1}, {0, 1, 0}, 2, 2, 1});
+  EXPECT_NEAR(mean(render(scene, {}).image) / alone, 1, 1e-6);
+}
+
+TEST(ALightOnASurface, MakesTheSamePictureBitForBitWithAllEffectsWhereNothingIsRandom) {
+  for_random_scenes([&](RandomScene& random) {
+    Scene& scene = random.scene;
+    scene.planes = {random.black_plane()};
+    scene.planes[0].material = 0;
+    const Sphere& body = scene.spheres[0];
+    scene.lights = {random.lamp(random.at(random.aside())),
+                    random.lamp(body.center + body.radius * random.unit())};
+    EXPECT_FALSE(find_contacts(scene)[0].empty());
+    EXPECT_FALSE(find_contacts(scene)[1].empty());
+    RenderOptions all;
+    all.effects = EffectPolicy::kAll;
+    const Image planned = render(scene, {}).image, forced = render(scene, all).image;
+    EXPECT_TRUE(std::ranges::equal(planned.values(), forced.values()));
+  });
+}
+
+}  // namespace
+}  // namespace lobelia
