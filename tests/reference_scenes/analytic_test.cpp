@@ -112,6 +112,41 @@ TEST(Analytic, AndWeAgreeOnTheCanonicalScenes) {
   EXPECT_GE(scenes, 6);
 }
 
+/// The hall with its lamps on its floor, on its wall, on a sphere and where the floor and the wall meet, moved
+/// along the surface's normal by so many times the closeness of docs/conventions.md.
+Scene hall_of_lamps_on_surfaces(double aside, double scale, Vec3 away) {
+  Scene scene = hall_scene(kChoice, 48);
+  const auto place = [&](Vec3 v) { return scale * (v + away); };
+  const Vec3 wall = scene.planes[1].normal, on_sphere = normalize({0.5, 0.3, 1});
+  const Sphere body = scene.spheres[0];
+  const double corner = -4 - (wall.x * -1.5) / wall.z;
+  const double close = 1e-12 * (length(away) > 0 ? length(away) : 6);
+  scene.lights = {
+      PointLight{Vec3{1.5, aside * close, 2}, {6, 9, 12}},
+      PointLight{Vec3{0, 0, -4} + Vec3{wall.z, 0, -wall.x} + aside * close * wall, {4, 2, 3}},
+      PointLight{body.center + (body.radius + aside * close) * on_sphere, {1, 2, 1}},
+      PointLight{{-1.5, 0, corner}, {3, 3, 5}, normalize({0.5, 1, 1})}};
+  for (Light& light : scene.lights) {
+    auto& lamp = std::get<PointLight>(light);
+    lamp.position = place(lamp.position);
+    lamp.intensity = scale * scale * lamp.intensity;
+  }
+  scene.camera.origin = place(scene.camera.origin);
+  scene.camera.target = place(scene.camera.target);
+  for (Sphere& sphere : scene.spheres) sphere.center = place(sphere.center), sphere.radius *= scale;
+  for (Plane& plane : scene.planes) plane.point = place(plane.point), plane.checker_size *= scale;
+  return scene;
+}
+
+TEST(Analytic, AndWeAgreeOnLampsOnSurfacesAndAHairBesideThem) {
+  Agreement agreement;
+  for (const double scale : {1e-3, 1.0, 1e4})
+    for (const Vec3 away : {Vec3{}, Vec3{1e4, 3e4, -2e4}})
+      for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
+        agreement.add(fmt::format("scale {}, {} away, {} aside", scale, away.x, aside),
+                      hall_of_lamps_on_surfaces(aside, scale, away));
+}
+
 TEST(Analytic, IsAlwaysThereAndSaysWhatItIs) {
   const auto engine = make_engine("analytic", {});
   EXPECT_TRUE(engine->status().available);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -205,6 +206,100 @@ TEST(Evaluation, APlaneAndASphereHideALampAndNothingBeyondItDoes) {
   EXPECT_NEAR(middle(scene).r, lit, 1e-15);
   scene.lights = {DirectionalLight{normalize({0, -2, -1}), kWhite}};
   EXPECT_EQ(middle(scene).r, 0) << "a directional light is behind everything";
+}
+
+/// The middle of a film of one pixel, in both kinds of number, of plane_scene() at any scale and place; `add`
+/// puts something into the scene, given what maps its places.
+class Floor {
+ public:
+  using Map = std::function<Vec3(Vec3)>;
+  Floor(double scale, Vec3 away) : scale_(scale), away_(away) {}
+  void expect_light(double expected, const std::function<void(Scene&, const Map&)>& add) const {
+    Scene scene = plane_scene();
+    scene.film = {1, 1};
+    const Map map = [&](Vec3 v) { return scale_ * (v + away_); };
+    scene.camera = {map({0.01, 5, 0.02}), map({0, 0, 0}), {0, 0, -1}, 28};
+    scene.planes[0].point = map({3, 0, 2});
+    add(scene, map);
+    for (const Digits digits : {Digits::kDouble, Digits::kFifty})
+      EXPECT_NEAR(scale_ * scale_ * truth::evaluate(scene, digits)[0].r, expected,
+                  1e-6)  // moved by a hair
+          << scale_ << " " << away_.x;
+  }
+
+ private:
+  double scale_;
+  Vec3 away_;
+};
+constexpr std::pair<double, Vec3> kPlaces[] = {
+    {1, {}}, {1e-3, {}}, {1e4, {}}, {1, {1e5, -2e5, 3e4}}, {1e-3, {1e5, -2e5, 3e4}}};
+/// Where a lamp stands that lights the floor's middle by 0.8 / 25.
+constexpr Vec3 kLampPlace{3, 4, 0};
+constexpr double kLit = 0.8 / 25;
+
+Vec3 unit_vector(int i) {
+  return normalize({std::sin(1 + 7.0 * i), std::sin(2 + 11.0 * i), std::sin(3 + 13.0 * i)});
+}
+
+TEST(Evaluation, ALampInAPlaneLightsBothItsSidesAndOneAHairAsideItsOwn) {
+  int before = 0, behind = 0;
+  for (const auto& [scale, away] : kPlaces)
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 normal = unit_vector(i);
+      // It must not come between the camera and the floor's middle, nor through that.
+      const double middle = -dot(kLampPlace, normal),
+                   eye = dot(Vec3{0.01, 5, 0.02} - kLampPlace, normal);
+      if (!(middle * eye > 0) || std::abs(middle) < 0.1) continue;
+      (middle > 0 ? before : behind) += 1;
+      // In closenesses: 1e-12 of the largest coordinate, which is less than 6 here, or that of the place.
+      for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
+        Floor(scale, away)
+            .expect_light(std::abs(aside) < 1 || aside * middle > 0 ? kLit : 0,
+                          [&](Scene& scene, const Floor::Map& map) {
+                            const double close =
+                                1e-12 * scale * (length(away) > 0 ? length(away) : 5.0);
+                            scene.lights = {PointLight{map(kLampPlace) + aside * close * normal,
+                                                       {kPi, kPi, kPi}}};
+                            scene.planes.push_back({map(kLampPlace), normal, 0, 0, 1});
+                          });
+    }
+  EXPECT_GT(before, 20);
+  EXPECT_GT(behind, 20);
+}
+
+TEST(Evaluation, ALampInAPlaneLightsNothingOfThePlane) {
+  for (const auto& [scale, away] : kPlaces)
+    for (int i = 0; i < 10; ++i)
+      Floor(scale, away).expect_light(0, [&](Scene& scene, const Floor::Map& map) {
+        const Vec3 normal = unit_vector(i), aside = cross(normal, unit_vector(i + 1));
+        // Without a cosine, so that nothing is dark because it is lit along the plane.
+        scene.materials[0].highlight = highlight_of({"phong_rdf", "cosine", "exact", 0.01});
+        scene.materials[0].specular_reflectance = kWhite;
+        scene.planes = {{map({0, 0, 0}), normal, 0, 0, 1}};
+        scene.lights = {PointLight{map(2.0 * aside), {kPi, kPi, kPi}}};
+      });
+}
+
+TEST(Evaluation, ALampOnASphereLightsWhatIsAboveItsHorizon) {
+  int above = 0, below = 0;
+  for (const auto& [scale, away] : kPlaces)
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 up = unit_vector(i);
+      const double middle = -dot(kLampPlace, up);
+      if (std::abs(middle) < 0.1) continue;
+      (middle > 0 ? above : below) += 1;
+      for (const double radius : {0.01, 1.0})
+        for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
+          Floor(scale, away)
+              .expect_light(middle > 0 && aside > -1 ? kLit : 0, [&](Scene& scene,
+                                                                     const Floor::Map& map) {
+                const double close = 1e-12 * scale * (length(away) > 0 ? length(away) : 5.0);
+                scene.lights = {PointLight{map(kLampPlace) + aside * close * up, {kPi, kPi, kPi}}};
+                scene.spheres = {{map(kLampPlace) - scale * radius * up, scale * radius, 0}};
+              });
+    }
+  EXPECT_GT(above, 50);
+  EXPECT_GT(below, 50);
 }
 
 TEST(Evaluation, ACameraInsideASphereDoesNotSeeIt) {

@@ -33,7 +33,7 @@ std::uint64_t situation(const Scene& scene, const Tracer<double>& tracer, double
     situation.note(std::uint64_t(met.surface));
     situation.note(met.square_u);
     situation.note(met.square_v);
-    for (const Light& light : scene.lights)
+    for (std::size_t light = 0; light < scene.lights.size(); ++light)
       situation.note(std::uint64_t(tracer.arrival(light, met).has_value()));
   });
   return situation.number();

@@ -59,9 +59,9 @@ std::vector<Rgb> evaluate_in(const Scene& scene, const std::function<bool()>& st
       Rgb sum, weight{1, 1, 1};
       tracer.follow(x + Real(0.5), y + Real(0.5), [&](const Met<Real>& met) {
         const Finish& finish = finishes[met.material];
-        for (const Light& light : scene.lights)
+        for (std::size_t light = 0; light < scene.lights.size(); ++light)
           if (const auto arrival = tracer.arrival(light, met))
-            sum = sum + weight * (double(arrival->falloff) * strength(light)) *
+            sum = sum + weight * (double(arrival->falloff) * strength(scene.lights[light])) *
                             finish.reflectance(met, *arrival);
         weight = weight * reflected(finish.material.fresnel, finish.material.mirror_reflectance,
                                     dot(met.normal, met.to_eye));

@@ -39,15 +39,16 @@ Picture::Picture(const Scene& scene) : pixels_(std::make_unique<Pixels>()) {
       pixels_->sphere.push_back(met ? met->surface : -1);
       if (!met) continue;
       const Rgb reflectance = scene.materials[met->material].specular_reflectance;
-      for (const Light& light : scene.lights)
+      for (std::size_t light = 0; light < scene.lights.size(); ++light)
         if (const auto arrival = tracer.arrival(light, *met)) {
           const auto cosine = [&](LobeAngle angle) {
             return lobe_cosine(angle, met->normal, met->to_eye, arrival->to_light);
           };
-          pixels_->lit.push_back({pixel,
-                                  arrival->n_dot_l,
-                                  {cosine(LobeAngle::kReflection), cosine(LobeAngle::kHalfVector)},
-                                  double(arrival->falloff) * (strength(light) * reflectance)});
+          pixels_->lit.push_back(
+              {pixel,
+               arrival->n_dot_l,
+               {cosine(LobeAngle::kReflection), cosine(LobeAngle::kHalfVector)},
+               double(arrival->falloff) * (strength(scene.lights[light]) * reflectance)});
         }
     }
   std::map<std::size_t, double> arriving;

@@ -2,6 +2,7 @@
 // docs/conventions.md written out once more, without the renderer's code.
 #pragma once
 
+#include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <optional>
@@ -67,7 +68,7 @@ class Tracer {
   std::optional<Met<Real>> meet(const V& origin, const V& direction, int leaves = -1) const;
 
   /// Nothing where the light is below the horizon, shines the other way or is hidden.
-  std::optional<Arrival<Real>> arrival(const Light& light, const Met<Real>& at) const;
+  std::optional<Arrival<Real>> arrival(std::size_t light, const Met<Real>& at) const;
 
  private:
   struct Ball {
@@ -81,11 +82,19 @@ class Tracer {
     V point, normal, first, second;
     Real size;
     explicit Ground(const Plane& plane);
+    Real height(const V& at) const { return dot(at - point, normal); }
     /// Along a ray; 0 where it runs along the plane.
     Real distance(const V& origin, const V& direction) const {
       const Real slope = dot(direction, normal);
       return slope == 0 ? Real(0) : Real(dot(point - origin, normal) / slope);
     }
+  };
+  /// A point light, and where it is to each surface.
+  struct Lamp {
+    PointLight light;
+    V position;
+    std::vector<bool> lies_on;  ///< by surface: spheres first, then planes
+    std::vector<Real> heights;  ///< over each plane; 0 over one that it lies on
   };
   /// Ray and sphere, counted from the point of the ray that is nearest to the centre: the roots of the
   /// quadratic equation are `along` -+ sqrt(half_squared), and nothing cancels however far the sphere is.
@@ -99,18 +108,26 @@ class Tracer {
     }
   };
 
-  /// `distance` < 0 is an infinite one.
-  bool is_hidden(const Met<Real>& at, const V& to_light, const Real& distance) const;
+  /// From light out of one direction.
+  bool is_hidden(const Met<Real>& at, const V& to_light) const;
+  /// From a lamp at a place.
+  bool is_hidden(const Met<Real>& at, const Lamp& lamp, const V& to_light,
+                 const Real& distance) const;
+  /// The greatest coordinate of camera, surfaces and lamps.
+  Real reach() const;
 
   const Scene& scene_;
   V origin_, forward_, right_, up_;
   Real half_width_, half_height_, shift_u_, shift_v_;
   std::vector<Ball> balls_;
   std::vector<Ground> grounds_;
+  std::vector<Lamp> lamps_;  ///< by light; unused where it has no place
 };
 
 /// A plane is met up to here; beyond is its horizon.
 inline constexpr double kHorizon = 1e15;
+/// A lamp that is no farther from a surface than this share of reach() lies on it.
+inline constexpr double kCloseness = 1e-12;
 
 template <class Real>
 Tracer<Real>::Ball::Ball(const Sphere& sphere)
@@ -132,7 +149,7 @@ Tracer<Real>::Ground::Ground(const Plane& plane)
 
 template <class Real>
 Tracer<Real>::Tracer(const Scene& scene) : scene_(scene), origin_(scene.camera.origin) {
-  using std::tan;
+  using std::sqrt, std::tan;
   const Camera& camera = scene.camera;
   forward_ = normalize(V(camera.target) - origin_);
   right_ = normalize(cross(forward_, V(camera.up)));
@@ -143,6 +160,41 @@ Tracer<Real>::Tracer(const Scene& scene) : scene_(scene), origin_(scene.camera.o
   shift_v_ = -2 * half_height_ * camera.principal_point_offset_y;
   for (const Sphere& sphere : scene.spheres) balls_.emplace_back(sphere);
   for (const Plane& plane : scene.planes) grounds_.emplace_back(plane);
+  const Real closeness = kCloseness * reach();
+  for (const Light& light : scene.lights) {
+    const auto* point = std::get_if<PointLight>(&light);
+    Lamp& lamp = lamps_.emplace_back();
+    if (!point) continue;
+    lamp.light = *point;
+    lamp.position = V(point->position);
+    const auto is_close = [&](const Real& height) {
+      return height <= closeness && -height <= closeness;
+    };
+    for (const Sphere& sphere : scene.spheres) {
+      const V way = lamp.position - V(sphere.center);
+      lamp.lies_on.push_back(is_close(sqrt(dot(way, way)) - Real(sphere.radius)));
+    }
+    for (const Ground& ground : grounds_) {
+      const Real height = ground.height(lamp.position);
+      lamp.lies_on.push_back(is_close(height));
+      lamp.heights.push_back(is_close(height) ? Real(0) : height);
+    }
+  }
+}
+
+template <class Real>
+Real Tracer<Real>::reach() const {
+  double farthest = 0;
+  const auto reach_to = [&](Vec3 place, double radius) {
+    for (const double coordinate : {place.x, place.y, place.z})
+      farthest = std::max(farthest, std::abs(coordinate) + radius);
+  };
+  reach_to(scene_.camera.origin, 0);
+  for (const Sphere& sphere : scene_.spheres) reach_to(sphere.center, sphere.radius);
+  for (const Plane& plane : scene_.planes) reach_to(plane.point, 0);
+  for (const Light& light : scene_.lights)
+    if (const auto* point = std::get_if<PointLight>(&light)) reach_to(point->position, 0);
+  return farthest;
 }
 
 template <class Real>
@@ -195,45 +247,67 @@ std::optional<Met<Real>> Tracer<Real>::meet(const V& origin, const V& direction,
 }
 
 template <class Real>
-std::optional<Arrival<Real>> Tracer<Real>::arrival(const Light& light, const Met<Real>& at) const {
+std::optional<Arrival<Real>> Tracer<Real>::arrival(std::size_t light, const Met<Real>& at) const {
   using std::sqrt;
   Arrival<Real> arrival;
   arrival.falloff = 1;
-  Real distance = -1;
-  if (const auto* directional = std::get_if<DirectionalLight>(&light)) {
+  if (const auto* directional = std::get_if<DirectionalLight>(&scene_.lights[light])) {
     arrival.to_light = normalize(-V(directional->direction));
-  } else {
-    const auto& lamp = std::get<PointLight>(light);
-    const V way = V(lamp.position) - at.point;
-    const Real square = dot(way, way);
-    distance = sqrt(square);
-    arrival.to_light = Real(1 / distance) * way;
-    const Real towards = has_normal(lamp) ? Real(-dot(V(lamp.normal), arrival.to_light)) : Real(1);
-    if (towards <= 0) return std::nullopt;
-    arrival.falloff = towards / square;
+    arrival.n_dot_l = dot(at.normal, arrival.to_light);
+    if (arrival.n_dot_l <= 0 || is_hidden(at, arrival.to_light)) return std::nullopt;
+    return arrival;
   }
+  const Lamp& lamp = lamps_[light];
+  const V way = lamp.position - at.point;
+  const Real square = dot(way, way), distance = sqrt(square);
+  arrival.to_light = Real(1 / distance) * way;
+  const Real towards =
+      has_normal(lamp.light) ? Real(-dot(V(lamp.light.normal), arrival.to_light)) : Real(1);
+  if (towards <= 0) return std::nullopt;
+  arrival.falloff = towards / square;
   arrival.n_dot_l = dot(at.normal, arrival.to_light);
-  if (arrival.n_dot_l <= 0 || is_hidden(at, arrival.to_light, distance)) return std::nullopt;
+  if (arrival.n_dot_l <= 0 || is_hidden(at, lamp, arrival.to_light, distance)) return std::nullopt;
   return arrival;
 }
 
 template <class Real>
-bool Tracer<Real>::is_hidden(const Met<Real>& at, const V& to_light, const Real& distance) const {
-  using std::sqrt;
+bool Tracer<Real>::is_hidden(const Met<Real>& at, const V& to_light) const {
   const int spheres = int(balls_.size());
   for (int k = 0; k < spheres; ++k) {
     if (k == at.surface) continue;
     const Chord chord(balls_[k], at.point, to_light);
     if (chord.half_squared <= 0) continue;
+    if (chord.along > 0) return true;
     if (dot(chord.to_center, chord.to_center) < balls_[k].inside_squared) return true;
-    if (chord.along <= 0) continue;
-    if (distance < 0 || chord.along - sqrt(chord.half_squared) < distance) return true;
   }
-  for (int k = 0; k < int(grounds_.size()); ++k) {
-    if (spheres + k == at.surface) continue;
-    const Real t = grounds_[k].distance(at.point, to_light);
-    if (t > 0 && (distance < 0 || t < distance)) return true;
+  for (int k = 0; k < int(grounds_.size()); ++k)
+    if (spheres + k != at.surface && grounds_[k].distance(at.point, to_light) > 0) return true;
+  return false;
+}
+
+template <class Real>
+bool Tracer<Real>::is_hidden(const Met<Real>& at, const Lamp& lamp, const V& to_light,
+                             const Real& distance) const {
+  using std::sqrt;
+  if (lamp.lies_on[at.surface]) return true;
+  const int spheres = int(balls_.size());
+  for (int k = 0; k < spheres; ++k) {
+    if (k == at.surface) continue;
+    if (lamp.lies_on[k]) {
+      // In sight while it is nearer than the point's horizon on the sphere, where a tangent ends.
+      const V aside = at.point - balls_[k].center;
+      if (distance * distance >= dot(aside, aside) - balls_[k].radius_squared) return true;
+      continue;
+    }
+    const Chord chord(balls_[k], at.point, to_light);
+    if (chord.half_squared <= 0) continue;
+    if (dot(chord.to_center, chord.to_center) < balls_[k].inside_squared) return true;
+    if (chord.along > 0 && chord.along - sqrt(chord.half_squared) < distance) return true;
   }
+  // By the sides that lamp and point are on, not by where the ray meets the plane.
+  for (int k = 0; k < int(grounds_.size()); ++k)
+    if (spheres + k != at.surface && lamp.heights[k] * grounds_[k].height(at.point) < 0)
+      return true;
   return false;
 }
 
