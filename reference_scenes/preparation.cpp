@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "renderer/pixel_ray.hpp"
+#include "renderer/scene/contact.hpp"
 
 namespace lobelia {
 namespace {
@@ -16,8 +17,60 @@ namespace {
 /// float32 coordinates are not to be relied on.
 constexpr double kMaxExtent = 1e5;
 
+/// Whether the lamp lights nothing beneath a surface that it stands above in the unit direction `up`.
+bool faces_away(const PointLight& lamp, Vec3 up) {
+  return has_normal(lamp) && dot(lamp.normal, up) > 1 - 1e-9;
+}
+
+/// f(light, lamp, surface) for each point light and each surface that it lies on.
+template <class F>
+void for_lamps_on_surfaces(const Scene& scene, const F& f) {
+  const Contacts contacts = find_contacts(scene);
+  for (std::size_t l = 0; l < scene.lights.size(); ++l)
+    if (const auto* lamp = std::get_if<PointLight>(&scene.lights[l]))
+      for (const int surface : contacts[l]) f(l, *lamp, std::size_t(surface));
+}
+
+std::string lamp_on_sphere(const Scene& scene, bool though_it_faces_away) {
+  std::string found;
+  for_lamps_on_surfaces(scene, [&](std::size_t l, const PointLight& lamp, std::size_t surface) {
+    if (!found.empty() || surface >= scene.spheres.size()) return;
+    if (though_it_faces_away ||
+        !faces_away(lamp, normalize(lamp.position - scene.spheres[surface].center)))
+      found = fmt::format("light {} lies on sphere {}", l, surface);
+  });
+  return found;
+}
+
+/// Takes what the change of units has put beside a surface back to it.
+void lay_on_surfaces(const Scene& before, Scene& scene) {
+  for_lamps_on_surfaces(before, [&](std::size_t l, const PointLight&, std::size_t surface) {
+    auto& lamp = std::get<PointLight>(scene.lights[l]);
+    if (surface >= scene.spheres.size()) {
+      const Plane& plane = scene.planes[surface - scene.spheres.size()];
+      if (!lies_on(lamp, plane, closeness(scene)))
+        lamp.position =
+            lamp.position - dot(lamp.position - plane.point, plane.normal) * plane.normal;
+      return;
+    }
+    const Sphere& sphere = scene.spheres[surface];
+    if (!lies_on(lamp, sphere, closeness(scene)))
+      lamp.position = sphere.center + sphere.radius * normalize(lamp.position - sphere.center);
+  });
+}
+
 bool inside(Vec3 point, const Sphere& sphere) {
   return length(point - sphere.center) <= sphere.radius;
+}
+
+/// Engines' units in a unit of the scene.
+double engine_scale(const Scene& scene) {
+  if (scene.spheres.empty()) return 1;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Sphere& sphere : scene.spheres) smallest = std::min(smallest, sphere.radius);
+  // POV-Ray ignores shadows nearer than 1e-3 and has other absolute tolerances, which are made
+  // for spheres of about this size.
+  return std::exp2(-std::floor(std::log2(smallest)));
 }
 
 }  // namespace
@@ -56,17 +109,41 @@ std::string why_not_for_programs(const Scene& scene) {
   return {};
 }
 
-Scene in_engine_units(Scene scene) {
-  Vec3 origin;
-  double scale = 1;
-  if (!scene.spheres.empty()) {
-    origin = scene.spheres.front().center;
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const Sphere& sphere : scene.spheres) smallest = std::min(smallest, sphere.radius);
-    // POV-Ray ignores shadows nearer than 1e-3 and has other absolute tolerances, which are made
-    // for spheres of about this size.
-    scale = std::exp2(-std::floor(std::log2(smallest)));
+std::string lamp_on_sphere(const Scene& scene) { return lamp_on_sphere(scene, true); }
+std::string lamp_below_horizon(const Scene& scene) { return lamp_on_sphere(scene, false); }
+
+std::string lamp_close_to_surface(const Scene& given, double distance) {
+  const Scene scene = in_engine_units(given);
+  const double close = closeness(scene);
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    const auto* lamp = std::get_if<PointLight>(&scene.lights[l]);
+    if (!lamp) continue;
+    const auto found = [&](const char* what, std::size_t k) {
+      return fmt::format("light {} is nearer than {:.2g} to {} {} and does not lie on it", l,
+                         distance / engine_scale(given), what, k);
+    };
+    for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
+      const Sphere& sphere = scene.spheres[k];
+      const Vec3 way = lamp->position - sphere.center;
+      if (std::abs(length(way) - sphere.radius) < distance && !lies_on(*lamp, sphere, close) &&
+          !faces_away(*lamp, normalize(way)))
+        return found("sphere", k);
+    }
+    for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+      const Plane& plane = scene.planes[k];
+      const double height = dot(lamp->position - plane.point, plane.normal);
+      if (std::abs(height) < distance && !lies_on(*lamp, plane, close) &&
+          !faces_away(*lamp, height > 0 ? plane.normal : -plane.normal))
+        return found("plane", k);
+    }
   }
+  return {};
+}
+
+Scene in_engine_units(Scene scene) {
+  const Scene given = scene;
+  const double scale = engine_scale(scene);
+  const Vec3 origin = scene.spheres.empty() ? Vec3{} : scene.spheres.front().center;
   const auto place = [&](Vec3 point) { return scale * (point - origin); };
   scene.camera.origin = place(scene.camera.origin);
   scene.camera.target = place(scene.camera.target);
@@ -83,6 +160,7 @@ Scene in_engine_units(Scene scene) {
     plane.point = place(plane.point);
     plane.checker_size *= scale;
   }
+  lay_on_surfaces(given, scene);
   if (scene.lights.empty()) scene.lights.push_back(DirectionalLight{{0, 0, -1}, {}});
   return scene;
 }

@@ -19,9 +19,17 @@ std::string why_not_comparable(const Scene& scene);
 /// Why none of the engines that are programs can, though formulas may.
 std::string why_not_for_programs(const Scene& scene);
 
+/// The first pair of a lamp and a sphere that it lies on, in words ("light 0 lies on sphere 2"); empty if there
+/// is none. Or of one that does not face away from the sphere, and shines below its own horizon.
+std::string lamp_on_sphere(const Scene& scene);
+std::string lamp_below_horizon(const Scene& scene);
+/// The same of a lamp that lies on no surface but is nearer to one than `distance`, in the engines' units,
+/// and does not face away from it.
+std::string lamp_close_to_surface(const Scene& scene, double distance);
+
 /// The same picture in the engines' units: the first sphere's centre is the origin and the smallest
 /// radius lies in [1, 2); a scene without lights has a black one. The factor is a power of two, so
-/// a scene that is there already keeps its numbers, bit for bit.
+/// a scene that is there already keeps its numbers, bit for bit. Lamps that lie on a surface still do.
 Scene in_engine_units(Scene scene);
 
 /// The greatest distance from the origin of anything in the scene, and at least 1.

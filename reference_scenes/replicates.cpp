@@ -151,20 +151,28 @@ std::vector<Replicate> replicates(const Scene& scene, int count, int points, std
 
 namespace {
 
-/// Distance to the nearest surface along a ray of unit direction; infinite where there is none.
-double distance_to_surface(const Scene& scene, Vec3 origin, Vec3 direction) {
-  double nearest = std::numeric_limits<double>::infinity();
-  if (const auto hit = nearest_hit(scene, origin, direction)) nearest = length(hit->point - origin);
-  for (const Plane& plane : scene.planes) {
+struct SeenSurface {
+  double distance = std::numeric_limits<double>::infinity();
+  int index = -1;  ///< spheres first, then planes; -1: none
+};
+
+/// The nearest surface along a ray of unit direction.
+SeenSurface first_surface(const Scene& scene, Vec3 origin, Vec3 direction) {
+  SeenSurface nearest;
+  if (const auto hit = nearest_hit(scene, origin, direction))
+    nearest = {length(hit->point - origin), hit->sphere};
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
     const double t = dot(plane.point - origin, plane.normal) / dot(direction, plane.normal);
-    if (t > 0) nearest = std::min(nearest, t);
+    if (t > 0 && t < nearest.distance) nearest = {t, int(scene.spheres.size() + k)};
   }
   return nearest;
 }
 
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
 /// Distance to where a ray enters the ball or crosses the rectangle from its bright side.
 double distance_to_light(const Light& light, Vec3 origin, Vec3 direction) {
-  constexpr double kNowhere = std::numeric_limits<double>::infinity();
   if (const auto* ball = std::get_if<SphereLight>(&light)) {
     const Vec3 way = ball->center - origin;
     const double b = dot(way, direction), c = dot(way, way) - ball->radius * ball->radius;
@@ -184,7 +192,8 @@ double distance_to_light(const Light& light, Vec3 origin, Vec3 direction) {
 
 }  // namespace
 
-SizedLights::SizedLights(const Scene& scene) : lights_(scene.lights), skies_(environments(scene)) {}
+SizedLights::SizedLights(const Scene& scene)
+    : lights_(scene.lights), contacts_(find_contacts(scene)), skies_(environments(scene)) {}
 SizedLights::~SizedLights() = default;
 
 Image SizedLights::seen_in(const Scene& simple) const {
@@ -194,13 +203,16 @@ Image SizedLights::seen_in(const Scene& simple) const {
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) {
       const Vec3 direction = normalize(centre_ray(frame, x, y));
-      const double surface = distance_to_surface(simple, frame.origin, direction);
+      const SeenSurface surface = first_surface(simple, frame.origin, direction);
       Rgb sum;
       for (std::size_t l = 0; l < lights_.size(); ++l) {
         const Environment* sky = skies_[l].get();
         if (is_delta(lights_[l])) continue;
-        if (sky ? std::isinf(surface)
-                : distance_to_light(lights_[l], frame.origin, direction) < surface)
+        const double distance =
+            sky ? kNowhere : distance_to_light(lights_[l], frame.origin, direction);
+        const bool lies_on_it = std::ranges::count(contacts_[l], surface.index) > 0;
+        if (sky ? surface.index < 0
+                : distance < surface.distance || (lies_on_it && distance < kNowhere))
           sum = sum + (sky ? sky->radiance(direction) : strength(lights_[l]));
       }
       const auto pixel = image.pixel(x, y);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.hpp"
+#include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -42,6 +43,7 @@ class SizedLights {
 
  private:
   std::vector<Light> lights_;
+  Contacts contacts_;
   std::vector<std::unique_ptr<Environment>> skies_;  ///< by light; null for others
 };
 

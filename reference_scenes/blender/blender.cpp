@@ -412,6 +412,8 @@ class Blender final : public Engine {
     if (options.witness == Witness::kNative && !is_native_in_blender(scene))
       return "Cycles has highlights of its own only with the distribution of Ashikhmin and Shirley: cos^n "
              "of the half-vector angle, here on spheres";
+    if (const std::string lamp = lamp_below_horizon(scene); !lamp.empty())
+      return lamp + ", and in Cycles a rounding decides whether the sphere hides it";
     return why_not_for_programs(scene);
   }
   void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,

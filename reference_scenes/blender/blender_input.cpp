@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/frame.hpp"
+#include "renderer/scene/contact.hpp"
 
 namespace lobelia {
 namespace {
@@ -89,7 +90,11 @@ Json blender_input(const Scene& scene, const std::string& name, bool native) {
                 fmt::format("Blender renders no picture below {0} x {0} pixels", kSmallestSide));
   Json lights = Json::array(), materials = Json::array(), spheres = Json::array(),
        planes = Json::array();
-  for (const Light& light : scene.lights) lights.push_back(light_json(light));
+  const Contacts contacts = find_contacts(scene);
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    lights.push_back(light_json(scene.lights[l]));
+    if (!contacts[l].empty()) lights.back()["liesOn"] = contacts[l];
+  }
   for (const Material& material : scene.materials) materials.push_back(material_json(material));
   for (const Sphere& sphere : scene.spheres)
     spheres.push_back({{"center", to_json(sphere.center)},

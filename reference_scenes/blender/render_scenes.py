@@ -372,7 +372,8 @@ def sphere_material(job, sphere, light, lamp, mirrors):
     return surface.finish(surface.highlight(material), surface.mirror(material), mirrors)
 
 
-def plane_material(job, plane, light, lamp, mirrors):
+def plane_material(job, plane, light, lamp, mirrors, is_lit):
+    """A lamp that lies in the plane shines along it; Cycles' rounding would light points at random."""
     surface = Surface(light, lamp)
     first = job["materials"][plane["material"]]
     color, mirror = surface.highlight(first), surface.mirror(first)
@@ -386,7 +387,7 @@ def plane_material(job, plane, light, lamp, mirrors):
         second = job["materials"][plane["checkerMaterial"]]
         color = surface.choose(is_odd, surface.highlight(second), color)
         mirror = surface.choose(is_odd, surface.mirror(second), mirror)
-    return surface.finish(color, mirror, mirrors)
+    return surface.finish(color if is_lit else surface.constant((0, 0, 0)), mirror, mirrors)
 
 
 # ---- The scene -----------------------------------------------------------------------------------
@@ -530,6 +531,7 @@ def add_sphere(scene, sphere, material):
     group.links.new(point.outputs[0], painted.inputs[0])
     group.links.new(painted.outputs[0], result.inputs[0])
     thing.modifiers.new("sphere", "NODES").node_group = group
+    return thing
 
 
 def add_plane(scene, plane, eye, material):
@@ -550,7 +552,9 @@ def add_plane(scene, plane, eye, material):
     mesh = bpy.data.meshes.new("plane")
     mesh.from_pydata(corners, [], faces)
     mesh.materials.append(material)
-    scene.collection.objects.link(bpy.data.objects.new("plane", mesh))
+    thing = bpy.data.objects.new("plane", mesh)
+    scene.collection.objects.link(thing)
+    return thing
 
 
 def render_pass(job, index, threads, file_name):
@@ -560,11 +564,14 @@ def render_pass(job, index, threads, file_name):
     add_camera(scene, job["camera"], job["width"], job["height"])
     lamp = add_lamp(scene, light)
     bpy.context.view_layer.update()  # computes the lamp's matrix
-    for sphere in job["spheres"]:
-        add_sphere(scene, sphere, sphere_material(job, sphere, light, lamp, mirrors))
+    surfaces = [add_sphere(scene, sphere, sphere_material(job, sphere, light, lamp, mirrors))
+                for sphere in job["spheres"]]
     for plane in job["planes"]:
-        add_plane(scene, plane, job["camera"]["origin"],
-                  plane_material(job, plane, light, lamp, mirrors))
+        is_lit = len(surfaces) not in light.get("liesOn", ())
+        surfaces.append(add_plane(scene, plane, job["camera"]["origin"],
+                                  plane_material(job, plane, light, lamp, mirrors, is_lit)))
+    for index in light.get("liesOn", ()):
+        surfaces[index].visible_shadow = False  # the one lamp of this pass lies on it
     scene.render.filepath = file_name
     bpy.ops.render.render(write_still=True)
 

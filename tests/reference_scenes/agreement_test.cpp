@@ -260,6 +260,46 @@ TEST_P(Agreement, OfPlanesAndCheckersAndLampsThatShineWithACosine) {
   expect_agreement(scenes, 3 + kCheckerOutliers);
 }
 
+/// A lamp in the floor, one in the wall, one where they meet, and one in an oblique plane behind all.
+std::vector<Light> lamps_in_planes(Scene& scene) {
+  const Vec3 normal = normalize({-0.3, 0.23, 1.1}), place{1.7, 0.2, -2.3};
+  scene.planes.push_back({place + 3.0 * normalize(cross(normal, {1, 2, 3})), normal, 1, 1, 1});
+  return {PointLight{{1.4, -1, 0.7}, {6, 5, 4}}, PointLight{{-2, 0.5, -4}, {4, 5, 6}},
+          PointLight{{1, -1, -4}, {9, 9, 9}}, PointLight{place, {2, 3, 2}}};
+}
+
+TEST_P(Agreement, OfLampsThatLieInPlanes) {
+  std::vector<NamedScene> scenes;
+  for (const char* model : {"phong_rdf", "modified_phong"})
+    for (const Vec3 away : {Vec3{}, Vec3{3e3, -1e3, 2e3}}) {
+      Scene scene = ground_scene({model, "cosine", "exact", 20}, {}, 64);
+      scene.lights = lamps_in_planes(scene);
+      for (Vec3* place : {&scene.camera.origin, &scene.camera.target}) *place = *place + away;
+      for (Sphere& sphere : scene.spheres) sphere.center = sphere.center + away;
+      for (Plane& plane : scene.planes) plane.point = plane.point + away;
+      for (Light& light : scene.lights)
+        std::get<PointLight>(light).position = std::get<PointLight>(light).position + away;
+      scenes.push_back({fmt::format("{}, {} away", model, away.x), scene});
+    }
+  expect_agreement(scenes, kCheckerOutliers);
+}
+
+TEST_P(Agreement, OfRectanglesInPlanesOnTheSamePoints) {
+  Scene scene = ground_scene({"phong_rdf", "cosine", "exact", 20}, {}, 24);
+  scene.lights = {RectangleLight{{-1, 0.7, -4}, {0.5, 0, 0}, {0, 0.5, 0}, {9, 6, 3}},
+                  RectangleLight{{1.3, -1, 1}, {0, 0, 0.3}, {0.3, 0, 0}, {9, 6, 3}}};
+  ReferenceOptions options;
+  options.points = kReplicates;
+  expect_averages({{"two rectangles", scene}}, options,
+                  [&](const ReferenceResult& theirs, const ReferenceResult& ours) {
+                    const Tolerance t = tolerance_of(GetParam());
+                    const Difference d =
+                        difference(theirs.image, ours.image, t.relative, t.of_peak);
+                    EXPECT_LE(d.outliers, kCheckerOutliers) << d.worst;
+                    EXPECT_GT(ours.image.pixel(8, 1)[0], 8) << "the lamp on the wall is seen";
+                  });
+}
+
 TEST_P(Agreement, OfMirrors) {
   std::vector<NamedScene> scenes;
   for (const char* model : {"phong_rdf", "blinn_phong_rdf"})

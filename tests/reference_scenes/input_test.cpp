@@ -19,6 +19,7 @@
 #include "reference_scenes/preparation.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/render.hpp"
+#include "renderer/scene/contact.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 
@@ -235,6 +236,71 @@ TEST(NotComparable, IsAMirrorThatShowsAPatternOfTheCamerasPlace) {
     scene.depth.mirror = 0;
     EXPECT_EQ(povray->why_not(scene, {}), "") << "nothing is followed by it";
   }
+}
+
+TEST(NotComparable, IsALampOnASphereInEveryProgramUnlessItFacesAway) {
+  const auto povray = make_engine("povray", {}), blender = make_engine("blender", {});
+  const Vec3 up = normalize({0.3, 0.2, 1});
+  Scene scene = ground_scene(kNative, {PointLight{up, kWhite}}, 16);
+  for (const Vec3 away : {Vec3{}, Vec3{1e3, 2e3, -3e3}}) {
+    Scene placed = scene;
+    for (Vec3* place : {&placed.camera.origin, &placed.camera.target, &placed.spheres[0].center,
+                        &placed.planes[0].point, &placed.planes[1].point,
+                        &std::get<PointLight>(placed.lights[0]).position})
+      *place = *place + away;
+    for (const auto* engine : {&povray, &blender})
+      EXPECT_THAT((*engine)->why_not(placed, {}), HasSubstr("light 0 lies on sphere 0, and in"));
+    EXPECT_EQ(make_engine("analytic", {})->why_not(placed, {}), "");
+    std::get<PointLight>(placed.lights[0]).normal = up;
+    EXPECT_EQ(blender->why_not(placed, {}), "") << "it lights nothing below its horizon";
+    EXPECT_NE(povray->why_not(placed, {}), "");
+  }
+  scene.lights = {SphereLight{{0, 0, 0}, 1, kWhite}};
+  EXPECT_EQ(blender->why_not(scene, {}), "") << "a bulb";
+  EXPECT_THAT(povray->why_not(scene, {}), HasSubstr("lies on sphere 0"));
+}
+
+TEST(NotComparable, IsALampThatPovraysShadowsDoNotTellFromOneInThePlane) {
+  const auto povray = make_engine("povray", {}), blender = make_engine("blender", {});
+  const auto why = [&](double height, Vec3 normal = {}) {
+    const Scene scene =
+        ground_scene(kNative, {PointLight{{2, -1 + height, 0}, kWhite, normal}}, 16);
+    EXPECT_EQ(blender->why_not(scene, {}), "");
+    return povray->why_not(scene, {});
+  };
+  EXPECT_EQ(why(0), "");
+  EXPECT_EQ(why(0.01), "");
+  for (const double height : {1e-3, -1e-3, 1e-9})
+    EXPECT_EQ(
+        why(height),
+        "light 0 is nearer than 0.005 to plane 0 and does not lie on it, and POV-Ray's shadows do "
+        "not tell the two apart");
+  EXPECT_EQ(why(1e-3, {0, 1, 0}), "") << "it lights nothing of the plane's other side";
+  EXPECT_NE(why(-1e-3, {0, 1, 0}), "");
+}
+
+TEST(EngineUnits, LeaveALampOnTheSurfacesThatItLiesOn) {
+  // So far away that the rounding of places is beyond the closeness of what is near the origin.
+  const Vec3 away{1e6, 2e6, -3e6}, normal = normalize({0.3, 1, 0.2});
+  Scene scene = sphere_scene(kNative, {}, 16);
+  for (Vec3* place : {&scene.camera.origin, &scene.camera.target, &scene.spheres[0].center})
+    *place = *place + away;
+  scene.planes = {{away + Vec3{0, -1.5, 0}, normal, 0, 0, 1}};
+  const Vec3 along = normalize(cross(normal, {1, 2, 3}));
+  for (int i = 0; i < 50; ++i)
+    scene.lights.push_back(PointLight{scene.planes[0].point + (0.1 * i - 2) * along, kWhite});
+  scene.lights.push_back(PointLight{scene.spheres[0].center + normal, kWhite});
+  const Contacts before = find_contacts(scene);
+  EXPECT_EQ(before[0], std::vector{1});
+  EXPECT_EQ(before[50], std::vector{0});
+  EXPECT_EQ(find_contacts(in_engine_units(scene)), before);
+}
+
+TEST(BlenderInput, SaysWhichSurfacesALampLiesOn) {
+  const Json job = blender_input(
+      ground_scene(kNative, {point_light(), PointLight{{2, -1, 0}, kWhite}}, 16), "scene0");
+  EXPECT_FALSE(job.at("lights").at(0).contains("liesOn"));
+  EXPECT_EQ(job.at("lights").at(1).at("liesOn"), Json({1}));
 }
 
 TEST(BlenderInput, RefusesWhatBlenderWouldEnlarge) {

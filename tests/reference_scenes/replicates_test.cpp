@@ -76,5 +76,28 @@ TEST(Replicates, ShowTheLightsThemselvesOnlyWhereNothingIsBefore) {
   EXPECT_EQ(seen.pixel(1, 16)[0], 4) << "the lamp, and the sky behind it";
 }
 
+TEST(Replicates, ShowALightThatLiesOnASurfaceAsIfTheSurfaceWereNotThere) {
+  Scene scene = sphere_scene({"phong_rdf", "cosine", "exact", 8}, {}, 64);
+  const Vec3 normal = normalize({0.3, -0.2, 1}), along = normalize(cross(normal, {1, 2, 3}));
+  const Vec3 place{0.3, 0.2, -3};
+  scene.lights = {RectangleLight{place, 2.0 * along, 2.0 * cross(normal, along), {3, 3, 3}},
+                  SphereLight{{0, 0, 0}, 1, {5, 5, 5}}};
+  Scene empty = scene;
+  empty.spheres.clear();
+  const Image alone = SizedLights(empty).seen_in(empty);
+  scene.planes = {{place + 0.7 * along, normal, 0, 0, 1}};
+  const Image seen = SizedLights(scene).seen_in(scene);
+  int bulb = 0, rectangle = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      // The bulb's sphere hides what is behind it.
+      const float value = alone.pixel(x, y)[0], expected = value > 3 ? 5 : value;
+      EXPECT_EQ(seen.pixel(x, y)[0], expected) << x << ", " << y;
+      (expected == 5 ? bulb : rectangle) += expected > 0;
+    }
+  EXPECT_GT(bulb, 500);
+  EXPECT_GT(rectangle, 200);
+}
+
 }  // namespace
 }  // namespace lobelia
