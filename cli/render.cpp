@@ -220,8 +220,8 @@ void add_render(CLI::App& app, ExitCode& code) {
   command->footer(
       "One ray at each pixel's centre unless --samples says otherwise. The same scene gives\n"
       "the same file, byte for byte, whatever the number of threads; times are in the record.\n"
-      "With --target-error or --time-limit a pixel takes 1, 2, 4, ... samples until one of the\n"
-      "limits is reached; the record says which.\n"
+      "With --target-error or --time-limit a pixel takes 1, 2, 4, ... samples (mitchell: 2, 4,\n"
+      "...) until one of the limits is reached; the record says which.\n"
       "With --accuracy the record and stderr say what was chosen, why, what was predicted, and what\n"
       "was reached; exit code 1 if that is not what was asked, 3 if nothing can reach it.\n\n"
       "Example: lobelia render reference_scenes/scenes/head_on.xml --model modified_phong "

@@ -82,13 +82,17 @@ void look_through(const Scene& scene, Points& points, Camera& camera) {
   camera.aperture_radius = 0;
 }
 
-/// Every pixel's ray through the same place of the filter.
+/// Every pixel's ray through the same place of the filter; how much it counts. Which part of the filter the
+/// place is in is drawn too, so that a single point will do.
 double move_film(const Film& film, const FilterSampler& filter, Points& points, Camera& camera) {
   const auto [u, v] = points();
-  const auto x = filter(u), y = filter(v);
-  camera.principal_point_offset_x -= x.offset / film.width;
-  camera.principal_point_offset_y += y.offset / film.height;  // rows count downwards
-  return x.weight * y.weight;
+  const double scale = 1 + 2 * filter.negative_weight();  // of |filter|
+  const double share = filter.negative_weight() / scale;
+  const bool negative = u < share;
+  const auto [x, y] = filter(negative, negative ? u / share : (u - share) / (1 - share), v);
+  camera.principal_point_offset_x -= x / film.width;
+  camera.principal_point_offset_y += y / film.height;  // rows count downwards
+  return negative ? -scale : scale;
 }
 
 /// Everything but camera and lights.

@@ -31,26 +31,49 @@ FilterSampler::FilterSampler(Filter filter) : box_(filter.index == 0), radius_(f
   static constexpr auto kValues = map_types<double (*)(double)>(
       Filters{}, []<class F>() -> double (*)(double) { return &F::value; });
   const auto value = kValues.at(filter.index);
-  cumulative_.push_back(0);
-  double integral = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double here = value(2 * (i + 0.5) / kSteps - 1);
-    integral += here;
-    negative_.push_back(here < 0);
-    cumulative_.push_back(cumulative_.back() + std::abs(here));
-  }
-  const double total = cumulative_.back();
-  for (double& c : cumulative_) c /= total;
-  scale_ = total / integral;
+  const auto integrate = [&](Axis& axis, double sign) {
+    axis.cumulative.push_back(0);
+    for (int i = 0; i < kSteps; ++i) {
+      const double here = sign * value(2 * (i + 0.5) / kSteps - 1);
+      axis.cumulative.push_back(axis.cumulative.back() + std::max(0.0, here));
+    }
+    const double total = axis.cumulative.back();
+    if (total > 0)
+      for (double& c : axis.cumulative) c /= total;
+    return total;
+  };
+  const double above = integrate(above_, 1), below = integrate(below_, -1);
+  if (below == 0) return;
+  const double positive = above * above + below * below, negative = 2 * above * below;
+  above_share_ = above * above / positive;
+  negative_weight_ = negative / (positive - negative);
+  negative_every_ = std::uint32_t(std::lround((positive + negative) / negative));
 }
 
-FilterSampler::Offset FilterSampler::operator()(double u) const {
-  if (box_) return {radius_ * (2 * u - 1), 1};
-  const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u);
-  const std::size_t step = std::size_t(above - cumulative_.begin()) - 1;
-  const double low = cumulative_[step], width = cumulative_[step + 1] - low;
+FilterSampler::Place FilterSampler::place(std::uint32_t k) const {
+  if (negative_every_ == 0) return {false, k};
+  // The second sample is negative, so that two are of both parts.
+  const bool negative = k % negative_every_ == 1;
+  const std::uint32_t before = k / negative_every_ + (k % negative_every_ > 1);
+  return {negative, negative ? before : k - before};
+}
+
+FilterSampler::Offset FilterSampler::operator()(bool negative, double u, double v) const {
+  if (box_) return {radius_ * (2 * u - 1), radius_ * (2 * v - 1)};
+  // Negative is a product of one factor below 0, along either axis; positive one of none or two.
+  const double share = negative ? 0.5 : above_share_;
+  const bool first = u < share;
+  const Axis& x = first ? above_ : below_;
+  const Axis& y = first != negative ? above_ : below_;
+  return {x(first ? u / share : (u - share) / (1 - share), radius_), y(v, radius_)};
+}
+
+double FilterSampler::Axis::operator()(double u, double radius) const {
+  const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, u);
+  const std::size_t step = std::size_t(above - cumulative.begin()) - 1;
+  const double low = cumulative[step], width = cumulative[step + 1] - low;
   const double within = width > 0 ? (u - low) / width : 0.5;
-  return {radius_ * (2 * (double(step) + within) / kSteps - 1), negative_[step] ? -scale_ : scale_};
+  return radius * (2 * (double(step) + within) / kSteps - 1);
 }
 
 }  // namespace lobelia

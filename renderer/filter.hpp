@@ -22,24 +22,44 @@ std::string_view name(Filter filter);
 /// With the radius that its source gives it.
 std::optional<Filter> find_filter(std::string_view name);
 
-/// Draws offsets from a pixel's centre with a density proportional to |filter|, so that every sample
-/// counts the same but for the sign (Ernst, Stamminger, Greiner 2006: filter importance sampling).
+/// Draws offsets from a pixel's centre with a density proportional to |filter|, of the filter's positive and of its
+/// negative part apart (after Ernst, Stamminger, Greiner 2006: filter importance sampling). Which part sample k
+/// is of is fixed, so that a picture divides by numbers that nothing random decides
+/// (docs/decisions/0018-filters-have-two-parts.md).
 class FilterSampler {
  public:
   explicit FilterSampler(Filter filter);
 
-  struct Offset {
-    double offset;  ///< pixels, |offset| <= radius
-    double weight;  ///< the mean of weights is 1; negative where the filter is
+  /// Sample k of a pixel: the part it is of, and how many of that part come before it.
+  struct Place {
+    bool negative;
+    std::uint32_t index;
   };
-  /// u in [0, 1).
-  Offset operator()(double u) const;
+  Place place(std::uint32_t k) const;
+
+  struct Offset {
+    double x, y;  ///< pixels, each at most the radius
+  };
+  /// In one part; u and v in [0, 1).
+  Offset operator()(bool negative, double u, double v) const;
+
+  /// What the mean of the negative part counts; that of the positive part counts 1 more. 0 where the filter
+  /// is nowhere negative.
+  double negative_weight() const { return negative_weight_; }
 
  private:
+  /// The inverse of a distribution along one axis: from [0, 1) to [-radius, radius].
+  struct Axis {
+    std::vector<double> cumulative;  ///< over equal steps, 0 to 1
+    double operator()(double u, double radius) const;
+  };
+
   bool box_;
-  double radius_, scale_ = 1;
-  std::vector<double> cumulative_;  ///< of |filter| over equal steps from -radius to radius, 0 to 1
-  std::vector<bool> negative_;
+  double radius_;
+  Axis above_, below_;      ///< of where the filter along an axis is positive, and negative
+  double above_share_ = 1;  ///< of the positive part: not negative along both axes
+  double negative_weight_ = 0;
+  std::uint32_t negative_every_ = 0;  ///< samples; 0: never
 };
 
 }  // namespace lobelia

@@ -144,14 +144,14 @@ class Render {
     result_.samples = samples;
     Spread sum;
     for (const Spread& s : spread) sum += s;
-    if (tiles_->is_random() && samples > 1) result_.error = sum.error();
+    if (tiles_->is_random() && samples > tiles_->least_samples()) result_.error = sum.error();
   }
 
   /// All pixels with some samples, then with as many again, until it is enough.
   void in_rounds() {
     const int most =
         options_.target_error ? options_.max_samples.value_or(kMostSamples) : all_samples();
-    Frame frame(width(), height());
+    Frame frame(width(), height(), tiles_->negative_weight());
     int done = 0;
     while (done < most && !interrupted()) {
       int next = std::min(most, more_than(done));
@@ -189,7 +189,7 @@ class Render {
     result_.samples = done;
     if (interrupted()) return;
     Image image(width(), height());
-    frame.resolve(image, done);
+    frame.resolve(image);
     if (sink_)
       (*sink_)(0, height(), image.values().data());
     else
@@ -199,7 +199,7 @@ class Render {
   /// As many again; fewer where the error, which falls about as the power 0.7 of the samples, will be
   /// reached before.
   int more_than(int done) const {
-    if (done == 0) return 1;
+    if (done == 0) return tiles_->least_samples();
     double growth = 2;
     if (options_.target_error && done >= 8)
       growth = std::clamp(std::pow(*result_.error / *options_.target_error, 1 / 0.7), 1.25, 2.0);

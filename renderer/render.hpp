@@ -40,10 +40,10 @@ struct RenderResult {
   Work work;                ///< counted, not estimated
   int samples = 0;          ///< that each pixel took, or at most where antialiasing chose pixels
   std::string stop_reason;  ///< in words, where the render could stop before all samples were taken
-  /// Where something is random and pixels have two samples or more: the root mean square over the
-  /// picture of how far pixels are expected to be off, over the root mean square of the picture. From
-  /// the two halves of the samples; more than the truth rather than less, for together they are
-  /// spread more evenly than each.
+  /// Where something is random and pixels have two samples or more (three, if the filter is negative
+  /// somewhere): the root mean square over the picture of how far pixels are expected to be off, over
+  /// the root mean square of the picture. From the two halves of the samples; more than the truth
+  /// rather than less, for together they are spread more evenly than each.
   std::optional<double> error;
   double plan_seconds = 0, render_seconds = 0;
   std::string instruction_set;  ///< "AVX2", as chosen for this processor

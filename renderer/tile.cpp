@@ -25,6 +25,9 @@ void write(Rgb mean, float* to) {
 
 double squared(Rgb a) { return a.r * a.r + a.g * a.g + a.b * a.b; }
 Rgb difference(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
+PixelSum::Part difference(const PixelSum::Part& a, const PixelSum::Part& b) {
+  return {difference(a.radiance, b.radiance), a.count - b.count};
+}
 
 }  // namespace
 
@@ -33,18 +36,21 @@ double Spread::error() const {
 }
 
 void PixelSum::add(const SampleResult& sample) {
-  radiance = radiance + sample.weight * sample.radiance;
-  weight += sample.weight;
+  Part& part = sample.negative ? negative : positive;
+  part.radiance = part.radiance + sample.radiance;
+  ++part.count;
 }
 
-Rgb PixelSum::mean(int samples) const {
-  // By the weights that were drawn, so that an even picture is even; unless they cancel.
-  return 1.0 / (weight > 0.5 * samples ? weight : double(samples)) * radiance;
+Rgb PixelSum::mean(double negative_weight) const {
+  if (negative.count == 0) return 1.0 / positive.count * positive.radiance;
+  return difference((1 + negative_weight) / positive.count * positive.radiance,
+                    negative_weight / negative.count * negative.radiance);
 }
 
-Frame::Frame(int width, int height)
+Frame::Frame(int width, int height, double negative_weight)
     : width_(width),
       height_(height),
+      negative_weight_(negative_weight),
       sums_(std::size_t(width) * std::size_t(height)),
       kept_(sums_.size()) {}
 
@@ -52,13 +58,13 @@ void Frame::keep(const Tile& tile, int done) {
   if (done == 0) return;
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x)
-      kept_[index(x, y)] = sums_[index(x, y)].mean(done);
+      kept_[index(x, y)] = sums_[index(x, y)].mean(negative_weight_);
 }
 
 double Frame::error(int done, int next) const {
   Spread spread;
   for (std::size_t i = 0; i < sums_.size(); ++i) {
-    const Rgb mean = sums_[i].mean(next);
+    const Rgb mean = sums_[i].mean(negative_weight_);
     // With `more` samples added to `done`, mean - kept has more / done times the variance of the mean;
     // half of `apart` has that of the mean.
     const double more = next - done;
@@ -68,10 +74,10 @@ double Frame::error(int done, int next) const {
   return spread.error();
 }
 
-void Frame::resolve(Image& image, int samples) const {
+void Frame::resolve(Image& image) const {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
-      write(sums_[index(x, y)].mean(samples), image.pixel(x, y).data());
+      write(sums_[index(x, y)].mean(negative_weight_), image.pixel(x, y).data());
 }
 
 TileRenderer::TileRenderer(const Scene& scene, const Plan& plan, const WaveRenderer& renderer)
@@ -81,6 +87,7 @@ TileRenderer::TileRenderer(const Scene& scene, const Plan& plan, const WaveRende
       random_(std::any_of(scene.lights.begin(), scene.lights.end(),
                           [](const Light& l) { return !is_delta(l); }) ||
               plan.depth.glossy > 0 || scene.camera.aperture_radius > 0),
+      negative_weight_(renderer.filter().negative_weight()),
       too_little_(kBlack * peak_bound(scene, scene.lights)) {}
 
 /// Samples first..last - 1 of all pixels, a chunk at a time; take_result(pixel, sample, result).
@@ -124,14 +131,15 @@ Spread TileRenderer::render_everywhere(const Tile& tile, int samples, float* rgb
        });
   Spread spread;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const Rgb mean = sums[i].mean(samples);
+    const Rgb mean = sums[i].mean(negative_weight_);
     write(mean, rgb + 3 * (std::size_t(pixels[i].y - first_row) * std::size_t(scene_.film.width) +
                            std::size_t(pixels[i].x)));
-    if (samples < 2) continue;
-    const int rest = samples - samples / 2;
-    const PixelSum other{difference(sums[i].radiance, halves[i].radiance),
-                         sums[i].weight - halves[i].weight};
-    spread += {squared(difference(halves[i].mean(samples / 2), other.mean(rest))), squared(mean)};
+    if (samples <= least_samples()) continue;
+    const PixelSum& half = halves[i];
+    const PixelSum other{difference(sums[i].positive, half.positive),
+                         difference(sums[i].negative, half.negative)};
+    spread += {squared(difference(half.mean(negative_weight_), other.mean(negative_weight_))),
+               squared(mean)};
   }
   return spread;
 }
@@ -176,7 +184,7 @@ void TileRenderer::render_where_needed(const Tile& tile, int samples, float* rgb
           most = std::max(most, s.most);
           edge |= s.surface != own.surface;
         }
-      const double mean = brightness(own.sum.mean(plan_.first_samples));
+      const double mean = brightness(own.sum.mean(negative_weight_));
       if (edge || most - least > std::max(kSame * 8 * std::abs(mean), too_little_)) {
         needing.push_back({x, y, 0});
         place.push_back(here);
@@ -186,13 +194,11 @@ void TileRenderer::render_where_needed(const Tile& tile, int samples, float* rgb
        [&](std::size_t pixel, int, const SampleResult& result) {
          seen[place[pixel]].sum.add(result);
        });
-  std::vector<int> taken(seen.size(), plan_.first_samples);
-  for (const std::size_t p : place) taken[p] = samples;
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
       const std::size_t here = std::size_t(y - y0) * std::size_t(width) + std::size_t(x - x0);
       write(
-          seen[here].sum.mean(taken[here]),
+          seen[here].sum.mean(negative_weight_),
           rgb + 3 * (std::size_t(y - first_row) * std::size_t(scene_.film.width) + std::size_t(x)));
     }
 }

@@ -29,28 +29,34 @@ struct Spread {
 
 /// What a pixel's samples add up to.
 struct PixelSum {
-  Rgb radiance;       ///< weighted by the filter
-  double weight = 0;  ///< of the filter
+  struct Part {
+    Rgb radiance;
+    int count = 0;
+  };
+  Part positive, negative;  ///< of the filter
   void add(const SampleResult& sample);
-  Rgb mean(int samples) const;
+  /// negative_weight: of the filter. While only positive ones were drawn, their mean.
+  Rgb mean(double negative_weight) const;
 };
 
 /// A whole picture of sums.
 class Frame {
  public:
-  Frame(int width, int height);
+  /// negative_weight: of the filter.
+  Frame(int width, int height, double negative_weight);
   PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
   /// Keeps what the first `done` samples came to, then says how far the next ones are from it.
   void keep(const Tile& tile, int done);
   /// After samples done..next - 1 were added to the `done` that were kept; done > 0.
   double error(int done, int next) const;
-  void resolve(Image& image, int samples) const;
+  void resolve(Image& image) const;
 
  private:
   std::size_t index(int x, int y) const {
     return std::size_t(y) * std::size_t(width_) + std::size_t(x);
   }
   int width_, height_;
+  double negative_weight_;
   std::vector<PixelSum> sums_;
   std::vector<Rgb> kept_;  ///< means
 };
@@ -68,6 +74,9 @@ class TileRenderer {
 
   /// Whether more samples give another picture, apart from antialiasing.
   bool is_random() const { return random_; }
+  /// The fewest that show the whole filter: one of each part.
+  int least_samples() const { return negative_weight_ > 0 ? 2 : 1; }
+  double negative_weight() const { return negative_weight_; }
 
  private:
   template <class Take>
@@ -82,7 +91,8 @@ class TileRenderer {
   const Plan& plan_;
   const WaveRenderer& renderer_;
   bool random_;
-  double too_little_;  ///< to be seen: a difference of radiance
+  double negative_weight_;  ///< of the filter
+  double too_little_;       ///< to be seen: a difference of radiance
 };
 
 }  // namespace lobelia

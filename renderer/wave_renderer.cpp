@@ -145,7 +145,8 @@ WaveRenderer::WaveRenderer(const Scene& scene, const Plan& plan)
     : scene_(scene),
       plan_(plan),
       frame_(camera_frame(scene.camera, scene.film)),
-      filter_(scene.film.filter),
+      // One ray a pixel goes through the centre, whatever the filter.
+      filter_(scene.sampler.sample_count > 1 ? scene.film.filter : Filter{}),
       one_by_one_(scene.spheres.size() <= kMaxLoopSpheres) {
   for (const Material& m : scene.materials) materials_.emplace_back(m);
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
@@ -184,14 +185,17 @@ void WaveRenderer::camera_wave(std::span<const PixelSample> samples,
   const WaveKernels& kernels = wave_kernels();
   for (std::size_t i = 0; i < count; ++i) {
     const PixelSample& s = samples[i];
-    work.pixel[i] = sobol::pixel_hash(
+    const FilterSampler::Place place = filter_.place(s.index);
+    const std::uint32_t pixel = sobol::pixel_hash(
         std::uint64_t(s.y) * std::uint64_t(film.width) + std::uint64_t(s.x), scene_.sampler.seed);
-    work.index[i] = s.index;
+    // The filter's parts have a sequence each.
+    work.pixel[i] = place.negative ? sobol::hash(pixel) : pixel;
+    work.index[i] = place.index;
     work.radiance[i] = {};
     wave.slot[i] = int(i);
     wave.weight[i] = {1, 1, 1};
     wave.leaves[i] = -1;
-    results[i].weight = 1;
+    results[i].negative = place.negative;
     put(frame_.origin, wave.origin, i);
   }
   if (scene_.sampler.sample_count == 1) {
@@ -202,10 +206,9 @@ void WaveRenderer::camera_wave(std::span<const PixelSample> samples,
   } else {
     kernels.random(count, work.pixel.data(), work.index.data(), 0, work.u, work.v);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto x = filter_(work.u[i]), y = filter_(work.v[i]);
-      results[i].weight = x.weight * y.weight;
-      work.u[i] = frame_.film_u(samples[i].x + (0.5 + x.offset));
-      work.v[i] = frame_.film_v(samples[i].y + (0.5 + y.offset));
+      const auto [x, y] = filter_(results[i].negative, work.u[i], work.v[i]);
+      work.u[i] = frame_.film_u(samples[i].x + (0.5 + x));
+      work.v[i] = frame_.film_v(samples[i].y + (0.5 + y));
     }
   }
   if (lens) {

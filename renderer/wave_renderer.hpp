@@ -25,8 +25,8 @@ struct PixelSample {
 
 /// What a camera ray found.
 struct SampleResult {
-  Rgb radiance;      ///< not yet weighted
-  double weight;     ///< of the filter; the mean of weights is 1
+  Rgb radiance;      ///< not weighted
+  bool negative;     ///< drawn from the filter's negative part
   int surface = -1;  ///< that the camera ray met: spheres, then planes; -1 none
 };
 
@@ -48,6 +48,8 @@ class WaveRenderer {
   /// At most kChunk samples; one result each.
   void render(std::span<const PixelSample> samples, std::span<SampleResult> results,
               Workspace& workspace) const;
+
+  const FilterSampler& filter() const { return filter_; }
 
  private:
   struct Wave;

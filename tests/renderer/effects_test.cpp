@@ -435,7 +435,7 @@ TEST(EnvironmentLight, WithASmallSunIsADirectionalLight) {
   EXPECT_NEAR(lit / mean(render(scene, {}).image), 1, 0.01);
 }
 
-// ---- planes, mirrors, lenses, filters
+// ---- planes, mirrors, lenses
 
 TEST(Checker, HasSquaresOfItsSizeAroundItsPoint) {
   Scene scene = one_plane(matt(0));
@@ -544,44 +544,6 @@ TEST(DepthOfField, SpreadsAPointOverADiscOfTheKnownSize) {
   const double pixel = 2 * 0.1 * 4 / 101;  // in the plane of focus
   const double radius = (0.3 * 36 / 40 + 1 * 4.0 / 40) / pixel;
   EXPECT_NEAR(lit / (kPi * radius * radius), 1, 0.08);
-}
-
-TEST(Filters, KeepAnEvenPictureEven) {
-  for (const std::string_view name : filter_names()) {
-    Scene scene = one_sphere(matt(0.5));
-    scene.lights = {EnvironmentLight{{1, 1, 1}, nullptr, ""}};
-    scene.film.filter = *find_filter(name);
-    scene.sampler.sample_count = 16;
-    const Image image = render(scene, {}).image;
-    for (const float v : image.values()) EXPECT_NEAR(v, 0.5, 1e-5) << name;
-  }
-}
-
-TEST(Filters, GiveAStraightEdgeTheirOwnProfile) {
-  // Half of the world is bright: a pixel at distance x from the edge is the filter's integral beyond it.
-  for (const std::string_view name : filter_names()) {
-    const Filter filter = *find_filter(name);
-    Scene scene = one_plane(matt(0));
-    scene.camera.fov_degrees = 2 * std::atan(0.4) * 180 / kPi;
-    scene.film = {16, 16, filter};
-    scene.materials = {matt(0.0), matt(1.0)};
-    scene.planes[0] = {{0, 0, 0}, {0, 1, 0}, 0, 1, 100};
-    scene.lights = {DirectionalLight{{0, -1, 0}, {kPi, kPi, kPi}}};
-    scene.sampler.sample_count = 4096;
-    const Image image = render(scene, {}).image;
-    // Far from the edges the squares are even; at the vertical one the two sides add up to 1.
-    const int y = 2;
-    for (int x = 0; x < 8; ++x)
-      EXPECT_NEAR(image.pixel(x, y)[0] + image.pixel(15 - x, y)[0], 1, 4e-3) << name << ' ' << x;
-    const FilterSampler draw(filter);
-    double beyond = 0;
-    for (int i = 0; i < 10000; ++i) {
-      const auto d = draw((i + 0.5) / 10000);
-      beyond += d.offset > 0.5 ? d.weight / 10000 : 0;
-    }
-    const double low = image.pixel(1, y)[0], high = image.pixel(14, y)[0];
-    EXPECT_NEAR((image.pixel(7, y)[0] - low) / (high - low), beyond, 4e-3) << name;
-  }
 }
 
 TEST(Antialiasing, SpendsItsSamplesOnEdgesAndKeepsThePicture) {

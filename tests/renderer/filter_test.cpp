@@ -10,11 +10,6 @@
 namespace lobelia {
 namespace {
 
-constexpr int kSamples = 1 << 20;
-
-/// Stratified: the middle of each of kSamples equal parts of [0, 1).
-double stratum(int i) { return (i + 0.5) / kSamples; }
-
 /// Calls check(filter, value of the filter at an offset in radii) for every filter of the catalogue.
 template <class Check, class... Fs>
 int for_each_filter(TypeList<Fs...>, Check check) {
@@ -31,61 +26,77 @@ double integral(Function f, double a, double b) {
   return sum * (b - a) / kParts;
 }
 
-TEST(FilterSampler, DrawsOffsetsByTheFiltersAbsoluteValue) {
+TEST(FilterSampler, DrawsEachPartOfAFilterAsItIsHigh) {
   const int count = for_each_filter(Filters{}, [](Filter filter, auto value) {
     SCOPED_TRACE(name(filter));
-    const auto magnitude = [&](double x) { return std::abs(value(x)); };
-    constexpr int kBins = 64;
-    std::vector<double> found(kBins);
-    const FilterSampler sampler(filter);
-    for (int i = 0; i < kSamples; ++i) {
-      const double x = sampler(stratum(i)).offset / filter.radius;
-      found[std::min(kBins - 1, int((x + 1) / 2 * kBins))] += 1.0 / kSamples;
+    constexpr int kBins = 32, kSide = 1 << 10;
+    // Of a bin along one axis: the integral of what is above 0, and of what is below.
+    std::vector<double> above, below;
+    for (int b = 0; b < kBins; ++b) {
+      const double from = -1 + 2.0 * b / kBins, to = -1 + 2.0 * (b + 1) / kBins;
+      above.push_back(integral([&](double x) { return std::max(0.0, value(x)); }, from, to));
+      below.push_back(integral([&](double x) { return std::max(0.0, -value(x)); }, from, to));
     }
-    const double total = integral(magnitude, -1, 1);
-    for (int b = 0; b < kBins; ++b)
-      // Stratified samples miss a bin's share by one of 2^20 at either end: measured 8.6e-7 at most.
-      EXPECT_NEAR(found[b],
-                  integral(magnitude, -1 + 2.0 * b / kBins, -1 + 2.0 * (b + 1) / kBins) / total,
-                  2e-6)
-          << "bin " << b;
+    const FilterSampler sampler(filter);
+    for (const bool negative : {false, true}) {
+      if (negative && sampler.negative_weight() == 0) continue;
+      std::vector<double> expected, found(kBins * kBins);
+      double total = 0;
+      for (int y = 0; y < kBins; ++y)
+        for (int x = 0; x < kBins; ++x) {
+          expected.push_back(negative ? above[x] * below[y] + below[x] * above[y]
+                                      : above[x] * above[y] + below[x] * below[y]);
+          total += expected.back();
+        }
+      const auto bin = [&](double offset) {
+        return std::min(kBins - 1, int((offset / filter.radius + 1) / 2 * kBins));
+      };
+      for (int j = 0; j < kSide; ++j)
+        for (int i = 0; i < kSide; ++i) {
+          const auto [x, y] = sampler(negative, (i + 0.5) / kSide, (j + 0.5) / kSide);
+          found[bin(y) * kBins + bin(x)] += 1.0 / kSide / kSide;
+        }
+      // Along each axis stratified draws miss a bin's share by one of 2^10 at either end.
+      for (int b = 0; b < kBins * kBins; ++b)
+        EXPECT_NEAR(found[b], expected[b] / total, 2e-4) << negative << ", bin " << b;
+    }
   });
   EXPECT_EQ(count, int(filter_names().size()));
 }
 
-TEST(FilterSampler, HasWeightsWithTheMeanOneAndTheSignOfTheFilter) {
+TEST(FilterSampler, CountsTheNegativePartByItsShareOfTheFiltersIntegral) {
   for_each_filter(Filters{}, [](Filter filter, auto value) {
-    SCOPED_TRACE(name(filter));
-    const FilterSampler sampler(filter);
-    double sum = 0;
-    int wrong = 0;
-    for (int i = 0; i < kSamples; ++i) {
-      const auto [offset, weight] = sampler(stratum(i));
-      sum += weight;
-      const double here = value(offset / filter.radius);
-      if (std::abs(here) > 1e-3 && (here < 0) != (weight < 0)) ++wrong;
-    }
-    EXPECT_NEAR(sum / kSamples, 1, 1e-6);  // measured: 2.8e-7 for mitchell, 0 for the others
-    EXPECT_EQ(wrong, 0);
+    const double above = integral([&](double x) { return std::max(0.0, value(x)); }, -1, 1);
+    const double below = integral([&](double x) { return std::max(0.0, -value(x)); }, -1, 1);
+    // 4e-9 for mitchell, 0 for the others.
+    EXPECT_NEAR(FilterSampler(filter).negative_weight(),
+                2 * above * below / ((above - below) * (above - below)), 1e-7)
+        << name(filter);
   });
+  EXPECT_GT(FilterSampler(*find_filter("mitchell")).negative_weight(), 0.07);
 }
 
 TEST(FilterSampler, StaysWithinTheRadiusWhateverItIs) {
   for (const std::string_view filter_name : filter_names())
-    for (const double radius : {0.1, 0.5, 1.7, 16.0}) {
-      Filter filter = *find_filter(filter_name);
-      filter.radius = radius;
-      const FilterSampler sampler(filter);
-      double least = 0, most = 0;
-      for (const double u : {0.0, 1e-300, 0.25, 0.5, 0.75, std::nextafter(1.0, 0.0)}) {
-        const double offset = sampler(u).offset;
-        EXPECT_LE(std::abs(offset), radius) << filter_name << " at " << u;
-        least = std::min(least, offset);
-        most = std::max(most, offset);
+    for (const double radius : {0.1, 0.5, 1.7, 16.0})
+      for (const bool negative : {false, true}) {
+        Filter filter = *find_filter(filter_name);
+        filter.radius = radius;
+        const FilterSampler sampler(filter);
+        if (negative && sampler.negative_weight() == 0) continue;
+        double least = 0, most = 0;
+        for (const double u : {0.0, 1e-300, 0.25, 0.5, 0.75, std::nextafter(1.0, 0.0)})
+          for (const double v : {0.0, 1e-300, 0.25, 0.5, 0.75, std::nextafter(1.0, 0.0)}) {
+            const auto [x, y] = sampler(negative, u, v);
+            EXPECT_LE(std::abs(x), radius) << filter_name << " at " << u << ' ' << v;
+            EXPECT_LE(std::abs(y), radius) << filter_name << " at " << u << ' ' << v;
+            least = std::min(least, y);
+            most = std::max(most, y);
+          }
+        const double reached = filter_name == "mitchell" && !negative ? 0.5 : 0.9;
+        EXPECT_LT(least, -reached * radius) << filter_name;
+        EXPECT_GT(most, reached * radius) << filter_name;
       }
-      EXPECT_LT(least, -0.9 * radius) << filter_name;
-      EXPECT_GT(most, 0.9 * radius) << filter_name;
-    }
 }
 
 TEST(FilterSampler, ScalesItsOffsetsWithTheRadius) {
@@ -95,39 +106,37 @@ TEST(FilterSampler, ScalesItsOffsetsWithTheRadius) {
     wide.radius = 3;
     const FilterSampler a(narrow), b(wide);
     for (int i = 0; i < 100; ++i) {
-      EXPECT_NEAR(3 * a(i / 100.0).offset, b(i / 100.0).offset, 1e-14) << filter_name;
-      EXPECT_EQ(a(i / 100.0).weight, b(i / 100.0).weight) << filter_name;
+      const auto at_a = a(false, i / 100.0, i * 7 % 100 / 100.0);
+      const auto at_b = b(false, i / 100.0, i * 7 % 100 / 100.0);
+      EXPECT_NEAR(3 * at_a.x, at_b.x, 1e-14) << filter_name;
+      EXPECT_NEAR(3 * at_a.y, at_b.y, 1e-14) << filter_name;
     }
+    EXPECT_EQ(a.negative_weight(), b.negative_weight()) << filter_name;
   }
 }
 
-TEST(FilterSampler, GivesMitchellsNegativeLobesTheirShareOfNegativeWeights) {
-  const Filter mitchell = *find_filter("mitchell");
-  const auto value = [](double x) { return filters::Mitchell::value(x); };
-  // For B = C = 1/3 the outer polynomial is proportional to (8/7 - t)(t - 2)^2, t twice the offset in
-  // radii: it is negative from 4/7 of the radius on. The whole integrates to 1 over t, so to 1/2 here.
-  const double negative = -2 * integral(value, 4.0 / 7, 1),
-               positive = 2 * integral(value, 0, 4.0 / 7);
-  EXPECT_NEAR(positive - negative, 0.5, 1e-8);
-  const FilterSampler sampler(mitchell);
-  int below = 0;
-  double weight = 0;
-  for (int i = 0; i < kSamples; ++i)
-    if (const auto sample = sampler(stratum(i)); sample.weight < 0) {
-      ++below;
-      weight = sample.weight;
-    }
-  EXPECT_NEAR(double(below) / kSamples, negative / (positive + negative), 1e-6);  // 1.3e-7
-  EXPECT_NEAR(weight, -(positive + negative) / (positive - negative), 1e-8);      // 9e-10
-  EXPECT_GT(below, kSamples / 40);
-}
-
-TEST(FilterSampler, OfEveryOtherFilterHasNoNegativeWeight) {
+TEST(FilterSampler, GivesEachPartItsShareOfAnyNumberOfSamplesAndItsOwnCount) {
   for (const std::string_view filter_name : filter_names()) {
-    if (filter_name == "mitchell") continue;
     const FilterSampler sampler(*find_filter(filter_name));
-    for (int i = 0; i < kSamples; i += 97) EXPECT_EQ(sampler(stratum(i)).weight, 1) << filter_name;
+    const double weight = sampler.negative_weight(), share = weight / (1 + 2 * weight);
+    std::uint32_t counts[2] = {};
+    for (std::uint32_t k = 0; k < 5000; ++k) {
+      const auto place = sampler.place(k);
+      ASSERT_EQ(place.index, counts[place.negative]++) << filter_name << ", sample " << k;
+      if (weight == 0) continue;
+      ASSERT_EQ(counts[1] > 0, k > 0) << filter_name;
+      // One more than its share at most, rounded to one of a whole number: mitchell's is 1 / 15.8.
+      ASSERT_LE(std::abs(counts[1] - share * (k + 1)), 1 + 0.02 * share * (k + 1)) << k;
+    }
+    EXPECT_EQ(counts[1] == 0, weight == 0) << filter_name;
   }
+}
+
+TEST(FilterSampler, HasANegativePartForMitchellOnly) {
+  for (const std::string_view filter_name : filter_names())
+    EXPECT_EQ(FilterSampler(*find_filter(filter_name)).negative_weight() > 0,
+              filter_name == "mitchell")
+        << filter_name;
 }
 
 }  // namespace
