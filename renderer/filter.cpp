@@ -19,6 +19,8 @@ constexpr int kSteps = 4096;
 std::span<const std::string_view> filter_names() { return kNames; }
 std::string_view name(Filter filter) { return kNames.at(filter.index); }
 
+int reach_of(Filter filter) { return int(std::ceil(filter.radius + 0.5)); }
+
 std::optional<Filter> find_filter(std::string_view name) {
   static constexpr auto kRadii = map_types<double>(Filters{}, []<class F>() { return F::kRadius; });
   const auto index = find_id<std::size_t>(kNames, name);

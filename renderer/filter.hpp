@@ -19,6 +19,9 @@ struct Filter {
 
 std::span<const std::string_view> filter_names();
 std::string_view name(Filter filter);
+/// How many pixels away samples may tell of what a pixel shows: the filter reaches into pixels whose centres are
+/// less than half a pixel beyond its radius, and one more is for safety.
+int reach_of(Filter filter);
 /// With the radius that its source gives it.
 std::optional<Filter> find_filter(std::string_view name);
 

@@ -5,15 +5,10 @@
 #include <cmath>
 
 #include "renderer/peak_bound.hpp"
+#include "renderer/plan/sharpness.hpp"
 
 namespace lobelia {
 namespace {
-
-/// A pixel whose first samples, and its neighbours', are no more than this share of their mean apart has
-/// nothing in it that more samples would show: half a step of an 8-bit display at mid-grey.
-constexpr double kSame = 1.0 / 256;
-/// What is less than this share of the brightest highlight is black.
-constexpr double kBlack = 1e-5;
 
 double brightness(Rgb c) { return (c.r + c.g + c.b) / 3; }
 
@@ -27,6 +22,35 @@ double squared(Rgb a) { return a.r * a.r + a.g * a.g + a.b * a.b; }
 Rgb difference(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
 PixelSum::Part difference(const PixelSum::Part& a, const PixelSum::Part& b) {
   return {difference(a.radiance, b.radiance), a.count - b.count};
+}
+
+/// What the first samples of some pixels met.
+struct Seen {
+  static constexpr int kNothingYet = -2, kSeveral = -3;
+  double least = 1e300, most = -1e300;
+  int surface = kNothingYet;  ///< or a sample's, or kSeveral
+  void add(const Seen& other) {
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+    if (surface == kNothingYet)
+      surface = other.surface;
+    else if (surface != other.surface)
+      surface = kSeveral;
+  }
+};
+
+/// For each pixel of a field, what was met in the square of `reach` pixels around it.
+std::vector<Seen> look_around(const std::vector<Seen>& field, int width, int height, int reach) {
+  const auto along = [&](const std::vector<Seen>& from, int stride, int size) {
+    std::vector<Seen> to(from.size());
+    for (int i = 0; i < width * height; ++i) {
+      const int at = i / stride % size;
+      for (int d = -std::min(reach, at); d <= std::min(reach, size - 1 - at); ++d)
+        to[std::size_t(i)].add(from[std::size_t(i + d * stride)]);
+    }
+    return to;
+  };
+  return along(along(field, 1, width), width, height);
 }
 
 }  // namespace
@@ -88,7 +112,7 @@ TileRenderer::TileRenderer(const Scene& scene, const Plan& plan, const WaveRende
                           [](const Light& l) { return !is_delta(l); }) ||
               plan.depth.glossy > 0 || scene.camera.aperture_radius > 0),
       negative_weight_(renderer.filter().negative_weight()),
-      too_little_(kBlack * peak_bound(scene, scene.lights)) {}
+      too_little_(effects::Antialiasing::kBlack * peak_bound(scene, scene.lights)) {}
 
 /// Samples first..last - 1 of all pixels, a chunk at a time; take_result(pixel, sample, result).
 template <class Take>
@@ -144,63 +168,48 @@ Spread TileRenderer::render_everywhere(const Tile& tile, int samples, float* rgb
   return spread;
 }
 
-/// A few samples of every pixel, and of those around the tile; then the rest where a pixel or one of its
-/// neighbours shows more than an even surface.
+/// A few samples of every pixel, and of those around the tile; then the rest where these, of all pixels that
+/// the filter reaches, show more than an even surface.
 void TileRenderer::render_where_needed(const Tile& tile, int samples, float* rgb, int first_row,
                                        WaveRenderer::Workspace& workspace) const {
-  const int x0 = std::max(0, tile.x - 1), x1 = std::min(scene_.film.width, tile.x + tile.width + 1);
-  const int y0 = std::max(0, tile.y - 1);
-  const int y1 = std::min(scene_.film.height, tile.y + tile.height + 1);
-  const int width = x1 - x0;
-  struct Seen {
-    PixelSum sum;
-    double least = 1e300, most = -1e300;
-    int surface = -2;  ///< -3 where samples met several
-  };
+  const Film& film = scene_.film;
+  const PixelRange columns = looked_at({tile.x, tile.x + tile.width}, film.width, film.filter);
+  const PixelRange rows = looked_at({tile.y, tile.y + tile.height}, film.height, film.filter);
+  const int width = columns.end - columns.begin, height = rows.end - rows.begin;
   std::vector<PixelSample> pixels;
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) pixels.push_back({x, y, 0});
+  for (int y = rows.begin; y < rows.end; ++y)
+    for (int x = columns.begin; x < columns.end; ++x) pixels.push_back({x, y, 0});
+  std::vector<PixelSum> sums(pixels.size());
   std::vector<Seen> seen(pixels.size());
   take(pixels, 0, plan_.first_samples, workspace,
        [&](std::size_t pixel, int, const SampleResult& result) {
-         Seen& s = seen[pixel];
-         s.sum.add(result);
-         s.least = std::min(s.least, brightness(result.radiance));
-         s.most = std::max(s.most, brightness(result.radiance));
-         s.surface = s.surface == -2 || s.surface == result.surface ? result.surface : -3;
+         sums[pixel].add(result);
+         const double value = brightness(result.radiance);
+         seen[pixel].add({value, value, result.surface});
        });
+  const std::vector<Seen> around = look_around(seen, width, height, reach_of(film.filter));
   std::vector<PixelSample> needing;
   std::vector<std::size_t> place;
+  const auto index = [&](int x, int y) {
+    return std::size_t(y - rows.begin) * std::size_t(width) + std::size_t(x - columns.begin);
+  };
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
-      double least = 1e300, most = -1e300;
-      const std::size_t here = std::size_t(y - y0) * std::size_t(width) + std::size_t(x - x0);
-      const Seen& own = seen[here];
-      bool edge = own.surface == -3;
-      for (int v = std::max(y0, y - 1); v < std::min(y1, y + 2); ++v)
-        for (int u = std::max(x0, x - 1); u < std::min(x1, x + 2); ++u) {
-          const Seen& s = seen[std::size_t(v - y0) * std::size_t(width) + std::size_t(u - x0)];
-          least = std::min(least, s.least);
-          most = std::max(most, s.most);
-          edge |= s.surface != own.surface;
-        }
-      const double mean = brightness(own.sum.mean(negative_weight_));
-      if (edge || most - least > std::max(kSame * 8 * std::abs(mean), too_little_)) {
+      const Seen& s = around[index(x, y)];
+      const double mean = std::abs(brightness(sums[index(x, y)].mean(negative_weight_)));
+      if (s.surface == Seen::kSeveral ||
+          s.most - s.least > std::max(effects::Antialiasing::kSame * mean, too_little_)) {
         needing.push_back({x, y, 0});
-        place.push_back(here);
+        place.push_back(index(x, y));
       }
     }
   take(needing, plan_.first_samples, samples, workspace,
-       [&](std::size_t pixel, int, const SampleResult& result) {
-         seen[place[pixel]].sum.add(result);
-       });
+       [&](std::size_t pixel, int, const SampleResult& result) { sums[place[pixel]].add(result); });
   for (int y = tile.y; y < tile.y + tile.height; ++y)
-    for (int x = tile.x; x < tile.x + tile.width; ++x) {
-      const std::size_t here = std::size_t(y - y0) * std::size_t(width) + std::size_t(x - x0);
+    for (int x = tile.x; x < tile.x + tile.width; ++x)
       write(
-          seen[here].sum.mean(negative_weight_),
+          sums[index(x, y)].mean(negative_weight_),
           rgb + 3 * (std::size_t(y - first_row) * std::size_t(scene_.film.width) + std::size_t(x)));
-    }
 }
 
 void TileRenderer::add(const Tile& tile, int first, int last, Frame& frame,

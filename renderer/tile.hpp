@@ -9,8 +9,6 @@
 
 namespace lobelia {
 
-inline constexpr int kTileSide = 32;
-
 struct Tile {
   int x = 0, y = 0, width = 0, height = 0;
 };

@@ -11,6 +11,7 @@
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
+#include "renderer/plan/sharpness.hpp"
 
 namespace lobelia {
 namespace {
@@ -109,10 +110,26 @@ LightStrategy strategy_of(const Light& light, const Material& material, EffectPo
   return has_highlight(material) || environment ? LightStrategy::kBoth : LightStrategy::kLight;
 }
 
+/// Pixels along one axis that are looked at, tile by tile.
+std::uint64_t looked_at_for_tiles(int size, Filter filter) {
+  int sum = 0;
+  for (int begin = 0; begin < size; begin += kTileSide) {
+    const auto range = looked_at({begin, std::min(size, begin + kTileSide)}, size, filter);
+    sum += range.end - range.begin;
+  }
+  return std::uint64_t(sum);
+}
+
 /// At most: every camera ray meets a surface, and every ray after it.
 void expect_rays(const Scene& scene, Plan& plan) {
-  plan.camera_rays = std::uint64_t(scene.film.width) * std::uint64_t(scene.film.height) *
-                     std::uint64_t(scene.sampler.sample_count);
+  const Film& film = scene.film;
+  const std::uint64_t pixels = std::uint64_t(film.width) * std::uint64_t(film.height);
+  plan.camera_rays = pixels * std::uint64_t(scene.sampler.sample_count);
+  if (plan.first_samples < scene.sampler.sample_count)
+    plan.camera_rays +=
+        std::uint64_t(plan.first_samples) * (looked_at_for_tiles(film.width, film.filter) *
+                                                 looked_at_for_tiles(film.height, film.filter) -
+                                             pixels);
   const bool sized = std::any_of(scene.lights.begin(), scene.lights.end(),
                                  [](const Light& l) { return !is_delta(l); });
   const bool by_surface =

@@ -19,6 +19,9 @@ inline constexpr std::size_t kMaxPairwiseSpheres = 256;
 /// Up to so many spheres a ray is tested against each; beyond, Embree sorts them.
 inline constexpr std::size_t kMaxLoopSpheres = 24;
 
+/// Pictures are made in squares of so many pixels.
+inline constexpr int kTileSide = 32;
+
 /// Who draws the directions towards a light with a size.
 enum class LightStrategy : std::uint8_t {
   kLight,    ///< the light: the surface scatters evenly
@@ -83,7 +86,8 @@ struct Plan {
   Depth depth;         ///< of reflections that are traced
   std::string kernel;  ///< which inner loops, in words
 
-  std::uint64_t camera_rays = 0;  ///< at most: where every pixel needs all its samples
+  /// At most: where every pixel needs all its samples, with the first ones around tiles.
+  std::uint64_t camera_rays = 0;
   /// At most.
   std::uint64_t max_shadow_rays = 0, max_mirror_rays = 0, max_scattered_rays = 0;
 

@@ -38,4 +38,10 @@ std::string why_every_pixel(const Scene& scene, const Plan& plan) {
   return "";
 }
 
+PixelRange looked_at(PixelRange pixels, int size, Filter filter) {
+  const int reach = reach_of(filter);
+  return {std::max(1 - reach, pixels.begin - reach),
+          std::min(size + reach - 1, pixels.end + reach)};
+}
+
 }  // namespace lobelia

@@ -11,4 +11,12 @@ namespace lobelia {
 /// Asks the plan which effects are on that come before antialiasing.
 std::string why_every_pixel(const Scene& scene, const Plan& plan);
 
+/// Along one axis: the pixels from `begin` to before `end`.
+struct PixelRange {
+  int begin, end;
+};
+/// Those whose first samples tell whether the given ones need the rest, in a picture of `size` pixels. What lies
+/// beyond its edges counts where the filter reaches it.
+PixelRange looked_at(PixelRange pixels, int size, Filter filter);
+
 }  // namespace lobelia

@@ -15,6 +15,11 @@ struct Antialiasing {
                                     kHides = "";
   /// Samples that tell whether a pixel needs the rest: four by four, one in each cell.
   static constexpr int kFirst = 16;
+  /// A pixel keeps these alone where they and those of all pixels within its filter's reach are no further apart
+  /// than this share of their mean, and all on one surface: more would then change it by less than that.
+  static constexpr double kSame = 1.0 / 32;
+  /// Or than this share of the brightest highlight that is possible, which is black.
+  static constexpr double kBlack = 1e-5;
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const int samples = scene.sampler.sample_count;
@@ -23,7 +28,10 @@ struct Antialiasing {
     std::string reason =
         fmt::format("{} rays a pixel were asked for, {} filter", samples, name(scene.film.filter));
     const std::string everywhere = why_every_pixel(scene, plan);
-    if (samples <= kFirst)
+    const int reach = reach_of(scene.film.filter);
+    // The first samples around a tile are drawn for it too: a filter that reaches far makes them many.
+    const double around = 1 + 2 * (reach - 1) / double(kTileSide);
+    if (samples <= kFirst * around * around)
       plan.sample_reason = fmt::format("every pixel: {} are too few to choose pixels by", samples);
     else if (policy == EffectPolicy::kAll)
       plan.sample_reason = "every pixel: all effects were asked for";
@@ -32,8 +40,9 @@ struct Antialiasing {
     else {
       plan.first_samples = kFirst;
       plan.sample_reason = fmt::format(
-          "{} everywhere, {} where these or a neighbour's differ: silhouettes, highlights, shadows",
-          kFirst, samples);
+          "{} everywhere, {} where these differ by over 1/{:g} within {} pixel{}: silhouettes, "
+          "highlights, shadows",
+          kFirst, samples, 1 / kSame, reach, reach == 1 ? "" : "s");
     }
     return {kName, kWork, true, reason + "; " + plan.sample_reason};
   }
