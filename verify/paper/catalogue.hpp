@@ -12,11 +12,13 @@ namespace lobelia::paper {
 // ---- the cheap lobe
 Claim cs16_largest_error();
 Claim cs16_smallest_error();
+Claim cs16_without_power();
 Claim cs16_operations();
 Claim cs16_normalised();
 Claim cs16_tail();
 Claim theta_cr_approximation();
 Claim theta_cr_beyond();
+Claim theta_cr_growth();
 
 // ---- the table of coefficients
 Claim residual_phong_rdf();
@@ -36,15 +38,21 @@ Claim outside_the_range();
 
 // ---- the other lobes
 Claim schlick_epicentre();
+Claim schlick_epicentre_inflection();
 Claim schlick_tail();
 Claim schlick_division();
+Claim schlick_cost();
 Claim gauss_accuracy();
 Claim gauss_inverse_cosine();
+Claim gauss_angle();
+Claim more_accurate_lobe();
 
 // ---- physics
 Claim reciprocity_of_brdfs();
 Claim reciprocity_of_rdfs();
 Claim energy_of_cs16();
+Claim more_accurate_energy();
+Claim more_accurate_normalised();
 Claim energy_of_brdfs();
 Claim energy_of_rdfs_seen();
 Claim energy_of_rdfs_lit();

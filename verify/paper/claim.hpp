@@ -13,6 +13,10 @@ enum class Verdict {
   kFound  ///< the paper does not speak of it: found while measuring
 };
 
+/// Where the claims are that are called more-accurate.
+inline constexpr char kConclusions[] =
+    "conclusions: the models are more accurate than the classical ones";
+
 /// "confirmed", "not reproduced", "found"
 std::string_view name(Verdict verdict);
 
