@@ -71,6 +71,7 @@ StabilityData read_stability(const Fields& record) {
                      record.text("instructionSet"),
                      record.number("cases").value_or(0),
                      record.number("outside").value_or(0),
+                     record.number("notCompared").value_or(0),
                      {},
                      {},
                      {},

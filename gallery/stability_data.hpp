@@ -34,7 +34,7 @@ struct StabilityPicture {
 
 struct StabilityData {
   std::string command, instruction_set;
-  double cases = 0, outside = 0;
+  double cases = 0, outside = 0, not_compared = 0;
   NamedTexts groups;  ///< with what they mean
   std::vector<StabilitySummary> by_case, by_exponent;
   std::vector<StabilityCurve> curves;

@@ -253,9 +253,14 @@ void draw(ViewPage& page, const std::filesystem::path& run, const Fields& record
       html.element("strong", count_text(data.cases));
       html.text(" cases");
     }
+    {
+      const Tag item(html, "li");
+      html.element("strong", count_text(data.outside));
+      html.text(" outside their stated bounds");
+    }
     const Tag item(html, "li");
-    html.element("strong", count_text(data.outside));
-    html.text(" outside their stated bounds");
+    html.element("strong", count_text(data.not_compared));
+    html.text(" not compared, for want of a bound");
   }
   write_charts(html, data);
   write_pictures(page, run, data);

@@ -17,4 +17,16 @@ Number lobe_definition(LobeId lobe, const Number& cosine, double exponent) {
   return kDefinitions.at(lobe.index)({exponent, lobe.order}, cosine);
 }
 
+/// The density of a lobe's draws over s is lobe times this over its integral: 1 where they follow the lobe itself.
+/// Gauss's are of x as if it were a plane's radius, Schlick's of a lobe without its numerator.
+template <class Number>
+Number draw_factor(LobeId lobe, const Number& cosine) {
+  using std::acos, std::sin;
+  if (info(lobe).name == "gauss") {
+    const Number x = acos(cosine);
+    return x > Number(0) ? Number(x / sin(x)) : Number(1);
+  }
+  return info(lobe).name == "schlick" ? Number(Number(1) / cosine) : Number(1);
+}
+
 }  // namespace lobelia

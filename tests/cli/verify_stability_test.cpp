@@ -23,9 +23,10 @@ TEST(VerifyStability, PrintsATableAndWritesARecordAndPicturesThatShowWhatCareBuy
                                    "--json", "s.json", "--pictures", "pictures"},
                                   directory.path());
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
-  EXPECT_THAT(result.output_tail, HasSubstr("all within their bounds"));
+  EXPECT_THAT(result.output_tail, HasSubstr(" within their bounds, 0 outside,"));
   const Json record = read_record(directory.path() / "s.json", "verify-stability");
   EXPECT_EQ(record["outside"], 0);
+  EXPECT_LT(record["notCompared"], 100);
   EXPECT_GT(record["cases"], 2500);
   ASSERT_EQ(record["byLobe"].size(), 6u);
   for (const auto& group : record["byLobe"]) EXPECT_EQ(group["lobe"], "cs12");

@@ -64,6 +64,7 @@ Json stability_record() {
   record["command"] = {"lobelia", "verify", "stability"};
   record["cases"] = 12;
   record["outside"] = 0;
+  record["notCompared"] = 5;
   record["groups"] = Json::array({{{"name", "lobe"}, {"meaning", "The lobe " + kHostile}}});
   record["byCase"] = Json::array(
       {summary("lobe", "case", "angle 0", "inf"), summary("lobe", "case", kHostile.c_str(), 0.5)});
@@ -196,6 +197,7 @@ TEST_P(StabilityView, ShowsNumbersMeaningsAndWhatIsNoNumber) {
   const std::string text = put(stability_record());
   EXPECT_THAT(text, HasSubstr("hard because &amp; why"));
   EXPECT_THAT(text, HasSubstr("no number"));
+  EXPECT_THAT(text, HasSubstr("<strong>5</strong> not compared"));
   const Site site(farm_.directory());
   EXPECT_EQ(site.page(page()).select_nodes("//img[@src='stability/a-picture.png']").size(), 2u);
   EXPECT_THAT(text, HasSubstr("The picture missing.png is missing."));

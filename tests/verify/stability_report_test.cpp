@@ -20,7 +20,7 @@ Row row(const char* name, const char* lobe, double truth, double naive, double o
   made.ours = judge(ours, truth, 1);
   made.bound_of_peak = 1e-6;
   made.bound_ulp = kInfinity;
-  made.within = is_within(made);
+  made.outcome = outcome(made);
   return made;
 }
 
@@ -38,13 +38,42 @@ TEST(AnAnswer, IsJudgedInUnitsOfFloat32AtTheTruth) {
 }
 
 TEST(ARow, IsOutsideOverItsBoundWithAWrongPixelWithNoNumberAndWithADenormalOne) {
-  EXPECT_TRUE(row("", "", 1, 1, 1 + 9e-7).within);
-  EXPECT_FALSE(row("", "", 1, 1, 1 + 2e-6).within);
-  EXPECT_FALSE(row("", "", 1, 1, std::nan("")).within);
-  EXPECT_FALSE(row("", "", 0, 0, 1e-310).within);
+  EXPECT_EQ(row("", "", 1, 1, 1 + 9e-7).outcome, Outcome::kWithin);
+  EXPECT_EQ(row("", "", 1, 1, 1 + 2e-6).outcome, Outcome::kOutside);
+  EXPECT_EQ(row("", "", 1, 1, std::nan("")).outcome, Outcome::kOutside);
+  EXPECT_EQ(row("", "", 0, 0, 1e-310).outcome, Outcome::kOutside);
   Row wrong = row("", "", 1, 1, 1);
   wrong.ours.wrong_pixels = 1;
-  EXPECT_FALSE(is_within(wrong));
+  EXPECT_EQ(outcome(wrong), Outcome::kOutside);
+}
+
+TEST(ARow, IsNoPassWhereNothingIsBounded) {
+  Row unbounded = row("", "", 0.5, 0.5, 0.5);
+  for (const double bound : {1.0, 1.05, kInfinity}) {
+    unbounded.bound_of_peak = bound;
+    EXPECT_EQ(outcome(unbounded), Outcome::kNotCompared) << bound;
+    unbounded.ours.value = std::nan("");
+    EXPECT_EQ(outcome(unbounded), Outcome::kOutside) << bound;
+    unbounded.ours.value = 0.5;
+  }
+  unbounded.bound_ulp = 4;
+  EXPECT_EQ(outcome(unbounded), Outcome::kWithin);
+  unbounded.truth = std::nan("");
+  EXPECT_EQ(outcome(unbounded), Outcome::kOutside);
+}
+
+TEST(AReport, CountsWhatIsNotComparedAndPassesItNowhere) {
+  Report report;
+  report.rows = {row("a", "cosine", 1, 1.5, 1), row("a", "cs16", 1, 1.25, 1)};
+  report.rows[1].bound_of_peak = kInfinity;
+  report.rows[1].outcome = outcome(report.rows[1]);
+  const std::string text = report_text(report, false);
+  EXPECT_THAT(text, HasSubstr("2 cases: 1 within their bounds, 0 outside, 1 not compared\n"));
+  EXPECT_THAT(text, HasSubstr("0.00  1 not compared\n"));
+  const Json record = report_record(report, {"lobelia"}, "", true);
+  EXPECT_EQ(record["notCompared"], 1);
+  EXPECT_EQ(record["byCase"][0]["notCompared"], 1);
+  EXPECT_EQ(record["rows"][1]["outcome"], "not compared");
 }
 
 TEST(AReport, RecordsTheWorstOfEachExponentAndWhatIsHardAboutACase) {
@@ -90,16 +119,16 @@ TEST(AReport, ShowsTheWorstOfEachLobeAndCaseAndSaysWhatIsOutside) {
   EXPECT_NEAR(lobes[1].of_bound, 0.5, 1e-6);
   ASSERT_EQ(cases.size(), 2u);
   EXPECT_EQ(cases[0].naive.of_peak, 0.5);
-  EXPECT_THAT(report_text(report, false), HasSubstr("3 cases, all within their bounds\n"));
+  EXPECT_THAT(report_text(report, false), HasSubstr("3 cases: 3 within their bounds, 0 outside,"));
 
   report.rows.push_back(row("b", "cs16", 1, 1, 2));
-  EXPECT_EQ(report.outside(), 1u);
-  EXPECT_THAT(report_text(report, false), HasSubstr("4 cases, 1 OUTSIDE their bounds\n"));
+  EXPECT_EQ(report.count(Outcome::kOutside), 1u);
+  EXPECT_THAT(report_text(report, false), HasSubstr("4 cases: 3 within their bounds, 1 outside,"));
   const Json record = report_record(report, {"lobelia"}, "", false);
   EXPECT_EQ(record["outside"], 1);
   ASSERT_EQ(record["rows"].size(), 1u);  // what is outside is recorded in any case
   EXPECT_EQ(record["rows"][0]["ours"]["value"], 2);
-  EXPECT_EQ(record["rows"][0]["within"], false);
+  EXPECT_EQ(record["rows"][0]["outcome"], "outside");
   EXPECT_EQ(report_record(report, {"lobelia"}, "", true)["rows"].size(), 4u);
 }
 

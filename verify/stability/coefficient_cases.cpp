@@ -21,7 +21,7 @@ Rows coefficient_rows(LobeId lobe) {
       row.ours = judge(radiance_coefficient(highlight), row.truth, row.truth);
       row.bound_of_peak = kCoefficientBound;
       row.bound_ulp = std::numeric_limits<double>::infinity();
-      row.within = is_within(row);
+      row.outcome = outcome(row);
       rows.push_back(row);
     }
   return rows;

@@ -74,7 +74,7 @@ Rows lobe_rows(LobeId lobe) {
       row.bound_of_peak = stated.of_peak;
       row.bound_ulp = stated.ulp;
       if (row.truth > 0) row.bound_ulp -= stated.ulp_per_nat * std::log(row.truth);
-      row.within = is_within(row) && (value[0] == 0 || std::isnormal(value[0]));
+      row.outcome = value[0] == 0 || std::isnormal(value[0]) ? outcome(row) : Outcome::kOutside;
       rows.push_back(row);
     }
   }

@@ -79,7 +79,7 @@ class Trial {
     row.ours = judge(worst.value, row.truth, 1);
     row.bound_of_peak = worst.bound;
     row.bound_ulp = std::numeric_limits<double>::infinity();
-    row.within = is_within(row);
+    row.outcome = outcome(row);
     return row;
   }
 
@@ -88,7 +88,9 @@ class Trial {
 
  private:
   static void note(Worst& worst, double error, double bound, double value, const Triple& at) {
-    if (error / bound > worst.of_bound) worst = {error / bound, at, value, bound};
+    // A bound of the whole peak compares nothing: any other vector tells more.
+    const double part = bound < 1 || !std::isfinite(error) ? error / bound : 0;
+    if (part > worst.of_bound) worst = {part, at, value, bound};
   }
 
   Highlight highlight_;

@@ -33,7 +33,8 @@ std::vector<Summary> summarise(const Rows& rows, Name name_of, bool by_exponent 
       found->exponent = exponent;
     }
     ++found->cases;
-    found->outside += !row.within;
+    found->outside += row.outcome == Outcome::kOutside;
+    found->not_compared += row.outcome == Outcome::kNotCompared;
     widen(found->naive, row.naive);
     widen(found->ours, row.ours);
     found->of_bound = std::max(
@@ -44,8 +45,9 @@ std::vector<Summary> summarise(const Rows& rows, Name name_of, bool by_exponent 
 
 }  // namespace
 
-std::size_t Report::outside() const {
-  return std::size_t(std::count_if(rows.begin(), rows.end(), [](auto& r) { return !r.within; }));
+std::size_t Report::count(Outcome outcome) const {
+  return std::size_t(std::count_if(rows.begin(), rows.end(),
+                                   [&](const Row& row) { return row.outcome == outcome; }));
 }
 
 Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)>& on_progress) {

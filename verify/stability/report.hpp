@@ -19,7 +19,7 @@ struct Report {
   std::vector<Price> prices;
   std::vector<PicturePair> pictures;  ///< empty: not made
   std::vector<ErrorCurve> curves;
-  std::size_t outside() const;  ///< rows that are not within their bounds
+  std::size_t count(Outcome outcome) const;  ///< of rows
 };
 
 /// Every case of these lobes, on all processors. `on_progress` gets the fraction done, from any thread.
@@ -29,7 +29,7 @@ Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)
 /// The worst of several rows.
 struct Summary {
   std::string group, name;
-  int cases = 0, outside = 0;
+  int cases = 0, outside = 0, not_compared = 0;
   Answer naive = {}, ours = {};  ///< the largest error of each kind; no value
   double of_bound = 0;           ///< the largest part of a bound that is used up
   double exponent = 0;           ///< of by_exponent alone

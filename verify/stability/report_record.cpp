@@ -23,6 +23,7 @@ Json summaries(const std::vector<Summary>& all, const char* name) {
     if (!meaning.empty()) json["meaning"] = meaning;
     json.update({{"cases", s.cases},
                  {"outside", s.outside},
+                 {"notCompared", s.not_compared},
                  {"naive", errors(s.naive)},
                  {"ours", errors(s.ours)},
                  {"ofBound", s.of_bound}});
@@ -49,7 +50,7 @@ Json row_json(const Row& r) {
                {"naive", with_value(r.naive)},
                {"ours", with_value(r.ours)},
                {"bound", {{"ofPeak", r.bound_of_peak}, {"ulp", r.bound_ulp}}},
-               {"within", r.within}});
+               {"outcome", name(r.outcome)}});
   return json;
 }
 
@@ -72,7 +73,8 @@ Json report_record(const Report& report, const std::vector<std::string>& command
   record["command"] = command;
   record["instructionSet"] = kernels().instruction_set;
   record["cases"] = report.rows.size();
-  record["outside"] = report.outside();
+  record["outside"] = report.count(Outcome::kOutside);
+  record["notCompared"] = report.count(Outcome::kNotCompared);
   for (const Summary& s : by_case(report.rows)) {
     const Json group{{"name", s.group}, {"meaning", meaning_of_group(s.group)}};
     if (!record.contains("groups") || record["groups"].back() != group)
@@ -83,7 +85,7 @@ Json report_record(const Report& report, const std::vector<std::string>& command
   record["byExponent"] = summaries(by_exponent(report.rows), "lobe");
   for (const ErrorCurve& curve : report.curves) record["curves"].push_back(curve_json(curve));
   for (const Row& row : report.rows)
-    if (all || !row.within) record["rows"].push_back(row_json(row));
+    if (all || row.outcome == Outcome::kOutside) record["rows"].push_back(row_json(row));
   for (const Stall& s : report.stalls)
     record["stalls"].push_back({{"lobe", s.lobe},
                                 {"precision", s.precision},

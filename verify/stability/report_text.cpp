@@ -18,15 +18,20 @@ std::string heading(const std::string& first) {
 
 std::string number(double value) { return fmt::format("{:.2g}", value); }
 
+std::string verdict(const Summary& s) {
+  if (s.outside > 0) return fmt::format("{} OUTSIDE", s.outside);
+  return s.not_compared > 0 ? fmt::format("{} not compared", s.not_compared) : "within";
+}
+
 std::string summary_lines(const std::vector<Summary>& summaries, const std::string& first) {
   std::string text = heading(first), group;
   for (const Summary& s : summaries) {
     if (s.group != group) text += s.group + "\n";
     group = s.group;
-    text += fmt::format(kColumns, "  " + s.name, s.cases, number(s.naive.of_peak),
-                        number(s.naive.ulp), s.naive.wrong_pixels, number(s.ours.of_peak),
-                        number(s.ours.ulp), s.ours.wrong_pixels, fmt::format("{:.2f}", s.of_bound),
-                        s.outside > 0 ? fmt::format("{} OUTSIDE", s.outside) : "within");
+    text +=
+        fmt::format(kColumns, "  " + s.name, s.cases, number(s.naive.of_peak), number(s.naive.ulp),
+                    s.naive.wrong_pixels, number(s.ours.of_peak), number(s.ours.ulp),
+                    s.ours.wrong_pixels, fmt::format("{:.2f}", s.of_bound), verdict(s));
   }
   return text;
 }
@@ -42,7 +47,7 @@ std::string row_lines(const Rows& rows) {
         r.group, r.name, r.model, r.lobe, r.exponent, r.truth, r.naive.value,
         number(r.naive.of_peak), number(r.naive.ulp), r.ours.value, number(r.ours.of_peak),
         number(r.ours.ulp), number(r.bound_of_peak), number(r.bound_ulp),
-        r.within ? "" : "  OUTSIDE");
+        r.outcome == Outcome::kWithin ? "" : fmt::format("  {}", name(r.outcome)));
   return text;
 }
 
@@ -93,10 +98,9 @@ std::string report_text(const Report& report, bool all) {
         fmt::format("\nclose to a highlight of n = {:g}: naive off by {} of the peak, ours by {}",
                     p.exponent, number(p.naive_error), number(p.ours_error));
   if (!report.pictures.empty()) text += "\n";
-  return text + (report.outside() == 0
-                     ? fmt::format("\n{} cases, all within their bounds\n", report.rows.size())
-                     : fmt::format("\n{} cases, {} OUTSIDE their bounds\n", report.rows.size(),
-                                   report.outside()));
+  return text + fmt::format("\n{} cases: {} within their bounds, {} outside, {} not compared\n",
+                            report.rows.size(), report.count(Outcome::kWithin),
+                            report.count(Outcome::kOutside), report.count(Outcome::kNotCompared));
 }
 
 }  // namespace lobelia::stability

@@ -27,11 +27,27 @@ Answer judge(double value, double truth, double peak) {
   return {value, nothing ? 0 : error / unit_in_last_place(truth), error / peak};
 }
 
-bool is_within(const Row& row) {
+std::string_view name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kWithin:
+      return "within";
+    case Outcome::kNotCompared:
+      return "not compared";
+    case Outcome::kOutside:
+      break;
+  }
+  return "outside";
+}
+
+Outcome outcome(const Row& row) {
   const Answer& ours = row.ours;
-  // Written so that a NaN is not within.
-  return ours.of_peak <= row.bound_of_peak && ours.ulp <= row.bound_ulp && ours.wrong_pixels == 0 &&
-         (ours.value == 0 || std::isnormal(ours.value));
+  // Written so that a NaN is outside.
+  const bool holds = std::isfinite(row.truth) && ours.of_peak <= row.bound_of_peak &&
+                     ours.ulp <= row.bound_ulp && ours.wrong_pixels == 0 &&
+                     (ours.value == 0 || std::isnormal(ours.value));
+  if (!holds) return Outcome::kOutside;
+  return row.bound_of_peak < 1 || std::isfinite(row.bound_ulp) ? Outcome::kWithin
+                                                               : Outcome::kNotCompared;
 }
 
 }  // namespace lobelia::stability

@@ -102,7 +102,7 @@ Row compare_pictures(const Framing& framing, const Highlight& highlight) {
   row.ours = of_ours.answer;
   row.bound_of_peak = kAllowedShadingError;
   row.bound_ulp = std::numeric_limits<double>::infinity();
-  row.within = is_within(row);
+  row.outcome = outcome(row);
   return row;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -60,6 +61,26 @@ std::vector<Case> cases(double n) {
   };
 }
 
+/// The stated bound is of all angles. With the light at the horizon or below it a highlight is off by no more than its
+/// own cosine lets it be. And where the bound says nothing, float64 was chosen: what its roundings of the vectors
+/// (docs/numerics.md; twice those, because Reflector normalises first) make of the lobe at this angle.
+double bound_here(double stated, const Highlight& h, const ScreenedVectors& v) {
+  constexpr double kUnit = 0x1p-53;
+  const auto cosine = static_cast<double>(v.n_dot_l);
+  const ModelInfo& model = info(h.model);
+  // N.L has four roundings at most.
+  if (model.applies_cosine || cosine < -4 * kUnit)
+    stated = std::min(stated, std::max(0.0, cosine) + 4 * kUnit);
+  if (stated < 1) return stated;
+  const double roundings =
+      model.angle == LobeAngle::kReflection ? 20 : 5 + 4 / std::max(v.half_length, kUnit);
+  const auto chord = static_cast<double>(std::sqrt(2 * v.s));
+  const double step = 2 * roundings * kUnit;
+  const auto at = [&](double c) { return truth::lobe(h.lobe, c * c / 2, h.exponent); };
+  const double arithmetic = lobe_float32_error(h.lobe, h.exponent).of_peak * 0x1p-29 + 8 * kUnit;
+  return at(std::max(0.0, chord - step)) - at(chord + step) + 2 * arithmetic;
+}
+
 Row new_row(const Highlight& h, const std::string& name) {
   Row row{"vectors", name, std::string(info(h.model).name), std::string(info(h.lobe).name),
           h.exponent};
@@ -98,9 +119,10 @@ Rows vector_rows(LobeId lobe) {
         row.naive = judge(naive, row.truth, 1);
         row.ours =
             judge(reflector.eval(at.normal, at.to_eye, at.to_light).r / coefficient, row.truth, 1);
-        row.bound_of_peak = 2 * shading_error_bound(Precision::kFloat64, h, v.half_length);
+        row.bound_of_peak =
+            bound_here(2 * shading_error_bound(Precision::kFloat64, h, v.half_length), h, v);
         const double pdf = reflector.pdf(at.normal, at.to_eye, at.to_light);
-        row.within = is_within(row) && std::isfinite(pdf) && pdf >= 0;
+        row.outcome = std::isfinite(pdf) && pdf >= 0 ? outcome(row) : Outcome::kOutside;
         rows.push_back(row);
         if (!seen) continue;  // the kernels are given only what the camera sees
 
@@ -108,7 +130,8 @@ Rows vector_rows(LobeId lobe) {
         row.truth = shape;
         row.naive = judge(naive, shape, 1);
         row.ours = judge(by_kernel(h, v, row.bound_of_peak), shape, 1);
-        row.within = is_within(row);
+        row.bound_of_peak = bound_here(row.bound_of_peak, h, v);
+        row.outcome = outcome(row);
         rows.push_back(row);
       }
     }

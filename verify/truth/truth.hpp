@@ -3,6 +3,7 @@
 // formula. Slow, and rounded to double at the very end.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace lobelia::truth {
 
 /// The lobe at s = 1 - cos(angle), s being exactly the given number.
 double lobe(LobeId lobe, double s, double exponent);
+
+/// The density of the lobe's draws over s, s in [0, 1]: what they follow, over its integral by quadrature over s.
+std::function<double(double s)> density(LobeId lobe, double exponent);
 
 /// s = 1 - cos of the angle x in radians, and back: 2 sin^2(x/2).
 double one_minus_cos(double angle);
