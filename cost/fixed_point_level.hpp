@@ -15,13 +15,17 @@ struct Circuit {
   std::string what;  ///< "cs16"
   FixedPoint f;
   double operations;
+  double most_rounding;  ///< a bound of what its roundings add up to, those of s with them
   std::function<std::uint64_t(std::uint64_t s)> value;
   std::function<double(double s)> ideal;
 };
 Circuit cs_circuit(FixedPoint f, unsigned n, int k);
 Circuit power_circuit(FixedPoint f, unsigned n);
 
-/// Largest errors relative to the peak, over s from 0 to highlight_end.
+/// Of a circuit with more steps than this in the highlight, two out of each of kCells equal parts are looked at.
+inline constexpr std::uint64_t kMostSteps = 1 << 17, kCells = 1 << 15;
+
+/// Errors relative to the peak, over s from 0 to highlight_end.
 struct CircuitErrors {
   double max = 0;       ///< of the circuit against cos^n
   double rms = 0;       ///< the same, root mean square
@@ -30,6 +34,9 @@ struct CircuitErrors {
   double rounding = 0;  ///< of the circuit against its ideal
   double quantisation =
       0;  ///< of the ideal at the quantised s against the ideal: a part of rounding
+  std::uint64_t steps = 0, looked_at = 0;
+  /// Where not all steps are looked at: a bound of `max`, and standard errors of the two sums. Else `max`, and 0.
+  double max_at_most = 0, rms_spread = 0, energy_spread = 0;
 };
 CircuitErrors circuit_errors(const Circuit& circuit, unsigned n);
 

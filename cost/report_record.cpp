@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/text.hpp"
 #include "cost/pareto.hpp"
@@ -28,6 +29,9 @@ Json way_json(const Table& table, const Way& way) {
     for (std::size_t e = 0; e < table.errors.size(); ++e)
       entry["errorSpreads"][table.errors[e].id] = number_or_name(way.error_spreads[e]);
   }
+  for (std::size_t e = 0; e < way.errors_at_most.size(); ++e)
+    if (!std::isnan(way.errors_at_most[e]))
+      entry["errorsAtMost"][table.errors[e].id] = way.errors_at_most[e];
   if (!way.facts.empty()) entry["facts"] = way.facts;
   return entry;
 }
@@ -68,7 +72,7 @@ Json cost_record(const Report& report) {
 
 std::string cost_csv(const Report& report) {
   std::string text =
-      "table,level,way,settings,per,unit,median,spread,least,most,rounds,error,value,error_spread,on_front\r\n";
+      "table,level,way,settings,per,unit,median,spread,least,most,rounds,error,value,error_spread,on_front,at_most\r\n";
   for (const Table& table : report.tables)
     for (std::size_t e = 0; e < table.errors.size(); ++e) {
       const Front front = pareto_front(table, e);
@@ -80,11 +84,14 @@ std::string cost_csv(const Report& report) {
         const bool on_front =
             std::find(front.ways.begin(), front.ways.end(), i) != front.ways.end();
         text += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_field(table.id), table.level,
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_field(table.id), table.level,
             csv_field(way.name), csv_field(settings), table.per, table.unit, way.time.median,
             way.time.spread, way.time.least, way.time.most, way.time.rounds, table.errors[e].id,
             way.errors[e], way.error_spreads.empty() ? "" : fmt::format("{}", way.error_spreads[e]),
-            on_front ? "yes" : "no");
+            on_front ? "yes" : "no",
+            e < way.errors_at_most.size() && !std::isnan(way.errors_at_most[e])
+                ? fmt::format("{}", way.errors_at_most[e])
+                : "");
       }
     }
   return text;

@@ -11,13 +11,31 @@
 namespace lobelia::cost {
 namespace {
 
+/// Both ends, where they are not the same in print; and the standard error of what was drawn from a count, where it is
+/// no smaller than the last digit.
+std::string error_text(const Table& table, const Way& way, std::size_t e) {
+  if (std::isnan(way.errors[e])) return "-";
+  const std::string found = fmt::format("{:.3g}", way.errors[e]);
+  const double bound = e < way.errors_at_most.size() ? way.errors_at_most[e] : NAN;
+  const std::string most = std::isnan(bound) ? found : fmt::format("{:.3g}", bound);
+  if (most != found) return found + ".." + most;
+  const double spread = !table.is_timed() && !way.error_spreads.empty() ? way.error_spreads[e] : 0;
+  return spread > 0.001 * way.errors[e] ? fmt::format("{}+-{:.1g}", found, spread) : found;
+}
+
 std::string table_text(const Table& table, bool all) {
   std::size_t width = 4;
   for (const Way& way : table.ways) width = std::max(width, way.name.size());
   std::string text =
       fmt::format("\n{}\n{:<{}}{:>15}{:>8}", table.title, "way", width + 2,
                   table.is_timed() ? "per " + table.per : table.unit, table.is_timed() ? "+-" : "");
-  for (const ErrorKind& kind : table.errors) text += fmt::format("{:>14}", kind.id);
+  std::vector<std::size_t> columns;
+  for (std::size_t e = 0; e < table.errors.size(); ++e) {
+    columns.push_back(14);
+    for (const Way& way : table.ways)
+      columns[e] = std::max(columns[e], error_text(table, way, e).size() + 3);
+    text += fmt::format("{:>{}}", table.errors[e].id, columns[e]);
+  }
   text += "  front\n";
   std::vector<std::size_t> order(table.ways.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -37,8 +55,8 @@ std::string table_text(const Table& table, bool all) {
                 ? fmt::format("{:<{}}{:>15}{:>7.1f}%", way.name, width + 2,
                               short_time_text(way.time.median), 100 * way.time.spread)
                 : fmt::format("{:<{}}{:>15.6g}{:>8}", way.name, width + 2, way.time.median, "");
-    for (const double error : way.errors)
-      text += std::isnan(error) ? fmt::format("{:>14}", "-") : fmt::format("{:>14.3g}", error);
+    for (std::size_t e = 0; e < columns.size(); ++e)
+      text += fmt::format("{:>{}}", error_text(table, way, e), columns[e]);
     text += "  " + on + "\n";
   }
   if (!table.errors.empty())

@@ -20,6 +20,8 @@ struct Way {
   std::vector<double>
       error_spreads;            ///< standard deviations over repeats; empty where nothing is random
   Json facts = Json::object();  ///< whatever else was counted: operations, rays, stages of time
+  /// Bounds of errors that are the largest of what was looked at; NaN or empty where an error is what it says.
+  std::vector<double> errors_at_most = {};
   double setting(const std::string& name) const;  ///< as a number; NaN without
 };
 

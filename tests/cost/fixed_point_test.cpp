@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <random>
@@ -31,7 +32,12 @@ cpp_rational rounded(const cpp_rational& x, FixedPoint f) {
   return cpp_rational(cpp_int(numerator(scaled) / denominator(scaled)), cpp_int(f.one()));
 }
 
-cpp_rational cs_by_fractions(FixedPoint f, unsigned n, int k, std::uint64_t s) {
+/// Not inlined: GCC 12 then warns of numbers of Boost that it takes to be uninitialised.
+[[gnu::noinline]] cpp_rational fraction(FixedPoint f, std::uint64_t value) {
+  return cpp_rational(cpp_int(value), cpp_int(f.one()));
+}
+
+[[gnu::noinline]] cpp_rational cs_by_fractions(FixedPoint f, unsigned n, int k, std::uint64_t s) {
   const cpp_rational base = 1 - cpp_rational(n, k) * cpp_rational(s, f.one());
   if (base <= 0) return 0;
   cpp_rational power = rounded(base, f);
@@ -49,7 +55,7 @@ TEST(FixedPoint, IsExactlyWhatFractionsGive) {
           const auto support = std::min<std::uint64_t>(f.one(), f.one() * k / n + 1);
           for (std::uint64_t s : {std::uint64_t(0), f.one(), support, random() % (support + 1),
                                   random() % (support / 8 + 1)})
-            EXPECT_EQ(cpp_rational(fixed_cs(f, n, k, s), f.one()), cs_by_fractions(f, n, k, s))
+            EXPECT_EQ(fraction(f, fixed_cs(f, n, k, s)), cs_by_fractions(f, n, k, s))
                 << bits << " bits, n = " << n << ", k = " << k << ", s = " << s;
         }
 }
@@ -60,9 +66,9 @@ TEST(FixedPoint, RoundsEachProductOfBinaryPowering) {
     for (const int bits : {8, 31, 32}) {
       const FixedPoint f{bits, rounding};
       for (const std::uint64_t s : {std::uint64_t(0), f.one() / 3, f.one() / 77, f.one()}) {
-        const cpp_rational c(f.one() - s, f.one());
+        const cpp_rational c = fraction(f, f.one() - s);
         const cpp_rational square = rounded(c * c, f), fourth = rounded(square * square, f);
-        EXPECT_EQ(cpp_rational(fixed_power(f, 5, s), f.one()), rounded(c * fourth, f)) << bits;
+        EXPECT_EQ(fraction(f, fixed_power(f, 5, s)), rounded(c * fourth, f)) << bits;
       }
     }
 }
@@ -119,6 +125,104 @@ TEST(CircuitErrors, StayBelowWhatTheRoundingsCanAddUpTo) {
           }
           EXPECT_LE(e.max, e.shape + e.rounding + 1e-12);
         }
+}
+
+using Big = boost::multiprecision::cpp_bin_float_50;
+
+/// From the definitions alone, in fractions and 50 digits: the integrals of a step have closed forms. Of cs_k, or of
+/// cos^n by squarings where k is 0.
+CircuitErrors by_fractions(FixedPoint f, unsigned n, int k) {
+  const Big end = n > 16 ? Big(16) / n : Big(1), one = Big(f.one());
+  const Big up = f.rounding == FixedRounding::kNearest ? Big(0.5) : Big(0);
+  Big drift = 0, square = 0;
+  CircuitErrors errors;
+  for (std::uint64_t step = 0;; ++step) {
+    const Big from = step == 0 ? Big(0) : Big((step - 1 + up) / one);
+    if (from >= end) break;
+    const Big to = std::min(end, Big((step + up) / one)), width = to - from;
+    const cpp_rational exact =
+        k > 0 ? cs_by_fractions(f, n, k, step) : fraction(f, fixed_power(f, n, step));
+    const Big value = Big(numerator(exact)) / Big(denominator(exact));
+    const Big a = pow(1 - from, n), b = pow(1 - to, n);
+    const Big integral = (a * (1 - from) - b * (1 - to)) / (n + 1);
+    const Big of_squares = (a * a * (1 - from) - b * b * (1 - to)) / (2 * n + 1);
+    drift += value * width - integral;
+    square += value * value * width - 2 * value * integral + of_squares;
+    errors.max = std::max({errors.max, std::abs(double(value - a)), std::abs(double(value - b))});
+    ++errors.steps;
+  }
+  errors.rms = double(sqrt(square / end));
+  errors.energy = double(abs(drift)) * (n + 1.0);
+  return errors;
+}
+
+TEST(CircuitErrors, AreTheSumsOverAllStepsWhateverTheirNumber) {
+  // 4096 steps in the highlight, where the middles of 4096 parts of it would all be ties; and no such number.
+  struct Of {
+    unsigned n;
+    int bits;
+  };
+  for (const auto& [n, bits] : {Of{64, 14}, Of{1024, 18}, Of{16, 12}, Of{64, 13}, Of{1000, 17},
+                                Of{64, 6}, Of{65536, 6}, Of{65536, 20}})
+    for (const FixedRounding rounding : kRoundings)
+      for (const int k : {0, 16}) {
+        const FixedPoint f{bits, rounding};
+        const CircuitErrors e =
+            circuit_errors(k > 0 ? cs_circuit(f, n, k) : power_circuit(f, n), n);
+        const CircuitErrors truth = by_fractions(f, n, k);
+        SCOPED_TRACE(::testing::Message() << "n = " << n << ", " << bits << " bits, "
+                                          << name(rounding) << ", k = " << k);
+        EXPECT_EQ(e.looked_at, truth.steps);
+        EXPECT_NEAR(e.max, truth.max, 1e-14);
+        EXPECT_NEAR(e.rms, truth.rms, 1e-6 * truth.rms + 1e-15);
+        EXPECT_NEAR(e.energy, truth.energy, 1e-11);
+        EXPECT_EQ(e.max_at_most, e.max);
+        EXPECT_EQ(e.energy_spread, 0);
+      }
+}
+
+TEST(CircuitErrors, OfSomeOfTheStepsAreThoseOfAllWithinTheirStandardErrorsAndBounds) {
+  // 2^22 steps, all of which long double visits here.
+  constexpr unsigned kN = 64;
+  for (const FixedRounding rounding : kRoundings) {
+    const FixedPoint f{24, rounding};
+    const double up = rounding == FixedRounding::kNearest ? 0.5 : 0;
+    for (const int k : {0, 16}) {
+      const Circuit circuit = k > 0 ? cs_circuit(f, kN, k) : power_circuit(f, kN);
+      const CircuitErrors e = circuit_errors(circuit, kN);
+      long double drift = 0, square = 0, max = 0;
+      const auto cosine = [](long double s) {
+        long double power = 1 - s;
+        for (int i = 0; i < 6; ++i) power *= power;
+        return power;
+      };
+      long double a = 0, t = 1;
+      for (std::uint64_t step = 0; a < 0.25L; ++step) {
+        const long double b = std::min(0.25L, ((long double)step + up) / (long double)f.one());
+        const long double value = circuit.value(step) / (long double)f.one();
+        const long double u = cosine(b), m = cosine((a + b) / 2), width = (b - a) / 6;
+        const auto sum = [&](auto g) {
+          return width * (g(value - t) + 4 * g(value - m) + g(value - u));
+        };
+        drift += sum([](long double x) { return x; });
+        square += sum([](long double x) { return x * x; });
+        max = std::max({max, std::abs(value - t), std::abs(value - u)});
+        a = b, t = u;
+      }
+      const double energy = double(std::abs(drift)) * (kN + 1),
+                   rms = double(std::sqrt(square / 0.25L));
+      SCOPED_TRACE(::testing::Message() << name(rounding) << ", k = " << k);
+      EXPECT_EQ(e.looked_at, 2 * kCells + 2);
+      EXPECT_GT(e.energy_spread, 0);
+      EXPECT_LT(e.energy_spread, 1e-7);
+      EXPECT_NEAR(e.energy, energy, 4 * e.energy_spread);
+      EXPECT_NEAR(e.rms, rms, 4 * e.rms_spread + 1e-6 * rms);
+      EXPECT_LT(e.rms_spread, 0.01 * e.rms);
+      EXPECT_LE(e.max, double(max) + 1e-15);
+      EXPECT_GE(e.max_at_most, double(max));
+      EXPECT_LT(e.max_at_most, 3 * e.max);
+    }
+  }
 }
 
 TEST(CircuitErrors, OfACosineFallToAFourthWithTwoBitsMore) {

@@ -46,6 +46,21 @@ TEST(CostCsv, HasALineForEachWayAndError) {
   EXPECT_THAT(csv, HasSubstr(",max,0.5,,no"));
 }
 
+TEST(AnErrorThatIsTheLargestOfSome, IsPrintedWithItsBoundWhereTheDigitsDiffer) {
+  Report bracketed = report();
+  std::vector<Way>& ways = bracketed.tables[0].ways;
+  ways[0].errors_at_most = {0.0170001};
+  ways[1].errors_at_most = {3e-7};
+  ways[3].errors_at_most = {std::nan("")};
+  const std::string text = cost_text(bracketed, true);
+  EXPECT_THAT(text, AllOf(HasSubstr(" 0.017  max"), HasSubstr(" 1e-07..3e-07  max")));
+  const Json table = cost_record(bracketed)["tables"][0];
+  EXPECT_EQ(table["ways"][1]["errorsAtMost"]["max"], 3e-7);
+  EXPECT_FALSE(table["ways"][2].contains("errorsAtMost"));
+  EXPECT_FALSE(table["ways"][3].contains("errorsAtMost"));
+  EXPECT_THAT(cost_csv(bracketed), HasSubstr(",max,1e-07,,yes,3e-07\r\n"));
+}
+
 TEST(CostText, ShowsTheFrontAndWithAllEverything) {
   EXPECT_THAT(cost_text(report(), false), Not(HasSubstr("slow")));
   EXPECT_THAT(cost_text(report(), true), HasSubstr("slow"));
@@ -74,6 +89,15 @@ TEST(CountedTables, SayWhatTheyCountInEveryForm) {
   EXPECT_THAT(cost_text(counted, true), AllOf(Not(HasSubstr("%")), Not(HasSubstr("256 s"))));
   EXPECT_THAT(cost_chart(table, 0), HasSubstr(">bit operations per evaluation<"));
   EXPECT_THAT(cost_chart(table, 0), HasSubstr("16 bits: 256 bit operations, max 0.001"));
+}
+
+TEST(CountedTables, SayHowFarADrawnErrorIsToBeTrusted) {
+  Report counted = report();
+  counted.tables = {counted_table({way("8 bits", 64, 0.1), way("16 bits", 256, 0.001)})};
+  counted.tables[0].ways[0].error_spreads = {1e-5};
+  counted.tables[0].ways[1].error_spreads = {0.002};
+  const std::string text = cost_text(counted, true);
+  EXPECT_THAT(text, AllOf(HasSubstr(" 0.1  max"), HasSubstr(" 0.001+-0.002  max")));
 }
 
 TEST(TimedTables, SayThatTheyAreOfSeconds) {
