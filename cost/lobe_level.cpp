@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "cost/largest_error.hpp"
 #include "cost/lobe_errors.hpp"
 #include "cost/lobe_ways.hpp"
 #include "cost/report.hpp"
@@ -21,6 +22,10 @@ namespace {
 constexpr std::size_t kPoints = 1024;     // in the first-level cache
 constexpr double kSecondsAtATime = 5e-5;  // a thousand times what the clock can tell apart
 constexpr std::size_t kMostRepeats = 4096;
+
+/// That are looked at for the largest error of a way; of float32 there are some 2^28.
+constexpr std::uint64_t kMostNumbersQuick = 1 << 20, kMostNumbers64 = 1 << 22,
+                        kAll = ~std::uint64_t(0);
 
 /// Points across the highlight, and a way's values of them.
 struct Points {
@@ -95,18 +100,28 @@ Json to_json(const LobeErrors& errors) {
   return {{"max", errors.max}, {"rms", errors.rms}, {"energy", errors.energy}};
 }
 
-Way row(const LobeWay& way, const LobeWayErrors& errors, const Times& times) {
+Json rounding_json(const LobeWay& way, const LobeErrors& errors) {
+  Json json = to_json(errors);
+  json["maxAtMost"] = way.allowed;
+  return json;
+}
+
+Way row(const LobeWay& way, const LobeWayErrors& errors, const LargestError& largest,
+        const Times& times) {
   return {way.name(),
           {{"lobe", std::string(info(way.lobe).name)},
            {"method", way.method},
            {"precision", way.wide ? "float64" : "float32"},
            {"lanes", way.simd ? "SIMD" : "scalar"}},
           times,
-          {errors.all.max, errors.all.rms, errors.all.energy},
+          {largest.found, errors.all.rms, errors.all.energy},
           {},
           {{"operations", lobelia::to_json(way.operations)},
            {"shape", to_json(errors.shape)},
-           {"rounding", to_json(errors.rounding)}}};
+           {"rounding", rounding_json(way, errors.rounding)},
+           {"numbersLookedAt", largest.numbers}},
+          largest.at_most > largest.found ? std::vector<double>{largest.at_most, NAN, NAN}
+                                          : std::vector<double>{}};
 }
 
 /// Whether its shape or its rounding makes more of a way's largest error.
@@ -126,13 +141,23 @@ std::vector<std::string> what_limits(const std::vector<LobeWay>& ways,
     if (rounding > most_rounding) most_rounding = rounding, rounded_by = ways[i].name();
   }
   std::vector<std::string> remarks{
-      fmt::format("The shape limits {} of {} ways: their rounding is at most {:.2g} of it ({}).",
+      fmt::format("The shape limits {} of {} ways: the most rounding seen is {:.2g} of it ({}).",
                   shaped, ways.size(), most, shaped_by)};
   if (shaped < ways.size())
     remarks.push_back(fmt::format(
-        "Of the other {} the rounding is the larger error: from {:.2g} ({}) to {:.2g} ({}).",
+        "Of the other {} the rounding is the larger error: seen from {:.2g} ({}) to {:.2g} ({}).",
         ways.size() - shaped, least_rounding, least_by, most_rounding, rounded_by));
   return remarks;
+}
+
+std::string what_is_a_bracket(const Table& table) {
+  std::size_t brackets = 0;
+  for (const Way& way : table.ways) brackets += !way.errors_at_most.empty();
+  if (brackets == 0) return "";
+  return fmt::format(
+      "The max of {} ways is of all float32 numbers s, that of {} a bracket: the largest found, and a bound that no "
+      "number exceeds.",
+      table.ways.size() - brackets, brackets);
 }
 
 std::string what_bounds_the_time(const Table& table, double copy) {
@@ -146,7 +171,7 @@ std::string what_bounds_the_time(const Table& table, double copy) {
 
 }  // namespace
 
-Table lobe_table(double exponent, int rounds) {
+Table lobe_table(double exponent, int rounds, bool quick) {
   const std::vector<LobeWay> ways = lobe_ways(exponent);
   std::vector<Case> cases;
   for (const LobeWay& way : ways) cases.push_back(case_of(way, exponent));
@@ -172,9 +197,16 @@ Table lobe_table(double exponent, int rounds) {
   for (std::size_t i = 0; i < ways.size(); ++i) {
     check(ways[i], exponent, *cases[i].points);
     errors.push_back(truth.errors(ways[i]));
-    table.ways.push_back(row(ways[i], errors[i], each(i)));
+    const std::uint64_t most = ways[i].of_cosine ? kAll
+                               : quick           ? kMostNumbersQuick
+                               : ways[i].wide    ? kMostNumbers64
+                                                 : kAll;
+    table.ways.push_back(row(ways[i], errors[i],
+                             largest_error(ways[i], exponent, errors[i].all.max, most), each(i)));
   }
   table.remarks = what_limits(ways, errors);
+  if (const std::string brackets = what_is_a_bracket(table); !brackets.empty())
+    table.remarks.push_back(brackets);
   table.remarks.push_back(what_bounds_the_time(table, each(ways.size()).median));
   return table;
 }
@@ -186,7 +218,8 @@ std::vector<Table> measure_lobes(const Options& options) {
   std::vector<Table> tables;
   for (const double exponent : exponents) {
     options.progress(fmt::format("n = {}", exponent_text(exponent)));
-    tables.push_back(lobe_table(exponent, options.rounds(11, 41, 201)));
+    tables.push_back(
+        lobe_table(exponent, options.rounds(11, 41, 201), options.effort == Effort::kQuick));
   }
   return tables;
 }

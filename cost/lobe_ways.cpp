@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 #include <type_traits>
 
@@ -20,6 +21,10 @@ using HWY_NAMESPACE::Lobes;
 
 constexpr double kRounding32 = 0x1p-24, kRounding64 = 0x1p-53;
 
+/// The largest rounding of a number that is at most 1.
+template <class T>
+constexpr double kHalfUnit = std::is_same_v<T, double> ? 0x1p-54 : 0x1p-25;
+
 /// f of one number after another.
 template <class T, class F>
 auto scalar(F f) {
@@ -33,7 +38,7 @@ template <class T, class Over>
 LobeWay way_over(LobeId lobe, std::string method, bool simd, OperationCount operations,
                  double allowed, Over over) {
   constexpr bool kWide = std::is_same_v<T, double>;
-  LobeWay way{lobe, std::move(method), kWide, simd, operations, allowed, {}, {}};
+  LobeWay way{lobe, std::move(method), kWide, simd, operations, allowed, false, {}, {}};
   if constexpr (kWide)
     way.over64 = over;
   else
@@ -63,7 +68,18 @@ OperationCount textbook_from_s(LobeId lobe) {
   return count;
 }
 
+void add_of_cosine(LobeWay way, std::vector<LobeWay>& ways) {
+  way.of_cosine = !way.wide;
+  ways.push_back(std::move(way));
+}
+
 constexpr auto kTimes = [](auto a, auto b) { return a * b; };
+
+/// That of 1 - s is made n times as large; std::pow is within a unit in the last place, and n may be rounded.
+template <class T>
+double power_allowed(double exponent) {
+  return (exponent + 3) * kHalfUnit<T>;
+}
 
 /// What a catalogued lobe has: our stable form, scalar and by registers, and the textbook's in float32.
 template <class L>
@@ -71,40 +87,51 @@ void add_catalogued(LobeId id, double exponent, std::vector<LobeWay>& ways) {
   const L lobe({exponent, id.order});
   constexpr bool kCosine = std::is_same_v<L, CosineLobe>;
   const std::string stable = kCosine ? "exp(n log1p(-s))" : "stable";
-  // The rounding of float64 is as much smaller than float32's as its numbers are longer.
+  // The rounding of float64 is as much smaller than float32's as its numbers are longer. The slope of a cs_k is then
+  // rounded too, and the angle of Gauss comes from an inverse sine.
   const double of_peak32 = lobe_float32_error(id, exponent).of_peak;
-  const double of_peak64 = 8 * of_peak32 * kRounding64 / kRounding32;
+  const double of_peak64 = (kCosine ? 1 : 2) * of_peak32 * kRounding64 / kRounding32;
   ways.push_back(scalar_way<double>(id, stable, operations(id), of_peak64,
                                     [lobe](double s) { return lobe.value(s); }));
   ways.push_back(stable_way<double>(id, stable, exponent, of_peak64));
   ways.push_back(stable_way<float>(id, stable, exponent, of_peak32));
   // 1 - s is rounded, which a textbook's power, arc cosine or difference makes n times as large.
-  ways.push_back(scalar_way<float>(id, kCosine ? "std::pow" : "textbook", textbook_from_s(id),
-                                   2 * (exponent + id.order + 8) * kRounding32, [lobe](float s) {
-                                     const float cosine = 1 - s;
-                                     return cosine > 0 ? lobe.definition(cosine) : 0.0f;
-                                   }));
+  const double textbook =
+      kCosine ? power_allowed<float>(exponent) : 2 * (exponent + id.order + 8) * kRounding32;
+  add_of_cosine(
+      scalar_way<float>(id, kCosine ? "std::pow" : "textbook", textbook_from_s(id), textbook,
+                        [lobe](float s) {
+                          const float cosine = 1 - s;
+                          return cosine > 0 ? lobe.definition(cosine) : 0.0f;
+                        }),
+      ways);
 }
 
 template <class T>
 void add_powered(LobeId cosine, unsigned n, std::vector<LobeWay>& ways) {
-  const double allowed = 2 * (n + 8.0) * (std::is_same_v<T, double> ? kRounding64 : kRounding32);
+  // That of 1 - s is made n times as large, that of its square half as many times and so on; and each bit of n that is
+  // set has a product.
+  const double allowed = (2.0 * n + std::bit_width(n)) * kHalfUnit<T>;
   OperationCount count;
   count.add = count.compare = 1;
   binary_power(0, n, [&](int, int) { return ++count.multiply; });
-  ways.push_back(scalar_way<T>(cosine, "squaring", count, allowed, [n](T s) {
-    const T c = 1 - s;
-    return c > 0 ? binary_power(c, n, kTimes) : T(0);
-  }));
-  ways.push_back(way_over<T>(
-      cosine, "squaring", true, count, allowed,
-      [n](std::size_t points, const T* s, T* value) { squaring_lanes(n, points, s, value); }));
+  add_of_cosine(scalar_way<T>(cosine, "squaring", count, allowed,
+                              [n](T s) {
+                                const T c = 1 - s;
+                                return c > 0 ? binary_power(c, n, kTimes) : T(0);
+                              }),
+                ways);
+  add_of_cosine(way_over<T>(cosine, "squaring", true, count, allowed,
+                            [n](std::size_t points, const T* s, T* value) {
+                              squaring_lanes(n, points, s, value);
+                            }),
+                ways);
 }
 
 /// The ways of cos^n that are not one of our lobe's.
 void add_cosine(LobeId id, double exponent, std::vector<LobeWay>& ways) {
   ways.push_back(
-      scalar_way<double>(id, "std::pow", textbook_from_s(id), 2 * (exponent + 8) * kRounding64,
+      scalar_way<double>(id, "std::pow", textbook_from_s(id), power_allowed<double>(exponent),
                          [exponent](double s) { return s < 1 ? std::pow(1 - s, exponent) : 0.0; }));
   ways.push_back(scalar_way<float>(
       id, "exp(n log1p(-s))", operations(id), 8 * kRounding32,
@@ -124,6 +151,7 @@ void add_cs(LobeId id, double exponent, std::vector<LobeWay>& ways) {
                                      return base > 0 && s < 1 ? binary_power(base, k, kTimes)
                                                               : 0.0f;
                                    }));
+  ways.back().of_cosine = exponent == k;
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct LobeWay {
   OperationCount operations;
   /// A bound, relative to the peak, of how far it may be from its own lobe: its rounding.
   double allowed;
+  bool of_cosine;  ///< sees of s no more than 1 - s rounded to float32
   /// One of the two, by `wide`: values of `count` numbers s in [0, 1].
   std::function<void(std::size_t count, const double* s, double* value)> over64;
   std::function<void(std::size_t count, const float* s, float* value)> over32;

@@ -160,7 +160,7 @@ TEST(LobeErrors, OfAWayThatComputesSomethingElseAreABug) {
 }
 
 TEST(LobeTable, HasEveryWayWithItsTimeErrorsAndOperations) {
-  const Table table = lobe_table(64, 1);
+  const Table table = lobe_table(64, 1, true);
   EXPECT_EQ(table.id, "lobe-n64");
   EXPECT_EQ(table.ways.size(), lobe_ways(64).size());
   EXPECT_TRUE(table.is_timed());
@@ -172,6 +172,15 @@ TEST(LobeTable, HasEveryWayWithItsTimeErrorsAndOperations) {
     EXPECT_EQ(way.settings.size(), 4u) << way.name;
   }
   EXPECT_THAT(table.remarks, Contains(HasSubstr("The shape limits")));
+  EXPECT_THAT(table.remarks, Contains(HasSubstr("a bracket: the largest found")));
+}
+
+TEST(LobeTable, HasTheLargestErrorAndNotTheLargestOfItsPoints) {
+  for (const Way& way : lobe_table(64, 1, true).ways)
+    if (way.name == "cosine, squaring, float32") {
+      EXPECT_THAT(way.errors[0], DoubleNear(3.24e-6, 5e-9));
+      EXPECT_TRUE(way.errors_at_most.empty());
+    }
 }
 
 TEST(LobeLevel, HasATableForEachExponent) {
