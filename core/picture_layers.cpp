@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -38,18 +38,21 @@ std::optional<std::size_t> find_suffix(const Group& group, std::string_view lett
   return std::nullopt;
 }
 
-std::vector<std::size_t> three(const Group& group,
-                               std::array<std::pair<std::string_view, std::string_view>, 3> names) {
+using SuffixNames = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+
+/// The channels of these names, or none if one of them is missing.
+std::vector<std::size_t> find_all(const Group& group, SuffixNames names) {
   std::vector<std::size_t> result;
   for (const auto& [letter, word] : names)
     if (const auto at = find_suffix(group, letter, word)) result.push_back(*at);
-  return result.size() == 3 ? result : std::vector<std::size_t>{};
+  return result.size() == names.size() ? result : std::vector<std::size_t>{};
 }
 
 /// A layer before it has its part's name.
 struct RawLayer {
   PictureLayer layer;
-  bool is_root = false;  ///< colours without a prefix
+  bool is_root = false;              ///< colours without a prefix
+  std::optional<std::size_t> alpha;  ///< its channel
 };
 
 std::vector<RawLayer> layers_of_part(const PicturePart& part, std::size_t index) {
@@ -65,20 +68,23 @@ std::vector<RawLayer> layers_of_part(const PicturePart& part, std::size_t index)
   const auto add = [&](std::string name, std::vector<std::size_t> where, bool is_colour,
                        bool is_root) {
     used.insert(where.begin(), where.end());
-    result.push_back({{std::move(name), index, std::move(where), is_colour}, is_root});
+    const Group& group = groups[name];
+    const auto alpha = is_colour ? find_suffix(group, "a", "alpha") : std::nullopt;
+    result.push_back({{std::move(name), index, std::move(where), is_colour}, is_root, alpha});
   };
   for (const std::string& prefix : order) {
     const Group& group = groups[prefix];
     const bool root = prefix.empty();
-    const auto rgb = three(group, {{{"r", "red"}, {"g", "green"}, {"b", "blue"}}});
-    const auto xyz = three(group, {{{"x", "x"}, {"y", "y"}, {"z", "z"}}});
+    const auto rgb = find_all(group, {{"r", "red"}, {"g", "green"}, {"b", "blue"}});
+    auto vector = find_all(group, {{"x", "x"}, {"y", "y"}, {"z", "z"}});
+    if (vector.empty()) vector = find_all(group, {{"x", "x"}, {"y", "y"}});
     // RY and BY beside it: luminance with chroma, whose grey alone would be half a picture.
     const bool chroma = group.contains("ry") || group.contains("by");
     if (!rgb.empty())
       add(prefix, rgb, true, root);
-    else if (!xyz.empty() && !root)
-      add(prefix, xyz, false, false);
-    else if (const auto y = find_suffix(group, "y", "y"); y && xyz.empty() && !chroma)
+    else if (!vector.empty() && !root)
+      add(prefix, vector, false, false);
+    else if (const auto y = find_suffix(group, "y", "y"); y && vector.empty() && !chroma)
       add(prefix, {*y}, true, root);
   }
   for (std::size_t c = 0; c < part.channels.size(); ++c)
@@ -114,6 +120,18 @@ std::string list(const Names& names) {
       fmt::format("{}: no channels R, G and B, and no Y: its channels are {}; a layer has to "
                   "be chosen: {}",
                   where, list(channels), list(names)));
+}
+
+/// The layer that a part's name means: its colours, or the only one that it has.
+const PictureLayer* layer_of_part(std::size_t part, std::span<const PictureLayer> layers) {
+  std::vector<const PictureLayer*> all, colours;
+  for (const PictureLayer& layer : layers)
+    if (layer.part == part) {
+      all.push_back(&layer);
+      if (layer.is_colour) colours.push_back(&layer);
+    }
+  if (!colours.empty()) return colours[0];
+  return all.size() == 1 ? all[0] : nullptr;
 }
 
 /// The end where there is none, or more than one that may be meant.
@@ -155,6 +173,11 @@ std::vector<PictureLayer> picture_layers(std::span<const PicturePart> parts) {
       layer.name = fmt::format("{}#{}", name, ++copies[name] + 1);
     result.push_back(std::move(layer));
   }
+  std::map<std::pair<std::size_t, std::size_t>, std::string> single;  // by part and channel
+  for (const PictureLayer& layer : result)
+    if (layer.where.size() == 1) single[{layer.part, layer.where[0]}] = layer.name;
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (all[i].alpha) result[i].alpha = single[{result[i].part, *all[i].alpha}];
   return result;
 }
 
@@ -164,13 +187,17 @@ PictureLayer find_layer(const std::string& where, std::span<const PicturePart> p
   for (const PictureLayer& layer : layers)
     if (layer.name == name) return layer;
   if (name.empty()) no_picture(where, parts, layers);
+  bool is_part = false;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].name != name) continue;
+    is_part = true;
+    if (const PictureLayer* layer = layer_of_part(p, layers)) return *layer;
+  }
+  // The only layer of colours is the picture, and keeps the name that its channels have.
   for (const PictureLayer& layer : layers) {
-    const PicturePart& part = parts[layer.part];
-    const bool is_part = part.name == name;
-    // The only layer of colours is the picture, and keeps the name that its channels have.
-    const bool is_prefix =
-        layer.where.size() == 3 && split_name(part.channels[layer.where[0]]).prefix == name;
-    if (is_part || is_prefix) return layer;
+    const std::string& first = parts[layer.part].channels[layer.where[0]];
+    const bool is_group = layer.is_colour || layer.where.size() > 1;
+    if (!is_part && is_group && split_name(first).prefix == name) return layer;
   }
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& channels = parts[p].channels;
@@ -179,7 +206,7 @@ PictureLayer find_layer(const std::string& where, std::span<const PicturePart> p
       const auto owner = std::find_if(layers.begin(), layers.end(), [&](const PictureLayer& layer) {
         return layer.part == p && std::ranges::count(layer.where, c) != 0;
       });
-      return {name, p, {c}, owner->is_colour};
+      return {name, p, {c}, owner->is_colour, ""};
     }
   }
   std::vector<std::string_view> names;

@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
 #include "core/error.hpp"
 
 namespace lobelia {
@@ -47,6 +52,78 @@ TEST(PictureLayers, KnowWhatIsAColour) {
     EXPECT_TRUE(find_layer("", file, name).is_colour) << name;
   for (const char* name : {"A", "Z", "N", "N.X"})
     EXPECT_FALSE(find_layer("", file, name).is_colour) << name;
+}
+
+TEST(PictureLayers, YBesideXIsPartOfAVectorAndNoLuminance) {
+  const std::vector<PicturePart> motion = {{"", {"motion.y", "R", "G", "B", "motion.x"}}};
+  EXPECT_THAT(names(motion), ElementsAre("", "motion"));
+  const PictureLayer vector = find_layer("", motion, "motion");
+  EXPECT_THAT(vector.where, ElementsAre(4, 0));
+  EXPECT_FALSE(vector.is_colour);
+  EXPECT_THAT(names({{"", {"R", "G", "B", "P.x", "P.y", "P.z", "P.w"}}}),
+              ElementsAre("", "P", "P.w"));
+  EXPECT_THAT(message({{"", {"motion.x", "motion.y"}}}, ""), HasSubstr("'motion.x', 'motion.y'"));
+  EXPECT_THAT(message({{"", {"x", "y"}}}, ""), HasSubstr("'x', 'y'"));
+  EXPECT_THAT(names({{"", {"R", "G", "B", "motion.u", "motion.v"}}}),
+              ElementsAre("", "motion.u", "motion.v"));
+}
+
+TEST(PictureLayers, OfColoursKnowTheirAlpha) {
+  const std::vector<PicturePart> file = {
+      {"first",
+       {"R", "G", "B", "A", "diffuse.R", "diffuse.G", "diffuse.B", "diffuse.alpha", "N.Y"}},
+      {"second", {"Y", "A"}}};
+  EXPECT_EQ(find_layer("", file, "").alpha, "A");
+  EXPECT_EQ(find_layer("", file, "diffuse").alpha, "diffuse.alpha");
+  EXPECT_EQ(find_layer("", file, "second").alpha, "second.A");
+  EXPECT_EQ(find_layer("", file, "N").alpha, "");
+  EXPECT_EQ(find_layer("", file, "A").alpha, "");
+}
+
+TEST(PictureLayers, APartsNameMeansItsColoursOrAllThatItHas) {
+  const std::vector<PicturePart> file = {{"beauty", {"R", "G", "B"}},
+                                         {"motion", {"x", "y"}},
+                                         {"left", {"Z", "R", "G", "B"}},
+                                         {"speed", {"motion.x", "motion.y"}}};
+  EXPECT_THAT(find_layer("", file, "left").where, ElementsAre(1, 2, 3));
+  EXPECT_THAT(find_layer("", file, "speed").where, ElementsAre(0, 1));
+  EXPECT_THAT(message(file, "motion"), HasSubstr("no layer 'motion'"))
+      << "one of two components is not the motion";
+}
+
+TEST(PictureLayers, HoldEveryChannelOnceWhateverTheNamesAre) {
+  constexpr const char* kPrefixes[] = {"", "motion", "N", "a.b", "A", "Y", "R"};
+  constexpr const char* kSuffixes[] = {"R", "G",  "B",  "A",   "X",   "Y",     "Z", "x", "y",
+                                       "z", "u",  "v",  "w",   "red", "Green", "r", "b", "alpha",
+                                       "g", "RY", "BY", "foo", "id",  "blue",  "0", ""};
+  std::mt19937 random(5);
+  const auto pick = [&](const auto& from) { return std::string(from[random() % std::size(from)]); };
+  for (int run = 0; run < 3000; ++run) {
+    std::vector<PicturePart> parts(1 + random() % 3);
+    for (PicturePart& part : parts) {
+      part.name = pick(kPrefixes);
+      std::set<std::string> channels;
+      for (std::size_t count = 1 + random() % 7; channels.size() < count;) {
+        const std::string prefix = pick(kPrefixes);
+        channels.insert(prefix.empty() ? pick(kSuffixes) : prefix + "." + pick(kSuffixes));
+      }
+      part.channels.assign(channels.begin(), channels.end());
+      std::shuffle(part.channels.begin(), part.channels.end(), random);
+    }
+    std::set<std::string> layer_names;
+    std::map<std::pair<std::size_t, std::size_t>, int> uses;
+    for (const PictureLayer& layer : picture_layers(parts)) {
+      ASSERT_TRUE(layer_names.insert(layer.name).second) << layer.name;
+      ASSERT_LE(layer.where.size(), 3u);
+      for (const std::size_t c : layer.where) ++uses[{layer.part, c}];
+      const PictureLayer found = find_layer("", parts, layer.name);
+      ASSERT_EQ(found.part, layer.part) << layer.name;
+      ASSERT_EQ(found.where, layer.where) << layer.name;
+    }
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      for (std::size_t c = 0; c < parts[p].channels.size(); ++c)
+        ASSERT_EQ((uses[{p, c}]), 1) << run << " " << parts[p].channels[c];
+  }
 }
 
 TEST(PictureLayers, APictureIsRgbOrElseYOrElseTheOnlyThingThereIs) {
