@@ -16,11 +16,12 @@
 namespace lobelia {
 
 /// Reads a layer (core/picture_layers.hpp; "" is the picture itself) of any format that OpenImageIO knows
-/// into scene-linear float RGB, grey repeated: decoded from the curve that transfer_curve() says, colours of a
-/// file that are not multiplied by its alpha multiplied afterwards, in light. The image is the display window.
-/// Integers are 1 at their largest; in an EXR they are numbers, as they are. Of a MIP map the first level.
+/// into scene-linear float RGB, grey repeated: decoded from the curve that transfer_curve() says, other primaries
+/// converted to Rec. 709, colours of a file that are not multiplied by its alpha multiplied afterwards, in light. The
+/// image is the display window. Integers are 1 at their largest; in an EXR they are numbers, as they are. Of a MIP map
+/// the first level; of a cube map all faces.
 /// Throws Error(kInput): missing, not a regular file, not a picture, truncated, over kMaxImageSide or
-/// kMaxImagePixels in either window, deep, CMYK or Lab, without that layer.
+/// kMaxImagePixels in either window, deep, CMYK or Lab, of chromaticities that are none, without that layer.
 Picture read_picture(const std::filesystem::path& path, const std::string& layer);
 
 /// The same of the picture itself.

@@ -8,12 +8,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
+#include "core/icc_profile.hpp"
 #include "core/picture_bytes.hpp"
 #include "core/picture_layers.hpp"
 #include "core/picture_window.hpp"
+#include "core/primaries.hpp"
 #include "core/text.hpp"
 #include "core/transfer_curve.hpp"
 
@@ -29,7 +33,7 @@ namespace {
                                             printable(join(views, "; "), 300)));
 }
 
-/// A file's parts beyond are not looked for: frames of a film, or a damaged directory.
+/// A file with more parts is a film, or its directory is damaged.
 constexpr int kMaxParts = 1024;
 constexpr int kMaxChannels = 1024;
 
@@ -43,6 +47,10 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
     unreadable(path, "IFF is not read, because a damaged file would end the program");
   if (is_exr_that_claims_too_much(path))
     unreadable(path, "its header claims more than the file has");
+  if (is_tiff_without_bits(path))
+    unreadable(path,
+               "it has no BitsPerSample: that is a TIFF of 1 bit, which is read wrongly; "
+               "write it with the tag");
   OIIO::ImageSpec wishes;
   // Otherwise a PNG's colours are multiplied by alpha while they are encoded, which is no light.
   wishes.attribute("oiio:UnassociatedAlpha", 1);
@@ -54,16 +62,32 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   return input;
 }
 
+/// How many the part has that `input` is at.
+int count_mip_levels(OIIO::ImageInput& input, int part) {
+  constexpr int kMostLevels = 32;  // of a side of 2^31
+  const std::string_view format = input.format_name();
+  // Others have none, and some of their readers cannot go back.
+  if (format != "openexr" && format != "tiff" && format != "dds") return 1;
+  int levels = 1;
+  while (levels < kMostLevels && input.seek_subimage(part, levels)) ++levels;
+  return levels;
+}
+
 /// By an input of its own: some readers cannot forget that they were asked for a part that there is not.
 std::vector<PicturePart> parts_of(const std::filesystem::path& path) {
   const auto input = open(path);
   std::vector<PicturePart> parts;
-  for (int i = 0; i < kMaxParts && input->seek_subimage(i, 0); ++i) {
+  for (int i = 0; input->seek_subimage(i, 0); ++i) {
+    if (i == kMaxParts) unreadable(path, fmt::format("it has more than {} parts", kMaxParts));
     const OIIO::ImageSpec spec = input->spec(i);
-    const auto count = std::size_t(std::clamp(spec.nchannels, 0, kMaxChannels));
+    if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
+      unreadable(path,
+                 fmt::format("it has {} channels; 1 to {} are read", spec.nchannels, kMaxChannels));
     PicturePart part{std::string(spec.get_string_attribute("oiio:subimagename")), {}};
-    for (std::size_t c = 0; c < std::min(count, spec.channelnames.size()); ++c)
+    for (std::size_t c = 0; c < std::min(std::size_t(spec.nchannels), spec.channelnames.size());
+         ++c)
       part.channels.push_back(spec.channelnames[c]);
+    part.mip_levels = count_mip_levels(*input, i);
     parts.push_back(std::move(part));
   }
   return parts;
@@ -73,24 +97,20 @@ PixelWindow data_window(const OIIO::ImageSpec& spec) {
   return {spec.x, spec.y, spec.width, spec.height};
 }
 
-/// What is the picture. Elsewhere than in an EXR a window that leaves the other is a place on a page.
+/// What is the picture. Elsewhere than in an EXR a window that leaves the other is a place on a page. Of a cube map
+/// OpenImageIO says the first face, of six.
 PixelWindow display_window(const OIIO::ImageSpec& spec, std::string_view format) {
   const PixelWindow data = data_window(spec);
   const PixelWindow display{spec.full_x, spec.full_y, spec.full_width, spec.full_height};
-  const bool inside =
-      display.x <= data.x && display.y <= data.y &&
-      std::int64_t{data.x} + data.width <= std::int64_t{display.x} + display.width &&
-      std::int64_t{data.y} + data.height <= std::int64_t{display.y} + display.height;
-  return inside || format == "openexr" ? display : data;
+  const std::string kind = spec.get_string_attribute("textureformat");
+  if (kind.starts_with("CubeFace")) return data;
+  return is_inside(data, display) || format == "openexr" ? display : data;
 }
 
 void check(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
            std::string_view format) {
   if (spec.deep) unreadable(path, "it is deep: a pixel has many values; flatten it first");
   if (spec.depth > 1) unreadable(path, fmt::format("it is a volume, {} pictures deep", spec.depth));
-  if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
-    unreadable(path,
-               fmt::format("it has {} channels; 1 to {} are read", spec.nchannels, kMaxChannels));
   const PixelWindow data = data_window(spec);
   if (const std::string problem = window_problem("its data window", data); !problem.empty())
     unreadable(path, problem);
@@ -98,6 +118,8 @@ void check(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
   if (const std::string problem = window_problem("its display window", display); !problem.empty())
     unreadable(path, problem);
   if (are_apart(data, display)) unreadable(path, "its data window lies outside its display window");
+  // Of these the attributes are texts that anybody may have written into the file.
+  if (format == "png" || format == "openexr") return;
   // OpenImageIO would make RGB of them, without the profile that says what they look like.
   for (const char* attribute : {"tiff:ColorSpace", "jpeg:ColorSpace", "oiio:ColorSpace"}) {
     const std::string space = spec.get_string_attribute(attribute);
@@ -150,6 +172,7 @@ Image read_channels(const Reader& reader, const std::vector<std::size_t>& where)
     reader.read(int(where[0]), 3, values, 3);
     return image;
   }
+  // A vector of two leaves the third 0.
   for (std::size_t c = 0; c < where.size(); ++c) reader.read(int(where[c]), 1, values + c, 3);
   if (where.size() == 1)
     for (std::size_t i = 0; i < image.values().size(); i += 3)
@@ -162,6 +185,75 @@ void multiply_by_alpha(const Reader& reader, Image& image) {
   reader.read(reader.spec.alpha_channel, 1, alpha.data(), 1);
   for (std::size_t i = 0; i < alpha.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) image.values()[3 * i + c] *= alpha[i];
+}
+
+/// Whether the file's colours are not multiplied by its alpha. PNG and EXR say it themselves, whatever an attribute
+/// of the library says in them.
+bool is_unassociated(const OIIO::ImageSpec& spec, std::string_view format) {
+  if (spec.alpha_channel < 0 || format == "openexr") return false;
+  return format == "png" || spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 1;
+}
+
+/// How the values of colours become light.
+struct ColourMeaning {
+  TransferCurve curve{TransferCurve::Kind::kLinear, 1, "linear"};
+  std::optional<Chromaticities> primaries;  ///< nothing for Rec. 709
+};
+
+ColourMeaning png_meaning(const std::filesystem::path& path) {
+  const PngColour colour = png_colour(path);
+  ColourMeaning meaning{transfer_curve(path.string(), colour), std::nullopt};
+  if (colour.cicp) {
+    if (colour.cicp->matrix != 0 || !colour.cicp->full_range)
+      unreadable(path, "its cICP chunk says no RGB of the full range");
+    meaning.primaries = chromaticities_of_code_point(colour.cicp->primaries);
+    if (!meaning.primaries)
+      unreadable(path, fmt::format("its cICP chunk says colour primaries {}, which are not known",
+                                   colour.cicp->primaries));
+  } else if (!colour.is_srgb) {
+    meaning.primaries = colour.chromaticities;
+  }
+  return meaning;
+}
+
+ColourMeaning colour_meaning(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                             std::string_view format, OIIO::TypeDesc type) {
+  if (format == "png") return png_meaning(path);
+  ColourMeaning meaning;
+  if (format == "openexr") {
+    if (type == OIIO::TypeDesc::UINT32) return meaning;
+    const OIIO::TypeDesc eight(OIIO::TypeDesc::FLOAT, 8);
+    std::array<float, 8> xy;
+    if (spec.getattribute("chromaticities", eight, xy.data()))
+      std::copy(xy.begin(), xy.end(), meaning.primaries.emplace().begin());
+    return meaning;
+  }
+  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
+  meaning.curve = transfer_curve(
+      path.string(),
+      {format, space, spec.get_float_attribute("oiio:Gamma", 1), type.is_floating_point()});
+  return meaning;
+}
+
+/// Rec. 709 from other primaries, of three channels; grey stays as it is.
+void convert_primaries(const std::filesystem::path& path, const Chromaticities& from,
+                       Picture& picture) {
+  if (are_rec709(from)) return;
+  const auto matrix = to_rec709(from);
+  if (!matrix)
+    unreadable(path, fmt::format("its chromaticities {:g} are no red, green, blue and white",
+                                 fmt::join(from, " ")));
+  apply(*matrix, picture.image);
+  picture.source.chromaticities.assign(from.begin(), from.end());
+}
+
+void add_icc_profile(const OIIO::ImageSpec& spec, PictureSource& source) {
+  const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
+  if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return;
+  source.icc_is_srgb = is_srgb_profile(
+      {static_cast<const std::uint8_t*>(profile->data()), std::size_t(profile->datasize())});
+  source.icc_profile =
+      spec.get_string_attribute("ICCProfile:profile_description", "without a name");
 }
 
 Picture read(const std::filesystem::path& path, const std::string& layer_name) {
@@ -177,28 +269,29 @@ Picture read(const std::filesystem::path& path, const std::string& layer_name) {
   Picture picture;
   PictureSource& source = picture.source;
   const OIIO::TypeDesc type = spec.channelformat(int(layer.where[0]));
-  TransferCurve curve{TransferCurve::Kind::kLinear, 1, "linear"};
-  if (layer.is_colour && !(format == "openexr" && type == OIIO::TypeDesc::UINT32)) {
-    const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-    curve = transfer_curve(path.string(), {format, space, spec.get_float_attribute("oiio:Gamma", 1),
-                                           type.is_floating_point()});
-  }
+  ColourMeaning meaning;
+  if (layer.is_colour) meaning = colour_meaning(path, spec, format, type);
   const Reader reader{path, *input, part, spec};
-  Image image = read_channels(reader, layer.where);
-  decode(curve, image);
-  source.multiplied_by_alpha = layer.is_colour && spec.alpha_channel >= 0 &&
-                               spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 1;
-  if (source.multiplied_by_alpha) multiply_by_alpha(reader, image);
+  picture.image = read_channels(reader, layer.where);
+  decode(meaning.curve, picture.image);
+  if (meaning.primaries && layer.where.size() == 3)
+    convert_primaries(path, *meaning.primaries, picture);
+  source.multiplied_by_alpha = layer.is_colour && is_unassociated(spec, format);
+  if (source.multiplied_by_alpha) multiply_by_alpha(reader, picture.image);
 
   source.format = format;
   source.layer = layer.name;
   for (const std::size_t c : layer.where) source.channels.push_back(parts[layer.part].channels[c]);
+  source.alpha = layer.alpha;
   source.value_type = type.c_str();
-  source.transfer = curve.name;
-  source.icc_profile = spec.get_string_attribute("ICCProfile:profile_description");
+  source.transfer = meaning.curve.name;
+  add_icc_profile(spec, source);
   source.data = data_window(spec);
   source.display = display_window(spec, format);
-  picture.image = place(std::move(image), source.data, source.display);
+  source.mip_levels = parts[layer.part].mip_levels;
+  for (const PictureLayer& one : picture_layers(parts)) source.layers.push_back(one.name);
+  if (!is_inside(source.data, source.display)) picture.overscan = picture.image;
+  picture.image = place(std::move(picture.image), source.data, source.display);
   return picture;
 }
 

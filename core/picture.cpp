@@ -1,13 +1,10 @@
 #include "core/picture.hpp"
 
 namespace lobelia {
-namespace {
 
-Json window_json(const PixelWindow& window) {
+Json to_json(const PixelWindow& window) {
   return {{"x", window.x}, {"y", window.y}, {"width", window.width}, {"height", window.height}};
 }
-
-}  // namespace
 
 Json to_json(const PictureSource& source) {
   Json json = {{"format", source.format},
@@ -16,9 +13,13 @@ Json to_json(const PictureSource& source) {
                {"valueType", source.value_type},
                {"transfer", source.transfer},
                {"multipliedByAlpha", source.multiplied_by_alpha},
-               {"dataWindow", window_json(source.data)},
-               {"displayWindow", window_json(source.display)}};
-  if (!source.icc_profile.empty()) json["iccProfile"] = source.icc_profile;
+               {"dataWindow", to_json(source.data)},
+               {"displayWindow", to_json(source.display)}};
+  if (!source.chromaticities.empty()) json["chromaticities"] = source.chromaticities;
+  if (!source.icc_profile.empty()) {
+    json["iccProfile"] = source.icc_profile;
+    json["iccProfileIsSrgb"] = source.icc_is_srgb;
+  }
   return json;
 }
 

@@ -26,6 +26,12 @@ bool are_apart(const PixelWindow& a, const PixelWindow& b) {
          b.y >= a.y + a.height;
 }
 
+bool is_inside(const PixelWindow& inner, const PixelWindow& outer) {
+  return outer.x <= inner.x && outer.y <= inner.y &&
+         std::int64_t{inner.x} + inner.width <= std::int64_t{outer.x} + outer.width &&
+         std::int64_t{inner.y} + inner.height <= std::int64_t{outer.y} + outer.height;
+}
+
 Image place(Image image, const PixelWindow& data, const PixelWindow& display) {
   if (data == display) return image;
   Image result(display.width, display.height);

@@ -14,6 +14,9 @@ std::string window_problem(const std::string& what, const PixelWindow& window);
 /// Whether they have no pixel in common.
 bool are_apart(const PixelWindow& a, const PixelWindow& b);
 
+/// Whether all of `inner` is in `outer`.
+bool is_inside(const PixelWindow& inner, const PixelWindow& outer);
+
 /// `image` lies on `data`; the result on `display`: 0 where there are no data, without what lies outside.
 Image place(Image image, const PixelWindow& data, const PixelWindow& display);
 

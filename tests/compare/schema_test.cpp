@@ -99,8 +99,13 @@ Plain record_of_files() {
   const Image good = testing::flat(16, 16, 1, 1, 1), other = testing::flat(16, 16, 2, 2, 2);
   Image broken = good;
   broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
-  PictureSource source{"openexr", "", {"R", "G", "B"}, "half",        "linear",
-                       false,     "", {-1, 2, 3, 4},   {0, 0, 16, 16}};
+  PictureSource source;
+  source.format = "openexr";
+  source.channels = {"R", "G", "B"};
+  source.value_type = "half";
+  source.transfer = "linear";
+  source.data = {-1, 2, 3, 4};
+  source.display = {0, 0, 16, 16};
   std::vector<LayerComparison> layers;
   for (const Image* image : std::initializer_list<const Image*>{&good, &other, &broken}) {
     source.layer = "layer" + std::to_string(layers.size());
@@ -108,6 +113,7 @@ Plain record_of_files() {
   }
   layers.push_back({"two sizes", source, source, {}, "the sizes differ"});
   source.icc_profile = "sRGB";
+  source.chromaticities = {0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
   const Comparison picture = compare(good, good, {});
   Json made = comparison_record(picture, "a.exr", "b.exr");
   add_pictures(made, source, source);
@@ -128,11 +134,13 @@ TEST(ComparisonSchema, HoldsForFilesAndTheirLayers) {
     EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
   };
   for (const auto& [key, value] : good["pictures"]["a"].items())
-    if (key != "iccProfile") broken([&](Plain& r) { r["pictures"]["a"].erase(key); });
+    if (!key.starts_with("iccProfile") && key != "chromaticities")
+      broken([&](Plain& r) { r["pictures"]["a"].erase(key); });
   for (const char* key : {"layer", "verdict", "pictures", "metrics"})
     broken([&](Plain& r) { r["layers"][0].erase(key); });
   broken([](Plain& r) { r["layers"][3].erase("problem"); });
   broken([](Plain& r) { r["layers"][1]["metrics"]["rmse"] = -1; });
+  broken([](Plain& r) { r["pictures"]["a"]["chromaticities"].erase(0); });
   broken([](Plain& r) { r["layersInOne"].erase("a"); });
   broken([](Plain& r) { r["pictures"]["b"]["displayWindow"]["width"] = 0; });
   broken([](Plain& r) { r["pictures"]["b"]["channels"] = Plain::array(); });

@@ -7,11 +7,15 @@
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
 #include <half.h>
 
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,6 +86,7 @@ struct Tiff {
   bool is_float = false;
   std::string samples = {};
   bool directory_first = false;
+  bool says_bits = true;
 };
 
 inline std::string tiff_file(const Tiff& tiff) {
@@ -89,18 +94,19 @@ inline std::string tiff_file(const Tiff& tiff) {
     std::uint32_t tag, type, count, value;
   };
   const auto samples = std::uint32_t(tiff.samples_per_pixel);
-  constexpr std::uint32_t kEntries = 10;
-  const std::uint32_t start = tiff.directory_first ? 8 + 2 + 12 * kEntries + 4 : 8;
-  const std::vector<Entry> entries = {{256, 4, 1, tiff.width},
-                                      {257, 4, 1, tiff.height},
-                                      {258, 3, 1, std::uint32_t(tiff.bits)},
-                                      {259, 3, 1, 1},
-                                      {262, 3, 1, std::uint32_t(tiff.photometric)},
-                                      {273, 4, 1, start},
-                                      {277, 3, 1, samples},
-                                      {278, 4, 1, tiff.height},
-                                      {279, 4, 1, std::uint32_t(tiff.samples.size())},
-                                      {339, 3, 1, tiff.is_float ? 3u : 1u}};
+  const std::uint32_t count = tiff.says_bits ? 10 : 9;
+  const std::uint32_t start = tiff.directory_first ? 8 + 2 + 12 * count + 4 : 8;
+  std::vector<Entry> entries = {{256, 4, 1, tiff.width},
+                                {257, 4, 1, tiff.height},
+                                {258, 3, 1, std::uint32_t(tiff.bits)},
+                                {259, 3, 1, 1},
+                                {262, 3, 1, std::uint32_t(tiff.photometric)},
+                                {273, 4, 1, start},
+                                {277, 3, 1, samples},
+                                {278, 4, 1, tiff.height},
+                                {279, 4, 1, std::uint32_t(tiff.samples.size())},
+                                {339, 3, 1, tiff.is_float ? 3u : 1u}};
+  if (!tiff.says_bits) entries.erase(entries.begin() + 2);
   std::string padded = tiff.samples;
   if (padded.size() % 2 != 0) padded += '\0';
   std::string directory = little_endian(std::uint32_t(entries.size()), 2);
@@ -173,6 +179,8 @@ struct ExrPart {
   std::string name = {};
   Imath::Box2i data, display;
   std::vector<ExrChannel> channels;
+  std::optional<Imf::Chromaticities> chromaticities = {};
+  std::map<std::string, std::string> texts = {};
 };
 
 inline Imath::Box2i window(int x, int y, int width, int height) {
@@ -186,6 +194,8 @@ inline void write_exr_parts(const std::filesystem::path& path, const std::vector
     Imf::Header header(part.display, part.data);
     if (!part.name.empty()) header.setName(part.name);
     header.setType(Imf::SCANLINEIMAGE);
+    if (part.chromaticities) Imf::addChromaticities(header, *part.chromaticities);
+    for (const auto& [name, text] : part.texts) header.insert(name, Imf::StringAttribute(text));
     for (const ExrChannel& channel : part.channels)
       header.channels().insert(channel.name, Imf::Channel(channel.type));
     headers.push_back(header);

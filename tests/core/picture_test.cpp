@@ -1,6 +1,7 @@
 // What the values of a file mean, by files made for that.
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineOutputFile.h>
+#include <ImfEnvmap.h>
 #include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -104,6 +105,14 @@ TEST_F(Layers, OfSeveralPartsAreReadFromTheirPart) {
   EXPECT_THAT(values(read_picture(path, "depth").image), ElementsAre(70, 70, 70, 80, 80, 80));
 }
 
+TEST_F(Layers, OfAVectorOfTwoAreItsComponents) {
+  const auto path = exr("a.exr", 1, 1, {{"Y", {9}}, {"motion.x", {1}}, {"motion.y", {2}}});
+  const Picture motion = read_picture(path, "motion");
+  EXPECT_THAT(values(motion.image), ElementsAre(1, 2, 0));
+  EXPECT_THAT(motion.source.channels, ElementsAre("motion.x", "motion.y"));
+  EXPECT_THAT(motion.source.layers, ElementsAre("", "motion"));
+}
+
 TEST_F(Layers, OfLuminanceAloneIsGrey) {
   EXPECT_THAT(values(read_image(exr("y.exr", 1, 1, {{"Y", {0.25f}}}))),
               ElementsAre(0.25f, 0.25f, 0.25f));
@@ -180,6 +189,44 @@ TEST_F(Windows, OfATiledMipMapAreThoseOfItsFirstLevel) {
   EXPECT_THAT(layer_names(path), ElementsAre(""));
 }
 
+/// A cube map: six faces of 4 x 4, one below the other.
+void write_cube_map(const std::filesystem::path& path, const std::vector<float>& face_values) {
+  constexpr int kSide = 4;
+  Imf::Header header(kSide, 6 * kSide);
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  header.setTileDescription({kSide, kSide, Imf::MIPMAP_LEVELS});
+  Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
+  Imf::TiledOutputFile tiled(path.c_str(), header);
+  for (int level = 0; level < tiled.numLevels(); ++level) {
+    std::vector<float> grey(6 * kSide * kSide);
+    for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = face_values[i / (kSide * kSide)];
+    Imf::FrameBuffer buffer;
+    buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grey.data()), 4, 4 * kSide));
+    tiled.setFrameBuffer(buffer);
+    tiled.writeTiles(0, tiled.numXTiles(level) - 1, 0, tiled.numYTiles(level) - 1, level);
+  }
+}
+
+TEST_F(Windows, OfACubeMapHoldAllSixFaces) {
+  const auto path = directory_.path() / "cube.exr";
+  write_cube_map(path, {1, 2, 3, 4, 5, 6});
+  const Picture picture = read_picture(path, "");
+  EXPECT_EQ(picture.source.display, (PixelWindow{0, 0, 4, 24}));
+  for (int y = 0; y < 24; ++y) EXPECT_EQ(picture.image.pixel(3, y)[0], float(y / 4 + 1)) << y;
+  EXPECT_EQ(picture.source.mip_levels, 5) << "24, 12, 6, 3, 1 rows";
+}
+
+TEST_F(Windows, OfDataThatLeaveTheDisplayComeWhole) {
+  const auto path =
+      exr("a.exr", {{"", window(1, 1, 3, 2), window(0, 0, 2, 2), {{"Y", {1, 2, 3, 4, 5, 6}}}}});
+  const Picture picture = read_picture(path, "");
+  EXPECT_THAT(values(picture.image), ElementsAre(0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1));
+  EXPECT_EQ(picture.overscan.width(), 3);
+  EXPECT_EQ(picture.overscan.height(), 2);
+  EXPECT_EQ(picture.overscan.pixel(2, 1)[2], 6);
+  EXPECT_EQ(read_picture(exr("b.exr", 1, 1, {{"Y", {1}}}), "").overscan.pixel_count(), 0u);
+}
+
 using Curves = PictureFiles;
 
 TEST_F(Curves, OfIntegersAreSrgbAndOfFloatsLinear) {
@@ -233,6 +280,118 @@ TEST_F(Curves, OfAPngAreWhatItSays) {
   EXPECT_THAT(refusal(file("b.png", png_file(absurd))), HasSubstr("colour space"));
 }
 
+TEST_F(Curves, OfAPngAreItsChunksAndNoTextsOfALibrary) {
+  const std::string grey = "\x80\x80\x80";
+  const auto png = [&](const std::string& chunks) {
+    return read_picture(file("a.png", png_file({.samples = grey, .chunks = chunks})), "");
+  };
+  const auto text = [](const std::string& key, const std::string& value) {
+    return png_chunk("tEXt", key + '\0' + value);
+  };
+  const std::string srgb = png_chunk("sRGB", std::string(1, '\0'));
+  const std::string half = png_chunk("gAMA", big_endian(50000));
+  const Picture ppm = read_picture(file("a.ppm", "P6 1 1 255\n" + grey), "");
+  // What oiiotool 2.4 writes of a PPM.
+  for (const char* space : {"Rec709", "Linear", "linear", "sRGB", "nonsense", "Gamma2.2", "CMYK"}) {
+    const Picture one = png(text("oiio:ColorSpace", space) + text("oiio:Gamma", "3"));
+    EXPECT_EQ(one.source.transfer, ppm.source.transfer) << space;
+    EXPECT_EQ(values(one.image), values(ppm.image)) << space;
+  }
+  EXPECT_EQ(png(text("oiio:ColorSpace", "Linear") + half).source.transfer, "gamma 2");
+  EXPECT_EQ(png(srgb + half).source.transfer, "sRGB");
+  EXPECT_EQ(png(half + half + srgb).source.transfer, "sRGB");
+  std::string damaged = png_chunk("gAMA", big_endian(50000));
+  damaged.back() ^= 1;
+  EXPECT_EQ(png(damaged).source.transfer, "sRGB") << "its checksum is wrong";
+  const auto cicp = [](int primaries, int transfer, int matrix, int full) {
+    return png_chunk("cICP", {char(primaries), char(transfer), char(matrix), char(full)});
+  };
+  EXPECT_EQ(png(cicp(1, 8, 0, 1) + srgb).source.transfer, "linear");
+  EXPECT_EQ(png(cicp(1, 1, 0, 1)).source.transfer, "Rec709");
+  EXPECT_EQ(png(cicp(9, 13, 0, 1)).source.transfer, "sRGB");
+  const auto bad = [&](const std::string& chunks) {
+    return refusal(file("bad.png", png_file({.samples = grey, .chunks = chunks})));
+  };
+  EXPECT_THAT(bad(cicp(9, 16, 0, 1)), HasSubstr("transfer characteristics 16"));
+  EXPECT_THAT(bad(cicp(77, 13, 0, 1)), HasSubstr("colour primaries 77"));
+  EXPECT_THAT(bad(cicp(1, 13, 0, 0)), HasSubstr("full range"));
+  EXPECT_THAT(bad(cicp(1, 13, 9, 1)), HasSubstr("no RGB"));
+}
+
+TEST_F(Curves, OfAnExrAreLinearWhateverALibrarySaysInIt) {
+  const auto box = window(0, 0, 1, 1);
+  const ExrPart plain{"", box, box, {{"R", {0.5f}}, {"G", {0.5f}}, {"B", {0.5f}}, {"A", {0.5f}}}};
+  ExrPart said = plain;
+  said.texts = {{"oiio:ColorSpace", "sRGB"}, {"oiio:UnassociatedAlpha", "1"}};
+  const Picture a = read_picture(exr("a.exr", {plain}), ""),
+                b = read_picture(exr("b.exr", {said}), "");
+  EXPECT_EQ(values(b.image), values(a.image));
+  EXPECT_EQ(b.source.transfer, "linear");
+}
+
+using Primaries = PictureFiles;
+
+const Imf::Chromaticities kAces({0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f},
+                                {0.32168f, 0.33767f});
+
+TEST_F(Primaries, OfAnExrAreConvertedAndSaid) {
+  const auto box = window(0, 0, 1, 1);
+  ExrPart part{"",
+               box,
+               box,
+               {{"R", {0.5f}},
+                {"G", {0.25f}},
+                {"B", {0.125f}},
+                {"N.X", {1}},
+                {"N.Y", {2}},
+                {"N.Z", {3}},
+                {"g.Y", {0.5f}}}};
+  const Picture plain = read_picture(exr("plain.exr", {part}), "");
+  EXPECT_THAT(plain.source.chromaticities, ElementsAre());
+  EXPECT_THAT(values(plain.image), ElementsAre(0.5f, 0.25f, 0.125f));
+  part.chromaticities = Imf::Chromaticities();  // Rec. 709
+  EXPECT_THAT(values(read_image(exr("same.exr", {part}))), ElementsAre(0.5f, 0.25f, 0.125f));
+  part.chromaticities = kAces;
+  const auto path = exr("aces.exr", {part});
+  const Picture aces = read_picture(path, "");
+  EXPECT_EQ(aces.source.chromaticities.size(), 8u);
+  EXPECT_FLOAT_EQ(float(aces.source.chromaticities[5]), -0.077f);
+  // AP0 to Rec. 709 with Bradford's adaptation from the white of ACES to D65.
+  const double matrix[3][3] = {
+      {2.52169, -1.13413, -0.38756}, {-0.27648, 1.37272, -0.09624}, {-0.01538, -0.15298, 1.16835}};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(aces.image.pixel(0, 0)[i],
+                matrix[i][0] * 0.5 + matrix[i][1] * 0.25 + matrix[i][2] * 0.125, 2e-4);
+  EXPECT_THAT(values(read_picture(path, "N").image), ElementsAre(1, 2, 3)) << "no colours";
+  EXPECT_THAT(values(read_picture(path, "g").image), ElementsAre(0.5f, 0.5f, 0.5f)) << "grey";
+  part.chromaticities = Imf::Chromaticities({0, 0}, {0, 0}, {0, 0}, {0, 0});
+  EXPECT_THAT(refusal(exr("zero.exr", {part})), HasSubstr("its chromaticities 0 0 0"));
+}
+
+TEST_F(Primaries, OfAPngAreThoseOfItsChunks) {
+  const auto chrm = [](const std::vector<double>& white_first) {
+    std::string data;
+    for (const double value : white_first) data += big_endian(std::uint32_t(value * 1e5 + 0.5));
+    return png_chunk("cHRM", data);
+  };
+  const std::string p3 = chrm({0.3127, 0.3290, 0.680, 0.320, 0.265, 0.690, 0.150, 0.060});
+  const std::string srgb = png_chunk("sRGB", std::string(1, '\0'));
+  const auto red = [&](const std::string& chunks) {
+    return read_picture(
+        file("a.png", png_file({.samples = {'\xff', '\0', '\0'}, .chunks = chunks})), "");
+  };
+  // Display P3 to sRGB: 1.2249, -0.0420, -0.0197 of its red (CSS Color 4).
+  const Picture wide = red(p3);
+  EXPECT_NEAR(wide.image.pixel(0, 0)[0], 1.2249, 1e-4);
+  EXPECT_NEAR(wide.image.pixel(0, 0)[1], -0.0420, 1e-4);
+  EXPECT_NEAR(wide.image.pixel(0, 0)[2], -0.0197, 1e-4);
+  EXPECT_THAT(values(red(p3 + srgb).image), ElementsAre(1, 0, 0)) << "sRGB overrides";
+  EXPECT_THAT(values(red(chrm({0.3127, 0.3290, 0.64, 0.33, 0.30, 0.60, 0.15, 0.06})).image),
+              ElementsAre(1, 0, 0));
+  const Picture code = red(png_chunk("cICP", {12, 13, 0, 1}));
+  EXPECT_EQ(values(code.image), values(wide.image));
+}
+
 TEST_F(Curves, AreNotForAlphaAndColoursAreMultipliedByItAsLight) {
   Png png{.colour_type = 6, .samples = "\x80\x80\x80\x80"};
   const auto path = file("a.png", png_file(png));
@@ -254,6 +413,21 @@ TEST_F(Curves, OfNumbersInAnExrLeaveThemAsTheyAre) {
 }
 
 using Refusals = PictureFiles;
+
+TEST_F(Refusals, OfATiffOfOneBitThatDoesNotSaySoAreBetterThanGarbage) {
+  // 0x0f is four black and four white pixels.
+  Tiff one{.width = 8, .height = 1, .samples_per_pixel = 1, .bits = 1, .photometric = 1};
+  one.samples = "\x0f";
+  const Image read = read_image(file("a.tif", tiff_file(one)));
+  for (int x = 0; x < 8; ++x) EXPECT_EQ(read.pixel(x, 0)[0], x < 4 ? 0 : 1) << x;
+  one.says_bits = false;
+  for (const bool first : {false, true}) {
+    one.directory_first = first;
+    EXPECT_THAT(refusal(file("b.tif", tiff_file(one))), HasSubstr("no BitsPerSample"));
+  }
+  EXPECT_FALSE(is_tiff_without_bits(file("c.tif", "II*")));
+  EXPECT_FALSE(is_tiff_without_bits(file("c.tif", std::string("II*\0\x08\0\0\0\xff\xff", 10))));
+}
 
 TEST_F(Refusals, OfWhatWasCutOffComeWhereverTheCutIs) {
   const std::string pixels(75, 'x');

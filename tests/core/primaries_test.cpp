@@ -1,0 +1,101 @@
+// Primaries of files against OpenEXR's own matrices.
+#include "core/primaries.hpp"
+
+#include <ImathMatrix.h>
+#include <ImfChromaticities.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace lobelia {
+namespace {
+
+constexpr Chromaticities kAces = {0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
+constexpr Chromaticities kXyz = {1, 0, 0, 1, 0, 0, 1.0 / 3, 1.0 / 3};
+
+Imf::Chromaticities of_openexr(const Chromaticities& c) {
+  const auto point = [&](std::size_t i) {
+    return Imath::V2f(float(c[2 * i]), float(c[2 * i + 1]));
+  };
+  return {point(0), point(1), point(2), point(3)};
+}
+
+/// The same by OpenEXR, in float and with rows and columns exchanged, as AcesInputFile has it.
+RgbMatrix by_openexr(const Chromaticities& from) {
+  const Imath::M44f bradford(0.895100f, -0.750200f, 0.038900f, 0, 0.266400f, 1.713500f, -0.068500f,
+                             0, -0.161400f, 0.036700f, 1.029600f, 0, 0, 0, 0, 1);
+  const auto cone = [&](double x, double y) {
+    return Imath::V3f(float(x / y), 1, float((1 - x - y) / y)) * bradford;
+  };
+  const Imath::V3f seen = cone(from[6], from[7]), ours = cone(0.3127, 0.3290);
+  Imath::M44f ratio;
+  ratio.setScale(ours / seen);
+  const Imath::M44f all = Imf::RGBtoXYZ(of_openexr(from), 1) * bradford * ratio *
+                          bradford.inverse() * Imf::XYZtoRGB(of_openexr(kRec709Chromaticities), 1);
+  RgbMatrix result;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) result[std::size_t(i)][std::size_t(j)] = double(all[j][i]);
+  return result;
+}
+
+void expect_near(const RgbMatrix& a, const RgbMatrix& b, double by) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(a[i][j], b[i][j], by) << i << " " << j;
+}
+
+TEST(RgbMatrices, AreThoseOfOpenExr) {
+  for (const Chromaticities& from : {kAces, kXyz, kRec709Chromaticities})
+    expect_near(*to_rec709(from), by_openexr(from), 2e-5);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> shift(-0.05, 0.05);
+  for (int i = 0; i < 200; ++i) {
+    Chromaticities from = kRec709Chromaticities;
+    for (double& value : from) value += shift(random);
+    expect_near(*to_rec709(from), by_openexr(from), 2e-5);
+  }
+}
+
+TEST(RgbMatrices, OfAcesGiveThePublishedMatrix) {
+  // AP1 (ACES S-2014-004) to Rec. 709 with Bradford's adaptation from the white of ACES to D65.
+  const Chromaticities ap1 = {0.713, 0.293, 0.165, 0.830, 0.128, 0.044, 0.32168, 0.33767};
+  expect_near(*to_rec709(ap1),
+              {{{1.70505, -0.62179, -0.08326},
+                {-0.13026, 1.14080, -0.01055},
+                {-0.02400, -0.12897, 1.15297}}},
+              1e-4);
+}
+
+void expect_grey_stays(const Chromaticities& from) {
+  const RgbMatrix matrix = to_rec709(from).value();
+  for (const auto& row : matrix) EXPECT_NEAR(row[0] + row[1] + row[2], 1, 1e-12);
+}
+
+TEST(RgbMatrices, LeaveGreyAsItIs) {
+  for (int code = 0; code < 20; ++code) {
+    const auto from = chromaticities_of_code_point(code);
+    if (!from) continue;
+    expect_grey_stays(*from);
+  }
+  expect_grey_stays(kAces);
+}
+
+TEST(RgbMatrices, OfPrimariesThatAreNoneDoNotExist) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(to_rec709({}));
+  EXPECT_FALSE(to_rec709({0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.2, 0.2})) << "a line";
+  EXPECT_FALSE(to_rec709({0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.7, 0.1})) << "a white outside";
+  EXPECT_FALSE(to_rec709({0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3, 0})) << "a black white";
+  for (std::size_t i = 0; i < 8; ++i)
+    for (const double value : {kNaN, kInfinity, -kInfinity, 1e30}) {
+      Chromaticities from = kAces;
+      from[i] = value;
+      EXPECT_FALSE(to_rec709(from)) << i << " " << value;
+    }
+}
+
+}  // namespace
+}  // namespace lobelia
