@@ -184,7 +184,9 @@ std::string footer() {
       "Without --fail and --tolerance the limits are {}: a look, not a proof.\n"
       "Channels are taken by their names, grey as three equal ones. A file's integers are decoded from\n"
       "sRGB to linear light unless it says otherwise, floats are light; the record says how each was read.\n"
-      "Of a picture that is a crop of its display window, the rest is black.\n"
+      "Of a picture that is a crop of its display window, the rest is black. Data outside of it are compared as\n"
+      "well; what one side alone has there fails, unless it is 0. Alpha is judged where both have one.\n"
+      "What was not compared is named in a line.\n"
       "A NaN or an infinity in either picture is a verdict of its own and never passes.\n"
       "Where noise is known the verdict is same, different, or undecided: the noise leaves it open, and\n"
       "more samples are needed (docs/metrics.md).\n"
@@ -284,8 +286,12 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   layer->type_name("NAME")->group("Layers");
   command
       ->add_flag("--all-layers", job.layers.all,
-                 "Compare every layer that both files have, alpha too; the verdict is the worst")
+                 "Compare every layer; the verdict is the worst, and a layer that only B has fails")
       ->excludes(layer)
+      ->group("Layers");
+  command
+      ->add_flag("--ignore-alpha", job.layers.ignore_alpha,
+                 "Do not judge the alpha of the picture, which is judged where both have one")
       ->group("Layers");
   command
       ->add_flag_callback(

@@ -12,6 +12,7 @@ namespace lobelia::cli {
 namespace {
 
 std::string reasons(const LayerComparison& layer) {
+  if (layer.identical) return "identical";
   if (!layer.comparison) return layer.problem;
   const Comparison& comparison = *layer.comparison;
   if (comparison.verdict == Verdict::kNonFinite) return why_not_pass(comparison);
@@ -34,27 +35,23 @@ std::string main_layer(const std::string& a, const std::string& b, const LayerOp
   return common_layers(a, b).both.front();
 }
 
-std::optional<OtherLayers> compare_other_layers(const std::string& a, const std::string& b,
-                                                const std::string& main,
-                                                const LayerOptions& options,
-                                                const ComparisonOptions& comparison) {
-  if (!options.all) return std::nullopt;
-  OtherLayers result{common_layers(a, b), {}};
-  std::vector<std::string> names = result.common.both;
-  std::erase(names, main);
-  result.compared = compare_layers(a, b, names, comparison);
-  return result;
+void print_layers(const OtherLayers& layers) {
+  if (!layers.compared.empty() || layers.common) fmt::print("\n");
+  for (const LayerComparison& layer : layers.compared)
+    fmt::print("  {}: {}; {}\n", layer.title(), verdict_name(layer.verdict()), reasons(layer));
+  if (layers.common) {
+    print_names("a", layers.common->only_a);
+    print_names("b", layers.common->only_b);
+  }
+  if (!layers.not_compared.is_empty())
+    fmt::print("  not compared: {}\n", to_text(layers.not_compared));
 }
 
-void print_layers(const OtherLayers& layers) {
-  fmt::print("\n");
-  for (const LayerComparison& layer : layers.compared)
-    fmt::print("  layer {}: {}; {}\n",
-               layer.name.empty() ? "of the picture" : printable(layer.name),
-               verdict_name(layer.comparison ? layer.comparison->verdict : Verdict::kDiffers),
-               reasons(layer));
-  print_names("a", layers.common.only_a);
-  print_names("b", layers.common.only_b);
+void print_profiles(const PicturePairSource& sources) {
+  for (const auto& [name, source] : {std::pair('a', &sources.a), {'b', &sources.b}})
+    if (!source->icc_profile.empty() && !source->icc_is_srgb)
+      fmt::print("  {}: its ICC profile '{}' is not sRGB, and is not applied\n", name,
+                 printable(source->icc_profile));
 }
 
 }  // namespace lobelia::cli

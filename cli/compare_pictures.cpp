@@ -89,7 +89,7 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOption
   if (!pair.c.empty())
     pair.comparison->reference_floor =
         measure_reference_floor(read_picture(pair.c, layer).image, b, options);
-  pair.layers = compare_other_layers(pair.a, pair.b, layer, job.layers, options);
+  pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
   if (!job.difference.path.empty())
     write_difference(job.difference, difference_path, a, b, *pair.comparison);
   pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -234,9 +234,8 @@ void print_pair(const PairReport& pair) {
   for (const std::string& sentence : comparison.disagreement)
     fmt::print("  metrics disagree: {}\n", sentence);
   if (pair.layers) print_layers(*pair.layers);
-  fmt::print("{}verdict: {}\n",
-             comparison.verdict == Verdict::kNonFinite && !pair.layers ? "" : "\n",
-             verdict_name(pair.verdict()));
+  if (pair.sources) print_profiles(*pair.sources);
+  fmt::print("\nverdict: {}\n", verdict_name(pair.verdict()));
 }
 
 void print_set(const SetReport& report) {
@@ -270,6 +269,8 @@ void print_set(const SetReport& report) {
       report.pairs.size(), counts.pass, counts.differs,
       counts.undecided > 0 ? fmt::format("{} undecided, ", counts.undecided) : "", counts.nonfinite,
       counts.errors, counts.missing, counts.extra);
+  if (const SetNotCompared left = not_compared(report); left.pairs > 0)
+    fmt::print("not compared, in {} of the pairs: {}\n", left.pairs, to_text(left.all));
   if (report.passed_over > 0) fmt::print("{} files are no pictures\n", report.passed_over);
 }
 

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "compare/compare.hpp"
+#include "compare/not_compared.hpp"
 #include "core/picture.hpp"
 
 namespace lobelia {
@@ -23,12 +24,25 @@ struct PicturePairSource {
 PicturePair read_pair(const std::filesystem::path& a, const std::filesystem::path& b,
                       const std::string& layer);
 
+struct LayerOptions {
+  std::string layer;          ///< "" for the picture itself
+  bool all = false;           ///< and all others that both have
+  bool ignore_alpha = false;  ///< that of the picture
+};
+
+/// A layer, or what a layer has outside of its display window.
 struct LayerComparison {
   std::string name;
   PictureSource a, b;
-  /// Nothing if their sizes differ, which `problem` says: as bad as one that differs.
+  /// Nothing where it is not needed: they are identical, or `problem` says what is wrong.
   std::optional<Comparison> comparison;
-  std::string problem;
+  std::string problem;     ///< as bad as a difference: the sizes differ
+  bool identical = false;  ///< and finite; not measured
+  /// With it this is the comparison of all data on this window; (0, 0) is the display window's first pixel.
+  std::optional<PixelWindow> overscan = {};
+
+  Verdict verdict() const;
+  std::string title() const;  ///< "layer Z", "overscan of the picture"
 };
 
 /// Which layers there are to compare. The pictures themselves ("") are one where both have one.
@@ -36,29 +50,31 @@ struct CommonLayers {
   std::vector<std::string> both, only_a, only_b;  ///< in the order of the file; of `both` in a's
 };
 
-/// The layers besides the one that was compared as the picture.
+/// What was compared besides the picture in its display window, and what was not.
 struct OtherLayers {
-  CommonLayers common;
   std::vector<LayerComparison> compared;
+  NotCompared not_compared;
+  /// With all layers. What `b` has alone is missing from `a`, and fails; but for an alpha of 1, which is none.
+  std::optional<CommonLayers> common = {};
 };
 
 /// Throws Error(kInput) if no layer is in both; otherwise errors as layer_names.
 CommonLayers common_layers(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Compares the layers of those names, one pair in memory at a time. Errors as read_picture and compare.
-std::vector<LayerComparison> compare_layers(const std::filesystem::path& a,
-                                            const std::filesystem::path& b,
-                                            std::span<const std::string> names,
-                                            const ComparisonOptions& options);
+/// Of the files `a` and `b`, besides the display window of `picture`: what lies outside of it, its alpha, and with all
+/// layers those. Alpha is judged at the exposure 0 on a plain display. Where noise is known, nothing is compared: it is
+/// that of the picture. One pair is in memory at a time. Errors as read_picture and compare.
+OtherLayers compare_others(const std::filesystem::path& a, const std::filesystem::path& b,
+                           const PicturePair& picture, const LayerOptions& layers,
+                           const ComparisonOptions& options);
 
-/// Of the picture and its layers.
-Verdict worst_verdict(Verdict picture, std::span<const LayerComparison> layers);
+/// Of the picture and the others.
+Verdict worst_verdict(Verdict picture, const OtherLayers& others);
 
 /// Adds `pictures` to a record of comparison_record().
 void add_pictures(Json& record, const PictureSource& a, const PictureSource& b);
 
-/// Adds `layers` and `layersInOne` to it, and makes `verdict` the worst of all.
-void add_layers(Json& record, Verdict worst, std::span<const LayerComparison> layers,
-                const CommonLayers& common);
+/// Adds `notCompared`, `layers` and `layersInOne` to it, and makes `verdict` the worst of all.
+void add_layers(Json& record, Verdict worst, const OtherLayers& others);
 
 }  // namespace lobelia

@@ -21,7 +21,7 @@ double badness(Better better, double value) {
 }  // namespace
 
 Verdict PairReport::verdict() const {
-  return layers ? worst_verdict(comparison->verdict, layers->compared) : comparison->verdict;
+  return layers ? worst_verdict(comparison->verdict, *layers) : comparison->verdict;
 }
 
 SetCounts count(const SetReport& report) {
@@ -51,6 +51,16 @@ SetCounts count(const SetReport& report) {
   counts.missing = report.missing.size();
   counts.extra = report.extra.size();
   return counts;
+}
+
+SetNotCompared not_compared(const SetReport& report) {
+  SetNotCompared result;
+  for (const PairReport& pair : report.pairs) {
+    if (!pair.layers || pair.layers->not_compared.is_empty()) continue;
+    ++result.pairs;
+    add(pair.layers->not_compared, result.all);
+  }
+  return result;
 }
 
 ExitCode set_exit_code(const SetReport& report) {
@@ -103,12 +113,14 @@ std::string why_not_pass(const Comparison& comparison) {
 std::string why_not_pass(const PairReport& pair) {
   std::string text = why_not_pass(*pair.comparison);
   if (!pair.layers) return text;
-  for (const LayerComparison& layer : pair.layers->compared) {
-    const std::string why = layer.comparison ? why_not_pass(*layer.comparison) : layer.problem;
-    if (!why.empty())
-      text += fmt::format("{}layer {}: {}", text.empty() ? "" : "; ",
-                          layer.name.empty() ? "of the picture" : printable(layer.name), why);
-  }
+  const auto add = [&](const std::string& title, const std::string& why) {
+    if (!why.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", title, why);
+  };
+  for (const LayerComparison& layer : pair.layers->compared)
+    add(layer.title(), layer.comparison ? why_not_pass(*layer.comparison) : layer.problem);
+  if (pair.layers->common)
+    for (const std::string& name : pair.layers->common->only_b)
+      add(name.empty() ? "the picture" : "layer " + printable(name), "only b has it");
   return text;
 }
 

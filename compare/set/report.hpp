@@ -20,7 +20,7 @@ struct PairReport {
   std::string error;  ///< why there is no comparison; empty if there is one
   double seconds = 0;
   std::optional<PicturePairSource> sources = {};  ///< how both files were read
-  std::optional<OtherLayers> layers = {};         ///< if more layers than one were compared
+  std::optional<OtherLayers> layers = {};         ///< what was compared besides, and what was not
 
   /// The worst of the picture and its layers; `comparison` has to be there.
   Verdict verdict() const;
@@ -39,6 +39,13 @@ struct SetCounts {
               extra = 0;
 };
 SetCounts count(const SetReport& report);
+
+/// What was not compared of any of the pairs.
+struct SetNotCompared {
+  std::size_t pairs = 0;  ///< that have something
+  NotCompared all;
+};
+SetNotCompared not_compared(const SetReport& report);
 
 /// kInput if a pair could not be compared or there is none at all, else kDiffers if one is not a pass or
 /// is missing, else kSuccess. What has no reference is named, but does not fail.

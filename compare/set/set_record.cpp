@@ -8,7 +8,7 @@ namespace lobelia {
 Json pair_record(const PairReport& pair) {
   Json record = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
   if (pair.sources) add_pictures(record, pair.sources->a, pair.sources->b);
-  if (pair.layers) add_layers(record, pair.verdict(), pair.layers->compared, pair.layers->common);
+  if (pair.layers) add_layers(record, pair.verdict(), *pair.layers);
   return record;
 }
 
@@ -23,6 +23,9 @@ Json set_record(const SetReport& report) {
                        {"nonFinite", counts.nonfinite},   {"errors", counts.errors},
                        {"missing", counts.missing},       {"extra", counts.extra},
                        {"passedOver", report.passed_over}};
+  const SetNotCompared left = not_compared(report);
+  record["notCompared"] = to_json(left.all);
+  record["notCompared"]["pairs"] = left.pairs;
   record["worst"] = Json::object();
   for (const MetricSummary& metric : summarise(report.pairs))
     record["worst"][std::string(metric.id)] = {{"value", number_or_name(metric.worst)},

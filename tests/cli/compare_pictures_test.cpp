@@ -1,11 +1,15 @@
 // `lobelia compare` on files as they come: what it answers to each, and that it always answers.
+#include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <set>
 
 #include "run_lobelia.hpp"
 #include "tests/core/picture_files.hpp"
@@ -178,7 +182,6 @@ TEST_F(ComparePictures, OneLayerIsComparedByItsName) {
 TEST_F(ComparePictures, WithAllLayersTheWorstIsTheVerdictAndEachHasItsFigures) {
   flat("a.exr", 1, {channel("A", 0.5f), channel("Z", 70), channel("same.Y", 1)});
   flat("b.exr", 1, {channel("A", 0.75f), channel("same.Y", 1), channel("id", 3)});
-  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 0) << "alpha is asked for with all layers alone";
   const Record made = record({"a.exr", "b.exr", "--all-layers"}, 1);
   EXPECT_EQ(made["verdict"], "differs");
   EXPECT_EQ(made["metrics"]["max_abs"], 0);
@@ -201,6 +204,230 @@ TEST_F(ComparePictures, WithAllLayersTheWorstIsTheVerdictAndEachHasItsFigures) {
   EXPECT_EQ(record({"c.exr", "b.exr", "--all-layers"}, 1)["verdict"], "non-finite");
 }
 
+TEST_F(ComparePictures, OpaqueAgainstTransparentDoesNotPass) {
+  flat("opaque.exr", 0.5f, {channel("A", 1)});
+  flat("clear.exr", 0.5f, {channel("A", 0)});
+  flat("none.exr", 0.5f);
+  const Record made = record({"clear.exr", "opaque.exr"}, 1);
+  EXPECT_EQ(made["verdict"], "differs");
+  EXPECT_EQ(made["metrics"]["max_abs"], 0) << "the picture itself";
+  ASSERT_EQ(made["layers"].size(), 1u);
+  EXPECT_EQ(made["layers"][0]["layer"], "A");
+  EXPECT_EQ(made["layers"][0]["metrics"]["max_abs"], 1);
+  EXPECT_EQ(compare({"opaque.exr", "clear.exr"}).exit_code, 1);
+  // However dark the display is.
+  EXPECT_EQ(compare({"opaque.exr", "clear.exr", "--exposure", "-20", "--fail", "flip.ldr.mean=0.1"})
+                .exit_code,
+            1);
+  const Record same = record({"clear.exr", "clear.exr"}, 0);
+  EXPECT_EQ(same["layers"][0]["identical"], true);
+  EXPECT_EQ(same["notCompared"]["alpha"], false);
+
+  EXPECT_EQ(record({"opaque.exr", "none.exr", "--all-layers"}, 0)["notCompared"]["alpha"], false)
+      << "1 everywhere is no alpha";
+  EXPECT_EQ(record({"none.exr", "opaque.exr", "--all-layers"}, 0)["layersInOne"]["b"],
+            Record::array());
+  for (const auto& [a, b] : {std::pair{"none.exr", "clear.exr"}, {"clear.exr", "none.exr"}})
+    EXPECT_EQ(record({a, b}, 0)["notCompared"]["alpha"], true)
+        << "one alone has it, and it is said";
+  EXPECT_EQ(compare({"none.exr", "clear.exr", "--all-layers"}).exit_code, 1) << "A is missing";
+
+  const Record ignored = record({"clear.exr", "opaque.exr", "--ignore-alpha"}, 0);
+  EXPECT_EQ(ignored["notCompared"]["alpha"], true);
+  EXPECT_THAT(compare({"clear.exr", "opaque.exr", "--ignore-alpha"}).output_tail,
+              HasSubstr("  not compared: alpha\n"));
+  EXPECT_EQ(record({"clear.exr", "opaque.exr", "--ignore-alpha", "--all-layers"}, 0)["verdict"],
+            "pass");
+}
+
+TEST_F(ComparePictures, AlphaOfOtherNamesIsThatOfThePicture) {
+  const std::vector<ExrChannel> beauty = {channel("beauty.R", 1), channel("beauty.G", 1),
+                                          channel("beauty.B", 1), channel("beauty.A", 0.5f)};
+  exr("a.exr", 32, 32, beauty);
+  flat("b.exr", 1, {channel("A", 1)});
+  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 1);
+  flat("b.exr", 1, {channel("A", 0.5f)});
+  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 0);
+  EXPECT_EQ(compare({"a.exr", "b.exr", "--all-layers"}).exit_code, 0);
+}
+
+TEST_F(ComparePictures, ALayerThatOnlyTheReferenceHasFailsWithAllLayersAndIsNamedWithout) {
+  flat("less.exr", 1);
+  flat("more.exr", 1, {channel("Z", 1)});
+  EXPECT_EQ(record({"less.exr", "more.exr", "--all-layers"}, 1)["verdict"], "differs");
+  const ProcessResult missing = compare({"less.exr", "more.exr", "--all-layers"});
+  EXPECT_THAT(missing.output_tail, HasSubstr("only in b: Z"));
+  EXPECT_THAT(missing.output_tail, HasSubstr("verdict: differs"));
+  EXPECT_EQ(record({"more.exr", "less.exr", "--all-layers"}, 0)["notCompared"]["layers"],
+            Record({"Z"}));
+  for (const auto& [a, b] : {std::pair{"less.exr", "more.exr"}, {"more.exr", "less.exr"}}) {
+    EXPECT_EQ(record({a, b}, 0)["notCompared"]["layers"], Record({"Z"}));
+    EXPECT_THAT(compare({a, b}).output_tail, HasSubstr("  not compared: layer 'Z'\n"));
+  }
+  EXPECT_EQ(record({"more.exr", "more.exr", "--layer", "Z"}, 0)["notCompared"]["layers"],
+            Record({""}))
+      << "the picture";
+}
+
+TEST_F(ComparePictures, EveryComponentOfAVectorIsCompared) {
+  const auto motion = [&](float x, float y) {
+    return std::vector{channel("motion.x", x), channel("motion.y", y)};
+  };
+  exr("a.exr", 32, 32, motion(1, 2));
+  exr("other_x.exr", 32, 32, motion(3, 2));
+  exr("other_y.exr", 32, 32, motion(1, 3));
+  for (const char* other : {"other_x.exr", "other_y.exr"}) {
+    EXPECT_EQ(compare({other, "a.exr"}).exit_code, 3) << "which layer is the picture?";
+    for (const char* option : {"--all-layers", "--layer=motion"})
+      EXPECT_EQ(compare({other, "a.exr", option}).exit_code, 1) << other << " " << option;
+  }
+  EXPECT_EQ(compare({"a.exr", "a.exr", "--layer", "motion"}).exit_code, 0);
+}
+
+TEST_F(ComparePictures, AChannelThatDiffersAloneNeverPassesUnsaid) {
+  // Random channels; of each file every channel differs once. One run of two folders for each way to ask.
+  constexpr const char* kPrefixes[] = {"", "", "motion.", "N.", "a.b.", "diffuse.", "Y."};
+  constexpr const char* kSuffixes[] = {"R", "G", "B", "A", "X", "Y", "Z",     "x",
+                                       "y", "z", "u", "v", "w", "r", "alpha", "id"};
+  std::mt19937 random(11);
+  std::map<std::string, std::string> changed;  // channel by file
+  for (const char* side : {"a", "b"}) std::filesystem::create_directory(directory_.path() / side);
+  for (int run = 0; run < 40; ++run) {
+    std::set<std::string> names;
+    if (run % 2 == 0) names = {"R", "G", "B"};
+    for (std::size_t count = names.size() + 1 + random() % 4; names.size() < count;)
+      names.insert(std::string(kPrefixes[random() % std::size(kPrefixes)]) +
+                   kSuffixes[random() % std::size(kSuffixes)]);
+    for (const std::string& other : names) {
+      const std::string file = std::to_string(run) + "_" + std::to_string(changed.size()) + ".exr";
+      for (const bool is_a : {true, false}) {
+        std::vector<ExrChannel> channels;
+        float value = 1;
+        for (const std::string& name : names)
+          channels.push_back(
+              {name, std::vector<float>(16 * 16, is_a && name == other ? 20 : ++value)});
+        exr((is_a ? "a/" : "b/") + file, 16, 16, channels);
+      }
+      changed[file] = other;
+    }
+  }
+  ASSERT_GT(changed.size(), 100u);
+  std::size_t named = 0, failed = 0;
+  for (const bool all : {true, false}) {
+    std::vector<std::string> arguments = {"a", "b", "--json", "set.json"};
+    if (all) arguments.emplace_back("--all-layers");
+    compare(arguments);
+    const Record set = Record::parse(read_file(directory_.path() / "set.json", 64 << 20));
+    ASSERT_EQ(set["pairs"].size(), changed.size());
+    for (const Record& pair : set["pairs"]) {
+      const std::string channel = changed[pair["name"]];
+      if (!pair.contains("comparison")) {
+        EXPECT_FALSE(all) << pair;
+        EXPECT_THAT(std::string(pair["error"]), HasSubstr("a layer has to be chosen"));
+        continue;
+      }
+      const Record& made = pair["comparison"];
+      if (made["verdict"] != "pass") {
+        ++failed;
+        continue;
+      }
+      EXPECT_FALSE(all) << channel << " " << made["pictures"]["a"] << made["notCompared"];
+      const auto has_channel = [&](const Record& layer) {
+        const std::string name = layer;
+        return name == channel || channel.starts_with(name + ".");
+      };
+      const Record& layers = made["notCompared"]["layers"];
+      EXPECT_TRUE(std::any_of(layers.begin(), layers.end(), has_channel))
+          << channel << " " << made["notCompared"];
+      ++named;
+    }
+  }
+  EXPECT_GT(named, 20u);
+  EXPECT_GT(failed, 100u);
+}
+
+TEST_F(ComparePictures, DataOutsideTheDisplayWindowCount) {
+  const auto box = window(0, 0, 32, 32), wide = window(-4, -4, 40, 40);
+  const auto write = [&](const std::string& name, const Imath::Box2i& data, float outside) {
+    const int width = data.max.x - data.min.x + 1;
+    std::vector<float> grey;
+    for (int y = data.min.y; y <= data.max.y; ++y)
+      for (int x = data.min.x; x <= data.max.x; ++x)
+        grey.push_back(x < 0 || y < 0 || x >= 32 || y >= 32 ? outside : 0.5f);
+    ASSERT_EQ(grey.size(), std::size_t(width) * std::size_t(data.max.y - data.min.y + 1));
+    write_exr_parts(directory_.path() / name, {{"", data, box, {{"Y", grey}}}});
+  };
+  write("plain.exr", box, 0);
+  write("zero.exr", wide, 0);
+  write("one.exr", wide, 1);
+  write("two.exr", wide, 2);
+  const Record differs = record({"two.exr", "one.exr"}, 1);
+  EXPECT_EQ(differs["verdict"], "differs");
+  EXPECT_EQ(differs["metrics"]["max_abs"], 0) << "of the display window";
+  EXPECT_EQ(differs["layers"][0]["metrics"]["max_abs"], 1);
+  EXPECT_EQ(differs["layers"][0]["overscan"],
+            Record({{"x", -4}, {"y", -4}, {"width", 40}, {"height", 40}}));
+  EXPECT_THAT(compare({"two.exr", "one.exr"}).output_tail,
+              HasSubstr("overscan of the picture: differs; max_rel_peak 1 (limit 0.01)"));
+  EXPECT_EQ(record({"one.exr", "one.exr"}, 0)["layers"][0]["identical"], true);
+  for (const auto& [a, b] : {std::pair{"one.exr", "plain.exr"}, {"plain.exr", "one.exr"}}) {
+    const Record alone = record({a, b, "--fail", "max_abs=100"}, 1);
+    EXPECT_THAT(std::string(alone["layers"][0]["problem"]), HasSubstr("576 of"));
+  }
+  EXPECT_EQ(record({"zero.exr", "plain.exr"}, 0)["verdict"], "pass")
+      << "0, as where there is nothing";
+  flat("noise.exr", 0.01f);
+  const std::vector<std::string> with_noise = {"two.exr",   "one.exr", "--a-error",
+                                               "noise.exr", "--fail",  "max_abs=0.5"};
+  EXPECT_EQ(record(with_noise, 0)["notCompared"]["overscanPixels"], 576)
+      << "the noise of the data is not known";
+}
+
+TEST_F(ComparePictures, APpmAndThePngThatOiiotoolMakesOfItAreEqual) {
+  std::string rgb;
+  for (int i = 0; i < 3 * 16 * 16; ++i) rgb += char(i % 251);
+  file("a.ppm", "P6 16 16 255\n" + rgb);
+  Png png{.width = 16, .height = 16, .samples = rgb};
+  png.chunks = png_chunk("tEXt", std::string("oiio:ColorSpace\0Rec709", 22));
+  file("a.png", png_file(png));
+  const Record made = record({"a.png", "a.ppm", "--fail", "max_abs=0"}, 0);
+  EXPECT_EQ(made["pictures"]["a"]["transfer"], made["pictures"]["b"]["transfer"]);
+}
+
+TEST_F(ComparePictures, SmallerMipLevelsAreNamed) {
+  const auto write = [&](const std::string& name, float small) {
+    Imf::Header header(16, 16);
+    header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+    header.setTileDescription({16, 16, Imf::MIPMAP_LEVELS});
+    Imf::TiledOutputFile tiled((directory_.path() / name).c_str(), header);
+    for (int level = 0; level < tiled.numLevels(); ++level) {
+      std::vector<float> grey(16 * 16, level == 0 ? 1 : small);
+      Imf::FrameBuffer buffer;
+      buffer.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(grey.data()), 4, 64));
+      tiled.setFrameBuffer(buffer);
+      tiled.writeTiles(0, tiled.numXTiles(level) - 1, 0, tiled.numYTiles(level) - 1, level);
+    }
+  };
+  write("a.exr", 1);
+  write("b.exr", 2);
+  EXPECT_EQ(record({"a.exr", "b.exr"}, 0)["notCompared"]["mipLevels"], 4);
+  EXPECT_THAT(compare({"a.exr", "b.exr"}).output_tail,
+              HasSubstr("not compared: 4 smaller MIP levels"));
+}
+
+TEST_F(ComparePictures, OfTwoFoldersWhatWasNotComparedIsOneLine) {
+  for (const char* side : {"a", "b"}) {
+    std::filesystem::create_directory(directory_.path() / side);
+    flat(std::string(side) + "/one.exr", 1, {channel("Z", 1)});
+    flat(std::string(side) + "/two.exr", 1, {channel("N", 1)});
+    flat(std::string(side) + "/whole.exr", 1);
+  }
+  const ProcessResult result = compare({"a", "b"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output_tail,
+              HasSubstr("\nnot compared, in 2 of the pairs: layers 'Z', 'N'\n"));
+}
+
 TEST_F(ComparePictures, WithAllLayersAndNoPictureTheFirstCommonLayerStandsForIt) {
   exr("a.exr", 32, 32, {channel("u", 1), channel("v", 2)});
   EXPECT_EQ(compare({"a.exr", "a.exr"}).exit_code, 3);
@@ -217,7 +444,8 @@ TEST_F(ComparePictures, FramesOfAnAnimationAreLayers) {
   const std::string white = "\xff\xff\xff";
   file("one.gif", gif_file({white}));
   file("three.gif", gif_file({white, white, white}));
-  const Record made = record({"one.gif", "three.gif", "--all-layers"}, 0);
+  EXPECT_EQ(record({"three.gif", "one.gif", "--all-layers"}, 0)["verdict"], "pass");
+  const Record made = record({"one.gif", "three.gif", "--all-layers"}, 1);
   EXPECT_EQ(made["layers"].size(), 1u) << "the first one's alpha";
   EXPECT_EQ(made["layersInOne"]["b"], Record({"part2", "part2.A", "part3", "part3.A"}));
 }

@@ -106,18 +106,22 @@ Plain record_of_files() {
   source.transfer = "linear";
   source.data = {-1, 2, 3, 4};
   source.display = {0, 0, 16, 16};
-  std::vector<LayerComparison> layers;
+  OtherLayers others;
+  std::vector<LayerComparison>& layers = others.compared;
   for (const Image* image : std::initializer_list<const Image*>{&good, &other, &broken}) {
     source.layer = "layer" + std::to_string(layers.size());
     layers.push_back({source.layer, source, source, compare(*image, good, {}), ""});
   }
   layers.push_back({"two sizes", source, source, {}, "the sizes differ"});
+  layers.push_back({"", source, source, {}, "", true, PixelWindow{-1, 0, 17, 16}});
+  others.not_compared = {{"Z"}, true, 5, 2};
+  others.common = {{}, {"Z"}, {}};
   source.icc_profile = "sRGB";
   source.chromaticities = {0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
   const Comparison picture = compare(good, good, {});
   Json made = comparison_record(picture, "a.exr", "b.exr");
   add_pictures(made, source, source);
-  add_layers(made, worst_verdict(picture.verdict, layers), layers, {{}, {"Z"}, {}});
+  add_layers(made, worst_verdict(picture.verdict, others), others);
   return Plain::parse(record_text(made));
 }
 
@@ -126,8 +130,9 @@ TEST(ComparisonSchema, HoldsForFilesAndTheirLayers) {
   EXPECT_EQ(problems(good), "");
   EXPECT_EQ(good["verdict"], "non-finite") << "the worst";
   EXPECT_EQ(good["metrics"]["max_abs"], 0) << "the picture's own";
-  ASSERT_EQ(good["layers"].size(), 4u);
+  ASSERT_EQ(good["layers"].size(), 5u);
   EXPECT_EQ(good["layers"][3]["verdict"], "differs");
+  EXPECT_EQ(good["layers"][4]["verdict"], "pass");
   const auto broken = [&](auto change) {
     Plain changed = good;
     change(changed);
@@ -140,6 +145,10 @@ TEST(ComparisonSchema, HoldsForFilesAndTheirLayers) {
     broken([&](Plain& r) { r["layers"][0].erase(key); });
   broken([](Plain& r) { r["layers"][3].erase("problem"); });
   broken([](Plain& r) { r["layers"][1]["metrics"]["rmse"] = -1; });
+  broken([](Plain& r) { r["layers"][4].erase("identical"); });
+  broken([](Plain& r) { r["layers"][4]["overscan"].erase("width"); });
+  for (const char* key : {"layers", "alpha", "overscanPixels", "mipLevels"})
+    broken([&](Plain& r) { r["notCompared"].erase(key); });
   broken([](Plain& r) { r["pictures"]["a"]["chromaticities"].erase(0); });
   broken([](Plain& r) { r["layersInOne"].erase("a"); });
   broken([](Plain& r) { r["pictures"]["b"]["displayWindow"]["width"] = 0; });

@@ -15,6 +15,7 @@
 #include "reference_scenes/engine.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/core/picture_files.hpp"
 
 namespace lobelia {
 namespace {
@@ -104,6 +105,82 @@ void write_must_pass(const Pairs& pairs) {
   pairs.write("black", black, black);
 }
 
+// ---- files that say more than a picture: layers, windows, colours; 16 x 16 pixels of grey
+
+using namespace testing;
+
+constexpr int kFileSide = 16;
+using Channels = std::vector<ExrChannel>;
+
+ExrChannel even(const char* name, float value) {
+  return {name, std::vector<float>(kFileSide * kFileSide, value)};
+}
+
+Channels grey_rgb(Channels more = {}) {
+  for (const char* name : {"R", "G", "B"}) more.push_back(even(name, 0.25f));
+  return more;
+}
+
+/// Of a display window of kFileSide, with this value in a border of `border` pixels around it.
+ExrPart with_border(int border, float value) {
+  ExrPart part{"",
+               window(-border, -border, kFileSide + 2 * border, kFileSide + 2 * border),
+               window(0, 0, kFileSide, kFileSide),
+               {{"Y", {}}}};
+  for (int y = -border; y < kFileSide + border; ++y)
+    for (int x = -border; x < kFileSide + border; ++x)
+      part.channels[0].values.push_back(x < 0 || y < 0 || x >= kFileSide || y >= kFileSide ? value
+                                                                                           : 0.25f);
+  return part;
+}
+
+struct Files {
+  fs::path directory;
+  void exr(const std::string& name, const ExrPart& a, const ExrPart& b) const {
+    for (const auto& [side, part] : {std::pair{"a", &a}, {"b", &b}}) {
+      make_directories(directory / side);
+      write_exr_parts(directory / side / (name + ".exr"), {*part});
+    }
+  }
+  void exr(const std::string& name, const Channels& a, const Channels& b) const {
+    const auto box = window(0, 0, kFileSide, kFileSide);
+    exr(name, ExrPart{"", box, box, a}, ExrPart{"", box, box, b});
+  }
+  void png(const std::string& name, const Png& a, const Png& b) const {
+    for (const auto& [side, picture] : {std::pair{"a", &a}, {"b", &b}}) {
+      make_directories(directory / side);
+      write_file(directory / side / (name + ".png"), png_file(*picture));
+    }
+  }
+};
+
+Png red_png(const std::string& chunks) {
+  Png png{.width = kFileSide, .height = kFileSide};
+  for (int i = 0; i < kFileSide * kFileSide; ++i) png.samples += "\xc0\x40\x40";
+  png.chunks = chunks;
+  return png;
+}
+
+void write_files_that_must_pass(const Files& files) {
+  files.exr("alpha_of_one_against_none", grey_rgb({even("A", 1)}), grey_rgb());
+  files.exr("zeros_outside_of_the_display", with_border(2, 0), with_border(0, 0));
+  files.png("a_text_of_a_library",
+            red_png(png_chunk("tEXt", std::string("oiio:ColorSpace\0Rec709", 22))), red_png(""));
+}
+
+void write_files_that_must_fail(const Files& files) {
+  files.exr("transparent_for_opaque", grey_rgb({even("A", 0)}), grey_rgb({even("A", 1)}));
+  files.exr("overscan_of_another_value", with_border(2, 2), with_border(2, 1));
+  files.exr("overscan_that_one_alone_has", with_border(2, 1), with_border(0, 0));
+  const auto box = window(0, 0, kFileSide, kFileSide);
+  const Channels red = {even("R", 0.5f), even("G", 0.1f), even("B", 0.1f)};
+  ExrPart aces{"", box, box, red};
+  aces.chromaticities =
+      Imf::Chromaticities({0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f}, {0.32168f, 0.33767f});
+  files.exr("values_of_other_primaries", aces, ExrPart{"", box, box, red});
+  files.png("values_of_another_curve", red_png(png_chunk("gAMA", big_endian(100000))), red_png(""));
+}
+
 void write_must_fail(const Pairs& pairs) {
   const Image good = picture(usual());
   const auto at = [&](int x, int y, int c) {
@@ -171,8 +248,12 @@ int main(int count, char** arguments) {
   using namespace lobelia;
   if (count != 2) return fmt::print(stderr, "write_pairs DIRECTORY\n"), 2;
   try {
-    write_must_pass({fs::path(arguments[1]) / "must_pass"});
-    write_must_fail({fs::path(arguments[1]) / "must_fail"});
+    const fs::path must_pass = fs::path(arguments[1]) / "must_pass",
+                   must_fail = fs::path(arguments[1]) / "must_fail";
+    write_files_that_must_pass({must_pass});
+    write_files_that_must_fail({must_fail});
+    write_must_pass({must_pass});
+    write_must_fail({must_fail});
   } catch (const Error& error) {
     return fmt::print(stderr, "write_pairs: {}\n", error.what()), int(error.code());
   }
