@@ -15,11 +15,15 @@ std::optional<Fresnel> find_fresnel(std::string_view name) {
   return find_id<Fresnel>(kNames, name);
 }
 
-Rgb fresnel_factor(Fresnel fresnel, Rgb reflectance, Vec3 to_eye, Vec3 to_light) {
+double mirror_at_grazing(Rgb reflectance) { return std::min(1.0, 50 * max_component(reflectance)); }
+
+Rgb fresnel_factor(Fresnel fresnel, Rgb reflectance, Vec3 to_eye, Vec3 to_light,
+                   double at_grazing) {
   if (fresnel == Fresnel::kNone) return reflectance;
   const double base = std::max(0.0, 1 - length(to_eye + to_light) / 2);
   const double weight = base * base * base * base * base;
-  return (1 - weight) * reflectance + Rgb{weight, weight, weight};
+  const double added = weight * at_grazing;
+  return (1 - weight) * reflectance + Rgb{added, added, added};
 }
 
 }  // namespace lobelia

@@ -31,8 +31,8 @@ double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
     const double specular = schlick ? 1 : max_component(m.specular_reflectance);
     reflected = std::max(reflected, radiance_coefficient(m.highlight) * specular +
                                         max_component(m.diffuse_reflectance) / std::numbers::pi);
-    const double mirror = max_component(m.mirror_reflectance);
-    mirrored = std::max(mirrored, schlick && mirror > 0 ? 1 : mirror);
+    mirrored = std::max(mirrored, schlick ? mirror_at_grazing(m.mirror_reflectance)
+                                          : max_component(m.mirror_reflectance));
   };
   for (const Sphere& sphere : scene.spheres) add(sphere.material);
   for (const Plane& plane : scene.planes) {

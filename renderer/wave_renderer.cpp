@@ -582,6 +582,7 @@ void WaveRenderer::spawn_mirror(const Wave& wave, Group group, bool one_of_two, 
   const Material& material = materials_[std::size_t(group.material)].material;
   Wave& next = work.wave_at(wave.level + 1, Wave::Kind::kMirror);
   const std::size_t before = next.count;
+  const double at_grazing = mirror_at_grazing(material.mirror_reflectance);
   if (one_of_two) work.draw(wave, hits, kChoiceDimension);
   for (std::size_t i = 0; i < hits; ++i) {
     if (one_of_two && !takes_mirror(work.random_u[i])) continue;
@@ -589,7 +590,7 @@ void WaveRenderer::spawn_mirror(const Wave& wave, Group group, bool one_of_two, 
     const double n_dot_v = dot(normal, to_eye);
     const Vec3 mirrored = normalize(2 * n_dot_v * normal - to_eye);
     const Rgb reflectance =
-        fresnel_factor(material.fresnel, material.mirror_reflectance, to_eye, mirrored);
+        fresnel_factor(material.fresnel, material.mirror_reflectance, to_eye, mirrored, at_grazing);
     const std::size_t to = next.count++;
     copy(work.point, i, next.origin, to);
     put(-mirrored, next.to_eye, to);

@@ -227,8 +227,8 @@ class Nodes:
         # Every lobe ends at 90 degrees.
         return self.math("MULTIPLY", value, self.math("LESS_THAN", s, 1.0))
 
-    def fresnel(self, kind, reflectance, cosine):
-        """The colour of the highlight or mirror: F0, or Schlick's F0 + (1 - F0)(1 - cosine)^5."""
+    def fresnel(self, kind, reflectance, cosine, at_grazing=1.0):
+        """The colour of the highlight or mirror: F0, or Schlick's F0 + (F90 - F0)(1 - cosine)^5."""
         if kind == "none":
             return self.constant(reflectance)
         if kind != "schlick":
@@ -236,7 +236,7 @@ class Nodes:
         base = self.math("MAXIMUM", self.math("SUBTRACT", 1.0, cosine), 0.0)
         square = self.math("MULTIPLY", base, base)
         weight = self.math("MULTIPLY", self.math("MULTIPLY", square, square), base)
-        rest = self.constant([1 - c for c in reflectance])
+        rest = self.constant([at_grazing - c for c in reflectance])
         return self.vector("ADD", self.vector("SCALE", rest, scale=weight), tuple(reflectance))
 
     def choose(self, condition, a, b):
@@ -332,7 +332,8 @@ class Surface(Nodes):
         if not any(material["mirror"]):
             return self.constant((0, 0, 0))
         cosine = self.vector("DOT_PRODUCT", self.normal, self.to_eye)
-        return self.fresnel(material["fresnel"], material["mirror"], cosine)
+        at_grazing = min(1.0, 50*max(material["mirror"]))  # a mirror of reflectance 0 is none
+        return self.fresnel(material["fresnel"], material["mirror"], cosine, at_grazing)
 
     def finish(self, color, mirror, mirrors, closure=None):
         """The base as seen by so many mirrors: before, a surface is a mirror and nothing else."""

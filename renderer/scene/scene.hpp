@@ -94,7 +94,7 @@ struct Material {
   Rgb specular_reflectance;  ///< scales the highlight, each 0..1; F0 of Schlick's Fresnel factor
   Rgb diffuse_reflectance;   ///< Lambertian albedo beneath it, each 0..1
   Fresnel fresnel = Fresnel::kNone;
-  Rgb mirror_reflectance = {};  ///< of a perfect mirror on top, each 0..1; as F0, where Fresnel is
+  Rgb mirror_reflectance = {};  ///< of a perfect mirror on top, each 0..1; F0 of its Fresnel factor
 };
 
 /// Whether there is a highlight at all: with Schlick's factor there is, even of a black one.

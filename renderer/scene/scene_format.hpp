@@ -127,10 +127,12 @@ inline constexpr Parameter kHighlightParameters[] = {
      "where its coefficient comes from"},
     {"exponent", ParameterType::kFloat, "", kMinExponent, kMaxExponent, "", "sharpness n"},
     {"fresnel", ParameterType::kString, "none", 0, 0, "",
-     "schlick: the specular reflectance is that at normal incidence, and grows to 1"},
+     "schlick: the reflectances of highlight and mirror are those at normal incidence, and grow to 1"},
     {"specular_reflectance", ParameterType::kRgb, "1", 0, 1, "", "scales the highlight"},
     {"diffuse_reflectance", ParameterType::kRgb, "0", 0, 1, "", "Lambertian albedo beneath it"},
-    {"mirror_reflectance", ParameterType::kRgb, "0", 0, 1, "", "of a perfect mirror on top"},
+    {"mirror_reflectance", ParameterType::kRgb, "0", 0, 1, "",
+     "of a perfect mirror on top; with schlick below 0.02 it grows to 50 times its largest component only, "
+     "so that 0 is no mirror at any angle"},
 };
 
 /// An element <tag type="type">.

@@ -38,6 +38,27 @@ TEST(SchlicksFactor, IsTheReflectanceHeadOnAndOneAtGrazingAndGrowsInBetween) {
   expect_near(factor(60), 31.0 / 32 * kReflectance + 1.0 / 32 * Rgb{1, 1, 1}, 1e-15, "60");
 }
 
+TEST(AMirrorsSchlickFactor, IsThatOfAHighlightFromTwoPerCentOnAndVanishesWithoutAStepBelow) {
+  for (const double degrees : {0.0, 30.0, 60.0, 80.0, 89.0, 90.0}) {
+    const double a = radians(degrees);
+    const Vec3 to_eye{std::sin(a), 0, std::cos(a)}, mirrored{-std::sin(a), 0, std::cos(a)};
+    const auto factor = [&](Rgb r) {
+      return fresnel_factor(Fresnel::kSchlick, r, to_eye, mirrored, mirror_at_grazing(r));
+    };
+    for (const Rgb r : {Rgb{0.02, 0.02, 0.02}, Rgb{0, 0, 0.02}, Rgb{0.5, 0.001, 0}, Rgb{1, 1, 1}})
+      EXPECT_EQ(factor(r), fresnel_factor(Fresnel::kSchlick, r, to_eye, mirrored)) << degrees;
+    EXPECT_EQ(factor({}), Rgb{}) << degrees;
+    double before = 0;
+    for (double r = 1e-12; r < 1; r *= 1.01) {
+      const double here = factor({r, r, r}).g;
+      EXPECT_GE(here, before) << degrees << " " << r;
+      EXPECT_GE(here, r * (1 - 1e-15));
+      EXPECT_LE(here, std::min(1.0, 50 * r) * (1 + 1e-15)) << degrees << " " << r;
+      before = here;
+    }
+  }
+}
+
 TEST(Fresnel, ScalesTheHighlightOfEveryModelAndNothingElse) {
   const Frame frame;
   for (const Highlight& h : highlights(every_model(), std::vector{1.0, 16.0, 1024.0})) {

@@ -171,6 +171,15 @@ TEST(Evaluation, AMirrorsSchlickFactorIsOfTheAngleToItsNormal) {
   scene.lights = {DirectionalLight{{1, 0, 0}, {kPi, kPi, kPi}}};
   scene.depth.mirror = 1;
   EXPECT_NEAR(middle(scene).r, 0.04 + 0.96 * std::pow(0.2, 5), 1e-14);
+  // Below 0.02 it grows to 50 times its largest component; so there is no step where a mirror begins.
+  scene.materials[0].mirror_reflectance = {0.01, 0.005, 0};
+  EXPECT_NEAR(middle(scene).r, 0.01 + 0.49 * std::pow(0.2, 5), 1e-14);
+  EXPECT_NEAR(middle(scene).g, 0.005 + 0.495 * std::pow(0.2, 5), 1e-14);
+  EXPECT_NEAR(middle(scene).b, 0.5 * std::pow(0.2, 5), 1e-14);
+  scene.materials[0].mirror_reflectance = 1e-9 * kWhite;
+  EXPECT_NEAR(middle(scene).r, 1e-9 + 49e-9 * std::pow(0.2, 5), 1e-22);
+  scene.materials[0].mirror_reflectance = {};
+  EXPECT_EQ(middle(scene).r, 0);
 }
 
 TEST(Evaluation, EveryReflectionBetweenTwoMirrorsTakesItsShare) {

@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -13,14 +14,17 @@
 namespace lobelia::truth {
 namespace {
 
-/// F0 + (1 - F0) (1 - cosine)^5 where the material asks for it, else F0.
+/// F0 + (F90 - F0) (1 - cosine)^5 where the material asks for it, else F0.
 template <class Real>
-Rgb reflected(Fresnel fresnel, Rgb f0, const Real& cosine) {
+Rgb reflected(Fresnel fresnel, Rgb f0, double f90, const Real& cosine) {
   if (fresnel == Fresnel::kNone) return f0;
   const Real rest = 1 - cosine;
   const double weight(rest * rest * rest * rest * rest);
-  return f0 + weight * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b};
+  return f0 + weight * Rgb{f90 - f0.r, f90 - f0.g, f90 - f0.b};
 }
+
+/// A mirror's F90: 50 times its largest component, until that is 1.
+double mirror_f90(Rgb f0) { return std::min(50 * std::max({f0.r, f0.g, f0.b}), 1.0); }
 
 /// A material with what is the same in every pixel.
 struct Finish {
@@ -42,7 +46,7 @@ struct Finish {
     const double lobe(lobe_of_cosine(highlight.lobe, cosine, highlight.exponent));
     const Real v_dot_h = dot(at.to_eye, normalize(light.to_light + at.to_eye));
     return in_front * lobe * (model.radiance_has_cosine ? n_dot_l : 1) *
-               reflected(material.fresnel, material.specular_reflectance, v_dot_h) +
+               reflected(material.fresnel, material.specular_reflectance, 1, v_dot_h) +
            diffuse;
   }
 };
@@ -63,7 +67,8 @@ std::vector<Rgb> evaluate_in(const Scene& scene, const std::function<bool()>& st
           if (const auto arrival = tracer.arrival(light, met))
             sum = sum + weight * (double(arrival->falloff) * strength(scene.lights[light])) *
                             finish.reflectance(met, *arrival);
-        weight = weight * reflected(finish.material.fresnel, finish.material.mirror_reflectance,
+        const Rgb mirror = finish.material.mirror_reflectance;
+        weight = weight * reflected(finish.material.fresnel, mirror, mirror_f90(mirror),
                                     dot(met.normal, met.to_eye));
       });
       picture[std::size_t(y) * width + x] = sum;
