@@ -59,10 +59,6 @@ void lay_on_surfaces(const Scene& before, Scene& scene) {
   });
 }
 
-bool inside(Vec3 point, const Sphere& sphere) {
-  return length(point - sphere.center) <= sphere.radius;
-}
-
 /// Engines' units in a unit of the scene.
 double engine_scale(const Scene& scene) {
   if (scene.spheres.empty()) return 1;
@@ -99,8 +95,8 @@ std::string why_not_comparable(const Scene& scene) {
 
 std::string why_not_for_programs(const Scene& scene) {
   for (const Sphere& sphere : scene.spheres)
-    if (inside(scene.camera.origin, sphere))
-      return "the camera is inside a sphere, where engines disagree on which side is outside";
+    if (length(scene.camera.origin - sphere.center) <= outer_radius(sphere))
+      return "the camera is inside a sphere or on it, where engines disagree on which side is outside";
   if (extent(in_engine_units(scene)) > kMaxExtent)
     return fmt::format(
         "something is more than {} times the smallest radius away from the first sphere, which is "

@@ -67,6 +67,7 @@ struct Accelerator::State {
     if (!(chord.half_squared > 0)) return;
     const double t = chord.entry();
     if (!(t > 0) || t > search.distance) return;
+    if (!is_outside(state.spheres[a->primID], search.origin)) return;
     if (t == search.distance && index > search.found) return;
     search.distance = t;
     search.found = index;

@@ -25,6 +25,12 @@ inline Chord chord_of(const Sphere& sphere, Vec3 origin, Vec3 direction) {
   return {along, off_axis, sphere.radius * sphere.radius - dot(off_axis, off_axis)};
 }
 
+/// Whether a ray from there may meet the sphere: spheres have an outside only.
+inline bool is_outside(const Sphere& sphere, Vec3 origin) {
+  const Vec3 to_center = sphere.center - origin;
+  return dot(to_center, to_center) > outer_radius(sphere) * outer_radius(sphere);
+}
+
 /// Whether the sphere is between the point and what is at `distance` in the direction `to_light`.
 inline bool blocks(const Sphere& sphere, double inner_radius, Vec3 point, Vec3 to_light,
                    double distance) {

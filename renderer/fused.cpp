@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/chord.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia {
@@ -73,6 +74,7 @@ FusedRenderer::FusedRenderer(const Scene& scene, const Plan& plan)
   for (std::size_t x = 0; x < columns_.size(); ++x) columns_[x] = frame_.film_u(int(x) + 0.5);
   for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
     const Sphere& sphere = scene.spheres[i];
+    if (!is_outside(sphere, frame_.origin)) continue;
     const Vec3 to_center = sphere.center - frame_.origin;
     Outline outline{dot(to_center, frame_.forward), dot(to_center, frame_.right),
                     dot(to_center, frame_.up), 0, false};

@@ -54,7 +54,8 @@ std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) 
     const Chord chord = chord_of(sphere, origin, direction);
     if (!(chord.half_squared > 0)) continue;
     const double half = std::sqrt(chord.half_squared), t = chord.along - half;
-    if (!(t > 0 && t < nearest_t)) continue;
+    if (!(t > 0 && t < nearest_t) || length(sphere.center - origin) <= outer_radius(sphere))
+      continue;
     nearest_t = t;
     const Vec3 normal = normalize(-(chord.off_axis + half * direction));
     nearest = Hit{k, sphere.center + sphere.radius * normal, normal};

@@ -36,6 +36,11 @@ void nearest_sphere(const std::vector<Sphere>& spheres, std::size_t count, const
                     const Vec3Chunk& to_eye, const double* leaves, double* index,
                     double* distance) {
   const hn::ScalableTag<double> d;
+  // The square of the distance to the centre, less that of the radius, of what lies on each sphere, at most.
+  std::vector<double> on_it;
+  for (const Sphere& sphere : spheres)
+    on_it.push_back((outer_radius(sphere) - sphere.radius) *
+                    (outer_radius(sphere) + sphere.radius));
   for (std::size_t i = 0; i < count; i += Lanes::count()) {
     const Lanes3 o = load(origin, i), eye = load(to_eye, i);
     const auto left = hn::LoadU(d, leaves + i);
@@ -45,8 +50,11 @@ void nearest_sphere(const std::vector<Sphere>& spheres, std::size_t count, const
       Lanes half, t;
       const Mask ahead =
           chord(broadcast(spheres[k].center) - o, Lanes(spheres[k].radius), eye, off_axis, half, t);
+      // By Euclid's theorem of the secant it is the product of the ways to both ends of the chord.
+      const Mask outside = hn::Gt((t * (t + half + half)).v, hn::Set(d, on_it[k]));
       const auto here = hn::Set(d, double(k));
-      const Mask hit = hn::AndNot(hn::Eq(here, left), hn::And(ahead, hn::Lt(t.v, nearest)));
+      const Mask hit =
+          hn::AndNot(hn::Eq(here, left), hn::And(hn::And(ahead, outside), hn::Lt(t.v, nearest)));
       nearest = hn::IfThenElse(hit, t.v, nearest);
       found = hn::IfThenElse(hit, here, found);
     }

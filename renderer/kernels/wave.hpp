@@ -18,8 +18,8 @@ struct WaveKernels {
                       const double* v, const double* lens_u, const double* lens_v,
                       Vec3Chunk& to_eye);
 
-  /// The nearest sphere in front, but for the one that the ray leaves (an index, or -1): its index or
-  /// -1, and the distance. Rays run opposite to `to_eye`.
+  /// The nearest sphere in front, but for those that the ray begins inside or on, and for the one that it
+  /// leaves (an index, or -1): its index or -1, and the distance. Rays run opposite to `to_eye`.
   void (*nearest_sphere)(const std::vector<Sphere>& spheres, std::size_t count,
                          const Vec3Chunk& origin, const Vec3Chunk& to_eye, const double* leaves,
                          double* index, double* distance);

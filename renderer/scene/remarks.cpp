@@ -12,13 +12,11 @@
 namespace lobelia {
 namespace {
 
-/// The first sphere that the point is inside, by more than `margin`.
-std::optional<std::size_t> holder(const Scene& scene, Vec3 point, double margin = 0) {
-  for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
-    const Sphere& sphere = scene.spheres[k];
-    const double inner = std::min(inner_radius(sphere), sphere.radius - margin);
-    if (length(point - sphere.center) < inner) return k;
-  }
+/// The first sphere whose centre the point is nearer to than limit(sphere).
+template <class Limit>
+std::optional<std::size_t> holder(const Scene& scene, Vec3 point, const Limit& limit) {
+  for (std::size_t k = 0; k < scene.spheres.size(); ++k)
+    if (length(point - scene.spheres[k].center) < limit(scene.spheres[k])) return k;
   return std::nullopt;
 }
 
@@ -53,17 +51,22 @@ std::vector<std::string> remarks(const Scene& scene) {
     found.push_back(fmt::format("the scene has no shape: the picture shows {}",
                                 sky || lamp ? "its lights alone" : "nothing"));
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
-  if (const auto k = holder(scene, scene.camera.origin))
+  if (const auto k = holder(scene, scene.camera.origin, inner_radius))
     found.push_back(fmt::format(
         "the camera is inside sphere {}, and does not see it: spheres have no inside", *k));
+  else if (const auto on = holder(scene, scene.camera.origin, outer_radius))
+    found.push_back(fmt::format(
+        "the camera is on sphere {}, and does not see it: spheres have no inside", *on));
   else if (!scene.spheres.empty() && scene.planes.empty() && !sky && !lamp &&
            std::none_of(scene.spheres.begin(), scene.spheres.end(),
                         [&](const Sphere& s) { return may_be_seen(scene, frame, s); }))
     found.push_back("the camera looks away from every sphere: the picture is black");
-  const double close = closeness(scene);
+  const auto inside_by_more = [close = closeness(scene)](const Sphere& sphere) {
+    return std::min(inner_radius(sphere), sphere.radius - close);
+  };
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
     if (const auto* point = std::get_if<PointLight>(&scene.lights[l]))
-      if (const auto k = holder(scene, point->position, close))
+      if (const auto k = holder(scene, point->position, inside_by_more))
         found.push_back(fmt::format(
             "light {} is inside sphere {}, which hides it: it lights nothing outside", l, *k));
   return found;

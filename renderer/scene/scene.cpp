@@ -25,11 +25,21 @@ CameraFrame camera_frame(const Camera& camera, const Film& film) {
   return frame;
 }
 
-double inner_radius(const Sphere& sphere) {
+namespace {
+
+/// How far off its sphere a point of it may be by rounding.
+double rounding_of_points(const Sphere& sphere) {
   const Vec3 c = sphere.center;
   const double reach = std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-  return std::max(0.0, sphere.radius * (1 - 1e-12) - 0x1p-48 * reach);
+  return sphere.radius * 1e-12 + 0x1p-48 * reach;
 }
+
+}  // namespace
+
+double inner_radius(const Sphere& sphere) {
+  return std::max(0.0, sphere.radius - rounding_of_points(sphere));
+}
+double outer_radius(const Sphere& sphere) { return sphere.radius + rounding_of_points(sphere); }
 
 Rgb strength(const Light& light) {
   struct Strength {

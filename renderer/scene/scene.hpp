@@ -108,9 +108,10 @@ struct Sphere {
   int material = 0;   ///< index into Scene::materials
 };
 
-/// What is nearer to the sphere's centre than this is inside; what is not may lie on the sphere, by the
-/// rounding of its place.
+/// What is nearer to the sphere's centre than this is inside, and what is farther than the other outside; what
+/// is between the two lies on the sphere, by the rounding of its place.
 double inner_radius(const Sphere& sphere);
+double outer_radius(const Sphere& sphere);
 
 /// An infinite plane, seen and lit from both sides.
 struct Plane {

@@ -22,6 +22,7 @@ Accelerator::Hit nearest(const Crowd& crowd, Vec3 origin, Vec3 direction, int le
   for (int k = 0; k < int(crowd.spheres.size()); ++k) {
     const Chord chord = chord_of(crowd.spheres[std::size_t(k)], origin, direction);
     if (k == leaves || !(chord.half_squared > 0 && chord.entry() > 0)) continue;
+    if (!is_outside(crowd.spheres[std::size_t(k)], origin)) continue;
     if (best.sphere < 0 || chord.entry() < best.distance) best = {k, chord.entry()};
   }
   return best;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/render.hpp"
 
@@ -61,6 +62,17 @@ TEST(Remarks, OfACameraInsideASphereSayThatItDoesNotSeeIt) {
   scene.camera.origin = {0, 0, 0.5};
   EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("inside sphere 0")));
   EXPECT_EQ(brightest(scene), 0);
+}
+
+TEST(Remarks, OfACameraOnASphereSayThatItDoesNotSeeItAndThePictureIsBlackWhateverItsRounding) {
+  Scene scene = plain();
+  for (int i = 0; i < 200; ++i) {
+    const double up = std::sin(0.01 * i), across = std::cos(0.01 * i);
+    scene.camera.origin = {across * std::sin(i), up, across * std::cos(i)};
+    scene.camera.target = {0.1, -0.2, 0.3};
+    EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("on sphere 0"))) << i;
+    EXPECT_EQ(brightest(scene), 0) << i;
+  }
 }
 
 TEST(Remarks, OfACameraThatLooksAwaySaySoAndThePictureIsBlack) {

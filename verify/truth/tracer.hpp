@@ -74,8 +74,9 @@ class Tracer {
   struct Ball {
     V center;
     Real radius_squared;
-    Real
-        inside_squared;  ///< what is nearer to the centre, squared, is inside and not on the surface
+    /// Squared distances to the centre: what is nearer than the first is inside, and what is farther than the
+    /// second outside. Between them it is on the sphere, as near to it as doubles come.
+    Real inside_squared, outside_squared;
     explicit Ball(const Sphere& sphere);
   };
   struct Ground {
@@ -131,7 +132,9 @@ inline constexpr double kCloseness = 1e-12;
 
 template <class Real>
 Tracer<Real>::Ball::Ball(const Sphere& sphere)
-    : center(sphere.center), radius_squared(Real(sphere.radius) * sphere.radius) {
+    : center(sphere.center),
+      radius_squared(Real(sphere.radius) * sphere.radius),
+      outside_squared(Real(outer_radius(sphere)) * outer_radius(sphere)) {
   if constexpr (std::is_same_v<Real, double>)
     inside_squared = inner_radius(sphere) * inner_radius(sphere);
   else
@@ -210,6 +213,7 @@ std::optional<Met<Real>> Tracer<Real>::meet(const V& origin, const V& direction,
     const Chord chord(balls_[k], origin, direction);
     // Cheap refusals first: a square root takes as long as thirty products.
     if (chord.along <= 0 || chord.half_squared <= 0) continue;
+    if (dot(chord.to_center, chord.to_center) <= balls_[k].outside_squared) continue;
     const Real half = sqrt(chord.half_squared), t = chord.along - half;
     if (!is_nearest(t)) continue;
     nearest = t;
