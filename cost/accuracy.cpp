@@ -128,14 +128,9 @@ class Look {
     RenderOptions options = noisy_ ? with_samples(kTruthSamples * most_samples) : RenderOptions();
     options.precision = Precision::kFloat64;
     truth_ = render(other, options).image;
-    if (!(peak() > 0))
-      throw Error(
-          ExitCode::kInput,
-          fmt::format("--accuracy: {} x {} of the picture's pixels are black: there is nothing "
-                      "to be accurate about",
-                      truth_.width(), truth_.height()));
   }
 
+  bool is_black() const { return !(peak() > 0); }
   double peak() const { return peak_value(truth_); }
   double error(const Way& way, int samples) const {
     RenderOptions options = noisy_ ? with_samples(samples) : RenderOptions();
@@ -181,8 +176,18 @@ const Way& own_way(const std::vector<Way>& ways) {
   });
 }
 
+/// Of a look that saw nothing, and so can tell no way from another.
+Choice choose_black(Choice choice, const Scene& scene, const std::vector<Way>& ways) {
+  choice.basis = Basis::kLook;
+  choice.why =
+      "every pixel that was looked at is black, where all ways do alike: the scene's own lobe in float64, with "
+      "its own samples";
+  return chosen(choice, scene, own_way(ways), kStorage);
+}
+
 Choice choose_quiet(Choice choice, const Scene& scene, const std::vector<Way>& ways) {
   const Look look(scene, choice.measure, 1);
+  if (look.is_black()) return choose_black(std::move(choice), scene, ways);
   if (choice.measure == Measure::kCiede2000P99) {
     choice.basis = Basis::kLook;
     const Way* way = first_that_holds(
@@ -214,6 +219,7 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<Way>& w
                     int most_samples) {
   choice.basis = Basis::kLook;
   const Look look(scene, choice.measure, most_samples);
+  if (look.is_black()) return choose_black(std::move(choice), scene, ways);
   const Way& own = own_way(ways);
   int samples = 1;
   double error = look.error(own, samples), best = error;

@@ -62,8 +62,7 @@ using CostModel = std::function<double(LobeId, Precision)>;
 /// At most so many samples a pixel are looked at and chosen.
 inline constexpr int kMostChosenSamples = 1024;
 
-/// Throws Error(kInput) with the best that is possible if nothing reaches what is asked, or if the picture is
-/// black.
+/// Throws Error(kInput) with the best that is possible if nothing reaches what is asked.
 Choice choose(const Scene& scene, const Accuracy& asked, int most_samples = kMostChosenSamples,
               const CostModel& model = shading_cost);
 
@@ -71,6 +70,7 @@ struct Reached {
   double value = 0;
   std::string against;  ///< what truth, in words
   double seconds = 0;   ///< that its making took
+  bool black = false;   ///< picture and truth both are: there was nothing to measure
   bool held(const Choice& choice) const { return value <= choice.asked.value; }
 };
 

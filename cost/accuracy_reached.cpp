@@ -28,6 +28,8 @@ Reached measure_reached(const Scene& scene, const Choice& choice, const Image& p
   const PictureTruth truth =
       picture_truth(scene, choice.samples ? std::max(64, 4 * *choice.samples) : 1);
   Reached reached{0, truth.how, truth.seconds};
+  reached.black = peak_value(picture) == 0 && peak_value(truth.image) == 0;
+  if (reached.black) return reached;
   switch (choice.measure) {
     case Measure::kCiede2000P99:
       reached.value = measure_at_peak("ciede2000.p99", picture, truth.image);

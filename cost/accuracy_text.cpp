@@ -81,6 +81,10 @@ std::string choice_text(const Choice& choice) {
 }
 
 std::string reached_text(const Choice& choice, const Reached& reached) {
+  if (reached.black)
+    return fmt::format(
+        "the picture is black, and so is its truth: there was nothing to measure ({:.2f} s)\n",
+        reached.seconds);
   return fmt::format("reached {:.3g}, {} asked, {}; against {} ({:.2f} s)\n", reached.value,
                      accuracy_text(choice.asked),
                      reached.held(choice) ? "so it holds" : "so it does NOT hold", reached.against,

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "compare/metrics/peak.hpp"
 #include "core/error.hpp"
+#include "cost/lobe_candidates.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::cost {
@@ -175,11 +177,39 @@ TEST(Accuracy, WithoutABoundIsTheScenesOwnLobeInFloat64) {
   EXPECT_TRUE(measure_reached(s, choice, picture(choice)).held(choice));
 }
 
-TEST(Accuracy, OfABlackPictureIsAnError) {
-  Scene s = scene("head_on");
-  std::get<DirectionalLight>(s.lights[0]).irradiance = {};
-  EXPECT_THAT(message([&] { choose(s, parse_accuracy("0.1")); }, ExitCode::kInput),
-              HasSubstr("black"));
+TEST(Accuracy, OfABlackPictureIsHeldAndSaysThatThereWasNothingToMeasure) {
+  Scene dark = scene("head_on");
+  std::get<DirectionalLight>(dark.lights[0]).irradiance = {};
+  Scene dark_noise = dark;
+  dark_noise.sampler.sample_count = 4;
+  for (const Scene& s : {dark, dark_noise})
+    for (const char* asked : {"0.1", "1e-6", "de2000=1"}) {
+      SCOPED_TRACE(asked);
+      const Choice choice = choose(s, parse_accuracy(asked), 8);
+      EXPECT_EQ(choice.lobe, own_lobe(s));
+      EXPECT_EQ(choice.precision, Precision::kFloat64);
+      const Image image = picture(choice);
+      EXPECT_EQ(peak_value(image), 0);
+      const Reached reached = measure_reached(s, choice, image);
+      EXPECT_TRUE(reached.held(choice));
+      EXPECT_EQ(reached.value, 0);
+      EXPECT_THAT(reached_text(choice, reached), HasSubstr("there was nothing to measure"));
+    }
+}
+
+TEST(Accuracy, OfAHighlightThatTheLookMissedIsMeasuredAllTheSame) {
+  // A highlight a few pixels wide between the pixels that are looked at.
+  Scene s = with_highlight(scene("oblique_45", 2048), 1e8, "cosine");
+  const Choice choice = choose(s, parse_accuracy("1e-3"));
+  EXPECT_THAT(choice.why, HasSubstr("every pixel that was looked at is black"));
+  const Image image = picture(choice);
+  ASSERT_GT(peak_value(image), 0);
+  const Reached reached = measure_reached(s, choice, image);
+  EXPECT_FALSE(reached.black);
+  EXPECT_TRUE(reached.held(choice));
+  const Reached lost = measure_reached(s, choice, Image(image.width(), image.height()));
+  EXPECT_FALSE(lost.black);
+  EXPECT_GT(lost.value, 0.5);
 }
 
 TEST(Accuracy, SaysWhetherItWasHeld) {
