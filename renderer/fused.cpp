@@ -148,6 +148,8 @@ void FusedRenderer::render_row(int y, float* rgb) const {
 void FusedRenderer::render_group(const FusedRow& row, const int* spheres, int count,
                                  const PixelSpan* spans, PixelSpan all) const {
   if (count > 1) std::fill(row.rgb + 3 * all.begin, row.rgb + 3 * all.end, 0.0f);
+  // Each sphere's kernel works out the ray again; it is one all the same.
+  rays_.fetch_add(std::uint64_t(all.end - all.begin), std::memory_order_relaxed);
   std::array<FusedRival, kMostSpheres> rivals;
   for (int i = 0; i < count; ++i) {
     std::size_t others = 0;
@@ -159,10 +161,9 @@ void FusedRenderer::render_group(const FusedRow& row, const int* spheres, int co
     const PixelSpan own = spans[spheres[i]];
     const Body& body = bodies_[spheres[i]];
     body.kernel->render(row, own.begin, own.end, {rivals.data(), others});
-    const std::uint64_t rays = std::uint64_t(own.end - own.begin);
-    rays_.fetch_add(rays, std::memory_order_relaxed);
-    if (body.diffuse) diffuse_.fetch_add(rays * lights_, std::memory_order_relaxed);
-    if (body.fresnel) fresnel_.fetch_add(rays * lights_, std::memory_order_relaxed);
+    const std::uint64_t pixels = std::uint64_t(own.end - own.begin);
+    if (body.diffuse) diffuse_.fetch_add(pixels * lights_, std::memory_order_relaxed);
+    if (body.fresnel) fresnel_.fetch_add(pixels * lights_, std::memory_order_relaxed);
   }
 }
 

@@ -13,12 +13,11 @@ struct Glossy {
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const bool all = policy == EffectPolicy::kAll;
-    plan.depth.glossy = scene.depth.glossy;
     if (scene.depth.glossy == 0)
       return {kName, kWork, all, "no inter-reflection was asked for (glossy_depth is 0)"};
-    if (scene.spheres.size() + scene.planes.size() < 2) {
-      return {kName, kWork, all, "one convex body throws no light on itself"};
-    }
+    const bool single = scene.spheres.size() + scene.planes.size() < 2;
+    if (all || !single) plan.depth.glossy = scene.depth.glossy;
+    if (single) return {kName, kWork, all, "one convex body throws no light on itself"};
     return {kName, kWork, true,
             fmt::format("inter-reflection was asked for, up to {} times", scene.depth.glossy)};
   }
