@@ -64,11 +64,13 @@ bench: ## builds and runs the benchmarks
 	$(configure)
 	$(build) --target run_bench
 
-fuzz: ## looks for scene files that break the reader, FUZZ_SECONDS long (60); needs Clang
+fuzz: ## looks for files that break the scene reader, and scenes that break a law, FUZZ_SECONDS (60) each; needs Clang
 	$(setup) build fuzz
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel "$(JOBS)"
-	@scripts/fuzz build/fuzz "$(FUZZ_SECONDS)"
+	$(configure)
+	$(build) --target test_renderer_random_scenes test_verify_random_scenes
+	@scripts/fuzz build/fuzz "$(FUZZ_SECONDS)" "build/$(PRESET)/bin"
 
 lint: ## checks the layout of the source, and for common mistakes with TIDY=yes (minutes)
 	$(setup) build lint
