@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/seal.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
 
@@ -102,6 +103,17 @@ std::string hash_of(const Json& record, const std::string& name) {
   return "";
 }
 
+/// Every file of the results with its hash, by which a gallery knows it again.
+Json files_of(const CellRecords& records) {
+  Json files = Json::array();
+  for (const auto& record : records) {
+    if (!record) continue;
+    for (const auto& file : record->at("files"))
+      files.push_back({{"name", file.at("name")}, {"sha256", file.at("sha256")}});
+  }
+  return files;
+}
+
 /// A comparison or a profile is of the very pictures that are there now, not of ones that have been made again.
 bool is_of(const Json& record, const CellRecords& records, const JobGraph& graph,
            std::size_t cell) {
@@ -170,7 +182,8 @@ std::string CellDirectory::current_status(const ResultCache& cache,
   if (!record) return "";
   try {
     if (!record->at("problems").empty() || record->at("results") != results(records) ||
-        record->at("madeFrom") != made_from())
+        record->at("madeFrom") != made_from() || record->at("files") != files_of(records) ||
+        record->at("seal") != seal_of(*record))
       return "";
     for (std::size_t slot = 0; slot < records.size(); ++slot) {
       if (!records[slot]) continue;
@@ -269,6 +282,9 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
                              : judged          ? worst
                                                : "unchecked";
   record["status"] = status;
+  record["files"] = files_of(records);
+  record = Json::parse(record_text(record));  // as whoever checks the seal reads it
+  record["seal"] = seal_of(record);
   write_record(directory_ / kRecordFile, record);
   return status;
 }

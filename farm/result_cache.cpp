@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/seal.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -87,11 +88,6 @@ std::vector<ResultKey> keys_on_shelves(const fs::path& directory) {
 
 bool is_plain_file_name(const std::string& name) {
   return !name.empty() && name.find('/') == name.npos && name.front() != '.';
-}
-
-std::string seal_of(Json record) {
-  record.erase("seal");
-  return hex(sha256(record.dump()));
 }
 
 ResultDraft::~ResultDraft() {

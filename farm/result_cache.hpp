@@ -29,10 +29,6 @@ inline constexpr char kCacheMarkerFile[] = "lobelia-cache";  ///< by which a cac
 /// A name in a record is that of a file beside it and nothing else.
 bool is_plain_file_name(const std::string& name);
 
-/// Of a result's record, which has it as `seal`: the hash of everything else in it. A disk may err in the record
-/// as well as in a picture.
-std::string seal_of(Json record);
-
 /// A result in the making: a directory to put files into. Taken away with all of them unless it is published.
 class ResultDraft {
  public:

@@ -1,9 +1,13 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "core/seal.hpp"
+#include "core/sha256.hpp"
+#include "core/text.hpp"
 #include "farm_fixture.hpp"
 
 namespace lobelia {
@@ -40,6 +44,30 @@ TEST_F(FarmTest, WritesEveryFileThatTheRecordsPromise) {
         EXPECT_TRUE(fs::exists(in_cell(id, image[key]))) << id << " " << image[key];
     EXPECT_TRUE(fs::exists(in_cell(id, "profile.json")));
     EXPECT_TRUE(fs::exists(in_cell(id, "scene.xml")));
+  }
+}
+
+TEST_F(FarmTest, SealsEveryCellWithTheHashesOfItsFilesAndSealsAnOldOneAgain) {
+  const Grid one = grid("16", "<engine name=\"analytic\"/>");
+  run_farm(one, out(), {});
+  const std::string sealed = read_file(in_cell("n16", "cell.json"), 1 << 20);
+  const Json record = cell_record("n16");
+  EXPECT_EQ(record["seal"], seal_of(record));
+  std::set<std::string> listed{"cell.json"}, there;
+  for (const auto& file : record["files"]) {
+    const std::string name = file["name"];
+    listed.insert(name);
+    EXPECT_EQ(file["sha256"], hex(sha256_of_file(in_cell("n16", name)))) << name;
+  }
+  for (const auto& entry : fs::directory_iterator(in_cell("n16", "")))
+    there.insert(entry.path().filename().string());
+  EXPECT_EQ(listed, there);
+  for (const char* key : {"files", "seal", "status"}) {
+    Json other = record;
+    other.erase(key);
+    write_record(in_cell("n16", "cell.json"), other);
+    EXPECT_EQ(run_farm(one, out(), {}).work.made, 0u);
+    EXPECT_EQ(read_file(in_cell("n16", "cell.json"), 1 << 20), sealed) << key;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/seal.hpp"
 
 namespace lobelia {
 namespace {

@@ -30,6 +30,9 @@ void forget_circumstances(Json& record) {
   for (const char* key : {"seconds", "cpuSeconds", "peakMemoryBytes", "engineCommands", "command",
                           "host", "cache", "threads", "plan"})
     record.erase(key);
+  // A cell's hashes are of records that have all that.
+  if (record.value("kind", "") == "cell")
+    for (const char* key : {"files", "seal"}) record.erase(key);
   // As many as there was work for at the time.
   if (record.contains("engineOptions"))
     std::erase_if(record["engineOptions"].get_ref<Json::array_t&>(), [](const Json& option) {
