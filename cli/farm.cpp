@@ -100,6 +100,11 @@ ExitCode report(const FarmSummary& summary, const Options& options) {
   return summary.differs + summary.undecided > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
 }
 
+/// Of a farm and of its gallery.
+ExitCode worse(ExitCode farm, ExitCode gallery) {
+  return farm == ExitCode::kSuccess ? gallery : farm;
+}
+
 ExitCode run_on_cluster(const Grid& grid, const Options& options) {
   const SlurmFarmSummary summary =
       follow(options.slurm.run_options(), options.quiet, [&](const SlurmRunOptions& slurm) {
@@ -111,8 +116,8 @@ ExitCode run_on_cluster(const Grid& grid, const Options& options) {
     fmt::print("submitted; 'lobelia farm status {}' looks at it\n", options.directory);
     return ExitCode::kSuccess;
   }
-  const ExitCode code = report(summary.farm, options);
-  publish_if_wanted(options.directory, options.gallery);
+  ExitCode code = report(summary.farm, options);
+  code = worse(code, publish_if_wanted(options.directory, options.gallery));
   if (code != ExitCode::kOutput && !summary.slurm.missing.empty()) {
     fmt::print(stderr,
                "lobelia: {} jobs have no result after {} rounds; the same command tries again\n",
@@ -151,8 +156,7 @@ ExitCode run(const Options& options) {
   }
   line.clear();
   const ExitCode code = report(summary, options);
-  publish_if_wanted(options.directory, options.gallery);
-  return code;
+  return worse(code, publish_if_wanted(options.directory, options.gallery));
 }
 
 }  // namespace
@@ -211,8 +215,9 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       "What the cache has is not made again, whichever grid it was made for. Ctrl-C leaves nothing\n"
       "half-written, and the same command goes on from there. An engine that is not installed is left\n"
       "out, as the records say. docs/farm.md tells the rest.\n\n"
-      "Exit codes: 0 every cell agrees, 1 some differ, 3 bad grid, 4 some job failed or nothing can be\n"
-      "written, 5 a program given by its path is not that engine, 130 interrupted.\n\n"
+      "Exit codes: 0 every cell agrees, 1 some differ, or with --gallery are not what the farm\n"
+      "wrote, 3 bad grid, 4 some job failed or nothing can be written, 5 a program given by its path is not\n"
+      "that engine, 130 interrupted.\n\n"
       "Example: lobelia farm reference_scenes/grids/sphere_grid.xml -o out/gallery\n"
       "         lobelia gallery out/gallery");
   command->callback([command, options, &exit_code] {

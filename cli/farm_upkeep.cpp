@@ -34,7 +34,7 @@ std::string cluster_text(const std::string& directory) {
       status.elements.reason.empty() ? "" : " (" + status.elements.reason + ")", directory);
 }
 
-void add_status(CLI::App& farm) {
+void add_status(CLI::App& farm, ExitCode& exit_code) {
   struct Options {
     std::string directory;
     bool json = false, attach = false;
@@ -45,13 +45,13 @@ void add_status(CLI::App& farm) {
   command->add_flag("--json", options->json, "As a record (kind farm-status, docs/records.md)");
   command->add_flag("--attach", options->attach,
                     "Go back to a run on a cluster and follow it to its end");
-  command->callback([options] {
+  command->callback([options, &exit_code] {
     if (options->attach) {
       SlurmRunOptions slurm = SlurmSettings().run_options();
       const auto followed = follow(slurm, false, [&](const SlurmRunOptions& with_progress) {
         return attach_to_slurm_run(options->directory, with_progress);
       });
-      publish_if_wanted(options->directory, followed.gallery);
+      exit_code = publish_if_wanted(options->directory, followed.gallery);
     }
     const Json status = farm_status(options->directory);
     if (options->json) {
@@ -146,7 +146,7 @@ void add_clean(CLI::App& farm) {
 }  // namespace
 
 void add_farm_upkeep(CLI::App& farm, ExitCode& exit_code) {
-  add_status(farm);
+  add_status(farm, exit_code);
   add_verify(farm, exit_code);
   add_gc(farm);
   add_clean(farm);

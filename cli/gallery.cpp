@@ -38,7 +38,7 @@ void add_serve(CLI::App& gallery) {
 
 }  // namespace
 
-void add_gallery(CLI::App& app, ExitCode&) {
+void add_gallery(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("gallery", "Draw a farm's records as a static site");
   auto run = std::make_shared<std::string>();
   auto options = std::make_shared<gallery::GalleryOptions>();
@@ -56,16 +56,21 @@ void add_gallery(CLI::App& app, ExitCode&) {
   command->footer(
       "Writes an index, a page for every cell and every view, and prints the path of the index. The site\n"
       "opens from a double-click, needs no network, and may be moved or copied. A second time writes\n"
-      "only what has changed, and removes the pages of cells that are gone.\n\n"
+      "only what has changed, and removes the pages of cells that are gone. Every file is compared with its\n"
+      "hash: a cell is 'missing', 'damaged' or 'changed' where one is not what the farm wrote.\n\n"
+      "Exit codes: 0 published, 1 published, but some cell is not what the farm wrote, 3 no farm in RUN,\n"
+      "4 nothing can be written.\n\n"
       "Examples:\n"
       "  lobelia farm sphere_grid.xml -o run\n"
       "  lobelia gallery run -o site\n"
       "  lobelia gallery serve site");
   add_serve(*command);
-  command->callback([command, run, options] {
+  command->callback([command, run, options, &exit_code] {
     if (!command->get_subcommands().empty()) return;
     if (run->empty()) throw CLI::RequiredError("RUN");
-    fmt::print("{}\n", publish(*run, *options).string());
+    const Published published = publish(*run, *options);
+    fmt::print("{}\n", published.index.string());
+    exit_code = published.code;
   });
 }
 

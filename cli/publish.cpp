@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compare/maps/difference_map.hpp"
+#include "core/text.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -21,18 +24,34 @@ std::vector<gallery::MapKind> visual_maps() {
   return kinds;
 }
 
-}  // namespace
+constexpr std::size_t kMostNamed = 20;
 
-std::filesystem::path publish(const std::filesystem::path& run, gallery::GalleryOptions options) {
-  options.maps = visual_maps();
-  return write_gallery(run, options);
+void say_doubts(const gallery::PublishedGallery& made) {
+  const std::size_t count = made.doubts.size();
+  for (std::size_t i = 0; i < std::min(count, kMostNamed); ++i)
+    fmt::print(stderr, "lobelia: gallery: {}\n", printable(made.doubts[i], 400));
+  fmt::print(stderr, "lobelia: gallery: {} of {} cells {} not what the farm wrote{}\n", count,
+             made.cells, count == 1 ? "is" : "are",
+             count > kMostNamed ? fmt::format("; {} are named here", kMostNamed) : "");
 }
 
-void publish_if_wanted(const std::filesystem::path& run, const std::filesystem::path& site) {
-  if (site.empty()) return;
+}  // namespace
+
+Published publish(const std::filesystem::path& run, gallery::GalleryOptions options) {
+  options.maps = visual_maps();
+  const gallery::PublishedGallery made = write_gallery(run, options);
+  if (made.doubts.empty()) return {made.index};
+  say_doubts(made);
+  return {made.index, ExitCode::kDiffers};
+}
+
+ExitCode publish_if_wanted(const std::filesystem::path& run, const std::filesystem::path& site) {
+  if (site.empty()) return ExitCode::kSuccess;
   gallery::GalleryOptions options;
   options.site = site;
-  fmt::print(stderr, "lobelia: gallery: {}\n", publish(run, options).string());
+  const Published published = publish(run, options);
+  fmt::print(stderr, "lobelia: gallery: {}\n", published.index.string());
+  return published.code;
 }
 
 }  // namespace lobelia::cli

@@ -3,14 +3,21 @@
 
 #include <filesystem>
 
+#include "core/error.hpp"
 #include "gallery/gallery.hpp"
 
 namespace lobelia::cli {
 
-/// write_gallery() with a map of every difference for the eye. Returns the path of the index.
-std::filesystem::path publish(const std::filesystem::path& run, gallery::GalleryOptions options);
+struct Published {
+  std::filesystem::path index;
+  ExitCode code = ExitCode::kSuccess;  ///< kDiffers if a cell is not as the farm wrote it
+};
+
+/// write_gallery() with a map of every difference for the eye. Names on stderr the cells that are not as the farm wrote
+/// them.
+Published publish(const std::filesystem::path& run, gallery::GalleryOptions options);
 
 /// The same of a farm that has ended, where somebody wants that; tells on stderr where it is. `site` empty: nobody does.
-void publish_if_wanted(const std::filesystem::path& run, const std::filesystem::path& site);
+ExitCode publish_if_wanted(const std::filesystem::path& run, const std::filesystem::path& site);
 
 }  // namespace lobelia::cli

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gallery/evidence.hpp"
 #include "gallery/farm_data.hpp"
 #include "gallery/picture.hpp"
 #include "gallery/profile_data.hpp"
@@ -39,7 +40,8 @@ struct MetricLimit {
   std::string metric;
   double limit = 0, value = 0;
   bool pass = false;
-  bool open = false;  ///< it is up to the noise
+  bool noisy = false;  ///< judged by its error bar
+  bool open = false;   ///< it is up to the noise
 };
 
 /// What a metric would be with endless samples lies between; `floor` is what the noise alone shows, in the mean.
@@ -64,7 +66,8 @@ struct CellComparison {
   std::string record;
   std::string problem;
   std::optional<double> white_at, relative_to_peak;
-  std::string verdict;
+  std::string verdict;              ///< of its record, or of its figures if that is worse
+  std::optional<CellStatus> doubt;  ///< the flaw of its record or of a picture that it is of
   std::optional<double> nonfinite_a, nonfinite_b;
   NamedNumbers metrics;
   std::vector<MetricLimit> limits;
@@ -86,6 +89,9 @@ struct CellData {
   std::string id;
   CellStatus status = CellStatus::kMissing;
   std::string unreadable;  ///< why cell.json cannot be read; then nothing below is filled
+  std::vector<Flaw> flaws;
+  std::vector<std::string> contradictions;  ///< sentences: a record says what its figures do not
+  bool is_sealed = true;                    ///< every file that it names has its hash
   bool has_record = false;
   std::string made_by;
   NamedTexts highlight;
@@ -101,7 +107,8 @@ struct CellData {
   const CellComparison* find_comparison(const std::string& b) const;
 };
 
-/// Reads DIR/cells/ID/cell.json and all that it names. `entry` is the cell's line in farm.json.
+/// Reads DIR/cells/ID/cell.json and all that it names, and judges it again. A file that is not as it was is not used.
+/// `entry` is the cell's line in farm.json.
 CellData read_cell(const std::filesystem::path& directory, const CellEntry& entry);
 
 /// Plain names of all files of the cell's directory that its page may show or link to.

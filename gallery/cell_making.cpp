@@ -98,12 +98,12 @@ void write_making(Html& html, const FarmData& farm, const CellData& cell) {
   if (cell.has_scene) {
     write_file_link(html, "scene.xml", "the scene, complete");
   } else {
-    html.element("li", "The scene file is not there.");
+    html.element("li", "The scene file is not there, or not as the farm wrote it.");
   }
   if (!cell.has_record) return;
   write_file_link(html, "cell.json", "what belongs to the cell");
   for (const CellComparison& comparison : cell.comparisons) {
-    write_file_link(html, comparison.record, "comparison");
+    if (comparison.problem.empty()) write_file_link(html, comparison.record, "comparison");
   }
   if (cell.profile.problem.empty()) write_file_link(html, cell.profile.file, "profile");
 }

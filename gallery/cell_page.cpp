@@ -112,6 +112,25 @@ void write_agreement(Html& html, const FarmData& farm, const CellData& cell) {
   html.element("td", time_text(cell.find_image(kOurEngine)));
 }
 
+/// What is not as the farm wrote it, file by file.
+void write_flaws(Html& html, const FarmData& farm, const CellData& cell) {
+  if (!cell.flaws.empty()) {
+    const Tag list(html, "ul", {{"class", "flaws"}});
+    for (const Flaw& flaw : cell.flaws) {
+      const Tag item(html, "li");
+      write_status(html, flaw.status);
+      html.text(" ");
+      html.text(flaw.message);
+    }
+  }
+  for (const std::string& sentence : cell.contradictions) html.element("p", sentence);
+  const bool to_be_made_again = is_flaw(cell.status) || cell.status == CellStatus::kUnsealed;
+  if (!to_be_made_again || farm.command.empty()) return;
+  html.element("p",
+               "No verdict is shown for what cannot be checked. To make the cell whole again:");
+  write_command(html, farm.command);
+}
+
 void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
   const Tag box(html, "div", {{"class", "verdict " + std::string(info(cell.status).name)}});
   {
@@ -120,8 +139,9 @@ void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
     html.text(" ");
     html.text(info(cell.status).meaning);
   }
-  write_agreement(html, farm, cell);
   if (!cell.unreadable.empty()) html.element("p", cell.unreadable);
+  write_flaws(html, farm, cell);
+  write_agreement(html, farm, cell);
   for (const CellProblem& problem : cell.problems) {
     const Tag line(html, "p");
     if (!problem.engine.empty()) html.element("strong", farm.engine_title(problem.engine) + ": ");

@@ -15,9 +15,11 @@ EngineFigure figure(const EngineEntry& engine, const CellData& cell) {
     if (cell.has_record) result.worst = "none";
     return result;
   }
-  if (!comparison->problem.empty()) {
-    result.worst = "unreadable";
-  } else if (comparison->verdict == "non-finite") {
+  if (comparison->doubt) {
+    result.worst = info(*comparison->doubt).word;
+    return result;
+  }
+  if (comparison->verdict == "non-finite") {
     result.worst = "non-finite";
   } else if (const auto worst = comparison->metric("max_rel_peak")) {
     result.worst = percent_text(*worst, TrailingZeros::kKeep);
@@ -30,6 +32,10 @@ EngineFigure figure(const EngineEntry& engine, const CellData& cell) {
 std::vector<std::string> reasons_of(const FarmData& farm, const CellData& cell) {
   std::vector<std::string> reasons;
   if (!cell.unreadable.empty()) reasons.push_back(cell.unreadable);
+  for (const Flaw& flaw : cell.flaws) reasons.push_back(flaw.message);
+  for (const std::string& sentence : cell.contradictions) reasons.push_back(sentence);
+  if (cell.status == CellStatus::kUnsealed)
+    reasons.emplace_back("cell.json has no hashes of its files");
   for (const CellProblem& problem : cell.problems) {
     const std::string who = problem.engine.empty() ? "" : farm.engine_title(problem.engine) + ": ";
     reasons.push_back(who + problem.message);
@@ -39,7 +45,6 @@ std::vector<std::string> reasons_of(const FarmData& farm, const CellData& cell) 
   }
   for (const CellComparison& comparison : cell.comparisons) {
     const std::string pair = farm.engine_title(comparison.b) + " · ";
-    if (!comparison.problem.empty()) reasons.push_back(pair + comparison.problem);
     if (comparison.verdict == "non-finite") reasons.push_back(pair + "pixels that are not finite");
     for (const MetricLimit& limit : comparison.limits) {
       if (limit.pass) continue;
@@ -57,6 +62,8 @@ CellSummary summarise(const FarmData& farm, const CellEntry& entry, const CellDa
   CellSummary summary;
   summary.entry = &entry;
   summary.status = cell.status;
+  summary.is_as_written =
+      !is_flaw(cell.status) && cell.status != CellStatus::kUnsealed && cell.contradictions.empty();
   if (const CellImage* ours = cell.find_image(kOurEngine)) summary.picture = ours->png;
   for (const EngineEntry& engine : farm.engines) {
     if (engine.name != kOurEngine && engine.available) {
@@ -64,7 +71,7 @@ CellSummary summarise(const FarmData& farm, const CellEntry& entry, const CellDa
     }
   }
   for (const CellComparison& comparison : cell.comparisons) {
-    if (comparison.a != kOurEngine) continue;
+    if (comparison.a != kOurEngine || comparison.doubt) continue;
     NamedNumbers numbers;
     for (const auto& metric : comparison.metrics)
       if (!is_coordinate(metric.first)) numbers.push_back(metric);

@@ -17,7 +17,9 @@ struct EngineFigure {
 struct CellSummary {
   const CellEntry* entry = nullptr;
   CellStatus status = CellStatus::kMissing;
-  Picture picture;                    ///< ours
+  bool is_as_written =
+      true;         ///< nothing was found that the farm did not write, or that contradicts itself
+  Picture picture;  ///< ours
   std::vector<EngineFigure> figures;  ///< one per reference engine that is there
   std::vector<std::string> reasons;   ///< why it is not a pass
   /// Of each engine that was compared with ours, all metrics but coordinates.

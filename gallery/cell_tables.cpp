@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/numbers.hpp"
@@ -116,6 +118,8 @@ void write_metric_head(Html& html, const FarmData& farm, const CellData& cell) {
 }  // namespace
 
 std::string verdict_words(const CellComparison& comparison) {
+  if (comparison.doubt)
+    return fmt::format("{} {}", info(*comparison.doubt).mark, info(*comparison.doubt).word);
   if (!comparison.problem.empty()) return comparison.problem;
   const std::string& verdict = comparison.verdict;
   if (verdict == "pass" || verdict == "same") return "✓ " + verdict;

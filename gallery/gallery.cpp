@@ -74,9 +74,18 @@ CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, con
   return summarise(farm, entry, cell);
 }
 
+std::vector<std::string> doubts_of(const std::vector<CellSummary>& cells) {
+  std::vector<std::string> doubts;
+  for (const CellSummary& cell : cells)
+    if (!cell.is_as_written)
+      doubts.push_back(fmt::format("{}: {}: {}", cell.entry->id, info(cell.status).word,
+                                   cell.reasons.empty() ? "" : cell.reasons.front()));
+  return doubts;
+}
+
 }  // namespace
 
-fs::path write_gallery(const fs::path& run, const GalleryOptions& options) {
+PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& options) {
   SiteFrame site{options.title, checked_base_url(options.base_url), {{"index.html", "Grid"}}};
   require_title(options.title);
   FarmData farm = read_farm(run);
@@ -114,7 +123,7 @@ fs::path write_gallery(const fs::path& run, const GalleryOptions& options) {
   publisher.write(kGridData, data_script("page", grid_json(farm, summaries)));
   publisher.write("index.html", index_page(site, farm, summaries));
   publisher.finish();
-  return publisher.site() / "index.html";
+  return {publisher.site() / "index.html", summaries.size(), doubts_of(summaries)};
 }
 
 }  // namespace gallery

@@ -35,16 +35,24 @@ struct GalleryOptions {
   std::string base_url;  ///< where it will be published, for links to it by others; empty: unknown
 };
 
+struct PublishedGallery {
+  std::filesystem::path index;
+  std::size_t cells = 0;
+  /// "ID: damaged: povray.exr cannot be read", for each cell that is not as the farm wrote it or contradicts itself.
+  std::vector<std::string> doubts;
+};
+
 /// Reads RUN/farm.json and the records it names; writes index.html, a page for every cell and for every view
 /// that has something to show, their script, style and data, and gallery.json, which lists them. In another
 /// directory than the run's also copies of the files that pages show or link to. Files that are as they should
 /// be are not touched, and those that an earlier publication wrote there and this one does not are removed.
 ///
-/// Draws what the records say and computes nothing but the subtraction of two curves or pictures for a
-/// drawing, and the maps that it is given. A record of one cell that cannot be read is said on that cell's page; Error(kInput) only if
-/// farm.json itself cannot be read, Error(kUsage) for a title or base URL that is none. Returns the path of
-/// the index.
-std::filesystem::path write_gallery(const std::filesystem::path& run,
-                                    const GalleryOptions& options = {});
+/// Every file of a cell is compared with its hash in cell.json, and every verdict is made again from the figures and
+/// limits of its record. A file that is missing, damaged or changed is not shown, and its cell has that state in place of
+/// a verdict. Otherwise draws what the records say and computes nothing but the subtraction of two curves or pictures for
+/// a drawing, and the maps that it is given. Error(kInput) only if farm.json itself cannot be read, Error(kUsage) for a
+/// title or base URL that is none.
+PublishedGallery write_gallery(const std::filesystem::path& run,
+                               const GalleryOptions& options = {});
 
 }  // namespace lobelia::gallery

@@ -16,8 +16,9 @@ constexpr std::size_t kMostReasons = 3;  // per cell; its page has them all
 // Of the cells to look at first, those that stand there and those that can be unfolded; the grid has all.
 constexpr std::size_t kMostShown = 6, kMostFolded = 200;
 /// What is worst first. A cell that was not compared or not done yet needs no look.
-constexpr CellStatus kLookOrder[] = {CellStatus::kFailed, CellStatus::kUnreadable,
-                                     CellStatus::kDiffers, CellStatus::kUndecided};
+constexpr CellStatus kLookOrder[] = {
+    CellStatus::kDamaged, CellStatus::kLost,      CellStatus::kChanged, CellStatus::kFailed,
+    CellStatus::kDiffers, CellStatus::kUndecided, CellStatus::kUnsealed};
 
 /// "POV-Ray and Blender Cycles"
 std::string reference_titles(const FarmData& farm, bool available_only) {
@@ -85,6 +86,24 @@ void write_missing_engines(Html& html, const FarmData& farm) {
     html.element("p", "To get it, type this and run the farm again; it does only what is missing:");
     write_command(html, engine.install);
   }
+}
+
+/// So that nobody who opens the page misses it.
+void write_doubts(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
+  const auto count = std::ranges::count(cells, false, &CellSummary::is_as_written);
+  if (count == 0) return;
+  const Tag box(html, "div", {{"class", "notice doubts"}, {"role", "note"}});
+  {
+    const Tag line(html, "p");
+    html.element("strong", fmt::format("{} {} not what the farm wrote.", count,
+                                       count == 1 ? "cell is" : "cells are"));
+    html.text(
+        " Every picture and record was compared with its hash when this page was made. "
+        "What does not fit has no verdict.");
+  }
+  if (farm.command.empty()) return;
+  html.element("p", "To make them whole again:");
+  write_command(html, farm.command);
 }
 
 void write_making(Html& html, const FarmData& farm) {
@@ -193,6 +212,7 @@ std::string index_page(const SiteFrame& site, const FarmData& farm,
                        const std::vector<CellSummary>& cells) {
   Html html;
   write_introduction(html, farm, cells);
+  write_doubts(html, farm, cells);
   write_missing_engines(html, farm);
   write_attention(html, cells);
   write_grid(html, farm, cells);

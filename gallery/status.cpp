@@ -19,9 +19,27 @@ const StatusInfo& info(CellStatus status) {
   static constexpr StatusInfo kMissing{
       "missing", "not done", "…",
       "Not done yet: the farm was stopped before it came to this cell."};
-  static constexpr StatusInfo kUnreadable{"unreadable", "unreadable", "?",
-                                          "The cell’s own record is missing or cannot be read."};
+  static constexpr StatusInfo kDamaged{
+      "damaged", "damaged", "!",
+      "A picture or a record cannot be read, or has pixels that are not finite."};
+  static constexpr StatusInfo kLost{"lost", "missing", "∅",
+                                    "A picture or a record that the farm wrote is not there."};
+  static constexpr StatusInfo kChanged{
+      "changed", "changed", "Δ",
+      "A picture or a record is another one than the farm wrote: its hash differs."};
+  static constexpr StatusInfo kUnsealed{
+      "unsealed", "not sealed", "?",
+      "Its record is of an earlier version, without hashes: nothing tells whether its pictures are those that were "
+      "judged. The farm’s command writes it anew."};
   switch (status) {
+    case CellStatus::kDamaged:
+      return kDamaged;
+    case CellStatus::kLost:
+      return kLost;
+    case CellStatus::kChanged:
+      return kChanged;
+    case CellStatus::kUnsealed:
+      return kUnsealed;
     case CellStatus::kPass:
       return kPass;
     case CellStatus::kDiffers:
@@ -33,16 +51,14 @@ const StatusInfo& info(CellStatus status) {
     case CellStatus::kUnchecked:
       return kUnchecked;
     case CellStatus::kMissing:
-      return kMissing;
-    case CellStatus::kUnreadable:
       break;
   }
-  return kUnreadable;
+  return kMissing;
 }
 
 std::optional<CellStatus> find_status(std::string_view name) {
   for (const CellStatus status : kCellStatuses) {
-    if (status != CellStatus::kUnreadable && info(status).name == name) return status;
+    if (status > CellStatus::kUnsealed && info(status).name == name) return status;
   }
   return std::nullopt;
 }

@@ -7,12 +7,28 @@
 
 namespace lobelia::gallery {
 
-/// As in farm.json, and kUnreadable for a cell whose own record cannot be read.
-enum class CellStatus { kPass, kDiffers, kUndecided, kFailed, kUnchecked, kMissing, kUnreadable };
+/// The first four are found on publishing: what lies there is not what the farm wrote. The others are in farm.json.
+/// Flaws from the worst.
+enum class CellStatus {
+  kDamaged,
+  kLost,
+  kChanged,
+  kUnsealed,
+  kPass,
+  kDiffers,
+  kUndecided,
+  kFailed,
+  kUnchecked,
+  kMissing
+};
 
-inline constexpr std::array<CellStatus, 7> kCellStatuses = {
-    CellStatus::kPass,      CellStatus::kDiffers,    CellStatus::kUndecided, CellStatus::kFailed,
-    CellStatus::kUnchecked, CellStatus::kUnreadable, CellStatus::kMissing};
+inline constexpr std::array<CellStatus, 10> kCellStatuses = {
+    CellStatus::kPass,    CellStatus::kDamaged,   CellStatus::kLost,   CellStatus::kChanged,
+    CellStatus::kDiffers, CellStatus::kUndecided, CellStatus::kFailed, CellStatus::kUnchecked,
+    CellStatus::kMissing, CellStatus::kUnsealed};
+
+/// Whether it tells of a file that is not as the farm wrote it.
+constexpr bool is_flaw(CellStatus status) { return status <= CellStatus::kChanged; }
 
 struct StatusInfo {
   std::string_view name;     ///< "pass", as in records; also the class in style.css
@@ -22,7 +38,7 @@ struct StatusInfo {
 };
 
 const StatusInfo& info(CellStatus status);
-/// By the name that records use; empty if it is not one of them.
+/// By the name that a farm's records use; empty if it is not one of them.
 std::optional<CellStatus> find_status(std::string_view name);
 
 }  // namespace lobelia::gallery

@@ -57,6 +57,58 @@ TEST(FarmCommand, PublishesTheGalleryThatItIsAskedFor) {
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "out/index.html"));
 }
 
+TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
+  const TemporaryDirectory directory;
+  write_small_grid(directory.path());
+  const std::vector<std::string> farm{"farm", "grid.xml", "-o", "out", "-q", "--gallery", "site"},
+      gallery{"gallery", "out", "-o", "site"};
+  ASSERT_EQ(run_lobelia(farm, directory.path()).exit_code, 0);
+  const auto cells = directory.path() / "out/cells";
+  const auto expect_found = [&](const std::string& state, const std::string& words) {
+    const auto found = run_lobelia(gallery, directory.path());
+    EXPECT_EQ(found.exit_code, 1) << state;
+    EXPECT_THAT(found.output_tail, HasSubstr("lobelia: gallery: n16: " + state + ": " + words));
+    EXPECT_THAT(found.output_tail,
+                HasSubstr("lobelia: gallery: 1 of 2 cells is not what the farm wrote\n"));
+    EXPECT_THAT(found.output_tail, HasSubstr("site/index.html\n"));
+    const auto mended = run_lobelia(farm, directory.path());
+    EXPECT_EQ(mended.exit_code, 0) << mended.output_tail;
+    EXPECT_EQ(run_lobelia(gallery, directory.path()).exit_code, 0) << state;
+  };
+  std::filesystem::remove(cells / "n16/lobelia-analytic.json");
+  expect_found("missing", "lobelia-analytic.json is missing.");
+  std::filesystem::remove(cells / "n16/cell.json");
+  expect_found("missing", "cell.json: cannot read");
+  std::filesystem::remove(cells / "n16/analytic.exr");
+  std::filesystem::copy_file(cells / "n32/analytic.exr", cells / "n16/analytic.exr");
+  expect_found("changed", "analytic.exr is not the file that the farm wrote");
+  std::filesystem::remove(cells / "n16/lobelia.exr");
+  write_file(cells / "n16/lobelia.exr",
+             read_file(cells / "n32/lobelia.exr", 1 << 20).substr(0, 700));
+  expect_found("damaged", "lobelia.exr cannot be read");
+  Json record = read_record(cells / "n16/cell.json", "cell");
+  record["axes"]["exponent"] = "17";
+  write_record(cells / "n16/cell.json", record);
+  expect_found("changed", "cell.json is not the record that the farm wrote");
+  // As an earlier version left it.
+  for (const char* key : {"files", "seal"}) record.erase(key);
+  write_record(cells / "n16/cell.json", record);
+  expect_found("not sealed", "cell.json has no hashes of its files");
+}
+
+TEST(FarmCommand, WithNoiseHasVerdictsThatItsGalleryFindsAgain) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_symlink(kScenes + "effects", directory.path() / "effects");
+  write_file(directory.path() / "grid.xml",
+             "<grid version=\"1\"><scene file=\"effects/mirrors.xml\"/>"
+             "<film width=\"24\" height=\"24\"/><axis name=\"light\" "
+             "values=\"effects/mirrors.xml, effects/depth_of_field.xml, effects/area_light.xml\"/>"
+             "<engine name=\"analytic\"/></grid>");
+  ASSERT_EQ(run_lobelia({"farm", "grid.xml", "-o", "out", "-q"}, directory.path()).exit_code, 1);
+  const auto published = run_lobelia({"gallery", "out"}, directory.path());
+  EXPECT_EQ(published.exit_code, 0) << published.output_tail;
+}
+
 TEST(FarmCommand, SaysAtOnceThatItsGalleryCannotBeWritten) {
   const TemporaryDirectory directory;
   write_small_grid(directory.path());

@@ -39,6 +39,7 @@ class DifferenceMaps : public ::testing::Test {
     const auto path = farm_.cell_directory(FakeFarm::kPass) / (engine + ".exr");
     std::filesystem::remove(path);
     write_exr(path, image, {});
+    farm_.seal(FakeFarm::kPass);
   }
   std::string cell_data() const {
     return read_file(options_.site / "cells" / FakeFarm::kPass / "data.js", 1 << 20);

@@ -1,6 +1,10 @@
 #include "tests/gallery/fake_farm.hpp"
 
 #include <cmath>
+#include <set>
+
+#include "core/seal.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia::gallery {
 namespace fs = std::filesystem;
@@ -149,6 +153,26 @@ void FakeFarm::add_cell(const std::string& id, const std::string& status, const 
          {"difference", {{"whiteAt", 0.0016}, {"relativeToPeak", 6e-4}}}});
     record["profile"] = "profile.json";
   }
+  write_record(cell / "cell.json", record);
+  seal(id);
+}
+
+void FakeFarm::seal(const std::string& id) const {
+  const fs::path cell = cell_directory(id);
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(cell)) {
+    const std::string name = entry.path().filename().string();
+    // What a gallery put there is none of the farm's.
+    if (entry.is_regular_file() && name != "cell.json" && name != "index.html" &&
+        !name.ends_with(".js"))
+      names.insert(name);
+  }
+  Json record = read_record(cell / "cell.json", "cell");
+  record["files"] = Json::array();
+  for (const std::string& name : names)
+    record["files"].push_back({{"name", name}, {"sha256", hex(sha256_of_file(cell / name))}});
+  record = Json::parse(record_text(record));
+  record["seal"] = seal_of(record);
   write_record(cell / "cell.json", record);
 }
 

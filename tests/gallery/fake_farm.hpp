@@ -20,7 +20,7 @@ class FakeFarm {
   Json& farm() { return farm_; }
   /// Writes farm.json again after a change of farm().
   void write() const;
-  /// One record of a cell: read, changed by `change`, written again.
+  /// One record of a cell: read, changed by `change`, written again as if the farm had written it so.
   template <class Change>
   void change(const std::string& id, const std::string& file, const std::string& kind,
               Change change) const {
@@ -28,7 +28,10 @@ class FakeFarm {
     Json record = read_record(path, kind);
     change(record);
     write_record(path, record);
+    seal(id);
   }
+  /// Puts the hashes of the files that are there now into cell.json.
+  void seal(const std::string& id) const;
   /// Adds a cell to farm.json, with records and pictures; its engine's pictures and comparisons
   /// too.
   void add_cell(const std::string& id, const std::string& status, const Json& axes);

@@ -57,6 +57,7 @@ TEST(HostileRecords, markup_in_any_string_comes_out_as_text) {
       }
       write_record(entry.path(), record);
     }
+    farm.seal(id);
   }
   write_gallery(farm.directory());
   const Site site(farm.directory());
@@ -189,6 +190,7 @@ TEST(HostileRecords, a_link_out_of_the_run_is_not_published) {
   const auto log = farm.cell_directory(FakeFarm::kPass) / "povray.log";
   std::filesystem::remove(log);
   std::filesystem::create_symlink(elsewhere.path() / "secret", log);
+  farm.seal(FakeFarm::kPass);
   GalleryOptions options;
   options.site = elsewhere.path() / "site";
   EXPECT_THROW(write_gallery(farm.directory(), options), Error);
@@ -196,6 +198,7 @@ TEST(HostileRecords, a_link_out_of_the_run_is_not_published) {
   // Within it, it may.
   std::filesystem::remove(log);
   std::filesystem::create_symlink("lobelia.log", log);
+  farm.seal(FakeFarm::kPass);
   EXPECT_NO_THROW(write_gallery(farm.directory(), options));
 }
 

@@ -27,7 +27,7 @@ std::map<std::string, std::string> contents(const std::filesystem::path& directo
 
 TEST(GalleryPages, every_cell_has_a_page_and_every_link_leads_somewhere) {
   const FakeFarm farm;
-  EXPECT_EQ(write_gallery(farm.directory()), farm.directory() / "index.html");
+  EXPECT_EQ(write_gallery(farm.directory()).index, farm.directory() / "index.html");
   const Site site(farm.directory());
   EXPECT_EQ(site.pages().size(), 5u);
   EXPECT_THAT(site.bad_links(), IsEmpty());
@@ -113,11 +113,11 @@ TEST(GalleryPages, what_is_missing_is_said_in_words_in_its_place) {
   const Site site(farm.directory());
   EXPECT_THAT(site.bad_links(), IsEmpty());
   const std::string pass = text_of(site.cell(FakeFarm::kPass));
-  EXPECT_THAT(pass, HasSubstr("The picture povray.png is missing."));
+  EXPECT_THAT(pass, HasSubstr("povray.png is missing."));
   EXPECT_THAT(pass, HasSubstr("The picture lobelia.png is not a complete PNG."));
   const std::string differs = text_of(site.cell(FakeFarm::kDiffers));
-  EXPECT_THAT(differs, HasSubstr("lobelia-povray.json: not a record"));
-  EXPECT_THAT(differs, HasSubstr("profile.json: cannot read"));
+  EXPECT_THAT(differs, HasSubstr("lobelia-povray.json is not JSON."));
+  EXPECT_THAT(differs, HasSubstr("profile.json is missing."));
   EXPECT_THAT(text_of(site.cell(FakeFarm::kFailed)),
               HasSubstr("POV-Ray made no picture: stopped after 600 s"));
   EXPECT_THAT(text_of(site.cell(FakeFarm::kMissing)), HasSubstr("lobelia farm small.xml -o out"));
@@ -143,7 +143,9 @@ TEST(GalleryPages, an_unreadable_cell_costs_its_own_page_and_no_other) {
   EXPECT_THAT(site.bad_links(), IsEmpty());
   EXPECT_THAT(text_of(site.cell(FakeFarm::kPass)), HasSubstr("cell.json: not a record"));
   EXPECT_THAT(text_of(site.cell(FakeFarm::kDiffers)), HasSubstr("cell.json: cannot read"));
-  EXPECT_EQ(site.page("index.html").select_nodes("//td[@data-status='unreadable']").size(), 2u);
+  const auto& index = site.page("index.html");
+  EXPECT_EQ(index.select_nodes("//td[@data-status='damaged']").size(), 1u);
+  EXPECT_EQ(index.select_nodes("//td[@data-status='lost']").size(), 1u);
 }
 
 TEST(GalleryPages, a_directory_without_a_farm_is_an_input_error_that_says_what_to_do) {
@@ -182,7 +184,7 @@ TEST(GalleryPages,
   const TemporaryDirectory scratch;
   GalleryOptions options;
   options.site = scratch.path() / "site";
-  EXPECT_EQ(write_gallery(farm.directory(), options), scratch.path() / "site/index.html");
+  EXPECT_EQ(write_gallery(farm.directory(), options).index, scratch.path() / "site/index.html");
   EXPECT_FALSE(std::filesystem::exists(farm.directory() / "index.html"));
   EXPECT_THAT(Site(options.site).bad_links(), IsEmpty());
   const auto times = [&] {

@@ -14,13 +14,15 @@ using ::testing::Not;
 
 class GalleryScript : public ::testing::Test {
  protected:
-  /// Runs the script with a farm that exits with `farm_status`; returns the script's exit code.
-  int run(int farm_status) {
+  /// Runs the script with a farm that exits with `farm_status`, and a gallery likewise; returns the script's exit code.
+  int run(int farm_status, int gallery_status = 0) {
     const fs::path program = scratch_ / "lobelia";
     write(
         program,
-        "#!/bin/sh\necho \"$1|$2|$3\" >> \"$(dirname \"$0\")/calls\"\nif [ $1 = gallery ]; then echo \"$2/index.html\"; exit 0; fi\n"
-        "echo \"$1|$2|$3|$4\"\nmkdir -p \"$4\"\nexit " +
+        "#!/bin/sh\necho \"$1|$2|$3\" >> \"$(dirname \"$0\")/calls\"\nif [ $1 = gallery ]; then echo \"$2/index.html\"; exit " +
+            std::to_string(gallery_status) +
+            "; fi\n"
+            "echo \"$1|$2|$3|$4\"\nmkdir -p \"$4\"\nexit " +
             std::to_string(farm_status) + "\n");
     fs::permissions(program, fs::perms::owner_all);
     const std::string command = "'" LOBELIA_SOURCE_DIR "/scripts/gallery' '" + program.string() +
@@ -45,6 +47,14 @@ TEST_F(GalleryScript, the_last_line_is_the_path_of_the_gallery) {
 TEST_F(GalleryScript, cells_that_differ_are_shown_and_the_exit_code_says_so) {
   EXPECT_EQ(run(1), 1);
   EXPECT_THAT(said, EndsWith("/a place/index.html\n"));
+}
+
+TEST_F(GalleryScript,
+       cells_that_are_not_what_the_farm_wrote_are_an_exit_code_unless_the_farm_has_one) {
+  EXPECT_EQ(run(0, 1), 1);
+  EXPECT_THAT(said, EndsWith("/a place/index.html\n"));
+  EXPECT_EQ(run(4, 1), 4);
+  EXPECT_EQ(run(1, 4), 4);
 }
 
 TEST_F(GalleryScript, an_interrupted_farm_makes_no_gallery) {

@@ -1,9 +1,10 @@
 // The grid: axes, colours, filter, thousands of cells, hostile names.
 import assert from 'node:assert/strict';
-import { existsSync } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { copyFileSync, existsSync, rmSync, truncateSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { close, fileUrl, launch, lobelia, open, requireAccessible, says, scratch, serve } from './browser.mjs';
+import { close, fileUrl, launch, lobelia, open, program, requireAccessible, says, scratch, serve } from './browser.mjs';
 import { writeFarm } from './farm.mjs';
 
 const kHostile = '<img src=x onerror=alert(1)>';
@@ -22,7 +23,7 @@ before(async () => {
   // One picture for all would do, but a page of 2000 that come from 2000 files is what is asked about.
   writeFarm(many, {
     size: 4, axes: { model: list('model', 50), exponent: list('exponent', 40) },
-    cell: (i) => ({ pictures: i % 4 === 0 && 'thumbnail', status: i % 4 === 0 ? 'pass' : 'unchecked' }),
+    cell: (i) => ({ pictures: i % 4 === 0 && 'thumbnail', status: i % 4 === 0 ? 'unchecked' : 'missing' }),
   });
   lobelia('gallery', many);
   [browser, server] = await Promise.all([launch(), serve(site)]);
@@ -130,13 +131,44 @@ test('two thousand cells are all there, but only the pictures in view are loaded
   await page.getByRole('button', { name: 'Exchange rows and columns' }).click();
   assert.equal(await page.locator('.cell').count(), 40);
   await close(page);
-  const long = await open(browser, fileUrl(many) + 'index.html#order=worst&status=pass');
+  const long = await open(browser, fileUrl(many) + 'index.html#order=worst&status=unchecked');
   await long.waitForFunction(() => document.querySelector('.cell img')?.complete);
   const pictures = await long.evaluate(() => [...document.querySelectorAll('.cell img')].map((i) => i.complete && i.naturalWidth > 0));
   assert.equal(pictures.length, 500);
   const loaded = pictures.filter(Boolean).length;
   assert.ok(loaded > 0 && loaded < 300, `${loaded} of 500 pictures`);
   await close(long);
+});
+
+test('what is not as the farm wrote it is first, marked in words, and has its reason on its page', async () => {
+  const odd = path.join(directory, 'odd'), run = path.join(directory, 'odd-run');
+  writeFarm(run, { size: 16, axes: { model: ['phong', 'blinn'], exponent: ['16', '128'] }, cell: (i) => ({ status: i === 3 ? 'failed' : 'pass' }) });
+  const cell = (id, file) => path.join(run, 'cells', id, file);
+  rmSync(cell('phong-16', 'lobelia-povray.json'));
+  truncateSync(cell('phong-128', 'povray.exr'), 900);
+  copyFileSync(cell('phong-128', 'blender.exr'), cell('blinn-16', 'povray.exr'));
+  const { status, stderr } = spawnSync(program, ['gallery', run, '-o', odd], { encoding: 'utf8' });
+  assert.equal(status, 1);
+  assert.match(stderr, /phong-16: missing: lobelia-povray\.json is missing\./);
+  assert.match(stderr, /3 of 4 cells are not what the farm wrote/);
+  for (const colorScheme of ['light', 'dark']) {
+    const page = await open(browser, fileUrl(odd) + 'index.html#order=worst', { colorScheme });
+    await requireAccessible(page, `index ${colorScheme}`);
+    assert.match(await page.locator('.doubts').innerText(), /3 cells are not what the farm wrote/);
+    const cells = page.locator('.cell-list .cell');
+    assert.deepEqual(await cells.evaluateAll((all) => all.map((c) => c.className)), ['cell damaged', 'cell lost', 'cell changed', 'cell failed']);
+    assert.deepEqual((await cells.locator('.status').allInnerTexts()).slice(0, 3), ['!damaged', '∅missing', 'Δchanged']);
+    assert.equal(await page.locator('.status.pass').count(), 1, 'the counts say: none');
+    await page.locator('#find').fill('missing');
+    assert.equal(await page.locator('.count').textContent(), 'showing 1 of 4');
+    await close(page);
+    for (const [id, words] of [['phong-16', /lobelia-povray\.json is missing/], ['phong-128', /povray\.exr cannot be read/], ['blinn-16', /povray\.exr is not the file that the farm wrote/]]) {
+      const one = await open(browser, `${fileUrl(odd)}cells/${id}/index.html`, { colorScheme });
+      assert.match(await one.locator('.verdict .flaws').innerText(), words);
+      await requireAccessible(one, `${id} ${colorScheme}`);
+      await close(one);
+    }
+  }
 });
 
 test('without script the grid and its links are there', async () => {

@@ -6,7 +6,7 @@ import { spawnSync } from 'node:child_process';
 import path from 'node:path';
 import { test } from 'node:test';
 import { lobelia, program, scratch, serve } from './browser.mjs';
-import { png, writeFarm } from './farm.mjs';
+import { png, seal, writeFarm } from './farm.mjs';
 
 const kAxes = { model: ['phong', 'blinn'] };
 const times = (site) => Object.fromEntries(readdirSync(site, { recursive: true }).map(String)
@@ -31,10 +31,11 @@ test('a changed picture changes its own files, and the pages that show its hash'
   const { run, site } = published();
   const before = times(site);
   writeFileSync(path.join(run, 'cells/phong/povray.png'), png(8, 8, () => [1, 2, 3]));
+  seal(path.join(run, 'cells/phong'));
   lobelia('gallery', run, '-o', site);
   const now = times(site);
   const changed = Object.keys(now).filter((f) => now[f] !== before[f]);
-  assert.deepEqual(changed, ['cells/phong/povray.png']);
+  assert.deepEqual(changed, ['cells/phong/cell.json', 'cells/phong/povray.png']);
 });
 
 test('what belongs to a cell that is gone is removed, and nothing else', () => {

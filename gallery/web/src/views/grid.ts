@@ -7,7 +7,8 @@ import { numberText, percentText, toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 
 /** Worst first: what a reader has to look at. */
-const kSeverity = ['failed', 'unreadable', 'differs', 'undecided', 'unchecked', 'missing', 'pass'];
+const kFlaws = ['damaged', 'lost', 'changed'];
+const kSeverity = [...kFlaws, 'failed', 'differs', 'undecided', 'unsealed', 'unchecked', 'missing', 'pass'];
 const kNone = '-1';
 /** In place of an engine: the worst that any has. */
 const kAll = '*';
@@ -55,7 +56,8 @@ class GridView {
     this.order = select('Order', [{ value: 'grid', label: 'the grid' }, { value: 'worst', label: 'failures first' }], '',
       (order) => this.change({ order }));
     this.find.addEventListener('input', () => this.change({ find: this.find.value }));
-    for (const cell of data.cells) this.haystack.set(cell, `${cell.label} ${cell.id} ${cell.status}`.toLowerCase());
+    const words = new Map(data.statuses.map((s) => [s.name, s.word]));
+    for (const cell of data.cells) this.haystack.set(cell, `${cell.label} ${cell.id} ${words.get(cell.status) ?? cell.status}`.toLowerCase());
 
     const bar = h('div', { class: 'grid-bar', role: 'search', 'aria-label': 'The grid' },
       h('label', {}, h('span', {}, 'Find'), this.find), this.status.element, this.order.element, this.colour.element,
@@ -197,7 +199,7 @@ class GridView {
     const element = h('div', { class: `cell ${cell.status}` },
       h('a', { href: cell.href, title: words }, picture, swatch),
       h('span', { class: 'cell-foot' }, h('span', { class: `status ${cell.status}`, title: status?.word },
-        h('span', { 'aria-hidden': 'true' }, status?.mark ?? ''), h('span', { class: 'unseen' }, status?.word ?? '')), value));
+        h('span', { 'aria-hidden': 'true' }, status?.mark ?? ''), h('span', { class: kFlaws.includes(cell.status) ? 'word' : 'unseen' }, status?.word ?? '')), value));
     const parts = { element, value, swatch };
     this.made.set(cell, parts);
     return parts;

@@ -1,0 +1,122 @@
+#include "gallery/judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gallery/metric_notes.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+enum class Standing { kHolds, kOpen, kBroken };
+
+bool is_within(const std::string& metric, double value, double limit) {
+  // What has a sign is as good as it is near to 0.
+  return metric_note(metric).more_is_better ? value >= limit : std::abs(value) <= limit;
+}
+
+/// Where noise is known, the value may be anywhere in its error bar.
+Standing standing_of(const CellComparison& comparison, const MetricLimit& limit) {
+  const double value = comparison.metric(limit.metric).value_or(limit.value);
+  if (limit.metric == "z.open") return value <= limit.limit ? Standing::kHolds : Standing::kOpen;
+  double low = value, high = value;
+  if (limit.noisy)
+    for (const ErrorBar& bar : comparison.error_bars)
+      if (bar.metric == limit.metric) low = bar.low, high = bar.high;
+  if (std::isnan(value) || std::isnan(low) || std::isnan(high))
+    return limit.noisy ? Standing::kOpen : Standing::kBroken;
+  const bool low_holds = is_within(limit.metric, low, limit.limit),
+             high_holds = is_within(limit.metric, high, limit.limit);
+  if (low_holds && high_holds) return Standing::kHolds;
+  return low_holds || high_holds || (low < 0 && high > 0) ? Standing::kOpen : Standing::kBroken;
+}
+
+/// From the best to the worst.
+int rank(const std::string& verdict) {
+  if (verdict == "pass" || verdict == "same") return 0;
+  return verdict == "undecided" ? 1 : verdict == "differs" || verdict == "different" ? 2 : 3;
+}
+
+/// Likewise, of the states that a farm's record may tell.
+std::size_t rank(CellStatus status) {
+  constexpr std::array kOrder = {CellStatus::kPass,      CellStatus::kUnchecked,
+                                 CellStatus::kUndecided, CellStatus::kDiffers,
+                                 CellStatus::kMissing,   CellStatus::kFailed};
+  return std::size_t(std::ranges::find(kOrder, status) - kOrder.begin());
+}
+
+/// An engine's picture is there, but neither a comparison with it nor a reason why not.
+bool lacks_a_comparison(const CellData& cell) {
+  return std::ranges::any_of(cell.images, [&](const CellImage& image) {
+    return image.engine != kOurEngine && !cell.find_comparison(image.engine) &&
+           std::ranges::find(cell.not_comparable, image.engine, &CellProblem::engine) ==
+               cell.not_comparable.end();
+  });
+}
+
+CellStatus judged_status(const CellData& cell, CellStatus recorded) {
+  if (!cell.problems.empty()) return CellStatus::kFailed;
+  if (recorded == CellStatus::kMissing || lacks_a_comparison(cell)) return CellStatus::kMissing;
+  int worst = -1;
+  for (const CellComparison& comparison : cell.comparisons)
+    worst = std::max(worst, rank(comparison.verdict));
+  return worst < 0    ? CellStatus::kUnchecked
+         : worst == 0 ? CellStatus::kPass
+         : worst == 1 ? CellStatus::kUndecided
+                      : CellStatus::kDiffers;
+}
+
+/// A flaw of the comparison's record or of one of its two pictures; null if there is none.
+const Flaw* flaw_behind(const CellData& cell, const CellComparison& comparison) {
+  const auto is_behind = [&](const Flaw& flaw) {
+    if (flaw.file == comparison.record) return true;
+    for (const std::string& engine : {comparison.a, comparison.b})
+      if (flaw.file == engine + ".exr" || flaw.file == engine + "-error.exr") return true;
+    return false;
+  };
+  const auto at = std::ranges::find_if(cell.flaws, is_behind);
+  return at == cell.flaws.end() ? nullptr : &*at;
+}
+
+}  // namespace
+
+std::string judge(const CellComparison& comparison) {
+  if (comparison.nonfinite_a.value_or(0) > 0 || comparison.nonfinite_b.value_or(0) > 0)
+    return "non-finite";
+  bool noisy = false;
+  Standing worst = comparison.limits.empty() ? Standing::kBroken : Standing::kHolds;
+  for (const MetricLimit& limit : comparison.limits) {
+    noisy = noisy || limit.noisy;
+    worst = std::max(worst, standing_of(comparison, limit));
+  }
+  if (worst == Standing::kHolds) return noisy ? "same" : "pass";
+  return worst == Standing::kOpen && noisy ? "undecided" : noisy ? "different" : "differs";
+}
+
+void judge_cell(CellData& cell) {
+  const auto contradict = [&](const std::string& record, std::string_view said,
+                              std::string_view found) {
+    cell.contradictions.push_back(
+        fmt::format("{} says “{}”, but its figures say “{}”.", record, said, found));
+  };
+  for (CellComparison& comparison : cell.comparisons) {
+    if (const Flaw* flaw = flaw_behind(cell, comparison)) comparison.doubt = flaw->status;
+    if (!comparison.problem.empty()) continue;
+    const std::string judged = judge(comparison);
+    if (rank(judged) == rank(comparison.verdict)) continue;
+    contradict(comparison.record, comparison.verdict, judged);
+    if (rank(judged) > rank(comparison.verdict)) comparison.verdict = judged;
+  }
+  const CellStatus recorded = cell.status, judged = judged_status(cell, recorded);
+  if (cell.flaws.empty() && judged != recorded)
+    contradict("cell.json", info(recorded).word, info(judged).word);
+  if (rank(judged) > rank(recorded)) cell.status = judged;
+  if (cell.status == CellStatus::kPass && !cell.is_sealed) cell.status = CellStatus::kUnsealed;
+  for (const Flaw& flaw : cell.flaws)
+    if (!is_flaw(cell.status) || flaw.status < cell.status) cell.status = flaw.status;
+}
+
+}  // namespace lobelia::gallery

@@ -1,0 +1,17 @@
+// The verdicts of a cell, made again from the figures and limits of its records.
+#pragma once
+
+#include <string>
+
+#include "gallery/cell_data.hpp"
+
+namespace lobelia::gallery {
+
+/// What its figures say of its limits, in the words of a record. A comparison without a limit never passes.
+std::string judge(const CellComparison& comparison);
+
+/// Judges every comparison and then the cell. Where a record and its figures say different things the worse one
+/// holds, and `contradictions` says so. A flaw of a file outweighs every verdict.
+void judge_cell(CellData& cell);
+
+}  // namespace lobelia::gallery
