@@ -33,6 +33,16 @@ if(LOBELIA_SANITIZE)
   target_link_options(lobelia_options INTERFACE -fsanitize=${LOBELIA_SANITIZE})
 endif()
 
+# lobelia_paths(TARGET): its sources know LOBELIA_SOURCE_DIR and LOBELIA_PROGRAM. By a header, because a compiler's
+# cache that has compiled the others in one directory knows them in every other; raw, for whatever is in a path.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lobelia_paths.hpp @ONLY CONTENT
+"#define LOBELIA_SOURCE_DIR R\"lobelia(@PROJECT_SOURCE_DIR@)lobelia\"
+#define LOBELIA_PROGRAM R\"lobelia(@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/lobelia)lobelia\"
+")
+function(lobelia_paths target)
+  target_compile_options(${target} PRIVATE "SHELL:-include lobelia_paths.hpp")
+endfunction()
+
 # One library per room: lobelia_room(core SOURCES a.cpp b.cpp LINK fmt::fmt).
 function(lobelia_room name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})

@@ -85,9 +85,8 @@ TEST(RenderCommand, OverridesChangeThePicture) {
 TEST(RenderCommand, OnAFullDiskLeavesNothingBehind) {
   const TemporaryDirectory directory;
   // A limit of 8 blocks of 512 bytes stands in for the disk.
-  const auto result =
-      run_shell("ulimit -f 8; \"$LOBELIA\" render '" + kScenes + "two_lights.xml' -q -o x.exr",
-                directory.path());
+  const auto result = run_shell(
+      "ulimit -f 8; \"$LOBELIA\" render \"$SCENES\"two_lights.xml -q -o x.exr", directory.path());
   EXPECT_EQ(result.exit_code, 4) << result.output_tail;
   EXPECT_THAT(result.output_tail, HasSubstr("x.exr: cannot write: File too large"));
   EXPECT_EQ(files_in(directory.path()), 0u);
@@ -96,16 +95,23 @@ TEST(RenderCommand, OnAFullDiskLeavesNothingBehind) {
 TEST(RenderCommand, KeepsTheOldPictureIfTheNewOneCannotBeWritten) {
   const TemporaryDirectory directory;
   write_file(directory.path() / "x.exr", "old");
-  run_shell("ulimit -f 8; \"$LOBELIA\" render '" + kScenes + "two_lights.xml' -q -o x.exr",
+  run_shell("ulimit -f 8; \"$LOBELIA\" render \"$SCENES\"two_lights.xml -q -o x.exr",
             directory.path());
   EXPECT_EQ(bytes(directory.path() / "x.exr"), "old");
 }
 
+/// Waits until the process catches signals: the bit of SIGINT in its mask.
+const std::string kWhenItListens =
+    "when_it_listens() {\n"
+    "  until grep -q '^SigCgt:.*[2367abef]$' /proc/$1/status; do sleep 0.05; done\n"
+    "}\n";
+const std::string kLongRender =
+    "\"$LOBELIA\" render \"$SCENES\"oblique_45.xml --width 4096 --height 4096 --samples 4096 -q -o x.exr";
+
 TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
   const TemporaryDirectory directory;
   const auto result =
-      run_shell("timeout --preserve-status -s INT 0.5 \"$LOBELIA\" render '" + kScenes +
-                    "oblique_45.xml' --width 4096 --height 4096 --samples 4096 -q -o x.exr",
+      run_shell(kWhenItListens + "{ when_it_listens $$; kill -INT $$; } & exec " + kLongRender,
                 directory.path());
   EXPECT_EQ(result.exit_code, 130) << result.output_tail;
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
@@ -114,11 +120,10 @@ TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
 
 TEST(RenderCommand, TakesTwoSignalsInOneBreathForOneWish) {
   const TemporaryDirectory directory;
-  const auto result = run_shell("\"$LOBELIA\" render '" + kScenes +
-                                    "oblique_45.xml' --width 4096 --height 4096 --samples 4096 -q "
-                                    "-o x.exr & job=$!\n"
-                                    "sleep 0.5; kill -TERM $job; kill -TERM $job; wait $job",
-                                directory.path());
+  const auto result =
+      run_shell(kWhenItListens + kLongRender +
+                    " & job=$!\nwhen_it_listens $job; kill -TERM $job; kill -TERM $job; wait $job",
+                directory.path());
   EXPECT_EQ(result.exit_code, 130) << result.output_tail;
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
 }
@@ -127,11 +132,10 @@ TEST(RenderCommand, WithoutTheImageModuleIsStillHelpful) {
   // The module is loaded only to read pictures and for PNGs: help, plans and EXRs need none of its 260
   // libraries.
   const TemporaryDirectory directory;
-  const auto result = run_shell("cp \"$LOBELIA\" ./lobelia && ./lobelia plan '" + kScenes +
-                                    "head_on.xml' && ./lobelia render '" + kScenes +
-                                    "head_on.xml' -q -o x.exr && ./lobelia render '" + kScenes +
-                                    "head_on.xml' -q -o y.exr --png y.png",
-                                directory.path());
+  const auto result = run_shell(
+      "scene=\"$SCENES\"head_on.xml; cp \"$LOBELIA\" ./lobelia && ./lobelia plan \"$scene\" && "
+      "./lobelia render \"$scene\" -q -o x.exr && ./lobelia render \"$scene\" -q -o y.exr --png y.png",
+      directory.path());
   EXPECT_EQ(result.exit_code, 70);
   EXPECT_THAT(result.output_tail, HasSubstr("camera rays        65536"));
   EXPECT_THAT(result.output_tail, HasSubstr("lobelia_image_io.so is neither beside the program"));

@@ -21,12 +21,13 @@ inline ProcessResult run_lobelia(std::vector<std::string> arguments,
   return run_process(arguments, options);
 }
 
-/// The same through a shell, for redirections and limits; $LOBELIA is the program.
+/// The same through a shell, for redirections and limits; $LOBELIA is the program, $SCENES the directory of the scenes.
 inline ProcessResult run_shell(const std::string& script, const std::filesystem::path& directory) {
   ProcessOptions options;
   options.working_directory = directory;
-  options.timeout = std::chrono::seconds(180);
-  return run_process({"/bin/sh", "-c", "LOBELIA='" LOBELIA_PROGRAM "'\n" + script}, options);
+  return run_process(
+      {"/bin/sh", "-c", "LOBELIA=$1 SCENES=$2\n" + script, "sh", LOBELIA_PROGRAM, kScenes},
+      options);
 }
 
 inline std::size_t files_in(const std::filesystem::path& directory) {

@@ -117,8 +117,9 @@ TEST_F(FarmTest, SaysWhyAnEngineCannotShowACellAndJudgesAnAverageByItsNoise) {
 
 TEST_F(FarmTest, ACellsSceneRendersToTheCellsPicture) {
   run_farm(grid("16"), out(), {});
-  const int status = std::system(fmt::format("cd '{}' && '{}' render scene.xml -q -o again.exr",
-                                             in_cell("n16", "").string(), LOBELIA_PROGRAM)
+  const int status = std::system(fmt::format("cd {} && {} render scene.xml -q -o again.exr",
+                                             shell_quote(in_cell("n16", "").string()),
+                                             shell_quote(LOBELIA_PROGRAM))
                                      .c_str());
   ASSERT_EQ(status, 0);
   EXPECT_EQ(read_file(in_cell("n16", "again.exr"), 1 << 24),

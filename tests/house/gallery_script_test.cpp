@@ -25,9 +25,9 @@ class GalleryScript : public ::testing::Test {
             "echo \"$1|$2|$3|$4\"\nmkdir -p \"$4\"\nexit " +
             std::to_string(farm_status) + "\n");
     fs::permissions(program, fs::perms::owner_all);
-    const std::string command = "'" LOBELIA_SOURCE_DIR "/scripts/gallery' '" + program.string() +
-                                "' grid.xml '" + (scratch_ / "a place").string() + "' > '" +
-                                (scratch_ / "said").string() + "'";
+    const std::string command = quoted(LOBELIA_SOURCE_DIR "/scripts/gallery") + " " +
+                                quoted(program) + " grid.xml " + quoted(scratch_ / "a place") +
+                                " > " + quoted(scratch_ / "said");
     const int status = std::system(command.c_str());
     said = read(scratch_ / "said");
     calls = read(scratch_ / "calls");

@@ -278,8 +278,7 @@ TEST(Pages, every_lobelia_command_is_a_subcommand) {
   Scratch scratch;
   for (const std::string& name : subcommands) {
     const fs::path help = scratch / "help";
-    const std::string command =
-        "'" LOBELIA_PROGRAM "' " + name + " --help > '" + help.string() + "'";
+    const std::string command = quoted(LOBELIA_PROGRAM) + " " + name + " --help > " + quoted(help);
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     // An unknown word before --help gets the program's own help.
     EXPECT_THAT(read(help), HasSubstr("Usage: lobelia " + name + " "))

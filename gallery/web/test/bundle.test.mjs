@@ -5,9 +5,10 @@ import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 
-const web = path.dirname(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname));
+const web = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const dist = (file) => readFileSync(path.join(web, 'dist', file));
 
 test('the committed bundle is what the sources give, byte for byte', () => {

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 import { close, fileUrl, launch, lobelia, open, requireAccessible, says, scratch, serve } from './browser.mjs';
 import { writeFarm } from './farm.mjs';
@@ -78,7 +79,7 @@ for (const name of kViews) {
 
 test('explorer: what the script interpolates is what the library gives', async () => {
   const bundle = path.join(directory, 'tables.mjs');
-  await build({ entryPoints: [new URL('../src/explorer/tables.ts', import.meta.url).pathname], bundle: true, format: 'esm', outfile: bundle, logLevel: 'error' });
+  await build({ entryPoints: [fileURLToPath(new URL('../src/explorer/tables.ts', import.meta.url))], bundle: true, format: 'esm', outfile: bundle, logLevel: 'error' });
   const { AtExponent, unpacked } = await import(bundle);
   let packed;
   const script = readFileSync(path.join(site, 'explorer.data.js'), 'utf8');

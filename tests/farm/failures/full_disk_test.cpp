@@ -1,5 +1,6 @@
 // Disks of the test's own, in a mount namespace: full ones, and ones that may only be read.
 #include "core/process.hpp"
+#include "core/text.hpp"
 #include "failing_farm.hpp"
 
 namespace lobelia {
@@ -20,12 +21,11 @@ class Disk : public FailingFarm {
   }
   /// Shell in a namespace of its own: $FARM is the farm's command, `$FARM >> a 2>&1; echo $?`.
   std::string in_namespace(const std::string& text) const {
-    std::string farm = LOBELIA_PROGRAM;
-    for (const auto& argument : command()) farm += " '" + argument + "'";
-    script("in_namespace", "cd '" + root().string() + "'; export TMPDIR=$PWD/tmp\nfarm() { " +
-                               farm + " \"$@\"; }\n" + text);
+    script("in_namespace", fmt::format("cd {}; export TMPDIR=$PWD/tmp\nlobelia() {{ {} \"$@\"; }}\n"
+                                       "farm() {{ lobelia {} \"$@\"; }}\n{}",
+                                       shell_quote(root().string()), shell_quote(LOBELIA_PROGRAM),
+                                       shell_join(command()), text));
     ProcessOptions options;
-    options.timeout = std::chrono::seconds(100);
     options.log = root() / "log";
     fs::remove(options.log);
     run_process({"/usr/bin/env", "unshare", "-rm", (root() / "in_namespace").string()}, options);
@@ -76,7 +76,7 @@ TEST_F(Disk, ThatMayOnlyBeReadServesWhatItHas) {
   const std::string said = in_namespace(
       "mount --bind cache cache && mount -o remount,bind,ro cache\n"
       "touch cache/x 2> touched; wc -l < touched\n"
-      "farm; echo $?; farm status out; echo $?; " LOBELIA_PROGRAM " farm verify out -q; echo $?\n");
+      "farm; echo $?; farm status out; echo $?; lobelia farm verify out -q; echo $?\n");
   EXPECT_THAT(said, testing::StartsWith(
                         "1\n4 cells: 0 failed, 0 differ, 4 pass; 0 pictures rendered, 8 kept\n"));
   EXPECT_THAT(differences(undisturbed(), results_of(out())), testing::IsEmpty());

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "core/process.hpp"
+#include "core/text.hpp"
 #include "failing_farm.hpp"
 
 namespace lobelia {
@@ -78,8 +79,9 @@ TEST_F(RacingFarms, BeginThoughSomebodyAsksForTheStatusAllTheTime) {
   ASSERT_EQ(run().exit_code, 0);
   std::string looks;
   const fs::path stop = root() / "stop";
-  script("look", "while [ ! -e '" + stop.string() + "' ]; do " LOBELIA_PROGRAM " farm status '" +
-                     out().string() + "' > /dev/null; done");
+  script("look", fmt::format("while [ ! -e {} ]; do {} farm status {} > /dev/null; done",
+                             shell_quote(stop.string()), shell_quote(LOBELIA_PROGRAM),
+                             shell_quote(out().string())));
   ProcessOptions options;
   std::jthread looking([&] { run_process({(root() / "look").string()}, options); });
   for (int i = 0; i < 10; ++i) EXPECT_EQ(run({"-q"}).exit_code, 0);

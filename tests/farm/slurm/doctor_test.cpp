@@ -109,8 +109,8 @@ TEST_F(Doctor, SeesEachFaultOfANode) {
     write_file(
         in("node"),
         fmt::format(
-            "#!/bin/sh\n'{}' \"$@\"\nsed -i 's|\"{}\": \".*\"|\"{}\": \"{}\"|' \"$3/node.json\"\n",
-            LOBELIA_DOCTOR_NODE, key, key, value));
+            "#!/bin/sh\n{} \"$@\"\nsed -i 's|\"{}\": \".*\"|\"{}\": \"{}\"|' \"$3/node.json\"\n",
+            shell_quote(LOBELIA_DOCTOR_NODE), key, key, value));
     fs::permissions(in("node"), fs::perms::owner_all);
     checked.program = in("node");
     return only_complaint();
