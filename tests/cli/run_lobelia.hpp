@@ -17,7 +17,6 @@ inline ProcessResult run_lobelia(std::vector<std::string> arguments,
   arguments.insert(arguments.begin(), LOBELIA_PROGRAM);
   ProcessOptions options;
   options.working_directory = directory;
-  options.timeout = std::chrono::seconds(180);
   return run_process(arguments, options);
 }
 

@@ -52,7 +52,6 @@ TEST_F(AgreementCommand, FindsEveryWitnessWithinItsTargetButWhereTheDocumentatio
   const TemporaryDirectory directory;
   ProcessOptions options;
   options.working_directory = directory.path();
-  options.timeout = std::chrono::seconds(290);
   const auto result = run_process(
       {LOBELIA_PROGRAM, "verify", "references", "--small", "-q", "-o", "table"}, options);
   const Json record = read_record(directory.path() / "table" / "agreement.json", "agreement");

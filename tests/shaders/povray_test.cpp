@@ -24,7 +24,6 @@ class ExportedForPovray : public testing::Test {
     write_file(scratch_.path() / "scene.pov", scene);
     ProcessOptions options;
     options.working_directory = scratch_.path();
-    options.timeout = std::chrono::seconds(60);
     const ProcessResult result = run_process({engine_->status().program.string(), "+Iscene.pov",
                                               "+Oscene.exr", "+FE", "+W32", "+H32", "-A", "-D"},
                                              options);

@@ -12,6 +12,9 @@ const web = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '..');
 export const program = process.env.LOBELIA_PROGRAM ?? path.resolve(web, '../../build/release/bin/lobelia');
 const axe = path.join(web, 'node_modules/axe-core/axe.min.js');
 
+/** Milliseconds that only a hang takes. */
+const kHang = 600_000;
+
 export const lobelia = (...args) => execFileSync(program, args, { encoding: 'utf8' });
 
 /** A directory that goes with the process. */
@@ -36,11 +39,13 @@ export const fileUrl = (site) => pathToFileURL(site).href + '/';
 /** SwiftShader draws WebGL where there is no graphics processor. */
 export const launch = (args = []) => chromium.launch({
   executablePath: '/usr/bin/chromium',
+  timeout: kHang,
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', ...args],
 });
 
 export async function open(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: 'reduce', ...options });
+  context.setDefaultTimeout(kHang);
   const page = await context.newPage();
   const problems = [];
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text())) problems.push(message.text()); });
@@ -74,7 +79,7 @@ export async function requireAccessible(page, what) {
 /** Waits until the text of the first such element fits: pages paint when the browser is ready to. */
 export async function says(page, selector, pattern) {
   const text = async () => (await page.locator(selector).first().textContent()) ?? '';
-  for (const end = Date.now() + 5000; Date.now() < end;) {
+  for (const end = Date.now() + kHang; Date.now() < end;) {
     if (pattern.test(await text())) return;
     await page.waitForTimeout(20);
   }

@@ -58,7 +58,7 @@ TEST_F(BadEngine, FailsEachTimeInItsOwnClassAndStopsNothingElse) {
   for (std::size_t i = 0; i < std::size(kMisdeeds); ++i)
     misdeeds += fmt::format("n{}) {};;\n", i + 1, kMisdeeds[i].shell);
   fake_povray(misdeeds + "esac");
-  const FarmRun first = run({"--attempts", "2", "--no-progress-limit", "1.5", "--time-limit", "4"});
+  const FarmRun first = run({"--attempts", "2", "--no-progress-limit", "6", "--time-limit", "15"});
   EXPECT_EQ(first.exit_code, 4) << first.output;
   EXPECT_THAT(first.output, testing::StartsWith("lobelia: n10: povray: ")) << "failures come first";
   EXPECT_THAT(first.output,

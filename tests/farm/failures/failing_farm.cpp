@@ -160,7 +160,7 @@ bool RunningFarm::has_ended() {
 }
 
 int RunningFarm::wait() {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(30);
   while (!has_ended()) {
     if (std::chrono::steady_clock::now() > end) {
       signal(SIGKILL);
@@ -184,7 +184,7 @@ std::vector<int> RunningFarm::children(const std::string& name) const {
 }
 
 bool end_soon(const std::vector<int>& processes) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);
   while (std::any_of(processes.begin(), processes.end(), [](int process) {
     return state_of(fs::path("/proc") / std::to_string(process)).is_alive();
   })) {

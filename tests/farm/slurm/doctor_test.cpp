@@ -18,9 +18,9 @@ class Doctor : public FakeSlurm {
   Doctor() {
     checked.directory = in("shared");
     checked.program = LOBELIA_DOCTOR_NODE;
-    checked.node_limit = std::chrono::seconds(5);
+    checked.node_limit = std::chrono::minutes(10);
     checked.poll = std::chrono::milliseconds(20);
-    checked.call_limit = std::chrono::seconds(5);
+    checked.call_limit = std::chrono::minutes(10);
     config("MaxArraySize = 1001\nKillWait = 30 sec\nSlurmdTimeout = 300 sec");
   }
   void config(const std::string& text) {

@@ -34,7 +34,7 @@ class FarmOnCluster : public FailingFarm {
         {"--executor", "slurm", "--poll-seconds", "0.2", "--chunk-seconds", "0.5", "-q"});
   }
   bool eventually(const std::function<bool()>& condition) const {
-    for (int i = 0; i < 600; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(100)))
+    for (int i = 0; i < 6000; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(100)))
       if (condition()) return true;
     return false;
   }

@@ -45,9 +45,7 @@ class TestCluster {
   /// What one of Slurm's programs prints.
   std::string slurm(std::vector<std::string> arguments) const {
     arguments.front() = find_program(arguments.front()).string();
-    ProcessOptions options;
-    options.timeout = std::chrono::seconds(20);
-    const ProcessResult result = run_process(arguments, options);
+    const ProcessResult result = run_process(arguments, {});
     EXPECT_EQ(result.exit_code, 0) << result.output_tail;
     return result.output_tail;
   }
@@ -58,9 +56,7 @@ class TestCluster {
     arguments.insert(arguments.begin(), script());
     arguments.push_back(directory_.path().string());
     if (!node.empty()) arguments.push_back(node);
-    ProcessOptions options;
-    options.timeout = std::chrono::seconds(60);
-    const ProcessResult result = run_process(arguments, options);
+    const ProcessResult result = run_process(arguments, {});
     ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   }
 
