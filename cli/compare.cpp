@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/any_format.hpp"
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/compare_pictures.hpp"
@@ -199,6 +200,8 @@ std::string footer() {
       "\n"
       "  lobelia compare renders/ references/ --fail ciede2000.p99=2 --junit report.xml --csv report.csv\n"
       "\n"
+      "A picture's format is told by its first bytes, not by its name. A picture that crashes its decoder\n"
+      "is an error of its pair, and the others go on.\n"
       "Of two folders, a name that only B has fails, one that only A has is named. Exit codes: 0 pass or\n"
       "same, 1 over a limit, undecided, not finite or missing, 2 usage, 3 a picture is unreadable, has no such layer or "
       "another\n"
@@ -280,6 +283,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--reference-floor", job.c,
                    "A second reference: how far it is from B is shown beside how far A is")
       ->type_name("C");
+  add_any_format(*command);
   auto* layer = command->add_option(
       "--layer", job.layers.layer,
       "Compare this layer of both files: a prefix of channels, an EXR part, or one channel");

@@ -121,6 +121,7 @@ HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const Layer
       all->start_stops = std::min(all->start_stops, one.start_stops);
       all->stop_stops = std::max(all->stop_stops, one.stop_stops);
     } catch (const Error& error) {
+      if (error.code() != ExitCode::kInput) throw;
       const std::lock_guard lock(mutex);
       why = fmt::format("{}: {}", pairs[i].b, error.what());
     }

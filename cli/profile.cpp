@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/any_format.hpp"
 #include "cli/commands.hpp"
 #include "cli/profile_text.hpp"
 #include "cli/scene_overrides.hpp"
@@ -120,6 +121,7 @@ void add_profile(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<Options>();
   command->add_option("A", options->a, "Picture")->required();
   command->add_option("B", options->b, "Another one, the reference");
+  add_any_format(*command);
   auto* scene = command->add_option(
       "--scene", options->scene,
       "The scene file that the pictures show; without it the brightest blob is measured");

@@ -15,17 +15,24 @@
 
 namespace lobelia {
 
-/// Reads a layer (core/picture_layers.hpp; "" is the picture itself) of any format that OpenImageIO knows
+/// Reads a layer (core/picture_layers.hpp; "" is the picture itself) of a file of kPictureFormats (core/picture_bytes.hpp)
 /// into scene-linear float RGB, grey repeated: decoded from the curve that transfer_curve() says, other primaries
 /// converted to Rec. 709, colours of a file that are not multiplied by its alpha multiplied afterwards, in light. The
 /// image is the display window. Integers are 1 at their largest; in an EXR they are numbers, as they are. Of a MIP map
 /// the first level; of a cube map all faces.
-/// Throws Error(kInput): missing, not a regular file, not a picture, truncated, over kMaxImageSide or
-/// kMaxImagePixels in either window, deep, CMYK or Lab, of chromaticities that are none, without that layer.
+/// Decoded by another process (core/contained_reader.hpp), because a file may be hostile.
+/// Throws Error(kInput): missing, not a regular file, not such a picture, truncated, over kMaxImageSide or
+/// kMaxImagePixels in either window, deep, CMYK or Lab, of chromaticities that are none, without that layer; it crashes
+/// its decoder, or needs more memory or time than its size justifies. Throws Error(kInterrupted) when interrupted()
+/// becomes true.
 Picture read_picture(const std::filesystem::path& path, const std::string& layer);
 
 /// The same of the picture itself.
 Image read_image(const std::filesystem::path& path);
+
+/// The same, read by this process: quicker, but a hostile file could end it or worse. Only for files that we wrote
+/// ourselves, or of which we know the hash.
+Image read_trusted_image(const std::filesystem::path& path);
 
 /// Every layer that the file has, the picture ("") first if it has one. Errors as read_picture.
 std::vector<std::string> layer_names(const std::filesystem::path& path);

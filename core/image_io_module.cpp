@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/icc_profile.hpp"
 #include "core/picture_bytes.hpp"
+#include "core/picture_file.hpp"
 #include "core/picture_layers.hpp"
 #include "core/picture_window.hpp"
 #include "core/primaries.hpp"
@@ -29,36 +30,47 @@ namespace {
   const std::vector<std::string> lines = split(why, "\n");
   std::vector<std::string_view> views(lines.begin(), lines.end());
   if (views.empty()) views.push_back("its values cannot be decoded");
-  throw Error(ExitCode::kInput, fmt::format("{}: not a readable picture: {}", path.string(),
-                                            printable(join(views, "; "), 300)));
+  unreadable_picture(path, join(views, "; "));
 }
 
 /// A file with more parts is a film, or its directory is damaged.
 constexpr int kMaxParts = 1024;
 constexpr int kMaxChannels = 1024;
 
-std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
-  std::error_code status;
-  if (!std::filesystem::exists(path, status)) unreadable(path, "no such file");
-  // A pipe would be waited for.
-  if (!std::filesystem::is_regular_file(path, status)) unreadable(path, "not a regular file");
-  // OpenImageIO 2.4 writes past its memory as it opens a damaged one.
-  if (is_iff(path))
-    unreadable(path, "IFF is not read, because a damaged file would end the program");
-  if (is_exr_that_claims_too_much(path))
-    unreadable(path, "its header claims more than the file has");
-  if (is_tiff_without_bits(path))
-    unreadable(path,
+/// The one plug-in that is asked reads from memory. The others, of --any-format, open a file by themselves.
+std::shared_ptr<OIIO::ImageInput> open(const PictureBytes& file) {
+  if (is_exr_that_claims_too_much(file.bytes))
+    unreadable(file.path, "its header claims more than the file has");
+  if (is_tiff_without_bits(file.bytes))
+    unreadable(file.path,
                "it has no BitsPerSample: that is a TIFF of 1 bit, which is read wrongly; "
                "write it with the tag");
   OIIO::ImageSpec wishes;
   // Otherwise a PNG's colours are multiplied by alpha while they are encoded, which is no light.
   wishes.attribute("oiio:UnassociatedAlpha", 1);
-  auto input = OIIO::ImageInput::open(path.string(), &wishes);
-  if (!input) unreadable(path, OIIO::geterror());
-  // Any file of that ending would be a black picture.
-  if (std::string_view(input->format_name()) == "null")
-    unreadable(path, "its name makes it OpenImageIO's picture without a file");
+  if (file.format.empty()) {
+    const std::string ending = file.path.extension().string();
+    auto input = OIIO::ImageInput::create(ending.empty() ? "none" : ending.substr(1));
+    OIIO::ImageSpec spec;
+    if (!input || !input->open(file.reopen.string(), spec, wishes))
+      input = OIIO::ImageInput::open(file.reopen.string(), &wishes);
+    if (!input) unreadable(file.path, OIIO::geterror());
+    return input;
+  }
+  const auto memory = std::make_shared<OIIO::Filesystem::IOMemReader>(
+      const_cast<char*>(file.bytes.data()), file.bytes.size());
+  auto created = OIIO::ImageInput::create(std::string(file.format));
+  if (!created)
+    throw Error(ExitCode::kInternal,
+                fmt::format("no reader for {}: {}", file.format, OIIO::geterror()));
+  // The memory has to be there as long as the input.
+  const std::shared_ptr<OIIO::ImageInput> input(created.release(),
+                                                [memory](OIIO::ImageInput* last) { delete last; });
+  // Told with the wishes, which some plug-ins keep: they open it anew for a row that they have passed.
+  OIIO::Filesystem::IOProxy* proxy = memory.get();
+  wishes.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  OIIO::ImageSpec spec;
+  if (!input->open("memory", spec, wishes)) unreadable(file.path, input->geterror());
   return input;
 }
 
@@ -74,14 +86,14 @@ int count_mip_levels(OIIO::ImageInput& input, int part) {
 }
 
 /// By an input of its own: some readers cannot forget that they were asked for a part that there is not.
-std::vector<PicturePart> parts_of(const std::filesystem::path& path) {
-  const auto input = open(path);
+std::vector<PicturePart> parts_of(const PictureBytes& file) {
+  const auto input = open(file);
   std::vector<PicturePart> parts;
   for (int i = 0; input->seek_subimage(i, 0); ++i) {
-    if (i == kMaxParts) unreadable(path, fmt::format("it has more than {} parts", kMaxParts));
+    if (i == kMaxParts) unreadable(file.path, fmt::format("it has more than {} parts", kMaxParts));
     const OIIO::ImageSpec spec = input->spec(i);
     if (spec.nchannels < 1 || spec.nchannels > kMaxChannels)
-      unreadable(path,
+      unreadable(file.path,
                  fmt::format("it has {} channels; 1 to {} are read", spec.nchannels, kMaxChannels));
     PicturePart part{std::string(spec.get_string_attribute("oiio:subimagename")), {}};
     for (std::size_t c = 0; c < std::min(std::size_t(spec.nchannels), spec.channelnames.size());
@@ -200,8 +212,9 @@ struct ColourMeaning {
   std::optional<Chromaticities> primaries;  ///< nothing for Rec. 709
 };
 
-ColourMeaning png_meaning(const std::filesystem::path& path) {
-  const PngColour colour = png_colour(path);
+ColourMeaning png_meaning(const PictureBytes& file) {
+  const std::filesystem::path& path = file.path;
+  const PngColour colour = png_colour(file.bytes);
   ColourMeaning meaning{transfer_curve(path.string(), colour), std::nullopt};
   if (colour.cicp) {
     if (colour.cicp->matrix != 0 || !colour.cicp->full_range)
@@ -216,9 +229,9 @@ ColourMeaning png_meaning(const std::filesystem::path& path) {
   return meaning;
 }
 
-ColourMeaning colour_meaning(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+ColourMeaning colour_meaning(const PictureBytes& file, const OIIO::ImageSpec& spec,
                              std::string_view format, OIIO::TypeDesc type) {
-  if (format == "png") return png_meaning(path);
+  if (format == "png") return png_meaning(file);
   ColourMeaning meaning;
   if (format == "openexr") {
     if (type == OIIO::TypeDesc::UINT32) return meaning;
@@ -230,7 +243,7 @@ ColourMeaning colour_meaning(const std::filesystem::path& path, const OIIO::Imag
   }
   const std::string space = spec.get_string_attribute("oiio:ColorSpace");
   meaning.curve = transfer_curve(
-      path.string(),
+      file.path.string(),
       {format, space, spec.get_float_attribute("oiio:Gamma", 1), type.is_floating_point()});
   return meaning;
 }
@@ -256,21 +269,30 @@ void add_icc_profile(const OIIO::ImageSpec& spec, PictureSource& source) {
       spec.get_string_attribute("ICCProfile:profile_description", "without a name");
 }
 
-Picture read(const std::filesystem::path& path, const std::string& layer_name) {
-  const std::vector<PicturePart> parts = parts_of(path);
-  const auto input = open(path);
+/// What a header asks for, before memory is taken.
+PictureClaim claim_of(const OIIO::ImageSpec& spec, std::string_view format) {
+  const PixelWindow display = display_window(spec, format);
+  return {std::uint64_t(spec.width) * spec.height + std::uint64_t(display.width) * display.height,
+          spec.image_bytes(true)};
+}
+
+Picture read(const PictureBytes& file, const std::string& layer_name) {
+  const std::filesystem::path& path = file.path;
+  const std::vector<PicturePart> parts = parts_of(file);
+  const auto input = open(file);
   const PictureLayer layer = find_layer(path.string(), parts, layer_name);
   const int part = int(layer.part);
   const OIIO::ImageSpec spec = input->spec(part);
   const std::string format = input->format_name();
-  if (is_cut_off(path, format)) unreadable(path, "it is cut off");
+  if (is_cut_off(file.bytes, format)) unreadable(path, "it is cut off");
   check(path, spec, format);
+  if (file.on_header) file.on_header(claim_of(spec, format));
 
   Picture picture;
   PictureSource& source = picture.source;
   const OIIO::TypeDesc type = spec.channelformat(int(layer.where[0]));
   ColourMeaning meaning;
-  if (layer.is_colour) meaning = colour_meaning(path, spec, format, type);
+  if (layer.is_colour) meaning = colour_meaning(file, spec, format, type);
   const Reader reader{path, *input, part, spec};
   picture.image = read_channels(reader, layer.where);
   decode(meaning.curve, picture.image);
@@ -295,9 +317,9 @@ Picture read(const std::filesystem::path& path, const std::string& layer_name) {
   return picture;
 }
 
-std::vector<std::string> list_layers(const std::filesystem::path& path) {
+std::vector<std::string> list_layers(const PictureBytes& file) {
   std::vector<std::string> names;
-  for (const PictureLayer& layer : picture_layers(parts_of(path))) names.push_back(layer.name);
+  for (const PictureLayer& layer : picture_layers(parts_of(file))) names.push_back(layer.name);
   return names;
 }
 
@@ -348,6 +370,9 @@ ColourTable table_of_colours(std::string_view name) {
 
 extern "C" __attribute__((visibility("default")))
 const lobelia::ImageIoTable lobelia_image_io_table;
-const lobelia::ImageIoTable lobelia_image_io_table = {
-    lobelia::read, lobelia::list_layers, lobelia::encode_png, lobelia::table_of_colours,
-    [] { OIIO::attribute("exr_threads", -1); }};
+const lobelia::ImageIoTable lobelia_image_io_table = {lobelia::read,
+                                                      lobelia::list_layers,
+                                                      lobelia::encode_png,
+                                                      lobelia::table_of_colours,
+                                                      [] { OIIO::attribute("exr_threads", -1); },
+                                                      [] { OIIO::ImageInput::create("openexr"); }};

@@ -1,20 +1,45 @@
-// What the image module offers to its loader; nobody else includes this.
+// What the image module offers to its loaders: core/image_io.cpp and the reader (core/picture_reader.cpp).
 #pragma once
+
+#include <functional>
 
 #include "core/image_io.hpp"
 
 namespace lobelia {
 
-/// The functions of image_io.hpp, found by name in the module.
+/// A picture's header, before memory is taken for its values.
+struct PictureClaim {
+  std::uint64_t pixels = 0;     ///< of the data window and of the display window, together
+  std::uint64_t raw_bytes = 0;  ///< of all channels, as the file holds them uncompressed
+};
+
+/// A picture's file in memory.
+struct PictureBytes {
+  std::filesystem::path path;  ///< for messages
+  std::string_view bytes;
+  /// The only plug-in of OpenImageIO that is asked, of picture_format(); "": any, which opens `reopen` by itself.
+  std::string_view format;
+  std::filesystem::path reopen = {};
+  std::function<void(const PictureClaim&)> on_header = {};  ///< may throw
+};
+
 struct ImageIoTable {
-  Picture (*read_picture)(const std::filesystem::path&, const std::string&);
-  std::vector<std::string> (*layer_names)(const std::filesystem::path&);
+  Picture (*read_picture)(const PictureBytes&, const std::string& layer);
+  std::vector<std::string> (*layer_names)(const PictureBytes&);
   std::vector<std::uint8_t> (*encode_png)(const DisplayImage&, const ImageMetadata&);
   ColourTable (*colour_table)(std::string_view);
   void (*decode_on_calling_threads)();
+  void (*load_formats)();  ///< now, and not at the first picture
 };
 
 inline constexpr char kImageIoModuleFile[] = "lobelia_image_io.so";
 inline constexpr char kImageIoTableSymbol[] = "lobelia_image_io_table";
+
+/// Loads the module at the first call. Throws Error(kInternal) if it is not there.
+const ImageIoTable& image_io_table();
+
+/// A file that is built and installed with the program: beside it in a build tree, in ../lib/lobelia once installed.
+/// Throws Error(kInternal) if it is in neither.
+std::filesystem::path companion_file(const char* name);
 
 }  // namespace lobelia

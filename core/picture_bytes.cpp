@@ -1,23 +1,16 @@
 #include "core/picture_bytes.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <fstream>
+#include <istream>
+#include <streambuf>
 #include <string>
-
-#include "core/files.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr std::uint64_t kMaxJpegBytes = std::uint64_t{1} << 30;
-
-std::uint64_t number_at(std::string_view bytes, std::size_t at, bool little, std::size_t size = 4) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < size; ++i)
-    value = value << 8 | static_cast<unsigned char>(bytes[at + (little ? size - 1 - i : i)]);
-  return value;
-}
+using namespace std::string_view_literals;
 
 /// ISO 3309, as PNG has it.
 std::uint32_t crc32(std::string_view bytes) {
@@ -29,62 +22,133 @@ std::uint32_t crc32(std::string_view bytes) {
   return ~crc;
 }
 
-/// The first bytes of a file; zeros where it has no more.
-std::string head(const std::filesystem::path& path) {
-  std::string bytes(20, '\0');
-  std::ifstream(path, std::ios::binary).read(bytes.data(), std::ptrdiff_t(bytes.size()));
-  return bytes;
+/// 0 for what lies beyond the end.
+std::uint64_t number_at(std::string_view bytes, std::size_t at, bool little, std::size_t size = 4) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t place = at + (little ? size - 1 - i : i);
+    value = value << 8 | (place < bytes.size() ? static_cast<unsigned char>(bytes[place]) : 0);
+  }
+  return value;
+}
+
+/// A file in memory, for a stream.
+class MemoryBuffer : public std::streambuf {
+ public:
+  explicit MemoryBuffer(std::string_view bytes) {
+    char* begin = const_cast<char*>(bytes.data());
+    setg(begin, begin, begin + bytes.size());
+  }
+
+ protected:
+  pos_type seekoff(off_type offset, std::ios::seekdir from, std::ios::openmode) override {
+    const off_type start = from == std::ios::beg   ? 0
+                           : from == std::ios::cur ? gptr() - eback()
+                                                   : egptr() - eback();
+    if (offset < -start || offset > egptr() - eback() - start) return pos_type(off_type(-1));
+    setg(eback(), eback() + start + offset, egptr());
+    return pos_type(start + offset);
+  }
+  pos_type seekpos(pos_type place, std::ios::openmode mode) override {
+    return seekoff(off_type(place), std::ios::beg, mode);
+  }
+};
+
+struct Mark {
+  std::string_view bytes, format;
+};
+
+constexpr Mark kMarks[] = {{"\x76\x2f\x31\x01", "openexr"},
+                           {"\x89PNG\r\n\x1a\n", "png"},
+                           {"\xff\xd8\xff", "jpeg"},
+                           {"II*\0"sv, "tiff"},
+                           {"MM\0*"sv, "tiff"},
+                           {"II+\0"sv, "tiff"},
+                           {"MM\0+"sv, "tiff"},
+                           {"#?", "hdr"},
+                           {"SDPX", "dpx"},
+                           {"XPDS", "dpx"},
+                           {"BM", "bmp"}};
+
+bool is_pnm(std::string_view head) {
+  return head.size() > 2 && head[0] == 'P' && "123456Ff"sv.find(head[1]) != head.npos &&
+         (std::isspace(static_cast<unsigned char>(head[2])) || head[2] == '#');
+}
+
+/// Truevision TGA 2.0, the header's 18 bytes.
+bool is_tga_header(std::string_view head) {
+  if (head.size() < 18) return false;
+  const auto byte = [&](std::size_t at) { return number_at(head, at, true, 1); };
+  const auto one_of = [](std::uint64_t value, std::initializer_list<std::uint64_t> allowed) {
+    return std::find(allowed.begin(), allowed.end(), value) != allowed.end();
+  };
+  const bool has_map = byte(1) == 1;
+  return byte(1) <= 1 && one_of(byte(2), {1, 2, 3, 9, 10, 11}) &&
+         (!has_map || one_of(byte(7), {15, 16, 24, 32})) && number_at(head, 12, true, 2) > 0 &&
+         number_at(head, 14, true, 2) > 0 && one_of(byte(16), {8, 15, 16, 24, 32}) &&
+         (byte(17) & 0xc0) == 0;
 }
 
 }  // namespace
 
-bool is_iff(const std::filesystem::path& path) {
-  const std::string bytes = head(path);
-  return bytes.starts_with("FOR4") || bytes.starts_with("FORM") || path.extension() == ".iff";
+std::string_view picture_format(std::string_view head, std::string_view footer,
+                                std::string_view ending) {
+  for (const Mark& mark : kMarks)
+    if (head.starts_with(mark.bytes)) return mark.format;
+  if (is_pnm(head)) return "pnm";
+  if (head.starts_with("RIFF") && head.size() >= 12 && head.substr(8, 4) == "WEBP") return "webp";
+  std::string small(ending);
+  for (char& c : small) c = char(std::tolower(static_cast<unsigned char>(c)));
+  const bool is_tga = footer.ends_with("TRUEVISION-XFILE.\0"sv) || small == ".tga";
+  return is_tga && is_tga_header(head) ? "targa" : "";
 }
 
-bool is_exr_that_claims_too_much(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(8, '\0');
-  file.read(start.data(), 8);
-  if (!file || !start.starts_with("\x76\x2f\x31\x01")) return false;
+bool is_exr_that_claims_too_much(std::string_view bytes) {
+  if (bytes.size() < 8 || !bytes.starts_with("\x76\x2f\x31\x01")) return false;
   constexpr char kManyParts = 0x10;
-  const bool many_parts = (start[5] & kManyParts) != 0;
-  const std::uint64_t size = std::filesystem::file_size(path);
+  const bool many_parts = (bytes[5] & kManyParts) != 0;
+  std::size_t at = 8;
+  const auto text = [&]() -> std::string_view {
+    const std::size_t end = std::min(bytes.find('\0', at), bytes.size());
+    const std::string_view result = bytes.substr(at, end - at);
+    at = end + 1;
+    return result;
+  };
   // Name, type, length, value; an empty name ends a part's header, an empty header those of many parts.
   for (bool first = true;;) {
-    std::string name, type, length(4, '\0');
-    if (!std::getline(file, name, '\0')) return false;
+    const std::string_view name = text();
+    if (at >= bytes.size()) return false;
     if (name.empty()) {
       if (first || !many_parts) return false;
       first = true;
       continue;
     }
     first = false;
-    if (!std::getline(file, type, '\0') || !file.read(length.data(), 4)) return false;
-    const std::uint64_t bytes = number_at(length, 0, true);
-    if (bytes > size - std::uint64_t(file.tellg())) return true;
-    file.seekg(std::streamoff(bytes), std::ios::cur);
+    text();  // the type
+    if (at + 4 > bytes.size()) return false;
+    const std::uint64_t length = number_at(bytes, at, true);
+    at += 4;
+    if (length > bytes.size() - at) return true;
+    at += length;
   }
 }
 
-bool is_cut_off(const std::filesystem::path& path, std::string_view format) {
+bool is_cut_off(std::string_view bytes, std::string_view format) {
   if (format == "jpeg") {
     // ITU-T T.81, B.1.1.3: within a scan no 0xff is followed by either, so the last of each are markers.
-    const std::string bytes = read_file(path, kMaxJpegBytes);
     const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
     return end == bytes.npos || (scan != bytes.npos && end < scan);
   }
   if (format != "dpx") return false;
   // SMPTE ST 268: "SDPX" or, little-endian, "XPDS", and the file's size at 16, all ones if unknown.
-  const std::string bytes = head(path);
   const std::uint64_t stated = number_at(bytes, 16, bytes.starts_with("XPDS"));
-  return stated != 0xffffffffu && std::filesystem::file_size(path) < stated;
+  return stated != 0xffffffffu && bytes.size() < stated;
 }
 
-bool is_tiff_without_bits(const std::filesystem::path& path) {
+bool is_tiff_without_bits(std::string_view whole) {
   constexpr std::uint64_t kBitsPerSample = 258, kMaxEntries = 65535;
-  std::ifstream file(path, std::ios::binary);
+  MemoryBuffer buffer(whole);
+  std::istream file(&buffer);
   std::string start(16, '\0');
   file.read(start.data(), 16);
   const bool little = start.starts_with("II");
@@ -116,9 +180,10 @@ bool is_tiff_without_bits(const std::filesystem::path& path) {
   return false;
 }
 
-PngColour png_colour(const std::filesystem::path& path) {
+PngColour png_colour(std::string_view whole) {
   PngColour colour;
-  std::ifstream file(path, std::ios::binary);
+  MemoryBuffer buffer(whole);
+  std::istream file(&buffer);
   file.seekg(8);
   constexpr std::uint64_t kLongest = 32;  // of those that are read
   for (std::string head(8, '\0'); file.read(head.data(), 8);) {

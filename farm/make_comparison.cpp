@@ -20,8 +20,8 @@ bool has_error(const MadePicture& picture) {
 /// Ours are of samples that each pixel has for itself, an engine's of points that all pixels share.
 NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
   const auto noise = [](const MadePicture& picture, int freedom, bool shared) {
-    return noise_of_standard_errors(read_image(picture.directory / error_file(picture.engine)),
-                                    freedom, shared);
+    return noise_of_standard_errors(
+        read_trusted_image(picture.directory / error_file(picture.engine)), freedom, shared);
   };
   return {.a = noise(ours, kErrorFreedom, false), .b = noise(theirs, kReplicates - 1, true)};
 }

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/interrupt.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -163,6 +164,7 @@ Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::pat
   try {
     image = read_image(file);
   } catch (const std::exception& error) {
+    throw_if_interrupted();
     return {FailureClass::kBadOutput,
             fmt::format("{}'s picture cannot be used: {}", engine.title, error.what())};
   }

@@ -1,0 +1,292 @@
+#include "core/contained_reader.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <mutex>
+
+#include "core/error.hpp"
+#include "core/image_io_module.hpp"
+#include "core/interrupt.hpp"
+#include "core/picture_file.hpp"
+#include "core/picture_message.hpp"
+#include "core/reader_protocol.hpp"
+#include "core/spawn.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+std::atomic<bool> g_on_one_thread{false}, g_any_format{false};
+
+/// How often a wait looks for Ctrl-C.
+constexpr int kLookMilliseconds = 50;
+
+[[noreturn]] void broken(const char* what, int error) {
+  throw Error(ExitCode::kInternal,
+              fmt::format("{}: {}: {}", kReaderFile, what, std::strerror(error)));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() { close(); }
+  void close() {
+    if (number_ >= 0) ::close(number_);
+    number_ = -1;
+  }
+  int get() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// Until there is something to be read, or the other side is gone. Throws Error(kInterrupted).
+void wait_for(int descriptor) {
+  for (;;) {
+    throw_if_interrupted();
+    pollfd wait{descriptor, POLLIN, 0};
+    const int ready = ::poll(&wait, 1, kLookMilliseconds);
+    if (ready > 0) return;
+    if (ready < 0 && errno != EINTR) broken("poll", errno);
+  }
+}
+
+/// Returns how much there was before the other side closed the pipe.
+std::size_t read_from_pipe(int pipe, void* target, std::size_t size) {
+  std::size_t done = 0;
+  while (done < size) {
+    wait_for(pipe);
+    const ssize_t n = ::read(pipe, static_cast<char*>(target) + done, size - done);
+    if (n == 0) break;
+    if (n > 0) done += std::size_t(n);
+    if (n < 0 && errno != EINTR && errno != EAGAIN) broken("read", errno);
+  }
+  return done;
+}
+
+/// What the reader gets of our environment: where libraries are, and what sanitizers are told.
+std::vector<std::string> reader_environment() {
+  std::vector<std::string> result;
+  for (const char* name :
+       {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS"})
+    if (const char* value = std::getenv(name)) result.push_back(fmt::format("{}={}", name, value));
+  return result;
+}
+
+/// What came of one request.
+struct Outcome {
+  Picture picture;
+  std::vector<std::string> names;
+  std::string problem;  ///< a whole sentence, or what a crash is called; empty if there is none
+  bool is_sentence = false;
+};
+
+/// A running lobelia_picture_reader.
+class Reader {
+ public:
+  Reader() {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+      broken("socketpair", errno);
+    socket_ = Descriptor(ends[0]);
+    const Descriptor theirs(ends[1]);
+    const Descriptor null(::open("/dev/null", O_WRONLY | O_CLOEXEC));
+    // In a group of its own: Ctrl-C is ours to answer. It ends when it finds the socket closed.
+    pid_ = spawn({.arguments = {companion_file(kReaderFile).string()},
+                  .environment = reader_environment(),
+                  .working_directory = {},
+                  .input = theirs.get(),
+                  .output = null.get()})
+               .pid;
+  }
+  ~Reader() {
+    ::kill(-pid_, SIGKILL);
+    while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  /// False if the reader is gone.
+  bool send(const std::string& request, int file, int pipe) const {
+    iovec part{const_cast<char*>(request.data()), request.size()};
+    const std::array<int, kRequestDescriptors> descriptors{file, pipe};
+    alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptors)] = {};
+    msghdr message{};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control;
+    message.msg_controllen = sizeof control;
+    cmsghdr* header = CMSG_FIRSTHDR(&message);
+    header->cmsg_level = SOL_SOCKET;
+    header->cmsg_type = SCM_RIGHTS;
+    header->cmsg_len = CMSG_LEN(sizeof descriptors);
+    std::memcpy(CMSG_DATA(header), descriptors.data(), sizeof descriptors);
+    return ::sendmsg(socket_.get(), &message, MSG_NOSIGNAL) == ssize_t(request.size());
+  }
+
+  /// False if the reader is gone.
+  bool verdict(ReaderVerdict& verdict) const {
+    for (;;) {
+      wait_for(socket_.get());
+      const ssize_t n = ::recv(socket_.get(), &verdict, sizeof verdict, 0);
+      if (n >= 0 || errno != EINTR) return n == sizeof verdict;
+    }
+  }
+
+ private:
+  Descriptor socket_;
+  pid_t pid_ = 0;
+};
+
+/// As many as threads ask at once. One that was interrupted or is gone does not come back.
+class Pool {
+ public:
+  std::unique_ptr<Reader> take() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        auto reader = std::move(idle_.back());
+        idle_.pop_back();
+        return reader;
+      }
+    }
+    return std::make_unique<Reader>();
+  }
+  void give_back(std::unique_ptr<Reader> reader) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(reader));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Reader>> idle_;
+};
+
+/// Takes the answer apart as it comes. Nothing in it is believed before it was looked at.
+Outcome receive(int pipe) {
+  Outcome outcome;
+  std::uint64_t size = 0;
+  if (read_from_pipe(pipe, &size, sizeof size) != sizeof size || size > kMaxAnswerBytes) {
+    outcome.problem = "the decoder gave no answer";
+    return outcome;
+  }
+  std::string bytes(size, '\0');
+  if (read_from_pipe(pipe, bytes.data(), size) != size) {
+    outcome.problem = "the decoder stopped in the middle";
+    return outcome;
+  }
+  try {
+    ReadingAnswer answer = unpack_answer(bytes);
+    outcome.names = std::move(answer.names);
+    outcome.is_sentence = answer.kind == ReadingAnswer::Kind::kRefusal;
+    outcome.problem = std::move(answer.refusal);
+    if (answer.kind != ReadingAnswer::Kind::kPicture) return outcome;
+    const PixelWindow& data = answer.source.data;
+    outcome.picture.image = Image(int(answer.width), int(answer.height));
+    if (answer.has_overscan) outcome.picture.overscan = Image(data.width, data.height);
+    outcome.picture.source = std::move(answer.source);
+  } catch (const std::runtime_error& error) {
+    outcome.problem = fmt::format("the decoder's answer is damaged: {}", error.what());
+    return outcome;
+  }
+  for (Image* image : {&outcome.picture.image, &outcome.picture.overscan}) {
+    const auto values = std::as_writable_bytes(image->values());
+    if (read_from_pipe(pipe, values.data(), values.size()) != values.size())
+      outcome.problem = "the decoder stopped in the middle";
+  }
+  return outcome;
+}
+
+/// Nothing if it ended as it should.
+std::string why_it_ended(const ReaderVerdict& verdict) {
+  if (verdict.too_long) return "the decoder did not end; it was stopped";
+  if (WIFSIGNALED(verdict.status) && WTERMSIG(verdict.status) == SIGXCPU)
+    return "decoding takes longer than a file of this size justifies";
+  if (WIFSIGNALED(verdict.status))
+    return fmt::format("the decoder crashed (signal {})", WTERMSIG(verdict.status));
+  if (WEXITSTATUS(verdict.status) != 0)
+    return fmt::format("the decoder failed (exit code {})", WEXITSTATUS(verdict.status));
+  return "";
+}
+
+Outcome ask(const fs::path& path, const std::string& layer, bool names_only) {
+  static Pool pool;
+  throw_if_interrupted();
+  const PictureFile file(path);
+  ReadingRequest request{.names_only = names_only,
+                         .on_one_thread = g_on_one_thread,
+                         .format = {},
+                         .path = path.string(),
+                         .layer = layer};
+  Descriptor copy;
+  if (g_any_format)
+    copy = Descriptor(file.copy_in_memory(kMaxAnyFormatBytes));
+  else
+    request.format = file.known_format();
+  const std::string message = pack(request);
+  if (message.size() > kMaxRequestBytes)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: no layer '{}'", path.string(), printable(layer)));
+
+  const int shown = g_any_format ? copy.get() : file.descriptor();
+  for (int attempt = 0;; ++attempt) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) broken("pipe", errno);
+    const Descriptor answer(ends[0]);
+    Descriptor theirs(ends[1]);
+    ::fcntl(theirs.get(), F_SETPIPE_SZ, 1 << 20);  // a wish: larger pieces are faster
+    auto reader = pool.take();
+    const bool sent = reader->send(message, shown, theirs.get());
+    theirs.close();
+    ReaderVerdict verdict;
+    if (sent) {
+      Outcome outcome = receive(answer.get());
+      if (reader->verdict(verdict)) {
+        pool.give_back(std::move(reader));
+        const std::string why = why_it_ended(verdict);
+        if (why.empty() && outcome.problem.empty()) return outcome;
+        if (why.empty() && outcome.is_sentence)
+          throw Error(ExitCode::kInput, printable(outcome.problem, kMaxRequestBytes));
+        unreadable_picture(path, why.empty() ? outcome.problem : why);
+      }
+    }
+    // Nothing that a picture does ends the reader itself: somebody killed it while it waited.
+    if (attempt == 1)
+      throw Error(ExitCode::kInternal, fmt::format("{} ends by itself", kReaderFile));
+  }
+}
+
+}  // namespace
+
+Picture read_contained(const fs::path& path, const std::string& layer) {
+  return ask(path, layer, false).picture;
+}
+
+std::vector<std::string> layer_names_contained(const fs::path& path) {
+  return ask(path, "", true).names;
+}
+
+void decode_contained_on_one_thread() { g_on_one_thread = true; }
+
+void read_any_picture_format(bool any) { g_any_format = any; }
+
+}  // namespace lobelia

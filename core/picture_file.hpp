@@ -1,0 +1,43 @@
+// A picture's file, opened and looked at, before a library sees it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace lobelia {
+
+/// Larger files are not opened; those of --any-format are copied into memory.
+inline constexpr std::uint64_t kMaxPictureBytes = std::uint64_t{8} << 30;
+inline constexpr std::uint64_t kMaxAnyFormatBytes = std::uint64_t{1} << 30;
+
+class PictureFile {
+ public:
+  /// Throws Error(kInput): missing, not a regular file, empty, over kMaxPictureBytes.
+  explicit PictureFile(const std::filesystem::path& path);
+  ~PictureFile();
+  PictureFile(const PictureFile&) = delete;
+  PictureFile& operator=(const PictureFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  std::uint64_t size() const { return size_; }
+  /// Of picture_format(). Throws Error(kInput) if it is none, naming those that are read.
+  std::string_view known_format() const;
+  /// The whole file. Throws Error(kInput) if it became shorter.
+  std::string read_all() const;
+  /// A copy of the file in memory that belongs to no file system: a descriptor, the caller's to close. Throws
+  /// Error(kInput) if it is over `max_bytes`.
+  int copy_in_memory(std::uint64_t max_bytes) const;
+
+ private:
+  std::string read(std::uint64_t offset, std::size_t size) const;
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// Throws Error(kInput): the sentence that a file cannot be read with.
+[[noreturn]] void unreadable_picture(const std::filesystem::path& path, std::string_view why);
+
+}  // namespace lobelia

@@ -1,0 +1,218 @@
+// lobelia_picture_reader: decodes pictures for the program, a process for each (core/contained_reader.hpp).
+//
+// It stays single-threaded, so that a fork has all that it needs, and looks at no picture itself.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <malloc.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <new>
+
+#include "core/error.hpp"
+#include "core/image_io_module.hpp"
+#include "core/picture_file.hpp"
+#include "core/picture_message.hpp"
+#include "core/reader_protocol.hpp"
+#include "core/reading_limits.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr int kProgram = 0;  // the socket to it
+
+/// EXRs below are decoded on one thread: starting more takes longer.
+constexpr std::size_t kManyThreadsBytes = std::size_t{1} << 20;
+
+std::uint64_t address_space() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * std::uint64_t(::sysconf(_SC_PAGESIZE));
+}
+
+struct Job {
+  ReadingRequest request;
+  int file = -1, answer = -1;
+};
+
+/// False at the end of all jobs.
+bool receive(Job& job) {
+  std::string bytes(kMaxRequestBytes, '\0');
+  std::array<int, kRequestDescriptors> descriptors{};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof descriptors)] = {};
+  iovec part{bytes.data(), bytes.size()};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  ssize_t n = 0;
+  while ((n = ::recvmsg(kProgram, &message, MSG_CMSG_CLOEXEC)) < 0 && errno == EINTR) {
+  }
+  const cmsghdr* header = n > 0 ? CMSG_FIRSTHDR(&message) : nullptr;
+  if (!header || header->cmsg_len != CMSG_LEN(sizeof descriptors)) return false;
+  std::memcpy(descriptors.data(), CMSG_DATA(header), sizeof descriptors);
+  job = {unpack_request({bytes.data(), std::size_t(n)}), descriptors[0], descriptors[1]};
+  return true;
+}
+
+void write_all(int descriptor, const void* bytes, std::size_t size) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t n = ::write(descriptor, static_cast<const char*>(bytes) + done, size - done);
+    if (n <= 0 && errno != EINTR) ::_exit(1);
+    if (n > 0) done += std::size_t(n);
+  }
+}
+
+/// OpenImageIO's own decoder of TGA leaves what a damaged file lacks as it found it, and nobody knows those of
+/// --any-format. The other libraries refuse such a file or fill it. Reading twice is dear: OpenImageIO takes 64 MB at once,
+/// which a fill makes real.
+bool may_leave_memory_as_it_was(std::string_view format) {
+  return format == "targa" || format.empty();
+}
+
+bool are_same(const Image& a, const Image& b) {
+  if (a.width() != b.width() || a.height() != b.height()) return false;
+  return a.pixel_count() == 0 ||
+         std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
+}
+
+/// A picture that is read twice, over memory that was filled in two ways: what differs was never in the file.
+Picture read_twice(const ImageIoTable& table, const PictureBytes& file, const std::string& layer) {
+  Picture picture = table.read_picture(file, layer);
+  if (!may_leave_memory_as_it_was(file.format)) return picture;
+  ::mallopt(M_PERTURB, 0x5a);
+  const Picture again = table.read_picture(file, layer);
+  if (!are_same(picture.image, again.image) || !are_same(picture.overscan, again.overscan))
+    unreadable_picture(file.path, "some of its pixels are not in the file");
+  return picture;
+}
+
+ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view bytes,
+                     std::uint64_t began_with, Picture& picture) {
+  const ReadingRequest& request = job.request;
+  PictureBytes file{.path = request.path, .bytes = bytes, .format = request.format};
+  if (request.format.empty()) file.reopen = fmt::format("/proc/self/fd/{}", job.file);
+  std::uint64_t allowance = kMemoryToOpen;
+  file.on_header = [&](const PictureClaim& claim) {
+    if (const std::string problem = claim_problem(claim, bytes.size()); !problem.empty())
+      unreadable_picture(file.path, problem);
+    allowance = memory_to_read(claim, bytes.size());
+    limit_memory(began_with + allowance);
+    limit_processor_time(seconds_to_read(claim, bytes.size()));
+  };
+  ReadingAnswer answer;
+  try {
+    if (request.names_only) {
+      answer.names = table.layer_names(file);
+      answer.kind = ReadingAnswer::Kind::kNames;
+      return answer;
+    }
+    picture = read_twice(table, file, request.layer);
+    answer.source = picture.source;
+    answer.width = std::uint64_t(picture.image.width());
+    answer.height = std::uint64_t(picture.image.height());
+    answer.has_overscan = picture.overscan.pixel_count() > 0;
+    answer.kind = ReadingAnswer::Kind::kPicture;
+  } catch (const std::bad_alloc&) {
+    limit_memory(began_with + 2 * allowance);  // for the sentence
+    answer.refusal = fmt::format("{}: not a readable picture: it needs more than {} MB of memory",
+                                 request.path, allowance / 1'000'000);
+  } catch (const std::exception& error) {
+    answer.refusal = error.what();
+  }
+  return answer;
+}
+
+/// The child's whole life.
+[[noreturn]] void serve(const ImageIoTable& table, const Job& job, std::uint64_t began_with) {
+  ::close(kProgram);
+  struct stat status {};
+  ::fstat(job.file, &status);
+  const auto size = std::size_t(status.st_size);
+  ::mallopt(M_ARENA_MAX, 1);  // an arena for each thread would take address space
+  if (may_leave_memory_as_it_was(job.request.format)) ::mallopt(M_PERTURB, 0xa5);
+  limit_memory(began_with + kMemoryToOpen + size);
+  limit_processor_time(seconds_to_read({}, size));
+  lock_down(job.request.format.empty());
+  if (job.request.on_one_thread || size < kManyThreadsBytes) table.decode_on_calling_threads();
+  // A file that becomes shorter meanwhile ends this process and no other.
+  const void* bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, job.file, 0);
+  if (bytes == MAP_FAILED) ::_exit(1);
+  Picture picture;
+  const std::string answer =
+      pack(decode(table, job, {static_cast<const char*>(bytes), size}, began_with + size, picture));
+  const std::uint64_t length = answer.size();
+  write_all(job.answer, &length, sizeof length);
+  write_all(job.answer, answer.data(), answer.size());
+  for (const Image* image : {&picture.image, &picture.overscan})
+    write_all(job.answer, image->values().data(), image->values().size_bytes());
+  ::_exit(0);
+}
+
+/// Until the child has ended, the program is gone (then this process ends, too), or too much time is over.
+ReaderVerdict wait_for(pid_t child, int alive, std::uint64_t seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::seconds(seconds);
+  ReaderVerdict verdict;
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    pollfd waits[] = {{alive, POLLIN, 0}, {kProgram, POLLRDHUP, 0}};
+    const int ready = ::poll(waits, 2, int(std::clamp<std::int64_t>(left.count(), 0, 1 << 30)));
+    if (ready < 0 && errno == EINTR) continue;
+    if (waits[0].revents != 0) break;
+    ::kill(child, SIGKILL);
+    if (waits[1].revents != 0) ::_exit(0);
+    verdict.too_long = true;
+    break;
+  }
+  while (::waitpid(child, &verdict.status, 0) < 0 && errno == EINTR) {
+  }
+  return verdict;
+}
+
+int run() {
+  ::close_range(3, ~0u, 0);  // what the program left open without a thought
+  ::signal(SIGCHLD, SIG_DFL);
+  ::signal(SIGXCPU, SIG_DFL);
+  const ImageIoTable& table = image_io_table();
+  table.load_formats();
+  const std::uint64_t began_with = address_space();
+  for (Job job; receive(job);) {
+    struct stat status {};
+    ::fstat(job.file, &status);
+    int alive[2];
+    if (::pipe2(alive, O_CLOEXEC) != 0) return 1;
+    const pid_t child = ::fork();
+    if (child == 0) serve(table, job, began_with);
+    for (const int mine : {alive[1], job.file, job.answer}) ::close(mine);
+    if (child < 0) return 1;
+    const ReaderVerdict verdict =
+        wait_for(child, alive[0], seconds_to_wait(std::uint64_t(status.st_size)));
+    ::close(alive[0]);
+    if (::send(kProgram, &verdict, sizeof verdict, MSG_NOSIGNAL) < 0) return 0;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace lobelia
+
+int main() {
+  try {
+    return lobelia::run();
+  } catch (const std::exception&) {  // the program sees that there is no answer
+    return 1;
+  }
+}
