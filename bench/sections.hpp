@@ -15,5 +15,6 @@ void comparisons(
     const std::string& program);  ///< of large pictures with peak memory, and of folders
 void plan();                      ///< cells of a grid, planned per second
 void exr();                       ///< packing and writing pictures
+void reading();                   ///< what it costs to read a picture in a process of its own
 
 }  // namespace lobelia::bench
