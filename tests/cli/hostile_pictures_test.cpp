@@ -1,0 +1,241 @@
+// Hostile and odd pictures, made here, given to every command that reads pictures.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "core/record.hpp"
+#include "tests/cli/run_lobelia.hpp"
+#include "tests/core/format_samples.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace testing;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+constexpr std::uint64_t kMostMemory = std::uint64_t{1} << 30;
+
+class Corpus {
+ public:
+  explicit Corpus(std::uint32_t seed) : random_(seed) {
+    for (const Sample& sample : format_samples()) {
+      add("whole", sample, sample.bytes);
+      cut(sample);
+      flip(sample);
+      claim(sample);
+    }
+    add_odd_values();
+    add_odd_exrs();
+  }
+  const std::vector<Sample>& pictures() const { return pictures_; }
+
+ private:
+  void add(const std::string& what, const Sample& sample, const std::string& bytes) {
+    pictures_.push_back({fmt::format("{:04}-{}-{}", pictures_.size(), what, sample.name), bytes});
+  }
+  /// Everywhere in a short header, and at places all over the rest.
+  void cut(const Sample& sample) {
+    const std::size_t size = sample.bytes.size();
+    std::set<std::size_t> places{0,  1,  2,  3,  4,        8,        12,
+                                 17, 18, 24, 40, size - 1, size - 4, size - 13};
+    for (int i = 1; i < 12; ++i) places.insert(size * std::size_t(i) / 12);
+    for (const std::size_t place : places)
+      if (place < size) add("cut", sample, sample.bytes.substr(0, place));
+  }
+  /// Some bits near the start, where headers are, and some anywhere.
+  void flip(const Sample& sample) {
+    for (int i = 0; i < 16; ++i) {
+      std::string bytes = sample.bytes;
+      const std::size_t reach = i % 2 == 0 ? std::min<std::size_t>(bytes.size(), 96) : bytes.size();
+      for (int flips = 0; flips <= i % 5; ++flips)
+        bytes[random_() % reach] ^= char(1 << random_() % 8);
+      add("flipped", sample, bytes);
+    }
+  }
+  /// Whatever stands for a size, one of these makes it huge, and another nothing.
+  void claim(const Sample& sample) {
+    // DPX and EXR have their sizes far behind, so those places are drawn.
+    for (int i = 0; i < 24; ++i) {
+      const std::size_t places = std::min<std::size_t>(sample.bytes.size() - 4, i < 16 ? 64 : 820);
+      const std::size_t at = i < 16 ? std::size_t(2 * i + 4) % places : random_() % places;
+      for (const char* value : {"\x7f\xff\xff\xff", "\xff\xff\xff\x7f"}) {
+        std::string bytes = sample.bytes;
+        bytes.replace(at, 4, std::string(value, 4));
+        if (i % 2 == 0) add("claims", sample, bytes);
+      }
+      if (i % 3 == 0) {
+        std::string bytes = sample.bytes;
+        bytes.replace(at, 4, std::string(4, '\0'));
+        add("zeros", sample, bytes);
+      }
+    }
+  }
+  void add_odd_values() {
+    const float odd[] = {std::numeric_limits<float>::infinity(),
+                         -std::numeric_limits<float>::infinity(),
+                         std::numeric_limits<float>::quiet_NaN(),
+                         std::numeric_limits<float>::max(),
+                         -std::numeric_limits<float>::max(),
+                         std::numeric_limits<float>::denorm_min(),
+                         -0.0f,
+                         -1e30f};
+    for (const float value : odd) {
+      std::vector<float> values(192, 0.25f);
+      values[random_() % 192] = value;
+      add("odd", {"odd.pfm", ""}, pfm_file(8, 8, values));
+      add("odd", {"odd.tif", ""},
+          tiff_file({.width = 8,
+                     .height = 8,
+                     .bits = 32,
+                     .is_float = true,
+                     .samples = little_endian(values)}));
+      std::fill(values.begin(), values.end(), value);
+      add("odd", {"all.pfm", ""}, pfm_file(8, 8, values));
+    }
+  }
+  void add_odd_exrs() {
+    const TemporaryDirectory scratch;
+    const auto exr = [&](const std::string& what, const std::vector<ExrPart>& parts) {
+      const auto path = scratch.path() / "a.exr";
+      write_exr_parts(path, parts);
+      add(what, {"odd.exr", ""}, read_file(path, 1 << 24));
+    };
+    const std::vector<float> values(16, 0.5f);
+    const auto box = window(0, 0, 4, 4);
+    for (const char* names :
+         {".", "..", "R.", ".R", "R.R", "a..R", "\x1b[31m", "\n", "\xff\xfe", "A"})
+      exr("channel", {{"", box, box, {{names, values}}}});
+    std::vector<ExrChannel> many;
+    for (int i = 0; i < 300; ++i) many.push_back({fmt::format("c{}", i), values});
+    exr("channels", {{"", box, box, many}});
+    std::vector<ExrPart> parts;
+    for (int i = 0; i < 40; ++i)
+      parts.push_back({fmt::format("p{}", i), box, box, {{"Y", values}}});
+    exr("parts", parts);
+    for (const auto& display :
+         {window(100, 100, 4, 4), window(-3, -3, 4, 4), window(0, 0, 1, 1), window(2, 2, 30000, 1),
+          window(-1000000000, 0, 4, 4), window(0, 0, 30000, 30000)})
+      exr("window", {{"", box, display, {{"Y", values}}}});
+  }
+  std::mt19937 random_;
+  std::vector<Sample> pictures_;
+};
+
+bool is_one_line(const std::string& text) {
+  return !text.empty() && text.back() == '\n' && std::ranges::count(text, '\n') == 1;
+}
+
+TEST(HostilePictures, NeverEndAComparisonOfFoldersNorDifferFromThemselves) {
+  const TemporaryDirectory directory;
+  const Corpus corpus(18);
+  for (const char* folder : {"a", "b"}) {
+    fs::create_directory(directory.path() / folder);
+    for (const Sample& picture : corpus.pictures())
+      write_file(directory.path() / folder / picture.name, picture.bytes);
+  }
+  const ProcessResult result = run_lobelia(
+      {"compare", "a", "b", "--json", "set.json", "--junit", "junit.xml"}, directory.path());
+  EXPECT_EQ(result.exit_code, 3) << result.output_tail;
+  EXPECT_LT(result.peak_memory_bytes, kMostMemory);
+  const Json record = read_record(directory.path() / "set.json", "comparison-set");
+  int read = 0, refused = 0;
+  ASSERT_EQ(record.at("pairs").size(), corpus.pictures().size());
+  for (const auto& pair : record.at("pairs")) {
+    const std::string name = pair.at("name");
+    if (pair.contains("error")) {
+      ++refused;
+      const std::string error = pair.at("error");
+      EXPECT_THAT(error, HasSubstr(name));
+      EXPECT_EQ(error.find('\n'), error.npos) << error;
+      EXPECT_EQ(name.find("-whole-"), name.npos) << error;
+    } else {
+      ++read;
+      EXPECT_THAT(pair.at("comparison").at("verdict"), AnyOf("pass", "non-finite"))
+          << name << " and itself";
+    }
+  }
+  // A corpus that is refused as a whole, or read as a whole, is none.
+  EXPECT_GT(read, int(corpus.pictures().size() / 10));
+  EXPECT_GT(refused, int(corpus.pictures().size() / 3));
+  EXPECT_GT(fs::file_size(directory.path() / "junit.xml"), 1000u);
+}
+
+/// The first, which is whole, and one in so many of the others.
+std::vector<Sample> some(const Corpus& corpus, std::size_t step) {
+  std::vector<Sample> result{corpus.pictures().front()};
+  for (std::size_t i = step / 2; i < corpus.pictures().size(); i += step)
+    result.push_back(corpus.pictures()[i]);
+  return result;
+}
+
+TEST(HostilePictures, EndAProfileWithOneLineOrAreProfiled) {
+  const TemporaryDirectory directory;
+  int succeeded = 0;
+  for (const Sample& picture : some(Corpus(19), 61)) {
+    SCOPED_TRACE(picture.name);
+    write_file(directory.path() / picture.name, picture.bytes);
+    const ProcessResult result = run_lobelia({"profile", picture.name}, directory.path());
+    EXPECT_THAT(result.exit_code, AnyOf(0, 3)) << result.output_tail;
+    EXPECT_TRUE(result.exit_code == 0 || is_one_line(result.output_tail)) << result.output_tail;
+    EXPECT_LT(result.peak_memory_bytes, kMostMemory);
+    succeeded += result.exit_code == 0;
+  }
+  EXPECT_GT(succeeded, 0) << "not even a whole picture is read";
+}
+
+TEST(HostilePictures, AsASkyEndTheRenderingWithOneLineOrAreRendered) {
+  const TemporaryDirectory directory;
+  int succeeded = 0;
+  const std::string scene = read_file(kScenes + "effects/environment_map.xml", 1 << 20);
+  for (const Sample& picture : some(Corpus(20), 67)) {
+    SCOPED_TRACE(picture.name);
+    const std::string name = "sky" + fs::path(picture.name).extension().string();
+    write_file(directory.path() / name, picture.bytes);
+    std::string changed = scene;
+    changed.replace(changed.rfind("sky.exr"), 7, name);
+    write_file(directory.path() / "scene.xml", changed);
+    const ProcessResult result = run_lobelia(
+        {"render", "scene.xml", "--width", "16", "--height", "16", "-q", "-o", "out.exr"},
+        directory.path());
+    EXPECT_THAT(result.exit_code, AnyOf(0, 3)) << result.output_tail;
+    EXPECT_TRUE(result.exit_code == 0 || is_one_line(result.output_tail)) << result.output_tail;
+    EXPECT_LT(result.peak_memory_bytes, kMostMemory);
+    succeeded += result.exit_code == 0;
+  }
+  EXPECT_GT(succeeded, 0) << "not even a whole picture is read";
+}
+
+TEST(HostilePictures, OfAnEngineAreThatEnginesFailure) {
+  const TemporaryDirectory directory;
+  const fs::path engine = directory.path() / "engine";
+  write_file(
+      engine,
+      "#!/bin/sh\n[ \"$1\" = --version ] && echo 'POV-Ray 3.7.0.10.unofficial' >&2 && exit 0\n"
+      "cp '" +
+          (directory.path() / "picture").string() + "' \"${1%.ini}.exr\"\n");
+  fs::permissions(engine, fs::perms::owner_all);
+  int succeeded = 0;
+  for (const Sample& picture : some(Corpus(21), 71)) {
+    SCOPED_TRACE(picture.name);
+    write_file(directory.path() / "picture", picture.bytes);
+    const ProcessResult result =
+        run_lobelia({"reference", kScenes + "head_on.xml", "--width", "8", "--height", "8",
+                     "--engine", "povray", "--povray", engine.string(), "-q", "-o", "out.exr"},
+                    directory.path());
+    EXPECT_THAT(result.exit_code, AnyOf(0, 5)) << result.output_tail;
+    EXPECT_TRUE(result.exit_code == 0 || is_one_line(result.output_tail)) << result.output_tail;
+    EXPECT_LT(result.peak_memory_bytes, kMostMemory);
+    succeeded += result.exit_code == 0;
+  }
+  EXPECT_GT(succeeded, 0) << "not even a whole picture is read";
+}
+
+}  // namespace
+}  // namespace lobelia
