@@ -63,7 +63,11 @@ void run(const Options& options) {
       report.tables.push_back(std::move(table));
   }
   line.clear();
-  if (!options.directory.empty()) cost::write_cost(report, options.directory);
+  if (!options.directory.empty()) {
+    FilesTogether files;
+    cost::write_cost(report, options.directory);
+    files.commit();
+  }
   if (options.json == "-")
     fmt::print("{}", record_text(cost::cost_record(report)));
   else
@@ -115,7 +119,7 @@ void add_cost(CLI::App& app, ExitCode&) {
       "\nExample:\n"
       "  lobelia cost reference_scenes/scenes/oblique_45.xml -o cost\n"
       "\nExit codes: 0 done, 2 usage, 3 a scene is unreadable, 4 an output cannot be "
-      "written, 5 an engine failed,\n130 interrupted. Times decide nothing.");
+      "written, 5 an engine failed,\n130 Ctrl-C, 143 SIGTERM. Times decide nothing.");
   command->callback([options] { run(*options); });
 }
 

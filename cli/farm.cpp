@@ -13,6 +13,8 @@
 #include "cli/publish.hpp"
 #include "cli/warnings.hpp"
 #include "core/files.hpp"
+#include "core/interrupt.hpp"
+#include "core/text.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -77,11 +79,12 @@ std::string work_text(const FarmSummary& summary) {
 }
 
 ExitCode report(const FarmSummary& summary, const Options& options) {
-  for (const auto& problem : summary.problems) fmt::print(stderr, "lobelia: {}\n", problem);
+  for (const auto& problem : summary.problems)
+    fmt::print(stderr, "lobelia: {}\n", printable(problem, 2000));
   for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
   if (summary.foreign > 0)
     fmt::print(stderr, "lobelia: {}/cells also holds {} cells that are not of this grid\n",
-               options.directory, summary.foreign);
+               printable_path(options.directory), summary.foreign);
   if (summary.work.different > 0)
     fmt::print(
         stderr,
@@ -113,7 +116,8 @@ ExitCode run_on_cluster(const Grid& grid, const Options& options) {
       });
   if (summary.slurm.detached) {
     for (const auto& warning : summary.farm.warnings) warn(warning);
-    fmt::print("submitted; 'lobelia farm status {}' looks at it\n", options.directory);
+    fmt::print("submitted; 'lobelia farm status {}' looks at it\n",
+               printable_path(options.directory));
     return ExitCode::kSuccess;
   }
   ExitCode code = report(summary.farm, options);
@@ -217,9 +221,11 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       "out, as the records say. docs/farm.md tells the rest.\n\n"
       "Exit codes: 0 every cell agrees, 1 some differ, or with --gallery are not what the farm\n"
       "wrote, 3 bad grid, 4 some job failed or nothing can be written, 5 a program given by its path is not\n"
-      "that engine, 130 interrupted.\n\n"
+      "that engine, 130 Ctrl-C, 143 SIGTERM.\n\n"
       "Example: lobelia farm reference_scenes/grids/sphere_grid.xml -o out/gallery\n"
       "         lobelia gallery out/gallery");
+  // A farm has engines to stop and records to write; on a cluster it asks what becomes of the jobs.
+  command->preparse_callback([](std::size_t) { end_by_ourselves_when_interrupted(); });
   command->callback([command, options, &exit_code] {
     if (!command->get_subcommands().empty()) return;
     if (options->grid.empty()) throw CLI::RequiredError("GRID");

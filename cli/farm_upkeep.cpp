@@ -94,7 +94,7 @@ void add_verify(CLI::App& farm, ExitCode& exit_code) {
           line.show(double(done) / double(all), fmt::format("{}/{}", done, all));
         });
     line.clear();
-    for (const auto& text : report.damaged) fmt::print("damaged: {}\n", text);
+    for (const auto& text : report.damaged) fmt::print("damaged: {}\n", printable_path(text));
     fmt::print("{} results, {} files, {}: {}\n", report.results, report.files,
                size_text(report.bytes),
                report.damaged.empty() ? "all whole"

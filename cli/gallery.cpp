@@ -10,6 +10,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/publish.hpp"
+#include "core/interrupt.hpp"
 #include "gallery/preview_server.hpp"
 
 namespace lobelia::cli {
@@ -29,6 +30,7 @@ void add_serve(CLI::App& gallery) {
       "no server; this is for seeing one as a server will give it.\n\n"
       "Example: lobelia gallery serve out/gallery");
   command->callback([directory, port] {
+    end_by_ourselves_when_interrupted();  // Ctrl-C is how it is stopped
     gallery::serve_site(*directory, *port, [](const std::string& url) {
       fmt::print("{}\n", url);
       std::fflush(stdout);

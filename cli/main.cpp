@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <span>
 
 #include "cli/commands.hpp"
 #include "core/interrupt.hpp"
@@ -24,25 +25,28 @@ constexpr char kFooter[] =
     "  lobelia compare highlight.exr povray.exr\n"
     "\n"
     "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing\n"
-    "or failed, 70 a bug of ours, 130 interrupted.";
+    "or failed, 70 a bug of ours, 130 Ctrl-C, 143 SIGTERM.";
 
 constexpr char kStdoutFailed[] = "standard output: cannot write";
 
-/// One line a message line, so that every line can be grepped for.
-int fail(ExitCode code, std::string_view message) {
-  while (!message.empty()) {
-    const auto end = std::min(message.find('\n'), message.size());
-    fmt::print(stderr, "lobelia: {}\n", printable(message.substr(0, end), 2000));
-    message.remove_prefix(std::min(end + 1, message.size()));
-  }
+/// Each message on a line of its own, whatever bytes a file's name brings into it.
+int fail(ExitCode code, std::span<const std::string> messages) {
+  take_over_end();
+  if (code == ExitCode::kInterrupted) code = interrupt_exit_code();
+  for (const std::string& message : messages)
+    fmt::print(stderr, "lobelia: {}\n", printable(message, 2000));
   return int(code);
 }
 
+int fail(ExitCode code, const std::string& message) { return fail(code, std::span(&message, 1)); }
+
 /// The exit code, once everything printed has arrived.
 int flushed(ExitCode code) {
+  if (interrupted_in_time()) throw_if_interrupted();
   std::cout.flush();  // CLI11 prints its help there
   if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     return fail(ExitCode::kOutput, kStdoutFailed);
+  take_over_end();
   return int(code);
 }
 
@@ -106,12 +110,13 @@ int main(int argc, char** argv) {
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
   catch_interrupts();
+  end_soon_when_interrupted();
   cli::g_command_line.assign(argv, argv + argc);
   if (!cli::g_command_line.empty()) cli::g_command_line[0] = "lobelia";
   try {
     return cli::run(argc, argv);
   } catch (const Error& error) {
-    return cli::fail(error.code(), error.what());
+    return cli::fail(error.code(), error.lines());
   } catch (const std::bad_alloc&) {
     return cli::fail(ExitCode::kInternal, "not enough memory");
   } catch (const std::exception& error) {

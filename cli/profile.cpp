@@ -107,9 +107,11 @@ void run(const Options& options) {
     images.emplace_back(name_b, &b);
   }
   const Result result = measured(options, images);
+  FilesTogether files;
   if (!options.csv.empty()) write_file(options.csv, result.csv);
   if (!options.svg.empty()) write_file(options.svg, result.svg);
   if (json_to_file) write_record(options.json, result.record);
+  files.commit();
   fmt::print("{}", options.json == "-" ? record_text(result.record) : result.text);
 }
 

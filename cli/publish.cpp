@@ -50,7 +50,7 @@ ExitCode publish_if_wanted(const std::filesystem::path& run, const std::filesyst
   gallery::GalleryOptions options;
   options.site = site;
   const Published published = publish(run, options);
-  fmt::print(stderr, "lobelia: gallery: {}\n", published.index.string());
+  fmt::print(stderr, "lobelia: gallery: {}\n", printable_path(published.index.string()));
   return published.code;
 }
 

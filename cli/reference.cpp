@@ -14,6 +14,7 @@
 #include "cli/warnings.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/text.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/reference_metadata.hpp"
@@ -95,6 +96,7 @@ void run(const Options& options) {
   progress.clear();
   if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
 
+  FilesTogether files;
   write_exr(options.output, result.image, reference_metadata(scene, result.record));
   if (!options.standard_error.empty()) {
     // Of a picture that is no average there is no error to know.
@@ -111,9 +113,11 @@ void run(const Options& options) {
   for (const Material& material : scene.materials)
     record["highlights"].push_back(highlight_record(material.highlight));
   write_record(record_path, record);
+  files.commit();
   if (!options.quiet)
-    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {} {}, {}\n", options.output, result.image.width(),
-               result.image.height(), record["seconds"]["total"].get<double>(), engine_info.title,
+    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {} {}, {}\n", printable_path(options.output),
+               result.image.width(), result.image.height(),
+               record["seconds"]["total"].get<double>(), engine_info.title,
                engine->status().version, record["witness"].get<std::string>());
 }
 

@@ -13,6 +13,7 @@
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/text.hpp"
 #include "core/timing.hpp"
 #include "cost/accuracy.hpp"
 #include "renderer/render.hpp"
@@ -123,6 +124,7 @@ void run(const Options& options, ExitCode& code) {
   const std::optional<cost::Choice> choice = choice_of(scene, options);
   if (choice) choice->apply(render_options);
   const Scene& rendered = choice ? choice->scene : scene;
+  FilesTogether files;
   RenderResult result = render_and_write(rendered, render_options, options, stages);
   if (choice && choice->samples)
     result.stop_reason =
@@ -141,9 +143,10 @@ void run(const Options& options, ExitCode& code) {
   record["seconds"]["write"] = stages.write;
   if (choice) code = settle(scene, *choice, result.image, options, record);
   write_record(record_path, record);
+  files.commit();
   if (!options.quiet)
-    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {}{}{}{}\n", options.output, scene.film.width,
-               scene.film.height, result.render_seconds, result.instruction_set,
+    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {}{}{}{}\n", printable_path(options.output),
+               scene.film.width, scene.film.height, result.render_seconds, result.instruction_set,
                result.error ? fmt::format(", error {:.2g}", *result.error) : "",
                result.stop_reason.empty() ? "" : ", stopped ", result.stop_reason);
 }

@@ -24,12 +24,14 @@ void run_paper(const PaperOptions& options) {
   if (!options.plots.empty()) make_directories(options.plots);
   const auto claims = paper::measure_all();
   std::vector<paper::Plot> plots;
+  FilesTogether files;
   if (!options.plots.empty()) {
     plots = paper::plots();
     paper::write_plots(options.plots, plots);
   }
   if (!options.json.empty())
     write_record(options.json, paper::paper_record(claims, command_line(), plots));
+  files.commit();
   fmt::print("{}", options.errata ? paper::errata_document(claims) : paper::table_text(claims));
 }
 

@@ -75,9 +75,11 @@ ExitCode run(const Options& options) {
   const Json record = agreement::report_record(result, command_line());
   const std::string page = agreement::report_markdown(result, command_for(options));
   if (!options.output.empty()) {
+    FilesTogether files;
     write_record(directory / "agreement.json", record);
     write_file(directory / "agreement.csv", agreement::report_csv(result));
     write_file(directory / "agreement.md", page);
+    files.commit();
   }
   fmt::print("{}", options.json       ? record_text(record)
                    : options.markdown ? page

@@ -38,6 +38,7 @@ ExitCode run(const Options& options) {
     report.stalls = stability::measure_stalls(lobes);
     report.prices = stability::measure_prices(lobes);
   }
+  FilesTogether files;
   if (!options.pictures.empty()) {
     report.pictures = stability::make_pictures();
     stability::write_pictures(options.pictures, report.pictures);
@@ -51,6 +52,7 @@ ExitCode run(const Options& options) {
     write_record(options.json,
                  stability::report_record(report, command_line(), directory, options.all));
   }
+  files.commit();
   fmt::print("{}", stability::report_text(report, options.all));
   return report.count(stability::Outcome::kOutside) == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
 }

@@ -4,11 +4,14 @@
 
 #include <set>
 
+#include "core/text.hpp"
 #include "renderer/scene/remarks.hpp"
 
 namespace lobelia::cli {
 
-void warn(std::string_view text) { fmt::print(stderr, "lobelia: warning: {}\n", text); }
+void warn(std::string_view text) {
+  fmt::print(stderr, "lobelia: warning: {}\n", printable(text, 2000));
+}
 
 void warn_of(const Scene& scene) {
   std::set<std::string> lines;

@@ -1,8 +1,11 @@
 // How a failure travels: libraries throw Error, main prints one line and exits with its code.
 #pragma once
 
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lobelia {
 
@@ -11,22 +14,35 @@ enum class ExitCode : int {
   kSuccess = 0,
   kDiffers =
       1,  ///< it ran, and the answer is no: over a threshold, non-finite pixels, cells that differ
-  kUsage = 2,         ///< the command line is wrong
-  kInput = 3,         ///< an input cannot be read, is invalid, or does not fit the other one
-  kOutput = 4,        ///< an output is not there: it cannot be written, or a job of a farm failed
-  kEngine = 5,        ///< a reference engine is missing or failed
-  kInternal = 70,     ///< a bug of ours
-  kInterrupted = 130  ///< Ctrl-C
+  kUsage = 2,          ///< the command line is wrong
+  kInput = 3,          ///< an input cannot be read, is invalid, or does not fit the other one
+  kOutput = 4,         ///< an output is not there: it cannot be written, or a job of a farm failed
+  kEngine = 5,         ///< a reference engine is missing or failed
+  kInternal = 70,      ///< a bug of ours
+  kHungUp = 129,       ///< SIGHUP: its terminal was closed
+  kInterrupted = 130,  ///< Ctrl-C; thrown for the other two as well, see interrupt_exit_code()
+  kTerminated = 143    ///< SIGTERM
 };
 
 /// A failure with the exit code it asks for. what() is complete: what, where, what was allowed.
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Error(ExitCode code, const std::string& message)
+      : Error(code, std::vector<std::string>{message}) {}
+  /// Several failures at once, as those of a scene file; at least one.
+  Error(ExitCode code, std::vector<std::string> lines)
+      : std::runtime_error(std::accumulate(
+            lines.begin() + 1, lines.end(), lines.front(),
+            [](const std::string& all, const std::string& line) { return all + "\n" + line; })),
+        code_(code),
+        lines_(std::move(lines)) {}
   ExitCode code() const { return code_; }
+  /// To be printed on a line each. A line break inside one comes from a file's name.
+  const std::vector<std::string>& lines() const { return lines_; }
 
  private:
   ExitCode code_;
+  std::vector<std::string> lines_;
 };
 
 }  // namespace lobelia

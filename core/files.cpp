@@ -10,8 +10,10 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -95,21 +97,24 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
 }
 
 PartFile::PartFile(const fs::path& path)
-    : path_(path), target_(final_target(path)), part_(temporary_name(target_)) {
-  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd_ < 0) output_error(path, errno);
+    : path_(path), target_(final_target(path)), part_([&] {
+        const fs::path part = temporary_name(target_);
+        fd_ = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd_ < 0) output_error(path, errno);
+        return part;
+      }) {
   ::flock(fd_, LOCK_EX);  // by which others see that it is not abandoned
 }
 
 PartFile::~PartFile() {
   if (fd_ < 0) return;
   ::close(fd_);
-  ::unlink(part_.c_str());
+  ::unlink(part_.path().c_str());
 }
 
 void PartFile::fail(int error) {
   if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-  ::unlink(part_.c_str());
+  ::unlink(part_.path().c_str());
   output_error(path_, error);
 }
 
@@ -133,7 +138,45 @@ void PartFile::finish() {
   if (::fsync(fd_) != 0 && errno != EINVAL) fail(errno);
   const int closed = ::close(std::exchange(fd_, -1));
   if (closed != 0) fail(errno);
-  if (::rename(part_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (FilesTogether::add(*this)) return;
+  if (::rename(part_.path().c_str(), target_.c_str()) != 0) fail(errno);
+}
+
+struct FilesTogether::State {
+  struct Waiting {
+    fs::path path, target;
+    TemporaryPath part;
+  };
+  std::mutex mutex;
+  std::vector<Waiting> files;
+};
+
+FilesTogether* FilesTogether::current_ = nullptr;
+
+FilesTogether::FilesTogether() : state_(std::make_unique<State>()) { current_ = this; }
+
+FilesTogether::~FilesTogether() {
+  current_ = nullptr;
+  for (const auto& file : state_->files) ::unlink(file.part.path().c_str());
+}
+
+bool FilesTogether::add(PartFile& file) {
+  if (!current_) return false;
+  const std::lock_guard lock(current_->state_->mutex);
+  current_->state_->files.push_back({file.path_, file.target_, std::move(file.part_)});
+  return true;
+}
+
+void FilesTogether::commit() {
+  const EndDelay delay;
+  throw_if_interrupted();
+  for (State::Waiting& file : state_->files) {
+    if (::rename(file.part.path().c_str(), file.target.c_str()) != 0)
+      output_error(file.path, errno);
+    file.part.forget();
+  }
+  state_->files.clear();
+  interrupts_come_too_late();
 }
 
 void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
@@ -149,6 +192,7 @@ void write_file(const fs::path& path, std::string_view text) {
 void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
   const fs::path part = temporary_name(final_target(path));
+  const EndDelay delay;
   const FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
   if (file.fd < 0) output_error(path, errno);
   ::unlink(part.c_str());
@@ -169,16 +213,18 @@ TemporaryDirectory::TemporaryDirectory() {
   if (error)
     throw Error(ExitCode::kOutput,
                 fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
-  std::string name = (parent / kTemporaryName).string() + "XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
-  path_ = name;
-  alive_ = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  path_.emplace([&] {
+    std::string name = (parent / kTemporaryName).string() + "XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
+    return fs::path(name);
+  });
+  alive_ = ::open(path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (alive_ >= 0) ::flock(alive_, LOCK_EX);
 }
 
 TemporaryDirectory::~TemporaryDirectory() {
   std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  fs::remove_all(path(), ignored);
   if (alive_ >= 0) ::close(alive_);
 }
 

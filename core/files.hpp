@@ -3,9 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "core/interrupt.hpp"
 
 namespace lobelia {
 
@@ -29,14 +33,37 @@ class PartFile {
   /// Over what is there already.
   void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }
-  /// Flushes to the disk, then renames.
+  /// Flushes to the disk, then renames; where there is a FilesTogether, its commit() renames.
   void finish();
 
  private:
+  friend class FilesTogether;
   [[noreturn]] void fail(int error);
-  std::filesystem::path path_, target_, part_;
   int fd_ = -1;
+  std::filesystem::path path_, target_;
+  TemporaryPath part_;
   std::uint64_t size_ = 0;
+};
+
+/// The files of one command: while this lives, each finished PartFile keeps its temporary name until commit()
+/// gives all of them their own. Without commit() none is left behind. One at a time in a process.
+class FilesTogether {
+ public:
+  FilesTogether();
+  ~FilesTogether();
+  FilesTogether(const FilesTogether&) = delete;
+  FilesTogether& operator=(const FilesTogether&) = delete;
+  /// Throws Error(kInterrupted) if interrupted(), and as PartFile. An interruption that comes later is
+  /// too late (core/interrupt.hpp).
+  void commit();
+
+ private:
+  friend class PartFile;
+  struct State;
+  /// False where there is none.
+  static bool add(PartFile& file);
+  static FilesTogether* current_;
+  std::unique_ptr<State> state_;
 };
 
 /// Throws Error(kOutput) unless a file could be created at `path`; asked before long work starts.
@@ -52,10 +79,10 @@ class TemporaryDirectory {
   ~TemporaryDirectory();
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_->path(); }
 
  private:
-  std::filesystem::path path_;
+  std::optional<TemporaryPath> path_;
   int alive_ = -1;  ///< locked until this object or its process ends
 };
 

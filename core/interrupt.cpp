@@ -1,20 +1,29 @@
 #include "core/interrupt.hpp"
 
+#include <fmt/format.h>
+#include <semaphore.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <ctime>
-
-#include "core/error.hpp"
+#include <mutex>
+#include <set>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 namespace lobelia {
 namespace {
 
-std::atomic<bool> g_interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
+/// The first signal that asked to stop; 0 before.
+std::atomic<int> g_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
               "a signal handler may not wait");
 
 /// Running groups, 0 where none; more at once than any engine starts. One that finds no place is
@@ -41,9 +50,66 @@ std::int64_t now() {  // clock_gettime may be called in a signal handler
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
+/// Time to stop by itself, which removes more than the watcher knows of.
+constexpr std::chrono::milliseconds kGrace{250};
+std::atomic<bool> g_ends_soon{false};
+std::atomic<bool> g_too_late{false};
+sem_t g_signalled;  ///< posted at the first signal
+
+/// Never destroyed: the watcher may run while the process exits.
+struct Ending {
+  std::recursive_mutex mutex;
+  std::set<std::filesystem::path> temporary_paths;
+};
+Ending& ending() {
+  static Ending* const one = new Ending;
+  return *one;
+}
+
+void kill_groups() {
+  for (auto& group : g_groups)
+    if (const pid_t pid = group) ::kill(-pid, SIGKILL);
+}
+
+void remove_temporary_paths() {
+  // A killed child may still write for a moment.
+  constexpr int kAttempts = 20;
+  for (const auto& path : ending().temporary_paths)
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      std::error_code error;
+      std::filesystem::remove_all(path, error);
+      if (!error) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+}
+
+void end_after_first_signal() {
+  while (::sem_wait(&g_signalled) != 0 && errno == EINTR) {
+  }
+  std::this_thread::sleep_for(kGrace);
+  if (!g_ends_soon) return;
+  ending().mutex.lock();
+  if (g_too_late) {  // a little longer, for what is printed
+    ending().mutex.unlock();
+    std::this_thread::sleep_for(kGrace);
+    ending().mutex.lock();
+  }
+  // Locked for good: no thread makes a temporary file from now on.
+  kill_groups();
+  remove_temporary_paths();
+  // A progress line may stand there.
+  const std::string line =
+      fmt::format("{}lobelia: interrupted\n", ::isatty(2) == 1 ? "\r\x1b[K" : "");
+  if (::write(2, line.data(), line.size()) < 0) {  // nothing to be done about it
+  }
+  ::_exit(int(interrupt_exit_code()));
+}
+
 void on_signal(int signal) {
-  if (!g_interrupted.exchange(true)) {
+  int none = 0;
+  if (g_signal.compare_exchange_strong(none, signal)) {
     g_first_time = now();
+    ::sem_post(&g_signalled);
     return;
   }
   if (now() - g_first_time < kOneWishNanoseconds) return;
@@ -51,8 +117,7 @@ void on_signal(int signal) {
   const LastWords& words = g_last_words[g_last_words_index];
   if (words.size > 0 && ::write(2, words.text, words.size) < 0) {  // nothing to be done about it
   }
-  for (auto& group : g_groups)
-    if (const pid_t pid = group) ::kill(-pid, SIGKILL);
+  kill_groups();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -60,15 +125,65 @@ void on_signal(int signal) {
 }  // namespace
 
 void catch_interrupts() {
+  ::sem_init(&g_signalled, 0, 0);
   struct sigaction action {};
   action.sa_handler = on_signal;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
 }
 
-bool interrupted() { return g_interrupted; }
+void end_soon_when_interrupted() {
+  g_ends_soon = true;
+  try {
+    std::thread(end_after_first_signal).detach();
+  } catch (const std::system_error&) {  // no more threads are allowed: it ends when it can
+  }
+}
+
+void end_by_ourselves_when_interrupted() { g_ends_soon = false; }
+
+bool interrupted() { return g_signal != 0; }
+
+ExitCode interrupt_exit_code() {
+  switch (g_signal) {
+    case SIGHUP:
+      return ExitCode::kHungUp;
+    case SIGTERM:
+      return ExitCode::kTerminated;
+    default:
+      return ExitCode::kInterrupted;
+  }
+}
 
 void throw_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted");
+}
+
+void interrupts_come_too_late() { g_too_late = true; }
+
+bool interrupted_in_time() { return g_ends_soon && !g_too_late && interrupted(); }
+
+void take_over_end() { ending().mutex.lock(); }
+
+EndDelay::EndDelay() { ending().mutex.lock(); }
+
+EndDelay::~EndDelay() { ending().mutex.unlock(); }
+
+TemporaryPath::TemporaryPath(const std::function<std::filesystem::path()>& create) {
+  const EndDelay delay;
+  path_ = create();
+  ending().temporary_paths.insert(path_);
+}
+
+TemporaryPath::~TemporaryPath() { forget(); }
+
+TemporaryPath::TemporaryPath(TemporaryPath&& other) noexcept
+    : path_(std::exchange(other.path_, {})) {}
+
+void TemporaryPath::forget() {
+  if (path_.empty()) return;
+  const EndDelay delay;
+  ending().temporary_paths.erase(path_);
+  path_.clear();
 }
 
 void set_last_words(std::string_view text) {

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/text.hpp"
 #include "core/version.hpp"
 
 namespace lobelia {
@@ -13,12 +14,15 @@ namespace {
 
 constexpr std::uint64_t kMaxRecordBytes = 64u << 20;
 
-/// nlohmann-json writes NaN and infinity as null.
-void name_non_finite(Json& value) {
+/// nlohmann-json writes NaN and infinity as null, and no bytes that are no UTF-8: a file name, an engine's
+/// output.
+void make_writable(Json& value) {
   if (value.is_number_float())
     value = number_or_name(value.get<double>());
+  else if (value.is_string())
+    value = escape_invalid_utf8(value.get_ref<const std::string&>());
   else if (value.is_structured())
-    for (auto& item : value) name_non_finite(item);
+    for (auto& item : value) make_writable(item);
 }
 
 }  // namespace
@@ -28,10 +32,9 @@ Json make_record(const std::string& kind) {
 }
 
 std::string record_text(const Json& record) {
-  Json finite = record;
-  name_non_finite(finite);
-  // Invalid UTF-8 (a file name, an engine's output) is replaced rather than thrown at the user.
-  return finite.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  Json writable = record;
+  make_writable(writable);
+  return writable.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void write_record(const std::filesystem::path& path, const Json& record) {

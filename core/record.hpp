@@ -19,7 +19,7 @@ inline constexpr int kRecordSchemaVersion = 1;
 Json make_record(const std::string& kind);
 
 /// Writes atomically, indented, with a final newline. NaN and infinity become strings, because
-/// JSON has none and null would hide which it was.
+/// JSON has none and null would hide which it was; bytes that are no UTF-8 become \xNN.
 void write_record(const std::filesystem::path& path, const Json& record);
 std::string record_text(const Json& record);
 

@@ -1,5 +1,7 @@
 #include "core/text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -35,24 +37,58 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
-/// Bytes of the character that `text` begins with; 0 if they are none (RFC 3629: the shortest form, no
-/// surrogates, up to U+10FFFF).
-std::size_t utf8_length(std::string_view text) {
+struct Character {
+  std::uint32_t code = 0;  ///< of what is no UTF-8 the byte
+  std::size_t length = 0;  ///< in bytes; 0 of what is no UTF-8
+};
+
+/// The character that `text` begins with (RFC 3629: the shortest form, no surrogates, up to U+10FFFF).
+Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return std::uint32_t(static_cast<unsigned char>(text[i]));
   };
   const std::uint32_t first = byte(0);
-  if (first < 0x80) return 1;
+  if (first < 0x80) return {first, 1};
   const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
+  if (first < 0xC2 || first > 0xF4 || text.size() < length) return {first, 0};
   std::uint32_t code = first & (0xFFu >> (length + 1));
   for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
+    if ((byte(i) & 0xC0) != 0x80) return {first, 0};
     code = code << 6 | (byte(i) & 0x3F);
   }
   constexpr std::uint32_t kShortest[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool surrogate = code >= 0xD800 && code < 0xE000;
-  return code < kShortest[length] || surrogate || code > 0x10FFFF ? 0 : length;
+  if (code < kShortest[length] || surrogate || code > 0x10FFFF) return {first, 0};
+  return {code, length};
+}
+
+/// Takes it off; of what is no UTF-8 a byte.
+Character take_character(std::string_view& text) {
+  const Character first = first_character(text);
+  text.remove_prefix(std::max<std::size_t>(first.length, 1));
+  return first;
+}
+
+/// Controls, marks that turn the direction of writing, line separators, and what XML has no place for.
+bool is_hidden(std::uint32_t code) {
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x061C ||
+         (code >= 0x200B && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
+         (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF || (code & 0xFFFE) == 0xFFFE;
+}
+
+std::string escaped(const Character& character) {
+  switch (character.code) {
+    case '\t':
+      return "\\t";
+    case '\n':
+      return "\\n";
+    case '\r':
+      return "\\r";
+    default:
+      return character.code < 0x80 || character.length == 0
+                 ? fmt::format("\\x{:02x}", character.code)
+                 : fmt::format("\\u{:04x}", character.code);
+  }
 }
 
 template <class Number>
@@ -167,22 +203,33 @@ std::string csv_field(std::string_view text) {
 std::string valid_utf8(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    if (const std::size_t length = utf8_length(text); length > 0) {
-      result += text.substr(0, length);
-      text.remove_prefix(length);
-    } else {
-      result += "\xEF\xBF\xBD";
-      text.remove_prefix(1);
-    }
+    const std::string_view before = text;
+    const Character next = take_character(text);
+    result += next.length > 0 ? before.substr(0, next.length) : "\xEF\xBF\xBD";
+  }
+  return result;
+}
+
+std::string escape_invalid_utf8(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::string_view before = text;
+    const Character next = take_character(text);
+    result += next.length > 0 ? std::string(before.substr(0, next.length)) : escaped(next);
   }
   return result;
 }
 
 std::string printable(std::string_view text, std::size_t max_length) {
   std::string result;
-  for (const char c : text) {
-    if (result.size() >= max_length) return result + "...";
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  while (!text.empty()) {
+    const std::string_view before = text;
+    const Character next = take_character(text);
+    const std::string shown = next.length == 0 || is_hidden(next.code)
+                                  ? escaped(next)
+                                  : std::string(before.substr(0, next.length));
+    if (result.size() + shown.size() > max_length) return result + "...";
+    result += shown;
   }
   return result;
 }

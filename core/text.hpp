@@ -37,7 +37,12 @@ std::string shell_join(std::span<const std::string> arguments);
 std::string csv_field(std::string_view text);
 /// Each byte that is not part of valid UTF-8 replaced by U+FFFD: a file name may hold any bytes.
 std::string valid_utf8(std::string_view text);
-/// Without control characters, at most `max_length` long: for showing hostile input in a message.
+/// The same with each such byte as \xNN, so that two names stay two.
+std::string escape_invalid_utf8(std::string_view text);
+/// One line of valid UTF-8 for a message or a table: control characters, marks that turn the direction of
+/// writing and bytes that are no UTF-8 as \n, \xNN or \uNNNN. Cut off with "..." beyond `max_length` bytes.
 std::string printable(std::string_view text, std::size_t max_length = 80);
+/// printable() for a file's name, of which nothing is cut off.
+inline std::string printable_path(std::string_view path) { return printable(path, 1 << 14); }
 
 }  // namespace lobelia

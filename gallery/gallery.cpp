@@ -122,7 +122,10 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
   // Last, so that an index never names a page that is not there.
   publisher.write(kGridData, data_script("page", grid_json(farm, summaries)));
   publisher.write("index.html", index_page(site, farm, summaries));
+  const EndDelay delay;
+  throw_if_interrupted();
   publisher.finish();
+  interrupts_come_too_late();
   return {publisher.site() / "index.html", summaries.size(), doubts_of(summaries)};
 }
 

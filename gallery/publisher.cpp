@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/interrupt.hpp"
 #include "core/record.hpp"
 #include "gallery/fields.hpp"
 #include "gallery/names.hpp"
@@ -35,16 +36,20 @@ bool is_path_of_plain_names(const std::string& name) {
 /// tens of thousands, and a site that a crash has damaged is published again.
 void place(const fs::path& path, const std::function<bool(const fs::path&)>& make) {
   make_directories(path.parent_path());
-  const fs::path part = path.parent_path() / fmt::format(".{}.{}-{}.part", path.filename().string(),
-                                                         ::getpid(), std::random_device()());
-  errno = 0;
   std::error_code error;
-  const bool made = make(part);
+  const TemporaryPath part([&] {
+    fs::path name = path.parent_path() / fmt::format(".{}.{}-{}.part", path.filename().string(),
+                                                     ::getpid(), std::random_device()());
+    std::ofstream created(name);
+    return name;
+  });
+  errno = 0;
+  const bool made = make(part.path());
   if (!made) error = std::error_code(errno ? errno : EIO, std::generic_category());
-  if (made) fs::rename(part, path, error);
+  if (made) fs::rename(part.path(), path, error);
   if (!error) return;
   std::error_code ignored;
-  fs::remove(part, ignored);
+  fs::remove(part.path(), ignored);
   throw Error(ExitCode::kOutput, fmt::format("{}: {}", path.string(), error.message()));
 }
 
@@ -117,7 +122,7 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
     return;
   place(to, [&](const fs::path& part) {
     std::error_code failed;
-    fs::copy_file(from, part, failed);
+    fs::copy_file(from, part, fs::copy_options::overwrite_existing, failed);
     if (!failed) fs::last_write_time(part, time, failed);
     errno = failed.value();
     return !failed;

@@ -63,11 +63,12 @@ void XmlSource::throw_if_errors() const {
   auto sorted = errors_;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::string message;
-  for (const auto& [offset, line] : sorted) message += (message.empty() ? "" : "\n") + line;
+  std::vector<std::string> lines;
+  for (const auto& [offset, line] : sorted) lines.push_back(line);
   if (error_count_ > errors_.size())
-    message += fmt::format("\n{}: {} further errors", file_name_, error_count_ - errors_.size());
-  throw Error(ExitCode::kInput, message);
+    lines.push_back(
+        fmt::format("{}: {} further errors", file_name_, error_count_ - errors_.size()));
+  throw Error(ExitCode::kInput, std::move(lines));
 }
 
 void XmlSource::check_attributes(pugi::xml_node node,

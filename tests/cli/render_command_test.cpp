@@ -124,7 +124,7 @@ TEST(RenderCommand, TakesTwoSignalsInOneBreathForOneWish) {
       run_shell(kWhenItListens + kLongRender +
                     " & job=$!\nwhen_it_listens $job; kill -TERM $job; kill -TERM $job; wait $job",
                 directory.path());
-  EXPECT_EQ(result.exit_code, 130) << result.output_tail;
+  EXPECT_EQ(result.exit_code, 143) << result.output_tail;
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
 }
 

@@ -10,8 +10,12 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <random>
+#include <thread>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 
 namespace lobelia {
 namespace {
@@ -172,6 +176,74 @@ TEST(TemporaryDirectories, GoWithEverythingInThem) {
     write_file(path / "a", "x");
   }
   EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(FilesTogether, HaveTheirNamesOnceAllAreThereAndElseNone) {
+  const TemporaryDirectory directory;
+  write_file(directory.path() / "a", "old");
+  {
+    FilesTogether files;
+    write_file(directory.path() / "a", "new");
+    write_file(directory.path() / "b", "new");
+    EXPECT_EQ(read_file(directory.path() / "a", 10), "old");
+    EXPECT_FALSE(fs::exists(directory.path() / "b"));
+  }
+  EXPECT_EQ(entries(directory.path()), 1u) << "nothing was given its name";
+  EXPECT_EQ(read_file(directory.path() / "a", 10), "old");
+  FilesTogether files;
+  write_file(directory.path() / "a", "new");
+  write_file(directory.path() / "b", "new");
+  files.commit();
+  EXPECT_EQ(read_file(directory.path() / "a", 10), "new");
+  EXPECT_EQ(read_file(directory.path() / "b", 10), "new");
+  EXPECT_EQ(entries(directory.path()), 2u);
+}
+
+TEST(AProcessThatEndsSoonAfterASignal, LeavesNoTemporaryFileWhateverItIsDoing) {
+  // Not a TemporaryDirectory: the child would know of it and remove it with its own.
+  std::string name = fs::temp_directory_path() / "lobelia-signals-XXXXXX";
+  ASSERT_NE(::mkdtemp(name.data()), nullptr);
+  const fs::path place = name;
+  std::mt19937 random(4);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGTERM, SIGINT, SIGHUP}) {
+    int ready[2];
+    ASSERT_EQ(::pipe(ready), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::setenv("TMPDIR", place.c_str(), 1);
+      ::close(2);  // one line
+      catch_interrupts();
+      end_soon_when_interrupted();
+      const auto work = [&](int number) {
+        try {
+          for (;;) {
+            const TemporaryDirectory inner;
+            write_file(inner.path() / "x", "x");
+            PartFile half(place / fmt::format("half{}", number));
+            half.append(std::vector<std::uint8_t>(1000));
+            require_writable(place / "asked");
+          }
+        } catch (const Error&) {
+          for (;;) ::pause();  // its directory was removed under it: the end is near
+        }
+      };
+      std::vector<std::thread> threads;
+      for (int i = 0; i < 3; ++i) threads.emplace_back(work, i);
+      if (::write(ready[1], "x", 1) < 0) ::_exit(1);
+      for (std::thread& thread : threads) thread.join();
+    }
+    char byte = 0;
+    ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+    for (const int end : ready) ::close(end);
+    ::usleep(useconds_t(random() % 100'000));
+    ::kill(child, signal);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status)) << "by signal " << WTERMSIG(status);
+    EXPECT_EQ(WEXITSTATUS(status), 128 + signal);
+    EXPECT_EQ(entries(place), 0u);
+  }
+  fs::remove_all(place);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace lobelia {
 namespace {
 
@@ -45,9 +47,43 @@ TEST(ShellQuoting, LeavesPlainWordsAndQuotesTheRest) {
   EXPECT_EQ(shell_quote("it's $HOME"), "'it'\\''s $HOME'");
 }
 
-TEST(PrintableText, IsShortAndHasNoControlCharacters) {
-  EXPECT_EQ(printable("a\x1b[31m\n"), "a?[31m?");
+TEST(PrintableText, IsShortAndEscapesWhatATerminalWouldObey) {
+  EXPECT_EQ(printable("a\x1b[31m\n\t\r\x7f"), "a\\x1b[31m\\n\\t\\r\\x7f");
+  EXPECT_EQ(printable("\xC2\x9B"
+                      "31m"),
+            "\\u009b31m")
+      << "a control character of two bytes";
+  EXPECT_EQ(printable("a\xE2\x80\xAE"
+                      "gpj.exr"),
+            "a\\u202egpj.exr")
+      << "written from right to left";
+  EXPECT_EQ(printable("a\xEF\xBF\xBE"), "a\\ufffe") << "not allowed in XML";
+  EXPECT_EQ(printable("a\xFFz\xE2\x82"), "a\\xffz\\xe2\\x82") << "no UTF-8";
+  EXPECT_EQ(printable("\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x88 \\"),
+            "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x8C\x88 \\");
   EXPECT_EQ(printable("abcdef", 3), "abc...");
+  EXPECT_EQ(printable("ab\xC3\xA9", 3), "ab...") << "not half a character";
+}
+
+TEST(PrintableText, OfAnyBytesIsOneLineOfUtf8WithoutControlCharacters) {
+  std::mt19937 random(18);
+  for (int i = 0; i < 2000; ++i) {
+    std::string bytes(random() % 40, '\0');
+    for (char& c : bytes)
+      c = char(random() % 4 == 0 ? 'a' + int(random() % 26) : int(random() % 256));
+    const std::string text = printable(bytes, 1000);
+    EXPECT_EQ(valid_utf8(text), text) << text;
+    EXPECT_EQ(escape_invalid_utf8(text), text);
+    for (const char c : text)
+      EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) << text;
+    EXPECT_EQ(valid_utf8(escape_invalid_utf8(bytes)), escape_invalid_utf8(bytes));
+  }
+}
+
+TEST(EscapedUtf8, KeepsTwoNamesApartThatReplacementWouldMakeOne) {
+  EXPECT_EQ(escape_invalid_utf8("a\xFF\n\xC3\xA9"), "a\\xff\n\xC3\xA9");
+  EXPECT_NE(escape_invalid_utf8("a\xFF"), escape_invalid_utf8("a\xFE"));
+  EXPECT_EQ(valid_utf8("a\xFF"), valid_utf8("a\xFE"));
 }
 
 TEST(ValidUtf8, KeepsWhatIsValidAndReplacesEachByteThatIsNot) {
