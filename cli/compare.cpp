@@ -1,10 +1,15 @@
 #include "compare/compare.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "cli/any_format.hpp"
 #include "cli/between.hpp"
@@ -21,6 +26,8 @@
 
 namespace lobelia::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct Options {
   CompareJob job;
@@ -55,7 +62,7 @@ Tolerance parse_tolerance(const std::string& text) {
   return tolerance;
 }
 
-constexpr std::string_view kAutomatic = "auto";
+constexpr std::string_view kAutomatic = "auto", kStdout = "-";
 
 HdrExposures parse_exposures(const std::string& text) {
   // Of an automatic range the numbers come from the reference, once it is read.
@@ -96,10 +103,7 @@ void check_difference(const DifferencePicture& difference, bool folders) {
   if (difference.of == kChannels && !difference.colour_map.empty())
     throw Error(ExitCode::kUsage,
                 "--diff-colours is for one value a pixel; choose it with --diff-of");
-  if (folders) {
-    make_directories(difference.path);
-    return;
-  }
+  if (folders) return;
   const std::string ending = difference.path.extension().string();
   if (ending != ".png" && !(ending == ".exr" && difference.of != kChannels))
     throw Error(ExitCode::kUsage,
@@ -107,34 +111,112 @@ void check_difference(const DifferencePicture& difference, bool folders) {
                             difference.of == kChannels ? "" : " (colours) or .exr (values)"));
 }
 
-/// All can be written, each is a file of its own, and none is a picture that is compared.
-void require_outputs(const Options& options, bool folders) {
-  const CompareJob& job = options.job;
-  std::vector<std::string> taken{job.a, job.b, job.c};
-  std::vector<std::string> outputs{options.json, options.csv, options.junit};
-  if (!folders) outputs.push_back(job.difference.path.string());
-  for (const std::string& file : outputs) {
-    if (file.empty() || file == "-") continue;
-    std::error_code unknown;
-    for (const std::string& other : taken)
-      if (file == other || std::filesystem::equivalent(file, other, unknown))
-        throw Error(ExitCode::kUsage,
-                    fmt::format("{}: is read or written by this command already", file));
-    require_writable(file);
-    taken.push_back(file);
-  }
+/// Two paths to one file have the same, by whatever links.
+using FileId = std::pair<dev_t, ino_t>;
+
+std::optional<FileId> file_id(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileId{status.st_dev, status.st_ino};
 }
 
-void write_reports(const Options& options, const SetReport& report, bool folders) {
-  if (!options.csv.empty()) write_file(options.csv, set_csv(report));
-  if (!options.junit.empty()) write_file(options.junit, set_junit(report));
-  if (options.json.empty()) return;
-  const PairReport& first = report.pairs.front();
-  const Json record = folders ? set_record(report) : pair_record(first);
-  if (options.json == "-")
-    fmt::print("{}", record_text(record));
-  else
-    write_record(options.json, record);
+/// Every file that is read.
+std::set<FileId> inputs_of(const Options& options, const FolderPairs* names) {
+  const CompareJob& job = options.job;
+  std::set<FileId> inputs;
+  const auto add = [&](const fs::path& file) {
+    if (const auto id = file_id(file)) inputs.insert(*id);
+  };
+  add(options.scene);
+  add(options.display.config);
+  if (!names) {
+    for (const std::string& file : {job.a, job.b, job.c}) add(file);
+    for (const fs::path& file : job.noise.files("")) add(file);
+    return inputs;
+  }
+  for (const auto* list : {&names->both, &names->missing, &names->extra})
+    for (const std::string& name : *list) {
+      for (const std::string& folder : {job.a, job.b, job.c})
+        if (!folder.empty()) add(fs::path(folder) / name);
+      for (const fs::path& file : job.noise.files(name)) add(file);
+    }
+  return inputs;
+}
+
+/// Throws Error(kUsage) for a folder of difference pictures that lies in one that is compared: the next run
+/// would read them.
+void require_outside(const fs::path& directory, const CompareJob& job) {
+  std::error_code unknown;
+  const fs::path real = fs::weakly_canonical(fs::absolute(directory, unknown), unknown);
+  std::vector<fs::path> folders = job.noise.files("");
+  for (const std::string& folder : {job.a, job.b, job.c})
+    if (!folder.empty()) folders.emplace_back(folder);
+  for (const fs::path& folder : folders)
+    if (const fs::path there = fs::canonical(folder, unknown); !unknown && is_below(real, there))
+      throw Error(ExitCode::kUsage,
+                  fmt::format("--diff-image {}: lies in {}, which is read by this command; choose "
+                              "a folder outside it",
+                              directory.string(), folder.string()));
+}
+
+/// All can be written, each is a file of its own, and none is a file that is read, by any path.
+void require_outputs(const Options& options, const FolderPairs* names) {
+  const CompareJob& job = options.job;
+  std::vector<fs::path> reports, pictures;
+  for (const std::string& file : {options.json, options.csv, options.junit})
+    if (!file.empty() && file != kStdout) reports.emplace_back(file);
+  if (!job.difference.path.empty()) {
+    if (names) {
+      require_outside(job.difference.path, job);
+      for (const std::string& name : names->both) pictures.push_back(difference_file(job, name));
+    } else {
+      reports.push_back(job.difference.path);
+    }
+  }
+  if (reports.empty() && pictures.empty()) return;
+  const std::set<FileId> inputs = inputs_of(options, names);
+  std::set<fs::path> taken;
+  for (const auto* files : {&reports, &pictures})
+    for (const fs::path& file : *files) {
+      std::error_code unknown;
+      const auto id = file_id(file);
+      fs::path target = fs::weakly_canonical(fs::absolute(file, unknown), unknown);
+      if ((id && inputs.contains(*id)) || !taken.insert(std::move(target)).second)
+        throw Error(ExitCode::kUsage,
+                    fmt::format("{}: is read or written by this command already", file.string()));
+    }
+  for (const fs::path& file : reports) require_writable(file);
+  if (names && !job.difference.path.empty()) make_directories(job.difference.path);
+}
+
+/// Whether a report goes to stdout in place of the table.
+bool prints_report(const Options& options) {
+  const std::string* reports[] = {&options.json, &options.csv, &options.junit};
+  const auto count =
+      std::ranges::count_if(reports, [](const std::string* report) { return *report == kStdout; });
+  if (count > 1)
+    throw Error(ExitCode::kUsage, "only one of --json -, --csv - and --junit - can go to stdout");
+  return count == 1;
+}
+
+/// Files get their names together.
+void write_reports(const Options& options, const SetReport& report, bool folders,
+                   FilesTogether& files) {
+  std::string printed;
+  const auto put = [&](const std::string& file, const auto& text) {
+    if (file.empty()) return;
+    if (file == kStdout)
+      printed = text();
+    else
+      write_file(file, text());
+  };
+  put(options.csv, [&] { return set_csv(report); });
+  put(options.junit, [&] { return set_junit(report); });
+  put(options.json, [&] {
+    return record_text(folders ? set_record(report) : pair_record(report.pairs.front()));
+  });
+  files.commit();
+  fmt::print("{}", printed);
 }
 
 ExitCode run(Options options) {
@@ -156,17 +238,26 @@ ExitCode run(Options options) {
   if (comparison.noise && options.job.layers.all)
     throw Error(ExitCode::kUsage,
                 "--all-layers: the noise of one layer says nothing of the others");
+  if (comparison.noise && comparison.allow_equal_nonfinite)
+    throw Error(ExitCode::kUsage,
+                "--allow-equal-nonfinite: a value that is not finite has no noise; leave out the "
+                "noise of A and B");
   check_options(comparison);
   const bool folders = are_folders(options);
+  const bool has_table = !prints_report(options);
   check_difference(options.job.difference, folders);
-  require_outputs(options, folders);
+  std::optional<FolderPairs> names;
+  if (folders) names = pair_by_name(options.job.a, options.job.b);
+  require_outputs(options, names ? &*names : nullptr);
+  options.job.scene = options.scene;
 
+  FilesTogether files;
   SetReport report;
   ThreadLimit(options.threads).run([&] {
-    report = folders ? compare_folders(options.job) : compare_files(options.job);
+    report = names ? compare_folders(options.job, *names) : compare_files(options.job);
   });
-  write_reports(options, report, folders);
-  if (options.json != "-") {
+  write_reports(options, report, folders, files);
+  if (has_table) {
     if (folders)
       print_set(report);
     else
@@ -188,7 +279,8 @@ std::string footer() {
       "Of a picture that is a crop of its display window, the rest is black. Data outside of it are compared as\n"
       "well; what one side alone has there fails, unless it is 0. Alpha is judged where both have one.\n"
       "What was not compared is named in a line.\n"
-      "A NaN or an infinity in either picture is a verdict of its own and never passes.\n"
+      "A NaN or an infinity in either picture is a verdict of its own and does not pass, but for one that\n"
+      "both have in the same place, with --allow-equal-nonfinite or in a layer of depth.\n"
       "Where noise is known the verdict is same, different, or undecided: the noise leaves it open, and\n"
       "more samples are needed (docs/metrics.md).\n"
       "\n"
@@ -202,10 +294,11 @@ std::string footer() {
       "\n"
       "A picture's format is told by its first bytes, not by its name. A picture that crashes its decoder\n"
       "is an error of its pair, and the others go on.\n"
-      "Of two folders, a name that only B has fails, one that only A has is named. Exit codes: 0 pass or\n"
-      "same, 1 over a limit, undecided, not finite or missing, 2 usage, 3 a picture is unreadable, has no such layer or "
-      "another\n"
-      "size, or there is no pair, 4 an output cannot be written.",
+      "Of two folders, a name that only B has fails, one that only A has is named. A link to a folder is\n"
+      "followed if it stays inside A or B; else it is named and fails. Exit codes: 0 pass or same, 1 over a\n"
+      "limit, not measured, undecided, not finite, missing or not followed, 2 usage, 3 a picture is\n"
+      "unreadable, has no such layer or another size, or there is no pair, 4 an output cannot be written,\n"
+      "130 Ctrl-C, 143 SIGTERM.",
       join(limit_names()), defaults);
 }
 
@@ -338,6 +431,12 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
           "and shadow edges")
       ->group("Verdict");
 
+  command
+      ->add_flag("--allow-equal-nonfinite", job.comparison.allow_equal_nonfinite,
+                 "A NaN or an infinity that both pictures have in the same pixel and channel is no "
+                 "difference; always so for layers named Z, ZBack, depth, distance or position")
+      ->group("Verdict");
+
   job.noise.add_to(*command);
 
   command
@@ -369,16 +468,19 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->add_option(
           "--json", options->json,
           "Write the record (kind comparison, of folders comparison-set) to FILE; with - to "
-          "stdout, and no table")
+          "stdout, in place of the table")
       ->type_name("FILE|-")
       ->group("Output");
-  command->add_option("--csv", options->csv, "Write a table with a line for each pair")
-      ->type_name("FILE")
+  command
+      ->add_option("--csv", options->csv,
+                   "Write a table with a line for each pair; with - to stdout, likewise")
+      ->type_name("FILE|-")
       ->group("Output");
   command
       ->add_option("--junit", options->junit,
-                   "Write the verdicts as JUnit's XML, for continuous integration")
-      ->type_name("FILE.xml")
+                   "Write the verdicts as JUnit's XML, for continuous integration; with - to "
+                   "stdout, likewise")
+      ->type_name("FILE.xml|-")
       ->group("Output");
   add_difference_options(*command, job.difference);
   command->add_option("--threads", options->threads, "Threads that work; 0: one for each processor")

@@ -11,11 +11,11 @@
 namespace lobelia::cli {
 namespace {
 
-std::string reasons(const LayerComparison& layer) {
+std::string reasons(const LayerComparison& layer, const std::string& a, const std::string& b) {
   if (layer.identical) return "identical";
   if (!layer.comparison) return layer.problem;
   const Comparison& comparison = *layer.comparison;
-  if (comparison.verdict == Verdict::kNonFinite) return why_not_pass(comparison);
+  if (comparison.verdict == Verdict::kNonFinite) return why_not_pass(comparison, a, b);
   std::string text;
   for (const LimitResult& limit : comparison.limits)
     text += fmt::format("{}{} {:.4g}{}", text.empty() ? "" : ", ", limit.metric, limit.value,
@@ -35,10 +35,11 @@ std::string main_layer(const std::string& a, const std::string& b, const LayerOp
   return common_layers(a, b).both.front();
 }
 
-void print_layers(const OtherLayers& layers) {
+void print_layers(const OtherLayers& layers, const std::string& a, const std::string& b) {
   if (!layers.compared.empty() || layers.common) fmt::print("\n");
   for (const LayerComparison& layer : layers.compared)
-    fmt::print("  {}: {}; {}\n", layer.title(), verdict_name(layer.verdict()), reasons(layer));
+    fmt::print("  {}: {}; {}\n", layer.title(), verdict_name(layer.verdict()),
+               reasons(layer, a, b));
   if (layers.common) {
     print_names("a", layers.common->only_a);
     print_names("b", layers.common->only_b);

@@ -11,8 +11,8 @@ namespace lobelia::cli {
 std::string main_layer(const std::string& a, const std::string& b, const LayerOptions& options);
 
 /// The table's lines: the verdict and the limits of each layer, the layers of one file alone, and what was not
-/// compared.
-void print_layers(const OtherLayers& layers);
+/// compared. `a` and `b` are the files' names.
+void print_layers(const OtherLayers& layers, const std::string& a, const std::string& b);
 
 /// A line for each file whose ICC profile says other colours than were assumed.
 void print_profiles(const PicturePairSource& sources);

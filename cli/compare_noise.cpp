@@ -6,11 +6,21 @@
 #include <utility>
 
 #include "cli/between.hpp"
+#include "compare/require_same_size.hpp"
 #include "compare/uncertainty/z_test.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 
 namespace lobelia::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path file_of(const std::string& given, const std::string& name) {
+  return name.empty() ? fs::path(given) : fs::path(given) / name;
+}
+
+}  // namespace
 
 void NoiseFlags::add_to(CLI::App& command) {
   constexpr const char* kGroup = "Noise of Monte-Carlo pictures";
@@ -70,21 +80,32 @@ void NoiseFlags::apply(ComparisonOptions& options) const {
   if (a_.given() || b_.given()) options.noise = judged_;
 }
 
+std::vector<fs::path> NoiseFlags::files(const std::string& name) const {
+  std::vector<fs::path> result;
+  for (const Side* side : {&a_, &b_}) {
+    if (!side->error.empty()) result.push_back(file_of(side->error, name));
+    for (const std::string& replicate : side->replicates)
+      result.push_back(file_of(replicate, name));
+  }
+  return result;
+}
+
 std::optional<PictureNoise> NoiseFlags::read_side(const Side& side, const std::string& letter,
                                                   const std::string& name, Image& image) const {
-  const auto file = [&](const std::string& given) {
-    return name.empty() ? std::filesystem::path(given) : std::filesystem::path(given) / name;
+  const auto read = [&](const std::string& given) {
+    const fs::path file = file_of(given, name);
+    Image picture = read_image(file);
+    require_same_size(image, picture, "the picture", file.string());
+    return picture;
   };
   const bool shared =
       shared_.empty() ? !side.error.empty() : shared_ == letter || shared_ == "both";
   try {
-    if (!side.error.empty())
-      return noise_of_standard_errors(read_image(file(side.error)), freedom_, shared);
+    if (!side.error.empty()) return noise_of_standard_errors(read(side.error), freedom_, shared);
     if (side.replicates.empty()) return std::nullopt;
     std::vector<Image> pictures;
-    pictures.push_back(std::move(image));
-    for (const std::string& replicate : side.replicates)
-      pictures.push_back(read_image(file(replicate)));
+    for (const std::string& replicate : side.replicates) pictures.push_back(read(replicate));
+    pictures.insert(pictures.begin(), std::move(image));
     NoisyPicture mean = mean_of_replicates(pictures, shared);
     image = std::move(mean.image);
     return std::move(mean.noise);

@@ -7,15 +7,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/flip_exposures.hpp"
-#include "compare/set/folder_pairs.hpp"
+#include "compare/require_same_size.hpp"
 #include "core/files.hpp"
 #include "core/finite_image.hpp"
 #include "core/image_io.hpp"
+#include "core/text.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -45,7 +49,7 @@ void write_channels(const DifferencePicture& wanted, const fs::path& path, const
              {"lobelia:scaleFrom", "0"},
              {"lobelia:scaleTo", fmt::format("{}", scale)},
              {"lobelia:notFinite", "#ff00ff"}});
-  fmt::print(stderr, "{}: white is a difference of {:.6g}\n", path.string(), scale);
+  fmt::print(stderr, "{}: white is a difference of {:.6g}\n", printable_path(path.string()), scale);
 }
 
 void write_difference(const DifferencePicture& wanted, const fs::path& path, const Image& a,
@@ -69,8 +73,28 @@ void write_difference(const DifferencePicture& wanted, const fs::path& path, con
   else
     write_png(path, colour_picture(values, a.width(), a.height(), scale, colours),
               colour_metadata(map, scale, colours));
-  fmt::print(stderr, "{}: {} up to {:.6g}, the largest is {:.6g}\n", path.string(), map.id, scale,
-             largest);
+  fmt::print(stderr, "{}: {} up to {:.6g}, the largest is {:.6g}\n", printable_path(path.string()),
+             map.id, scale, largest);
+}
+
+/// Of a picture that is not finite there is none, and nobody asks.
+HdrExposures exposures_or_why_not(const Image& reference) {
+  try {
+    return automatic_exposures(reference);
+  } catch (const Error& error) {
+    return {0, 0, 2, true, error.what()};
+  }
+}
+
+/// Values that are not finite in both references are judged as those of the pictures are.
+ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, const Image& b,
+                        bool equal_allowed, const ComparisonOptions& options) {
+  Image c = read_picture(pair.c, layer).image;
+  require_same_size(c, b, pair.c, pair.b);
+  if (!equal_allowed || is_finite(b)) return measure_reference_floor(c, b, options);
+  Image cleared = b;
+  clear_equal_nonfinite(c, cleared);
+  return measure_reference_floor(c, cleared, options);
 }
 
 /// `name_within`: of folders the pair's name, which the pictures of noise have in theirs; else empty.
@@ -83,12 +107,17 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOption
   job.noise.read(name_within, pictures.a.image, pictures.b.image, options);
   const Image &a = pictures.a.image, &b = pictures.b.image;
   pair.sources = {pictures.a.source, pictures.b.source};
+  if (!options.mask.empty() && options.mask.size() != a.pixel_count())
+    throw Error(ExitCode::kInput,
+                fmt::format("{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
+                            a.height(), job.scene, options.mask.size()));
   // One that is not finite is a verdict, and nothing is measured.
-  if (choose_exposures && is_finite(b)) options.viewing.hdr_exposures = automatic_exposures(b);
-  pair.comparison = compare(a, b, options);
+  if (choose_exposures) options.viewing.hdr_exposures = exposures_or_why_not(b);
+  std::optional<ReferenceFloor> floor;
   if (!pair.c.empty())
-    pair.comparison->reference_floor =
-        measure_reference_floor(read_picture(pair.c, layer).image, b, options);
+    floor = floor_of(pair, layer, b, allows_equal_nonfinite(options, pictures.b.source), options);
+  pair.comparison = compare_pictures(pictures, pair.a, pair.b, options);
+  pair.comparison->reference_floor = std::move(floor);
   pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
   if (!job.difference.path.empty())
     write_difference(job.difference, difference_path, a, b, *pair.comparison);
@@ -109,7 +138,8 @@ void for_each_pair(std::size_t count, Work work) {
 HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const LayerOptions& layers) {
   std::mutex mutex;
   std::optional<HdrExposures> all;
-  std::string why = "no reference could be read";
+  std::string why = "no reference has finite values alone";
+  std::size_t why_of = pairs.size();
   for_each_pair(pairs.size(), [&](std::size_t i) {
     try {
       const Image reference =
@@ -123,19 +153,26 @@ HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const Layer
     } catch (const Error& error) {
       if (error.code() != ExitCode::kInput) throw;
       const std::lock_guard lock(mutex);
-      why = fmt::format("{}: {}", pairs[i].b, error.what());
+      if (i > why_of) return;
+      why = fmt::format("{}: {}", printable_path(pairs[i].b), error.what());
+      why_of = i;
     }
   });
-  if (!all) throw Error(ExitCode::kInput, "no range of exposures: " + why);
+  if (!all) return {0, 0, 2, true, why};
   const double stops = std::ceil(all->stop_stops - all->start_stops);
   all->count = std::clamp(int(stops), 2, kMaxHdrExposures);
   return *all;
 }
 
+void print_names(const std::string& a, const std::string& b, const std::string& c) {
+  fmt::print("a  {}\nb  {}  (the reference)\n", printable_path(a), printable_path(b));
+  if (!c.empty()) fmt::print("c  {}  (the second reference)\n", printable_path(c));
+}
+
 void print_display(const DisplayView* display) {
   if (display)
-    fmt::print("shown by view {} of display {} in {}\n", display->choice().view,
-               display->choice().display, display->choice().config);
+    fmt::print("shown by view {} of display {} in {}\n", printable(display->choice().view),
+               printable(display->choice().display), printable_path(display->choice().config));
 }
 
 /// "± 0.0012  " where noise is known; a column that is empty for figures without an error bar.
@@ -160,6 +197,8 @@ void print_metric_lines(const Comparison& comparison) {
     }
     fmt::print("  {}{}\n", error_bar_text(comparison, metric.id), metric.meaning);
   }
+  for (const NotMeasured& one : comparison.not_measured)
+    fmt::print("  {:<20}{:>14}  not measured: {}\n", one.id, "-", one.because);
 }
 
 void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view before) {
@@ -172,6 +211,17 @@ void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view 
                limit.limit);
 }
 
+/// A line for each metric, with the reason of the first pair.
+void print_not_measured(const std::vector<PairReport>& pairs) {
+  std::map<std::string_view, std::pair<std::size_t, std::string>> reasons;
+  for (const PairReport& pair : pairs)
+    if (pair.comparison)
+      for (const NotMeasured& one : pair.comparison->not_measured)
+        ++reasons.try_emplace(one.id, 0, one.because).first->second.first;
+  for (const auto& [id, why] : reasons)
+    fmt::print("  {:<20}not measured in {} pairs: {}\n", id, why.first, why.second);
+}
+
 }  // namespace
 
 SetReport compare_files(const CompareJob& job) {
@@ -182,9 +232,9 @@ SetReport compare_files(const CompareJob& job) {
   return report;
 }
 
-SetReport compare_folders(const CompareJob& job) {
-  const FolderPairs names = pair_by_name(job.a, job.b);
-  SetReport report{job.a, job.b, job.c, {}, names.missing, names.extra, names.passed_over};
+SetReport compare_folders(const CompareJob& job, const FolderPairs& names) {
+  SetReport report{
+      job.a, job.b, job.c, {}, names.missing, names.extra, names.passed_over, names.not_followed};
   for (const std::string& name : names.both)
     report.pairs.push_back({name,
                             (fs::path(job.a) / name).string(),
@@ -200,8 +250,7 @@ SetReport compare_folders(const CompareJob& job) {
     PairReport& pair = report.pairs[i];
     fs::path difference;
     if (!job.difference.path.empty()) {
-      // The ending is added, not exchanged: a.exr and a.png would meet.
-      difference = job.difference.path / (pair.name + ".png");
+      difference = difference_file(job, pair.name);
       make_directories(difference.parent_path());
     }
     try {
@@ -216,12 +265,14 @@ SetReport compare_folders(const CompareJob& job) {
 
 void print_pair(const PairReport& pair) {
   const Comparison& comparison = *pair.comparison;
-  fmt::print("a  {}\nb  {}  (the reference)\n", pair.a, pair.b);
-  if (!pair.c.empty()) fmt::print("c  {}  (the second reference)\n", pair.c);
+  print_names(pair.a, pair.b, pair.c);
   print_display(comparison.viewing.display.get());
   fmt::print("\n");
   if (comparison.verdict == Verdict::kNonFinite)
-    fmt::print("  {}; nothing was measured\n", why_not_pass(comparison));
+    fmt::print("  {}; nothing was measured\n", why_not_pass(comparison, pair.a, pair.b));
+  if (comparison.equal_nonfinite.value_or(0) > 0)
+    fmt::print("  in {} pixels both have the same NaN or infinity, which counts as no difference\n",
+               *comparison.equal_nonfinite);
   print_metric_lines(comparison);
   fmt::print("\n");
   if (comparison.verdict != Verdict::kNonFinite) {
@@ -234,20 +285,23 @@ void print_pair(const PairReport& pair) {
                  limit.metric);
   for (const std::string& sentence : comparison.disagreement)
     fmt::print("  metrics disagree: {}\n", sentence);
-  if (pair.layers) print_layers(*pair.layers);
+  if (pair.layers) print_layers(*pair.layers, pair.a, pair.b);
   if (pair.sources) print_profiles(*pair.sources);
   fmt::print("\nverdict: {}\n", verdict_name(pair.verdict()));
 }
 
 void print_set(const SetReport& report) {
-  fmt::print("a  {}\nb  {}  (the reference)\n\n", report.a, report.b);
+  print_names(report.a, report.b, report.c);
+  fmt::print("\n");
   const auto line = [](std::string_view what, const std::string& name, const std::string& why) {
-    fmt::print("  {:<12}{}{}{}\n", what, name, why.empty() ? "" : ": ", why);
+    fmt::print("  {:<12}{}{}{}\n", what, printable_path(name), why.empty() ? "" : ": ",
+               printable_path(why));
   };
   // What a person has to act on comes first.
   for (const PairReport& pair : report.pairs)
     if (!pair.comparison) line("error", pair.name, pair.error);
   for (const std::string& name : report.missing) line("missing", name, "there is only a reference");
+  for (const std::string& name : report.not_followed) line("link", name, std::string(kNotFollowed));
   for (const PairReport& pair : report.pairs)
     if (pair.comparison && !is_pass(pair.verdict()))
       line(verdict_name(pair.verdict()), pair.name, why_not_pass(pair));
@@ -256,14 +310,16 @@ void print_set(const SetReport& report) {
       for (const LimitResult& limit : pair.comparison->warnings)
         if (!limit.pass)
           line("warning", pair.name,
-               fmt::format("{} is {:.6g}, limit {:g}", limit.metric, limit.value, limit.limit));
+               fmt::format("{} {}, limit {:g}", limit.metric, value_text(*pair.comparison, limit),
+                           limit.limit));
   for (const std::string& name : report.extra) line("extra", name, "there is no reference");
 
   const std::vector<MetricSummary> summaries = summarise(report.pairs);
   if (!summaries.empty()) fmt::print("\n  {:<20}{:>14}{:>14}\n", "", "mean", "worst");
   for (const MetricSummary& metric : summaries)
     fmt::print("  {:<20}{:>14.6g}{:>14.6g}  {}\n", metric.id, metric.mean, metric.worst,
-               metric.worst_at->name);
+               printable_path(metric.worst_at->name));
+  print_not_measured(report.pairs);
   const SetCounts counts = count(report);
   fmt::print(
       "\n{} pairs: {} pass, {} differ, {}{} not finite, {} not comparable; {} missing, {} extra\n",
@@ -273,6 +329,8 @@ void print_set(const SetReport& report) {
   if (const SetNotCompared left = not_compared(report); left.pairs > 0)
     fmt::print("not compared, in {} of the pairs: {}\n", left.pairs, to_text(left.all));
   if (report.passed_over > 0) fmt::print("{} files are no pictures\n", report.passed_over);
+  if (counts.not_followed > 0)
+    fmt::print("{} links to folders elsewhere were not followed\n", counts.not_followed);
 }
 
 }  // namespace lobelia::cli

@@ -6,6 +6,7 @@
 
 #include "cli/compare_layers.hpp"
 #include "cli/compare_noise.hpp"
+#include "compare/set/folder_pairs.hpp"
 #include "compare/set/report.hpp"
 
 namespace lobelia::cli {
@@ -21,6 +22,7 @@ inline constexpr std::string_view kChannels = "channels";
 
 struct CompareJob {
   std::string a, b, c;  ///< files, or folders; c is the second reference or empty
+  std::string scene;    ///< the file that the mask is made of, or empty
   ComparisonOptions comparison;
   DifferencePicture difference;
   LayerOptions layers;
@@ -33,7 +35,12 @@ SetReport compare_files(const CompareJob& job);
 /// Each pair by itself: one that cannot be compared has its error in the report, and the others go on. An
 /// automatic range of exposures becomes one that holds those of all references.
 /// Throws Error(kInput) where a folder cannot be read, Error(kOutput) where a picture cannot be written.
-SetReport compare_folders(const CompareJob& job);
+SetReport compare_folders(const CompareJob& job, const FolderPairs& names);
+
+/// Where the difference of a folders' pair goes. The ending is added, not exchanged: a.exr and a.png would meet.
+inline std::filesystem::path difference_file(const CompareJob& job, const std::string& name) {
+  return job.difference.path / (name + ".png");
+}
 
 /// For a person, on stdout.
 void print_pair(const PairReport& pair);

@@ -62,6 +62,15 @@ std::vector<MetricValue> measure_all(const MetricInput& input) {
   return results;
 }
 
+std::vector<NotMeasured> all_not_measured(const MetricInput& input) {
+  std::vector<NotMeasured> result;
+  for (const Metric* metric : metrics())
+    if (const std::string why = why_not_measured(*metric, input); !why.empty())
+      for (const MetricOutput& output : metric->outputs)
+        if (output.better != Better::kNeither) result.push_back({output.id, why});
+  return result;
+}
+
 std::vector<LimitResult> results_of(std::span<const MetricLimit> limits,
                                     const Comparison& measured) {
   std::vector<LimitResult> results;
@@ -165,6 +174,12 @@ double Comparison::value(std::string_view id) const {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+std::string_view Comparison::why_not_measured(std::string_view id) const {
+  for (const NotMeasured& one : not_measured)
+    if (one.id == id) return one.because;
+  return {};
+}
+
 void check_options(const ComparisonOptions& options) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   require_range("the exposure in stops", options.viewing.exposure_stops, -kMaxExposureStops,
@@ -242,6 +257,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
                                        [](std::uint8_t inside) { return inside != 0; });
   result.nonfinite_a = count_nonfinite_pixels(a);
   result.nonfinite_b = count_nonfinite_pixels(b);
+  result.first_nonfinite_a = first_nonfinite(a);
+  result.first_nonfinite_b = first_nonfinite(b);
   const bool finite = result.nonfinite_a == 0 && result.nonfinite_b == 0;
   if (finite) {
     const MetricInput input{
@@ -255,6 +272,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
         options.mask,
         options.noise ? &noise : nullptr};
     result.metrics = measure_all(input);
+    result.not_measured = all_not_measured(input);
     if (options.noise) result.uncertainty = uncertainty_of(input, options);
   }
   if (options.noise) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compare/metrics/metric.hpp"
+#include "compare/nonfinite.hpp"
 #include "compare/uncertainty/error_bars.hpp"
 #include "compare/uncertainty/noise.hpp"
 #include "core/image.hpp"
@@ -38,6 +39,8 @@ struct ComparisonOptions {
   /// By pixel in reading order, not 0 where it is inside: errors are measured there as well, under
   /// ids that end in .mask. Empty for none.
   std::vector<std::uint8_t> mask = {};
+  /// A NaN or an infinity that both pictures have in the same place is no difference; see compare_pictures().
+  bool allow_equal_nonfinite = false;
   std::optional<NoiseOptions> noise =
       {};  ///< the verdict is then as compare/uncertainty/judgement.hpp has it
 };
@@ -58,6 +61,12 @@ enum class Verdict : std::uint8_t {
 /// "pass", "differs", "non-finite", "same", "different", "undecided"
 std::string_view verdict_name(Verdict verdict);
 bool is_pass(Verdict verdict);  ///< pass or same
+
+/// A metric that was asked for, or needs no asking, and could not be computed.
+struct NotMeasured {
+  std::string_view id;
+  std::string because;
+};
 
 struct MetricValue {
   std::string_view id, meaning;
@@ -102,9 +111,13 @@ struct ReferenceFloor {
 struct Comparison {
   Verdict verdict = Verdict::kDiffers;
   std::int64_t nonfinite_a = 0, nonfinite_b = 0;  ///< pixels with a NaN or an infinity
+  std::optional<NonfinitePlace> first_nonfinite_a = {}, first_nonfinite_b = {};
+  /// Pixels where both had the same and that was allowed; they are not in the two counts.
+  std::optional<std::int64_t> equal_nonfinite = {};
   Viewing viewing;
   std::vector<MetricValue> metrics;  ///< in the catalogue's order; empty if something is not finite
-  std::vector<LimitResult> limits;   ///< that the verdict was made of
+  std::vector<NotMeasured> not_measured;  ///< likewise; those that may have a limit
+  std::vector<LimitResult> limits;        ///< that the verdict was made of
   std::vector<LimitResult> warnings;
   /// Sentences: which limits say opposite things, see disagreements(). The verdict does not depend on it.
   std::vector<std::string> disagreement;
@@ -115,6 +128,8 @@ struct Comparison {
 
   /// The value of a metric, or NaN if it was not measured.
   double value(std::string_view id) const;
+  /// Why it was not measured, or empty.
+  std::string_view why_not_measured(std::string_view id) const;
 };
 
 /// Throws Error(kUsage) for options out of range, with the nearest name for an unknown metric.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "compare/overscan.hpp"
+#include "compare/require_same_size.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/picture_window.hpp"
@@ -42,7 +43,8 @@ LayerComparison compare_overscan(const std::string& name, const PicturePair& pai
   const PixelWindow& window = *(result.overscan = overscan.window);
   result.problem = window_problem("the window of all data", window);
   if (!result.problem.empty()) return result;
-  const OverscanPictures pictures = on_window(pair.a, pair.b, window);
+  OverscanPictures pictures = on_window(pair.a, pair.b, window);
+  if (allows_equal_nonfinite(options, pair.b.source)) clear_equal_nonfinite(pictures.a, pictures.b);
   if (pictures.only_a + pictures.only_b > 0)
     result.problem = fmt::format("pixels that are not 0 where the other has none: {} of a, {} of b",
                                  pictures.only_a, pictures.only_b);
@@ -58,7 +60,7 @@ LayerComparison compare_overscan(const std::string& name, const PicturePair& pai
 std::vector<LayerComparison> compare_layer(const fs::path& a, const fs::path& b,
                                            const std::string& name,
                                            const ComparisonOptions& options) {
-  const PicturePair pair = read_pair(a, b, name);
+  PicturePair pair = read_pair(a, b, name);
   LayerComparison layer{name, pair.a.source, pair.b.source, {}, {}};
   const PixelWindow &size_a = layer.a.display, &size_b = layer.b.display;
   if (size_a.width != size_b.width || size_a.height != size_b.height) {
@@ -66,7 +68,7 @@ std::vector<LayerComparison> compare_layer(const fs::path& a, const fs::path& b,
                                 size_a.height, size_b.width, size_b.height);
     return {layer};
   }
-  layer.comparison = compare(pair.a.image, pair.b.image, options);
+  layer.comparison = compare_pictures(pair, a.string(), b.string(), options);
   std::vector<LayerComparison> results{std::move(layer)};
   if (const auto overscan = find_overscan(pair.a.source, pair.b.source))
     results.push_back(compare_overscan(name, pair, *overscan, options));
@@ -87,12 +89,12 @@ ComparisonOptions options_of_alpha(ComparisonOptions options) {
 
 LayerComparison compare_alpha(const fs::path& a, const fs::path& b, const PicturePair& picture,
                               const ComparisonOptions& options) {
-  const PicturePair pair{read_picture(a, picture.a.source.alpha),
-                         read_picture(b, picture.b.source.alpha)};
+  PicturePair pair{read_picture(a, picture.a.source.alpha),
+                   read_picture(b, picture.b.source.alpha)};
   LayerComparison layer{picture.a.source.alpha, pair.a.source, pair.b.source, {}, {}};
   layer.identical = are_identical(pair.a.image, pair.b.image);
   if (!layer.identical)
-    layer.comparison = compare(pair.a.image, pair.b.image, options_of_alpha(options));
+    layer.comparison = compare_pictures(pair, a.string(), b.string(), options_of_alpha(options));
   return layer;
 }
 
@@ -141,6 +143,26 @@ std::string LayerComparison::title() const {
 
 PicturePair read_pair(const fs::path& a, const fs::path& b, const std::string& layer) {
   return {read_picture(a, layer), read_picture(b, layer)};
+}
+
+bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSource& source) {
+  // The only channel's name stands for a picture without a layer's.
+  const bool has_depth = is_depth_like(source.layer) ||
+                         (source.channels.size() == 1 && is_depth_like(source.channels[0]));
+  return options.allow_equal_nonfinite || (has_depth && !options.noise);
+}
+
+Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const std::string& file_b,
+                            const ComparisonOptions& options) {
+  require_same_size(pair.a.image, pair.b.image, file_a, file_b);
+  std::optional<std::int64_t> equal;
+  if (allows_equal_nonfinite(options, pair.b.source))
+    equal = clear_equal_nonfinite(pair.a.image, pair.b.image);
+  Comparison comparison = compare(pair.a.image, pair.b.image, options);
+  comparison.equal_nonfinite = equal;
+  if (auto& place = comparison.first_nonfinite_a) name_channel(*place, pair.a.source);
+  if (auto& place = comparison.first_nonfinite_b) name_channel(*place, pair.b.source);
+  return comparison;
 }
 
 CommonLayers common_layers(const fs::path& a, const fs::path& b) {
@@ -225,6 +247,7 @@ void add_layers(Json& record, Verdict worst, const OtherLayers& others) {
       const Json whole = comparison_record(*layer.comparison, "", "");
       for (const char* key : {"nonfinite", "metrics", "limits", "disagreement"})
         entry[key] = whole[key];
+      if (whole.contains("notMeasured")) entry["notMeasured"] = whole["notMeasured"];
     }
     entry["pictures"] = sources_json(layer.a, layer.b);
     record["layers"].push_back(std::move(entry));

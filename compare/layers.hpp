@@ -24,6 +24,14 @@ struct PicturePairSource {
 PicturePair read_pair(const std::filesystem::path& a, const std::filesystem::path& b,
                       const std::string& layer);
 
+/// Asked for, or the layer is_depth_like() and no noise is known.
+bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSource& source);
+
+/// compare() of pictures as they were read, named by their files. Non-finite values that both have become 0 in
+/// `pair` where allows_equal_nonfinite(). Throws Error(kInput) if the sizes differ, and as compare().
+Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const std::string& file_b,
+                            const ComparisonOptions& options);
+
 struct LayerOptions {
   std::string layer;          ///< "" for the picture itself
   bool all = false;           ///< and all others that both have

@@ -50,6 +50,19 @@ Json limits_json(std::span<const LimitResult> limits) {
   return list;
 }
 
+Json nonfinite_json(const Comparison& comparison) {
+  Json object{{"a", comparison.nonfinite_a}, {"b", comparison.nonfinite_b}};
+  for (const auto& [name, place] :
+       {std::pair("a", comparison.first_nonfinite_a), {"b", comparison.first_nonfinite_b}})
+    if (place)
+      object["first"][name] = {{"x", place->x},
+                               {"y", place->y},
+                               {"channel", place->channel},
+                               {"value", number_or_name(double(place->value))}};
+  if (comparison.equal_nonfinite) object["equalAllowed"] = *comparison.equal_nonfinite;
+  return object;
+}
+
 }  // namespace
 
 Json comparison_record(const Comparison& comparison, const std::string& a, const std::string& b,
@@ -58,10 +71,11 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
   record["verdict"] = verdict_name(comparison.verdict);
   record["a"] = a;
   record["b"] = b;
-  record["nonfinite"] = {{"a", comparison.nonfinite_a}, {"b", comparison.nonfinite_b}};
+  record["nonfinite"] = nonfinite_json(comparison);
   record["viewing"] = {{"exposureStops", comparison.viewing.exposure_stops},
                        {"pixelsPerDegree", comparison.viewing.pixels_per_degree}};
-  if (const auto& range = comparison.viewing.hdr_exposures; range && !comparison.metrics.empty())
+  if (const auto& range = comparison.viewing.hdr_exposures;
+      range && range->problem.empty() && !comparison.metrics.empty())
     record["viewing"]["hdrExposures"] = {{"startStops", range->start_stops},
                                          {"stopStops", range->stop_stops},
                                          {"count", range->count},
@@ -74,6 +88,11 @@ Json comparison_record(const Comparison& comparison, const std::string& a, const
         {"inputSpace", display->choice().input_space}, {"decodedBy", display->decoded_by()}};
   if (comparison.mask_pixels) record["mask"] = {{"pixels", *comparison.mask_pixels}};
   record["metrics"] = metrics_json(comparison.metrics);
+  if (!comparison.not_measured.empty()) {
+    record["notMeasured"] = Json::array();
+    for (const NotMeasured& one : comparison.not_measured)
+      record["notMeasured"].push_back({{"metric", one.id}, {"because", one.because}});
+  }
   record["limits"] = limits_json(comparison.limits);
   if (!comparison.warnings.empty()) record["warnings"] = limits_json(comparison.warnings);
   record["disagreement"] = comparison.disagreement;

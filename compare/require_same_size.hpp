@@ -3,16 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "core/error.hpp"
 #include "core/image.hpp"
 
 namespace lobelia {
 
-/// Throws Error(kInput) unless the two have the same size, and pixels.
-inline void require_same_size(const Image& a, const Image& b) {
+/// Throws Error(kInput) unless the two have the same size, and pixels; it names the files where they are given.
+inline void require_same_size(const Image& a, const Image& b, std::string_view file_a = {},
+                              std::string_view file_b = {}) {
   if (a.width() != b.width() || a.height() != b.height())
-    throw Error(ExitCode::kInput, fmt::format("the sizes differ: {} x {} against {} x {}",
-                                              a.width(), a.height(), b.width(), b.height()));
+    throw Error(ExitCode::kInput,
+                fmt::format("the sizes differ: {} x {} against {} x {}{}", a.width(), a.height(),
+                            b.width(), b.height(),
+                            file_a.empty() ? "" : fmt::format(" ({} against {})", file_a, file_b)));
   if (a.pixel_count() == 0) throw Error(ExitCode::kInput, "the pictures have no pixels");
 }
 

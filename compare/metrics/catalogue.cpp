@@ -1,5 +1,7 @@
 #include "compare/metrics/catalogue.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,7 +65,7 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
     case Needs::kMask:
       return std::any_of(input.mask.begin(), input.mask.end(), [](auto inside) { return inside; });
     case Needs::kHdrExposures:
-      return input.hdr_exposures != nullptr;
+      return input.hdr_exposures != nullptr && input.hdr_exposures->problem.empty();
     case Needs::kOneWindow:
       return std::min(input.a.width(), input.a.height()) >= kSsimSide;
     case Needs::kFiveScales:
@@ -72,6 +74,26 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
       return input.noise != nullptr;
   }
   return false;
+}
+
+std::string why_not_measured(const Metric& metric, const MetricInput& input) {
+  if (is_measurable(metric, input)) return "";
+  const auto too_small = [&](int side) {
+    return fmt::format("it needs {} pixels a side, the pictures have {} x {}", side,
+                       input.a.width(), input.a.height());
+  };
+  switch (metric.needs) {
+    case Needs::kHdrExposures:
+      return input.hdr_exposures ? input.hdr_exposures->problem : "";
+    case Needs::kMask:
+      return input.mask.empty() ? "" : "no pixel lies inside the mask";
+    case Needs::kOneWindow:
+      return too_small(kSsimSide);
+    case Needs::kFiveScales:
+      return too_small(kMsSsimSide);
+    default:
+      return "";
+  }
 }
 
 bool is_within(const MetricOutput& output, double value, double limit) {

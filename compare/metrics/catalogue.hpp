@@ -18,6 +18,9 @@ const MetricOutput* find_metric_output(std::string_view id);
 
 /// Whether the metric can be measured of that input; where not, it is left out of the results.
 bool is_measurable(const Metric& metric, const MetricInput& input);
+/// Why a metric that needs no option, or has what it needs, still cannot be measured; empty if it can be, or
+/// was not asked for.
+std::string why_not_measured(const Metric& metric, const MetricInput& input);
 
 /// Whether a value passes a limit. False if either is NaN.
 bool is_within(const MetricOutput& output, double value, double limit);

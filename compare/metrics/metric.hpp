@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct HdrExposures {
   double start_stops = 0, stop_stops = 0;
   int count = 2;
   bool automatic = false;  ///< chosen from the reference, see automatic_exposures()
+  /// Why an automatic range could not be chosen: HDR-FLIP is not measured then. Empty if there is a range.
+  std::string problem = {};
 };
 inline constexpr int kMaxHdrExposures = 100;
 

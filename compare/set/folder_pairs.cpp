@@ -21,33 +21,66 @@ constexpr std::string_view kEndings[] = {
     ".jpg",  ".pbm", ".pfm", ".pgm", ".png", ".pnm",  ".ppm",  ".psd", ".rgb", ".rgbe",
     ".rla",  ".sgi", ".sxr", ".tga", ".tif", ".tiff", ".tx",   ".webp"};
 
-struct Folder {
+class FolderWalk {
+ public:
+  FolderWalk(const fs::path& root, std::size_t most_files) : root_(root), most_files_(most_files) {
+    std::error_code error;
+    real_root_ = fs::canonical(root, error);
+    if (error) fail("cannot be read: " + error.message());
+    walk(real_root_, "");
+    std::sort(pictures.begin(), pictures.end());
+    std::sort(not_followed.begin(), not_followed.end());
+  }
+
   std::vector<std::string> pictures;
   std::size_t passed_over = 0;
-};
+  std::vector<std::string> not_followed;
 
-Folder pictures_in(const fs::path& folder) {
-  const auto fail = [&](std::string_view why) {
-    throw Error(ExitCode::kInput, fmt::format("{}: {}", folder.string(), why));
-  };
-  Folder found;
-  std::error_code status;
-  fs::recursive_directory_iterator entry(folder, status);
-  std::size_t files = 0;
-  for (; !status && entry != fs::recursive_directory_iterator(); entry.increment(status)) {
-    std::error_code unknown;
-    if (entry->is_directory(unknown)) continue;
-    if (++files > kMaxFolderFiles)
-      fail(fmt::format("holds over {} files, which is what is compared at most", kMaxFolderFiles));
-    if (has_picture_ending(entry->path()))
-      found.pictures.push_back(entry->path().lexically_relative(folder).generic_string());
-    else
-      ++found.passed_over;
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Error(ExitCode::kInput, fmt::format("{}: {}", root_.string(), why));
   }
-  if (status) fail("cannot be read: " + status.message());
-  std::sort(found.pictures.begin(), found.pictures.end());
-  return found;
-}
+
+  /// `real` has no links in it; `name` is how the root leads to it, by links too.
+  void walk(const fs::path& real, const fs::path& name) {
+    // A link that leads back to a folder around it: what is in there is compared without the link.
+    if (std::find(around_.begin(), around_.end(), real) != around_.end()) return;
+    around_.push_back(real);
+    std::error_code error;
+    for (fs::directory_iterator entry(real, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (++files_ > most_files_)
+        fail(fmt::format("holds over {} files, which is what is compared at most", most_files_));
+      look_at(*entry, name / entry->path().filename());
+    }
+    if (error) fail("cannot be read: " + error.message());
+    around_.pop_back();
+  }
+
+  void look_at(const fs::directory_entry& entry, const fs::path& name) {
+    std::error_code unknown;
+    const bool is_link = entry.is_symlink(unknown);
+    if (entry.is_directory(unknown)) {
+      const fs::path real = is_link ? fs::canonical(entry.path(), unknown) : entry.path();
+      if (is_below(real, real_root_))
+        walk(real, name);
+      else
+        not_followed.push_back((root_ / name).generic_string());
+    } else if (has_picture_ending(name)) {  // a link to nothing as well: it cannot be read
+      pictures.push_back(name.generic_string());
+    } else if (is_link && !entry.exists(unknown)) {
+      not_followed.push_back((root_ / name).generic_string());
+    } else {
+      ++passed_over;
+    }
+  }
+
+  const fs::path& root_;
+  const std::size_t most_files_;
+  fs::path real_root_;
+  std::vector<fs::path> around_;  ///< the folder at work and those that it was reached through
+  std::size_t files_ = 0;         ///< and folders
+};
 
 std::vector<std::string> only_in(const std::vector<std::string>& one,
                                  const std::vector<std::string>& other) {
@@ -66,14 +99,22 @@ bool has_picture_ending(const fs::path& file) {
   return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
 }
 
-FolderPairs pair_by_name(const fs::path& a, const fs::path& b) {
-  const Folder in_a = pictures_in(a), in_b = pictures_in(b);
+bool is_below(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
+FolderPairs pair_by_name(const fs::path& a, const fs::path& b, std::size_t most_files) {
+  const FolderWalk in_a(a, most_files), in_b(b, most_files);
   FolderPairs pairs;
   std::set_intersection(in_a.pictures.begin(), in_a.pictures.end(), in_b.pictures.begin(),
                         in_b.pictures.end(), std::back_inserter(pairs.both));
   pairs.missing = only_in(in_b.pictures, in_a.pictures);
   pairs.extra = only_in(in_a.pictures, in_b.pictures);
   pairs.passed_over = in_a.passed_over + in_b.passed_over;
+  pairs.not_followed = in_a.not_followed;
+  pairs.not_followed.insert(pairs.not_followed.end(), in_b.not_followed.begin(),
+                            in_b.not_followed.end());
   return pairs;
 }
 

@@ -17,13 +17,19 @@ struct FolderPairs {
   std::vector<std::string> missing;  ///< only in the second folder, which is the reference
   std::vector<std::string> extra;    ///< only in the first
   std::size_t passed_over = 0;       ///< files of either whose ending is not that of a picture
+  /// Links of either that lead to a folder outside it, or to nothing; with the folder's own path before.
+  std::vector<std::string> not_followed;
 };
 
 /// By endings, in any case: ".exr", ".png", ".jpg" and the like.
 bool has_picture_ending(const std::filesystem::path& file);
 
-/// Walks both, and the folders inside them, but follows no link to a folder. Throws Error(kInput) where one
-/// cannot be read or holds over kMaxFolderFiles.
-FolderPairs pair_by_name(const std::filesystem::path& a, const std::filesystem::path& b);
+/// Whether an absolute, canonical path is the folder or lies in it.
+bool is_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+/// Walks both and the folders inside them. A link to a folder is followed if it stays inside, but never into
+/// a folder that it lies in. Throws Error(kInput) where one cannot be read or holds over `most_files`.
+FolderPairs pair_by_name(const std::filesystem::path& a, const std::filesystem::path& b,
+                         std::size_t most_files = kMaxFolderFiles);
 
 }  // namespace lobelia

@@ -50,6 +50,7 @@ SetCounts count(const SetReport& report) {
   }
   counts.missing = report.missing.size();
   counts.extra = report.extra.size();
+  counts.not_followed = report.not_followed.size();
   return counts;
 }
 
@@ -66,7 +67,9 @@ SetNotCompared not_compared(const SetReport& report) {
 ExitCode set_exit_code(const SetReport& report) {
   const SetCounts counts = count(report);
   if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
-  return counts.differs + counts.undecided + counts.nonfinite + counts.missing > 0
+  return counts.differs + counts.undecided + counts.nonfinite + counts.missing +
+                     counts.not_followed >
+                 0
              ? ExitCode::kDiffers
              : ExitCode::kSuccess;
 }
@@ -98,26 +101,38 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
   return summaries;
 }
 
-std::string why_not_pass(const Comparison& comparison) {
-  if (comparison.verdict == Verdict::kNonFinite)
-    return fmt::format("pixels with a NaN or an infinity: {} in a, {} in b", comparison.nonfinite_a,
-                       comparison.nonfinite_b);
+std::string value_text(const Comparison& comparison, const LimitResult& limit) {
+  const std::string_view why = comparison.why_not_measured(limit.metric);
+  return why.empty() ? fmt::format("is {:.6g}", limit.value)
+                     : fmt::format("was not measured ({})", why);
+}
+
+std::string why_not_pass(const Comparison& comparison, std::string_view file_a,
+                         std::string_view file_b) {
+  if (comparison.verdict == Verdict::kNonFinite) {
+    const bool in_a = comparison.first_nonfinite_a.has_value();
+    const auto& place = in_a ? comparison.first_nonfinite_a : comparison.first_nonfinite_b;
+    return fmt::format("pixels with a NaN or an infinity: {} in a, {} in b; the first is {}",
+                       comparison.nonfinite_a, comparison.nonfinite_b,
+                       place ? place_text(*place, in_a ? file_a : file_b) : "unknown");
+  }
   std::string text;
   for (const LimitResult& limit : comparison.limits)
     if (!limit.pass)
-      text += fmt::format("{}{} is {:.6g}, limit {:g}", text.empty() ? "" : "; ", limit.metric,
-                          limit.value, limit.limit);
+      text += fmt::format("{}{} {}, limit {:g}", text.empty() ? "" : "; ", limit.metric,
+                          value_text(comparison, limit), limit.limit);
   return text;
 }
 
 std::string why_not_pass(const PairReport& pair) {
-  std::string text = why_not_pass(*pair.comparison);
+  std::string text = why_not_pass(*pair.comparison, pair.a, pair.b);
   if (!pair.layers) return text;
   const auto add = [&](const std::string& title, const std::string& why) {
     if (!why.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", title, why);
   };
   for (const LayerComparison& layer : pair.layers->compared)
-    add(layer.title(), layer.comparison ? why_not_pass(*layer.comparison) : layer.problem);
+    add(layer.title(),
+        layer.comparison ? why_not_pass(*layer.comparison, pair.a, pair.b) : layer.problem);
   if (pair.layers->common)
     for (const std::string& name : pair.layers->common->only_b)
       add(name.empty() ? "the picture" : "layer " + printable(name), "only b has it");

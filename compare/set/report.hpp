@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compare/compare.hpp"
@@ -32,11 +33,16 @@ struct SetReport {
   std::vector<std::string> missing;  ///< names that only the reference has: nothing to judge
   std::vector<std::string> extra;    ///< names that have no reference
   std::size_t passed_over = 0;       ///< files that are no pictures
+  std::vector<std::string> not_followed = {};  ///< links to folders that may hold pictures
 };
+
+/// Why such a link fails.
+inline constexpr std::string_view kNotFollowed =
+    "a link to a folder elsewhere; its pictures were not compared";
 
 struct SetCounts {
   std::size_t pass = 0, differs = 0, undecided = 0, nonfinite = 0, errors = 0, missing = 0,
-              extra = 0;
+              extra = 0, not_followed = 0;
 };
 SetCounts count(const SetReport& report);
 
@@ -48,7 +54,7 @@ struct SetNotCompared {
 SetNotCompared not_compared(const SetReport& report);
 
 /// kInput if a pair could not be compared or there is none at all, else kDiffers if one is not a pass or
-/// is missing, else kSuccess. What has no reference is named, but does not fail.
+/// is missing, or a link was not followed, else kSuccess. What has no reference is named, but does not fail.
 ExitCode set_exit_code(const SetReport& report);
 
 /// A metric over the pairs that have it.
@@ -62,9 +68,13 @@ struct MetricSummary {
 /// Of all metrics that are no facts, in the catalogue's order.
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
 
-/// "rmse is 0.02, limit 0.001; ..." of the limits that fail, or how many pixels are not finite; empty for a
-/// pass.
-std::string why_not_pass(const Comparison& comparison);
+/// "is 0.02", or "was not measured (why)".
+std::string value_text(const Comparison& comparison, const LimitResult& limit);
+
+/// "rmse is 0.02, limit 0.001; ..." of the limits that fail, or how many pixels are not finite and where the
+/// first one is, by the names of the files; empty for a pass.
+std::string why_not_pass(const Comparison& comparison, std::string_view file_a,
+                         std::string_view file_b);
 /// The same of the picture and its layers.
 std::string why_not_pass(const PairReport& pair);
 
@@ -73,12 +83,13 @@ std::string why_not_pass(const PairReport& pair);
 Json pair_record(const PairReport& pair);
 Json set_record(const SetReport& report);
 
-/// RFC 4180: a line of names, then one for each pair, missing and extra name; a column for each metric that
+/// RFC 4180: a line of names, then one for each pair, missing and extra name and link that was not followed; a
+/// column for each metric that
 /// any of them has. What is not there is empty.
 std::string set_csv(const SetReport& report);
 
 /// JUnit's XML: a test case for each pair (failure, or error where it could not be compared), a failure
-/// for each missing name, a skipped one for each extra one.
+/// for each missing name and each link that was not followed, a skipped one for each extra one.
 std::string set_junit(const SetReport& report);
 
 }  // namespace lobelia

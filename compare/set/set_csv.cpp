@@ -11,6 +11,8 @@
 namespace lobelia {
 namespace {
 
+std::string field(const std::string& text) { return csv_field(printable_path(text)); }
+
 /// Ids that any pair has, in the catalogue's order.
 std::vector<std::string_view> measured_ids(const SetReport& report) {
   std::vector<std::string_view> ids;
@@ -37,13 +39,12 @@ std::string set_csv(const SetReport& report) {
   const std::string no_values(ids.size(), ',');
   for (const PairReport& pair : report.pairs) {
     if (!pair.comparison) {
-      text +=
-          fmt::format("{},error,{}{}\r\n", csv_field(pair.name), csv_field(pair.error), no_values);
+      text += fmt::format("{},error,{}{}\r\n", field(pair.name), field(pair.error), no_values);
       continue;
     }
     const Comparison& comparison = *pair.comparison;
-    text += fmt::format("{},{},{}", csv_field(pair.name), verdict_name(pair.verdict()),
-                        csv_field(why_not_pass(pair)));
+    text += fmt::format("{},{},{}", field(pair.name), verdict_name(pair.verdict()),
+                        field(why_not_pass(pair)));
     for (const std::string_view id : ids) {
       const auto& values = comparison.metrics;
       const auto found = std::find_if(values.begin(), values.end(),
@@ -53,9 +54,11 @@ std::string set_csv(const SetReport& report) {
     text += "\r\n";
   }
   for (const std::string& name : report.missing)
-    text += fmt::format("{},missing,there is only a reference{}\r\n", csv_field(name), no_values);
+    text += fmt::format("{},missing,there is only a reference{}\r\n", field(name), no_values);
   for (const std::string& name : report.extra)
-    text += fmt::format("{},extra,there is no reference{}\r\n", csv_field(name), no_values);
+    text += fmt::format("{},extra,there is no reference{}\r\n", field(name), no_values);
+  for (const std::string& name : report.not_followed)
+    text += fmt::format("{},not followed,{}{}\r\n", field(name), kNotFollowed, no_values);
   return text;
 }
 

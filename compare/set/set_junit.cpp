@@ -12,13 +12,10 @@
 namespace lobelia {
 namespace {
 
-/// An XML attribute has no control characters and is UTF-8; a file name is neither by itself.
-std::string text(const std::string& any) { return valid_utf8(printable(any, 4096)); }
-
 pugi::xml_node add_case(pugi::xml_node suite, const std::string& name, double seconds) {
   pugi::xml_node one = suite.append_child("testcase");
   one.append_attribute("classname") = "lobelia.compare";
-  one.append_attribute("name") = text(name).c_str();
+  one.append_attribute("name") = printable_path(name).c_str();
   one.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();
   return one;
 }
@@ -27,7 +24,7 @@ void add_outcome(pugi::xml_node one, const char* kind, std::string_view type,
                  const std::string& message) {
   pugi::xml_node outcome = one.append_child(kind);
   outcome.append_attribute("type") = std::string(type).c_str();
-  outcome.append_attribute("message") = text(message).c_str();
+  outcome.append_attribute("message") = printable_path(message).c_str();
 }
 
 void add_pair(pugi::xml_node suite, const PairReport& pair) {
@@ -57,10 +54,11 @@ std::string set_junit(const SetReport& report) {
   pugi::xml_node suites = document.append_child("testsuites");
   pugi::xml_node suite = suites.append_child("testsuite");
   for (pugi::xml_node node : {suites, suite}) {
-    node.append_attribute("name") = text(report.a + " against " + report.b).c_str();
-    node.append_attribute("tests") = report.pairs.size() + counts.missing + counts.extra;
+    node.append_attribute("name") = printable_path(report.a + " against " + report.b).c_str();
+    node.append_attribute("tests") =
+        report.pairs.size() + counts.missing + counts.extra + counts.not_followed;
     node.append_attribute("failures") =
-        counts.differs + counts.undecided + counts.nonfinite + counts.missing;
+        counts.differs + counts.undecided + counts.nonfinite + counts.missing + counts.not_followed;
     node.append_attribute("errors") = counts.errors;
     node.append_attribute("skipped") = counts.extra;
     node.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();
@@ -70,6 +68,8 @@ std::string set_junit(const SetReport& report) {
     add_outcome(add_case(suite, name, 0), "failure", "missing", "there is only a reference");
   for (const std::string& name : report.extra)
     add_outcome(add_case(suite, name, 0), "skipped", "extra", "there is no reference");
+  for (const std::string& name : report.not_followed)
+    add_outcome(add_case(suite, name, 0), "failure", "not followed", std::string(kNotFollowed));
   std::ostringstream stream;
   document.save(stream, "  ");
   return stream.str();

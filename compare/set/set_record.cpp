@@ -18,11 +18,12 @@ Json set_record(const SetReport& report) {
   record["b"] = report.b;
   if (!report.c.empty()) record["c"] = report.c;
   const SetCounts counts = count(report);
-  record["summary"] = {{"pairs", report.pairs.size()},    {"pass", counts.pass},
-                       {"differs", counts.differs},       {"undecided", counts.undecided},
-                       {"nonFinite", counts.nonfinite},   {"errors", counts.errors},
-                       {"missing", counts.missing},       {"extra", counts.extra},
-                       {"passedOver", report.passed_over}};
+  record["summary"] = {
+      {"pairs", report.pairs.size()},     {"pass", counts.pass},
+      {"differs", counts.differs},        {"undecided", counts.undecided},
+      {"nonFinite", counts.nonfinite},    {"errors", counts.errors},
+      {"missing", counts.missing},        {"extra", counts.extra},
+      {"passedOver", report.passed_over}, {"linksNotFollowed", counts.not_followed}};
   const SetNotCompared left = not_compared(report);
   record["notCompared"] = to_json(left.all);
   record["notCompared"]["pairs"] = left.pairs;
@@ -33,6 +34,7 @@ Json set_record(const SetReport& report) {
                                                {"mean", number_or_name(metric.mean)}};
   record["missing"] = report.missing;
   record["extra"] = report.extra;
+  record["linksNotFollowed"] = report.not_followed;
   record["pairs"] = Json::array();
   for (const PairReport& pair : report.pairs) {
     Json entry = {{"name", pair.name}};

@@ -2,10 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <random>
+#include <set>
 
 #include "core/image_io.hpp"
+#include "core/text.hpp"
 #include "run_lobelia.hpp"
 
 namespace lobelia {
@@ -183,6 +189,216 @@ TEST_F(CompareFolders, WriteNothingOverAPictureNorOverEachOther) {
   refused({"--json", "r.json", "--csv", "r.json"});
   EXPECT_EQ(text("b/x.exr"), before);
   EXPECT_FALSE(fs::exists(path("r.json")));
+}
+
+/// Names below a folder, links not followed, and each file's bytes.
+std::map<std::string, std::string> contents(const fs::path& root) {
+  std::map<std::string, std::string> result;
+  for (const auto& entry : fs::recursive_directory_iterator(root))
+    result[entry.path().lexically_relative(root).string()] =
+        entry.is_regular_file() ? read_file(entry.path(), 1 << 20) : "";
+  return result;
+}
+
+TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
+  for (const char* folder : {"a/", "b/", "c/", "error/", "half/", "a/deep/", "out/"}) {
+    fs::create_directories(path(folder));
+    put(folder + std::string("x.exr"), 0.1f);
+    // What the picture of x.exr would be called.
+    write_file(path(folder + std::string("x.exr.png")), read_file(path("a/x.exr"), 1 << 20));
+  }
+  put("b/deep/x.exr", 0.1f);
+  fs::create_directory_symlink("b", path("other_b"));
+  const auto before = contents(folder_.path());
+  const std::vector<std::string> plain{"a", "b", "--reference-floor", "c"};
+  const auto refused = [&](std::vector<std::string> more, const char* why) {
+    more.insert(more.begin(), plain.begin(), plain.end());
+    const auto result = compare(more);
+    EXPECT_EQ(result.exit_code, 2) << ::testing::PrintToString(more) << result.output_tail;
+    EXPECT_THAT(result.output_tail, HasSubstr(why));
+    EXPECT_EQ(contents(folder_.path()), before) << ::testing::PrintToString(more);
+  };
+  const char* inside = "which is read by this command; choose a folder outside it";
+  for (const char* folder :
+       {"a", "b", "c", "./b/../a", "a/deep", "a/new", "other_b", "other_b/new"})
+    refused({"--diff-image", folder}, inside);
+  refused({"--diff-image", "error", "--a-error", "error"}, inside);
+  refused({"--diff-image", "half/new", "--b-replicate", "half"}, inside);
+  const char* taken = "is read or written by this command already";
+  for (const char* file : {"a/x.exr", "b/x.exr", "c/x.exr", "a/x.exr.png"}) {
+    refused({"--json", file}, taken);
+    refused({"--junit", file}, taken);
+  }
+  refused({"--csv", "half/x.exr", "--a-replicate", "half"}, taken);
+  refused({"--json", "out/x.exr.png", "--diff-image", "out"}, taken);
+}
+
+TEST_F(CompareFolders, WriteNoDifferencePictureOverAPictureThatALinkLeadsTo) {
+  put("a/x.exr", 0.1f), put("b/x.exr", 0.2f), put("a/deep/x.exr", 0.1f), put("b/deep/x.exr", 0.2f);
+  put("error.exr", 0.1f);
+  const auto refused = [&](const std::string& out, std::vector<std::string> more) {
+    const auto before = contents(folder_.path());
+    more.insert(more.begin(), {"a", "b", "--diff-image", out});
+    const auto result = compare(more);
+    EXPECT_EQ(result.exit_code, 2) << out << result.output_tail;
+    EXPECT_THAT(result.output_tail, HasSubstr("is read or written by this command already"));
+    EXPECT_EQ(contents(folder_.path()), before) << out;
+  };
+  fs::create_directories(path("soft")), fs::create_directories(path("hard"));
+  fs::create_symlink(path("a/x.exr"), path("soft/x.exr.png"));
+  fs::create_hard_link(path("b/x.exr"), path("hard/x.exr.png"));
+  refused("soft", {});
+  refused("hard", {});
+  fs::create_directories(path("two"));
+  fs::create_directory_symlink(".", path("two/deep"));  // x and deep/x would be one file
+  refused("two", {});
+  fs::create_hard_link(path("a/x.exr"), path("a.json"));
+  refused("out", {"--json", "a.json"});
+
+  // Of two files as well.
+  fs::create_hard_link(path("error.exr"), path("map.png"));
+  const auto two =
+      compare({"a/x.exr", "b/x.exr", "--a-error", "error.exr", "--diff-image", "map.png"});
+  EXPECT_EQ(two.exit_code, 2) << two.output_tail;
+  EXPECT_EQ(compare({"a", "b", "--diff-image", "good"}).exit_code, 1);
+  EXPECT_TRUE(fs::exists(path("good/deep/x.exr.png")));
+}
+
+TEST_F(CompareFolders, LookIntoLinkedFoldersAndFailForThoseThatLeadElsewhere) {
+  put("a/x.exr", 0.1f), put("b/x.exr", 0.1f);
+  put("a/deep/y.exr", 0.1f), put("b/deep/y.exr", 0.1f);
+  for (const char* folder : {"a/", "b/"}) {
+    fs::create_directory_symlink("deep", path(folder + std::string("link")));
+    fs::create_directory_symlink("..", path(folder + std::string("deep/up")));
+  }
+  const auto good = compare({"a", "b", "--json", "set.json"});
+  EXPECT_EQ(good.exit_code, 0) << good.output_tail;
+  EXPECT_THAT(good.output_tail, HasSubstr("3 pairs: 3 pass"));
+  EXPECT_EQ(json("set.json")["summary"]["linksNotFollowed"], 0);
+
+  fs::create_directories(path("far_a")), fs::create_directories(path("far_b"));
+  put("far_a/z.exr", 0.1f), put("far_b/z.exr", 0.9f);
+  fs::create_directory_symlink(path("far_a"), path("a/far"));
+  fs::create_directory_symlink(path("far_b"), path("b/far"));
+  const auto far =
+      compare({"a", "b", "--json", "set.json", "--csv", "set.csv", "--junit", "set.xml"});
+  EXPECT_EQ(far.exit_code, 1) << "what was not looked at does not pass";
+  EXPECT_THAT(far.output_tail, HasSubstr("link        a/far: a link to a folder elsewhere"));
+  EXPECT_THAT(far.output_tail, HasSubstr("2 links to folders elsewhere were not followed"));
+  EXPECT_EQ(json("set.json")["summary"]["linksNotFollowed"], 2);
+  EXPECT_EQ(json("set.json")["linksNotFollowed"], nlohmann::json({"a/far", "b/far"}));
+  EXPECT_THAT(text("set.csv"), HasSubstr("\r\nb/far,not followed,"));
+  EXPECT_THAT(text("set.xml"), HasSubstr("type=\"not followed\""));
+}
+
+TEST_F(CompareFolders, PrintOneReportToStdoutInPlaceOfTheTable) {
+  put("a/x.exr", 0.1f), put("b/x.exr", 0.1f);
+  const auto printed = [&](const char* option) {
+    const auto result = compare({"a", "b", option, "-"});
+    EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+    EXPECT_FALSE(fs::exists(path("-")));
+    return result.output_tail;
+  };
+  EXPECT_THAT(printed("--csv"), ::testing::StartsWith("name,verdict,why,"));
+  EXPECT_THAT(printed("--csv"), Not(HasSubstr("1 pairs")));
+  EXPECT_THAT(printed("--junit"), ::testing::StartsWith("<?xml"));
+  EXPECT_THAT(printed("--junit"), ::testing::EndsWith("</testsuites>\n"));
+  EXPECT_THAT(printed("--json"), ::testing::EndsWith("\n}\n"));
+  EXPECT_THAT(printed("--json"), Not(HasSubstr("1 pairs")));
+  for (const auto& [one, other] :
+       {std::pair{"--csv", "--junit"}, {"--csv", "--json"}, {"--junit", "--json"}}) {
+    const auto two = compare({"a", "b", one, "-", other, "-"});
+    EXPECT_EQ(two.exit_code, 2);
+    EXPECT_THAT(two.output_tail, HasSubstr("only one of"));
+  }
+}
+
+TEST_F(CompareFolders, EscapeAnyNameWhereverItIsPrinted) {
+  std::mt19937 random(11);
+  const auto any_name = [&] {
+    std::string name(1 + random() % 12, '\0');
+    for (char& c : name) {
+      do c = char(random() % 3 == 0 ? random() % 32 : random() % 256);
+      while (c == '\0' || c == '/');
+    }
+    return name;
+  };
+  for (int i = 0; i < 8; ++i) {
+    put("a/p" + any_name() + ".exr", 0.1f);  // extra
+    put("b/q" + any_name() + ".exr", 0.1f);  // missing
+    const std::string off = "r" + any_name() + ".exr", bad = "s" + any_name() + ".exr";
+    put("a/" + off, 0.1f), put("b/" + off, 0.2f);
+    write_file(path("a/" + bad), "x"), write_file(path("b/" + bad), "x");
+    fs::create_directory_symlink("/", path("a/t" + any_name()));
+  }
+  const auto result = run_shell(
+      "\"$LOBELIA\" compare a b --json set.json --csv set.csv --junit set.xml --diff-image maps "
+      ">out.txt 2>err.txt",
+      folder_.path());
+  EXPECT_EQ(result.exit_code, 3);
+  const auto is_plain = [](const std::string& text, bool carriage_return) {
+    if (valid_utf8(text) != text) return false;
+    return std::none_of(text.begin(), text.end(), [&](char c) {
+      return (static_cast<unsigned char>(c) < 0x20 && c != '\n' &&
+              !(carriage_return && c == '\r')) ||
+             c == 0x7f;
+    });
+  };
+  EXPECT_TRUE(is_plain(text("out.txt"), false)) << text("out.txt");
+  EXPECT_TRUE(is_plain(text("err.txt"), false)) << text("err.txt");
+  EXPECT_TRUE(is_plain(text("set.csv"), true)) << text("set.csv");
+  EXPECT_TRUE(is_plain(text("set.xml"), false)) << text("set.xml");
+  EXPECT_EQ(valid_utf8(text("set.json")), text("set.json"));
+  const std::string errors = text("err.txt");
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 8)
+      << "a line for each difference picture";
+  EXPECT_TRUE(pugi::xml_document().load_string(text("set.xml").c_str()));
+  const auto record = json("set.json");
+  EXPECT_EQ(record["pairs"].size(), 16u);
+  std::set<std::string> names;
+  for (const auto& pair : record["pairs"]) names.insert(pair["name"]);
+  EXPECT_EQ(names.size(), 16u) << "two names stay two";
+
+  // An error about one file, too: one line.
+  for (int i = 0; i < 8; ++i) {
+    const std::string name = "u" + any_name() + ".exr";
+    write_file(path(name), "x");
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"compare", name, name},
+                                                    {"profile", name},
+                                                    {"render", name, "-o", "x.exr"}}) {
+      const auto failed = run_lobelia(command, folder_.path());
+      EXPECT_EQ(failed.exit_code, 3);
+      EXPECT_EQ(std::count(failed.output_tail.begin(), failed.output_tail.end(), '\n'), 1);
+      EXPECT_TRUE(is_plain(failed.output_tail, false)) << failed.output_tail;
+    }
+  }
+}
+
+TEST_F(CompareFolders, NameTheFilesWhoseSizesDiffer) {
+  put("a/x.exr", 0.1f, 10), put("b/x.exr", 0.1f, 20), put("c.exr", 0.1f, 30);
+  const auto says = [&](std::vector<std::string> arguments, const char* what) {
+    const auto result = compare(arguments);
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.output_tail, HasSubstr(what));
+  };
+  says({"a/x.exr", "b/x.exr"}, "10 x 20 against 20 x 20 (a/x.exr against b/x.exr)");
+  says({"a", "b"}, "10 x 20 against 20 x 20 (a/x.exr against b/x.exr)");
+  says({"b/x.exr", "b/x.exr", "--reference-floor", "c.exr"}, "(c.exr against b/x.exr)");
+  says({"b/x.exr", "b/x.exr", "--a-replicate", "c.exr"}, "(the picture against c.exr)");
+  says({"b/x.exr", "b/x.exr", "--b-error", "c.exr"}, "(the picture against c.exr)");
+  says({"a/x.exr", "a/x.exr", "--scene", kScenes + "head_on.xml"}, "a/x.exr has 10 x 20 pixels");
+}
+
+TEST_F(CompareFolders, OfWhichNoReferenceHasARangeOfExposuresAreMeasuredWithoutHdrFlip) {
+  put("a/x.exr", 0.1f), put("b/x.exr", 0.1f);
+  const auto result = compare({"a", "b", "--exposures", "auto", "--json", "set.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail,
+              HasSubstr("flip.hdr.mean       not measured in 1 pairs: b/x.exr: "));
+  EXPECT_TRUE(json("set.json")["pairs"][0]["comparison"]["metrics"].contains("rmse"));
+  const auto asked = compare({"a", "b", "--exposures", "auto", "--fail", "flip.hdr.mean=1"});
+  EXPECT_EQ(asked.exit_code, 1) << "a limit on what was not measured does not pass";
+  EXPECT_THAT(asked.output_tail, HasSubstr("flip.hdr.mean was not measured (b/x.exr: "));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 
+#include "core/image_io.hpp"
 #include "run_lobelia.hpp"
 #include "tests/core/picture_files.hpp"
 
@@ -110,7 +111,8 @@ TEST_F(ComparePictures, OfOtherSizesAreRefused) {
   exr("small.exr", 2, 1, {{"Y", {1, 1}}});
   const ProcessResult result = compare({"small.exr", "good.exr"});
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.output_tail, HasSubstr("the sizes differ: 2 x 1 against 32 x 32"));
+  EXPECT_THAT(result.output_tail,
+              HasSubstr("the sizes differ: 2 x 1 against 32 x 32 (small.exr against good.exr)"));
 }
 
 TEST_F(ComparePictures, NeverPassesANaN) {
@@ -128,6 +130,99 @@ TEST_F(ComparePictures, NeverPassesANaN) {
   const Record speck = record({"clean.exr", "speck.exr"}, 1);
   EXPECT_EQ(speck["verdict"], "non-finite");
   EXPECT_EQ(speck["nonfinite"]["b"], 1);
+}
+
+TEST_F(ComparePictures, WithEqualInfinitiesPassWhereThatIsAllowedAndSayWhereTheFirstBadValueIs) {
+  std::vector<float> values(32 * 32, 0.5f);
+  values[32 * 7 + 5] = std::numeric_limits<float>::infinity();
+  const auto picture = [&](const std::string& name, const std::vector<float>& green,
+                           const std::vector<float>& depth) {
+    const std::vector<float> grey(32 * 32, 0.5f);
+    exr(name, 32, 32, {{"R", grey}, {"G", green}, {"B", grey}, {"Z", depth}});
+  };
+  const std::vector<float> plain(32 * 32, 0.5f);
+  picture("inf.exr", values, plain);
+  const ProcessResult refused = compare({"inf.exr", "inf.exr"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.output_tail, HasSubstr("the first is inf in inf.exr at x 5, y 7, channel G"));
+  const Record made = record({"inf.exr", "inf.exr", "--allow-equal-nonfinite"}, 0);
+  EXPECT_EQ(made["verdict"], "pass");
+  EXPECT_EQ(made["metrics"]["max_abs"], 0);
+  EXPECT_EQ(made["nonfinite"], Record({{"a", 0}, {"b", 0}, {"equalAllowed", 1}}));
+
+  std::vector<float> moved = plain, opposite = plain;
+  moved[32 * 7 + 6] = std::numeric_limits<float>::infinity();
+  opposite[32 * 7 + 5] = -std::numeric_limits<float>::infinity();
+  picture("moved.exr", moved, plain), picture("opposite.exr", opposite, plain);
+  flat("grey.exr", 0.5f);
+  for (const char* other : {"moved.exr", "opposite.exr", "grey.exr"}) {
+    const ProcessResult result = compare({"inf.exr", other, "--allow-equal-nonfinite"});
+    EXPECT_EQ(result.exit_code, 1) << other;
+    EXPECT_THAT(result.output_tail, HasSubstr("verdict: non-finite"));
+    EXPECT_THAT(result.output_tail,
+                HasSubstr("the first is inf in inf.exr at x 5, y 7, channel G"));
+  }
+  EXPECT_THAT(compare({"grey.exr", "opposite.exr"}).output_tail,
+              HasSubstr("the first is -inf in opposite.exr at x 5, y 7, channel G"));
+
+  // Depth has infinities that mean something.
+  picture("depth.exr", plain, values), picture("other_depth.exr", plain, moved);
+  EXPECT_EQ(record({"depth.exr", "depth.exr", "--layer", "Z"}, 0)["verdict"], "pass");
+  const Record layers = record({"depth.exr", "depth.exr", "--all-layers"}, 0)["layers"];
+  EXPECT_EQ(layers[0]["nonfinite"]["equalAllowed"], 1);
+  const ProcessResult depth = compare({"depth.exr", "other_depth.exr", "--all-layers"});
+  EXPECT_EQ(depth.exit_code, 1);
+  EXPECT_THAT(depth.output_tail, HasSubstr("the first is inf in depth.exr at x 5, y 7, channel Z"));
+
+  // A difference picture of what is allowed is not full of magenta.
+  ASSERT_EQ(compare({"inf.exr", "inf.exr", "--allow-equal-nonfinite", "--diff-image", "d.exr",
+                     "--diff-of", "abs"})
+                .exit_code,
+            0);
+  const Image difference = read_image(directory_.path() / "d.exr");
+  EXPECT_THAT(difference.values(), ::testing::Each(0));
+  // A second reference with the same is measured, one with others is not.
+  const auto floor = [&](const char* second) {
+    return record({"inf.exr", "inf.exr", "--allow-equal-nonfinite", "--reference-floor", second},
+                  0)["referenceFloor"];
+  };
+  EXPECT_EQ(floor("inf.exr")["metrics"]["max_abs"], 0);
+  EXPECT_EQ(floor("moved.exr")["nonfinite"], 1);
+  EXPECT_EQ(
+      compare({"inf.exr", "inf.exr", "--allow-equal-nonfinite", "--a-error", "grey.exr"}).exit_code,
+      2);
+}
+
+TEST_F(ComparePictures, OverBlackAreMeasuredWithoutHdrFlipAndSayWhy) {
+  // As a sphere over black: more than half of the pixels are black.
+  std::vector<float> some(32 * 32, 0.0f);
+  for (int i = 0; i < 300; ++i) some[std::size_t(i)] = 0.5f;
+  exr("sphere.exr", 32, 32, {{"Y", some}});
+  const Record made = record({"sphere.exr", "sphere.exr", "--exposures", "auto"}, 0);
+  EXPECT_EQ(made["metrics"]["rmse"], 0);
+  EXPECT_TRUE(made["metrics"].contains("flip.ldr.mean"));
+  EXPECT_FALSE(made["metrics"].contains("flip.hdr.mean"));
+  EXPECT_FALSE(made["viewing"].contains("hdrExposures"));
+  std::map<std::string, std::string> why;
+  for (const Record& one : made["notMeasured"]) why[one["metric"]] = one["because"];
+  EXPECT_THAT(why, UnorderedElementsAre(Pair("flip.hdr.mean", HasSubstr("median luminance is 0")),
+                                        Pair("flip.hdr.max", HasSubstr("median luminance is 0")),
+                                        Pair("ms_ssim", HasSubstr("it needs 176 pixels a side"))));
+  const std::string table =
+      compare({"sphere.exr", "sphere.exr", "--exposures", "auto"}).output_tail;
+  EXPECT_THAT(table, HasSubstr("not measured: the automatic range of exposures is infinite"));
+
+  // What was asked decides: a limit that holds, and two on what there is not.
+  EXPECT_EQ(
+      compare({"sphere.exr", "sphere.exr", "--exposures", "auto", "--fail", "rmse=0"}).exit_code,
+      0);
+  for (const char* limit : {"flip.hdr.mean=1", "ms_ssim=0"}) {
+    const Record asked =
+        record({"sphere.exr", "sphere.exr", "--exposures", "auto", "--fail", limit}, 1);
+    EXPECT_EQ(asked["verdict"], "differs");
+    EXPECT_EQ(asked["limits"][0]["pass"], false);
+    EXPECT_EQ(asked["limits"][0]["value"], "nan");
+  }
 }
 
 TEST_F(ComparePictures, BlackIsBlackAndNothingIsDividedByIt) {

@@ -176,7 +176,8 @@ TEST(ComparisonSchema, DoesNotHoldForABrokenRecord) {
     EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
   };
   for (const auto& [key, value] : good.items())
-    if (key != "tolerance" && key != "mask" && key != "disagreement" && key != "warnings")
+    if (key != "tolerance" && key != "mask" && key != "disagreement" && key != "warnings" &&
+        key != "notMeasured")
       broken([&](Plain& r) { r.erase(key); });
   broken([](Plain& r) { r["verdict"] = "fine"; });
   broken([](Plain& r) { r["kind"] = "render"; });
@@ -193,6 +194,31 @@ TEST(ComparisonSchema, DoesNotHoldForABrokenRecord) {
   broken([](Plain& r) { r["viewing"]["display"]["decodedBy"] = "guess"; });
   broken([](Plain& r) { r["disagreement"] = "none"; });
   broken([](Plain& r) { r["tolerance"].erase("ofPeak"); });
+  broken([](Plain& r) { r["notMeasured"][0].erase("because"); });
+  broken([](Plain& r) { r["notMeasured"][0]["metric"] = 3; });
+}
+
+TEST(ComparisonSchema, HoldsForValuesThatAreNotFiniteAndTheirPlaces) {
+  Image a = testing::highlight(32, 32, 10, 1), b = a;
+  a.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
+  b.pixel(5, 6)[2] = std::numeric_limits<float>::quiet_NaN();
+  Comparison comparison = compare(a, b, {});
+  comparison.equal_nonfinite = 7;
+  const Plain good = as_written(comparison_record(comparison, "a", "b"));
+  EXPECT_EQ(problems(good), "");
+  EXPECT_EQ(good["nonfinite"]["first"]["a"],
+            Plain({{"x", 3}, {"y", 4}, {"channel", "G"}, {"value", "inf"}}));
+  EXPECT_EQ(good["nonfinite"]["first"]["b"],
+            Plain({{"x", 5}, {"y", 6}, {"channel", "B"}, {"value", "nan"}}));
+  EXPECT_EQ(good["nonfinite"]["equalAllowed"], 7);
+  const auto broken = [&](auto change) {
+    Plain changed = good;
+    change(changed);
+    EXPECT_NE(problems(changed), "") << Plain::diff(good, changed);
+  };
+  broken([](Plain& r) { r["nonfinite"]["first"]["a"].erase("channel"); });
+  broken([](Plain& r) { r["nonfinite"]["first"]["b"]["value"] = 1; });
+  broken([](Plain& r) { r["nonfinite"]["equalAllowed"] = -1; });
 }
 
 TEST(ComparisonSchema, HoldsForARecordWithASecondReference) {
@@ -212,7 +238,7 @@ TEST(ComparisonSchema, HoldsForARecordWithASecondReference) {
 
 TEST(ComparisonSetSchema, HoldsForASetAndNotForABrokenOne) {
   const Image a = testing::highlight(32, 32, 10, 1), b = testing::highlight(32, 32, 11, 1);
-  SetReport set{"one", "other", "", {}, {"gone.exr"}, {"new.exr"}, 2};
+  SetReport set{"one", "other", "", {}, {"gone.exr"}, {"new.exr"}, 2, {"one/out"}};
   set.pairs.push_back({"x.exr", "one/x.exr", "other/x.exr", "", compare(a, b, {}), "", 0.1});
   set.pairs.push_back({"y.exr", "one/y.exr", "other/y.exr", "", {}, "not a picture", 0});
   const Plain good = as_written(set_record(set));

@@ -48,10 +48,52 @@ TEST_F(FolderPairing, PassesOverWhatIsNoPictureAndCountsIt) {
   EXPECT_EQ(pairs().passed_over, 5u);
 }
 
-TEST_F(FolderPairing, FollowsNoLinkToAFolderSoThatACircleEnds) {
-  put("a/x.exr");
-  fs::create_directory_symlink(folder_.path() / "a", folder_.path() / "a" / "again");
-  EXPECT_THAT(pairs().extra, ElementsAre("x.exr"));
+TEST_F(FolderPairing, FollowsLinksInsideTheFolderAndEndsInACircle) {
+  for (const char* file : {"a/x.exr", "a/deep/y.exr", "b/x.exr", "b/deep/y.exr", "b/link/y.exr"})
+    put(file);
+  fs::create_directory_symlink("deep", folder_.path() / "a/link");
+  fs::create_directory_symlink(folder_.path() / "a", folder_.path() / "a/again");
+  fs::create_directory_symlink("..", folder_.path() / "a/deep/up");
+  EXPECT_THAT(pairs().both, ElementsAre("deep/y.exr", "link/y.exr", "x.exr"));
+  EXPECT_THAT(pairs().missing, IsEmpty());
+  EXPECT_THAT(pairs().extra, IsEmpty());
+  EXPECT_THAT(pairs().not_followed, IsEmpty()) << "what a circle leads to is compared already";
+}
+
+TEST_F(FolderPairing, NamesLinksToFoldersElsewhereAndToNothing) {
+  for (const char* file : {"a/x.exr", "b/x.exr", "elsewhere/y.exr"}) put(file);
+  const fs::path root = folder_.path();
+  fs::create_directory_symlink(root / "elsewhere", root / "a/out");
+  fs::create_directory_symlink("../elsewhere", root / "b/out");
+  fs::create_directory_symlink("nowhere", root / "b/lost");
+  fs::create_symlink("nothing.exr", root / "b/gone.exr");
+  fs::create_symlink(root / "elsewhere/y.exr", root / "b/file.exr");
+  EXPECT_THAT(pairs().not_followed,
+              ElementsAre((root / "a/out").string(), (root / "b/lost").string(),
+                          (root / "b/out").string()));
+  EXPECT_THAT(pairs().missing, ElementsAre("file.exr", "gone.exr"))
+      << "links to files are files; one to nothing cannot be read, as its pair will say";
+}
+
+TEST_F(FolderPairing, OfLinksThatMultiplyIsRefusedInsteadOfGoingOnForEver) {
+  // 2^40 paths, and no circle.
+  fs::path inside = folder_.path() / "a";
+  for (int i = 0; i < 40; ++i) {
+    const fs::path next = folder_.path() / "a" / ("d" + std::to_string(i));
+    fs::create_directories(next);
+    if (i > 0) {
+      fs::create_directory_symlink(next, inside / "left");
+      fs::create_directory_symlink(next, inside / "right");
+    }
+    inside = next;
+  }
+  try {
+    pair_by_name(folder_.path() / "a", folder_.path() / "b", 20'000);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    EXPECT_THAT(error.what(), HasSubstr("holds over 20000 files"));
+  }
 }
 
 TEST_F(FolderPairing, OfAFolderThatIsNotThereSaysWhich) {
@@ -93,6 +135,9 @@ TEST(SetExitCode, IsOfTheWorstThatHappened) {
   EXPECT_EQ(set_exit_code(report), ExitCode::kSuccess);
   report.missing = {"gone.exr"};
   EXPECT_EQ(set_exit_code(report), ExitCode::kDiffers);
+  report.missing.clear();
+  report.not_followed = {"a/out"};
+  EXPECT_EQ(set_exit_code(report), ExitCode::kDiffers) << "nobody looked at what is in there";
 }
 
 TEST(SetSummary, NamesThePairThatIsWorstByTheDirectionOfTheMetric) {
@@ -118,15 +163,20 @@ TEST(SetRecord, HoldsEveryPairsRecordAndWhatHadNone) {
   SetReport report = set_of({compared("good.exr", 0.5f, 0.5f), broken("x.exr")});
   report.missing = {"gone.exr"};
   report.passed_over = 3;
-  EXPECT_EQ(why_not_pass(*compared("n.exr", std::nanf(""), 0.5f).comparison),
-            "pixels with a NaN or an infinity: 400 in a, 0 in b");
-  EXPECT_EQ(why_not_pass(*report.pairs[0].comparison), "");
+  report.not_followed = {"a/out"};
+  EXPECT_EQ(
+      why_not_pass(compared("n.exr", std::nanf(""), 0.5f)),
+      "pixels with a NaN or an infinity: 400 in a, 0 in b; the first is nan in a/n.exr at x 0, "
+      "y 0, channel R");
+  EXPECT_EQ(why_not_pass(report.pairs[0]), "");
   const Json record = set_record(report);
   EXPECT_EQ(record["kind"], "comparison-set");
   EXPECT_EQ(record["summary"]["pass"], 1);
   EXPECT_EQ(record["summary"]["errors"], 1);
   EXPECT_EQ(record["summary"]["missing"], 1);
   EXPECT_EQ(record["summary"]["passedOver"], 3);
+  EXPECT_EQ(record["summary"]["linksNotFollowed"], 1);
+  EXPECT_EQ(record["linksNotFollowed"], Json({"a/out"}));
   EXPECT_EQ(record["pairs"][0]["comparison"]["verdict"], "pass");
   EXPECT_EQ(record["pairs"][0]["comparison"]["a"], "a/good.exr");
   EXPECT_FALSE(record["pairs"][1].contains("comparison"));
@@ -159,14 +209,17 @@ TEST(SetCsv, HasARowForEveryNameAndAsManyFieldsInEach) {
   SetReport report = set_of({compared("a \"b\", c\r\nd.exr", 0.5f, 0.6f), broken("x.exr")});
   report.missing = {"gone.exr"};
   report.extra = {"new.exr"};
+  report.not_followed = {"a/\x1b[2J\xff"};
   const auto rows = read_csv(set_csv(report));
-  ASSERT_EQ(rows.size(), 5u);
+  ASSERT_EQ(rows.size(), 6u);
   for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
-  EXPECT_EQ(rows[1][0], "a \"b\", c\r\nd.exr");
+  EXPECT_EQ(rows[1][0], "a \"b\", c\\r\\nd.exr");
   EXPECT_EQ(rows[1][1], "differs");
   EXPECT_EQ(rows[2][1], "error");
   EXPECT_EQ(rows[3][1], "missing");
   EXPECT_EQ(rows[4][1], "extra");
+  EXPECT_EQ(rows[5][0], "a/\\x1b[2J\\xff");
+  EXPECT_EQ(rows[5][1], "not followed");
   const auto rmse = std::find(rows[0].begin(), rows[0].end(), "rmse");
   ASSERT_NE(rmse, rows[0].end());
   EXPECT_NEAR(std::stod(rows[1][std::size_t(rmse - rows[0].begin())]), 0.1, 1e-6);
@@ -178,12 +231,13 @@ TEST(SetJunit, IsXmlWithACaseForEveryNameWhateverItHolds) {
                              compared("good.exr", 0.5f, 0.5f)});
   report.missing = {"gone.exr"};
   report.extra = {"new.exr"};
+  report.not_followed = {"a/out"};
   const std::string text = set_junit(report);
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(text.c_str()));
   const auto suite = document.child("testsuites").child("testsuite");
-  EXPECT_EQ(suite.attribute("tests").as_int(), 5);
-  EXPECT_EQ(suite.attribute("failures").as_int(), 2);
+  EXPECT_EQ(suite.attribute("tests").as_int(), 6);
+  EXPECT_EQ(suite.attribute("failures").as_int(), 3);
   EXPECT_EQ(suite.attribute("errors").as_int(), 1);
   EXPECT_EQ(suite.attribute("skipped").as_int(), 1);
   std::vector<std::string> outcomes;
@@ -192,9 +246,9 @@ TEST(SetJunit, IsXmlWithACaseForEveryNameWhateverItHolds) {
                           : one.child("error")   ? "error"
                           : one.child("skipped") ? "skipped"
                                                  : "pass");
-  EXPECT_THAT(outcomes, ElementsAre("failure", "error", "pass", "failure", "skipped"));
+  EXPECT_THAT(outcomes, ElementsAre("failure", "error", "pass", "failure", "skipped", "failure"));
   EXPECT_STREQ(suite.child("testcase").attribute("name").as_string(),
-               "<img onerror>&?\xEF\xBF\xBD.exr");
+               "<img onerror>&\\x01\\xff.exr");
   EXPECT_THAT(suite.child("testcase").child("failure").attribute("message").as_string(),
               HasSubstr("rmse is 0.1, limit 0.01"));
 }
