@@ -72,8 +72,7 @@ Vec3 on_surface(Random& random, const Scene& scene) {
 }
 
 Light light(Random& random, const Scene& scene, SceneKind kind, bool simple) {
-  const bool on_a_surface = kLampsMayLieOnSurfaces && random.chance(0.1) &&
-                            !(scene.spheres.empty() && scene.planes.empty());
+  const bool on_a_surface = random.chance(0.1) && !(scene.spheres.empty() && scene.planes.empty());
   const Vec3 place = on_a_surface ? on_surface(random, scene) : 4 * random.vector();
   const int which = random.below(simple && kind == SceneKind::kExact ? 6 : 10);
   if (which < 3) return DirectionalLight{random.direction(), strength(random)};

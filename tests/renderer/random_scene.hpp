@@ -13,8 +13,6 @@
 
 namespace lobelia {
 
-/// Whether a lamp may lie in a plane or on a sphere. Renderer and formulas do not agree there yet.
-inline constexpr bool kLampsMayLieOnSurfaces = false;
 /// Up to so many samples a pixel. Above 16 a picture may leave some out where it looks even, and is another one
 /// than that of all effects by as much.
 inline constexpr int kMostRandomSamples = 16;

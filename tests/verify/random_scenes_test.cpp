@@ -65,7 +65,7 @@ double apart(Rgb a, Rgb b) {
 
 TEST(RandomScenes, AreInEveryPixelWhatTheFormulasSay) {
   int compared = 0, lit = 0;
-  expect_of_random_scenes(SceneKind::kExact, 200, [&](const Scene& random_one, Random& random) {
+  expect_of_random_scenes(SceneKind::kExact, 600, [&](const Scene& random_one, Random& random) {
     const Scene scene = told_by_formulas(random_one);
     RenderOptions options;
     options.allow_fused = random.chance(0.5);
