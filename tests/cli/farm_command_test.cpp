@@ -29,12 +29,12 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
   const auto result = run_shell(
       "chmod +x slow-povray\n"
       "\"$LOBELIA\" farm grid.xml -o out -q --povray ./slow-povray & job=$!\n"
-      "until grep -qs 'sleep.61[.]7' /proc/[0-9]*/cmdline && ls out/cache/results/*/*/lobelia.exr; do\n"
+      "until grep -qsa 'sleep.61[.]7' /proc/[0-9]*/cmdline && ls out/cache/results/*/*/lobelia.exr; do\n"
       "  sleep 0.1; kill -0 $job || break\n"
       "done > /dev/null 2>&1\n"
       "kill -INT $job; wait $job; code=$?\n"
       "find out -name '*.part' -o -name '.*'\n"
-      "grep -l 'sleep.61[.]7' /proc/[0-9]*/cmdline 2>/dev/null | grep -v self\n"
+      "grep -la 'sleep.61[.]7' /proc/[0-9]*/cmdline 2>/dev/null | grep -v self\n"
       "exit $code",
       directory.path());
   EXPECT_EQ(result.exit_code, 130) << result.output_tail;
