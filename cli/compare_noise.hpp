@@ -16,7 +16,7 @@ class NoiseFlags {
 
   /// What can be said before a picture is read: whether there is noise, and how it is judged.
   void apply(ComparisonOptions& options) const;
-  /// What read() will read, for a pair of that name.
+  /// The files that read() will read for a pair of that name.
   std::vector<std::filesystem::path> files(const std::string& name) const;
   /// Reads the pictures of the noise: the files that were named, or where `name` is not empty those of that name
   /// in the folders that were. `a` and `b` become the means of themselves and their replicates. Throws

@@ -77,7 +77,7 @@ void write_difference(const DifferencePicture& wanted, const fs::path& path, con
              map.id, scale, largest);
 }
 
-/// Of a picture that is not finite there is none, and nobody asks.
+/// For a finite picture; others are not measured.
 HdrExposures exposures_or_why_not(const Image& reference) {
   try {
     return automatic_exposures(reference);

@@ -103,7 +103,7 @@ ExitCode report(const FarmSummary& summary, const Options& options) {
   return summary.differs + summary.undecided > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
 }
 
-/// Of a farm and of its gallery.
+/// The exit code of a farm and its gallery.
 ExitCode worse(ExitCode farm, ExitCode gallery) {
   return farm == ExitCode::kSuccess ? gallery : farm;
 }

@@ -58,7 +58,7 @@ struct CommonLayers {
   std::vector<std::string> both, only_a, only_b;  ///< in the order of the file; of `both` in a's
 };
 
-/// What was compared besides the picture in its display window, and what was not.
+/// All comparisons besides that of the display window, and everything left out.
 struct OtherLayers {
   std::vector<LayerComparison> compared;
   NotCompared not_compared;
@@ -69,14 +69,14 @@ struct OtherLayers {
 /// Throws Error(kInput) if no layer is in both; otherwise errors as layer_names.
 CommonLayers common_layers(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Of the files `a` and `b`, besides the display window of `picture`: what lies outside of it, its alpha, and with all
+/// Compares `a` and `b` besides the display window of `picture`: all data outside it, its alpha, and with all
 /// layers those. Alpha is judged at the exposure 0 on a plain display. Where noise is known, nothing is compared: it is
 /// that of the picture. One pair is in memory at a time. Errors as read_picture and compare.
 OtherLayers compare_others(const std::filesystem::path& a, const std::filesystem::path& b,
                            const PicturePair& picture, const LayerOptions& layers,
                            const ComparisonOptions& options);
 
-/// Of the picture and the others.
+/// The worst verdict of the picture and the others.
 Verdict worst_verdict(Verdict picture, const OtherLayers& others);
 
 /// Adds `pictures` to a record of comparison_record().

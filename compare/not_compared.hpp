@@ -1,4 +1,4 @@
-// What a comparison of two files did not look at.
+// The parts of two files that a comparison did not look at.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What two pictures have outside of their display windows.
+// Pixels of two pictures outside their display windows.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace lobelia {
 
-/// Of two pictures of one size.
+/// For two pictures of one size.
 struct Overscan {
   /// The least that holds the display window and all data of both; (0, 0) is the first pixel of the display window.
   PixelWindow window;

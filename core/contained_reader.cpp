@@ -82,7 +82,7 @@ std::size_t read_from_pipe(int pipe, void* target, std::size_t size) {
   return done;
 }
 
-/// What the reader gets of our environment: where libraries are, and what sanitizers are told.
+/// The part of our environment that the reader gets: where libraries are, and what sanitizers are told.
 std::vector<std::string> reader_environment() {
   std::vector<std::string> result;
   for (const char* name :
@@ -91,7 +91,7 @@ std::vector<std::string> reader_environment() {
   return result;
 }
 
-/// What came of one request.
+/// The outcome of one request.
 struct Outcome {
   Picture picture;
   std::vector<std::string> names;

@@ -109,7 +109,7 @@ PixelWindow data_window(const OIIO::ImageSpec& spec) {
   return {spec.x, spec.y, spec.width, spec.height};
 }
 
-/// What is the picture. Elsewhere than in an EXR a window that leaves the other is a place on a page. Of a cube map
+/// The picture's window. Elsewhere than in an EXR a window that leaves the other is a place on a page. Of a cube map
 /// OpenImageIO says the first face, of six.
 PixelWindow display_window(const OIIO::ImageSpec& spec, std::string_view format) {
   const PixelWindow data = data_window(spec);
@@ -130,7 +130,7 @@ void check(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
   if (const std::string problem = window_problem("its display window", display); !problem.empty())
     unreadable(path, problem);
   if (are_apart(data, display)) unreadable(path, "its data window lies outside its display window");
-  // Of these the attributes are texts that anybody may have written into the file.
+  // In these formats attributes are texts that anybody may have written into the file.
   if (format == "png" || format == "openexr") return;
   // OpenImageIO would make RGB of them, without the profile that says what they look like.
   for (const char* attribute : {"tiff:ColorSpace", "jpeg:ColorSpace", "oiio:ColorSpace"}) {
@@ -269,7 +269,7 @@ void add_icc_profile(const OIIO::ImageSpec& spec, PictureSource& source) {
       spec.get_string_attribute("ICCProfile:profile_description", "without a name");
 }
 
-/// What a header asks for, before memory is taken.
+/// The memory that a header asks for, told before any is taken.
 PictureClaim claim_of(const OIIO::ImageSpec& spec, std::string_view format) {
   const PixelWindow display = display_window(spec, format);
   return {std::uint64_t(spec.width) * spec.height + std::uint64_t(display.width) * display.height,

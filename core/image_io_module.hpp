@@ -1,4 +1,4 @@
-// What the image module offers to its loaders: core/image_io.cpp and the reader (core/picture_reader.cpp).
+// The image module's interface to its loaders: core/image_io.cpp and the reader (core/picture_reader.cpp).
 #pragma once
 
 #include <functional>

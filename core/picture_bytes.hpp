@@ -33,7 +33,7 @@ bool is_cut_off(std::string_view bytes, std::string_view format);
 /// takes it for 8 and fills the rest of each row with what its memory held.
 bool is_tiff_without_bits(std::string_view bytes);
 
-/// What the chunks of a PNG say of its colours (PNG, third edition, 11.3.2). A chunk whose checksum or length is
+/// The colours that the chunks of a PNG state (PNG, third edition, 11.3.2). A chunk whose checksum or length is
 /// wrong says nothing, nor does a second one, nor one after the pixels have begun.
 struct PngColour {
   /// ITU-T H.273 code points

@@ -11,7 +11,7 @@
 
 namespace lobelia {
 
-/// What is told to the process that reads.
+/// The request to the process that reads.
 struct ReadingRequest {
   bool names_only = false;  ///< the layers' names, and not a picture
   bool on_one_thread = false;
@@ -19,7 +19,7 @@ struct ReadingRequest {
   std::string path, layer;
 };
 
-/// What it answers, but for a picture's values: those follow as they are.
+/// Its answer, without a picture's values: those follow as they are.
 struct ReadingAnswer {
   enum class Kind : std::uint64_t { kRefusal, kNames, kPicture };
   Kind kind = Kind::kRefusal;

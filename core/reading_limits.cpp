@@ -165,7 +165,7 @@ std::string claim_problem(const PictureClaim& claim, std::uint64_t file_bytes) {
 std::uint64_t memory_to_read(const PictureClaim& claim, std::uint64_t file_bytes) {
   // Values as they are decoded, those of both windows, and one more channel; a picture again for a second look.
   constexpr std::uint64_t kBytesPerPixel = 36;
-  // What a library unpacks at once: most of them all of it, OpenEXR a few rows.
+  // Most libraries unpack all of a picture at once, OpenEXR a few rows.
   const std::uint64_t unpacked = std::min(claim.raw_bytes, 256 * kMebibyte + 64 * file_bytes);
   constexpr std::uint64_t kStack = 9 * kMebibyte;
   return kMemoryToOpen + kBytesPerPixel * claim.pixels + 2 * unpacked + file_bytes +

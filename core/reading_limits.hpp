@@ -1,4 +1,4 @@
-// What a process that reads an untrusted picture may use, and what it may do.
+// The limits of a process that reads an untrusted picture.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ std::uint64_t seconds_to_read(const PictureClaim& claim, std::uint64_t file_byte
 /// Time by the clock after which a process is ended that does nothing: far beyond what a busy machine needs.
 std::uint64_t seconds_to_wait(std::uint64_t file_bytes);
 
-/// Of this process: soft limits, so that they can be raised. The sanitizers reserve terabytes of address space, so
+/// Limits this process: soft limits, so that they can be raised. The sanitizers reserve terabytes of address space, so
 /// with them memory has no limit.
 void limit_memory(std::uint64_t address_space_bytes);
 void limit_processor_time(std::uint64_t seconds);

@@ -176,7 +176,7 @@ const Way& own_way(const std::vector<Way>& ways) {
   });
 }
 
-/// Of a look that saw nothing, and so can tell no way from another.
+/// The choice after a look that saw nothing, and so cannot tell variants apart.
 Choice choose_black(Choice choice, const Scene& scene, const std::vector<Way>& ways) {
   choice.basis = Basis::kLook;
   choice.why =

@@ -206,7 +206,7 @@ class Steps {
     return std::uint64_t(std::ceil(end_ * double(circuit_.f.one()) - up()));
   }
 
-  /// Of the error over a step: its integral, and that of its square.
+  /// Integrals of the error and of its square over a step.
   struct Sums {
     double drift = 0, square = 0;
   };

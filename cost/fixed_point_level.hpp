@@ -22,7 +22,7 @@ struct Circuit {
 Circuit cs_circuit(FixedPoint f, unsigned n, int k);
 Circuit power_circuit(FixedPoint f, unsigned n);
 
-/// Of a circuit with more steps than this in the highlight, two out of each of kCells equal parts are looked at.
+/// If a circuit has more steps than this in the highlight, two from each of kCells equal parts are looked at.
 inline constexpr std::uint64_t kMostSteps = 1 << 17, kCells = 1 << 15;
 
 /// Errors relative to the peak, over s from 0 to highlight_end.

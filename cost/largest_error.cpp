@@ -167,7 +167,7 @@ class Search {
     return std::min(shape + way_.allowed, std::max(cosine, most_value(own)));
   }
 
-  /// What a second derivative can add between two ends that are so far apart in n s.
+  /// The most that a second derivative can add between two ends that are so far apart in n s.
   static double bend(double width) { return kMostBend / 8 * width * width; }
 
   /// What the way can make of that value and of smaller ones: each factor e below the peak adds a few roundings.

@@ -13,7 +13,7 @@ struct LargestError {
   std::uint64_t numbers = 0;  ///< that were looked at
 };
 
-/// Of |way - cos^n| over the float32 numbers s. Beginning with `at_least`, which is known, wherever more is possible:
+/// The largest |way - cos^n| over the float32 numbers s. Beginning with `at_least`, which is known, wherever more is possible:
 /// by how far the lobes are apart and by what the way's roundings are allowed, every number is looked at, or so many,
 /// spread over all places. n is at least 2 or 1.
 ///

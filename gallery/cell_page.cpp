@@ -112,7 +112,7 @@ void write_agreement(Html& html, const FarmData& farm, const CellData& cell) {
   html.element("td", time_text(cell.find_image(kOurEngine)));
 }
 
-/// What is not as the farm wrote it, file by file.
+/// Lists each file that is not as the farm wrote it.
 void write_flaws(Html& html, const FarmData& farm, const CellData& cell) {
   if (!cell.flaws.empty()) {
     const Tag list(html, "ul", {{"class", "flaws"}});

@@ -11,7 +11,7 @@
 
 namespace lobelia::gallery {
 
-/// What is wrong with a file that a verdict depends on.
+/// The fault of a file that a verdict depends on.
 struct Flaw {
   std::string file;     ///< a plain name
   CellStatus status;    ///< kDamaged, kLost or kChanged

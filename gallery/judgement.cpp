@@ -14,7 +14,7 @@ namespace {
 enum class Standing { kHolds, kOpen, kBroken };
 
 bool is_within(const std::string& metric, double value, double limit) {
-  // What has a sign is as good as it is near to 0.
+  // A signed figure is as good as it is near to 0.
   return metric_note(metric).more_is_better ? value >= limit : std::abs(value) <= limit;
 }
 

@@ -7,7 +7,7 @@
 
 namespace lobelia::gallery {
 
-/// What its figures say of its limits, in the words of a record. A comparison without a limit never passes.
+/// The verdict by its figures and limits, in the words of a record. A comparison without a limit never passes.
 std::string judge(const CellComparison& comparison);
 
 /// Judges every comparison and then the cell. Where a record and its figures say different things the worse one

@@ -46,7 +46,7 @@ class FilterSampler {
   /// In one part; u and v in [0, 1).
   Offset operator()(bool negative, double u, double v) const;
 
-  /// What the mean of the negative part counts; that of the positive part counts 1 more. 0 where the filter
+  /// The weight of the negative part's mean; that of the positive part counts 1 more. 0 where the filter
   /// is nowhere negative.
   double negative_weight() const { return negative_weight_; }
 

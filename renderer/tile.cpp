@@ -24,7 +24,7 @@ PixelSum::Part difference(const PixelSum::Part& a, const PixelSum::Part& b) {
   return {difference(a.radiance, b.radiance), a.count - b.count};
 }
 
-/// What the first samples of some pixels met.
+/// The surfaces that the first samples of some pixels met.
 struct Seen {
   static constexpr int kNothingYet = -2, kSeveral = -3;
   double least = 1e300, most = -1e300;

@@ -46,7 +46,7 @@ struct SetCounts {
 };
 SetCounts count(const SetReport& report);
 
-/// What was not compared of any of the pairs.
+/// Everything that was not compared, over all pairs.
 struct SetNotCompared {
   std::size_t pairs = 0;  ///< that have something
   NotCompared all;

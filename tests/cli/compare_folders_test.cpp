@@ -204,7 +204,7 @@ TEST_F(CompareFolders, WriteNoDifferencePictureIntoAFolderThatIsRead) {
   for (const char* folder : {"a/", "b/", "c/", "error/", "half/", "a/deep/", "out/"}) {
     fs::create_directories(path(folder));
     put(folder + std::string("x.exr"), 0.1f);
-    // What the picture of x.exr would be called.
+    // The name that the picture of x.exr would get.
     write_file(path(folder + std::string("x.exr.png")), read_file(path("a/x.exr"), 1 << 20));
   }
   put("b/deep/x.exr", 0.1f);
@@ -255,7 +255,7 @@ TEST_F(CompareFolders, WriteNoDifferencePictureOverAPictureThatALinkLeadsTo) {
   fs::create_hard_link(path("a/x.exr"), path("a.json"));
   refused("out", {"--json", "a.json"});
 
-  // Of two files as well.
+  // The same holds for two files.
   fs::create_hard_link(path("error.exr"), path("map.png"));
   const auto two =
       compare({"a/x.exr", "b/x.exr", "--a-error", "error.exr", "--diff-image", "map.png"});

@@ -307,7 +307,7 @@ TEST_F(ContainedReader, LeavesNoReaderBehindWhenItsProgramIsKilled) {
   }
 }
 
-/// What a process can do after lock_down(), as bits; tried in a process of its own.
+/// The things that a process can do after lock_down(), as bits; tried in a process of its own.
 enum Deed { kOpen, kCreate, kConnect, kFork, kExecute, kKill, kTrace, kRename };
 
 int deeds_after_lock_down(bool may_open_files, const fs::path& victim) {

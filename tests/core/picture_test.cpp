@@ -294,7 +294,7 @@ TEST_F(Curves, OfAPngAreItsChunksAndNoTextsOfALibrary) {
   const std::string srgb = png_chunk("sRGB", std::string(1, '\0'));
   const std::string half = png_chunk("gAMA", big_endian(50000));
   const Picture ppm = read_picture(file("a.ppm", "P6 1 1 255\n" + grey), "");
-  // What oiiotool 2.4 writes of a PPM.
+  // As oiiotool 2.4 writes it from a PPM.
   for (const char* space : {"Rec709", "Linear", "linear", "sRGB", "nonsense", "Gamma2.2", "CMYK"}) {
     const Picture one = png(text("oiio:ColorSpace", space) + text("oiio:Gamma", "3"));
     EXPECT_EQ(one.source.transfer, ppm.source.transfer) << space;

@@ -162,7 +162,7 @@ void FakeFarm::seal(const std::string& id) const {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(cell)) {
     const std::string name = entry.path().filename().string();
-    // What a gallery put there is none of the farm's.
+    // Files that a gallery put there are not the farm's.
     if (entry.is_regular_file() && name != "cell.json" && name != "index.html" &&
         !name.ends_with(".js"))
       names.insert(name);

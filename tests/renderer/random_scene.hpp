@@ -49,7 +49,7 @@ Scene random_scene(std::uint64_t seed, SceneKind kind);
 /// The picture of every random environment: dim, with a small sun.
 std::shared_ptr<const Image> sky();
 
-/// What is wrong with a scene, in words; empty where nothing is.
+/// The fault of a scene, in words; empty where there is none.
 using SceneLaw = std::function<std::string(const Scene& scene, Random& random)>;
 
 /// Holds `count` scenes to the law. Of the first that breaks it, the test fails with its seed, what is wrong and

@@ -17,7 +17,7 @@ namespace {
 
 using truth::Digits;
 
-/// What rounding a value to float32 may change of it.
+/// The relative error of rounding to float32.
 constexpr double kStored = 6e-8;
 
 /// Only what formulas per pixel can tell: lamps with a size, of which none shines, are left out.

@@ -1,4 +1,4 @@
-// What the draws of a lobe follow, over its integral in pieces of s that grow from the lobe's width on.
+// The distribution that the draws of a lobe follow, over its integral in pieces of s that grow from the lobe's width on.
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>

@@ -104,7 +104,7 @@ void for_random_scenes(const F& f) {
       }
 }
 
-/// What a pixel's centre shows.
+/// The surface at a pixel's centre.
 struct Seen {
   int surface = -1;  ///< spheres first, then planes
   Vec3 point;

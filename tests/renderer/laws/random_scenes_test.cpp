@@ -30,7 +30,7 @@ std::string difference(const Image& a, const Image& b, std::string_view what) {
   return "";
 }
 
-/// What is counted against what the plan says.
+/// The counted work against the plan's.
 std::string wrong_counts(const RenderResult& r, std::string_view policy) {
   std::string wrong;
   const auto at_most = [&](std::uint64_t count, std::uint64_t most, std::string_view rays) {
