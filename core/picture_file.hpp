@@ -22,7 +22,7 @@ class PictureFile {
 
   int descriptor() const { return descriptor_; }
   std::uint64_t size() const { return size_; }
-  /// Of picture_format(). Throws Error(kInput) if it is none, naming those that are read.
+  /// As picture_format(). Throws Error(kInput) if it has none, naming those that are read.
   std::string_view known_format() const;
   /// The whole file. Throws Error(kInput) if it became shorter.
   std::string read_all() const;

@@ -170,7 +170,7 @@ class Search {
   /// The most that a second derivative can add between two ends that are so far apart in n s.
   static double bend(double width) { return kMostBend / 8 * width * width; }
 
-  /// What the way can make of that value and of smaller ones: each factor e below the peak adds a few roundings.
+  /// The most that the way can return for that value or a smaller one: each factor e adds a few roundings.
   double most_value(double own) const {
     const double k = way_.lobe.order;
     const double base =

@@ -22,7 +22,7 @@ struct Horizon {
   Vec3 at, up;
   bool is_below(Vec3 point) const { return !(dot(point - at, up) > 0); }
 };
-/// Of a light that lies on the sphere; none of one around all of it, which is seen from everywhere.
+/// The horizon of a light on the sphere; none for one around all of it, which is seen from everywhere.
 std::optional<Horizon> horizon_of(const Light& light, const Sphere& sphere);
 
 /// By light, the surfaces that it lies on: spheres first, then planes.

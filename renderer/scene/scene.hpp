@@ -108,7 +108,7 @@ struct Sphere {
   int material = 0;   ///< index into Scene::materials
 };
 
-/// What is nearer to the sphere's centre than this is inside, and what is farther than the other outside; what
+/// A point nearer to the centre than the first is inside, one farther than the second is outside; a point that
 /// is between the two lies on the sphere, by the rounding of its place.
 double inner_radius(const Sphere& sphere);
 double outer_radius(const Sphere& sphere);

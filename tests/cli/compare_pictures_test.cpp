@@ -212,7 +212,7 @@ TEST_F(ComparePictures, OverBlackAreMeasuredWithoutHdrFlipAndSayWhy) {
       compare({"sphere.exr", "sphere.exr", "--exposures", "auto"}).output_tail;
   EXPECT_THAT(table, HasSubstr("not measured: the automatic range of exposures is infinite"));
 
-  // What was asked decides: a limit that holds, and two on what there is not.
+  // The limits decide: one that holds, and two on metrics that were not measured.
   EXPECT_EQ(
       compare({"sphere.exr", "sphere.exr", "--exposures", "auto", "--fail", "rmse=0"}).exit_code,
       0);

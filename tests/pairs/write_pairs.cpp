@@ -121,7 +121,7 @@ Channels grey_rgb(Channels more = {}) {
   return more;
 }
 
-/// Of a display window of kFileSide, with this value in a border of `border` pixels around it.
+/// Has a display window of kFileSide, with this value in a border of `border` pixels around it.
 ExrPart with_border(int border, float value) {
   ExrPart part{"",
                window(-border, -border, kFileSide + 2 * border, kFileSide + 2 * border),

@@ -30,7 +30,7 @@ TEST(FilterSampler, DrawsEachPartOfAFilterAsItIsHigh) {
   const int count = for_each_filter(Filters{}, [](Filter filter, auto value) {
     SCOPED_TRACE(name(filter));
     constexpr int kBins = 32, kSide = 1 << 10;
-    // Of a bin along one axis: the integral of what is above 0, and of what is below.
+    // For each bin along one axis: the integrals of the parts above 0 and below.
     std::vector<double> above, below;
     for (int b = 0; b < kBins; ++b) {
       const double from = -1 + 2.0 * b / kBins, to = -1 + 2.0 * (b + 1) / kBins;

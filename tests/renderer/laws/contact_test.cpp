@@ -66,7 +66,7 @@ class RandomScene {
     scene.spheres.push_back({at(center + 0.3 * Vec3{even(), even(), even()}),
                              scale_ * radius * (1 + 0.2 * even()), material});
   }
-  /// Of no effect but that other inner loops are chosen.
+  /// Changes no pixel, but other inner loops are chosen.
   void add_crowd(int count) {
     for (int i = 0; i < count; ++i)
       scene.spheres.push_back({at({20 + i % 20 * 0.1, -20, i * 0.01}), scale_ * 1e-3, 3});
