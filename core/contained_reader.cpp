@@ -228,7 +228,8 @@ std::string why_it_ended(const ReaderVerdict& verdict) {
   return "";
 }
 
-Outcome ask(const fs::path& path, const std::string& layer, bool names_only) {
+Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
+            const PictureLimit& limit) {
   static Pool pool;
   throw_if_interrupted();
   const PictureFile file(path);
@@ -236,7 +237,8 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only) {
                          .on_one_thread = g_on_one_thread,
                          .format = {},
                          .path = path.string(),
-                         .layer = layer};
+                         .layer = layer,
+                         .limit = limit};
   Descriptor copy;
   if (g_any_format)
     copy = Descriptor(file.copy_in_memory(kMaxAnyFormatBytes));
@@ -277,12 +279,12 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only) {
 
 }  // namespace
 
-Picture read_contained(const fs::path& path, const std::string& layer) {
-  return ask(path, layer, false).picture;
+Picture read_contained(const fs::path& path, const std::string& layer, const PictureLimit& limit) {
+  return ask(path, layer, false, limit).picture;
 }
 
 std::vector<std::string> layer_names_contained(const fs::path& path) {
-  return ask(path, "", true).names;
+  return ask(path, "", true, {}).names;
 }
 
 void decode_contained_on_one_thread() { g_on_one_thread = true; }

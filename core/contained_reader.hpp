@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "core/picture.hpp"
+#include "core/reading_limits.hpp"
 
 namespace lobelia {
 
-/// As read_picture() and layer_names(). Throw Error(kInput) besides if the decoder crashes or needs more memory or time
-/// than the file justifies, and Error(kInterrupted) at once when interrupted() becomes true. For any number of threads.
-Picture read_contained(const std::filesystem::path& path, const std::string& layer);
+/// As read_picture() and layer_names(). Throw Error(kInput) besides if the picture is over `limit`, or the decoder crashes
+/// or needs more memory or time than the file justifies, and Error(kInterrupted) at once when interrupted() becomes true. For any number of threads.
+Picture read_contained(const std::filesystem::path& path, const std::string& layer,
+                       const PictureLimit& limit = {});
 std::vector<std::string> layer_names_contained(const std::filesystem::path& path);
 
 /// As code_pictures_on_calling_threads().

@@ -107,6 +107,8 @@ void request(Through& through, Request& request) {
   through(request.format);
   through(request.path);
   through(request.layer);
+  through(request.limit.pixels_of_any_file);
+  through(request.limit.pixels_per_byte);
 }
 
 template <class Through, class Answer>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/picture.hpp"
+#include "core/reading_limits.hpp"
 
 namespace lobelia {
 
@@ -17,6 +18,7 @@ struct ReadingRequest {
   bool on_one_thread = false;
   std::string format;  ///< of picture_format(), or "": any
   std::string path, layer;
+  PictureLimit limit{};
 };
 
 /// Its answer, without a picture's values: those follow as they are.

@@ -106,7 +106,8 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
   if (request.format.empty()) file.reopen = fmt::format("/proc/self/fd/{}", job.file);
   std::uint64_t allowance = kMemoryToOpen;
   file.on_header = [&](const PictureClaim& claim) {
-    if (const std::string problem = claim_problem(claim, bytes.size()); !problem.empty())
+    if (const std::string problem = claim_problem(claim, bytes.size(), request.limit);
+        !problem.empty())
       unreadable_picture(file.path, problem);
     allowance = memory_to_read(claim, bytes.size());
     limit_memory(began_with + allowance);
@@ -198,8 +199,8 @@ int run() {
     if (child == 0) serve(table, job, began_with);
     for (const int mine : {alive[1], job.file, job.answer}) ::close(mine);
     if (child < 0) return 1;
-    const ReaderVerdict verdict =
-        wait_for(child, alive[0], seconds_to_wait(std::uint64_t(status.st_size)));
+    const ReaderVerdict verdict = wait_for(
+        child, alive[0], seconds_to_wait(std::uint64_t(status.st_size), job.request.limit));
     ::close(alive[0]);
     if (::send(kProgram, &verdict, sizeof verdict, MSG_NOSIGNAL) < 0) return 0;
   }

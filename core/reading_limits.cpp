@@ -154,12 +154,22 @@ void forbid_every_path() {
 
 }  // namespace
 
-std::string claim_problem(const PictureClaim& claim, std::uint64_t file_bytes) {
-  if (claim.pixels <= 2 * (kPixelsOfAnyFile + kPixelsPerByte * file_bytes)) return "";
-  return fmt::format(
-      "its header claims more pixels than a file of {} bytes holds; {} are read of "
-      "any file, and {} more for each byte",
-      file_bytes, kPixelsOfAnyFile, kPixelsPerByte);
+namespace {
+/// In the data window and in the display window, together.
+std::uint64_t most_pixels(std::uint64_t file_bytes, const PictureLimit& limit) {
+  return 2 * (limit.pixels_of_any_file + limit.pixels_per_byte * file_bytes);
+}
+}  // namespace
+
+std::string claim_problem(const PictureClaim& claim, std::uint64_t file_bytes,
+                          const PictureLimit& limit) {
+  if (claim.pixels <= most_pixels(file_bytes, limit)) return "";
+  const std::string more =
+      limit.pixels_per_byte > 0
+          ? fmt::format(", and {} more for each byte of the file", limit.pixels_per_byte)
+          : "";
+  return fmt::format("its header claims {} pixels in a file of {} bytes; allowed here: {}{}",
+                     claim.pixels / 2, file_bytes, limit.pixels_of_any_file, more);
 }
 
 std::uint64_t memory_to_read(const PictureClaim& claim, std::uint64_t file_bytes) {
@@ -179,9 +189,9 @@ std::uint64_t seconds_to_read(const PictureClaim& claim, std::uint64_t file_byte
   return kSanitized ? 10 * seconds : seconds;
 }
 
-std::uint64_t seconds_to_wait(std::uint64_t file_bytes) {
-  const std::uint64_t pixels = std::min<std::uint64_t>(
-      2 * kMaxImagePixels, 2 * (kPixelsOfAnyFile + kPixelsPerByte * file_bytes));
+std::uint64_t seconds_to_wait(std::uint64_t file_bytes, const PictureLimit& limit) {
+  const std::uint64_t pixels =
+      std::min<std::uint64_t>(2 * kMaxImagePixels, most_pixels(file_bytes, limit));
   return 60 + 10 * seconds_to_read({pixels, 0}, file_bytes);
 }
 

@@ -8,15 +8,19 @@
 
 namespace lobelia {
 
-/// So many pixels are read of any file. Beyond, a file has to have a byte for so many more.
-inline constexpr std::uint64_t kPixelsOfAnyFile = std::uint64_t{1} << 24;
-inline constexpr std::uint64_t kPixelsPerByte = 4096;
+/// Pixels that are read of a picture, by the size of its file. A file of few bytes can unpack to very many pixels:
+/// whoever knows how large his pictures are says so, and the header is held to it before anything is unpacked.
+struct PictureLimit {
+  std::uint64_t pixels_of_any_file = std::uint64_t{1} << 24;
+  std::uint64_t pixels_per_byte = 4096;  ///< so many more for each byte of the file
+};
 
 /// Memory to open a picture with, besides what the process had when it began.
 inline constexpr std::uint64_t kMemoryToOpen = std::uint64_t{256} << 20;
 
-/// Why no file of that size holds such a picture; empty if it may.
-std::string claim_problem(const PictureClaim& claim, std::uint64_t file_bytes);
+/// Why a picture of that claim is not read of a file of that size; empty if it is.
+std::string claim_problem(const PictureClaim& claim, std::uint64_t file_bytes,
+                          const PictureLimit& limit);
 
 /// Bytes of address space that a process may have, besides what it began with, once the header is known.
 std::uint64_t memory_to_read(const PictureClaim& claim, std::uint64_t file_bytes);
@@ -25,7 +29,7 @@ std::uint64_t memory_to_read(const PictureClaim& claim, std::uint64_t file_bytes
 std::uint64_t seconds_to_read(const PictureClaim& claim, std::uint64_t file_bytes);
 
 /// Time by the clock after which a process is ended that does nothing: far beyond what a busy machine needs.
-std::uint64_t seconds_to_wait(std::uint64_t file_bytes);
+std::uint64_t seconds_to_wait(std::uint64_t file_bytes, const PictureLimit& limit);
 
 /// Limits this process: soft limits, so that they can be raised. The sanitizers reserve terabytes of address space, so
 /// with them memory has no limit.

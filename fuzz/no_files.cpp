@@ -2,12 +2,14 @@
 // reaches one is a find.
 #include <cstdlib>
 
+#include "core/contained_reader.hpp"
 #include "core/files.hpp"
-#include "core/image_io.hpp"
 
 namespace lobelia {
 
-Image read_image(const std::filesystem::path&) { std::abort(); }
+Picture read_contained(const std::filesystem::path&, const std::string&, const PictureLimit&) {
+  std::abort();
+}
 std::string read_file(const std::filesystem::path&, std::uint64_t) { std::abort(); }
 
 }  // namespace lobelia

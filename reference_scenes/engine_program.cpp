@@ -7,9 +7,9 @@
 #include <limits>
 #include <thread>
 
+#include "core/contained_reader.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/image_io.hpp"
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
 
@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kProbeSeconds = 60;  // a cold disk under Blender may take ten
 constexpr std::size_t kMaxWords = 300;
+constexpr std::uint64_t kSmallPicture = 1 << 20;     // pixels
 constexpr int kSignalBase = 128, kMostSignals = 64;  // beyond, it is an exit code of its own: 255
 
 /// "3.7.0.10" out of "POV-Ray 3.7.0.10.unofficial".
@@ -162,7 +163,9 @@ Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::pat
   if (!std::filesystem::exists(file, ignored))
     return {FailureClass::kNoOutput, fmt::format("{} wrote no picture", engine.title)};
   try {
-    image = read_image(file);
+    // Room for one of another size, so that the message can say which.
+    const std::uint64_t pixels = 4 * std::uint64_t(film.width) * std::uint64_t(film.height);
+    image = read_contained(file, "", {std::max(pixels, kSmallPicture), 0}).image;
   } catch (const std::exception& error) {
     throw_if_interrupted();
     return {FailureClass::kBadOutput,

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/contained_reader.hpp"
 #include "core/error.hpp"
-#include "core/image_io.hpp"
 #include "core/text.hpp"
 #include "renderer/scene/scene_format.hpp"
 
@@ -18,6 +18,8 @@ namespace {
   throw Error(ExitCode::kInput, fmt::format("filename '{}' {}", printable(file), why));
 }
 
+/// Of a sky twenty bytes a pixel are kept. 16384 x 8192 pixels are read of 7 MB and more, 4096 x 2048 of any file.
+constexpr PictureLimit kSkyLimit{std::uint64_t{1} << 24, 16};
 constexpr std::string_view kAllowed =
     "; allowed: a relative path to a picture in the scene file's directory or below it";
 
@@ -64,7 +66,7 @@ std::shared_ptr<const Image> EnvironmentMaps::read(const std::string& file) {
   const fs::path path = inside(file);
   auto& known = images_[path];
   if (known) return known;
-  auto image = std::make_shared<const Image>(read_image(path));
+  auto image = std::make_shared<const Image>(read_contained(path, "", kSkyLimit).image);
   check_values(file, *image);
   pixels_ += std::int64_t(image->pixel_count());
   if (pixels_ > kMaxImagePixels)

@@ -137,7 +137,8 @@ std::string scene_format_document() {
   for (const auto& format : kEmitters) text += table(format);
   text +=
       "\nSeveral of the last two add up. The picture of an envmap lies in the directory of the scene\n"
-      "file or below it; its values are finite and not negative.\n";
+      "file or below it; its values are finite and not negative. It has at most 16777216 pixels, and 16\n"
+      "more for each byte of its file.\n";
   for (const auto& format : kShapes) text += table(format);
   text += "\n" + lattice_rule();
   text += table({"bsdf", "MODEL", "a material: a mirror over a highlight over a diffuse base",

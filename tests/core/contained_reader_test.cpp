@@ -181,22 +181,46 @@ TEST_F(ContainedReader, RefusesPicturesThatNoFileOfTheirSizeHolds) {
       png_chunk("IHDR", big_endian(11000) + big_endian(11000) + "\x10\x06" + std::string(3, '\0')) +
       png_chunk("IDAT", "") + png_chunk("IEND", "");
   ASSERT_EQ(png.size(), 57u);
-  EXPECT_THAT(refusal(file("a.png", png)), HasSubstr("more pixels than a file of 57 bytes holds"));
+  EXPECT_THAT(refusal(file("a.png", png)),
+              HasSubstr("claims 121000000 pixels in a file of 57 bytes; allowed here: 16777216"));
   EXPECT_THAT(refusal(file("a.dpx", dpx_file(30000, 4000, "abc"))),
-              HasSubstr("more pixels than a file of 2051 bytes holds"));
+              HasSubstr("claims 120000000 pixels in a file of 2051 bytes"));
+}
+
+TEST_F(ContainedReader, HoldsAPictureToTheLimitOfWhoeverAsksBeforeItIsUnpacked) {
+  // Of no pixel is there a value, so that whoever unpacks it finds it damaged.
+  const std::string png =
+      "\x89PNG\r\n\x1a\n" +
+      png_chunk("IHDR", big_endian(1100) + big_endian(1000) + "\x08\x02" + std::string(3, '\0')) +
+      png_chunk("IDAT", "") + png_chunk("IEND", "");
+  const fs::path path = file("a.png", png);
+  const auto why = [&](const PictureLimit& limit) -> std::string {
+    try {
+      read_contained(path, "", limit);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(why({1'099'999, 0}),
+              HasSubstr("claims 1100000 pixels in a file of 57 bytes; allowed here: 1099999"));
+  EXPECT_THAT(why({1'099'000, 17}), HasSubstr("1099000, and 17 more for each byte of the file"));
+  for (const PictureLimit limit : {PictureLimit{1'100'000, 0}, PictureLimit{1'099'000, 18}})
+    EXPECT_THAT(why(limit), AllOf(HasSubstr("a.png"), ::testing::Not(HasSubstr("claims"))));
 }
 
 TEST(Claims, OfAFileGrowWithItsSizeAndNeverReachAGigabyteForASmallOne) {
-  const PictureClaim most_of_any{2 * kPixelsOfAnyFile, 8 * kPixelsOfAnyFile};
-  EXPECT_EQ(claim_problem(most_of_any, 1), "");
-  EXPECT_NE(claim_problem({2 * kPixelsOfAnyFile + 3 * kPixelsPerByte, 0}, 1), "");
+  const PictureLimit limit;
+  const std::uint64_t of_any = limit.pixels_of_any_file;
+  EXPECT_EQ(claim_problem({2 * of_any, 8 * of_any}, 1, limit), "");
+  EXPECT_NE(claim_problem({2 * of_any + 3 * limit.pixels_per_byte, 0}, 1, limit), "");
   // A picture of the largest size that is read, compressed as far as deflate goes.
   const std::uint64_t largest = 2 * std::uint64_t(kMaxImagePixels);
-  EXPECT_EQ(claim_problem({largest, 0}, kMaxImagePixels * 3 / 1032), "");
+  EXPECT_EQ(claim_problem({largest, 0}, kMaxImagePixels * 3 / 1032, limit), "");
   for (std::uint64_t bytes = 1; bytes < kMaxImagePixels; bytes *= 3) {
     EXPECT_LE(memory_to_read({100, 300}, bytes), memory_to_read({200, 300}, bytes));
     EXPECT_LE(seconds_to_read({}, bytes), seconds_to_read({largest, 0}, bytes));
-    EXPECT_LT(seconds_to_read({largest, 0}, bytes), seconds_to_wait(bytes) + 1000);
+    EXPECT_LT(seconds_to_read({largest, 0}, bytes), seconds_to_wait(bytes, limit) + 1000);
   }
 }
 

@@ -44,6 +44,20 @@ class EnvironmentMap : public testing::Test {
   TemporaryDirectory outside_;
 };
 
+TEST_F(EnvironmentMap, ThatUnpacksToFarMoreThanItsFileIsRefusedBeforeThat) {
+  constexpr int kSide = 4300;
+  DisplayImage black{kSide, kSide, {}};
+  black.rgb.resize(std::size_t{3} * kSide * kSide);
+  write_png(directory() / "bomb.png", black);
+  const auto bytes = fs::file_size(directory() / "bomb.png");
+  ASSERT_LT(bytes, 100'000u) << "or it may be read";
+  EXPECT_THAT(
+      error("bomb.png"),
+      HasSubstr(fmt::format("claims 18490000 pixels in a file of {} bytes; allowed here: 16777216, "
+                            "and 16 more for each byte",
+                            bytes)));
+}
+
 TEST(SceneLights, EveryKindIsReadAndWrittenToTheLastDigit) {
   const Scene s =
       again(parse_scene(scene(emitter("sphere", given("point", "center", "0.1, 0.2, 0.3") +
