@@ -255,6 +255,8 @@ fs::path FailingFarm::fake_povray(const std::string& misdeeds) const {
       write_file(pictures / (name + ".cell"), cell.id + "\n");
     }
   }
+  // In a file of their own: a program of another content is another engine.
+  write_file(root() / "misdeeds", misdeeds + "\n");
   // It may write nowhere but in its working directory.
   return script("povray",
                 "case \"$*\" in *version*) echo 'POV-Ray 3.7.0.10' >&2; exit 0;; esac\n"
@@ -263,8 +265,9 @@ fs::path FailingFarm::fake_povray(const std::string& misdeeds) const {
                     "'\n"
                     "stem=${1%.ini}\n"
                     "name=$(sha256sum < $stem.pov); name=${name%% *}\n"
-                    "read cell < $pictures/$name.cell || exit 77\n" +
-                    misdeeds + "\ncp $pictures/$name.exr $stem.exr\n");
+                    "read cell < $pictures/$name.cell || exit 77\n"
+                    ". '" +
+                    (root() / "misdeeds").string() + "'\ncp $pictures/$name.exr $stem.exr\n");
 }
 
 std::string FailingFarm::first_times(const std::string& name, int times) {
