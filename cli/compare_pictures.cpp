@@ -19,6 +19,7 @@
 #include "core/files.hpp"
 #include "core/finite_image.hpp"
 #include "core/image_io.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 
 namespace lobelia::cli {
@@ -49,7 +50,7 @@ void write_channels(const DifferencePicture& wanted, const fs::path& path, const
              {"lobelia:scaleFrom", "0"},
              {"lobelia:scaleTo", fmt::format("{}", scale)},
              {"lobelia:notFinite", "#ff00ff"}});
-  fmt::print(stderr, "{}: white is a difference of {:.6g}\n", printable_path(path.string()), scale);
+  say("{}: white is a difference of {:.6g}\n", printable_path(path.string()), scale);
 }
 
 void write_difference(const DifferencePicture& wanted, const fs::path& path, const Image& a,
@@ -73,8 +74,8 @@ void write_difference(const DifferencePicture& wanted, const fs::path& path, con
   else
     write_png(path, colour_picture(values, a.width(), a.height(), scale, colours),
               colour_metadata(map, scale, colours));
-  fmt::print(stderr, "{}: {} up to {:.6g}, the largest is {:.6g}\n", printable_path(path.string()),
-             map.id, scale, largest);
+  say("{}: {} up to {:.6g}, the largest is {:.6g}\n", printable_path(path.string()), map.id, scale,
+      largest);
 }
 
 /// For a finite picture; others are not measured.

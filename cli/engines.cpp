@@ -4,6 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine.hpp"
 
@@ -64,7 +65,7 @@ ExitCode run(const Options& options) {
       problems.push_back(printable(fmt::format("{}: {}", info.title, status.why), 2000));
   }
   if (options.json) fmt::print("{}", record_text(record));
-  for (const auto& problem : problems) fmt::print(stderr, "lobelia: {}\n", problem);
+  for (const auto& problem : problems) say("lobelia: {}\n", problem);
   return problems.empty() ? ExitCode::kSuccess : ExitCode::kEngine;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/warnings.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 
 namespace lobelia::cli {
@@ -57,7 +58,7 @@ void dry_run(const Grid& grid, const Options& options) {
                   if (lines.size() > 1 << 16) flush();
                 });
   flush();
-  for (const auto& sentence : plan.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
+  for (const auto& sentence : plan.absent_engines) say("lobelia: {}\n", sentence);
   if (!plan.warning.empty()) warn(plan.warning);
   fmt::print("{} cells, {} jobs: {} to be done, {} not\n", plan.cells, plan.jobs, plan.wanted,
              plan.jobs - plan.wanted);
@@ -79,16 +80,13 @@ std::string work_text(const FarmSummary& summary) {
 }
 
 ExitCode report(const FarmSummary& summary, const Options& options) {
-  for (const auto& problem : summary.problems)
-    fmt::print(stderr, "lobelia: {}\n", printable(problem, 2000));
-  for (const auto& sentence : summary.absent_engines) fmt::print(stderr, "lobelia: {}\n", sentence);
+  for (const auto& problem : summary.problems) say("lobelia: {}\n", printable(problem, 2000));
+  for (const auto& sentence : summary.absent_engines) say("lobelia: {}\n", sentence);
   if (summary.foreign > 0)
-    fmt::print(stderr, "lobelia: {}/cells also holds {} cells that are not of this grid\n",
-               printable_path(options.directory), summary.foreign);
+    say("lobelia: {}/cells also holds {} cells that are not of this grid\n",
+        printable_path(options.directory), summary.foreign);
   if (summary.work.different > 0)
-    fmt::print(
-        stderr,
-        "lobelia: {} results that another farm made first have other pixels than ours; theirs stay\n",
+    say("lobelia: {} results that another farm made first have other pixels than ours; theirs stay\n",
         summary.work.different);
   for (const auto& warning : summary.warnings) warn(warning);
   const auto some = [](std::size_t count, const char* what) {
@@ -123,9 +121,8 @@ ExitCode run_on_cluster(const Grid& grid, const Options& options) {
   ExitCode code = report(summary.farm, options);
   code = worse(code, publish_if_wanted(options.directory, options.gallery));
   if (code != ExitCode::kOutput && !summary.slurm.missing.empty()) {
-    fmt::print(stderr,
-               "lobelia: {} jobs have no result after {} rounds; the same command tries again\n",
-               summary.slurm.missing.size(), summary.slurm.rounds);
+    say("lobelia: {} jobs have no result after {} rounds; the same command tries again\n",
+        summary.slurm.missing.size(), summary.slurm.rounds);
     return ExitCode::kOutput;
   }
   return code;

@@ -7,6 +7,7 @@
 #include "cli/between.hpp"
 #include "cli/progress.hpp"
 #include "cli/publish.hpp"
+#include "core/standard_streams.hpp"
 #include "farm/slurm/doctor.hpp"
 
 namespace lobelia::cli {
@@ -71,7 +72,7 @@ SlurmRunOptions SlurmSettings::run_options() const {
   options.last_poll =
       std::max(options.first_poll, std::min(options.last_poll, 15 * options.first_poll));
   options.cancel_on_interrupt = ask_whether_to_cancel;
-  options.say = [](const std::string& sentence) { fmt::print(stderr, "lobelia: {}\n", sentence); };
+  options.say = [](const std::string& sentence) { say("lobelia: {}\n", sentence); };
   return options;
 }
 

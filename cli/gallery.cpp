@@ -33,7 +33,8 @@ void add_serve(CLI::App& gallery) {
     end_by_ourselves_when_interrupted();  // Ctrl-C is how it is stopped
     gallery::serve_site(*directory, *port, [](const std::string& url) {
       fmt::print("{}\n", url);
-      std::fflush(stdout);
+      if (std::fflush(stdout) != 0)  // nobody would ever learn the address
+        throw Error(ExitCode::kOutput, "standard output: cannot write");
     });
   });
 }

@@ -10,6 +10,7 @@
 
 #include "cli/commands.hpp"
 #include "core/interrupt.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 
@@ -28,13 +29,17 @@ constexpr char kFooter[] =
     "or failed, 70 a bug of ours, 130 Ctrl-C, 143 SIGTERM.";
 
 constexpr char kStdoutFailed[] = "standard output: cannot write";
+constexpr char kOutOfMemory[] = "lobelia: not enough memory\n";
 
 /// Each message on a line of its own, whatever bytes a file's name brings into it.
-int fail(ExitCode code, std::span<const std::string> messages) {
+int fail(ExitCode code, std::span<const std::string> messages) noexcept {
   take_over_end();
   if (code == ExitCode::kInterrupted) code = interrupt_exit_code();
-  for (const std::string& message : messages)
-    fmt::print(stderr, "lobelia: {}\n", printable(message, 2000));
+  try {
+    for (const std::string& message : messages) say("lobelia: {}\n", printable(message, 2000));
+  } catch (const std::bad_alloc&) {
+    write_message(kOutOfMemory);
+  }
   return int(code);
 }
 
@@ -106,6 +111,7 @@ const std::vector<std::string>& command_line() { return g_command_line; }
 
 int main(int argc, char** argv) {
   using namespace lobelia;
+  hold_standard_descriptors();
   // A closed pipe or a file over the size limit is an error of that write, not the end of the process.
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
@@ -118,7 +124,8 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {
     return cli::fail(error.code(), error.lines());
   } catch (const std::bad_alloc&) {
-    return cli::fail(ExitCode::kInternal, "not enough memory");
+    write_message(cli::kOutOfMemory);
+    return int(ExitCode::kInternal);
   } catch (const std::exception& error) {
     // fmt::print throws where more than a buffer could not be written.
     if (std::ferror(stdout)) return cli::fail(ExitCode::kOutput, cli::kStdoutFailed);

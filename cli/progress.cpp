@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/standard_streams.hpp"
+
 namespace lobelia::cli {
 namespace {
 
@@ -32,21 +34,20 @@ void ProgressLine::show(double fraction, std::string_view what) {
   const double left = fraction > 0 ? elapsed.count() * (1 - fraction) / fraction : 0;
   const std::string time = fraction > 0.01 ? duration_text(left) + " left" : "";
   if (!terminal_) {
-    fmt::print(stderr, "{:3.0f} %  {}  {}\n", 100 * fraction, what, time);
+    write_message_if_room(fmt::format("{:3.0f} %  {}  {}\n", 100 * fraction, what, time));
     return;
   }
   const int filled = int(kBarWidth * fraction);
   std::string line = fmt::format("[{:#<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "",
                                  kBarWidth - filled, 100 * fraction, time, what);
   if (const std::size_t width = terminal_width() - 1; line.size() > width) line.resize(width);
-  fmt::print(stderr, "\r\x1b[K{}", line);
-  std::fflush(stderr);
+  write_message_if_room("\r\x1b[K" + line);
   drawn_ = true;
 }
 
 void ProgressLine::clear() {
   const std::scoped_lock lock(mutex_);
-  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  if (drawn_) write_message_if_room("\r\x1b[K");
   drawn_ = false;
 }
 

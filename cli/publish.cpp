@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/maps/difference_map.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 
 namespace lobelia::cli {
@@ -29,10 +30,10 @@ constexpr std::size_t kMostNamed = 20;
 void say_doubts(const gallery::PublishedGallery& made) {
   const std::size_t count = made.doubts.size();
   for (std::size_t i = 0; i < std::min(count, kMostNamed); ++i)
-    fmt::print(stderr, "lobelia: gallery: {}\n", printable(made.doubts[i], 400));
-  fmt::print(stderr, "lobelia: gallery: {} of {} cells {} not what the farm wrote{}\n", count,
-             made.cells, count == 1 ? "is" : "are",
-             count > kMostNamed ? fmt::format("; {} are named here", kMostNamed) : "");
+    say("lobelia: gallery: {}\n", printable(made.doubts[i], 400));
+  say("lobelia: gallery: {} of {} cells {} not what the farm wrote{}\n", count, made.cells,
+      count == 1 ? "is" : "are",
+      count > kMostNamed ? fmt::format("; {} are named here", kMostNamed) : "");
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ ExitCode publish_if_wanted(const std::filesystem::path& run, const std::filesyst
   gallery::GalleryOptions options;
   options.site = site;
   const Published published = publish(run, options);
-  fmt::print(stderr, "lobelia: gallery: {}\n", printable_path(published.index.string()));
+  say("lobelia: gallery: {}\n", printable_path(published.index.string()));
   return published.code;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/warnings.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/keep_input.hpp"
@@ -115,10 +116,9 @@ void run(const Options& options) {
   write_record(record_path, record);
   files.commit();
   if (!options.quiet)
-    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {} {}, {}\n", printable_path(options.output),
-               result.image.width(), result.image.height(),
-               record["seconds"]["total"].get<double>(), engine_info.title,
-               engine->status().version, record["witness"].get<std::string>());
+    say("{}: {} x {}, {:.3f} s, {} {}, {}\n", printable_path(options.output), result.image.width(),
+        result.image.height(), record["seconds"]["total"].get<double>(), engine_info.title,
+        engine->status().version, record["witness"].get<std::string>());
 }
 
 std::string engine_list() {

@@ -13,6 +13,7 @@
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "core/timing.hpp"
 #include "cost/accuracy.hpp"
@@ -85,8 +86,7 @@ ExitCode settle(const Scene& scene, const cost::Choice& choice, const Image& pic
   if (options.accuracy_check != "none") reached = cost::measure_reached(scene, choice, picture);
   record["accuracy"] = cost::accuracy_record(choice, reached);
   if (!options.quiet)
-    fmt::print(stderr, "{}{}", cost::choice_text(choice),
-               reached ? cost::reached_text(choice, *reached) : "");
+    say("{}{}", cost::choice_text(choice), reached ? cost::reached_text(choice, *reached) : "");
   return !reached || reached->held(choice) ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
@@ -145,10 +145,10 @@ void run(const Options& options, ExitCode& code) {
   write_record(record_path, record);
   files.commit();
   if (!options.quiet)
-    fmt::print(stderr, "{}: {} x {}, {:.3f} s, {}{}{}{}\n", printable_path(options.output),
-               scene.film.width, scene.film.height, result.render_seconds, result.instruction_set,
-               result.error ? fmt::format(", error {:.2g}", *result.error) : "",
-               result.stop_reason.empty() ? "" : ", stopped ", result.stop_reason);
+    say("{}: {} x {}, {:.3f} s, {}{}{}{}\n", printable_path(options.output), scene.film.width,
+        scene.film.height, result.render_seconds, result.instruction_set,
+        result.error ? fmt::format(", error {:.2g}", *result.error) : "",
+        result.stop_reason.empty() ? "" : ", stopped ", result.stop_reason);
 }
 
 }  // namespace

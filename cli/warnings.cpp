@@ -4,14 +4,13 @@
 
 #include <set>
 
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "renderer/scene/remarks.hpp"
 
 namespace lobelia::cli {
 
-void warn(std::string_view text) {
-  fmt::print(stderr, "lobelia: warning: {}\n", printable(text, 2000));
-}
+void warn(std::string_view text) { say("lobelia: warning: {}\n", printable(text, 2000)); }
 
 void warn_of(const Scene& scene) {
   std::set<std::string> lines;

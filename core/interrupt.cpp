@@ -18,6 +18,8 @@
 #include <thread>
 #include <utility>
 
+#include "core/standard_streams.hpp"
+
 namespace lobelia {
 namespace {
 
@@ -100,8 +102,7 @@ void end_after_first_signal() {
   // A progress line may stand there.
   const std::string line =
       fmt::format("{}lobelia: interrupted\n", ::isatty(2) == 1 ? "\r\x1b[K" : "");
-  if (::write(2, line.data(), line.size()) < 0) {  // nothing to be done about it
-  }
+  write_message_if_room(line);
   ::_exit(int(interrupt_exit_code()));
 }
 
@@ -115,8 +116,7 @@ void on_signal(int signal) {
   if (now() - g_first_time < kOneWishNanoseconds) return;
   // Whoever presses Ctrl-C twice means it.
   const LastWords& words = g_last_words[g_last_words_index];
-  if (words.size > 0 && ::write(2, words.text, words.size) < 0) {  // nothing to be done about it
-  }
+  write_message_if_room({words.text, words.size});
   kill_groups();
   std::signal(signal, SIG_DFL);
   std::raise(signal);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <optional>
 #include <thread>
@@ -16,6 +15,7 @@
 #include "core/interrupt.hpp"
 #include "core/record.hpp"
 #include "core/sha256.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "farm/slurm/lock_file.hpp"
 #include "farm/slurm/slurm_client.hpp"
@@ -517,7 +517,7 @@ SlurmOutcome run_on_slurm(const SlurmWork& work, const SlurmRunOptions& options)
 bool ask_whether_to_cancel() {
   if (!::isatty(0) || !::isatty(2)) return true;
   while (true) {
-    std::fputs("\ncancel the jobs, or leave them running? [c/d] ", stderr);
+    write_message("\ncancel the jobs, or leave them running? [c/d] ");
     char answer[64];
     ssize_t size = 0;
     // A signal that comes meanwhile is dealt with by its handler; the question stays.

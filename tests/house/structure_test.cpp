@@ -173,12 +173,35 @@ Problems loose_arithmetic(const fs::path& root) {
   });
 }
 
+/// Writing to stderr by what throws, or sets a stream's state, where it is closed or full.
+Problems stderr_by_hand(const fs::path& root) {
+  static const std::regex pattern(R"((^|[(,])\s*stderr\s*[,)]|std::c(err|log)\b|\bperror\()");
+  return lines_with(root, pattern, [](const fs::path& file) {
+    // Of a room; the last runs before the program does.
+    return is_cpp(file) && kMaySee.contains(file.begin()->string()) && file != "core/tsan_tbb.cpp";
+  });
+}
+
 TEST(Words, no_file_names_a_path_of_a_developers_machine) {
   EXPECT_THAT(paths_of_a_machine(kRoot), IsEmpty());
 }
 
 TEST(Words, nothing_lets_the_compiler_change_the_arithmetic) {
   EXPECT_THAT(loose_arithmetic(kRoot), IsEmpty());
+}
+
+TEST(Words, messages_go_through_core_standard_streams) {
+  EXPECT_THAT(stderr_by_hand(kRoot), IsEmpty());
+}
+
+TEST(Words, messages_that_do_not_are_found) {
+  Scratch tree;
+  write(tree / "cli/a.cpp", "say(\"stderr\");  // to stderr, and stderr alone\n");
+  write(tree / "bench/a.cpp", "fmt::print(stderr, \"x\");\n");
+  ASSERT_THAT(stderr_by_hand(tree.path()), IsEmpty());
+  write(tree / "cli/b.cpp", "fmt::print(stderr, \"x\");\nfmt::print(\n    stderr,\n\"x\");\n");
+  write(tree / "core/b.cpp", "std::fputs(\"x\", stderr);\nstd::cerr << 1;\nperror(\"x\");\n");
+  EXPECT_EQ(stderr_by_hand(tree.path()).size(), 5u);
 }
 
 TEST(Words, forbidden_words_are_found) {

@@ -1,0 +1,67 @@
+#include "core/standard_streams.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+
+#include "core/interrupt.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr int kLookMilliseconds = 100;  // between looks whether somebody interrupts the wait
+
+enum class Room { kYes, kNotYet, kNever };
+
+Room wait_for_room(int milliseconds) {
+  pollfd stream{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+  const int ready = ::poll(&stream, 1, milliseconds);
+  if (ready == 0 || (ready < 0 && errno == EINTR)) return Room::kNotYet;
+  return ready > 0 && (stream.revents & POLLOUT) != 0 ? Room::kYes : Room::kNever;
+}
+
+/// Writes the beginning of `text` and takes it away; false if that will never be possible. A pipe with room has it for
+/// PIPE_BUF bytes, so that this does not wait.
+bool write_piece(std::string_view& text) {
+  const ssize_t written =
+      ::write(STDERR_FILENO, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
+  if (written < 0) return errno == EINTR || errno == EAGAIN;
+  text.remove_prefix(std::size_t(written));
+  return written > 0;
+}
+
+}  // namespace
+
+void hold_standard_descriptors() noexcept {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(fd, F_GETFD) >= 0) continue;
+    // The lowest number that is free is this one. Stdout is opened for reading, so that writing to it is an error.
+    const int held = ::open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+    if (held < 0 && ::open("/", O_PATH) < 0)
+      return;  // no descriptor is left: no file will be opened either
+  }
+}
+
+void write_message(std::string_view text) noexcept {
+  while (!text.empty()) {
+    const Room room = wait_for_room(interrupted() ? 0 : kLookMilliseconds);
+    if (room == Room::kNever || (room == Room::kNotYet && interrupted())) return;
+    if (room == Room::kYes && !write_piece(text)) return;
+  }
+}
+
+void write_message_if_room(std::string_view text) noexcept {
+  const int error = errno;  // of what a signal handler interrupts
+  std::size_t left = text.size() + 1;
+  while (!text.empty() && text.size() < left && wait_for_room(0) == Room::kYes) {
+    left = text.size();
+    if (!write_piece(text)) break;
+  }
+  errno = error;
+}
+
+}  // namespace lobelia
