@@ -1,20 +1,31 @@
 #include "gallery/preview_server.hpp"
 
+#include <arpa/inet.h>
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <httplib.h>
+#include <microhttpd.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
-#include <fstream>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <regex>
 #include <string>
-#include <thread>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/open_beneath.hpp"
+#include "gallery/byte_range.hpp"
 #include "gallery/names.hpp"
 #include "gallery/page.hpp"
 
@@ -22,10 +33,37 @@ namespace lobelia::gallery {
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
-constexpr char kLoopback[] = "127.0.0.1";
+/// Clients at once. Each may take kRequestBytes and, while it gets a file, two descriptors.
+constexpr unsigned kMostClients = 4000;
+/// Of a request's first line and its headers, and of the library's books about them.
+constexpr std::size_t kRequestBytes = 16 << 10;
+constexpr int kMostHeaders = 100;
+/// Seconds in which a client has to do something, and in which it has to ask for something.
+constexpr unsigned kSilence = 20;
+constexpr std::chrono::seconds kPatience{30};
+/// Between looks for Ctrl-C and for clients who only wait.
+constexpr int kLookMilliseconds = 50;
+/// Descriptors for everything but clients.
+constexpr rlim_t kOwnDescriptors = 32;
 
-std::string content_type(const fs::path& file) {
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  int get() const { return number_; }
+  int release() { return std::exchange(number_, -1); }
+
+ private:
+  int number_;
+};
+
+const char* content_type(const std::string& name) {
   static constexpr const char* kTypes[][2] = {{".html", "text/html; charset=utf-8"},
                                               {".css", "text/css; charset=utf-8"},
                                               {".js", "text/javascript; charset=utf-8"},
@@ -38,114 +76,338 @@ std::string content_type(const fs::path& file) {
                                               {".log", "text/plain; charset=utf-8"},
                                               {".txt", "text/plain; charset=utf-8"},
                                               {".wasm", "application/wasm"}};
-  const std::string extension = file.extension().string();
   for (const auto& [ending, type] : kTypes)
-    if (extension == ending) return type;
+    if (name.ends_with(ending)) return type;
   return "application/octet-stream";
 }
 
-/// The names between the slashes of a request's path (decoded); empty if one of them is not plain.
-std::optional<std::vector<std::string>> names_of(const std::string& path) {
+bool is_our_host(const std::string& host) {
+  static const std::regex kHost(R"re((127\.0\.0\.1|localhost)(:[0-9]{1,5})?)re");
+  return std::regex_match(host, kHost);
+}
+
+/// "%2e" is "."; empty where there is a '%' that means nothing.
+std::optional<std::string> decoded(std::string_view text) {
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9'                 ? c - '0'
+           : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10
+                                                : -1;
+  };
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      result += text[i];
+      continue;
+    }
+    if (i + 2 >= text.size()) return std::nullopt;
+    const int high = digit(text[i + 1]), low = digit(text[i + 2]);
+    if (high < 0 || low < 0) return std::nullopt;
+    result += char(16 * high + low);
+    i += 2;
+  }
+  return result;
+}
+
+/// The names between the slashes of a request's path; empty if one of them is not plain.
+std::optional<std::vector<std::string>> names_of(std::string_view path) {
   std::vector<std::string> names;
-  for (std::size_t from = 0; from < path.size();) {
-    const std::size_t slash = std::min(path.find('/', from), path.size());
-    if (slash > from) names.push_back(path.substr(from, slash - from));
-    if (slash > from && !is_plain_name(names.back())) return std::nullopt;
-    from = slash + 1;
+  while (!path.empty()) {
+    const std::string_view part = path.substr(0, path.find('/'));
+    path.remove_prefix(std::min(part.size() + 1, path.size()));
+    if (part.empty()) continue;
+    auto name = decoded(part);
+    if (!name || !is_plain_name(*name)) return std::nullopt;
+    names.push_back(std::move(*name));
   }
   return names;
 }
 
-/// The file that they name below `root` (canonical); empty if there is none to be seen.
-std::optional<fs::path> file_of(const fs::path& root, const std::vector<std::string>& names) {
-  fs::path file = root;
-  for (const std::string& name : names) file /= name;
-  std::error_code error;
-  if (fs::is_directory(file, error)) file /= "index.html";
-  file = fs::canonical(file, error);
-  if (error || !fs::is_regular_file(file, error)) return std::nullopt;
-  const auto [in_root, ignored] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
-  return in_root == root.end() ? std::optional(file) : std::nullopt;
-}
+/// What a request's headers say, as far as it matters here.
+struct Headers {
+  int count = 0;
+  bool has_body = false, if_range = false;
+  std::vector<std::string> hosts, ranges;
+  std::optional<std::string> named_host;  ///< by the request's first line
+};
 
-void refuse(httplib::Response& response, int status, const char* words) {
-  response.status = status;
-  response.set_content(words, "text/plain; charset=utf-8");
-}
-
-void answer(const fs::path& root, const httplib::Request& request, httplib::Response& response) {
-  const auto names = names_of(request.path);
-  const auto file = names ? file_of(root, *names) : std::nullopt;
-  if (!file) return refuse(response, 404, "There is no such file.\n");
-  if (!names->empty() && request.path.back() != '/' && file->filename() != names->back()) {
-    // A directory's own page: its links are relative to the directory.
-    std::string url;
-    for (const std::string& name : *names) url += "/" + link_to({name});
-    return response.set_redirect(url + "/");
+MHD_Result add_header(void* into, MHD_ValueKind, const char* name, const char* value) noexcept {
+  try {
+    auto& headers = *static_cast<Headers*>(into);
+    const std::string text = value ? value : "";
+    const auto is = [&](const char* other) { return ::strcasecmp(name, other) == 0; };
+    if (++headers.count > kMostHeaders) return MHD_NO;
+    if (is("Host")) headers.hosts.push_back(text);
+    if (is("Range")) headers.ranges.push_back(text);
+    if (is("If-Range")) headers.if_range = true;
+    if (is("Transfer-Encoding") || (is("Content-Length") && text != "0")) headers.has_body = true;
+    return MHD_YES;
+  } catch (const std::bad_alloc&) {
+    return MHD_NO;
   }
-  std::error_code error;
-  const auto bytes = fs::file_size(*file, error);
-  auto in = std::make_shared<std::ifstream>(*file, std::ios::binary);
-  if (error || !*in) return refuse(response, 404, "There is no such file.\n");
-  if (bytes == 0) return response.set_content("", content_type(*file));
-  response.set_content_provider(
-      bytes, content_type(*file),
-      [in](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        std::vector<char> piece(std::min<std::size_t>(length, 1 << 16));
-        in->seekg(static_cast<std::streamoff>(offset));
-        in->read(piece.data(), static_cast<std::streamsize>(piece.size()));
-        return in->gcount() > 0 && sink.write(piece.data(), static_cast<std::size_t>(in->gcount()));
-      });
+}
+
+struct Response {
+  MHD_Response* response;
+  explicit Response(MHD_Response* made) : response(made) {
+    if (!made) throw std::bad_alloc();
+    for (const auto& [name, value] : {std::pair{"Content-Security-Policy", kContentSecurityPolicy},
+                                      {"X-Content-Type-Options", "nosniff"},
+                                      {"Referrer-Policy", "no-referrer"},
+                                      {"Cross-Origin-Resource-Policy", "same-origin"},
+                                      {"Cache-Control", "no-cache"}})
+      add(name, value);
+  }
+  ~Response() { MHD_destroy_response(response); }
+  Response(const Response&) = delete;
+  Response& operator=(const Response&) = delete;
+  void add(const char* name, const std::string& value) {
+    MHD_add_response_header(response, name, value.c_str());
+  }
+};
+
+MHD_Result refuse(MHD_Connection* connection, unsigned status, std::string words,
+                  const std::pair<const char*, std::string>& more = {}) {
+  words += '\n';
+  Response answer(
+      MHD_create_response_from_buffer(words.size(), words.data(), MHD_RESPMEM_MUST_COPY));
+  answer.add("Content-Type", "text/plain; charset=utf-8");
+  if (more.first) answer.add(more.first, more.second);
+  return MHD_queue_response(connection, status, answer.response);
+}
+
+/// Serves one directory, by libmicrohttpd and on the calling thread alone.
+class Server {
+ public:
+  /// `listening` becomes its own.
+  Server(int site, int listening) : site_(site) {
+    const unsigned clients = clients_allowed();
+    daemon_ = MHD_start_daemon(
+        MHD_USE_EPOLL, 0, nullptr, nullptr, &Server::on_request, this,  //
+        MHD_OPTION_LISTEN_SOCKET, listening, MHD_OPTION_CONNECTION_LIMIT, clients,
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, kRequestBytes, MHD_OPTION_CONNECTION_TIMEOUT, kSilence,
+        MHD_OPTION_UNESCAPE_CALLBACK, &Server::as_it_is, nullptr,  //
+        MHD_OPTION_NOTIFY_CONNECTION, &Server::on_connection, this, MHD_OPTION_NOTIFY_COMPLETED,
+        &Server::on_answered, this, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
+    if (!daemon_) {
+      ::close(listening);
+      throw Error(ExitCode::kOutput, "the preview's server cannot be started");
+    }
+    // Near the limit whoever has waited longest has to go.
+    crowded_ = clients - clients / 16;
+  }
+  ~Server() { MHD_stop_daemon(daemon_); }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  void run_until_interrupted() {
+    while (!interrupted()) {
+      if (MHD_run_wait(daemon_, kLookMilliseconds) != MHD_YES)
+        throw Error(ExitCode::kInternal, "the preview's server has failed");
+      dismiss_those_who_only_wait();
+    }
+  }
+
+ private:
+  /// A connection, by its socket.
+  struct Client {
+    Clock::time_point since;  ///< it came, or got its last answer
+    bool is_asking = false;   ///< and has not all of its answer
+  };
+
+  /// Lets the process open enough files, as far as it may.
+  static unsigned clients_allowed() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return 1;
+    const rlim_t wanted = std::min<rlim_t>(limit.rlim_max, 2 * kMostClients + kOwnDescriptors);
+    if (limit.rlim_cur < wanted) {
+      limit.rlim_cur = wanted;
+      ::setrlimit(RLIMIT_NOFILE, &limit);
+      ::getrlimit(RLIMIT_NOFILE, &limit);
+    }
+    const rlim_t free = limit.rlim_cur - std::min(limit.rlim_cur, kOwnDescriptors);
+    return unsigned(std::clamp<rlim_t>(free / 2, 1, kMostClients));
+  }
+
+  static std::size_t as_it_is(void*, MHD_Connection*, char* text) { return std::strlen(text); }
+
+  static int socket_of(MHD_Connection* connection) {
+    return MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD)->connect_fd;
+  }
+
+  static void on_connection(void* self, MHD_Connection* connection, void**,
+                            MHD_ConnectionNotificationCode what) noexcept {
+    auto& server = *static_cast<Server*>(self);
+    try {
+      if (what == MHD_CONNECTION_NOTIFY_CLOSED) {
+        server.clients_.erase(socket_of(connection));
+        return;
+      }
+      server.clients_[socket_of(connection)] = {.since = Clock::now()};
+      if (server.clients_.size() > server.crowded_) server.dismiss_one();
+    } catch (
+        const std::bad_alloc&) {  // it is not looked after, and the library's own limits remain
+    }
+  }
+
+  static void on_answered(void* self, MHD_Connection* connection, void**,
+                          MHD_RequestTerminationCode) noexcept {
+    auto& clients = static_cast<Server*>(self)->clients_;
+    if (const auto found = clients.find(socket_of(connection)); found != clients.end())
+      found->second = {.since = Clock::now()};
+  }
+
+  /// The library finds the socket shut and closes it.
+  static void dismiss(int socket) { ::shutdown(socket, SHUT_RDWR); }
+
+  void dismiss_those_who_only_wait() {
+    const auto now = Clock::now();
+    if (now - last_look_ < std::chrono::milliseconds(500)) return;
+    last_look_ = now;
+    for (const auto& [socket, client] : clients_)
+      if (!client.is_asking && now - client.since > kPatience) dismiss(socket);
+  }
+
+  /// The one who has waited longest, rather one who asks for nothing.
+  void dismiss_one() {
+    const auto rank = [](const auto& one) {
+      return std::pair(one.second.is_asking, one.second.since);
+    };
+    dismiss(std::min_element(clients_.begin(), clients_.end(), [&](const auto& a, const auto& b) {
+              return rank(a) < rank(b);
+            })->first);
+  }
+
+  static MHD_Result on_request(void* self, MHD_Connection* connection, const char* url,
+                               const char* method, const char*, const char*, std::size_t*,
+                               void** request) noexcept {
+    try {
+      return static_cast<Server*>(self)->answer(connection, url, method, request);
+    } catch (const std::exception&) {  // for want of memory: it is closed
+      return MHD_NO;
+    }
+  }
+
+  /// Called twice: with the headers, where a refusal also ends the connection, and with all of the request.
+  MHD_Result answer(MHD_Connection* connection, std::string_view url, std::string_view method,
+                    void** request) {
+    if (const auto found = clients_.find(socket_of(connection)); found != clients_.end())
+      found->second.is_asking = true;
+    Headers headers;
+    MHD_get_connection_values(connection, MHD_HEADER_KIND, &add_header, &headers);
+    constexpr std::string_view kScheme = "http://";
+    if (url.starts_with(kScheme)) {  // as a proxy is asked: the host that stands there counts too
+      url.remove_prefix(kScheme.size());
+      headers.named_host = url.substr(0, url.find('/'));
+      url.remove_prefix(headers.named_host->size());
+    }
+    if (headers.count > kMostHeaders)
+      return refuse(connection, MHD_HTTP_REQUEST_HEADER_FIELDS_TOO_LARGE, "Too many headers.");
+    if (headers.hosts.size() > 1)
+      return refuse(connection, MHD_HTTP_BAD_REQUEST, "More than one Host.");
+    if (headers.hosts.empty() || !is_our_host(headers.hosts[0]) ||
+        !is_our_host(headers.named_host.value_or("localhost")))
+      return refuse(connection, MHD_HTTP_FORBIDDEN,
+                    "This preview answers to 127.0.0.1 and localhost alone.");
+    if (method != MHD_HTTP_METHOD_GET && method != MHD_HTTP_METHOD_HEAD)
+      return refuse(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "Only GET and HEAD.",
+                    {"Allow", "GET, HEAD"});
+    if (headers.has_body)
+      return refuse(connection, MHD_HTTP_CONTENT_TOO_LARGE, "Nothing is to be sent here.");
+    if (!*request) {
+      *request = this;
+      return MHD_YES;
+    }
+    // Only GET has parts. No file here has a validator, so that one in If-Range can be of none.
+    const bool whole =
+        method != MHD_HTTP_METHOD_GET || headers.if_range || headers.ranges.size() != 1;
+    return send_file(connection, url.empty() ? "/" : url, whole ? "" : headers.ranges[0]);
+  }
+
+  MHD_Result send_file(MHD_Connection* connection, std::string_view url,
+                       const std::string& range) const {
+    const auto names = url.starts_with('/') ? names_of(url) : std::nullopt;
+    const auto refuse_it = [&] {
+      return refuse(connection, MHD_HTTP_NOT_FOUND, "There is no such file.");
+    };
+    if (!names) return refuse_it();
+    Descriptor found(open_beneath(site_, *names));
+    struct stat status {};
+    const bool is_directory =
+        found.get() >= 0 && ::fstat(found.get(), &status) == 0 && S_ISDIR(status.st_mode);
+    Descriptor file(is_directory ? open_beneath(found.get(), {"index.html"}) : found.release());
+    if (file.get() < 0 && (errno == EMFILE || errno == ENFILE))
+      return refuse(connection, MHD_HTTP_SERVICE_UNAVAILABLE, "Too many files are open.");
+    if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode))
+      return refuse_it();
+    if (is_directory && !url.ends_with('/')) {
+      // A directory's own page: its links are relative to the directory.
+      std::string place = "/";
+      for (const std::string& name : *names) place += link_to({name}) + "/";
+      return refuse(connection, MHD_HTTP_FOUND, "It is a directory.", {"Location", place});
+    }
+    if (!is_directory && url.ends_with('/')) return refuse_it();
+
+    const auto size = std::uint64_t(status.st_size);
+    const ByteRange part = byte_range(range, size);
+    if (part.kind == ByteRange::Kind::kUnsatisfiable)
+      return refuse(connection, MHD_HTTP_RANGE_NOT_SATISFIABLE, "The file has no such part.",
+                    {"Content-Range", fmt::format("bytes */{}", size)});
+    const bool is_part = part.kind == ByteRange::Kind::kPart;
+    Response answer(MHD_create_response_from_fd_at_offset64(is_part ? part.size : size, file.get(),
+                                                            part.first));
+    file.release();
+    answer.add("Content-Type", content_type(is_directory ? "index.html" : names->back()));
+    answer.add("Accept-Ranges", "bytes");
+    if (is_part)
+      answer.add("Content-Range",
+                 fmt::format("bytes {}-{}/{}", part.first, part.first + part.size - 1, size));
+    return MHD_queue_response(connection, is_part ? MHD_HTTP_PARTIAL_CONTENT : MHD_HTTP_OK,
+                              answer.response);
+  }
+
+  int site_;
+  MHD_Daemon* daemon_ = nullptr;
+  std::size_t crowded_ = 0;
+  std::unordered_map<int, Client> clients_;
+  Clock::time_point last_look_ = Clock::now();
+};
+
+/// A socket that listens on 127.0.0.1; at port 0 on any that is free. SO_REUSEADDR, so that a preview can be started
+/// again at once, but not SO_REUSEPORT, by which two would share a port in silence.
+int listen_on(int port) {
+  Descriptor one(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  const int yes = 1;
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(std::uint16_t(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (one.get() < 0 || ::setsockopt(one.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
+      ::bind(one.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::listen(one.get(), SOMAXCONN) != 0)
+    throw Error(ExitCode::kOutput,
+                fmt::format("127.0.0.1:{}: cannot listen there: {}", port, std::strerror(errno)));
+  return one.release();
+}
+
+int port_of(int socket) {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
+  return ntohs(address.sin_port);
 }
 
 }  // namespace
 
 void serve_site(const fs::path& site, int port,
                 const std::function<void(const std::string&)>& ready) {
-  std::error_code error;
-  const fs::path root = fs::canonical(site, error);
-  if (error || !fs::is_directory(root, error))
-    throw Error(ExitCode::kInput, site.string() + ": no such directory");
-
-  httplib::Server server;
-  server.set_default_headers({{"Content-Security-Policy", kContentSecurityPolicy},
-                              {"X-Content-Type-Options", "nosniff"},
-                              {"Referrer-Policy", "no-referrer"},
-                              {"Cross-Origin-Resource-Policy", "same-origin"},
-                              {"Cache-Control", "no-cache"}});
-  server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
-    static const std::regex kHost(R"re((127\.0\.0\.1|localhost)(:[0-9]{1,5})?)re");
-    if (!std::regex_match(request.get_header_value("Host"), kHost)) {
-      refuse(response, 403, "This preview answers to 127.0.0.1 and localhost alone.\n");
-    } else if (request.method != "GET" && request.method != "HEAD") {
-      response.set_header("Allow", "GET, HEAD");
-      refuse(response, 405, "Only GET and HEAD.\n");
-    } else {
-      return httplib::Server::HandlerResponse::Unhandled;
-    }
-    return httplib::Server::HandlerResponse::Handled;
-  });
-  server.Get(".*", [&root](const httplib::Request& request, httplib::Response& response) {
-    answer(root, request, response);
-  });
-  // Without the library's SO_REUSEPORT, by which two previews would share a port in silence.
-  server.set_socket_options([](socket_t socket) {
-    const int yes = 1;
-    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  });
-  const int bound = port == 0                              ? server.bind_to_any_port(kLoopback)
-                    : server.bind_to_port(kLoopback, port) ? port
-                                                           : -1;
-  if (bound < 0)
-    throw Error(ExitCode::kOutput,
-                fmt::format("{}:{}: the port is taken or not allowed", kLoopback, port));
-  ready(fmt::format("http://{}:{}/", kLoopback, bound));
-  const std::jthread watch([&server](const std::stop_token& done) {
-    while (!done.stop_requested() && !interrupted())
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    server.stop();
-  });
-  server.listen_after_bind();
+  const Descriptor root(::open(site.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (root.get() < 0)
+    throw Error(ExitCode::kInput, fmt::format("{}: no directory that can be read: {}",
+                                              site.string(), std::strerror(errno)));
+  const int listening = listen_on(port);
+  Server server(root.get(), listening);
+  ready(fmt::format("http://127.0.0.1:{}/", port_of(listening)));
+  server.run_until_interrupted();
 }
 
 }  // namespace lobelia::gallery
