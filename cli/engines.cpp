@@ -17,10 +17,13 @@ struct Options {
 };
 
 Json engine_record(const EngineInfo& engine, const EngineStatus& status) {
-  Json record{{"name", engine.name}, {"title", engine.title}, {"available", status.available}};
+  Json record{{"name", engine.name},
+              {"title", engine.title},
+              {"available", status.available()},
+              {"state", state_name(status.state)}};
   if (!status.program.empty()) record["program"] = status.program.string();
   if (!status.version.empty()) record["version"] = status.version;
-  if (!status.available) record["why"] = status.why;
+  if (!status.available()) record["why"] = status.why;
   record["supportedVersions"] = engine.supported_versions;
   record["witness"] = engine.witness;
   record["precision"] = engine.precision;
@@ -36,12 +39,12 @@ void print_engine(const EngineInfo& engine, const EngineStatus& status) {
   };
   if (!engine.is_program) {
     row("found", fmt::format("part of lobelia {}", status.version));
-  } else if (status.available) {
+  } else if (status.available()) {
     row("found", printable(status.program.string(), 400));
     row("version",
         fmt::format("{} (what can be driven is {})", status.version, engine.supported_versions));
   } else {
-    row("not usable", printable(status.why, 2000));
+    row(state_name(status.state), printable(status.why, 2000));
     row("to install", engine.install_hint);
     row("versions", engine.supported_versions);
   }
@@ -61,8 +64,9 @@ ExitCode run(const Options& options) {
       record["engines"].push_back(engine_record(info, status));
     else
       print_engine(info, status);
-    if (!status.available)
-      problems.push_back(printable(fmt::format("{}: {}", info.title, status.why), 2000));
+    if (!status.available())
+      problems.push_back(printable(
+          fmt::format("{}: {}: {}", info.title, state_name(status.state), status.why), 2000));
   }
   if (options.json) fmt::print("{}", record_text(record));
   for (const auto& problem : problems) say("lobelia: {}\n", problem);
@@ -78,8 +82,9 @@ void add_engines(CLI::App& app, ExitCode& exit_code) {
   options->programs.add_to(*command);
   command->add_flag("--json", options->json, "Print the list as JSON");
   command->footer(
-      "Exit codes: 0 all of them can be driven, 5 one is missing, of another version or no such\n"
-      "engine.\n\n"
+      "Absent is an engine that is not installed; broken is one that is there and cannot be started, does\n"
+      "not end, or tells no version that can be driven. Which scenes one refuses, 'lobelia farm' says.\n\n"
+      "Exit codes: 0 all of them can be driven, 5 one is absent or broken.\n\n"
       "Example: lobelia engines --blender /opt/blender/blender");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -12,7 +12,6 @@
 #include "cli/progress.hpp"
 #include "cli/publish.hpp"
 #include "cli/warnings.hpp"
-#include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
@@ -26,7 +25,8 @@ struct Options {
   SlurmSettings slurm;
   int threads = 0, attempts = 3;
   double time_limit = 600, no_progress_limit = 300;
-  bool again = false, quiet = false, dry_run = false, fail_fast = false, keep_going = false;
+  bool again = false, require_engines = false, quiet = false, dry_run = false, fail_fast = false,
+       keep_going = false;
 };
 
 FarmOptions farm_options(const Options& options) {
@@ -38,6 +38,7 @@ FarmOptions farm_options(const Options& options) {
   farm.no_progress_limit = std::chrono::duration<double>(options.no_progress_limit);
   farm.fail_fast = options.fail_fast;
   farm.again = options.again;
+  farm.require_engines = options.require_engines;
   farm.cache = options.cache;
   farm.filter = JobFilter(options.filter);
   farm.command = command_line();
@@ -82,6 +83,7 @@ std::string work_text(const FarmSummary& summary) {
 ExitCode report(const FarmSummary& summary, const Options& options) {
   for (const auto& problem : summary.problems) say("lobelia: {}\n", printable(problem, 2000));
   for (const auto& sentence : summary.absent_engines) say("lobelia: {}\n", sentence);
+  for (const auto& sentence : summary.refusals) say("lobelia: {}\n", sentence);
   if (summary.foreign > 0)
     say("lobelia: {}/cells also holds {} cells that are not of this grid\n",
         printable_path(options.directory), summary.foreign);
@@ -133,11 +135,6 @@ ExitCode run(const Options& options) {
   if (options.dry_run) {
     dry_run(grid, options);
     return ExitCode::kSuccess;
-  }
-  if (!options.gallery.empty()) {
-    // Better said now than after a night.
-    make_directories(options.gallery);
-    require_writable(std::filesystem::path(options.gallery) / "index.html");
   }
   if (options.slurm.is_wanted()) return run_on_cluster(grid, options);
   ProgressLine line(!options.quiet);
@@ -207,6 +204,8 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
                    "Then publish its gallery there (DIR itself, or another directory)")
       ->type_name("SITE");
   command->add_flag("--again", options->again, "Make everything again, in the cache or not");
+  command->add_flag("--require-engines", options->require_engines,
+                    "An engine that is not installed is an error");
   command->add_flag("-q,--quiet", options->quiet, "No progress");
   options->programs.add_to(*command);
   options->slurm.add_to(*command);
@@ -214,11 +213,11 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
   add_farm_slurm(*command, exit_code);
   command->footer(
       "What the cache has is not made again, whichever grid it was made for. Ctrl-C leaves nothing\n"
-      "half-written, and the same command goes on from there. An engine that is not installed is left\n"
-      "out, as the records say. docs/farm.md tells the rest.\n\n"
+      "half-written, and the same command goes on from there. Of an engine that is not installed\n"
+      "nothing new is made, as the records say; what it made before stays. docs/farm.md tells the rest.\n\n"
       "Exit codes: 0 every cell agrees, 1 some differ, or with --gallery are not what the farm\n"
-      "wrote, 3 bad grid, 4 some job failed or nothing can be written, 5 a program given by its path is not\n"
-      "that engine, 130 Ctrl-C, 143 SIGTERM.\n\n"
+      "wrote, 3 bad grid, 4 some job failed or nothing can be written, 5 an engine is broken (a program\n"
+      "given by its path is not that engine, too), or absent with --require-engines, 130 Ctrl-C, 143 SIGTERM.\n\n"
       "Example: lobelia farm reference_scenes/grids/sphere_grid.xml -o out/gallery\n"
       "         lobelia gallery out/gallery");
   // A farm has engines to stop and records to write; on a cluster it asks what becomes of the jobs.

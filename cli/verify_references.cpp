@@ -21,7 +21,7 @@ struct Options {
   std::string output;
   std::vector<std::string> engines;
   int size = 0;
-  bool small = false, json = false, markdown = false, quiet = false;
+  bool small = false, json = false, markdown = false, require_engines = false, quiet = false;
   EnginePrograms programs;
 };
 
@@ -43,7 +43,8 @@ std::vector<std::unique_ptr<Engine>> engines_of(const Options& options) {
   for (const std::string_view name : names) {
     if (std::ranges::find(wanted, name) == wanted.end()) continue;
     engines.push_back(make_engine(name, options.programs.of(std::string(name))));
-    if (!options.engines.empty())
+    if (!options.engines.empty() || options.require_engines ||
+        engines.back()->status().state == EngineState::kBroken)
       require_available(engines.back()->info(), engines.back()->status());
   }
   return engines;
@@ -106,6 +107,8 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
                    "These engines alone, which have to be there; otherwise all that are")
       ->type_name("NAME");
   options->programs.add_to(*command);
+  command->add_flag("--require-engines", options->require_engines,
+                    "An engine that is not installed is an error");
   auto* json = command->add_flag("--json", options->json, "Print the record instead of the table");
   command->add_flag("--markdown", options->markdown, "Print docs/agreement.md instead of the table")
       ->excludes(json);
@@ -116,7 +119,7 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
       "on edges are counted apart. docs/agreement.md has the outcome and says what columns mean.\n"
       "\n"
       "Exit codes: 0 every target is met, 1 some are missed; 2 usage, 4 an output cannot be\n"
-      "written, 5 an engine that was named is missing, or one failed.");
+      "written, 5 an engine that was named or required is absent, one is broken, or one failed.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

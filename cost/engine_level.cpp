@@ -133,7 +133,7 @@ std::vector<Contender> contenders(const Scene& scene, const std::filesystem::pat
         make_engine(info.name, named_program(options, info.name));
     ReferenceOptions how;
     how.stages = true;
-    if (const EngineStatus& status = engine->status(); !status.available) {
+    if (const EngineStatus& status = engine->status(); !status.available()) {
       table.remarks.push_back(fmt::format("without {}: {}", info.title, status.why));
       continue;
     }

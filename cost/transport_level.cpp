@@ -295,7 +295,7 @@ std::vector<Table> measure_transport(const Options& options) {
   const TemporaryDirectory directory;
   const auto engine = make_engine("blender", named_program(options, "blender"));
   const EngineStatus& status = engine->status();
-  const Cycles cycles{status.available ? status.program : "", status.why};
+  const Cycles cycles{status.available() ? status.program : "", status.why};
   std::vector<Table> tables;
   const auto add = [&](const char* id, const char* title, const Scene& scene) {
     tables.push_back(measure_scene(id, title, scene, directory.path(), cycles, options));

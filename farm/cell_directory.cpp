@@ -24,16 +24,20 @@ namespace {
 constexpr char kRecordFile[] = "cell.json";
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
 
-/// Every file that a farm of any version may have put into a cell.
+/// Every file that a farm of any version may have put into a cell for an engine.
+std::set<std::string> names_of(const std::string& engine) {
+  std::set<std::string> names;
+  for (const char* ending : {".exr", "-error.exr", ".json", ".png", ".log"})
+    names.insert(engine + ending);
+  for (const char* ending : {".json", ".png"}) names.insert(comparison_name(engine) + ending);
+  return names;
+}
+
+/// The same for a cell.
 std::set<std::string> list_names_of_ours() {
   std::set<std::string> names{"profile.json", "scene.xml"};
-  std::vector<std::string> engines{kOurs};
-  for (const auto& engine : engine_infos()) engines.emplace_back(engine.name);
-  for (const auto& engine : engines) {
-    for (const char* ending : {".exr", "-error.exr", ".json", ".png", ".log"})
-      names.insert(engine + ending);
-    for (const char* ending : {".json", ".png"}) names.insert(comparison_name(engine) + ending);
-  }
+  names.merge(names_of(kOurs));
+  for (const auto& engine : engine_infos()) names.merge(names_of(std::string(engine.name)));
   return names;
 }
 
@@ -172,7 +176,7 @@ Json CellDirectory::results(const CellRecords& records) const {
 Json CellDirectory::made_from() const {
   Json engines = Json::object();
   for (const auto& here : graph_->engines())
-    if (here.is_here()) engines[here.name] = here.version;
+    if (here.is_known()) engines[here.name] = here.version;
   return {{"program", program_id()}, {"scene", graph_->scene_hash(cell_)}, {"engines", engines}};
 }
 
@@ -226,6 +230,10 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     place_file(problem.log, directory_ / (problem.engine + ".log"));
     foreign.erase(problem.engine + ".log");
   }
+  // What an engine made that is absent now could not be made again.
+  for (const auto& engine : graph_->engines())
+    if (!engine.is_here())
+      for (const auto& name : names_of(engine.name)) foreign.erase(name);
   for (const auto& name : foreign) fs::remove(directory_ / name, ignored);
 
   Json record = make_record("cell");
@@ -269,6 +277,8 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
   }
   if (records.back()) record["profile"] = "profile.json";
   record["notComparable"] = std::move(not_comparable);
+  for (const std::size_t e : graph_->missing_engines(cell_))
+    record["missingEngines"].push_back(graph_->engines()[e].name);
   record["problems"] = Json::array();
   for (const auto& problem : problems)
     record["problems"].push_back({{"engine", problem.engine},

@@ -36,7 +36,7 @@ FarmSummary run_farm(const Grid& grid, const fs::path& directory, const FarmOpti
 FarmPlan plan_farm(
     const Grid& grid, const fs::path& directory, const FarmOptions& options,
     const std::function<void(const std::string& name, const std::string& reason)>& on_job) {
-  const FarmWork work(grid, options);
+  FarmWork work(grid, options, directory);
   const JobGraph& graph = work.graph;
   std::unordered_set<ResultKey> there, failed;
   std::error_code ignored;
@@ -52,12 +52,13 @@ FarmPlan plan_farm(
   plan.absent_engines = work.absences();
   plan.warning = work.filter_warning(options.filter);
   for (const std::size_t cell : coarse_to_fine(work.cells.cells)) {
+    work.leave_out_absent(cell, [&](JobIndex job) { return there.contains(graph[job].key); });
     const CellDirectory before(directory, graph, cell);
     for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job) {
       if (!graph[job].exists) continue;
       ++plan.jobs;
       const bool is_there = there.contains(graph[job].key);
-      if (is_there && !options.again) continue;
+      if (is_there && !(options.again && work.can_make(job))) continue;
       const std::string name = graph.name(job);
       if (!options.filter.picks(name)) continue;
       ++plan.wanted;

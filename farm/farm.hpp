@@ -23,6 +23,7 @@ struct FarmOptions : JobRunOptions {
   std::filesystem::path cache;       ///< empty: DIRECTORY/cache
   JobFilter filter;                  ///< jobs that may be done
   bool again = false;                ///< make every one of them again
+  bool require_engines = false;      ///< one that is absent is an error
   std::vector<std::string> command;  ///< for the record
   /// Where whoever asked will publish what comes of it; a cluster's run has that done by its last element. Empty:
   /// nowhere.
@@ -38,14 +39,15 @@ struct FarmSummary {
   std::size_t cached_cells = 0;             ///< of which everything was there
   double cached_seconds = 0;                ///< for looking at all cells, this program's own time
   std::vector<std::string> absent_engines;  ///< sentences: which, why, how to get it
+  std::vector<std::string> refusals;        ///< sentences: which engine cannot show how many cells
   std::set<std::string> warnings;           ///< of the filter and the cells' highlights, each once
   std::vector<std::string> problems;        ///< "cell: engine: message", the first failures first
   JobRunWork work;
 };
 
 /// Throws Error(kInterrupted) on Ctrl-C, after farm.json has been written with what is done;
-/// Error(kOutput) if the directory or the cache cannot be written; Error(kEngine) if one of `programs` is not
-/// the engine that it should be; Error(kInput) for more than kMaxFarmCells.
+/// Error(kOutput) if the directory or the cache cannot be written; Error(kEngine), before anything is made or
+/// changed, if an engine is broken (find_engines); Error(kInput) for more than kMaxFarmCells.
 FarmSummary run_farm(const Grid& grid, const std::filesystem::path& directory,
                      const FarmOptions& options);
 

@@ -15,16 +15,25 @@ namespace lobelia {
 struct FarmEngine {
   std::unique_ptr<Engine> engine;
   std::string name;
-  std::string version;  ///< empty: not available
-  bool is_here() const { return !version.empty(); }
+  std::string version;  ///< empty: not known
+  bool here = true;     ///< false: there is no such program, and `version` is that of the last run
+  bool is_here() const { return here && !version.empty(); }
+  /// Whether its results have keys: those that are in the cache are shown though the engine is absent.
+  bool is_known() const { return !version.empty(); }
 };
 
-/// Looks for each. Throws Error(kEngine) if one of `programs` is not the engine that it should be: asked for by its
-/// path, that is a mistake and not a lack.
-std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
-                                     const std::map<std::string, std::filesystem::path>& programs);
+struct EngineChoice {
+  std::map<std::string, std::filesystem::path> programs;  ///< in place of those in $PATH, by engine
+  bool required = false;                                  ///< absence is an error
+  std::filesystem::path farm_directory;  ///< whose farm.json tells what was here; empty: none
+};
 
-/// "POV-Ray is left out: no program 'povray' in $PATH; to get it: ..."
+/// Looks for each. Throws Error(kEngine) if one is broken, if one of `programs` is not the engine that it should be
+/// (asked for by its path, that is a mistake and not a lack), or if one is absent though all are required.
+std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
+                                     const EngineChoice& choice);
+
+/// "POV-Ray is absent: no program 'povray' in $PATH; to get it: ..."
 std::string absence(const FarmEngine& engine);
 
 /// What farm.json says of ours and of each.

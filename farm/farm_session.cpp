@@ -38,10 +38,10 @@ fs::path apart(const fs::path& cache, const fs::path& directory) {
 
 }  // namespace
 
-FarmWork::FarmWork(const Grid& g, const FarmOptions& options)
+FarmWork::FarmWork(const Grid& g, const FarmOptions& options, const fs::path& directory)
     : grid(g),
       cells{cells_of(g), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); }},
-      engines(find_engines(g.engines, options.programs)),
+      engines(find_engines(g.engines, {options.programs, options.require_engines, directory})),
       graph(cells, engines) {}
 
 std::vector<std::string> FarmWork::absences() const {
@@ -49,6 +49,26 @@ std::vector<std::string> FarmWork::absences() const {
   for (const auto& here : engines)
     if (!here.is_here()) sentences.push_back(absence(here));
   return sentences;
+}
+
+std::vector<std::string> FarmWork::refusals() const {
+  std::vector<std::string> sentences;
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    if (const std::size_t count = graph.refusals(e); count > 0)
+      sentences.push_back(fmt::format("{} cannot show {} of {} cells; each cell.json says why",
+                                      engines[e].engine->info().title, count, graph.cell_count()));
+  return sentences;
+}
+
+bool FarmWork::leave_out_absent(std::size_t cell, const std::function<bool(JobIndex)>& is_there) {
+  bool any = false;
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    const JobIndex reference = graph.reference(cell, e);
+    if (engines[e].is_here() || !graph[reference].exists || is_there(reference)) continue;
+    graph.leave_out(cell, e);
+    any = true;
+  }
+  return any;
 }
 
 std::string FarmWork::filter_warning(const JobFilter& filter) const {
@@ -78,7 +98,7 @@ const Grid& checked(const Grid& grid) {
 }  // namespace
 
 FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const FarmOptions& options)
-    : work_(checked(grid), options),
+    : work_(checked(grid), options, directory),
       directory_(directory),
       options_(options),
       cache_(apart(cache_directory(options.cache, directory), directory)),
@@ -86,9 +106,15 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
       states_(work_.graph.size(), JobState::kAbsent),
       status_(work_.graph.cell_count(), "missing") {
   summary_.absent_engines = work_.absences();
+  summary_.refusals = work_.refusals();
   summary_.cells = work_.graph.cell_count();
   if (std::string warning = work_.filter_warning(options.filter); !warning.empty())
     summary_.warnings.insert(std::move(warning));
+  if (!options_.gallery.empty()) {
+    // Better said now than after a night.
+    make_directories(options_.gallery);
+    require_writable(options_.gallery / "index.html");
+  }
   cache_.remove_abandoned();
   remove_abandoned_temporaries();
   make_directories(directory_);
@@ -116,7 +142,11 @@ void FarmSession::look_at_cells() {
 
 /// Whether everything of the cell is there. Where it is not, its record goes: it would speak of other results.
 bool FarmSession::look_at(std::size_t cell) {
-  const CellRecords records = find_records(cache_, work_.graph, cell);
+  CellRecords records = find_records(cache_, work_.graph, cell);
+  // Without them the profile is another result.
+  if (work_.leave_out_absent(
+          cell, [&](JobIndex job) { return records[job - work_.graph.render(cell)].has_value(); }))
+    records = find_records(cache_, work_.graph, cell);
   bool complete = true;
   std::size_t kept = 0;
   for (std::size_t slot = 0; slot < records.size(); ++slot) {
@@ -124,7 +154,8 @@ bool FarmSession::look_at(std::size_t cell) {
     if (!work_.graph[job].exists) continue;
     const bool picked =
         options_.filter.picks_everything() || options_.filter.picks(work_.graph.name(job));
-    if (records[slot] && !(options_.again && picked)) {
+    const bool again = options_.again && picked && work_.can_make(job);
+    if (records[slot] && !again) {
       states_[job] = JobState::kDone;
       cache_.touch(work_.graph[job].key);
       if (is_picture(work_.graph[job].kind)) ++kept;
@@ -132,7 +163,7 @@ bool FarmSession::look_at(std::size_t cell) {
     }
     complete = false;
     if (!picked) continue;
-    if (options_.again) cache_.discard(work_.graph[job].key);
+    if (again) cache_.discard(work_.graph[job].key);
     states_[job] = JobState::kWaiting;
   }
   leave_out_what_waits_for_nothing(work_.graph, states_, cell);
@@ -217,6 +248,8 @@ void FarmSession::write_farm_record() const {
     record["axes"].push_back({{"name", axis.name}, {"values", std::move(values)}});
   }
   record["engines"] = engines_record(work_.engines);
+  for (std::size_t e = 0; e < work_.engines.size(); ++e)
+    record["engines"][e + 1]["refusedCells"] = work_.graph.refusals(e);
   record["cells"] = Json::array();
   const std::scoped_lock lock(mutex_);
   for (std::size_t i = 0; i < status_.size(); ++i) {

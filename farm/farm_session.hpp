@@ -17,9 +17,18 @@ namespace lobelia {
 
 /// A grid's cells with the engines that are here. Neither copied nor moved: its parts know each other.
 struct FarmWork {
-  FarmWork(const Grid& g, const FarmOptions& options);
+  /// `directory` is the farm's: what it says of engines that are absent now.
+  FarmWork(const Grid& g, const FarmOptions& options, const std::filesystem::path& directory = {});
   FarmWork(const FarmWork&) = delete;
   std::vector<std::string> absences() const;  ///< of engines, as sentences
+  std::vector<std::string> refusals() const;  ///< likewise: of cells that they cannot show
+  /// Whether the job can be done on this machine: it has the engine.
+  bool can_make(JobIndex job) const {
+    return graph[job].kind != JobKind::kReference || engines[graph[job].engine].is_here();
+  }
+  /// Leaves pictures of absent engines out of a cell's jobs, but those for which `is_there` holds. Whether there
+  /// were any.
+  bool leave_out_absent(std::size_t cell, const std::function<bool(JobIndex)>& is_there);
   /// A sentence if there are jobs and the filter picks none of them, else empty.
   std::string filter_warning(const JobFilter& filter) const;
 

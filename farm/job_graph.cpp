@@ -52,7 +52,7 @@ void JobGraph::plan_cell(std::size_t cell, std::map<std::size_t, std::string>& r
   std::vector<bool> with_engine(engines_->size());
   for (std::size_t e = 0; e < engines_->size(); ++e) {
     const FarmEngine& here = (*engines_)[e];
-    if (!here.is_here() ||
+    if (!here.is_known() ||
         std::find(compared_with.begin(), compared_with.end(), here.name) == compared_with.end())
       continue;
     if (std::string why = here.engine->why_not(scene, {}); !why.empty()) {
@@ -131,6 +131,26 @@ std::string JobGraph::whose(JobIndex job) const {
 std::string JobGraph::refusal(std::size_t cell, std::size_t engine) const {
   const auto found = refusals_.find(cell * engines_->size() + engine);
   return found == refusals_.end() ? "" : found->second;
+}
+
+std::vector<std::size_t> JobGraph::missing_engines(std::size_t cell) const {
+  std::vector<std::size_t> missing;
+  const auto& wanted = cells_->cells[cell].engines;
+  for (std::size_t e = 0; e < engines_->size(); ++e)
+    if (!(*engines_)[e].is_here() && !jobs_[reference(cell, e)].exists &&
+        std::ranges::find(wanted, (*engines_)[e].name) != wanted.end())
+      missing.push_back(e);
+  return missing;
+}
+
+std::size_t JobGraph::refusals(std::size_t engine) const {
+  return std::size_t(std::ranges::count_if(
+      refusals_, [&](const auto& refusal) { return refusal.first % engines_->size() == engine; }));
+}
+
+void JobGraph::leave_out(std::size_t cell, std::size_t engine) {
+  jobs_[reference(cell, engine)].exists = jobs_[compare(cell, engine)].exists = false;
+  if (jobs_[profile(cell)].exists) narrow_profile(cell, [](JobIndex) { return true; });
 }
 
 std::vector<std::size_t> coarse_to_fine(const std::vector<Cell>& cells) {

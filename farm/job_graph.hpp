@@ -62,6 +62,13 @@ class JobGraph {
   /// Why a cell is not compared with an engine that is here: it cannot show the scene. Empty if it can.
   std::string refusal(std::size_t cell, std::size_t engine) const;
 
+  /// Engines that the cell is to be compared with, that are absent, and of which it has no picture.
+  std::vector<std::size_t> missing_engines(std::size_t cell) const;
+  /// Of how many cells.
+  std::size_t refusals(std::size_t engine) const;
+  /// A cell has no picture of an engine that is absent: neither it nor what would be made from it is a job.
+  void leave_out(std::size_t cell, std::size_t engine);
+
   /// Whether a job can be done without this input of it if that has failed: a profile draws what pictures there are.
   bool may_lack(JobIndex job, JobIndex input) const {
     return jobs_[job].kind == JobKind::kProfile && jobs_[input].kind == JobKind::kReference;

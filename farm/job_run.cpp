@@ -464,7 +464,7 @@ struct JobRun::Impl {
   /// A plan may be of another machine.
   static std::string why_not_as_planned(const FarmEngine& here) {
     const EngineStatus& status = here.engine->status();
-    if (!status.available) return status.why;
+    if (!status.available()) return status.why;
     return status.version == here.version
                ? ""
                : fmt::format("{} is {} on this machine, and was to be {}",

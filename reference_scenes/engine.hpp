@@ -35,11 +35,24 @@ struct EngineInfo {
 enum class Witness { kAny, kNative, kExpressed };
 inline constexpr std::string_view kWitnessNames[] = {"any", "native", "expressed"};
 
+/// Whether an engine can be asked for pictures. That it cannot show one scene is no matter of this: why_not().
+enum class EngineState {
+  kAbsent,  ///< not installed: there is no such program
+  kBroken,  ///< there is one that cannot be started, does not end, or tells no version that can be driven
+  kReady,
+};
+inline constexpr std::string_view kEngineStateNames[] = {"absent", "broken", "ready"};
+
+constexpr std::string_view state_name(EngineState state) {
+  return kEngineStateNames[std::size_t(state)];
+}
+
 struct EngineStatus {
-  bool available = false;
+  EngineState state = EngineState::kAbsent;
   std::filesystem::path program;
   std::string version;  ///< "3.7.0.10"
-  std::string why;      ///< where not available: one sentence
+  std::string why;      ///< where not ready: one sentence
+  bool available() const { return state == EngineState::kReady; }
 };
 
 struct ReferenceOptions {

@@ -49,10 +49,15 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
   const std::string wanted = program.empty() ? std::string(probe.program) : program.string();
   status.program = find_program(wanted);
   if (status.program.empty()) {
+    std::error_code ignored;
+    // In $PATH what cannot be executed is passed over, as a shell does.
+    if (!program.empty() && std::filesystem::exists(program, ignored))
+      status.state = EngineState::kBroken;
     status.why = program.empty() ? fmt::format("no program '{}' in $PATH", probe.program)
                                  : fmt::format("'{}' is not a program", printable(wanted, 400));
     return status;
   }
+  status.state = EngineState::kBroken;
   ProcessOptions options;
   options.timeout = std::chrono::duration<double>(kProbeSeconds);
   // POV-Ray prints its version on stderr, after complaints about missing configuration files.
@@ -74,6 +79,11 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
   if (result.timed_out)
     status.why = fmt::format("'{}' did not tell its version within {} s", status.program.string(),
                              kProbeSeconds);
+  else if (result.exit_code != 0)
+    status.why = fmt::format(
+        "'{}' --version ended with {} {}", status.program.string(),
+        result.exit_code > kSignalBase ? "signal" : "exit code",
+        result.exit_code > kSignalBase ? result.exit_code - kSignalBase : result.exit_code);
   else if (status.version.empty())
     status.why = fmt::format("'{}' does not answer --version as {} does", status.program.string(),
                              engine.title);
@@ -81,14 +91,16 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
     status.why = fmt::format("'{}' is {} {}; what can be driven is {}", status.program.string(),
                              engine.title, status.version, engine.supported_versions);
   else
-    status.available = true;
+    status.state = EngineState::kReady;
   return status;
 }
 
 void require_available(const EngineInfo& engine, const EngineStatus& status) {
-  if (!status.available)
-    throw Error(ExitCode::kEngine, fmt::format("{} is not available: {}; to install it: {}",
-                                               engine.title, status.why, engine.install_hint));
+  if (!status.available())
+    throw Error(ExitCode::kEngine,
+                fmt::format("{} is {}: {}; to install it: {}", engine.title,
+                            status.state == EngineState::kBroken ? "broken" : "not available",
+                            status.why, engine.install_hint));
 }
 
 std::vector<std::string> private_home(const std::filesystem::path& directory) {

@@ -78,7 +78,7 @@ class Measurement {
   void plan() {
     for (const WitnessKind& witness : witnesses())
       for (const auto& engine : engines_) {
-        if (engine->info().name != witness.engine || !engine->status().available) continue;
+        if (engine->info().name != witness.engine || !engine->status().available()) continue;
         Work work{witness, engine.get(), {}};
         for (std::size_t i = 0; i < result_.cases.size(); ++i) {
           const Case& one = result_.cases[i];

@@ -27,7 +27,7 @@ std::vector<Work> work_for(std::span<const std::unique_ptr<Engine>> engines) {
   for (const SoftWitness& soft : kSoftWitnesses)
     for (const auto& engine : engines) {
       const WitnessKind& witness = *std::ranges::find(witnesses(), soft.name, &WitnessKind::name);
-      if (witness.engine == engine->info().name && engine->status().available)
+      if (witness.engine == engine->info().name && engine->status().available())
         work.push_back({witness, soft.rounding, engine.get()});
     }
   return work;

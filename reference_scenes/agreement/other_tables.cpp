@@ -67,7 +67,7 @@ Table refusal_table(const Agreement& agreement) {
               {"witness", "of", "pictures", "not comparable, because"},
               {}};
   for (const EngineHere& engine : agreement.engines)
-    if (!engine.status.available)
+    if (!engine.status.available())
       table.rows.push_back({std::string(engine.info.title), "everything", "", engine.status.why});
   struct Line {
     int pictures = 0;

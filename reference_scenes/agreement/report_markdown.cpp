@@ -88,7 +88,7 @@ std::string report_markdown(const Agreement& agreement, std::string_view command
       "of the highlight alone, so that it is resolved. ",
       command, agreement.scope.size, kCloseUpExponent);
   for (const EngineHere& engine : agreement.engines)
-    text += engine.status.available
+    text += engine.status.available()
                 ? fmt::format("{} is {}. ", engine.info.title, engine.status.version)
                 : fmt::format("{} was not there. ", engine.info.title);
   text += "**" + verdict_sentence(agreement) + ".**\n";

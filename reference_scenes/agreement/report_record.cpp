@@ -59,8 +59,9 @@ Json report_record(const Agreement& agreement, const std::vector<std::string>& c
   for (const EngineHere& engine : agreement.engines) {
     Json json = {{"name", engine.info.name},
                  {"title", engine.info.title},
-                 {"available", engine.status.available}};
-    if (engine.status.available)
+                 {"available", engine.status.available()},
+                 {"state", state_name(engine.status.state)}};
+    if (engine.status.available())
       json["version"] = engine.status.version;
     else
       json["why"] = engine.status.why;

@@ -80,7 +80,7 @@ class Analytic final : public Engine {
     return result;
   }
 
-  const EngineStatus status_{true, {}, kVersion, {}};
+  const EngineStatus status_{EngineState::kReady, {}, kVersion, {}};
 };
 
 }  // namespace

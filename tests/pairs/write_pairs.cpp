@@ -53,7 +53,7 @@ Image picture(const Scene& of, std::optional<Precision> precision = {}, int samp
 
 Image by_engine(const char* name, bool fine = false) {
   const auto engine = make_engine(name, {});
-  if (!engine->status().available) throw Error(ExitCode::kEngine, engine->status().why);
+  if (!engine->status().available()) throw Error(ExitCode::kEngine, engine->status().why);
   ReferenceOptions options;
   options.fine = fine;
   ReferenceResult result;

@@ -149,7 +149,7 @@ TEST(Analytic, AndWeAgreeOnLampsOnSurfacesAndAHairBesideThem) {
 
 TEST(Analytic, IsAlwaysThereAndSaysWhatItIs) {
   const auto engine = make_engine("analytic", {});
-  EXPECT_TRUE(engine->status().available);
+  EXPECT_TRUE(engine->status().available());
   EXPECT_EQ(engine->status().version, kVersion);
   const ReferenceResult quick = evaluated(hall_scene(kChoice, 16));
   EXPECT_EQ(quick.record.at("kind"), "reference");

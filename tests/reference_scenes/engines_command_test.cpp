@@ -45,7 +45,7 @@ TEST_F(EnginesCommand, SaysOfEveryMissingEngineHowToGetItAndEndsWithExitCode5) {
     for (const auto text : {engine.install_hint, engine.supported_versions})
       EXPECT_THAT(result.output_tail, HasSubstr(std::string(text)));
     EXPECT_THAT(result.output_tail, HasSubstr("lobelia: " + std::string(engine.title) +
-                                              ": no program '" + std::string(engine.name)));
+                                              ": absent: no program '" + std::string(engine.name)));
   }
 }
 
@@ -68,6 +68,22 @@ TEST_F(EnginesCommand, RefusesAProgramThatIsNoSuchEngine) {
   EXPECT_THAT(result.output_tail, Not(HasSubstr("lobelia: POV-Ray")));
 }
 
+TEST_F(EnginesCommand, TellsABrokenEngineFromAnAbsentOne) {
+  const fs::path dead = directory_.path() / "dead", unstartable = directory_.path() / "unstartable";
+  write_file(dead, "#!/bin/sh\necho 'POV-Ray 3.7.0.10'; exit 1\n");
+  write_file(unstartable, "#!/no/such/interpreter\n");
+  for (const fs::path& path : {dead, unstartable}) fs::permissions(path, fs::perms::owner_all);
+  const auto result = run({"--povray", dead.string(), "--blender", unstartable.string()});
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.output_tail, HasSubstr("lobelia: POV-Ray: broken: '" + dead.string() +
+                                            "' --version ended with exit code 1\n"));
+  EXPECT_THAT(result.output_tail, HasSubstr("lobelia: Blender Cycles: broken: "));
+  EXPECT_THAT(result.output_tail, Not(HasSubstr("absent")));
+  write_file(directory_.path() / "data", "no program");
+  EXPECT_THAT(run({"--povray", (directory_.path() / "data").string()}).output_tail,
+              HasSubstr("lobelia: POV-Ray: broken: '"));
+}
+
 TEST_F(EnginesCommand, PrintsARecordToo) {
   const auto result = run({"--json", "--povray", program("pov", "POV-Ray 3.7.0.10"), "--blender",
                            program("bl", "Blender 5.0.0")});
@@ -80,7 +96,9 @@ TEST_F(EnginesCommand, PrintsARecordToo) {
   ASSERT_EQ(engines.size(), engine_infos().size());
   EXPECT_EQ(engines[0].at("available"), true);
   EXPECT_EQ(engines[0].at("version"), "3.7.0.10");
+  EXPECT_EQ(engines[0].at("state"), "ready");
   EXPECT_EQ(engines[1].at("available"), false);
+  EXPECT_EQ(engines[1].at("state"), "broken");
   EXPECT_THAT(engines[1].at("why").get<std::string>(),
               HasSubstr("is Blender Cycles 5.0.0; what can be driven is 3.4 to 4.x"));
 }

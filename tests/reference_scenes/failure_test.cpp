@@ -67,7 +67,7 @@ class FakeEngine : public testing::TestWithParam<std::string> {
 
   std::string unavailable_because(const fs::path& path) {
     const auto engine = make_engine(GetParam(), path);
-    EXPECT_FALSE(engine->status().available);
+    EXPECT_FALSE(engine->status().available());
     try {
       engine->render({}, {}, [](std::size_t, ReferenceResult) {});
       ADD_FAILURE() << "an engine that is not available rendered";
@@ -140,13 +140,13 @@ TEST_P(FakeEngine, OfAVersionThatCannotBeDrivenIsRefusedWithThatAndTheOnesThatCa
   }
   for (const std::string version :
        povray ? std::vector{"3.7.0", "3.8.0-beta.2"} : std::vector{"3.4.0", "4.5.2 LTS"})
-    EXPECT_TRUE(make_engine(GetParam(), program("", answer + version))->status().available)
+    EXPECT_TRUE(make_engine(GetParam(), program("", answer + version))->status().available())
         << version;
 }
 
 TEST_P(FakeEngine, VersionIsRead) {
   const auto engine = make_engine(GetParam(), program("exit 1"));
-  EXPECT_TRUE(engine->status().available) << engine->status().why;
+  EXPECT_TRUE(engine->status().available()) << engine->status().why;
   EXPECT_EQ(engine->status().version, GetParam() == "povray" ? "3.7.0.10" : "3.4.1");
 }
 
@@ -260,7 +260,7 @@ TEST_P(FakeEngine, FailureIsTheResultOfItsSceneWithItsClassAndItsLogAndNothingEl
 TEST_P(FakeEngine, ThatIsTakenAwayMeanwhileIsMissing) {
   const fs::path path = program(second_scene(":"));
   const auto engine = make_engine(GetParam(), path);
-  ASSERT_TRUE(engine->status().available);
+  ASSERT_TRUE(engine->status().available());
   fs::remove(path);
   std::size_t count = 0;
   engine->render(plain_scenes(9), {}, [&](std::size_t, ReferenceResult result) {

@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, KeptInput, testing::Values("povray", "blender"
 TEST(PovrayInItsDirectory, CannotWriteElsewhereThoughAFileAsksForIt) {
   const auto engine = make_engine("povray", {});
   require_engine(*engine);
-  if (!engine->status().available) return;
+  if (!engine->status().available()) return;
   const TemporaryDirectory own, other;
   ProcessOptions options;
   options.working_directory = options.writable = own.path();

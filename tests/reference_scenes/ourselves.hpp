@@ -14,7 +14,7 @@ class OurselvesAsAnEngine final : public Engine {
     return kInfo;
   }
   const EngineStatus& status() override {
-    status_.available = true;
+    status_.state = EngineState::kReady;
     return status_;
   }
 

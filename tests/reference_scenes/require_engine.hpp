@@ -14,7 +14,7 @@ namespace lobelia {
 
 /// To be called from SetUp.
 inline void require_engine(Engine& engine) {
-  if (engine.status().available) return;
+  if (engine.status().available()) return;
   const char* required = std::getenv("LOBELIA_REQUIRE_ENGINES");
   const std::string why = fmt::format("{} is needed for this test: {}; {}", engine.info().title,
                                       engine.status().why, engine.info().install_hint);
