@@ -16,5 +16,6 @@ void comparisons(
 void plan();                      ///< cells of a grid, planned per second
 void exr();                       ///< packing and writing pictures
 void reading();                   ///< what it costs to read a picture in a process of its own
+void starting();                  ///< what it costs to run another program
 
 }  // namespace lobelia::bench

@@ -5,7 +5,7 @@
 
 #include "bench/sections.hpp"
 
-/// speed lobes|pictures|threads|plan|exr|reading, speed trace SCENE, speed sizes|comparisons PROGRAM
+/// speed lobes|pictures|threads|plan|exr|reading|starting, speed trace SCENE, speed sizes|comparisons PROGRAM
 int main(int count, char** arguments) {
   using namespace lobelia::bench;
   const std::string_view what = count > 1 ? arguments[1] : "";
@@ -28,6 +28,8 @@ int main(int count, char** arguments) {
     exr();
   else if (what == "reading")
     reading();
+  else if (what == "starting")
+    starting();
   else
     return fmt::print(stderr, "speed: no section '{}'\n", what), EXIT_FAILURE;
   return EXIT_SUCCESS;

@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "cli/publish.hpp"
 #include "core/standard_streams.hpp"
+#include "farm/machine_doctor.hpp"
 #include "farm/slurm/doctor.hpp"
 
 namespace lobelia::cli {
@@ -98,20 +99,23 @@ SlurmFarmSummary follow(SlurmRunOptions options, bool quiet,
 void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
   {
     auto settings = std::make_shared<DoctorOptions>();
-    auto* command = farm.add_subcommand("doctor", "Check a Slurm cluster before the first grid");
+    auto* command = farm.add_subcommand(
+        "doctor", "Check this machine, and with DIR a Slurm cluster, before the first grid");
     auto directory = std::make_shared<std::string>();
-    command
-        ->add_option("DIR", *directory,
-                     "Where farms are to go: on a file system that the nodes share")
-        ->required();
+    command->add_option("DIR", *directory,
+                        "Where a cluster's farms are to go: on a file system that the nodes share");
     command->add_option("--partition", settings->slurm.partition, "As sbatch has it");
     command->add_option("--account", settings->slurm.account, "");
     command->add_option("--qos", settings->slurm.qos, "");
-    command->footer("Exit codes: 0 a grid would run, 1 it would not.");
+    command->footer("What this machine lacks to contain engines is a warning.\n\n"
+                    "Exit codes: 0 a grid would run, 1 it would not.");
     command->callback([settings, directory, &exit_code] {
       settings->directory = *directory;
       settings->program = own_program();
-      const auto checks = doctor(*settings);
+      auto checks = look_at_machine();
+      fmt::print("{}", doctor_text(checks));
+      if (directory->empty()) return;
+      checks = doctor(*settings);
       fmt::print("{}", doctor_text(checks));
       if (worst_of(checks) == DoctorCheck::Verdict::kFailed) exit_code = ExitCode::kDiffers;
     });

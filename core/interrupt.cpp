@@ -28,9 +28,9 @@ std::atomic<int> g_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
               "a signal handler may not wait");
 
-/// Running groups, 0 where none; more at once than any engine starts. One that finds no place is
-/// still killed by whoever waits for it, only not by a second Ctrl-C.
-std::array<std::atomic<pid_t>, 4096> g_groups{};
+/// Running keepers, 0 where none; more at once than any engine starts. One that finds no place
+/// still ends when we have ended.
+std::array<std::atomic<pid_t>, 4096> g_keepers{};
 
 /// timeout(1) and others send a signal to the process and to its group: that is one wish, told twice.
 constexpr std::int64_t kOneWishNanoseconds = 300'000'000;
@@ -68,9 +68,9 @@ Ending& ending() {
   return *one;
 }
 
-void kill_groups() {
-  for (auto& group : g_groups)
-    if (const pid_t pid = group) ::kill(-pid, SIGKILL);
+void end_keepers() {
+  for (auto& keeper : g_keepers)
+    if (const pid_t pid = keeper) ::kill(pid, SIGTERM);
 }
 
 void remove_temporary_paths() {
@@ -97,7 +97,7 @@ void end_after_first_signal() {
     ending().mutex.lock();
   }
   // Locked for good: no thread makes a temporary file from now on.
-  kill_groups();
+  end_keepers();
   remove_temporary_paths();
   // A progress line may stand there.
   const std::string line =
@@ -117,7 +117,7 @@ void on_signal(int signal) {
   // Whoever presses Ctrl-C twice means it.
   const LastWords& words = g_last_words[g_last_words_index];
   write_message_if_room({words.text, words.size});
-  kill_groups();
+  end_keepers();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -192,15 +192,15 @@ void set_last_words(std::string_view text) {
   g_last_words_index = next;
 }
 
-InterruptibleGroup::InterruptibleGroup(pid_t group) {
-  for (int i = 0; i < int(g_groups.size()) && slot_ < 0; ++i) {
+InterruptibleProcess::InterruptibleProcess(pid_t keeper) {
+  for (int i = 0; i < int(g_keepers.size()) && slot_ < 0; ++i) {
     pid_t free = 0;
-    if (g_groups[std::size_t(i)].compare_exchange_strong(free, group)) slot_ = i;
+    if (g_keepers[std::size_t(i)].compare_exchange_strong(free, keeper)) slot_ = i;
   }
 }
 
-InterruptibleGroup::~InterruptibleGroup() {
-  if (slot_ >= 0) g_groups[std::size_t(slot_)] = 0;
+InterruptibleProcess::~InterruptibleProcess() {
+  if (slot_ >= 0) g_keepers[std::size_t(slot_)] = 0;
 }
 
 }  // namespace lobelia

@@ -12,10 +12,10 @@
 namespace lobelia {
 
 /// Makes SIGINT, SIGTERM and SIGHUP set the flag. A second one, 0.3 s later or more, ends the process at
-/// once, and the process groups that are registered with it.
+/// once, and the processes that are registered with it.
 void catch_interrupts();
 /// From now on the first signal ends a process that has not ended by itself after 0.25 s, whatever it is
-/// doing: registered process groups are killed, temporary files and directories are removed, one line goes to
+/// doing: registered processes are ended, temporary files and directories are removed, one line goes to
 /// stderr, and the exit code is interrupt_exit_code(). Asked once, after catch_interrupts().
 void end_soon_when_interrupted();
 /// Takes that back, for work that needs longer to stop in good order.
@@ -64,13 +64,14 @@ class TemporaryPath {
 /// something that goes on without us says there where. One at a time; not for several threads.
 void set_last_words(std::string_view text);
 
-/// Holds a child's process group where a second Ctrl-C finds it, for as long as this object lives.
-class InterruptibleGroup {
+/// Holds a keeper (core/process_keeper.cpp) where a second Ctrl-C finds it, for as long as this object lives: SIGTERM makes
+/// it end all that it keeps.
+class InterruptibleProcess {
  public:
-  explicit InterruptibleGroup(pid_t group);
-  ~InterruptibleGroup();
-  InterruptibleGroup(const InterruptibleGroup&) = delete;
-  InterruptibleGroup& operator=(const InterruptibleGroup&) = delete;
+  explicit InterruptibleProcess(pid_t keeper);
+  ~InterruptibleProcess();
+  InterruptibleProcess(const InterruptibleProcess&) = delete;
+  InterruptibleProcess& operator=(const InterruptibleProcess&) = delete;
 
  private:
   int slot_ = -1;

@@ -5,6 +5,8 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,8 +17,9 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
-#include "core/peak_memory.hpp"
+#include "core/keeper_protocol.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
 #include "core/write_limit.hpp"
@@ -29,6 +32,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kTailBytes = 4096;
+constexpr int kLookMilliseconds = 50;      // at whether it has to stop
 constexpr std::size_t kMaxLineBytes = 65536;  // a program that never ends its line is cut there
 
 /// Ours, with `changes` ("NAME=value") in place of the variables of those names.
@@ -118,96 +122,160 @@ class Progress {
   std::uint64_t fingerprint_ = 0;
 };
 
-/// wait4 tells the peak of the program, but at least our own, which the program began with. So it is exact above that,
-/// and below it there is what could be seen while the program ran.
-class PeakMemory {
+[[noreturn]] void cannot_start(const std::string& program, int error) {
+  throw Error(ExitCode::kEngine,
+              fmt::format("{}: cannot be started: {}", program, std::strerror(error)));
+}
+
+class Descriptor {
  public:
-  explicit PeakMemory(pid_t pid) : pid_(pid) {
-    rusage ours{};
-    ::getrusage(RUSAGE_SELF, &ours);
-    ours_ = bytes(ours);
+  explicit Descriptor(int number = -1) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  void close() {
+    if (number_ >= 0) ::close(number_);
+    number_ = -1;
   }
-  void look() {
-    if (Clock::now() < next_ || seen_ > ours_) return;
-    seen_ = std::max(seen_, peak_memory_of_family(pid_));
-    next_ = Clock::now() + std::chrono::milliseconds(50);
+  int get() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// A program at work, or its keeper with it. However it is left, nothing of it goes on.
+class Running {
+ public:
+  Running(const std::vector<std::string>& arguments, const ProcessOptions& options, int output)
+      : uninterruptible_(options.uninterruptible) {
+    SpawnRequest request{.arguments = arguments,
+                         .environment = options.only_environment
+                                            ? options.environment
+                                            : environment_with(options.environment),
+                         .working_directory = options.working_directory,
+                         .input = options.input,
+                         .output = output};
+    std::optional<WriteLimit> limit;
+    if (!options.writable.empty()) request.limit = &limit.emplace(options.writable);
+    if (uninterruptible_)
+      start(std::move(request));
+    else
+      start_kept(std::move(request));
   }
-  std::uint64_t at_end(const rusage& used) const {
-    return bytes(used) > ours_ ? bytes(used) : seen_;
+  ~Running() {
+    interruptible_.reset();
+    line_.reset();
+    // The keeper ends by itself when nothing is left for it to keep.
+    if (uninterruptible_) ::kill(-pid_, SIGKILL);
+    if (!reaped_) wait();
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  const ProcessLimits& limits() const { return limits_; }
+  /// Readable as soon as it has ended.
+  int end() const { return line_ ? line_->get() : end_->get(); }
+  void kill() {
+    if (line_)
+      ::shutdown(line_->get(), SHUT_WR);
+    else
+      ::kill(-pid_, SIGKILL);
+  }
+  /// When it has ended: how, and what it took.
+  void finish(ProcessResult& result) {
+    KeeperReport report;
+    const bool told = line_ && receive(report);
+    rusage used{};
+    const int own = wait(&used);
+    // A keeper that says nothing was killed itself.
+    const int status = told ? report.status : own;
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    result.cpu_seconds = told ? 1e-6 * double(report.cpu_microseconds)
+                              : seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+    if (told) result.peak_memory_bytes = std::uint64_t(report.peak_kibibytes) * 1024;
   }
 
  private:
-  static std::uint64_t bytes(const rusage& usage) { return std::uint64_t(usage.ru_maxrss) * 1024; }
-  pid_t pid_;
-  std::uint64_t ours_ = 0, seen_ = 0;
-  Clock::time_point next_;
+  static double seconds_of(const timeval& time) {
+    return double(time.tv_sec) + 1e-6 * double(time.tv_usec);
+  }
+  void start(SpawnRequest request) {
+    const Spawned spawned = spawn(request);
+    pid_ = spawned.pid;
+    limits_ = {spawned.writes_limited, spawned.contained};
+    if (!uninterruptible_) return;
+    end_.emplace(int(::syscall(SYS_pidfd_open, pid_, 0)));
+  }
+  void start_kept(SpawnRequest request) {
+    static const std::string keeper = companion_file(kKeeperFile).string();
+    const std::string program = request.arguments.front();
+    request.arguments.insert(request.arguments.begin(), keeper);
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+      cannot_start(program, errno);
+    line_.emplace(ends[0]);
+    Descriptor theirs(ends[1]);
+    request.keeper_line = theirs.get();
+    start(std::move(request));
+    theirs.close();  // else a keeper that is gone would be waited for
+    // Of a keeper that is killed before it can say anything the end is told like any other.
+    if (KeeperReport report; receive(report) && report.start_error != 0) {
+      wait();
+      cannot_start(program, report.start_error);
+    }
+    interruptible_.emplace(pid_);
+  }
+  bool receive(KeeperReport& report) const {
+    ssize_t n = 0;
+    while ((n = ::recv(line_->get(), &report, sizeof report, 0)) < 0 && errno == EINTR) {
+    }
+    return n == sizeof report;
+  }
+  int wait(rusage* used = nullptr) {
+    int status = 0;
+    while (::wait4(pid_, &status, 0, used) < 0 && errno == EINTR) {
+    }
+    reaped_ = true;
+    return status;
+  }
+
+  const bool uninterruptible_;
+  pid_t pid_ = 0;
+  bool reaped_ = false;
+  ProcessLimits limits_;
+  std::optional<Descriptor> line_, end_;  ///< of a keeper; of a program without one
+  std::optional<InterruptibleProcess> interruptible_;
 };
 
-double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
-
 }  // namespace
-
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const ProcessOptions& options) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     throw Error(ExitCode::kEngine, fmt::format("no pipe: {}", std::strerror(errno)));
+  const Descriptor output(ends[0]);
+  Descriptor theirs(ends[1]);
   const auto started = Clock::now();
   OutputSink sink(options);
-  Spawned spawned;
-  try {
-    std::optional<WriteLimit> limit;
-    if (!options.writable.empty()) limit.emplace(options.writable);
-    // From this thread, which waits for its end: a program that dies with us dies with the thread that started it.
-    spawned =
-        spawn({.arguments = arguments,
-               .environment = options.only_environment ? options.environment
-                                                       : environment_with(options.environment),
-               .working_directory = options.working_directory,
-               .input = options.input,
-               .output = ends[1],
-               .limit = limit ? &*limit : nullptr,
-               .dies_with_us = !options.uninterruptible});
-  } catch (...) {
-    ::close(ends[0]);
-    ::close(ends[1]);
-    throw;
-  }
-  const pid_t pid = spawned.pid;
-  ::close(ends[1]);
-  // Whatever way this function is left, also by an exception of on_line: nothing keeps running.
-  struct Guard {
-    pid_t pid;
-    int output;
-    bool reaped = false;
-    ~Guard() {
-      ::close(output);
-      ::kill(-pid, SIGKILL);  // with whatever it left behind in its group
-      if (!reaped) ::waitpid(pid, nullptr, 0);
-    }
-  } guard{pid, ends[0]};
-  std::optional<InterruptibleGroup> interruptible;
-  if (!options.uninterruptible) interruptible.emplace(pid);
-
-  if (options.on_start) options.on_start(spawned.writes_limited);
+  // From this thread, which waits for its end: a keeper that dies with us dies with the thread that started it.
+  Running running(arguments, options, theirs.get());
+  theirs.close();
+  if (options.on_start) options.on_start(running.limits());
   ProcessResult result;
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started); };
-  const auto stop = [&](bool& flag) {
-    flag = true;
-    ::kill(-pid, SIGKILL);
-  };
   Progress progress(options);
-  PeakMemory memory(pid);
-  rusage used{};
-  int status = 0;
-  bool ended = false, open = true;
+  bool ended = false, stopped = false, open = true;
+  const auto stop = [&](bool& why) {
+    why = stopped = true;
+    running.kill();
+  };
   char buffer[16384];
-  // Until the program has ended; what a grandchild still holds open is not waited for.
+  // Until it has ended; what one without a keeper leaves behind and still holds open is not waited for.
   while (!ended || open) {
-    pollfd wait{ends[0], POLLIN, 0};
-    const int ready = open ? ::poll(&wait, 1, ended ? 0 : 50) : (::usleep(10000), 0);
-    if (ready > 0) {
-      const ssize_t n = ::read(ends[0], buffer, sizeof buffer);
+    pollfd waits[] = {{ended ? -1 : running.end(), POLLIN, 0}, {open ? output.get() : -1, POLLIN, 0}};
+    ::poll(waits, 2, ended ? 0 : kLookMilliseconds);
+    if (waits[1].revents != 0) {
+      const ssize_t n = ::read(output.get(), buffer, sizeof buffer);
       if (n > 0) {
         progress.seen();
         sink.take({buffer, std::size_t(n)});
@@ -217,22 +285,18 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     } else if (ended) {
       break;
     }
-    memory.look();
-    if (!ended) guard.reaped = ended = ::wait4(pid, &status, WNOHANG, &used) == pid;
-    if (!ended && !result.timed_out && !result.no_progress && !result.interrupted) {
-      if ((interrupted() && !options.uninterruptible) || (options.stop && *options.stop))
-        stop(result.interrupted);
-      else if (seconds() > options.timeout)
-        stop(result.timed_out);
-      else if (progress.is_over())
-        stop(result.no_progress);
-    }
+    if (waits[0].revents != 0) ended = true;
+    if (ended || stopped) continue;
+    if ((interrupted() && !options.uninterruptible) || (options.stop && *options.stop))
+      stop(result.interrupted);
+    else if (seconds() > options.timeout)
+      stop(result.timed_out);
+    else if (progress.is_over())
+      stop(result.no_progress);
   }
   sink.flush_line();
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  running.finish(result);
   result.seconds = seconds().count();
-  result.cpu_seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
-  result.peak_memory_bytes = memory.at_end(used);
   result.output_tail = sink.tail();
   return result;
 }

@@ -10,14 +10,22 @@
 #include <string_view>
 #include <vector>
 
+#include "core/spawn.hpp"
+
 namespace lobelia {
+
+/// What holds a program, as the kernel allows it.
+struct ProcessLimits {
+  bool writes_limited = false;  ///< to ProcessOptions::writable (core/write_limit.hpp)
+  Containment contained = Containment::kNone;
+};
 
 struct ProcessOptions {
   std::filesystem::path working_directory;  ///< empty: ours
   std::vector<std::string> environment;     ///< "NAME=value", in place of ours or besides
   bool only_environment = false;            ///< it gets nothing of ours besides
-  /// Neither the first interruption ends it nor the second, nor that we are killed: for a short step that must
-  /// not be cut in two.
+  /// Neither the first interruption ends it nor the second, nor that we are killed, and what it leaves behind may go
+  /// on: for a short step that must not be cut in two.
   bool uninterruptible = false;
   std::filesystem::path writable;  ///< the only place where it may write; empty: wherever we may
   std::filesystem::path log;       ///< receives stdout and stderr; empty: dropped
@@ -29,8 +37,7 @@ struct ProcessOptions {
   std::filesystem::path progress_directory;       ///< empty: only output counts
   const std::atomic<bool>* stop = nullptr;        ///< killed, as interrupted, once this is true
   std::function<void(std::string_view)> on_line;  ///< called with each line of output, if set
-  /// Called once it runs, if set: whether the kernel holds it to `writable` (core/write_limit.hpp).
-  std::function<void(bool writes_limited)> on_start;
+  std::function<void(const ProcessLimits&)> on_start;  ///< called once it runs, if set
 };
 
 struct ProcessResult {
@@ -39,16 +46,15 @@ struct ProcessResult {
   bool no_progress = false;  ///< likewise
   bool interrupted = false;  ///< killed because interrupted() or ProcessOptions::stop became true
   double seconds = 0;        ///< wall time
-  double cpu_seconds =
-      0;  ///< of it and of those of its children that it waited for: user and system
-  /// Resident, of the largest of them. If that is less than our own peak, as it was seen every 50 ms; 0: ended too soon.
-  std::uint64_t peak_memory_bytes = 0;
+  double cpu_seconds = 0;    ///< of it and all that it started: user and system
+  std::uint64_t peak_memory_bytes = 0;  ///< resident, of the largest of them
   std::string output_tail;  ///< the last 4 KiB of its output
 };
 
-/// Runs `arguments` (the first is the program's path) to its end. Its process group is killed on
-/// time-out, for want of progress and on interruption. If we are killed ourselves, so is the program, but not
-/// what it started. The clock may be set meanwhile. Throws Error(kEngine) if it cannot be started.
+/// Runs `arguments` (the first is the program's path) to its end. With it ends all that it started, whatever process
+/// groups and sessions of their own that has; so it does on time-out, for want of progress, on interruption, and when we
+/// are killed ourselves (spawn.hpp says how surely). The clock may be set meanwhile. Throws Error(kEngine) if it
+/// cannot be started.
 ProcessResult run_process(const std::vector<std::string>& arguments, const ProcessOptions& options);
 
 /// The program's path if `name` is executable (as a path, or found in $PATH), else empty.

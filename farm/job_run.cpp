@@ -21,7 +21,7 @@
 #include "core/host.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
-#include "core/peak_memory.hpp"
+#include "core/process_memory.hpp"
 #include "core/text.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"

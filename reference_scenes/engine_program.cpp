@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <limits>
 #include <thread>
 
@@ -103,10 +104,13 @@ void require_available(const EngineInfo& engine, const EngineStatus& status) {
                             status.why, engine.install_hint));
 }
 
-std::vector<std::string> private_home(const std::filesystem::path& directory) {
-  std::vector<std::string> environment;
+std::vector<std::string> engine_environment(const std::filesystem::path& directory) {
+  std::vector<std::string> environment{"LC_ALL=C.UTF-8", "TZ=UTC"};
   for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "TMPDIR", "TMP", "TEMP"})
     environment.push_back(fmt::format("{}={}", name, directory.string()));
+  for (const char* name : kPassedOn)
+    if (const char* value = std::getenv(name))
+      environment.push_back(fmt::format("{}={}", name, value));
   return environment;
 }
 
@@ -153,9 +157,10 @@ Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
 Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arguments,
                    ProcessOptions process, const ReferenceOptions& options, ProcessResult& result) {
   bool started = false;
-  process.on_start = [&started, told = std::move(process.on_start)](bool writes_limited) {
+  process.only_environment = true;
+  process.on_start = [&started, told = std::move(process.on_start)](const ProcessLimits& limits) {
     started = true;
-    if (told) told(writes_limited);
+    if (told) told(limits);
   };
   try {
     result = run_process(arguments, process);
@@ -202,6 +207,15 @@ bool may_begin(const ReferenceOptions& options, std::size_t index) {
 int threads_of(const ReferenceOptions& options) {
   return options.threads > 0 ? options.threads
                              : int(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b) {
+  return {a.writes_limited && b.writes_limited, std::min(a.contained, b.contained)};
+}
+
+void record_limits(Json& record, const ProcessLimits& limits) {
+  record["writesLimited"] = limits.writes_limited;
+  record["contained"] = containment_name(limits.contained);
 }
 
 void record_cost(Json& record, double cpu_seconds, std::uint64_t peak_memory_bytes, int threads) {

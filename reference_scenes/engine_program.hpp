@@ -26,9 +26,13 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
 /// Error(kEngine) with the reason and how to install it, unless it is available.
 void require_available(const EngineInfo& engine, const EngineStatus& status);
 
-/// Environment in which an engine finds no settings of the user's, which might alter its pictures, and
-/// leaves no caches or temporary files of its own behind.
-std::vector<std::string> private_home(const std::filesystem::path& directory);
+/// All that an engine gets of our environment: other variables could change its pictures (CYCLES_*, OCIO, PYTHON*) or how it
+/// runs (LD_PRELOAD, GLIBC_TUNABLES, MALLOC_*, OMP_*).
+inline constexpr const char* kPassedOn[] = {"PATH", "LD_LIBRARY_PATH"};
+
+/// The whole environment of an engine: kPassedOn, one language and time zone for all, and `directory` in place of the
+/// user's home, where it finds no settings and leaves its caches and temporary files.
+std::vector<std::string> engine_environment(const std::filesystem::path& directory);
 
 /// Of an engine's output the words that say most about a failure, in one line.
 std::string last_words(const std::string& output_tail);
@@ -37,7 +41,8 @@ std::string last_words(const std::string& output_tail);
 Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
                         const ReferenceOptions& options);
 
-/// run_process, but one that cannot be started is a failure. Throws Error(kInterrupted).
+/// run_process in `process.environment` and nothing else; one that cannot be started is a failure. Throws
+/// Error(kInterrupted).
 Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arguments,
                    ProcessOptions process, const ReferenceOptions& options, ProcessResult& result);
 
@@ -67,6 +72,12 @@ class EngineLog {
   static constexpr std::size_t kMost = 1 << 20;
   std::string text_;
 };
+
+/// What holds for both of two processes.
+ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b);
+
+/// Writes into a record what has held an engine's processes: `writesLimited` and `contained`.
+void record_limits(Json& record, const ProcessLimits& limits);
 
 /// Writes into a record what a program took: processor time, memory, threads.
 void record_cost(Json& record, double cpu_seconds, std::uint64_t peak_memory_bytes, int threads);

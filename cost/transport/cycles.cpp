@@ -75,9 +75,11 @@ double run_cycles(const std::filesystem::path& program, const Scene& scene,
   write_file(directory / "cycles_jobs.py", embedded::cycles_jobs_py);
   write_file(directory / "job.json", job_json(scene, directory, pictures).dump());
   ProcessOptions options;
-  options.working_directory = directory;
-  options.environment = private_home(directory);
+  options.working_directory = options.writable = options.progress_directory = directory;
+  options.environment = engine_environment(directory);
+  options.only_environment = true;
   options.timeout = std::chrono::minutes(10);
+  options.no_progress_limit = std::chrono::minutes(5);
   std::size_t done = 0;
   options.on_line = [&](std::string_view line) {
     const auto words = split(line, " ");

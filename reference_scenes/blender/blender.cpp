@@ -230,10 +230,8 @@ class BlenderWorker {
     line_ = &line;
     ProcessOptions process;
     process.working_directory = process.writable = process.progress_directory = directory_.path();
-    process.on_start = [&](bool writes_limited) { writes_limited_ = writes_limited; };
-    process.environment = private_home(directory_.path());
-    // The user's own configuration could give the scene's numbers other primaries.
-    process.environment.emplace_back("OCIO=");
+    process.on_start = [&](const ProcessLimits& limits) { limits_ = limits; };
+    process.environment = engine_environment(directory_.path());
     // It is given no scene after one time limit, and each scene has an alarm of its own; this is for
     // a Blender that never comes to that.
     process.timeout = 2 * options_.time_limit;
@@ -351,7 +349,7 @@ class BlenderWorker {
               "reflection";
     result.record["passes"] = passes;
     result.record["engineCommands"] = Json::array({command_});
-    result.record["writesLimited"] = writes_limited_;
+    record_limits(result.record, limits_);
     result.record["seconds"] = {{"total", done.seconds}};
     if (done.cost_told)
       record_cost(result.record, done.cpu_seconds, done.peak_memory_bytes, shared_.threads);
@@ -387,7 +385,7 @@ class BlenderWorker {
   double cpu_told_ = 0;
   Line* line_ = nullptr;
   std::string command_;
-  bool writes_limited_ = false;
+  ProcessLimits limits_;
   // Since its last scene:
   StageClock clock_;
   EngineLog log_;

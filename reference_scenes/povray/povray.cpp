@@ -38,7 +38,7 @@ struct PassResult {
   Failure failure;
   std::vector<std::string> commands;
   EngineLog log;
-  bool writes_limited = false;
+  ProcessLimits limits{true, Containment::kPidNamespace};  ///< the weakest of its processes
   double seconds = 0, cpu_seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
   double parse_seconds = 0, trace_seconds = 0;  ///< by its statistics, where they were asked for
@@ -147,8 +147,8 @@ void Povray::run_pov(PassResult& result, const Job& job, const PovrayPass& pass,
   const std::vector<std::string> arguments{status_.program.string(), stem + ".ini"};
   ProcessOptions process;
   process.working_directory = process.writable = process.progress_directory = home;
-  process.on_start = [&](bool writes_limited) {
-    result.writes_limited = writes_limited && (result.commands.empty() || result.writes_limited);
+  process.on_start = [&](const ProcessLimits& limits) {
+    result.limits = weaker(result.limits, limits);
   };
   process.environment = povray_home(home, status_.version);
   process.timeout = options.time_limit;
@@ -212,7 +212,7 @@ ReferenceResult finish(Job& job, const ReferenceOptions& options, Json record) {
   const bool fine = options.fine;
   double seconds = 0, cpu_seconds = 0, parse_seconds = 0, trace_seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
-  bool writes_limited = true;
+  ProcessLimits limits{true, Containment::kPidNamespace};
   Json commands = Json::array();
   std::vector<Image> images;
   for (PassResult& pass : job.passes) {
@@ -225,7 +225,7 @@ ReferenceResult finish(Job& job, const ReferenceOptions& options, Json record) {
     peak_memory_bytes = std::max(peak_memory_bytes, pass.peak_memory_bytes);
     parse_seconds += pass.parse_seconds;
     trace_seconds += pass.trace_seconds;
-    writes_limited = writes_limited && pass.writes_limited;
+    limits = weaker(limits, pass.limits);
     for (const std::string& command : pass.commands) commands.push_back(command);
     images.push_back(std::move(pass.image));
   }
@@ -239,7 +239,7 @@ ReferenceResult finish(Job& job, const ReferenceOptions& options, Json record) {
   record["passes"] = job.passes.size();
   record["engineCommands"] = std::move(commands);
   record["engineOptions"] = job.options;
-  record["writesLimited"] = writes_limited;
+  record_limits(record, limits);
   record["seconds"] = {{"total", seconds}};
   record_cost(record, cpu_seconds, peak_memory_bytes, job.threads);
   if (options.stages) {

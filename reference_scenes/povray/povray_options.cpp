@@ -43,7 +43,7 @@ std::vector<std::string> povray_home(const fs::path& home, const std::string& ve
              "[Shellout Security]\nforbidden\n"
              "[Permitted Paths]\nread* = %INSTALLDIR%/include\nread+write = .\n");
   write_file(home / "povray.ini", "; In place of the system's and the user's.\n");
-  std::vector<std::string> environment = private_home(home);
+  std::vector<std::string> environment = engine_environment(home);
   environment.push_back(fmt::format("POVINI={}", (home / "povray.ini").string()));
   return environment;
 }

@@ -9,10 +9,13 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <functional>
 #include <future>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/interrupt.hpp"
 #include "core/write_limit.hpp"
 
 namespace lobelia {
@@ -183,33 +186,163 @@ TEST(Process, IgnoresAndBlocksTheSignalsThatWeDo) {
   std::signal(SIGUSR2, ignored);
 }
 
-/// Whether the program goes on when the process is killed that runs it.
-bool outlives(bool uninterruptible) {
-  int ends[2];
-  EXPECT_EQ(::pipe2(ends, O_CLOEXEC), 0);
-  const pid_t killed = ::fork();
-  if (killed == 0) {
-    ProcessOptions options;
-    options.input = ends[0];
-    options.uninterruptible = uninterruptible;
-    options.on_line = [](std::string_view) { ::kill(::getpid(), SIGKILL); };
-    run_process(shell("echo begun; read end"), options);
+/// A program that wants to live on, in every way that is known to have worked.
+constexpr char kClinging[] =
+    "exec 3<&0\n"  // whatever lives has it open
+    "sh -c 'sleep 1000; :' &\n"
+    "(setsid sh -c 'sleep 1000 & sleep 1000 &' &)\n"
+    "(trap '' TERM HUP INT; sleep 1000; :) &\n"
+    "flee() { flee & }\n"
+    "flee &\n"
+    "echo begun\n";
+
+enum class Rights { kOurs, kWithoutNamespace, kOfNobody };
+
+/// In a process of its own, whose status this returns, with what is left of the rights. It begins when we have closed
+/// `theirs`.
+int in_child(Rights rights, const std::function<void()>& work, int theirs = -1) {
+  int begin[2];
+  EXPECT_EQ(::pipe2(begin, O_CLOEXEC), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(begin[1]);
+    char nothing;
+    EXPECT_EQ(::read(begin[0], &nothing, 1), 0);
+    if (rights == Rights::kWithoutNamespace) ::setenv("LOBELIA_NO_NAMESPACE", "1", 1);
+    constexpr int kNobody = 65534;
+    if (rights == Rights::kOfNobody &&
+        (::setresgid(kNobody, kNobody, kNobody) != 0 || ::setresuid(kNobody, kNobody, kNobody) != 0))
+      ::_exit(99);
+    try {
+      work();
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "{}\n", error.what());
+      ::_exit(98);
+    }
     ::_exit(0);
   }
-  ::close(ends[0]);
+  if (theirs >= 0) ::close(theirs);
+  for (const int end : begin) ::close(end);
   int status = 0;
-  EXPECT_EQ(::waitpid(killed, &status, 0), killed);
-  EXPECT_TRUE(WIFSIGNALED(status));
-  // As long as somebody has the end to read from, there is no error at ours.
-  pollfd reader{ends[1], 0, 0};
-  const bool ended = ::poll(&reader, 1, uninterruptible ? 300 : 20000) == 1;
-  ::close(ends[1]);
-  return !ended;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  return status;
 }
 
-TEST(Process, DoesNotOutliveUsUnlessItMustNotBeCutInTwo) {
-  EXPECT_FALSE(outlives(false));
-  EXPECT_TRUE(outlives(true));
+class Contained : public testing::TestWithParam<Rights> {
+ protected:
+  void SetUp() override {
+    if (GetParam() == Rights::kOfNobody && ::geteuid() != 0)
+      GTEST_SKIP() << "these are our rights as it is";
+  }
+  /// Whether nothing of the program is there once the process that has run it is gone, killed or not.
+  static bool leaves_nothing(const std::string& script,
+                             const std::function<void(ProcessOptions&)>& change) {
+    int ends[2];
+    EXPECT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+    const int status = in_child(GetParam(), [&] {
+      ProcessOptions options;
+      options.input = ends[0];
+      change(options);
+      try {
+        run_process(shell(script), options);
+      } catch (const std::runtime_error&) {  // of on_line
+      }
+      // Not only soon: when run_process returns.
+      ::close(ends[0]);
+      pollfd writer{ends[1], 0, 0};
+      if (::poll(&writer, 1, 0) != 1) ::_exit(1);
+    }, ends[0]);
+    pollfd writer{ends[1], 0, 0};
+    const bool ended = ::poll(&writer, 1, 600'000) == 1;
+    ::close(ends[1]);
+    return ended && (WIFSIGNALED(status) || WEXITSTATUS(status) == 0);
+  }
+};
+
+TEST_P(Contained, LeavesNothingAtItsEnd) {
+  EXPECT_TRUE(leaves_nothing(kClinging, [](ProcessOptions&) {}));
+}
+
+TEST_P(Contained, LeavesNothingAtATimeOut) {
+  EXPECT_TRUE(leaves_nothing(std::string(kClinging) + "sleep 1000", [](ProcessOptions& options) {
+    options.timeout = std::chrono::milliseconds(300);
+  }));
+}
+
+TEST_P(Contained, LeavesNothingWhenItsReaderThrows) {
+  EXPECT_TRUE(leaves_nothing(std::string(kClinging) + "sleep 1000", [](ProcessOptions& options) {
+    options.on_line = [](std::string_view) { throw std::runtime_error("no more"); };
+  }));
+}
+
+TEST_P(Contained, LeavesNothingAtCtrlC) {
+  EXPECT_TRUE(leaves_nothing(std::string(kClinging) + "sleep 1000", [](ProcessOptions& options) {
+    catch_interrupts();
+    options.on_line = [](std::string_view) { std::raise(SIGINT); };
+  }));
+}
+
+TEST_P(Contained, LeavesNothingAtASecondCtrlC) {
+  EXPECT_TRUE(leaves_nothing(std::string(kClinging) + "sleep 1000", [](ProcessOptions& options) {
+    catch_interrupts();
+    options.on_line = [](std::string_view) {
+      std::raise(SIGINT);
+      ::usleep(400'000);  // sooner it is taken for the same one
+      std::raise(SIGINT);
+    };
+  }));
+}
+
+TEST_P(Contained, LeavesNothingWhenWeAreKilled) {
+  EXPECT_TRUE(leaves_nothing(std::string(kClinging) + "sleep 1000", [](ProcessOptions& options) {
+    options.on_line = [](std::string_view) { ::kill(::getpid(), SIGKILL); };
+  }));
+}
+
+TEST_P(Contained, EndsAsItDoesAloneWithAllThatItTook) {
+  EXPECT_EQ(in_child(GetParam(), [] {
+              Containment contained = Containment::kNone;
+              ProcessOptions options;
+              options.on_start = [&](const ProcessLimits& limits) { contained = limits.contained; };
+              // The processor time of one that has left it counts as well.
+              const auto busy = run_process(
+                  shell("(setsid sh -c 'ulimit -t 1; while :; do :; done' &); sleep 2; exit 7"), options);
+              EXPECT_EQ(busy.exit_code, 7);
+              EXPECT_GT(busy.cpu_seconds, 0.4);
+              EXPECT_NE(contained, Containment::kNone);
+              EXPECT_EQ(run_process(shell("kill -ALRM $$"), {}).exit_code, 128 + SIGALRM);
+              EXPECT_EQ(run_process({"/bin/cat", "/no/such"}, {}).exit_code, 1);
+              if (testing::Test::HasFailure()) ::_exit(1);
+            }),
+            0);
+}
+
+TEST_P(Contained, IsOverIfItKillsItsKeeper) {
+  const int status = in_child(GetParam(), [] {
+    const auto result = run_process(shell("kill -9 $PPID; exit 3"), {});
+    ::_exit(result.exit_code);
+  });
+  // Process 1 of a namespace cannot be killed from inside.
+  EXPECT_THAT(WEXITSTATUS(status), testing::AnyOf(3, 128 + SIGKILL));
+}
+
+INSTANTIATE_TEST_SUITE_P(Process, Contained,
+                         testing::Values(Rights::kOurs, Rights::kWithoutNamespace,
+                                         Rights::kOfNobody));
+
+TEST(Process, GoesOnWithoutUsIfItMustNotBeCutInTwo) {
+  int ends[2];
+  ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+  in_child(Rights::kOurs, [&] {
+    ProcessOptions options;
+    options.input = ends[0];
+    options.uninterruptible = true;
+    options.on_line = [](std::string_view) { ::kill(::getpid(), SIGKILL); };
+    run_process(shell("echo begun; read end"), options);
+  }, ends[0]);
+  pollfd writer{ends[1], 0, 0};
+  EXPECT_EQ(::poll(&writer, 1, 300), 0) << "it is gone";
+  ::close(ends[1]);
 }
 
 TEST(Process, SeesOurEnvironmentWithTheChangesAsked) {
@@ -241,7 +374,7 @@ TEST(Process, WritesNowhereButWhereItMay) {
   options.working_directory = own.path();
   options.writable = own.path();
   bool limited = false;
-  options.on_start = [&](bool writes_limited) { limited = writes_limited; };
+  options.on_start = [&](const ProcessLimits& limits) { limited = limits.writes_limited; };
   options.environment = {"OTHER=" + other.path().string()};
   const auto result = run_process(
       shell(

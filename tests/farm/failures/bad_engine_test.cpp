@@ -2,6 +2,7 @@
 #include <signal.h>
 
 #include <fstream>
+#include <sstream>
 
 #include "core/image_io.hpp"
 #include "failing_farm.hpp"
@@ -191,6 +192,36 @@ TEST_F(OddEngine, IsInterruptedWithTheFarmAndLeavesNothing) {
   expect_nothing_half_written();
   fake_povray();
   expect_mended(run(), 3);
+}
+
+/// An engine that says what it has of our environment.
+class EngineOfTheEnvironment : public FailingFarm {};
+
+TEST_F(EngineOfTheEnvironment, HasOnlyWhatTheListAllows) {
+  grid({"8"});
+  fake_povray("echo begin; env; echo end");
+  const FarmRun done = run_command(
+      command(), {"CYCLES_CPU_NO_AVX2=1", "OCIO=/no/such", "GLIBC_TUNABLES=glibc.malloc.check=0",
+                  "MALLOC_ARENA_MAX=1", "OMP_NUM_THREADS=1", "PYTHONPATH=/no/such",
+                  "LD_LIBRARY_PATH=/no/such", "LANG=de_DE", "TZ=Asia/Tokyo"});
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  std::map<std::string, std::string> seen;
+  std::istringstream log(read_file(out() / "cells" / "n8" / "povray.log", 1 << 20));
+  bool inside = false;
+  for (std::string line; std::getline(log, line);) {
+    if (line == "end") break;
+    if (inside) seen[line.substr(0, line.find('='))] = line.substr(line.find('=') + 1);
+    if (line == "begin") inside = true;
+  }
+  for (const char* own : {"PWD", "OLDPWD", "SHLVL", "_"}) seen.erase(own);  // the shell's
+  std::vector<std::string> names;
+  for (const auto& [name, value] : seen) names.push_back(name);
+  EXPECT_THAT(names, testing::ElementsAre("HOME", "LC_ALL", "LD_LIBRARY_PATH", "PATH", "POVINI",
+                                          "TEMP", "TMP", "TMPDIR", "TZ", "XDG_CACHE_HOME",
+                                          "XDG_CONFIG_HOME"));
+  EXPECT_EQ(seen["LD_LIBRARY_PATH"], "/no/such");
+  EXPECT_EQ(seen["TZ"], "UTC");
+  EXPECT_EQ(seen["LC_ALL"], "C.UTF-8");
 }
 
 }  // namespace

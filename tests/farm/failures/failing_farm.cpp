@@ -171,14 +171,22 @@ int RunningFarm::wait() {
   return exit_code_;
 }
 
-std::vector<int> RunningFarm::children(const std::string& name) const {
+std::vector<int> RunningFarm::engines(const std::string& name) const {
+  std::map<std::string, std::string> parents;
   std::vector<int> found;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
-    const ProcessState process = state_of(entry.path());
-    if (process.name == name && process.is_alive() && process.parent == std::to_string(pid_) &&
-        !is_asked_its_version(entry.path()))
-      found.push_back(std::stoi(entry.path().filename()));
+  const auto is_ours = [&](std::string process) {
+    while (process != std::to_string(pid_) && parents.contains(process)) process = parents[process];
+    return process == std::to_string(pid_);
+  };
+  for (const auto& entry : fs::directory_iterator("/proc", ignored))
+    if (const ProcessState process = state_of(entry.path()); !process.parent.empty())
+      parents[entry.path().filename()] = process.parent;
+  for (const auto& [process, parent] : parents) {
+    const fs::path entry = fs::path("/proc") / process;
+    const ProcessState state = state_of(entry);
+    if (state.name == name && state.is_alive() && is_ours(parent) && !is_asked_its_version(entry))
+      found.push_back(std::stoi(process));
   }
   return found;
 }

@@ -38,8 +38,8 @@ class RunningFarm {
   /// Until it has ended: its exit code, or 128 + signal. At most 120 s.
   int wait();
   bool has_ended();
-  /// Processes that it started and whose program is named so; not those that are only asked their version.
-  std::vector<int> children(const std::string& name) const;
+  /// Processes of that name that come of it; not those that are only asked their version.
+  std::vector<int> engines(const std::string& name) const;
   std::string output() const { return read_file(output_, 1 << 26); }  ///< so far
 
  private:

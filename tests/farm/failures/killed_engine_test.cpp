@@ -1,5 +1,9 @@
-// POV-Ray and Blender themselves, killed at their work.
+// POV-Ray and Blender themselves, killed at their work; and engines that do not want to end.
+#include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <thread>
 
@@ -24,7 +28,7 @@ class KilledEngine : public FailingFarm {
     expect_nothing_half_written();
   }
   static void wait_for_a(const std::string& program, RunningFarm& farm) {
-    while (farm.children(program).empty() && !farm.has_ended())
+    while (farm.engines(program).empty() && !farm.has_ended())
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 };
@@ -34,7 +38,7 @@ TEST_F(KilledEngine, IsStartedAgainAndTheRecordSaysSo) {
   for (const char* program : {"povray", "blender"}) {
     wait_for_a(program, farm);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    const auto at_work = farm.children(program);
+    const auto at_work = farm.engines(program);
     ASSERT_FALSE(at_work.empty()) << program << farm.output();
     for (const int pid : at_work) ::kill(pid, SIGKILL);
   }
@@ -53,7 +57,7 @@ TEST_F(KilledEngine, ThatHasNoFurtherAttemptIsAFailureUntilTheNextRun) {
     RunningFarm farm(command({"--attempts", "1"}), root());
     wait_for_a("povray", farm);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    for (const int pid : farm.children("povray")) ::kill(pid, SIGKILL);
+    for (const int pid : farm.engines("povray")) ::kill(pid, SIGKILL);
     EXPECT_EQ(farm.wait(), 4) << farm.output();
     EXPECT_THAT(farm.output(), testing::HasSubstr("povray: POV-Ray was ended by signal 9"));
   }
@@ -72,8 +76,8 @@ TEST_F(KilledEngine, AndItsFarmTooLoseNoMoreThanTheyWereAt) {
     RunningFarm farm(command(), root());
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     const auto at_work = [&] {
-      std::vector<int> found = farm.children("povray");
-      for (const int pid : farm.children("blender")) found.push_back(pid);
+      std::vector<int> found = farm.engines("povray");
+      for (const int pid : farm.engines("blender")) found.push_back(pid);
       return found;
     };
     std::vector<int> engines = at_work();
@@ -95,6 +99,80 @@ TEST_F(KilledEngine, AndItsFarmTooLoseNoMoreThanTheyWereAt) {
   EXPECT_EQ(last.rendered, 12 - there) << last.output;
   expect_as_alone();
 }
+
+/// An engine behind a wrapper that wants to live on, with children that have sessions of their own and ignore signals.
+class ClingingEngine : public FailingFarm, public testing::WithParamInterface<const char*> {
+ protected:
+  ClingingEngine() { ::mkfifo(fifo().c_str(), 0600); }
+  ~ClingingEngine() override { ::close(writer_); }
+  fs::path fifo() const { return root() / "alive"; }
+  /// `last` is what the engine itself does.
+  std::string clinging(const std::string& last) const {
+    return fmt::format(
+        "exec 3<'{}'\n"  // whatever lives has it open
+        "(setsid sh -c 'sleep 1000 & sleep 1000 &' &)\n"
+        "(trap '' TERM HUP INT; sleep 1000; :) &\n"
+        "{}\n",
+        fifo().string(), last);
+  }
+  std::vector<std::string> environment() const {
+    if (*GetParam() == '\0') return {};
+    return {GetParam()};
+  }
+  /// Until somebody has it open to read from, and lets them go on.
+  void meet(RunningFarm& farm) {
+    while ((writer_ = ::open(fifo().c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0 &&
+           !farm.has_ended())
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_GE(writer_, 0) << farm.output();
+  }
+  /// Whether nothing has it open any more, now or within ten minutes.
+  bool is_over(bool at_once) const {
+    pollfd reader{writer_, 0, 0};
+    return ::poll(&reader, 1, at_once ? 0 : 600'000) == 1;
+  }
+
+ private:
+  int writer_ = -1;
+};
+
+TEST_P(ClingingEngine, LeavesNothingWhenItHasMadeItsPictures) {
+  fake_povray(clinging(""));
+  RunningFarm farm(command(), root(), environment());
+  meet(farm);
+  EXPECT_EQ(farm.wait(), 0) << farm.output();
+  EXPECT_TRUE(is_over(true));
+  const Json made = read_record(out() / "cells" / "n8" / "povray.json", "reference");
+  EXPECT_NE(made.at("contained"), *GetParam() == '\0' ? "none" : "pid namespace");
+}
+
+TEST_P(ClingingEngine, LeavesNothingAfterItsTime) {
+  fake_povray(clinging("sleep 1000"));
+  RunningFarm farm(command({"--time-limit", "2", "--attempts", "1"}), root(), environment());
+  meet(farm);
+  EXPECT_EQ(farm.wait(), 4) << farm.output();
+  EXPECT_TRUE(is_over(true));
+}
+
+TEST_P(ClingingEngine, LeavesNothingAfterCtrlC) {
+  fake_povray(clinging("sleep 1000"));
+  RunningFarm farm(command(), root(), environment());
+  meet(farm);
+  farm.signal(SIGINT);
+  EXPECT_EQ(farm.wait(), 130) << farm.output();
+  EXPECT_TRUE(is_over(true));
+}
+
+TEST_P(ClingingEngine, LeavesNothingWhenTheFarmIsKilled) {
+  fake_povray(clinging("sleep 1000"));
+  RunningFarm farm(command(), root(), environment());
+  meet(farm);
+  farm.signal(SIGKILL);
+  farm.wait();
+  EXPECT_TRUE(is_over(false));
+}
+
+INSTANTIATE_TEST_SUITE_P(Farm, ClingingEngine, testing::Values("", "LOBELIA_NO_NAMESPACE=1"));
 
 }  // namespace
 }  // namespace lobelia

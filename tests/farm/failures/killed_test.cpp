@@ -93,10 +93,10 @@ TEST_F(KilledFarm, LeavesNoEngineBehindThatHangs) {
   fake_povray("read nothing < '" + queue.string() + "'");  // waits for a writer that never comes
   RunningFarm farm(command({"--no-progress-limit", "0"}), root());
   std::vector<int> engines;
-  while ((engines = farm.children("povray")).size() < 2 && !farm.has_ended())
+  while ((engines = farm.engines("povray")).size() < 2 && !farm.has_ended())
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  engines = farm.children("povray");
+  engines = farm.engines("povray");
   EXPECT_GE(engines.size(), 2u) << farm.output();
   farm.signal(SIGKILL);
   EXPECT_EQ(farm.wait(), 128 + SIGKILL);

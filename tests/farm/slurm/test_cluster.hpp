@@ -56,7 +56,9 @@ class TestCluster {
     arguments.insert(arguments.begin(), script());
     arguments.push_back(directory_.path().string());
     if (!node.empty()) arguments.push_back(node);
-    const ProcessResult result = run_process(arguments, {});
+    ProcessOptions options;
+    options.uninterruptible = true;  // what it starts goes on
+    const ProcessResult result = run_process(arguments, options);
     ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   }
 
