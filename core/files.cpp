@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,13 +15,11 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "core/removal.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr char kTemporaryName[] = "lobelia-temporary-";
 
 /// Closes on every way out; close() errors are looked at where they matter.
 struct FileDescriptor {
@@ -68,6 +65,14 @@ fs::path temporary_name(const fs::path& path) {
          fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), device());
 }
 
+/// Whether the path still names what is open.
+bool is_at(const fs::path& path, int fd) {
+  struct stat there {
+  }, open{};
+  return ::lstat(path.c_str(), &there) == 0 && ::fstat(fd, &open) == 0 &&
+         there.st_dev == open.st_dev && there.st_ino == open.st_ino;
+}
+
 }  // namespace
 
 std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
@@ -98,23 +103,25 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
 
 PartFile::PartFile(const fs::path& path)
     : path_(path), target_(final_target(path)), part_([&] {
-        const fs::path part = temporary_name(target_);
-        fd_ = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd_ < 0) output_error(path, errno);
-        return part;
-      }) {
-  ::flock(fd_, LOCK_EX);  // by which others see that it is not abandoned
-}
+        while (true) {
+          const fs::path part = temporary_name(target_);
+          fd_ = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+          if (fd_ < 0) output_error(path, errno);
+          ::flock(fd_, LOCK_EX);  // by which others see that it is not abandoned
+          if (is_at(part, fd_)) return part;
+          ::close(fd_);  // before it was locked, a machine that knows no such process took it away
+        }
+      }) {}
 
 PartFile::~PartFile() {
   if (fd_ < 0) return;
   ::close(fd_);
-  ::unlink(part_.path().c_str());
+  remove_part(part_.path());
 }
 
 void PartFile::fail(int error) {
   if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-  ::unlink(part_.path().c_str());
+  remove_part(part_.path());
   output_error(path_, error);
 }
 
@@ -157,7 +164,7 @@ FilesTogether::FilesTogether() : state_(std::make_unique<State>()) { current_ = 
 
 FilesTogether::~FilesTogether() {
   current_ = nullptr;
-  for (const auto& file : state_->files) ::unlink(file.part.path().c_str());
+  for (const auto& file : state_->files) remove_part(file.part.path());
 }
 
 bool FilesTogether::add(PartFile& file) {
@@ -195,7 +202,7 @@ void require_writable(const fs::path& path) {
   const EndDelay delay;
   const FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
   if (file.fd < 0) output_error(path, errno);
-  ::unlink(part.c_str());
+  remove_part(part);
 }
 
 void make_directories(const fs::path& path) {
@@ -214,52 +221,36 @@ TemporaryDirectory::TemporaryDirectory() {
     throw Error(ExitCode::kOutput,
                 fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
   path_.emplace([&] {
-    std::string name = (parent / kTemporaryName).string() + "XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
-    return fs::path(name);
+    while (true) {
+      std::string name = (parent / kTemporaryName).string() + "XXXXXX";
+      if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
+      alive_ = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+      if (alive_ < 0 && errno != ENOENT) {
+        const int number = errno;
+        remove_temporary(name);
+        output_error(name, number);
+      }
+      if (alive_ >= 0) ::flock(alive_, LOCK_EX);
+      if (alive_ >= 0 && is_at(name, alive_)) return fs::path(name);
+      // Before it was locked, another farm took it for one that a dead process left behind.
+      if (alive_ >= 0) ::close(alive_);
+    }
   });
-  alive_ = ::open(path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (alive_ >= 0) ::flock(alive_, LOCK_EX);
 }
 
 TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  fs::remove_all(path(), ignored);
-  if (alive_ >= 0) ::close(alive_);
+  remove_temporary(path());
+  ::close(alive_);
 }
 
 void remove_abandoned_temporaries() {
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(error), error)) {
-    if (!entry.path().filename().native().starts_with(kTemporaryName)) continue;
-    const FileDescriptor directory{
-        ::open(entry.path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)};
-    struct stat status {};
-    // One that is empty may have been made just now, and be locked next.
-    if (directory.fd < 0 || ::fstat(directory.fd, &status) != 0 || status.st_uid != ::geteuid() ||
-        ::flock(directory.fd, LOCK_EX | LOCK_NB) != 0 || fs::is_empty(entry.path(), error) || error)
-      continue;
-    fs::remove_all(entry.path(), error);
-  }
+  const fs::path parent = fs::temp_directory_path(error);
+  if (!error) remove_dead_temporaries(parent);
 }
 
 void remove_abandoned_files(const fs::path& directory) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory, error)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with('.') || !name.ends_with(".part")) continue;
-    // ".NAME.PID-N.part"
-    const auto dash = name.rfind('-'), dot = name.rfind('.', dash);
-    long long pid = 0;
-    if (dash == name.npos || dot == name.npos || dot > dash ||
-        !parse_integer(name.substr(dot + 1, dash - dot - 1), pid) || pid <= 0)
-      continue;
-    if (::kill(pid_t(pid), 0) == 0 || errno != ESRCH) continue;
-    // There is no such process here; on another machine there may be.
-    const FileDescriptor file{::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
-    if (file.fd < 0 || ::flock(file.fd, LOCK_EX | LOCK_NB) != 0) continue;
-    fs::remove(entry.path(), error);
-  }
+  remove_abandoned_parts(HeldDirectory(directory));
 }
 
 }  // namespace lobelia

@@ -18,6 +18,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/removal.hpp"
 #include "core/standard_streams.hpp"
 
 namespace lobelia {
@@ -78,9 +79,7 @@ void remove_temporary_paths() {
   constexpr int kAttempts = 20;
   for (const auto& path : ending().temporary_paths)
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      std::error_code error;
-      std::filesystem::remove_all(path, error);
-      if (!error) break;
+      if (remove_temporary(path)) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
 }

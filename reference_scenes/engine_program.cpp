@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -241,7 +242,7 @@ std::string read_engine_log(const ReferenceOptions& options, const EngineInfo& e
   const std::filesystem::path file = log_file(options, engine, index);
   if (!std::filesystem::exists(file)) return {};
   std::string text = read_file(file, std::numeric_limits<std::uint32_t>::max());
-  std::filesystem::remove(file);
+  remove_in_temporary_directory(file);
   return text;
 }
 

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/blender/blender_input.hpp"
 #include "reference_scenes/engine_program.hpp"
@@ -69,8 +70,7 @@ Failure read_passes(const fs::path& directory, const std::string& name, const Sc
     const fs::path file = directory / fmt::format("{}-{}.exr", name, pass);
     if (Failure failure = read_engine_picture(kBlenderInfo, file, scene.film, images[pass]))
       return failure;
-    std::error_code ignored;
-    fs::remove(file, ignored);
+    remove_in_temporary_directory(file);
   }
   sum = sum_of(images);
   return {};

@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/povray/povray_input.hpp"
@@ -202,8 +203,7 @@ PassResult Povray::run_pass(const Job& job, const PovrayPass& pass, const std::s
     write_file(home / (rest + ".pov"), pass.rest(stem + ".exr"));
     run_pov(result, job, pass, rest, home, options, stop);
   }
-  std::error_code ignored;
-  fs::remove_all(home, ignored);  // of many large pictures only those at work lie on the disk
+  remove_in_temporary_directory(home);  // of many large pictures only those at work lie on the disk
   return result;
 }
 

@@ -1,0 +1,411 @@
+#include "core/removal.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <linux/openat2.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+/// Of directories in one another; each is held open.
+constexpr int kMaxDepth = 128;
+constexpr int kOpenDirectory = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
+
+bool is_plain(std::string_view name) {
+  return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
+         name.find('\0') == name.npos;
+}
+
+bool is_on_one_device(int a, int b) {
+  struct stat first {
+  }, second{};
+  return ::fstat(a, &first) == 0 && ::fstat(b, &second) == 0 && first.st_dev == second.st_dev;
+}
+
+/// A mount of the same file system elsewhere has its device's number: only openat2 knows it.
+int open_directory(int parent, const std::string& name, HeldDirectory::Border border) {
+  if (border == HeldDirectory::Border::kStay) {
+    open_how how{};
+    how.flags = kOpenDirectory;
+    how.resolve = RESOLVE_NO_XDEV | RESOLVE_NO_SYMLINKS;
+    const long fd = ::syscall(SYS_openat2, parent, name.c_str(), &how, sizeof how);
+    if (fd >= 0 || (errno != ENOSYS && errno != EPERM && errno != EINVAL)) return int(fd);
+  }
+  const int fd = ::openat(parent, name.c_str(), kOpenDirectory);
+  if (fd < 0 || border == HeldDirectory::Border::kCross || is_on_one_device(parent, fd)) return fd;
+  ::close(fd);
+  errno = EXDEV;
+  return -1;
+}
+
+bool is_directory(int parent, const std::string& name) {
+  struct stat status {};
+  return ::fstatat(parent, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+         S_ISDIR(status.st_mode);
+}
+
+/// What an engine made may forbid even us to look into it.
+void allow_owner(int parent, const std::string& name) {
+  const int fd = ::openat(parent, name.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC);
+  if (fd < 0) return;
+  struct stat status {};
+  if (::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode))
+    ::chmod(fmt::format("/proc/self/fd/{}", fd).c_str(), 0700);
+  ::close(fd);
+}
+
+bool is_temporary_name(std::string_view name) {
+  constexpr std::size_t kPrefix = sizeof kTemporaryName - 1;
+  return name.size() == kPrefix + 6 && name.starts_with(kTemporaryName) &&
+         std::ranges::all_of(name.substr(kPrefix),
+                             [](unsigned char c) { return std::isalnum(c) != 0; });
+}
+
+/// The path's part below its first directory of TemporaryDirectory; empty: there is none.
+fs::path below_temporary(const fs::path& path, fs::path& temporary) {
+  fs::path above, below;
+  for (const fs::path& part : path) {
+    if (!below.empty() || is_temporary_name(above.filename().native()))
+      below /= part;
+    else
+      above /= part;
+  }
+  temporary = above;
+  return below;
+}
+
+/// Of this user's own temporary directory, which is the marker: its name, its owner, and whoever holds its lock.
+Removal removal_of_temporary(const fs::path& path) {
+  return Removal(path.parent_path(), {[name = path.filename().string()](const HeldDirectory& root) {
+                                        struct stat status {};
+                                        const HeldDirectory there = root.below(name);
+                                        return there && is_temporary_name(name) &&
+                                               ::fstat(there.fd(), &status) == 0 &&
+                                               status.st_uid == ::geteuid();
+                                      },
+                                      [name = path.filename()](const fs::path& relative) {
+                                        return relative == name ? Owned::kTree : Owned::kNo;
+                                      }});
+}
+
+}  // namespace
+
+HeldDirectory::HeldDirectory(const fs::path& path)
+    : fd_(::open(path.empty() ? "." : path.c_str(),
+                 O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK)),
+      error_(fd_ < 0 ? errno : 0),
+      path_(path) {}
+
+HeldDirectory::~HeldDirectory() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+HeldDirectory::HeldDirectory(HeldDirectory&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), error_(other.error_), path_(std::move(other.path_)) {}
+
+HeldDirectory& HeldDirectory::operator=(HeldDirectory&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  std::swap(error_, other.error_);
+  std::swap(path_, other.path_);
+  return *this;
+}
+
+HeldDirectory HeldDirectory::below(const std::string& name, Border border) const {
+  HeldDirectory found;
+  found.path_ = path_ / name;
+  found.error_ = fd_ < 0 ? error_ : !is_plain(name) ? EINVAL : 0;
+  if (found.error_ != 0) return found;
+  found.fd_ = open_directory(fd_, name, border);
+  if (found.fd_ >= 0) return found;
+  found.error_ = errno;
+  struct stat status {};
+  if (::fstatat(fd_, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode))
+    found.error_ = ELOOP;
+  return found;
+}
+
+HeldDirectory HeldDirectory::make_below(const std::string& name, Border border) const {
+  HeldDirectory made = below(name, border);
+  if (made.is_missing() && fd_ >= 0) {
+    if (::mkdirat(fd_, name.c_str(), 0777) != 0 && errno != EEXIST)
+      throw Error(ExitCode::kOutput, fmt::format("{}: cannot make the directory: {}",
+                                                 made.path().string(), std::strerror(errno)));
+    made = below(name, border);
+  }
+  if (!made)
+    throw Error(ExitCode::kOutput,
+                fmt::format("{}: cannot write: {}", made.path().string(), made.why_not()));
+  return made;
+}
+
+std::string HeldDirectory::why_not() const {
+  switch (error_) {
+    case ELOOP:
+      return "a symbolic link, which is not followed";
+    case EXDEV:
+      return "another file system";
+    default:
+      return std::strerror(error_);
+  }
+}
+
+bool HeldDirectory::is_missing() const { return fd_ < 0 && error_ == ENOENT; }
+
+std::vector<std::string> HeldDirectory::names() const { return list(false); }
+std::vector<std::string> HeldDirectory::links() const { return list(true); }
+
+std::vector<std::string> HeldDirectory::list(bool links_only) const {
+  std::vector<std::string> found;
+  // An open file of its own: the place in the list belongs to that.
+  const int fd = fd_ < 0 ? -1 : ::openat(fd_, ".", kOpenDirectory);
+  DIR* const directory = fd < 0 ? nullptr : ::fdopendir(fd);
+  if (!directory) {
+    if (fd >= 0) ::close(fd);
+    return found;
+  }
+  while (const dirent* entry = ::readdir(directory)) {
+    struct stat status {};
+    if (!is_plain(entry->d_name)) continue;
+    if (links_only && entry->d_type != DT_LNK &&
+        (entry->d_type != DT_UNKNOWN ||
+         ::fstatat(fd, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 ||
+         !S_ISLNK(status.st_mode)))
+      continue;
+    found.emplace_back(entry->d_name);
+  }
+  ::closedir(directory);
+  std::ranges::sort(found);
+  return found;
+}
+
+std::optional<std::string> HeldDirectory::read(const std::string& name,
+                                               std::uint64_t max_bytes) const {
+  if (fd_ < 0 || !is_plain(name)) return std::nullopt;
+  const int fd = ::openat(fd_, name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return std::nullopt;
+  struct stat status {};
+  std::optional<std::string> text;
+  if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
+      std::uint64_t(status.st_size) <= max_bytes) {
+    text.emplace(std::size_t(status.st_size), '\0');
+    std::size_t done = 0;
+    while (done < text->size()) {
+      const ssize_t n = ::pread(fd, text->data() + done, text->size() - done, off_t(done));
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) break;
+      done += std::size_t(n);
+    }
+    text->resize(done);
+  }
+  ::close(fd);
+  return text;
+}
+
+bool HeldDirectory::is_same_as(const HeldDirectory& other) const {
+  struct stat a {
+  }, b{};
+  return ::fstat(fd_, &a) == 0 && ::fstat(other.fd_, &b) == 0 && a.st_dev == b.st_dev &&
+         a.st_ino == b.st_ino;
+}
+
+HeldDirectory HeldDirectory::copy() const {
+  HeldDirectory held;
+  held.path_ = path_;
+  held.fd_ = fd_ < 0 ? -1 : ::fcntl(fd_, F_DUPFD_CLOEXEC, 0);
+  held.error_ = held.fd_ < 0 ? (fd_ < 0 ? error_ : errno) : 0;
+  return held;
+}
+
+Removal::Removal(const fs::path& root, Ownership ours, Mode mode)
+    : ours_(std::move(ours)), mode_(mode), root_(root) {
+  if (root_ && !ours_.is_ours(root_)) root_ = HeldDirectory();
+}
+
+void Removal::on_removed(std::function<void(const fs::path&)> listener) {
+  on_removed_ = std::move(listener);
+}
+
+bool Removal::keep(const fs::path& path, std::string why) {
+  kept_.push_back({path, std::move(why)});
+  return false;
+}
+
+HeldDirectory Removal::directory(const fs::path& relative) const {
+  HeldDirectory held = root_.copy();
+  for (const fs::path& name : relative) held = held.below(name.string());
+  return held;
+}
+
+bool Removal::would_be_gone(fs::path relative) const {
+  for (; !would_go_.empty() && !relative.empty(); relative = relative.parent_path())
+    if (would_go_.contains(root_.path() / relative)) return true;
+  return false;
+}
+
+bool Removal::remove(const fs::path& relative) {
+  const fs::path shown = root_.path() / relative;
+  const std::string name = relative.filename().string();
+  const HeldDirectory parent = directory(relative.parent_path());
+  if (!parent) return root_ && !parent.is_missing() ? keep(parent.path(), parent.why_not()) : false;
+  struct stat status {};
+  if (!is_plain(name) || would_be_gone(relative) ||
+      ::fstatat(parent.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
+    return false;
+  const Owned kind = ours_.owned(relative);
+  if (kind == Owned::kNo) return keep(shown, "not a file of this program");
+  if (S_ISDIR(status.st_mode) && kind == Owned::kFile) return keep(shown, "a directory");
+  if (!S_ISDIR(status.st_mode) && kind == Owned::kDirectory) return keep(shown, "not a directory");
+  return remove_from(parent, name, shown, kind, 0);
+}
+
+bool Removal::remove_at_once(const fs::path& relative, const fs::path& away) {
+  if (mode_ == Mode::kDryRun) return remove(relative);
+  // What would stay of it stays where it is.
+  Removal first(root_.path(), ours_, Mode::kDryRun);
+  std::vector<fs::path> paths;
+  first.on_removed([&](const fs::path& path) { paths.push_back(path); });
+  const bool goes = first.remove(relative);
+  for (const Kept& one : first.kept()) kept_.push_back(one);
+  if (!goes) return false;
+  const HeldDirectory from = directory(relative.parent_path()), to = directory(away.parent_path());
+  if (!from || !to || ours_.owned(away) != Owned::kTree) return remove(relative);
+  if (::renameat(from.fd(), relative.filename().c_str(), to.fd(), away.filename().c_str()) != 0)
+    return errno == ENOENT ? false : keep(root_.path() / relative, std::strerror(errno));
+  const auto listener = std::exchange(on_removed_, nullptr);
+  const bool gone = remove(away);
+  on_removed_ = listener;
+  if (on_removed_)
+    for (const fs::path& path : paths) on_removed_(path);
+  return gone;
+}
+
+bool Removal::remove_from(const HeldDirectory& parent, const std::string& name,
+                          const fs::path& shown, Owned kind, int depth) {
+  const bool for_real = mode_ == Mode::kForReal;
+  if (would_go_.contains(shown)) return true;
+  const bool is_a_directory = is_directory(parent.fd(), name);
+  if (is_a_directory) {
+    HeldDirectory inner = parent.below(name);
+    if (!inner && for_real && kind == Owned::kTree) {
+      allow_owner(parent.fd(), name);
+      inner = parent.below(name);
+    }
+    if (!inner) return inner.is_missing() || keep(shown, inner.why_not());
+    bool is_empty = true;
+    for (const std::string& inside : inner.names()) {
+      if (kind == Owned::kTree && depth == kMaxDepth)
+        return keep(shown, fmt::format("more than {} directories in one another", kMaxDepth));
+      is_empty = (kind == Owned::kTree ? remove_from(inner, inside, shown / inside, kind, depth + 1)
+                                       : would_go_.contains(shown / inside)) &&
+                 is_empty;
+    }
+    if (!is_empty) return kind == Owned::kTree ? false : keep(shown, "it is not empty");
+  }
+  if (for_real) {
+    const int flags = is_a_directory ? AT_REMOVEDIR : 0;
+    int result = ::unlinkat(parent.fd(), name.c_str(), flags);
+    if (result != 0 && errno == EACCES && depth > 0 && ::fchmod(parent.fd(), 0700) == 0)
+      result = ::unlinkat(parent.fd(), name.c_str(), flags);
+    if (result != 0) return errno == ENOENT || keep(shown, std::strerror(errno));
+  } else if (depth == 0) {
+    would_go_.insert(shown);
+  }
+  if (on_removed_) on_removed_(shown);
+  return true;
+}
+
+bool is_part_name(std::string_view name, long long& pid) {
+  if (!name.starts_with('.') || !name.ends_with(".part")) return false;
+  name.remove_suffix(5);
+  const auto dash = name.rfind('-'), dot = name.rfind('.', dash);
+  long long number = 0;
+  return dash != name.npos && dot != name.npos && dot > 0 &&
+         parse_integer(name.substr(dot + 1, dash - dot - 1), pid) && pid > 0 &&
+         parse_integer(name.substr(dash + 1), number) && number >= 0;
+}
+
+void remove_part(const fs::path& path) {
+  Removal(path.parent_path(), {[](const HeldDirectory&) { return true; },
+                               [](const fs::path& relative) {
+                                 long long pid = 0;
+                                 return is_part_name(relative.native(), pid) ? Owned::kFile
+                                                                             : Owned::kNo;
+                               }})
+      .remove(path.filename());
+}
+
+AbandonedPart::AbandonedPart(const HeldDirectory& directory, const std::string& name) {
+  long long pid = 0;
+  if (!is_part_name(name, pid) || ::kill(pid_t(pid), 0) == 0 || errno != ESRCH) return;
+  // There is no such process here; on another machine there may be.
+  const int fd =
+      ::openat(directory.fd(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  struct stat status {};
+  if (fd >= 0 && ::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
+      ::flock(fd, LOCK_EX | LOCK_NB) == 0)
+    fd_ = fd;
+  else if (fd >= 0)
+    ::close(fd);
+}
+
+AbandonedPart::~AbandonedPart() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+void remove_abandoned_parts(const HeldDirectory& directory) {
+  for (const std::string& name : directory.names())
+    if (const AbandonedPart part(directory, name); part)
+      ::unlinkat(directory.fd(), name.c_str(), 0);
+}
+
+bool remove_temporary(const fs::path& path) {
+  long long pid = 0;
+  if (is_part_name(path.filename().native(), pid)) {
+    remove_part(path);
+    return true;
+  }
+  Removal removal = removal_of_temporary(path);
+  removal.remove(path.filename());
+  return removal.kept().empty();
+}
+
+void remove_in_temporary_directory(const fs::path& path) {
+  fs::path temporary;
+  const fs::path below = below_temporary(path, temporary);
+  if (below.empty() || !removal_of_temporary(temporary).root()) return;
+  Removal(temporary,
+          {[](const HeldDirectory&) { return true; }, [](const fs::path&) { return Owned::kTree; }})
+      .remove(below);
+}
+
+std::vector<fs::path> remove_dead_temporaries(const fs::path& parent) {
+  std::vector<fs::path> removed;
+  const HeldDirectory held(parent);
+  for (const std::string& name : held.names()) {
+    if (!is_temporary_name(name)) continue;
+    Removal removal = removal_of_temporary(parent / name);
+    // Held until it is gone: whoever makes one locks it and looks whether it is there still.
+    const HeldDirectory dead = removal.directory(name);
+    if (dead && ::flock(dead.fd(), LOCK_EX | LOCK_NB) == 0 && removal.remove(name))
+      removed.push_back(parent / name);
+  }
+  return removed;
+}
+
+}  // namespace lobelia
