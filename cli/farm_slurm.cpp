@@ -7,7 +7,9 @@
 #include "cli/between.hpp"
 #include "cli/progress.hpp"
 #include "cli/publish.hpp"
+#include "core/removal.hpp"
 #include "core/standard_streams.hpp"
+#include "core/text.hpp"
 #include "farm/machine_doctor.hpp"
 #include "farm/slurm/doctor.hpp"
 
@@ -104,12 +106,20 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
     auto directory = std::make_shared<std::string>();
     command->add_option("DIR", *directory,
                         "Where a cluster's farms are to go: on a file system that the nodes share");
+    auto clean = std::make_shared<bool>(false);
+    command->add_flag("--clean", *clean,
+                      "First remove temporary directories that killed programs of this user left");
     command->add_option("--partition", settings->slurm.partition, "As sbatch has it");
     command->add_option("--account", settings->slurm.account, "");
     command->add_option("--qos", settings->slurm.qos, "");
     command->footer("What this machine lacks to contain engines is a warning.\n\n"
                     "Exit codes: 0 a grid would run, 1 it would not.");
-    command->callback([settings, directory, &exit_code] {
+    command->callback([settings, directory, clean, &exit_code] {
+      if (*clean) {
+        const auto removed = remove_dead_temporaries(std::filesystem::temp_directory_path());
+        for (const auto& path : removed) fmt::print("removed {}\n", printable_path(path.string()));
+        fmt::print("{} temporary directories of killed programs removed\n", removed.size());
+      }
       settings->directory = *directory;
       settings->program = own_program();
       auto checks = look_at_machine();

@@ -1,6 +1,8 @@
 #include "gallery/publisher.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
 #include "core/record.hpp"
+#include "core/removal.hpp"
 #include "gallery/fields.hpp"
 #include "gallery/names.hpp"
 
@@ -34,8 +37,13 @@ bool is_path_of_plain_names(const std::string& name) {
 
 /// `make` a file under a temporary name, then give it its own. Not flushed to the disk as records are: there are
 /// tens of thousands, and a site that a crash has damaged is published again.
-void place(const fs::path& path, const std::function<bool(const fs::path&)>& make) {
-  make_directories(path.parent_path());
+void place(const fs::path& site, const std::string& file,
+           const std::function<bool(const fs::path&)>& make) {
+  const fs::path path = site / file;
+  // A link below the site leads out of it, or will.
+  HeldDirectory held(site);
+  for (const fs::path& name : fs::path(file).parent_path())
+    held = held.make_below(name.string(), HeldDirectory::Border::kCross);
   std::error_code error;
   const TemporaryPath part([&] {
     fs::path name = path.parent_path() / fmt::format(".{}.{}-{}.part", path.filename().string(),
@@ -48,8 +56,7 @@ void place(const fs::path& path, const std::function<bool(const fs::path&)>& mak
   if (!made) error = std::error_code(errno ? errno : EIO, std::generic_category());
   if (made) fs::rename(part.path(), path, error);
   if (!error) return;
-  std::error_code ignored;
-  fs::remove(part.path(), ignored);
+  remove_part(part.path());
   throw Error(ExitCode::kOutput, fmt::format("{}: {}", path.string(), error.message()));
 }
 
@@ -100,7 +107,7 @@ void Publisher::write(const std::string& name, std::string_view content) {
   publishes(name);
   const fs::path path = site_ / name;
   if (is_same_text(path, content)) return;
-  place(path, [&](const fs::path& part) {
+  place(site_, name, [&](const fs::path& part) {
     std::ofstream out(part, std::ios::binary);
     out.write(content.data(), static_cast<std::streamsize>(content.size()));
     return bool(out.flush());
@@ -120,7 +127,7 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
   if (!error && fs::file_size(from, error) == fs::file_size(to, error) && !error &&
       fs::last_write_time(to, error) == time && !error)
     return;
-  place(to, [&](const fs::path& part) {
+  place(site_, name, [&](const fs::path& part) {
     std::error_code failed;
     fs::copy_file(from, part, fs::copy_options::overwrite_existing, failed);
     if (!failed) fs::last_write_time(part, time, failed);
@@ -147,21 +154,32 @@ bool Publisher::derive(const std::string& name, const std::string& key,
   return true;
 }
 
-void Publisher::remove_stale(const std::string& name) {
-  const fs::path path = site_ / name;
-  std::error_code error;
-  if (!is_within(site_, path.parent_path())) return;
-  if (!fs::is_regular_file(fs::symlink_status(path, error)) || !fs::remove(path, error)) return;
-  ++removed_;
-  // An empty directory is nobody's; remove() leaves any other.
-  for (fs::path up = path.parent_path();
-       up != site_ && fs::is_empty(up, error) && !error && fs::remove(up, error);)
-    up = up.parent_path();
+void Publisher::remove_stale() {
+  std::set<fs::path> directories;
+  for (const std::string& name : earlier_)
+    for (fs::path up = fs::path(name).parent_path(); !up.empty(); up = up.parent_path())
+      directories.insert(up);
+  Removal removal(site_, {[](const HeldDirectory& site) {
+                            struct stat status {};
+                            return ::fstatat(site.fd(), kList, &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+                                   S_ISREG(status.st_mode);
+                          },
+                          [&](const fs::path& relative) {
+                            return earlier_.contains(relative.string()) ? Owned::kFile
+                                   : directories.contains(relative)     ? Owned::kDirectory
+                                                                        : Owned::kNo;
+                          }});
+  for (const std::string& name : earlier_) {
+    if (files_.contains(name) || !removal.remove(name)) continue;
+    ++removed_;
+    // An empty directory is nobody's; any other stays.
+    for (fs::path up = fs::path(name).parent_path(); !up.empty() && removal.remove(up);)
+      up = up.parent_path();
+  }
 }
 
 void Publisher::finish() {
-  for (const std::string& name : earlier_)
-    if (!files_.contains(name)) remove_stale(name);
+  remove_stale();
   Json record = make_record("gallery");
   record["files"] = Json(std::vector<std::string>(files_.begin(), files_.end()));
   record["madeOf"] = Json::object();

@@ -21,7 +21,8 @@ class Publisher {
 
   const std::filesystem::path& site() const { return site_; }
 
-  /// A file that has this content already is not touched. Throws Error(kOutput).
+  /// A file that has this content already is not touched. Throws Error(kOutput), also where a directory below the
+  /// site is a symbolic link.
   void write(const std::string& name, std::string_view content);
   /// The run's file of that name as it is, with its time, by which an unchanged one is known the next time; nothing
   /// if the site is in the run. Throws Error(kInput) if a link leads out of the run: what lies elsewhere is not
@@ -41,7 +42,7 @@ class Publisher {
   int removed() const { return removed_; }
 
  private:
-  void remove_stale(const std::string& name);
+  void remove_stale();
   void publishes(const std::string& name);
   void count_written();
 

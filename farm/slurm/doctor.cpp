@@ -17,6 +17,7 @@
 #include "core/host.hpp"
 #include "core/interrupt.hpp"
 #include "core/record.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 #include "farm/slurm/lock_file.hpp"
@@ -50,7 +51,6 @@ std::string try_link(const fs::path& directory) {
   } catch (const Error& error) {
     return error.what();
   }
-  ::unlink(to.c_str());
   if (::link(from.c_str(), to.c_str()) != 0) return std::strerror(errno);
   if (::link(from.c_str(), to.c_str()) == 0)
     return "a second link to the same name was let through";
@@ -177,14 +177,23 @@ class Doctor {
     std::random_device random;
     const std::string token = fmt::format("{:08x}{:08x}", random(), random());
     const fs::path directory = base / fmt::format(".doctor-{}", token);
-    make_directories(directory);
+    make_directories(base);
     struct Remover {
-      const fs::path& path;
+      const HeldDirectory base, made;
       ~Remover() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
+        const fs::path name = made.path().filename();
+        Removal(base.path(), {[&](const HeldDirectory& root) {
+                                return root.below(name.string()).is_same_as(made);
+                              },
+                              [&](const fs::path& relative) {
+                                return relative == name ? Owned::kTree : Owned::kNo;
+                              }})
+            .remove(name);
       }
-    } remover{directory};
+    };
+    HeldDirectory held(base);
+    HeldDirectory made = held.make_below(directory.filename().string());
+    const Remover remover{std::move(held), std::move(made)};
     write_file(directory / kToken, token);
     const LockFile lock(directory / kLock);
     const fs::path script = directory / "doctor.sh";
