@@ -23,6 +23,27 @@ std::string size_text(std::uint64_t bytes) {
   return fmt::format("{:.{}f} {}", value, unit == 0 ? 0 : 1, kUnits[unit]);
 }
 
+void tell_of_lost_cache(const std::string& cache) {
+  fmt::print("its cache {} is not there; the farm's command makes it again\n",
+             printable_path(cache));
+}
+
+/// The listener of a dry run prints each path.
+RemovalOptions removal_options(bool dry_run) {
+  RemovalOptions options;
+  options.dry_run = dry_run;
+  if (dry_run)
+    options.on_removed = [](const std::filesystem::path& path) {
+      fmt::print("{}\n", printable_path(path.string()));
+    };
+  return options;
+}
+
+void tell_what_stays(const std::vector<std::string>& stays) {
+  for (const auto& sentence : stays)
+    fmt::print(stderr, "lobelia: stays: {}\n", printable_path(sentence));
+}
+
 /// Of the run on a cluster, if there is one that lives.
 std::string cluster_text(const std::string& directory) {
   const SlurmStatus status = slurm_status(slurm_run_directory(directory));
@@ -70,6 +91,8 @@ void add_status(CLI::App& farm, ExitCode& exit_code) {
         counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", n, name);
     fmt::print("{} cells: {}{}\n", status.at("cells").get<std::size_t>(), counts,
                status.at("atWork").get<bool>() ? "; a farm is at work in its cache" : "");
+    if (!status.at("cacheIsThere").get<bool>())
+      tell_of_lost_cache(status.at("cache").get<std::string>());
     fmt::print("{}", cluster_text(options->directory));
   });
 }
@@ -86,27 +109,40 @@ void add_verify(CLI::App& farm, ExitCode& exit_code) {
   command->add_flag("--remove", options->remove,
                     "Take away what is damaged; the next farm makes it again");
   command->add_flag("-q,--quiet", options->quiet, "No progress");
-  command->footer("Exit codes: 0 all is whole, 1 something is damaged, 3 no farm and no cache.");
+  command->footer(
+      "Of a farm's directory also the files under cells/, by the hashes in the cells' records, and whether the\n"
+      "cache has every result that they name.\n\n"
+      "Exit codes: 0 all is whole, or what was damaged has been taken away; 1 something is damaged or missing,\n"
+      "3 no farm and no cache, 4 with --remove while a farm is at work.");
   command->callback([options, &exit_code] {
     ProgressLine line(!options->quiet);
-    const VerifyReport report = verify_cache(
-        cache_of(options->directory), options->remove, [&](std::size_t done, std::size_t all) {
-          line.show(double(done) / double(all), fmt::format("{}/{}", done, all));
-        });
+    const auto show = [&](std::size_t done, std::size_t all) {
+      line.show(double(done) / double(all), fmt::format("{}/{}", done, all));
+    };
+    const CachePlace place = cache_of(options->directory);
+    const VerifyReport report = place.of_farm
+                                    ? verify_farm(options->directory, options->remove, show)
+                                    : verify_cache(place.cache, options->remove, show);
     line.clear();
     for (const auto& text : report.damaged) fmt::print("damaged: {}\n", printable_path(text));
+    if (!place.is_there) tell_of_lost_cache(place.cache.string());
+    std::string found;
+    if (!report.damaged.empty())
+      found =
+          fmt::format("{} damaged{}", report.damaged.size(), options->remove ? ", taken away" : "");
+    if (report.missing > 0)
+      found += fmt::format("{}{} missing", found.empty() ? "" : "; ", report.missing);
     fmt::print("{} results, {} files, {}: {}\n", report.results, report.files,
-               size_text(report.bytes),
-               report.damaged.empty() ? "all whole"
-                                      : fmt::format("{} damaged{}", report.damaged.size(),
-                                                    options->remove ? ", taken away" : ""));
-    if (!report.damaged.empty() && !options->remove) exit_code = ExitCode::kDiffers;
+               size_text(report.bytes), found.empty() ? "all whole" : found);
+    if (report.missing > 0 || (!report.damaged.empty() && !options->remove))
+      exit_code = ExitCode::kDiffers;
   });
 }
 
 void add_gc(CLI::App& farm) {
   struct Options {
     std::string directory, max_size;
+    bool dry_run = false;
   };
   auto* command = farm.add_subcommand("gc", "Make a cache smaller");
   auto options = std::make_shared<Options>();
@@ -114,32 +150,49 @@ void add_gc(CLI::App& farm) {
   command->add_option(
       "--max-size", options->max_size,
       "What was not used for longest goes until the rest is at most this: 10G, 500M");
+  command->add_flag("--dry-run", options->dry_run, "Only list what would go, path by path");
   command->footer(
       "Without a size only what killed farms left half-made goes. Results that a farm's directory shows\n"
       "stay on the disk as long as they lie there too (they are links).");
   command->callback([options] {
     std::optional<std::uint64_t> most;
     if (!options->max_size.empty()) most = parse_size(options->max_size);
-    const GcReport report = collect_garbage(cache_of(options->directory), most);
-    fmt::print("{} results removed ({}), {} kept ({}), {} half-made ones taken away\n",
-               report.removed, size_text(report.removed_bytes), report.kept,
-               size_text(report.kept_bytes), report.abandoned);
+    const CachePlace place = cache_of(options->directory);
+    if (!place.is_there) {
+      tell_of_lost_cache(place.cache.string());
+      return;
+    }
+    const GcReport report = collect_garbage(place.cache, most, removal_options(options->dry_run));
+    tell_what_stays(report.stays);
+    fmt::print("{} results {}removed ({}), {} kept ({}), {} half-made ones taken away{}\n",
+               report.removed, options->dry_run ? "would be " : "", size_text(report.removed_bytes),
+               report.kept, size_text(report.kept_bytes), report.abandoned,
+               report.others > 0
+                   ? fmt::format("; {} drafts of other machines stay in making/", report.others)
+                   : "");
   });
 }
 
 void add_clean(CLI::App& farm) {
   struct Options {
     std::string directory;
-    bool all = false;
+    bool all = false, dry_run = false;
   };
   auto* command =
       farm.add_subcommand("clean", "Take away cells that are not of a farm's grid any more");
   auto options = std::make_shared<Options>();
   command->add_option("DIR", options->directory, "The farm's directory")->required();
   command->add_flag("--all", options->all, "Every cell, and the farm's record; the cache stays");
+  command->add_flag("--dry-run", options->dry_run, "Only list what would go, path by path");
+  command->footer(
+      "What neither a farm nor its gallery wrote stays, and is told. Exit codes: 0, 3 no farm's directory,\n"
+      "4 a farm is at work there.");
   command->callback([options] {
-    const CleanReport report = clean_farm(options->directory, options->all);
-    fmt::print("{} cells taken away ({} files)\n", report.cells, report.files);
+    const CleanReport report =
+        clean_farm(options->directory, options->all, removal_options(options->dry_run));
+    tell_what_stays(report.stays);
+    fmt::print("{} cells {}taken away ({} files)\n", report.cells,
+               options->dry_run ? "would be " : "", report.files);
   });
 }
 

@@ -1,9 +1,16 @@
 #include "farm/byte_locks.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <random>
 #include <utility>
 
 namespace lobelia {
@@ -25,6 +32,9 @@ int lock(int fd, short type, std::int64_t byte) {
   return ::fcntl(fd, F_OFD_SETLK, &range);
 }
 
+/// Beyond all numbers' bytes, and room for those that sharing() tries.
+constexpr std::int64_t kNobodysByte = std::int64_t{1} << 62;
+
 /// Offsets are positive, and a lock's end must be one too.
 std::int64_t byte_of(std::uint64_t number) { return std::int64_t(number >> 2); }
 
@@ -37,11 +47,23 @@ ByteLocks::Claim::~Claim() {
   if (fd_ >= 0) lock(fd_, F_UNLCK, byte_);
 }
 
-ByteLocks::ByteLocks(const std::filesystem::path& file)
-    : fd_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (fd_ < 0) return;
-  constexpr std::int64_t kNobodysByte = std::int64_t{1} << 62;
-  works_ = lock(fd_, F_RDLCK, kNobodysByte) == 0;
+ByteLocks::ByteLocks(const HeldDirectory& directory, const std::string& name, Opening opening)
+    : path_(directory.path() / name) {
+  const int flags = O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
+  fd_ = ::openat(directory.fd(), name.c_str(), opening == Opening::kMake ? flags | O_CREAT : flags,
+                 0666);
+  struct stat status {};
+  if (fd_ >= 0 && (::fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode))) {
+    ::close(std::exchange(fd_, -1));
+    errno = EINVAL;
+  }
+  if (fd_ < 0) {
+    why_not_ = fmt::format("{} cannot be opened: {}", name, std::strerror(errno));
+    return;
+  }
+  inode_ = status.st_ino;
+  works_ = lock(fd_, F_RDLCK, kNobodysByte) == 0 || errno == EAGAIN || errno == EACCES;
+  if (!works_) why_not_ = fmt::format("its file system has no locks: {}", std::strerror(errno));
 }
 
 ByteLocks::~ByteLocks() {
@@ -60,6 +82,33 @@ bool ByteLocks::is_claimed(std::uint64_t number) const {
   if (!works_) return false;
   struct flock range = range_of(F_WRLCK, byte_of(number));
   return ::fcntl(fd_, F_OFD_GETLK, &range) == 0 && range.l_type != F_UNLCK;
+}
+
+LockSharing ByteLocks::sharing() const {
+  if (!works_) return {false, why_not_};
+  // Opened again, as another process would.
+  const int other = ::open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  struct stat held {
+  }, there{};
+  LockSharing found;
+  if (other < 0 || ::fstat(fd_, &held) != 0 || ::fstat(other, &there) != 0 ||
+      held.st_dev != there.st_dev || held.st_ino != there.st_ino) {
+    found.why = "the file of locks is not the one in the cache any more";
+  } else {
+    const std::int64_t byte = kNobodysByte + 1 + std::random_device()();
+    const bool refused = lock(fd_, F_WRLCK, byte) == 0 && lock(other, F_WRLCK, byte) != 0;
+    lock(fd_, F_UNLCK, byte);
+    std::ifstream file("/proc/self/mountinfo");
+    const std::string mounts((std::istreambuf_iterator<char>(file)), {});
+    std::error_code ignored;
+    if (refused)
+      found = lock_sharing_of(mounts, fmt::format("{}:{}", major(held.st_dev), minor(held.st_dev)),
+                              std::filesystem::canonical(path_, ignored).native());
+    else
+      found.why = "a lock that is held was given away again";
+  }
+  if (other >= 0) ::close(other);
+  return found;
 }
 
 }  // namespace lobelia

@@ -4,6 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+
+#include "core/removal.hpp"
+#include "farm/lock_sharing.hpp"
 
 namespace lobelia {
 
@@ -27,7 +31,10 @@ class ByteLocks {
     std::int64_t byte_;
   };
 
-  explicit ByteLocks(const std::filesystem::path& file);
+  enum class Opening { kMake, kLook };  ///< with kLook a file that is not there stays so
+  /// Of the file `name` in a directory; what is no regular file is not opened.
+  ByteLocks(const HeldDirectory& directory, const std::string& name,
+            Opening opening = Opening::kMake);
   ~ByteLocks();
   ByteLocks(const ByteLocks&) = delete;
   ByteLocks& operator=(const ByteLocks&) = delete;
@@ -38,10 +45,18 @@ class ByteLocks {
   bool is_claimed(std::uint64_t number) const;
   /// Whether locks mean anything here.
   bool works() const { return works_; }
+  /// The number of the open file in its file system; 0: there is none.
+  std::uint64_t inode() const { return inode_; }
+  /// Whether processes of other machines are kept out too, as far as this one can tell: locks are tried, the file has
+  /// to be the one in the directory still, and its mount must not say otherwise.
+  LockSharing sharing() const;
 
  private:
   int fd_ = -1;
   bool works_ = false;
+  std::uint64_t inode_ = 0;
+  std::filesystem::path path_;
+  std::string why_not_;  ///< it does not work
 };
 
 }  // namespace lobelia

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/removal.hpp"
 #include "core/seal.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
@@ -61,34 +62,45 @@ bool is_same_file(const fs::path& cached, const fs::path& there) {
               fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
 }
 
-/// A link to `cached` under `part`, or where the cache is on another file system a copy of the same age.
-void link_or_copy(const fs::path& cached, const fs::path& part, const fs::path& target) {
-  if (::link(cached.c_str(), part.c_str()) == 0) return;
+/// A link to `cached` of the name `part`, or where the cache is on another file system a copy of the same age.
+void link_or_copy(const fs::path& cached, const HeldDirectory& directory, const std::string& part,
+                  const fs::path& target) {
+  if (::linkat(AT_FDCWD, cached.c_str(), directory.fd(), part.c_str(), 0) == 0) return;
   if (errno == ENOENT || errno == ENOSPC || errno == EROFS || errno == EACCES) fail(target, errno);
-  write_file(part, read_file(cached, kMaxFileBytes));
+  const fs::path path = directory.path() / part;
+  write_file(path, read_file(cached, kMaxFileBytes));
   struct stat status {};
   if (::stat(cached.c_str(), &status) != 0) {
     const int number = errno;
-    ::unlink(part.c_str());
+    remove_part(path);
     fail(target, number);
   }
   const timespec times[2] = {status.st_atim, status.st_mtim};
-  ::utimensat(AT_FDCWD, part.c_str(), times, 0);
+  ::utimensat(directory.fd(), part.c_str(), times, AT_SYMLINK_NOFOLLOW);
 }
 
-void place_file(const fs::path& cached, const fs::path& target) {
+void place_file(const fs::path& cached, const HeldDirectory& directory, const std::string& name) {
   static thread_local std::random_device device;
+  const fs::path target = directory.path() / name;
   for (int attempt = 0; !is_same_file(cached, target); ++attempt) {
-    const fs::path part =
-        target.parent_path() /
-        fmt::format(".{}.{}-{}.part", target.filename().string(), ::getpid(), device());
-    link_or_copy(cached, part, target);
-    const int error = ::rename(part.c_str(), target.c_str()) == 0 ? 0 : errno;
+    const std::string part = fmt::format(".{}.{}-{}.part", name, ::getpid(), device());
+    link_or_copy(cached, directory, part, target);
+    const int error =
+        ::renameat(directory.fd(), part.c_str(), directory.fd(), name.c_str()) == 0 ? 0 : errno;
     // rename() of two names of one file does nothing and leaves both.
-    ::unlink(part.c_str());
+    remove_part(directory.path() / part);
     // ENOENT: on another machine somebody took the part for one that was left behind.
     if (error != 0 && (error != ENOENT || attempt == 3)) fail(target, error);
   }
+}
+
+/// Of a cell's directory: our files in it.
+Removal removal_from(const HeldDirectory& directory) {
+  return Removal(directory.path(),
+                 {[&](const HeldDirectory& root) { return root.is_same_as(directory); },
+                  [](const fs::path& name) {
+                    return is_cell_file(name.string()) ? Owned::kFile : Owned::kNo;
+                  }});
 }
 
 std::optional<Json> read_cell_record(const fs::path& directory) {
@@ -138,6 +150,33 @@ bool is_of(const Json& record, const CellRecords& records, const JobGraph& graph
 
 }  // namespace
 
+bool is_cell_file(const std::string& name) {
+  return name == kRecordFile || names_of_ours().contains(name);
+}
+
+namespace {
+constexpr std::uint64_t kWholeDirectory = 0;
+
+HeldDirectory existing(const fs::path& directory) {
+  HeldDirectory held(directory);
+  if (!held)
+    throw Error(ExitCode::kOutput, fmt::format("{}: {}", directory.string(), held.why_not()));
+  return held;
+}
+}  // namespace
+
+FarmDirectoryLock::FarmDirectoryLock(const fs::path& directory, Use use, ByteLocks::Opening opening)
+    : locks_(existing(directory), kFarmLockFile, opening) {
+  if (auto claim = locks_.try_claim(kWholeDirectory, use == Use::kFarm))
+    claim_.emplace(std::move(*claim));
+  else
+    throw Error(
+        ExitCode::kOutput,
+        fmt::format("{}: {} is at work in this directory; try again when it has ended",
+                    directory.string(),
+                    use == Use::kFarm ? "'lobelia farm clean' or 'verify --remove'" : "a farm"));
+}
+
 CellRecords find_records(const ResultCache& cache, const JobGraph& graph, std::size_t cell,
                          std::vector<std::string>* why_not) {
   const auto jobs = graph.of_cell(cell);
@@ -161,7 +200,16 @@ CellDirectory::CellDirectory(const fs::path& farm_directory, const JobGraph& gra
                              std::size_t cell)
     : graph_(&graph),
       cell_(cell),
+      farm_directory_(farm_directory),
       directory_(farm_directory / "cells" / graph.cells().cells[cell].id) {}
+
+/// None where it is not there, or is no directory of ours but a link.
+HeldDirectory CellDirectory::held() const {
+  constexpr auto kCross = HeldDirectory::Border::kCross;  // somebody may have mounted a larger disk
+  return HeldDirectory(farm_directory_)
+      .below("cells", kCross)
+      .below(directory_.filename().string(), kCross);
+}
 
 Json CellDirectory::results(const CellRecords& records) const {
   Json found = Json::object();
@@ -182,7 +230,7 @@ Json CellDirectory::made_from() const {
 
 std::string CellDirectory::current_status(const ResultCache& cache,
                                           const CellRecords& records) const {
-  const auto record = read_cell_record(directory_);
+  const auto record = held() ? read_cell_record(directory_) : std::nullopt;
   if (!record) return "";
   try {
     if (!record->at("problems").empty() || record->at("results") != results(records) ||
@@ -207,11 +255,15 @@ std::string CellDirectory::current_status(const ResultCache& cache,
 std::string CellDirectory::write(const ResultCache& cache, const CellRecords& records,
                                  const std::vector<CellProblem>& problems) const {
   const Cell& cell = graph_->cells().cells[cell_];
-  make_directories(directory_);
-  remove_abandoned_files(directory_);
-  std::error_code ignored;
+  make_directories(farm_directory_);
+  const auto border = HeldDirectory::Border::kCross;
+  const HeldDirectory directory = HeldDirectory(farm_directory_)
+                                      .make_below("cells", border)
+                                      .make_below(directory_.filename().string(), border);
+  remove_abandoned_parts(directory);
+  Removal removal = removal_from(directory);
   // It speaks of files that are about to change.
-  fs::remove(directory_ / kRecordFile, ignored);
+  removal.remove(kRecordFile);
 
   std::set<std::string> foreign = names_of_ours();
   bool complete = true;
@@ -221,20 +273,20 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     if (!records[slot]) continue;
     for (const auto& file : records[slot]->at("files")) {
       const std::string name = file.at("name");
-      place_file(cache.file(job.key, name), directory_ / name);
+      place_file(cache.file(job.key, name), directory, name);
       foreign.erase(name);
     }
   }
   for (const auto& problem : problems) {
     if (problem.log.empty()) continue;
-    place_file(problem.log, directory_ / (problem.engine + ".log"));
+    place_file(problem.log, directory, problem.engine + ".log");
     foreign.erase(problem.engine + ".log");
   }
   // What an engine made that is absent now could not be made again.
   for (const auto& engine : graph_->engines())
     if (!engine.is_here())
       for (const auto& name : names_of(engine.name)) foreign.erase(name);
-  for (const auto& name : foreign) fs::remove(directory_ / name, ignored);
+  for (const auto& name : foreign) removal.remove(name);
 
   Json record = make_record("cell");
   record["id"] = cell.id;
@@ -300,8 +352,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
 }
 
 void CellDirectory::forget() const {
-  std::error_code ignored;
-  fs::remove(directory_ / kRecordFile, ignored);
+  if (const HeldDirectory directory = held()) removal_from(directory).remove(kRecordFile);
 }
 
 std::string CellDirectory::reason(JobIndex job) const {

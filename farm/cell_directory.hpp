@@ -27,6 +27,23 @@ using CellRecords = std::vector<std::optional<Json>>;
 CellRecords find_records(const ResultCache& cache, const JobGraph& graph, std::size_t cell,
                          std::vector<std::string>* why_not = nullptr);
 
+/// Whether a farm may have put a file of that name into a cell, cell.json included.
+bool is_cell_file(const std::string& name);
+
+/// Of a farm's directory, while it lives: many farms may be at work there, or one that takes cells away.
+class FarmDirectoryLock {
+ public:
+  enum class Use { kFarm, kAlone };
+  /// Throws Error(kOutput) while others use it otherwise. With kLook nothing is written.
+  FarmDirectoryLock(const std::filesystem::path& directory, Use use,
+                    ByteLocks::Opening opening = ByteLocks::Opening::kMake);
+
+ private:
+  ByteLocks locks_;
+  std::optional<ByteLocks::Claim> claim_;
+};
+inline constexpr char kFarmLockFile[] = "farm.lock";
+
 class CellDirectory {
  public:
   CellDirectory(const std::filesystem::path& farm_directory, const JobGraph& graph,
@@ -38,7 +55,8 @@ class CellDirectory {
 
   /// Puts the results' files there, takes away what is of others, and writes cell.json last. Returns the
   /// status: "pass", "differs", "undecided" (none differs, and a comparison is up to the noise), "unchecked" (nothing to compare with),
-  /// "failed" (if there are problems) or "missing" (something has not been done). Throws Error(kOutput).
+  /// "failed" (if there are problems) or "missing" (something has not been done). Throws Error(kOutput), also where
+  /// cells/ or the cell is a symbolic link.
   std::string write(const ResultCache& cache, const CellRecords& records,
                     const std::vector<CellProblem>& problems) const;
 
@@ -52,10 +70,11 @@ class CellDirectory {
  private:
   Json results(const CellRecords& records) const;
   Json made_from() const;
+  HeldDirectory held() const;
 
   const JobGraph* graph_;
   std::size_t cell_;
-  std::filesystem::path directory_;
+  std::filesystem::path farm_directory_, directory_;
   mutable std::optional<std::optional<Json>> before_;  ///< cell.json, once it was asked for
 };
 

@@ -1,5 +1,7 @@
 #include "farm/farm.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <unordered_set>
 
@@ -18,19 +20,36 @@ fs::path cache_directory(const fs::path& wanted, const fs::path& farm_directory)
 }
 
 FarmSummary run_farm(const Grid& grid, const fs::path& directory, const FarmOptions& options) {
-  FarmSession session(grid, directory, options);
-  JobRun run(session.work().graph, session.cache(), options, session.take_states());
-  try {
-    run.run(session.waiting_cells(), [&](std::size_t cell) { session.finish_cell(cell); });
-  } catch (...) {
+  // Somebody may take results away while the farm is at work.
+  constexpr int kMostRounds = 4;
+  FarmOptions now = options;
+  std::size_t made = 0, pictures = 0;
+  for (int round = 1;; ++round) {
+    FarmSession session(grid, directory, now);
+    JobRun run(session.work().graph, session.cache(), now, session.take_states());
     try {
-      session.show_what_is_there();
-    } catch (const Error&) {  // the first failure is the one to tell
+      run.run(session.waiting_cells(), [&](std::size_t cell) { session.finish_cell(cell); });
+    } catch (...) {
+      try {
+        session.show_what_is_there();
+      } catch (const Error&) {  // the first failure is the one to tell
+      }
+      throw;
     }
-    throw;
+    session.write_farm_record();
+    JobRunWork work = run.work();
+    work.made = made += work.made;
+    work.pictures = pictures += work.pictures;
+    FarmSummary summary = session.summarise(work);
+    if (!session.has_lost(run) || (options.fail_fast && summary.failed > 0)) return summary;
+    if (round == kMostRounds)
+      throw Error(
+          ExitCode::kOutput,
+          fmt::format("{}: results vanish while the farm is at work; the same command makes "
+                      "them again",
+                      session.cache().directory().string()));
+    now.again = false;
   }
-  session.write_farm_record();
-  return session.summarise(run.work());
 }
 
 FarmPlan plan_farm(
@@ -42,7 +61,7 @@ FarmPlan plan_farm(
   std::error_code ignored;
   if (const fs::path cache = cache_directory(options.cache, directory);
       fs::exists(cache, ignored)) {
-    const ResultCache results(cache);
+    const ResultCache results(cache, ResultCache::Opening::kLook);
     for (const ResultKey& key : results.list()) there.insert(key);
     for (const ResultKey& key : results.failures()) failed.insert(key);
   }

@@ -11,6 +11,7 @@
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/interrupt.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
 
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Whatever is in one of them may be taken away as none of its own.
-fs::path apart(const fs::path& cache, const fs::path& directory) {
+void require_apart(const fs::path& cache, const fs::path& directory) {
   const fs::path a = fs::weakly_canonical(fs::absolute(cache)),
                  b = fs::weakly_canonical(fs::absolute(directory));
   const auto is_in = [](const fs::path& inner, const fs::path& outer) {
@@ -33,7 +34,6 @@ fs::path apart(const fs::path& cache, const fs::path& directory) {
         ExitCode::kUsage,
         fmt::format("{}: the cache {} may not lie among a farm's cells, nor a farm in a cache",
                     directory.string(), cache.string()));
-  return cache;
 }
 
 }  // namespace
@@ -95,14 +95,28 @@ const Grid& checked(const Grid& grid) {
                     grid.file_name, grid.cell_count(), kMaxFarmCells));
   return grid;
 }
+
+/// Says at once, not after the first picture, that a part of it is a link.
+const fs::path& made(const fs::path& directory, const FarmOptions& options) {
+  require_apart(cache_directory(options.cache, directory), directory);
+  make_directories(directory);
+  const HeldDirectory held(directory);
+  for (const std::string& link : held.links())
+    if (link == "cells" || link == "farm.json")
+      throw Error(ExitCode::kOutput, fmt::format("{}: a symbolic link, which is not followed",
+                                                 (directory / link).string()));
+  return directory;
+}
 }  // namespace
 
 FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const FarmOptions& options)
     : work_(checked(grid), options, directory),
       directory_(directory),
       options_(options),
-      cache_(apart(cache_directory(options.cache, directory), directory)),
+      directory_in_use_(made(directory, options), FarmDirectoryLock::Use::kFarm),
+      cache_(cache_directory(options.cache, directory)),
       in_use_(cache_.use()),
+      lock_sharing_(cache_.lock_sharing()),
       states_(work_.graph.size(), JobState::kAbsent),
       status_(work_.graph.cell_count(), "missing") {
   summary_.absent_engines = work_.absences();
@@ -117,7 +131,6 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   }
   cache_.remove_abandoned();
   remove_abandoned_temporaries();
-  make_directories(directory_);
   remove_abandoned_files(directory_);
   look_at_cells();
   // Now as well as at the end: a run that is killed has its record too.
@@ -240,6 +253,7 @@ void FarmSession::write_farm_record() const {
   record["command"] = shell_join(options_.command);
   record["host"] = host_record();
   record["cache"] = cache_.directory().lexically_proximate(fs::absolute(directory_)).string();
+  record["locks"] = {{"shared", lock_sharing_.shared}, {"why", lock_sharing_.why}};
   record["axes"] = Json::array();
   for (const auto& axis : grid.axes) {
     Json values = Json::array();
@@ -259,6 +273,17 @@ void FarmSession::write_farm_record() const {
         {{"id", work_.cells.cells[i].id}, {"status", status_[i]}, {"axes", std::move(axes)}});
   }
   write_record(directory_ / "farm.json", record);
+}
+
+bool FarmSession::has_lost(const JobRun& run) const {
+  if (run.work().lost > 0) return true;
+  return std::ranges::any_of(waiting_cells_, [&](std::size_t cell) {
+    if (status_[cell] != "missing") return false;
+    const JobGraph& graph = work_.graph;
+    for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job)
+      if (graph[job].exists && run.state(job) != JobState::kDone) return false;
+    return true;
+  });
 }
 
 std::size_t FarmSession::count_foreign_cells() const {

@@ -57,6 +57,8 @@ class FarmSession {
   void show_what_is_there();
   void write_farm_record() const;
   FarmSummary summarise(const JobRunWork& done);
+  /// Whether results were made and are gone, before their cell was put together or a job read them.
+  bool has_lost(const JobRun& run) const;
 
  private:
   CellDirectory cell_directory(std::size_t cell) const {
@@ -70,8 +72,10 @@ class FarmSession {
   FarmWork work_;
   const std::filesystem::path directory_;
   const FarmOptions& options_;
+  const FarmDirectoryLock directory_in_use_;
   const ResultCache cache_;
   const ByteLocks::Claim in_use_;
+  const LockSharing lock_sharing_;
   std::vector<JobState> states_;
   std::vector<std::size_t> waiting_cells_;
   mutable std::mutex mutex_;         // of what follows

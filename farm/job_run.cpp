@@ -59,6 +59,13 @@ Json host_of_result() {
   return host;
 }
 
+/// An input was done, and is in the cache no more: no failure of the job.
+class LostInput : public Error {
+ public:
+  explicit LostInput(const std::string& name)
+      : Error(ExitCode::kOutput, name + ": its result is no longer in the cache") {}
+};
+
 struct JobFailure {
   FailureClass kind = FailureClass::kNone;
   std::string message;
@@ -199,6 +206,13 @@ struct JobRun::Impl {
     settle(job, JobState::kFailed);
   }
 
+  /// What it needed was taken away: whoever runs the farm again has all of it made.
+  void settle_lost(JobIndex job) {
+    const std::scoped_lock lock(mutex);
+    ++work.lost;
+    settle(job, JobState::kBlocked);
+  }
+
   void settle_cells() {
     while (true) {
       std::size_t cell = 0;
@@ -283,9 +297,7 @@ struct JobRun::Impl {
     const Job& one = graph[job];
     const std::string engine = graph.whose(job);
     const auto record = cache.find(one.key);
-    if (!record)
-      throw Error(ExitCode::kEngine,
-                  fmt::format("{}: its result is no longer in the cache", graph.name(job)));
+    if (!record) throw LostInput(graph.name(job));
     for (const auto& file : record->at("files"))
       if (file.at("name") == picture_file(engine)) from[engine] = file.at("sha256");
     return {engine, cache.result_directory(one.key)};
@@ -336,29 +348,35 @@ struct JobRun::Impl {
     const ResultKey& key = graph[job].key;
     const auto claim = claim_of(key);
     if (!claim) return false;
-    if (is_there(job)) return true;
     const double cpu_before = thread_cpu_seconds();
     const auto wall_before = Clock::now();
-    const Scene scene = graph.cells().scene(graph.cell_of(job));
-    ResultDraft draft = cache.draft();
-    Json record = result_record(job, 1);
+    std::optional<ResultDraft> draft;
     try {
-      record.update(make(job, scene, draft));
+      if (is_there(job)) return true;
+      const Scene scene = graph.cells().scene(graph.cell_of(job));
+      draft.emplace(cache.draft());
+      Json record = result_record(job, 1);
+      record.update(make(job, scene, *draft));
+      const double cpu = thread_cpu_seconds() - cpu_before;
+      record["threads"] = 1;
+      record["seconds"] = {
+          {"wall", std::chrono::duration<double>(Clock::now() - wall_before).count()},
+          {"cpu", cpu}};
+      record["peakMemoryBytes"] = peak_memory_of(::getpid());
+      count_kernel(cpu);
+      publish(job, *draft, std::move(record));
     } catch (const Error& error) {
+      if ((draft && !draft->is_there()) || dynamic_cast<const LostInput*>(&error) ||
+          discard_unreadable_inputs(job)) {
+        settle_lost(job);
+        return true;
+      }
       // A disk that is full ends the farm; whatever is wrong with this job is its own result.
       if (error.code() != ExitCode::kEngine && error.code() != ExitCode::kInput) throw;
       const auto* failure = dynamic_cast<const ResultFailure*>(&error);
-      discard_unreadable_inputs(job);
       settle_failed(job, {failure ? failure->kind() : FailureClass::kRefused, error.what(), 1}, {});
       return true;
     }
-    const double cpu = thread_cpu_seconds() - cpu_before;
-    record["threads"] = 1;
-    record["seconds"] = {
-        {"wall", std::chrono::duration<double>(Clock::now() - wall_before).count()}, {"cpu", cpu}};
-    record["peakMemoryBytes"] = peak_memory_of(::getpid());
-    count_kernel(cpu);
-    publish(job, draft, std::move(record));
     return true;
   }
 
@@ -385,11 +403,17 @@ struct JobRun::Impl {
     return from == made_from;
   }
 
-  /// So that they are made again next time.
-  void discard_unreadable_inputs(JobIndex job) {
-    for (const JobIndex input : graph.inputs(job))
-      if (!cache.find(graph[input].key, ResultCache::Look::kThorough))
-        cache.discard(graph[input].key);
+  /// So that they are made again. Whether there were any.
+  bool discard_unreadable_inputs(JobIndex job) {
+    bool any = false;
+    for (const JobIndex input : graph.inputs(job)) {
+      if (state_of(input) != JobState::kDone ||
+          cache.find(graph[input].key, ResultCache::Look::kThorough))
+        continue;
+      cache.discard(graph[input].key);
+      any = true;
+    }
+    return any;
   }
 
   void count_kernel(double cpu_seconds) {
@@ -545,10 +569,15 @@ struct JobRun::Impl {
     record["seconds"] = {{"wall", wall}, {"cpu", made_by.value("cpuSeconds", 0.0)}};
     record["peakMemoryBytes"] = made_by.value("peakMemoryBytes", std::uint64_t{0});
     ResultDraft draft = cache.draft();
-    const double cpu_before = thread_cpu_seconds();
-    record.update(make_reference(scene, here, program, std::move(result), log, draft));
-    count_kernel(thread_cpu_seconds() - cpu_before);
-    publish(job, draft, std::move(record));
+    try {
+      const double cpu_before = thread_cpu_seconds();
+      record.update(make_reference(scene, here, program, std::move(result), log, draft));
+      count_kernel(thread_cpu_seconds() - cpu_before);
+      publish(job, draft, std::move(record));
+    } catch (const Error&) {
+      if (draft.is_there()) throw;
+      settle_lost(job);
+    }
   }
 
   // ---- all of it ----

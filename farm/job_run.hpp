@@ -37,7 +37,7 @@ enum class JobState : std::uint8_t {
   kWaiting,  ///< for its inputs, or for a thread
   kDone,     ///< its result is in the cache
   kFailed,
-  kBlocked,  ///< one of its inputs failed
+  kBlocked,  ///< one of its inputs failed, or was taken away
 };
 
 /// What it took.
@@ -46,6 +46,7 @@ struct JobRunWork {
   std::size_t pictures = 0;   ///< of these: renders and references
   std::size_t found = 0;      ///< that somebody else made meanwhile
   std::size_t different = 0;  ///< that somebody else made meanwhile, with other pixels
+  std::size_t lost = 0;       ///< jobs not done because somebody took results or the cache away
   double wall_seconds = 0;
   double engine_cpu_seconds = 0;  ///< of all their processes
   double kernel_cpu_seconds = 0;  ///< making our results: pictures, comparisons, profiles

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -18,12 +19,12 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kLayout[] = "1\n";
+constexpr std::string_view kLayout = "1\n";
+constexpr char kLocksFile[] = "locks";
 constexpr std::uint64_t kUseLock = ~std::uint64_t{0};
 constexpr std::uint64_t kMaxLogBytes = 64 << 20;
 constexpr std::time_t kTouchAfterSeconds = 24 * 60 * 60;
-/// Where locks do not tell whether a draft is alive.
-constexpr std::time_t kAbandonedAfterSeconds = 7 * 24 * 60 * 60;
+constexpr const char* kParts[] = {"results", "failures", "making"};
 
 std::uint64_t number_of(const ResultKey& key) { return std::hash<ResultKey>()(key); }
 std::uint64_t number_of(const std::string& name) { return number_of(result_key({name})); }
@@ -39,8 +40,51 @@ std::int64_t modified(const struct stat& status) {
 
 /// Whoever is killed while it writes leaves nothing but a draft: nowhere else are there half-written files, and no
 /// other farm has to tell whose they are.
-void move(const fs::path& from, const fs::path& to) {
-  if (::rename(from.c_str(), to.c_str()) != 0) fail(to, "write", errno);
+void move(const fs::path& from, const HeldDirectory& to, const std::string& name) {
+  if (::renameat(AT_FDCWD, from.c_str(), to.fd(), name.c_str()) != 0)
+    fail(to.path() / name, "write", errno);
+}
+
+bool is_shelf(std::string_view name) {
+  return name.size() == 2 && name.find_first_not_of("0123456789abcdef") == name.npos;
+}
+
+bool is_key(std::string_view name) {
+  Sha256Digest digest;
+  return from_hex(name, digest);
+}
+
+/// Whether nothing is in it but what a cache consists of; an NFS client's own names for removed files aside.
+bool has_only_our_names(const HeldDirectory& directory) {
+  for (const std::string& name : directory.names()) {
+    struct stat status {};
+    if (name.starts_with(".nfs")) continue;
+    if (::fstatat(directory.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
+    const bool is_part = std::ranges::find(kParts, name) != std::end(kParts);
+    if (is_part ? S_ISREG(status.st_mode) : name != kLocksFile || !S_ISREG(status.st_mode))
+      return false;
+  }
+  return true;
+}
+
+Owned owned_in_cache(const fs::path& relative) {
+  std::vector<std::string> parts;
+  for (const fs::path& part : relative) parts.push_back(part.string());
+  if (parts.size() == 2 && parts[0] == "making")
+    return DraftName::parse(parts[1]) || is_old_draft_name(parts[1]) ? Owned::kTree : Owned::kNo;
+  if (parts.size() != 3 || !is_shelf(parts[1]) || !parts[2].starts_with(parts[1]))
+    return Owned::kNo;
+  if (parts[0] == "results" && is_key(parts[2])) return Owned::kTree;
+  const fs::path name = parts[2];
+  return parts[0] == "failures" && is_key(name.stem().native()) &&
+                 (name.extension() == ".json" || name.extension() == ".log")
+             ? Owned::kFile
+             : Owned::kNo;
+}
+
+Ownership ownership() {
+  return {[](const HeldDirectory& root) { return root.read(kCacheMarkerFile, 64) == kLayout; },
+          owned_in_cache};
 }
 
 /// The pictures of a record, which its times and hosts are no part of.
@@ -50,11 +94,6 @@ std::vector<std::pair<std::string, std::string>> pictures(const Json& record) {
     if (const std::string name = file.at("name"); name.ends_with(".exr") || name.ends_with(".png"))
       found.emplace_back(name, file.at("sha256"));
   return found;
-}
-
-std::string random_name() {
-  static thread_local std::random_device device;
-  return fmt::format("{:08x}{:08x}", device(), device());
 }
 
 /// Why a file is not what its record says; empty if it is.
@@ -72,15 +111,17 @@ std::string damage_of(const fs::path& path, const Json& file, ResultCache::Look 
 }
 
 /// Of what is named KEY or KEY.json in the directories under this one.
-std::vector<ResultKey> keys_on_shelves(const fs::path& directory) {
+std::vector<ResultKey> keys_on_shelves(const HeldDirectory& directory) {
   std::vector<ResultKey> keys;
-  std::error_code ignored;
-  for (const auto& shelf : fs::directory_iterator(directory, ignored))
-    for (const auto& entry : fs::directory_iterator(shelf.path(), ignored)) {
+  for (const std::string& shelf : directory.names()) {
+    if (!is_shelf(shelf)) continue;
+    for (const std::string& name : directory.below(shelf).names()) {
       ResultKey key;
-      if (entry.path().extension() != ".log" && from_hex(entry.path().stem().native(), key.digest))
+      const fs::path path = name;
+      if (path.extension() != ".log" && from_hex(path.stem().native(), key.digest))
         keys.push_back(key);
     }
+  }
   return keys;
 }
 
@@ -90,40 +131,85 @@ bool is_plain_file_name(const std::string& name) {
   return !name.empty() && name.find('/') == name.npos && name.front() != '.';
 }
 
+bool is_cache(const fs::path& directory) {
+  const HeldDirectory root(directory);
+  if (!root) return false;
+  if (const auto marker = root.read(kCacheMarkerFile, 64)) return true;
+  return !root.names().empty() && has_only_our_names(root);
+}
+
 ResultDraft::~ResultDraft() {
-  std::error_code ignored;
-  if (!directory_.empty()) fs::remove_all(directory_, ignored);
+  if (directory_.empty()) return;
+  Removal(directory_.parent_path().parent_path(), ownership())
+      .remove(directory_.parent_path().filename() / directory_.filename());
+}
+
+bool ResultDraft::is_there() const {
+  struct stat status {};
+  return directory_.empty() ||  // it is published
+         (::lstat(directory_.c_str(), &status) == 0 && S_ISDIR(status.st_mode));
 }
 
 namespace {
-/// Makes what a cache consists of, unless it is there; before the locks' file can be opened.
-fs::path prepared(fs::path directory) {
-  const fs::path marker = directory / kCacheMarkerFile;
-  std::error_code ignored;
-  if (fs::exists(marker, ignored)) {
-    if (read_file(marker, 64) != kLayout)
+/// Of what is there and is no cache.
+void require_cache(const HeldDirectory& root) {
+  if (const auto marker = root.read(kCacheMarkerFile, 64)) {
+    if (*marker != kLayout)
       throw Error(ExitCode::kInput,
                   fmt::format("{}: a cache of another layout; this program reads layout {}",
-                              directory.string(), std::string_view(kLayout, 1)));
-    return directory;
-  }
-  if (fs::is_directory(directory, ignored) && !fs::is_empty(directory, ignored) &&
-      !fs::exists(directory / "results", ignored))
+                              root.path().string(), kLayout.substr(0, 1)));
+  } else if (!has_only_our_names(root)) {
     throw Error(ExitCode::kInput, fmt::format("{}: not empty and not a cache (it has no file '{}')",
-                                              directory.string(), kCacheMarkerFile));
-  for (const char* part : {"results", "failures", "making"}) make_directories(directory / part);
-  return directory;
+                                              root.path().string(), kCacheMarkerFile));
+  }
+}
+
+/// Before the locks' file is opened.
+HeldDirectory opened(const fs::path& directory, ResultCache::Opening opening) {
+  HeldDirectory root(directory);
+  if (!root && opening == ResultCache::Opening::kMake) {
+    make_directories(directory);
+    root = HeldDirectory(directory);
+  }
+  if (!root)
+    throw Error(ExitCode::kInput, fmt::format("{}: {}", directory.string(), root.why_not()));
+  require_cache(root);
+  for (const char* part : kParts) {
+    // One that may only be read stays as it is.
+    if (opening == ResultCache::Opening::kMake) ::mkdirat(root.fd(), part, 0777);
+    const HeldDirectory there = root.below(part);
+    const auto links = there.links();
+    if ((there && links.empty()) || there.is_missing()) continue;
+    throw Error(ExitCode::kOutput,
+                there ? fmt::format("{}: a symbolic link, which a cache has none of",
+                                    (there.path() / links.front()).string())
+                      : fmt::format("{}: {}", there.path().string(), there.why_not()));
+  }
+  return root;
 }
 }  // namespace
 
-ResultCache::ResultCache(fs::path directory)
-    : directory_(prepared(fs::absolute(directory))), locks_(directory_ / "locks") {
-  const fs::path marker = directory_ / kCacheMarkerFile;
+ResultCache::ResultCache(fs::path directory, Opening opening)
+    : directory_(fs::absolute(directory)),
+      locks_(opened(directory_, opening), kLocksFile, opening),
+      self_(own_identity()) {
   std::error_code ignored;
-  if (fs::exists(marker, ignored)) return;
-  const ResultDraft made = draft();
-  write_file(made.file(kCacheMarkerFile), kLayout);
-  move(made.file(kCacheMarkerFile), marker);
+  if (opening == Opening::kMake && !fs::exists(directory_ / kCacheMarkerFile, ignored)) draft();
+}
+
+/// Made again if it was lost.
+HeldDirectory ResultCache::root() const {
+  HeldDirectory held(directory_);
+  if (!held) {
+    make_directories(directory_);
+    held = HeldDirectory(directory_);
+  }
+  if (!held) fail(directory_, "open the directory", ENOENT);
+  return held;
+}
+
+HeldDirectory ResultCache::shelf(const char* part, const ResultKey& key) const {
+  return root().make_below(part).make_below(key.text().substr(0, 2));
 }
 
 fs::path ResultCache::result_directory(const ResultKey& key) const {
@@ -136,10 +222,14 @@ fs::path ResultCache::failure_file(const ResultKey& key, const char* ending) con
   return directory_ / "failures" / text.substr(0, 2) / (text + ending);
 }
 
-std::vector<ResultKey> ResultCache::list() const { return keys_on_shelves(directory_ / "results"); }
+std::vector<ResultKey> ResultCache::list() const {
+  return keys_on_shelves(HeldDirectory(directory_).below("results"));
+}
 
 bool ResultCache::has(const ResultKey& key) const {
-  return ::access(file(key, kManifestFile).c_str(), F_OK) == 0;
+  struct stat status {};
+  return ::lstat(result_directory(key).c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
+         ::access(file(key, kManifestFile).c_str(), F_OK) == 0;
 }
 
 std::optional<Json> ResultCache::find(const ResultKey& key, Look look) const {
@@ -179,24 +269,39 @@ std::optional<Json> ResultCache::find(const ResultKey& key, Look look, std::stri
   }
 }
 
+std::string ResultCache::new_draft_name() const {
+  static thread_local std::random_device device;
+  return DraftName{self_, locks_.inode(), (std::uint64_t{device()} << 32) | device()}.text();
+}
+
 ResultDraft ResultCache::draft() const {
-  const std::string name = random_name();
+  const std::string name = new_draft_name();
   auto alive = locks_.try_claim(number_of(name));
   const fs::path directory = directory_ / "making" / name;
   if (!alive) fail(directory, "make the directory", EBUSY);
-  if (::mkdir(directory.c_str(), 0777) != 0) {
-    const int error = errno;
-    if (error != ENOENT) fail(directory, "make the directory", error);
-    make_directories(directory);
+  const HeldDirectory held = root();
+  require_cache(held);
+  for (int attempt = 0;; ++attempt) {
+    if (::mkdirat(held.make_below("making").fd(), name.c_str(), 0777) == 0) break;
+    // It was taken away at the same moment.
+    if (errno != ENOENT || attempt == 3) fail(directory, "make the directory", errno);
   }
-  return {directory, std::move(*alive)};
+  ResultDraft made{directory, std::move(*alive)};
+  if (::faccessat(held.fd(), kCacheMarkerFile, F_OK, AT_SYMLINK_NOFOLLOW) != 0) {
+    write_file(made.file(kCacheMarkerFile), kLayout);
+    move(made.file(kCacheMarkerFile), held, kCacheMarkerFile);
+  }
+  return made;
 }
 
 Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key, Json record) const {
   record["key"] = key.text();
   Json files = Json::array();
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(draft.directory())) paths.push_back(entry.path());
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(draft.directory(), unreadable))
+    paths.push_back(entry.path());
+  if (unreadable) fail(draft.directory(), "read", unreadable.value());
   std::sort(paths.begin(), paths.end());
   for (const auto& path : paths) {
     struct stat status {};
@@ -213,12 +318,11 @@ Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key, Json 
   write_record(draft.file(kManifestFile), record);
 
   const fs::path target = result_directory(key);
-  if (::mkdir(target.parent_path().c_str(), 0777) != 0 && errno != EEXIST)
-    fail(target.parent_path(), "make the directory", errno);
+  const HeldDirectory to = shelf("results", key);
   for (int attempt = 0;; ++attempt) {
     // A directory replaces none that has something in it, and nothing that is none: the first one stays,
     // whoever comes later.
-    if (::rename(draft.directory().c_str(), target.c_str()) == 0) break;
+    if (::renameat(AT_FDCWD, draft.directory().c_str(), to.fd(), key.text().c_str()) == 0) break;
     const int error = errno;
     if (error != ENOTEMPTY && error != EEXIST && error != ENOTDIR) fail(target, "write", error);
     if (const auto there = find(key))
@@ -230,17 +334,23 @@ Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key, Json 
   return Publication::kNew;
 }
 
+Removal ResultCache::removal(Removal::Mode mode) const {
+  return Removal(directory_, ownership(), mode);
+}
+
 void ResultCache::discard(const ResultKey& key) const {
-  const fs::path target = result_directory(key);
-  const std::string name = random_name();
+  Removal removing = removal();
+  discard(key, removing);
+  if (const auto& kept = removing.kept(); !kept.empty())
+    throw Error(ExitCode::kOutput, fmt::format("{}: cannot take it away: {}",
+                                               kept.front().path.string(), kept.front().why));
+}
+
+bool ResultCache::discard(const ResultKey& key, Removal& removal) const {
+  const std::string name = new_draft_name();
   const auto alive = locks_.try_claim(number_of(name));
-  const fs::path away = directory_ / "making" / name;
-  if (::rename(target.c_str(), away.c_str()) != 0) {
-    if (errno == ENOENT) return;
-    fail(target, "take it away", errno);
-  }
-  std::error_code ignored;
-  fs::remove_all(away, ignored);
+  return removal.remove_at_once(fs::path("results") / key.text().substr(0, 2) / key.text(),
+                                fs::path("making") / name);
 }
 
 std::optional<ByteLocks::Claim> ResultCache::try_claim(const ResultKey& key) const {
@@ -265,16 +375,17 @@ ByteLocks::Claim ResultCache::use() const {
 
 void ResultCache::keep_failure(const ResultKey& key, const Json& record,
                                const fs::path& log) const {
-  make_directories(failure_file(key, "").parent_path());
   const ResultDraft made = draft();
+  const HeldDirectory to = shelf("failures", key);
   std::error_code ignored;
   write_record(made.file("json"), record);
-  ::unlink(failure_file(key, ".log").c_str());
   if (!log.empty() && fs::file_size(log, ignored) <= kMaxLogBytes && !ignored) {
     write_file(made.file("log"), read_file(log, kMaxLogBytes));
-    move(made.file("log"), failure_file(key, ".log"));
+    move(made.file("log"), to, key.text() + ".log");
+  } else {
+    forget_failure(key);
   }
-  move(made.file("json"), failure_file(key, ".json"));
+  move(made.file("json"), to, key.text() + ".json");
 }
 
 fs::path ResultCache::failure_log(const ResultKey& key) const {
@@ -292,31 +403,59 @@ std::optional<Json> ResultCache::failure(const ResultKey& key) const {
 }
 
 std::vector<ResultKey> ResultCache::failures() const {
-  return keys_on_shelves(directory_ / "failures");
+  return keys_on_shelves(HeldDirectory(directory_).below("failures"));
 }
 
 void ResultCache::forget_failure(const ResultKey& key) const {
-  for (const char* ending : {".json", ".log"}) ::unlink(failure_file(key, ending).c_str());
+  for (const char* ending : {".json", ".log"}) {
+    if (::access(failure_file(key, ending).c_str(), F_OK) != 0) continue;
+    Removal removing = removal();
+    forget_failure(key, removing);
+    return;
+  }
 }
 
-std::size_t ResultCache::remove_abandoned() const {
-  std::size_t count = 0;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(directory_ / "making", ignored)) {
-    if (locks_.works()) {
-      const auto free = locks_.try_claim(number_of(entry.path().filename().string()));
-      if (!free) continue;
-      fs::remove_all(entry.path(), ignored);
-    } else {
-      struct stat status {};
-      if (::stat(entry.path().c_str(), &status) != 0 ||
-          std::time(nullptr) - status.st_mtim.tv_sec < kAbandonedAfterSeconds)
-        continue;
-      fs::remove_all(entry.path(), ignored);
-    }
-    ++count;
+void ResultCache::forget_failure(const ResultKey& key, Removal& removal) const {
+  for (const char* ending : {".json", ".log"})
+    removal.remove(failure_file(key, ending).lexically_relative(directory_));
+}
+
+/// `claim` gets its lock where that tells; to be held while it is removed.
+Life ResultCache::life_of_draft(const std::string& name,
+                                std::optional<ByteLocks::Claim>& claim) const {
+  const auto take_claim = [&] {
+    if (auto taken = locks_.try_claim(number_of(name))) claim.emplace(std::move(*taken));
+    return claim ? Life::kDead : Life::kAlive;
+  };
+  const auto draft = DraftName::parse(name);
+  if (!draft) return locks_.works() ? take_claim() : Life::kUnknown;
+  if (draft->maker == self_) return Life::kAlive;
+  // Whoever holds its lock lives, whatever the rest says.
+  const bool has_our_locks = locks_.works() && draft->locks_inode == locks_.inode();
+  if (has_our_locks && take_claim() == Life::kAlive) return Life::kAlive;
+  if (const Life life = life_of(draft->maker, self_); life != Life::kUnknown) return life;
+  // One kernel's processes see each other's locks in any case.
+  return has_our_locks && (draft->maker.boot == self_.boot || lock_sharing().shared)
+             ? Life::kDead
+             : Life::kUnknown;
+}
+
+AbandonedDrafts ResultCache::remove_abandoned() const {
+  Removal removing = removal();
+  return remove_abandoned(removing);
+}
+
+AbandonedDrafts ResultCache::remove_abandoned(Removal& removal) const {
+  AbandonedDrafts found;
+  for (const std::string& name : removal.directory("making").names()) {
+    const fs::path relative = fs::path("making") / name;
+    if (owned_in_cache(relative) == Owned::kNo) continue;
+    std::optional<ByteLocks::Claim> claim;
+    const Life life = life_of_draft(name, claim);
+    if (life == Life::kUnknown) ++found.others;
+    if (life == Life::kDead && removal.remove(relative)) ++found.removed;
   }
-  return count;
+  return found;
 }
 
 void ResultCache::touch(const ResultKey& key) const {

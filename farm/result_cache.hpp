@@ -3,10 +3,11 @@
 //   CACHE/lobelia-cache             says that it is one, and of which layout
 //   CACHE/results/ab/KEY/           one result: its files and result.json, renamed into place as a whole
 //   CACHE/failures/ab/KEY.json      why there is none, and KEY.log beside it
-//   CACHE/making/                   results in the making
+//   CACHE/making/                   results in the making (draft_name.hpp)
 //   CACHE/locks                     who is at work on what (byte_locks.hpp)
 //
-// docs/decisions/0014 says why a directory for each result.
+// docs/decisions/0014 says why a directory for each result, 0019 how what is lost comes back. Symbolic links among
+// these are refused.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +19,18 @@
 #include <vector>
 
 #include "core/record.hpp"
+#include "core/removal.hpp"
 #include "farm/byte_locks.hpp"
+#include "farm/draft_name.hpp"
 #include "farm/result_key.hpp"
 
 namespace lobelia {
 
 inline constexpr char kManifestFile[] = "result.json";
 inline constexpr char kCacheMarkerFile[] = "lobelia-cache";  ///< by which a cache is known
+
+/// Whether there is a cache: by its marker, or because it holds nothing but what caches do and has lost that.
+bool is_cache(const std::filesystem::path& directory);
 
 /// A name in a record is that of a file beside it and nothing else.
 bool is_plain_file_name(const std::string& name);
@@ -38,6 +44,8 @@ class ResultDraft {
   ~ResultDraft();
   const std::filesystem::path& directory() const { return directory_; }
   std::filesystem::path file(const std::string& name) const { return directory_ / name; }
+  /// False if somebody took it away, with the cache or without.
+  bool is_there() const;
 
  private:
   friend class ResultCache;
@@ -53,11 +61,19 @@ enum class Publication {
   kDifferent,  ///< likewise, but its pictures differ: what made them is not deterministic
 };
 
+struct AbandonedDrafts {
+  std::size_t removed = 0;
+  std::size_t others =
+      0;  ///< of which this machine cannot tell whether their makers live; they stay
+};
+
 class ResultCache {
  public:
-  /// Makes the directory if it is not there. Throws Error(kOutput) if that fails, Error(kInput) if something else
-  /// is there, or a cache of another layout. One that may only be read is not an error.
-  explicit ResultCache(std::filesystem::path directory);
+  using Opening = ByteLocks::Opening;
+  /// Makes the directory and what is missing in it, unless it is only to be looked at. Throws Error(kOutput) if that
+  /// fails or a part of it is a symbolic link, Error(kInput) if something else is there, or a cache of another layout.
+  /// One that may only be read is not an error.
+  explicit ResultCache(std::filesystem::path directory, Opening opening = Opening::kMake);
 
   const std::filesystem::path& directory() const { return directory_; }
   std::filesystem::path result_directory(const ResultKey& key) const;
@@ -84,8 +100,11 @@ class ResultCache {
   /// place. Throws Error(kOutput).
   Publication publish(ResultDraft& draft, const ResultKey& key, Json record) const;
 
-  /// Takes a result away, at once for everyone.
+  /// Of drafts, results and kept failures; of nothing while the marker is missing.
+  Removal removal(Removal::Mode mode = Removal::Mode::kForReal) const;
+  /// Takes a result away, at once for everyone. Throws Error(kOutput) if it stays.
   void discard(const ResultKey& key) const;
+  bool discard(const ResultKey& key, Removal& removal) const;
 
   /// To be held while a result is being made; none while someone else makes it.
   std::optional<ByteLocks::Claim> try_claim(const ResultKey& key) const;
@@ -104,17 +123,26 @@ class ResultCache {
   std::optional<Json> failure(const ResultKey& key) const;
   std::vector<ResultKey> failures() const;  ///< that are kept, in no order
   void forget_failure(const ResultKey& key) const;
+  void forget_failure(const ResultKey& key, Removal& removal) const;
 
-  /// Drafts that nobody works on any more; to be called before this object has any. Returns how many were there.
-  std::size_t remove_abandoned() const;
+  /// Drafts that nobody works on any more; to be called before this object has any.
+  AbandonedDrafts remove_abandoned() const;
+  AbandonedDrafts remove_abandoned(Removal& removal) const;
+  /// Whether other machines see this one's locks.
+  LockSharing lock_sharing() const { return locks_.sharing(); }
 
   /// For gc: when it was last used (a whole day is as exact as it gets), and that it was used now.
   void touch(const ResultKey& key) const;
 
  private:
   std::filesystem::path failure_file(const ResultKey& key, const char* ending) const;
+  HeldDirectory root() const;
+  HeldDirectory shelf(const char* part, const ResultKey& key) const;
+  std::string new_draft_name() const;
+  Life life_of_draft(const std::string& name, std::optional<ByteLocks::Claim>& claim) const;
   std::filesystem::path directory_;
   ByteLocks locks_;
+  ProcessIdentity self_;
 };
 
 }  // namespace lobelia

@@ -1,5 +1,6 @@
 #include "farm/upkeep.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <sys/stat.h>
@@ -16,7 +17,11 @@
 #include "core/finite_image.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
+#include "core/removal.hpp"
+#include "core/seal.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "farm/cell_directory.hpp"
 #include "farm/result_cache.hpp"
 
 namespace lobelia {
@@ -84,11 +89,116 @@ std::pair<std::int64_t, std::int64_t> changed(const fs::path& path) {
   return {status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
+constexpr char kRecordFile[] = "cell.json";
+constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 28;
+
+/// Every path below a farm's directory that it or its gallery may have written, and that clean may take away.
+Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_gallery) {
+  std::vector<std::string> parts;
+  for (const fs::path& part : relative) parts.push_back(part.string());
+  long long pid = 0;
+  const std::string& name = parts.back();
+  if (parts.size() == 1 && (name == "farm.json" || is_part_name(name, pid))) return Owned::kFile;
+  if (parts[0] != "cells" || parts.size() > 3) return Owned::kNo;
+  if (parts.size() < 3) return Owned::kDirectory;
+  return is_cell_file(name) || is_part_name(name, pid) || of_gallery.contains(relative.string())
+             ? Owned::kFile
+             : Owned::kNo;
+}
+
+/// What a gallery that lies in the farm's directory says that it wrote.
+std::set<std::string> files_of_gallery(const fs::path& directory) {
+  std::set<std::string> files;
+  const auto text = HeldDirectory(directory).read("gallery.json", kMaxRecordBytes);
+  const Json record = text ? Json::parse(*text, nullptr, false) : Json();
+  if (!record.is_object() || record.value("kind", Json()) != "gallery") return files;
+  if (const auto list = record.find("files"); list != record.end() && list->is_array())
+    for (const auto& file : *list)
+      if (file.is_string()) files.insert(file.get<std::string>());
+  return files;
+}
+
+/// Of a farm's directory, whose record has been read.
+Removal removal_from_farm(const fs::path& directory, bool dry_run) {
+  return Removal(directory,
+                 {[](const HeldDirectory& root) {
+                    return root.read("farm.json", kMaxRecordBytes).has_value();
+                  },
+                  [files = files_of_gallery(directory)](const fs::path& relative) {
+                    return owned_in_farm(relative, files);
+                  }},
+                 dry_run ? Removal::Mode::kDryRun : Removal::Mode::kForReal);
+}
+
+std::vector<std::string> sentences(const std::vector<Removal::Kept>& kept) {
+  std::vector<std::string> found;
+  for (const auto& one : kept) found.push_back(fmt::format("{}: {}", one.path.string(), one.why));
+  return found;
+}
+
+/// A cell's own record: empty, with the reason, if it is not what the farm wrote.
+std::optional<Json> sealed_record(const HeldDirectory& cell, std::string& why_not) {
+  const auto text = cell.read(kRecordFile, kMaxRecordBytes);
+  const Json record = text ? Json::parse(*text, nullptr, false) : Json();
+  if (!text)
+    why_not = "is missing";
+  else if (!record.is_object() || record.value("kind", Json()) != "cell")
+    why_not = "is not a cell's record";
+  else if (!record.contains("seal"))
+    why_not = "has no hashes, being of an earlier version";
+  else if (record.at("seal") != seal_of(record))
+    why_not = "has another content";
+  else
+    return record;
+  return std::nullopt;
+}
+
+/// What a cell's record names and is not so.
+struct CellFindings {
+  std::vector<std::pair<std::string, std::string>> damaged;  ///< file and why
+  std::set<ResultKey> missing;
+  std::size_t files = 0;
+  std::uint64_t bytes = 0;
+};
+
+CellFindings look_at_cell(const HeldDirectory& cell, const ResultCache* cache) {
+  CellFindings found;
+  std::string why;
+  const auto record = sealed_record(cell, why);
+  if (!record) {
+    found.damaged.emplace_back(kRecordFile, why);
+    return found;
+  }
+  try {
+    for (const auto& [job, text] : record->at("results").items()) {
+      ResultKey key;
+      if (!from_hex(text.get<std::string>(), key.digest) || !cache || !cache->has(key))
+        found.missing.insert(key);
+    }
+    for (const auto& file : record->at("files")) {
+      const std::string name = file.at("name");
+      struct stat status {};
+      if (!is_plain_file_name(name) ||
+          ::fstatat(cell.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 ||
+          !S_ISREG(status.st_mode)) {
+        found.damaged.emplace_back(name, "is missing");
+      } else if (hex(sha256_of_file(cell.path() / name)) != file.at("sha256")) {
+        found.damaged.emplace_back(name, "has another content");
+      }
+      ++found.files;
+      found.bytes += std::uint64_t(status.st_size);
+    }
+  } catch (const std::exception& error) {
+    found.damaged.emplace_back(kRecordFile, error.what());
+  }
+  return found;
+}
+
 }  // namespace
 
-fs::path cache_of(const fs::path& path) {
+CachePlace cache_of(const fs::path& path) {
   std::error_code ignored;
-  if (fs::exists(path / kCacheMarkerFile, ignored)) return path;
+  if (is_cache(path)) return {path, true, false};
   if (!fs::exists(path / "farm.json", ignored))
     throw Error(
         ExitCode::kInput,
@@ -96,17 +206,14 @@ fs::path cache_of(const fs::path& path) {
                     "no lobelia-cache)",
                     path.string()));
   const Json record = read_farm_record(path);
-  const fs::path cache = path / record.value("cache", std::string("cache"));
-  if (!fs::exists(cache / kCacheMarkerFile, ignored))
-    throw Error(ExitCode::kInput, fmt::format("{}: its cache {} is not there", path.string(),
-                                              cache.lexically_normal().string()));
-  return cache.lexically_normal();
+  const fs::path cache = (path / record.value("cache", std::string("cache"))).lexically_normal();
+  return {cache, is_cache(cache), true};
 }
 
 VerifyReport verify_cache(
     const fs::path& directory, bool remove,
     const std::function<void(std::size_t done, std::size_t all)>& on_progress) {
-  const ResultCache cache(directory);
+  const ResultCache cache(directory, ResultCache::Opening::kLook);
   std::vector<ResultKey> keys = cache.list();
   std::sort(keys.begin(), keys.end());
   VerifyReport report;
@@ -139,15 +246,74 @@ VerifyReport verify_cache(
   return report;
 }
 
-GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t> max_bytes) {
-  const ResultCache cache(directory);
+VerifyReport verify_farm(
+    const fs::path& directory, bool remove,
+    const std::function<void(std::size_t done, std::size_t all)>& on_progress) {
+  const Json farm = read_farm_record(directory);
+  std::optional<FarmDirectoryLock> alone;
+  if (remove) alone.emplace(directory, FarmDirectoryLock::Use::kAlone);
+  const CachePlace place = cache_of(directory);
+  VerifyReport report;
+  std::optional<ResultCache> cache;
+  if (place.is_there) {
+    report = verify_cache(place.cache, remove, on_progress);
+    cache.emplace(place.cache, ResultCache::Opening::kLook);
+  }
+  const HeldDirectory cells =
+      HeldDirectory(directory).below("cells", HeldDirectory::Border::kCross);
+  if (!cells && !cells.is_missing())
+    throw Error(ExitCode::kOutput, fmt::format("{}: {}", cells.path().string(), cells.why_not()));
+  const auto& all = farm.at("cells");
+  std::vector<CellFindings> findings(all.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    throw_if_interrupted();
+    const HeldDirectory cell =
+        cells.below(all[i].at("id").get<std::string>(), HeldDirectory::Border::kCross);
+    // One that was never finished has no record, and names nothing.
+    struct stat ignored {};
+    const bool has_record =
+        cell && ::fstatat(cell.fd(), kRecordFile, &ignored, AT_SYMLINK_NOFOLLOW) == 0;
+    if (has_record || all[i].at("status") != "missing")
+      findings[i] = look_at_cell(cell, cache ? &*cache : nullptr);
+    const std::scoped_lock lock(mutex);
+    if (on_progress) on_progress(++done, all.size());
+  });
+  Removal removal = removal_from_farm(directory, false);
+  std::set<ResultKey> missing;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    const fs::path cell = fs::path("cells") / all[i].at("id").get<std::string>();
+    report.files += findings[i].files;
+    report.bytes += findings[i].bytes;
+    missing.insert(findings[i].missing.begin(), findings[i].missing.end());
+    for (const auto& [name, why] : findings[i].damaged) {
+      report.damaged.push_back(fmt::format("{} {}", (cell / name).string(), why));
+      if (!remove) continue;
+      if (is_plain_file_name(name)) removal.remove(cell / name);
+      removal.remove(cell / kRecordFile);
+    }
+  }
+  report.missing = missing.size();
+  return report;
+}
+
+GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t> max_bytes,
+                         const RemovalOptions& options) {
+  const ResultCache cache(
+      directory, options.dry_run ? ResultCache::Opening::kLook : ResultCache::Opening::kMake);
   const auto alone = cache.try_use(false);
   if (!alone)
     throw Error(ExitCode::kOutput,
                 fmt::format("{}: a farm is using this cache; try again when it has ended",
                             directory.string()));
+  Removal removal =
+      cache.removal(options.dry_run ? Removal::Mode::kDryRun : Removal::Mode::kForReal);
+  removal.on_removed(options.on_removed);
   GcReport report;
-  report.abandoned = cache.remove_abandoned();
+  const AbandonedDrafts abandoned = cache.remove_abandoned(removal);
+  report.abandoned = abandoned.removed;
+  report.others = abandoned.others;
   struct Candidate {
     std::pair<std::int64_t, std::int64_t> used;
     ResultKey key;
@@ -158,11 +324,10 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
     throw_if_interrupted();
     const auto record = cache.find(key);
     if (!record) {
-      cache.discard(key);
-      ++report.removed;
+      if (cache.discard(key, removal)) ++report.removed;
       continue;
     }
-    cache.forget_failure(key);
+    cache.forget_failure(key, removal);
     results.push_back({changed(cache.result_directory(key)), key, bytes_of(*record)});
     report.kept_bytes += results.back().bytes;
   }
@@ -173,12 +338,13 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
   for (const Candidate& one : results) {
     if (!max_bytes || report.kept_bytes <= *max_bytes) break;
     throw_if_interrupted();
-    cache.discard(one.key);
+    if (!cache.discard(one.key, removal)) continue;
     ++report.removed;
     --report.kept;
     report.removed_bytes += one.bytes;
     report.kept_bytes -= one.bytes;
   }
+  report.stays = sentences(removal.kept());
   return report;
 }
 
@@ -207,26 +373,47 @@ std::uint64_t parse_size(const std::string& text) {
   return std::uint64_t(value * scale);
 }
 
-CleanReport clean_farm(const fs::path& directory, bool all) {
+CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions& options) {
   const Json record = read_farm_record(directory);
+  const FarmDirectoryLock alone(
+      directory, FarmDirectoryLock::Use::kAlone,
+      options.dry_run ? ByteLocks::Opening::kLook : ByteLocks::Opening::kMake);
   std::set<std::string> ids;
   if (!all)
     for (const auto& cell : record.at("cells")) ids.insert(cell.at("id").get<std::string>());
   CleanReport report;
-  std::error_code ignored;
-  std::vector<fs::path> foreign;
-  for (const auto& entry : fs::directory_iterator(directory / "cells", ignored))
-    if (!ids.contains(entry.path().filename().string())) foreign.push_back(entry.path());
-  for (const auto& cell : foreign) {
-    report.files += std::size_t(fs::remove_all(cell, ignored));
-    ++report.cells;
+  Removal removal = removal_from_farm(directory, options.dry_run);
+  std::size_t paths = 0;
+  removal.on_removed([&](const fs::path& path) {
+    ++paths;
+    if (options.on_removed) options.on_removed(path);
+  });
+  const HeldDirectory cells = removal.directory("cells");
+  if (!cells && !cells.is_missing())
+    throw Error(ExitCode::kOutput, fmt::format("{}: {}", cells.path().string(), cells.why_not()));
+  std::size_t directories = 0;
+  const auto remove_parts = [&](const fs::path& where) {
+    const HeldDirectory held = removal.directory(where);
+    for (const std::string& name : held.names())
+      if (const AbandonedPart part(held, name); part) removal.remove(where / name);
+  };
+  for (const std::string& id : cells.names()) {
+    const fs::path cell = fs::path("cells") / id;
+    remove_parts(cell);
+    if (ids.contains(id)) continue;
+    long long pid = 0;
+    for (const std::string& name : removal.directory(cell).names())
+      if (!is_part_name(name, pid)) removal.remove(cell / name);
+    if (removal.remove(cell)) ++report.cells;
   }
-  remove_abandoned_files(directory);
-  for (const auto& id : ids) remove_abandoned_files(directory / "cells" / id);
+  directories = report.cells;
+  remove_parts("");
   if (all) {
-    fs::remove(directory / "cells", ignored);
-    report.files += fs::remove(directory / "farm.json", ignored) ? 1 : 0;
+    if (removal.remove("cells")) ++directories;
+    removal.remove("farm.json");
   }
+  report.files = paths - directories;
+  report.stays = sentences(removal.kept());
   return report;
 }
 
@@ -261,11 +448,14 @@ Json farm_status(const fs::path& directory) {
   record["cells"] = farm.at("cells").size();
   for (const char* status : {"failed", "differs", "undecided", "missing", "unchecked", "pass"})
     record["status"][status] = counts[status];
+  const CachePlace place = cache_of(directory);
   bool at_work = false;
   try {
-    at_work = ResultCache(cache_of(directory)).is_in_use();
-  } catch (const Error&) {  // without its cache nobody is
+    if (place.is_there) at_work = ResultCache(place.cache, ResultCache::Opening::kLook).is_in_use();
+  } catch (const Error&) {  // one that cannot be read
   }
+  record["cache"] = place.cache.string();
+  record["cacheIsThere"] = place.is_there;
   record["atWork"] = at_work;
   record["failures"] = std::move(failures);
   return record;

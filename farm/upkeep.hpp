@@ -12,13 +12,20 @@
 
 namespace lobelia {
 
+struct CachePlace {
+  std::filesystem::path cache;
+  bool is_there = false;
+  bool of_farm = false;  ///< found through a farm's directory
+};
+
 /// The cache at `path`, which is one or a farm's directory. Throws Error(kInput) if it is neither.
-std::filesystem::path cache_of(const std::filesystem::path& path);
+CachePlace cache_of(const std::filesystem::path& path);
 
 struct VerifyReport {
   std::size_t results = 0, files = 0;
   std::uint64_t bytes = 0;
   std::vector<std::string> damaged;  ///< "KEY (render of n16): lobelia.exr has another content"
+  std::size_t missing = 0;  ///< results that a farm's cells name and its cache does not have
 };
 
 /// Reads every byte of every result again, compares it with its hash, and opens every picture and record, on all
@@ -27,27 +34,44 @@ struct VerifyReport {
 VerifyReport verify_cache(
     const std::filesystem::path& cache, bool remove,
     const std::function<void(std::size_t done, std::size_t all)>& on_progress);
+/// The cache of the farm in `directory`, if it is there, and besides every file under cells/, by the hashes in the cells'
+/// records. With `remove` files under cells/ go too, so that the next farm puts them there again; Error(kOutput)
+/// while a farm is at work.
+VerifyReport verify_farm(const std::filesystem::path& directory, bool remove,
+                         const std::function<void(std::size_t done, std::size_t all)>& on_progress);
+
+/// Of gc and clean.
+struct RemovalOptions {
+  bool dry_run = false;  ///< nothing is removed or written
+  /// Gets every path that goes, or would go.
+  std::function<void(const std::filesystem::path&)> on_removed;
+};
 
 struct GcReport {
   std::size_t removed = 0, kept = 0, abandoned = 0;
+  std::size_t others = 0;  ///< drafts of other machines, which stay
   std::uint64_t removed_bytes = 0, kept_bytes = 0;
+  std::vector<std::string> stays;  ///< "PATH: why it cannot be removed"
 };
 
 /// Takes away what killed farms left half-made, failures of results that are there, and the results that were not used
 /// for longest until the rest is at most `max_bytes`. Throws Error(kOutput) while a farm uses the cache.
-GcReport collect_garbage(const std::filesystem::path& cache,
-                         std::optional<std::uint64_t> max_bytes);
+GcReport collect_garbage(const std::filesystem::path& cache, std::optional<std::uint64_t> max_bytes,
+                         const RemovalOptions& options = {});
 
 /// "10G", "1.5T", "500 MB"... in bytes, by powers of 1024. Throws Error(kUsage).
 std::uint64_t parse_size(const std::string& text);
 
 struct CleanReport {
   std::size_t cells = 0, files = 0;
+  std::vector<std::string> stays;  ///< "PATH: why": what no farm and no gallery wrote
 };
 
 /// Takes away from a farm's directory the cells that are not of its grid and what killed farms left behind;
-/// with `all` every cell, and its record. The cache stays. Throws Error(kInput) if it is no farm's directory.
-CleanReport clean_farm(const std::filesystem::path& directory, bool all);
+/// with `all` every cell, and its record. The cache stays, and what is not ours. Throws Error(kInput) if it is no
+/// farm's directory, Error(kOutput) while a farm is at work there.
+CleanReport clean_farm(const std::filesystem::path& directory, bool all,
+                       const RemovalOptions& options = {});
 
 /// What has become of every cell so far: kind "farm-status", docs/records.md. Also while a farm is at work there.
 Json farm_status(const std::filesystem::path& directory);

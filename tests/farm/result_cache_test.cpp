@@ -143,7 +143,7 @@ TEST_F(ResultCacheTest, TakesAwayDraftsOfTheDeadAndLeavesThoseOfTheLiving) {
   const ResultCache living(path()), other(path());
   const ResultDraft draft = living.draft();
   fs::create_directory(path() / "making" / "0123456789abcdef");
-  EXPECT_EQ(other.remove_abandoned(), 1u);
+  EXPECT_EQ(other.remove_abandoned().removed, 1u);
   EXPECT_TRUE(fs::exists(draft.directory()));
 }
 

@@ -28,7 +28,7 @@ constexpr std::uint64_t kMaxBytes = 1 << 28;
 /// Of whatever made it, when, and at what cost.
 void forget_circumstances(Json& record) {
   for (const char* key : {"seconds", "cpuSeconds", "peakMemoryBytes", "engineCommands", "command",
-                          "host", "cache", "threads", "plan"})
+                          "host", "cache", "locks", "threads", "plan"})
     record.erase(key);
   // A cell's hashes are of records that have all that.
   if (record.value("kind", "") == "cell")

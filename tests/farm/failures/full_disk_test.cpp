@@ -43,7 +43,7 @@ TEST_F(Disk, ThatIsFullEndsTheFarmWithOneLineAndWithRoomItGoesOn) {
                     "farm -q > first 2>&1; echo first $?; wc -l < first; cat first\n"
                     "find cache/making cache/failures -type f; find cache out -name '*.part'\n"
                     "mount -o remount,size=100M cache\n"
-                    "echo second; farm; echo second $?; find cache/making -mindepth 1\n",
+                    "echo second; farm -q; echo second $?; find cache/making -mindepth 1\n",
                     kilobytes));
     EXPECT_THAT(said, testing::StartsWith("first 4\n1\nlobelia: "));
     EXPECT_THAT(said,
@@ -61,7 +61,7 @@ TEST_F(Disk, OfTheFarmsDirectoryMayBeFullToo) {
         "mount -t tmpfs -o size={}k none out\n"
         "farm -q > first 2>&1; echo first $?; wc -l < first; cat first; find out -name '*.part'\n"
         "mount -o remount,size=100M out\n"
-        "echo second; farm; echo second $?; cp -a out/. there\n",
+        "echo second; farm -q; echo second $?; cp -a out/. there\n",
         kilobytes));
     EXPECT_THAT(said, testing::StartsWith("first 4\n1\nlobelia: "));
     EXPECT_THAT(said,

@@ -1,0 +1,138 @@
+#include "farm/draft_name.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+
+#include "core/host.hpp"
+#include "core/sha256.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMaxHost = 40, kHostHash = 8, kBoot = 32, kRandom = 16;
+
+bool is_hex(std::string_view text) {
+  return std::ranges::all_of(
+      text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+}
+
+std::string first_line(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return line;
+}
+
+/// Containers and machines may have one name.
+std::string host_part() {
+  std::string name = host_name().substr(0, kMaxHost);
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  return name + "-" + hex(sha256(first_line("/etc/machine-id"))).substr(0, kHostHash);
+}
+
+std::string boot_part() {
+  std::string boot = first_line("/proc/sys/kernel/random/boot_id");
+  std::erase(boot, '-');
+  return boot.size() == kBoot && is_hex(boot) ? boot : std::string(kBoot, '0');
+}
+
+std::uint64_t pid_namespace() {
+  std::error_code ignored;
+  const std::string text = fs::read_symlink("/proc/self/ns/pid", ignored).string();  // "pid:[402]"
+  std::uint64_t number = 0;
+  if (text.starts_with("pid:["))
+    std::from_chars(text.data() + 5, text.data() + text.size(), number);
+  return number;
+}
+
+struct ProcessState {
+  char state = 0;  ///< 0: not told
+  std::uint64_t start = 0;
+};
+
+ProcessState state_of(const std::string& pid) {
+  const std::string line = first_line("/proc/" + pid + "/stat");  // "123 (name) S 1 ..."
+  const auto close = line.rfind(')');
+  if (close == line.npos) return {};
+  const auto fields = split(line.substr(close + 1), " ");
+  constexpr std::size_t kStart = 19;  // the 22nd of all
+  ProcessState state;
+  if (fields.size() <= kStart || fields[0].size() != 1) return {};
+  state.state = fields[0][0];
+  const std::string& start = fields[kStart];
+  std::from_chars(start.data(), start.data() + start.size(), state.start);
+  return state;
+}
+
+/// Decimal digits without a sign or zeros before them.
+bool parse_number_part(std::string_view text, std::uint64_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() &&
+         (text.size() == 1 || text[0] != '0');
+}
+
+}  // namespace
+
+ProcessIdentity own_identity() {
+  return {host_part(), boot_part(), pid_namespace(), std::uint64_t(::getpid()),
+          state_of("self").start};
+}
+
+std::string DraftName::text() const {
+  return fmt::format("draft.{}.{}.{}.{}.{}.{}.{:016x}", maker.host, maker.boot, maker.pid_namespace,
+                     maker.pid, maker.start, locks_inode, random);
+}
+
+std::optional<DraftName> DraftName::parse(std::string_view name) {
+  if (name.size() > 200) return std::nullopt;
+  std::vector<std::string_view> parts;
+  for (std::size_t from = 0; from <= name.size();) {
+    const auto dot = std::min(name.find('.', from), name.size());
+    parts.push_back(name.substr(from, dot - from));
+    from = dot + 1;
+  }
+  DraftName draft;
+  if (parts.size() != 8 || parts[0] != "draft" || parts[1].empty() ||
+      parts[1].size() > kMaxHost + 1 + kHostHash ||
+      !std::ranges::all_of(
+          parts[1], [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; }) ||
+      parts[2].size() != kBoot || !is_hex(parts[2]) ||
+      !parse_number_part(parts[3], draft.maker.pid_namespace) ||
+      !parse_number_part(parts[4], draft.maker.pid) ||
+      !parse_number_part(parts[5], draft.maker.start) ||
+      !parse_number_part(parts[6], draft.locks_inode) || parts[7].size() != kRandom ||
+      !is_hex(parts[7]) || draft.maker.pid == 0 || draft.maker.pid > 0x7fffffff)
+    return std::nullopt;
+  draft.maker.host = parts[1];
+  draft.maker.boot = parts[2];
+  std::from_chars(parts[7].data(), parts[7].data() + kRandom, draft.random, 16);
+  return draft;
+}
+
+bool is_old_draft_name(std::string_view name) { return name.size() == 16 && is_hex(name); }
+
+Life life_of(const ProcessIdentity& maker, const ProcessIdentity& self) {
+  const std::string untold(kBoot, '0');
+  if (maker.boot == untold || self.boot == untold) return Life::kUnknown;
+  if (maker.boot != self.boot) return maker.host == self.host ? Life::kDead : Life::kUnknown;
+  if (maker.pid_namespace != self.pid_namespace) return Life::kUnknown;
+  if (::kill(pid_t(maker.pid), 0) != 0 && errno == ESRCH) return Life::kDead;
+  const ProcessState there = state_of(std::to_string(maker.pid));
+  if (there.state == 0) return Life::kAlive;  // another user's, which the system does not show
+  // A zombie works on nothing; where process 1 reaps late there are many.
+  const bool ended = there.state == 'Z' || there.state == 'X';
+  return ended || there.start != maker.start ? Life::kDead : Life::kAlive;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,283 @@
+// A cache that is lost, wholly or partly, at rest or at work; links in place of its parts; and who may take what away.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "failing_farm.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class LostCache : public FailingFarm {
+ protected:
+  LostCache() {
+    undisturbed();
+    fake_povray();
+    EXPECT_EQ(run().exit_code, 0);
+  }
+  /// A shelf or another directory that is there; the first one.
+  fs::path first_of(const fs::path& directory) const {
+    std::vector<fs::path> all;
+    for (const auto& entry : fs::directory_iterator(directory)) all.push_back(entry.path());
+    std::ranges::sort(all);
+    return all.at(0);
+  }
+  static std::vector<std::string> all_paths(const fs::path& top) {
+    std::vector<std::string> paths;
+    for (const auto& entry : fs::recursive_directory_iterator(top))
+      paths.push_back(entry.path().string());
+    std::ranges::sort(paths);
+    return paths;
+  }
+};
+
+TEST_F(LostCache, AtRestIsMadeAgainWhateverOfItIsLost) {
+  const auto without = [&](const std::vector<std::string>& parts) {
+    SCOPED_TRACE(testing::PrintToString(parts));
+    for (const auto& part : parts) fs::remove_all(cache() / part);
+    expect_mended(run());
+    EXPECT_TRUE(fs::exists(cache() / "lobelia-cache"));
+    EXPECT_EQ(cached_pictures(), pictures());
+  };
+  without({"results"});
+  without({"failures"});
+  without({"making"});
+  without({"locks"});
+  without({"lobelia-cache"});
+  without({"lobelia-cache", "results"});
+  without({"results", "failures", "making"});
+  without({"lobelia-cache", "failures", "making", "locks"});
+  without({"lobelia-cache", "results", "failures", "making"});
+  without({"results/" + first_of(cache() / "results").filename().string()});
+  without({""});
+}
+
+TEST_F(LostCache, AtWorkIsHarmlessToTheRunOrToTheNext) {
+  const auto losing = [&](const std::string& what, const auto& lose) {
+    SCOPED_TRACE(what);
+    fs::remove_all(out());
+    fs::remove_all(cache());
+    fake_povray("sleep 0.2");
+    RunningFarm farm(command(), root());
+    while (cached_pictures() < 2 && !farm.has_ended()) ::usleep(5000);
+    std::error_code ignored;
+    lose(ignored);
+    const int code = farm.wait();
+    EXPECT_THAT(code, AnyOf(0, 4)) << farm.output();
+    EXPECT_THAT(farm.output(), testing::Not(HasSubstr("internal")));
+    if (code == 0) {
+      EXPECT_THAT(farm.output(), HasSubstr("4 pass;"));
+    }
+    fs::remove_all(root() / "moved");
+    fake_povray();
+    expect_mended(run());
+  };
+  losing("removed", [&](auto& ignored) { fs::remove_all(cache(), ignored); });
+  losing("renamed", [&](auto& ignored) { fs::rename(cache(), root() / "moved", ignored); });
+  losing("results", [&](auto& ignored) { fs::remove_all(cache() / "results", ignored); });
+  losing("making", [&](auto& ignored) { fs::remove_all(cache() / "making", ignored); });
+  losing("locks and marker", [&](auto& ignored) {
+    for (const char* name : {"locks", "lobelia-cache", "failures"})
+      fs::remove_all(cache() / name, ignored);
+  });
+}
+
+TEST_F(LostCache, IsToldByStatusVerifyAndGcInOneLineEach) {
+  fs::remove_all(cache());
+  const FarmRun verify = run_command({"farm", "verify", "out", "-q"});
+  EXPECT_EQ(verify.exit_code, 1) << verify.output;
+  EXPECT_THAT(verify.output, HasSubstr("cache is not there"));
+  EXPECT_THAT(verify.output, HasSubstr("16 missing"));
+  EXPECT_THAT(verify.output, testing::Not(HasSubstr("whole")));
+  const FarmRun status = run_command({"farm", "status", "out"});
+  EXPECT_EQ(status.exit_code, 0) << status.output;
+  EXPECT_THAT(status.output, HasSubstr("4 cells: 4 pass\nits cache "));
+  EXPECT_EQ(std::ranges::count(status.output, '\n'), 2) << status.output;
+  const FarmRun gc = run_command({"farm", "gc", "out"});
+  EXPECT_EQ(gc.exit_code, 0) << gc.output;
+  EXPECT_EQ(std::ranges::count(gc.output, '\n'), 1) << gc.output;
+  EXPECT_FALSE(fs::exists(cache())) << "whoever looks makes none";
+  expect_mended(run(), pictures());
+}
+
+TEST_F(LostCache, VerifyReadsTheFilesUnderCellsToo) {
+  EXPECT_EQ(run_command({"farm", "verify", "out", "-q"}).exit_code, 0);
+  // A copy, as where the cache is on another file system, whose time and size do not tell.
+  const fs::path copy = out() / "cells" / "n16" / "povray.exr";
+  const auto time = fs::last_write_time(copy);
+  std::string text = read_file(copy, 1 << 26);
+  text[text.size() / 2] = char(text[text.size() / 2] ^ 1);
+  fs::remove(copy);
+  write_file(copy, text);
+  fs::last_write_time(copy, time);
+  fs::remove(out() / "cells" / "n8" / "lobelia.png");
+  std::ofstream(out() / "cells" / "n32" / "cell.json") << "{}";
+  const FarmRun verify = run_command({"farm", "verify", "out", "-q"});
+  EXPECT_EQ(verify.exit_code, 1) << verify.output;
+  for (const char* line : {"damaged: cells/n16/povray.exr has another content",
+                           "damaged: cells/n8/lobelia.png is missing",
+                           "damaged: cells/n32/cell.json is not a cell's record"})
+    EXPECT_THAT(verify.output, HasSubstr(line));
+  EXPECT_EQ(run_command({"farm", "verify", "out", "-q", "--remove"}).exit_code, 0);
+  expect_mended(run(), 0);
+  EXPECT_EQ(run_command({"farm", "verify", "out", "-q"}).exit_code, 0);
+}
+
+TEST_F(LostCache, WithALinkInPlaceOfAnyPartIsRefusedAndWhatItLeadsToStays) {
+  const fs::path outside = root() / "outside";
+  fs::create_directories(outside / "0123456789abcdef");
+  fs::create_directories(outside / "n16");
+  write_file(outside / "0123456789abcdef" / "precious", "x");
+  write_file(outside / "n16" / "lobelia.exr", "x");
+  write_file(outside / "precious", "x");
+  const auto before = all_paths(outside);
+  const std::vector<fs::path> parts{cache() / "making",   cache() / "results",
+                                    cache() / "failures", first_of(cache() / "results"),
+                                    out() / "cells",      out() / "cells" / "n16"};
+  for (const fs::path& part : parts) {
+    SCOPED_TRACE(part);
+    fs::rename(part, root() / "away");
+    fs::create_directory_symlink(outside, part);
+    for (const auto& arguments : {command(),
+                                  command({"--again"}),
+                                  {"farm", "clean", "out"},
+                                  {"farm", "clean", "out", "--all"},
+                                  {"farm", "gc", "cache", "--max-size", "0"},
+                                  {"farm", "verify", "out", "-q", "--remove"}}) {
+      const fs::path record = out() / "farm.json";
+      const std::string kept = fs::exists(record) ? read_file(record, 1 << 20) : "";
+      const FarmRun refused = run_command(arguments);
+      EXPECT_THAT(refused.exit_code, AnyOf(0, 1, 3, 4))
+          << testing::PrintToString(arguments) << refused.output;
+      EXPECT_EQ(all_paths(outside), before) << testing::PrintToString(arguments);
+      if (!fs::exists(record)) write_file(record, kept);
+    }
+    const FarmRun farm = run();
+    EXPECT_EQ(farm.exit_code, 4) << farm.output;
+    EXPECT_EQ(std::ranges::count(farm.output, '\n'), 1) << farm.output;
+    EXPECT_THAT(farm.output, HasSubstr("a symbolic link"));
+    EXPECT_EQ(all_paths(outside), before);
+    fs::remove(part);
+    fs::rename(root() / "away", part);
+    expect_mended(run());
+  }
+}
+
+TEST_F(LostCache, DryRunsListWhatWouldGoAndTakeNothing) {
+  grid({"8", "16"});
+  ASSERT_EQ(run().exit_code, 0);  // n32 and n64 are foreign now
+  const auto dead = fs::path("making") / "0123456789abcdef";
+  fs::create_directories(cache() / dead / "deep");
+  write_file(cache() / dead / "deep" / "x", "x");
+  write_file(out() / "cells" / "n32" / "notes.txt", "the user's");
+  write_file(out() / "cells" / "n64" / ".lobelia.exr.2147483646-1.part", "x");
+  const auto compare = [&](std::vector<std::string> arguments) {
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    const auto before = all_paths(root());
+    arguments.push_back("--dry-run");
+    const FarmRun dry = run_command(arguments);
+    EXPECT_EQ(dry.exit_code, 0) << dry.output;
+    auto unchanged = all_paths(root());
+    std::erase_if(unchanged, [&](const auto& path) {
+      return fs::path(path).filename().native().starts_with("output-");
+    });
+    auto expected = before;
+    std::erase_if(expected, [&](const auto& path) {
+      return fs::path(path).filename().native().starts_with("output-");
+    });
+    EXPECT_EQ(unchanged, expected) << "a dry run takes and writes nothing";
+    arguments.pop_back();
+    EXPECT_EQ(run_command(arguments).exit_code, 0);
+    std::vector<std::string> gone, listed;
+    const auto after = all_paths(root());
+    std::ranges::set_difference(before, after, std::back_inserter(gone));
+    std::istringstream lines(dry.output);
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("out/") || line.starts_with(root().string()) ||
+          line.starts_with("cache/"))
+        listed.push_back(fs::path(line).is_absolute() ? line : (root() / line).string());
+    std::ranges::sort(listed);
+    EXPECT_EQ(listed, gone);
+    EXPECT_FALSE(gone.empty());
+  };
+  compare({"farm", "gc", "cache"});
+  compare({"farm", "clean", "out"});
+  EXPECT_EQ(read_file(out() / "cells" / "n32" / "notes.txt", 100), "the user's");
+  EXPECT_FALSE(fs::exists(out() / "cells" / "n64"));
+  compare({"farm", "gc", "cache", "--max-size", "40K"});
+  compare({"farm", "clean", "out", "--all"});
+  EXPECT_TRUE(fs::exists(out() / "cells" / "n32" / "notes.txt"));
+}
+
+TEST_F(LostCache, CleanAndAFarmKeepOutOfEachOthersWay) {
+  fs::remove_all(out());
+  fs::remove_all(cache());
+  fake_povray("sleep 0.5");
+  RunningFarm farm(command(), root());
+  while (cached_pictures() < 1 && !farm.has_ended()) ::usleep(5000);
+  const FarmRun clean = run_command({"farm", "clean", "out", "--all"});
+  EXPECT_EQ(clean.exit_code, 4) << clean.output;
+  EXPECT_EQ(std::ranges::count(clean.output, '\n'), 1) << clean.output;
+  EXPECT_THAT(clean.output, HasSubstr("a farm is at work in this directory"));
+  EXPECT_EQ(farm.wait(), 0) << farm.output();
+  fake_povray();
+  expect_mended(run(), 0);
+  // And the other way round: the lock that clean holds.
+  const int lock = ::open((out() / "farm.lock").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_GE(lock, 0);
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  ASSERT_EQ(::fcntl(lock, F_OFD_SETLK, &whole), 0);
+  const FarmRun refused = run();
+  EXPECT_EQ(refused.exit_code, 4) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("'lobelia farm clean'"));
+  ::close(lock);
+  expect_mended(run(), 0);
+}
+
+TEST_F(LostCache, TwoFarmsOfWhichOneHasOtherLocksLeaveEachOthersDrafts) {
+  fs::remove_all(out());
+  fs::remove_all(cache());
+  fake_povray("sleep 0.3");
+  auto other = command();
+  other[3] = "other";
+  for (int round = 0; round < 3; ++round) {
+    RunningFarm first(command(), root());
+    while (cached_pictures() < 1 && !first.has_ended()) ::usleep(5000);
+    fs::remove(cache() / "locks");
+    RunningFarm second(other, root());
+    EXPECT_EQ(first.wait(), 0) << first.output();
+    EXPECT_EQ(second.wait(), 0) << second.output();
+    EXPECT_THAT(differences(undisturbed(), results_of(out())), IsEmpty());
+    EXPECT_THAT(differences(undisturbed(), results_of(root() / "other")), IsEmpty());
+    fs::remove_all(cache());
+    fs::remove_all(out());
+    fs::remove_all(root() / "other");
+  }
+}
+
+TEST_F(LostCache, OfAKilledFarmTheNextOneOrTheDoctorRemovesTemporariesAlsoEmptyOnes) {
+  fs::create_directory(root() / "tmp" / "lobelia-temporary-AbCd01");
+  expect_mended(run(), 0);
+  EXPECT_TRUE(fs::is_empty(root() / "tmp"));
+  fs::create_directory(root() / "tmp" / "lobelia-temporary-AbCd01");
+  write_file(root() / "tmp" / "lobelia-temporary-of-mine", "x");
+  const FarmRun doctor = run_command({"farm", "doctor", "--clean"});
+  EXPECT_EQ(doctor.exit_code, 0) << doctor.output;
+  EXPECT_THAT(doctor.output, HasSubstr("lobelia-temporary-AbCd01\n1 temporary directories"));
+  EXPECT_TRUE(fs::exists(root() / "tmp" / "lobelia-temporary-of-mine"));
+  EXPECT_FALSE(fs::exists(root() / "tmp" / "lobelia-temporary-AbCd01"));
+}
+
+}  // namespace
+}  // namespace lobelia
