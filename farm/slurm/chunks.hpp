@@ -12,8 +12,10 @@ struct SlurmJob {
   std::string name;  ///< for messages
   int phase = 0;     ///< 0 pictures; 1 what reads them: starts when every job of phase 0 has ended
   double seconds =
-      1;              ///< estimated on one slot; what is no positive number counts as a millisecond
-  std::string batch;  ///< jobs of one batch are cheaper together: an engine that starts slowly
+      1;  ///< estimated on one slot; what is no positive number counts as a millisecond
+  /// Jobs of one batch are cheaper together: an engine that starts slowly. An engine's name where there is one,
+  /// because a node may hand back one engine's jobs.
+  std::string batch;
 };
 
 struct ChunkRule {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
+#include <utility>
 
 #include "core/text.hpp"
+#include "farm/slurm/slurm_limits.hpp"
 
 namespace lobelia {
 namespace {
@@ -44,6 +47,15 @@ SlurmElement::State state_of(std::string_view name) {
     return SlurmElement::State::kEnded;
   // A newer Slurm's state is taken for one that goes on: it leaves the queue when it ends.
   return SlurmElement::State::kRunning;
+}
+
+/// "idle~" is switched off and comes when called; "idle*" and "down*" do not answer.
+bool is_usable(std::string_view state) {
+  constexpr std::array<std::string_view, 9> useful = {"idle", "alloc", "mix", "comp",  "plnd",
+                                                      "resv", "boot",  "npc", "pow_up"};
+  const auto suffix = std::min(state.find_first_of("*~#!%$@^-+"), state.size());
+  return state.substr(suffix) != "*" &&
+         std::find(useful.begin(), useful.end(), state.substr(0, suffix)) != useful.end();
 }
 
 bool is_message(std::string_view line) {
@@ -88,6 +100,48 @@ std::optional<std::size_t> count_of_range(std::string_view text) {
 
 }  // namespace
 
+SlurmEnding end_of(const SlurmElement& element) {
+  constexpr std::array<std::pair<std::string_view, SlurmEnding>, 9> ends = {
+      {{"COMPLETED", SlurmEnding::kWell},
+       {"TIMEOUT", SlurmEnding::kTime},
+       {"OUT_OF_MEMORY", SlurmEnding::kMemory},
+       {"NODE_FAIL", SlurmEnding::kNode},
+       {"BOOT_FAIL", SlurmEnding::kNode},
+       {"PREEMPTED", SlurmEnding::kPreempted},
+       {"REVOKED", SlurmEnding::kPreempted},
+       {"DEADLINE", SlurmEnding::kDeadline},
+       {"CANCELLED", SlurmEnding::kCancelled}}};
+  for (const auto& [name, end] : ends)
+    if (name == element.state_name) return end;
+  return SlurmEnding::kFailed;
+}
+
+std::string_view words_for(SlurmEnding end) {
+  constexpr std::array<std::string_view, 8> words = {"",
+                                                     "",
+                                                     "time limit reached",
+                                                     "more memory used than asked for",
+                                                     "node lost",
+                                                     "room made for other jobs",
+                                                     "deadline missed (--deadline)",
+                                                     "cancelled by somebody else"};
+  return words[std::size_t(end)];
+}
+
+bool tells_of_memory(std::string_view line) {
+  return line.starts_with("slurmstepd") &&
+         (line.find("exceeded memory limit") != line.npos ||
+          line.find("Exceeded job memory limit") != line.npos ||
+          line.find("oom-kill event") != line.npos || line.find("oom_kill event") != line.npos);
+}
+
+bool is_node_name(std::string_view text) {
+  const auto alphanumeric = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  return !text.empty() && text.size() <= 64 && alphanumeric(text.front()) &&
+         std::all_of(text.begin(), text.end(),
+                     [&](char c) { return alphanumeric(c) || c == '-' || c == '_' || c == '.'; });
+}
+
 std::optional<std::size_t> count_of_array_tasks(std::string_view text) {
   if (text == "N/A") return 1;
   if (text.starts_with('[') != text.ends_with(']') || text.size() > 65536) return {};
@@ -129,7 +183,7 @@ std::optional<std::vector<SlurmElement>> parse_elements(std::span<const std::str
     const auto count = count_of_array_tasks((*field)[0]);
     if (!count || !is_state_name((*field)[1])) return {};
     result.push_back({state_of((*field)[1]), *count, std::string((*field)[1]),
-                      printable((*field)[2], 200), printable((*field)[3])});
+                      printable((*field)[2], 200), printable((*field)[3]), digits((*field)[0])});
   }
   return result;
 }
@@ -163,12 +217,7 @@ std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> 
     nodes.partition = printable(name);
     nodes.up = (*field)[1] == "up";
     nodes.state = printable(state);
-    // "idle~" is switched off and comes when called; "idle*" and "down*" do not answer.
-    constexpr std::array<std::string_view, 9> useful = {"idle", "alloc", "mix", "comp",  "plnd",
-                                                        "resv", "boot",  "npc", "pow_up"};
-    const auto suffix = std::min(state.find_first_of("*~#!%$@^-+"), state.size());
-    nodes.usable = state.substr(suffix) != "*" &&
-                   std::find(useful.begin(), useful.end(), state.substr(0, suffix)) != useful.end();
+    nodes.usable = is_usable(state);
     const auto count = digits((*field)[3]);
     std::array<std::size_t, 4> processors{};  // allocated, idle, other, total
     std::string_view rest = (*field)[4];
@@ -187,6 +236,48 @@ std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> 
   return result;
 }
 
+std::optional<std::vector<SlurmNode>> parse_node_list(std::span<const std::string> lines) {
+  std::vector<SlurmNode> result;
+  for (const std::string& line : lines) {
+    if (is_message(line)) continue;
+    const auto field = fields(line, 5);
+    if (!field) return {};
+    SlurmNode node;
+    std::string_view partition = (*field)[1], memory = (*field)[4];
+    node.is_default = partition.ends_with('*');
+    if (node.is_default) partition.remove_suffix(1);
+    if (memory.ends_with('+')) memory.remove_suffix(1);
+    const auto mebibytes = digits(memory);
+    if (!is_node_name((*field)[0]) || partition.empty() || (*field)[3].empty() || !mebibytes)
+      return {};
+    node.name = (*field)[0];
+    node.partition = printable(partition);
+    node.state = printable((*field)[3]);
+    node.usable = (*field)[2] == "up" && is_usable((*field)[3]);
+    node.mebibytes = (long long)std::min<std::size_t>(*mebibytes, 1'000'000'000);
+    result.push_back(std::move(node));
+  }
+  return result;
+}
+
+std::optional<SlurmPartition> parse_partition(std::span<const std::string> lines) {
+  SlurmPartition result;
+  bool is_one = false;
+  for (const std::string& line : lines) {
+    if (is_message(line)) continue;
+    for (const std::string& word : split(line, " \t")) {
+      const std::string_view text = word;
+      is_one = is_one || text.starts_with("PartitionName=");
+      if (text.starts_with("MaxTime="))
+        result.most_seconds = parse_slurm_time(text.substr(8));
+      else if (text.starts_with("MaxMemPerNode="))
+        result.most_mebibytes = parse_slurm_memory(text.substr(14));
+    }
+  }
+  if (!is_one) return {};
+  return result;
+}
+
 std::optional<std::map<std::string, std::string>> parse_config(std::span<const std::string> lines) {
   std::map<std::string, std::string> result;
   for (const std::string& line : lines) {
@@ -197,6 +288,14 @@ std::optional<std::map<std::string, std::string>> parse_config(std::span<const s
   }
   if (result.empty()) return {};
   return result;
+}
+
+bool waits_for_somebody(const SlurmElement& element) {
+  constexpr std::array<std::string_view, 3> held = {"REQUEUE_HOLD", "SPECIAL_EXIT",
+                                                    "RESV_DEL_HOLD"};
+  return element.state == SlurmElement::State::kPending &&
+         (std::find(held.begin(), held.end(), element.state_name) != held.end() ||
+          waits_for_somebody(element.reason));
 }
 
 bool waits_for_somebody(std::string_view reason) {

@@ -23,7 +23,28 @@ struct SlurmElement {
   std::string state_name;  ///< as printed: "RUNNING"
   std::string reason;      ///< why it waits, or how it ended
   std::string nodes;
+  std::optional<std::size_t> task = {};  ///< its place in the array, of a line for one element
 };
+
+/// The ways in which an element ends, as far as what follows differs.
+enum class SlurmEnding {
+  kWell,
+  kFailed,     ///< its own exit code or signal, or it could not be started
+  kTime,       ///< its time limit
+  kMemory,     ///< it used more than it had asked for
+  kNode,       ///< the node was lost, or did not come up
+  kPreempted,  ///< it made room for others, or another cluster took it
+  kDeadline,   ///< --deadline
+  kCancelled,  ///< by whoever
+};
+
+/// Of an element that has ended, by its state. Slurm calls it FAILED, too, where its own accounting ended an element
+/// for its memory (OverMemoryKill); only the element's log tells.
+SlurmEnding end_of(const SlurmElement& element);
+/// In words: "time limit reached". Empty where the state's own name says it.
+std::string_view words_for(SlurmEnding end);
+/// Whether a line of an element's log is slurmstepd's that the element used more memory than it had asked for.
+bool tells_of_memory(std::string_view line);
 
 /// A job that lives, by `squeue -o '%F|%T|%k'`.
 struct SlurmLivingJob {
@@ -41,6 +62,22 @@ struct SlurmNodes {
   std::size_t nodes = 0, processors = 0;  ///< processors: idle or allocated
 };
 
+/// One line of `sinfo -h -N -o '%N|%P|%a|%t|%m'`: a node, once for each of its partitions.
+struct SlurmNode {
+  std::string name, partition, state;
+  bool is_default = false;  ///< the partition
+  bool usable = false;      ///< as of SlurmNodes, and the partition is up
+  long long mebibytes = 0;  ///< of memory
+};
+
+/// Limits of a partition, by `scontrol -o show partition NAME`; nothing where there is none.
+struct SlurmPartition {
+  std::optional<long long> most_seconds, most_mebibytes;
+};
+
+/// Whether it can be the name of one node: letters, digits, "-", "_" and ".", with a letter or digit first.
+bool is_node_name(std::string_view text);
+
 /// How many elements "7", "3-9", "[1,3-9:2%4]" or "N/A" stand for; nothing if it is none of them.
 std::optional<std::size_t> count_of_array_tasks(std::string_view text);
 
@@ -55,10 +92,16 @@ std::optional<std::vector<SlurmLivingJob>> parse_living_jobs(std::span<const std
 
 std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> lines);
 
+std::optional<std::vector<SlurmNode>> parse_node_list(std::span<const std::string> lines);
+
+std::optional<SlurmPartition> parse_partition(std::span<const std::string> lines);
+
 /// "Key = value" of `scontrol show config`, at least one.
 std::optional<std::map<std::string, std::string>> parse_config(std::span<const std::string> lines);
 
-/// Whether a pending element with this reason never starts without somebody's doing: it is held, or refused.
+/// Whether a pending element never starts without somebody's doing, by its state or by its reason: it is held, or
+/// refused.
+bool waits_for_somebody(const SlurmElement& element);
 /// Reasons that name nodes tell nothing: "ReqNodeNotAvail, UnavailableNodes:n2" is said while one of many nodes
 /// is down and the job only waits for its turn on another.
 bool waits_for_somebody(std::string_view reason);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 
@@ -157,6 +158,26 @@ SlurmAnswer<std::vector<SlurmNodes>> SlurmClient::nodes(const std::string& parti
       return partition.empty() ? !nodes.is_default : nodes.partition != partition;
     });
   return understood(std::move(all), "sinfo", output.lines);
+}
+
+SlurmAnswer<std::vector<SlurmNode>> SlurmClient::node_list(const std::string& partition) const {
+  const Output output = run({"sinfo", "-h", "-N", "-o", "%N|%P|%a|%t|%m"});
+  if (!output.why.empty()) return {{}, output.why};
+  auto all = parse_node_list(output.lines);
+  const auto wanted = split(partition, ",");
+  if (all)
+    std::erase_if(*all, [&](const SlurmNode& node) {
+      return wanted.empty()
+                 ? !node.is_default
+                 : std::find(wanted.begin(), wanted.end(), node.partition) == wanted.end();
+    });
+  return understood(std::move(all), "sinfo", output.lines);
+}
+
+SlurmAnswer<SlurmPartition> SlurmClient::partition(const std::string& name) const {
+  const Output output = run({"scontrol", "-o", "show", "partition", name});
+  if (!output.why.empty()) return {{}, output.why};
+  return understood(parse_partition(output.lines), "scontrol", output.lines);
 }
 
 }  // namespace lobelia

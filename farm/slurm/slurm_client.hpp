@@ -51,6 +51,9 @@ class SlurmClient {
   SlurmAnswer<std::map<std::string, std::string>> config() const;
   /// Of `partition`, or of the default one if empty.
   SlurmAnswer<std::vector<SlurmNodes>> nodes(const std::string& partition) const;
+  /// The same one by one; `partition` may also name several, with commas between them.
+  SlurmAnswer<std::vector<SlurmNode>> node_list(const std::string& partition) const;
+  SlurmAnswer<SlurmPartition> partition(const std::string& name) const;
 
  private:
   struct Output {

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/text.hpp"
 #include "farm/farm_session.hpp"
 
@@ -54,6 +55,22 @@ class Missing {
     std::vector<JobIndex> found;
     for (const std::size_t place : places) found.push_back(jobs_.at(place));
     return found;
+  }
+
+  /// Failures that say so: nobody tries these again in this run.
+  void give_up(std::span<const std::size_t> places, const std::string& why) const {
+    const JobGraph& graph = session_.work().graph;
+    for (const JobIndex job : at(places)) {
+      Json record = make_record("failure");
+      record["job"] = graph.name(job);
+      record["key"] = graph[job].key.text();
+      record["failure"] = "no node left";
+      record["message"] = why;
+      record["attempts"] = 0;
+      record["host"] = host_record();
+      record["host"]["name"] = host_name();
+      session_.cache().keep_failure(graph[job].key, record);
+    }
   }
 
   /// Of the results that were wanted at the start, those that are there now.
@@ -187,6 +204,9 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   work.write_chunk = [&](std::size_t number, std::span<const std::size_t> places) {
     write_record(chunk_file(work.run_directory, number),
                  chunk_record(session.work(), session.cache(), options, missing.at(places)));
+  };
+  work.give_up = [&](std::span<const std::size_t> places, const std::string& why) {
+    missing.give_up(places, why);
   };
   SlurmFarmSummary summary;
   summary.gallery = options.gallery;

@@ -19,14 +19,14 @@ constexpr std::array<std::string_view, 20> kOurs = {
     "--requeue",    "--no-requeue", "--open-mode", "--test-only",   "--kill-on-invalid-dep",
     "--ntasks",     "--hold",       "--export",    "--export-file", "--begin"};
 
-void require_plain(std::string_view what, std::string_view value) {
-  const bool plain = value.size() <= 1000 && std::none_of(value.begin(), value.end(), [](char c) {
+void require_plain(std::string_view what, std::string_view value, std::size_t most = 1000) {
+  const bool plain = value.size() <= most && std::none_of(value.begin(), value.end(), [](char c) {
                        return static_cast<unsigned char>(c) < 32 || c == 127;
                      });
   if (!plain)
     throw Error(ExitCode::kUsage,
-                fmt::format("{}: '{}' is over 1000 bytes or holds control characters", what,
-                            printable(value)));
+                fmt::format("{}: '{}' is over {} bytes or holds control characters", what,
+                            printable(value), most));
 }
 
 }  // namespace
@@ -43,6 +43,12 @@ std::vector<std::string> sbatch_arguments(const SlurmOptions& options) {
   add("--account", options.account);
   add("--qos", options.qos);
   add("--constraint", options.constraint);
+  // A run adds nodes to the list, and with "/" sbatch takes it for the name of a file that has them.
+  if (options.exclude.find('/') != std::string::npos)
+    throw Error(ExitCode::kUsage, fmt::format("--exclude={}: name the nodes, not a file of them",
+                                              printable(options.exclude)));
+  require_plain("--exclude", options.exclude, 60000);
+  if (!options.exclude.empty()) result.push_back("--exclude=" + options.exclude);
   if (options.exclusive) result.push_back("--exclusive");
   if (options.processors < 1 || options.processors > 4096)
     throw Error(

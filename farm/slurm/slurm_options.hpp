@@ -9,6 +9,7 @@ namespace lobelia {
 /// Handed on as sbatch's options of the same names; empty ones are left to Slurm.
 struct SlurmOptions {
   std::string partition, time, memory, account, qos, constraint;
+  std::string exclude;           ///< nodes, as a list of Slurm's: "n1,m[3-5]"
   bool exclusive = false;        ///< no other job on the node: for timings
   int processors = 1;            ///< of each element (--cpus-per-task)
   int throttle = 0;              ///< elements at once, 0: as many as there is room for

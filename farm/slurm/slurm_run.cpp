@@ -1,13 +1,17 @@
 #include "farm/slurm/slurm_run.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "core/error.hpp"
@@ -17,8 +21,10 @@
 #include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "farm/chunk_report.hpp"
 #include "farm/slurm/lock_file.hpp"
 #include "farm/slurm/slurm_client.hpp"
+#include "farm/slurm/slurm_limits.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -47,10 +53,13 @@ struct RunRecord {
     SlurmJobId id = 0;
     std::size_t first = 0, count = 0;
     int phase = 0, round = 0;
+    std::string time, memory;  ///< that each element asked for; empty: not asked
   };
   std::string name;
   int round = 0;  ///< of all clients
   std::size_t next_chunk = 0;
+  std::size_t first_report =
+      0;  ///< chunks before it were another run's: their nodes are tried again
   std::vector<Array> arrays;
 };
 
@@ -71,7 +80,9 @@ std::optional<RunRecord> read_run_record(const fs::path& run_directory) {
       record.arrays.push_back({array.at("job").get<SlurmJobId>(),
                                array.at("firstChunk").get<std::size_t>(),
                                array.at("chunks").get<std::size_t>(), array.at("phase").get<int>(),
-                               array.at("round").get<int>()});
+                               array.at("round").get<int>(), array.value("time", std::string()),
+                               array.value("memory", std::string())});
+    record.first_report = json.value("firstReport", std::size_t(0));
   } catch (const Json::exception& error) {
     throw Error(ExitCode::kInput,
                 fmt::format("{}: {}", record_path(run_directory).string(), error.what()));
@@ -91,13 +102,18 @@ void write_run_record(const fs::path& run_directory, const RunRecord& record) {
   json["name"] = record.name;
   json["round"] = record.round;
   json["nextChunk"] = record.next_chunk;
+  json["firstReport"] = record.first_report;
   json["arrays"] = Json::array();
-  for (const auto& array : record.arrays)
-    json["arrays"].push_back({{"job", array.id},
-                              {"firstChunk", array.first},
-                              {"chunks", array.count},
-                              {"phase", array.phase},
-                              {"round", array.round}});
+  for (const auto& array : record.arrays) {
+    Json one = {{"job", array.id},
+                {"firstChunk", array.first},
+                {"chunks", array.count},
+                {"phase", array.phase},
+                {"round", array.round}};
+    if (!array.time.empty()) one["time"] = array.time;
+    if (!array.memory.empty()) one["memory"] = array.memory;
+    json["arrays"].push_back(std::move(one));
+  }
   write_record(record_path(run_directory), json);
 }
 
@@ -106,13 +122,37 @@ std::string name_of_run(const fs::path& run_directory) {
   return "lobelia-" + hex(sha256(run_directory.string())).substr(0, 16);
 }
 
+std::string count_text(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// Whether the end of an element's log has slurmstepd's word that it used too much memory.
+bool log_tells_of_memory(const fs::path& path) {
+  constexpr off_t kEnd = 8192;
+  const int fd = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return false;
+  struct stat status {};
+  std::string text(kEnd, '\0');
+  ssize_t size = 0;
+  if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode))
+    size = ::pread(fd, text.data(), text.size(), std::max<off_t>(0, status.st_size - kEnd));
+  ::close(fd);
+  text.resize(std::size_t(std::max<ssize_t>(size, 0)));
+  const auto lines = split(text, "\n");
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const std::string& line) { return tells_of_memory(line); });
+}
+
+using Nodes = std::set<std::string>;
+
 class Run {
  public:
   Run(const SlurmWork& work, const SlurmRunOptions& options)
       : work_(work),
         options_(options),
         client_(options.call_limit),
-        arguments_(sbatch_arguments(options.slurm)) {}
+        asked_(with_own_fields(options.slurm)),
+        finish_arguments_(sbatch_arguments(asked_)) {}
 
   SlurmOutcome operator()() {
     const auto absent = SlurmClient::absent_programs();
@@ -150,7 +190,7 @@ class Run {
 
  private:
   void rounds() {
-    while (true) {
+    for (bool begins = true;; begins = false) {
       auto jobs = missing();
       if (jobs.empty()) return;
       if (const auto living = living_at_start(); !living.empty()) {
@@ -162,14 +202,20 @@ class Run {
           outcome_.detached = true;
           return;
         }
+        take_over_limits(ids_of(living));
         wait_until_gone(ids_of(living));
         settle();
         continue;
       }
-      if (outcome_.rounds == options_.rounds) {
+      if (begins) record_.first_report = record_.next_chunk;
+      if (outcome_.rounds == options_.rounds || somebody_ended_it()) {
+        say_what_was_too_little();
         for (SlurmJob& job : jobs) outcome_.missing.push_back(std::move(job.name));
         return;
       }
+      look_at_reports();
+      if (give_up_where_no_node_is_left(jobs)) continue;
+      ask_for_more();
       const auto ids = submit_round(jobs);
       if (options_.detach) {
         outcome_.detached = true;
@@ -250,36 +296,47 @@ class Run {
     const ChunkRule chunk_rule = rule();
     ++outcome_.rounds;
     ++record_.round;
-    std::vector<SlurmJobId> ids;
-    std::vector<int> phases;
-    for (const SlurmJob& job : jobs) phases.push_back(job.phase);
-    std::sort(phases.begin(), phases.end());
-    phases.erase(std::unique(phases.begin(), phases.end()), phases.end());
-    for (const int phase : phases) {
-      std::vector<std::size_t> of_phase;
+    // What must not run on the same nodes is one array.
+    std::map<std::pair<int, Nodes>, std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+      groups[{jobs[i].phase, nodes_without(jobs[i].batch)}].push_back(i);
+    std::vector<SlurmJobId> ids, earlier_phases;
+    int phase = groups.begin()->first.first;
+    std::size_t submitted = 0;
+    for (const auto& [kind, places] : groups) {
+      if (kind.first != phase) earlier_phases = ids;
+      phase = kind.first;
       std::vector<SlurmJob> part;
-      for (std::size_t i = 0; i < jobs.size(); ++i)
-        if (jobs[i].phase == phase) {
-          of_phase.push_back(i);
-          part.push_back(jobs[i]);
-        }
+      for (const std::size_t i : places) part.push_back(jobs[i]);
       auto chunks = make_chunks(part, chunk_rule);
-      const RunRecord::Array array{0, record_.next_chunk, chunks.size(), phase, record_.round};
+      const RunRecord::Array array{
+          0, record_.next_chunk, chunks.size(), phase, record_.round, asked_.time, asked_.memory};
       // Recorded first: a number that an element may have is not given away again.
       record_.next_chunk += chunks.size();
       write_run_record(directory_, record_);
       for (std::size_t i = 0; i < chunks.size(); ++i) {
-        for (std::size_t& job : chunks[i]) job = of_phase[job];
+        for (std::size_t& job : chunks[i]) job = places[job];
         work_.write_chunk(array.first + i, chunks[i]);
         throw_if_interrupted();
       }
-      ids.push_back(submit(array, ids));
+      std::string refusal;
+      const SlurmJobId id = submit(array, earlier_phases, kind.second, refusal);
+      if (!refusal.empty()) {
+        give_up(jobs, places,
+                fmt::format("no node is left for it: {}; Slurm says: {}",
+                            reasons_of(kind.second, jobs[places[0]].batch), refusal));
+        continue;
+      }
+      ids.push_back(id);
+      without_[id] = kind.second;
+      submitted += places.size();
     }
-    say(fmt::format("Round {}: {} in {} as {}.", outcome_.rounds,
-                    jobs.size() == 1 ? "1 job" : fmt::format("{} jobs", jobs.size()),
-                    phases.size() == 1 ? "one array" : fmt::format("{} arrays", phases.size()),
+    if (ids.empty()) return ids;
+    say(fmt::format("Round {}: {} in {} as {}.", outcome_.rounds, count_text(submitted, "job"),
+                    ids.size() == 1 ? "one array" : fmt::format("{} arrays", ids.size()),
                     ids_text(ids)));
-    if (options_.finish) submit({0, 0, 1, kFinishPhase, record_.round}, ids);
+    std::string refusal;
+    if (options_.finish) submit({0, 0, 1, kFinishPhase, record_.round, "", ""}, ids, {}, refusal);
     return ids;
   }
 
@@ -298,7 +355,9 @@ class Run {
     return path;
   }
 
-  SlurmJobId submit(RunRecord::Array array, const std::vector<SlurmJobId>& after) {
+  /// Elements run on none of the nodes `without`. `refusal` is Slurm's word where it has no others.
+  SlurmJobId submit(RunRecord::Array array, const std::vector<SlurmJobId>& after,
+                    const Nodes& without, std::string& refusal) {
     const bool last = array.phase == kFinishPhase;
     const std::string title = last ? fmt::format("{}-finish", array.round)
                                    : fmt::format("{}-{}", array.round, array.first);
@@ -320,9 +379,15 @@ class Run {
     // afterany: one cell that fails must not cancel or hang what comes after.
     if (!after.empty())
       arguments.push_back(fmt::format("--dependency=afterany:{}", fmt::join(after, ":")));
-    arguments.insert(arguments.end(), arguments_.begin(), arguments_.end());
+    SlurmOptions asked = asked_;
+    for (const std::string& node : without)
+      asked.exclude += (asked.exclude.empty() ? "" : ",") + node;
+    const auto more = last ? finish_arguments_ : sbatch_arguments(asked);
+    arguments.insert(arguments.end(), more.begin(), more.end());
     const fs::path script = write_script(array, title);
-    array.id = submit(arguments, script, comment);
+    const auto id = submit(arguments, script, comment, !without.empty(), refusal);
+    if (!id) return 0;
+    array.id = *id;
     record_.arrays.push_back(array);
     write_run_record(directory_, record_);
     note(array.id);
@@ -330,8 +395,9 @@ class Run {
     return array.id;
   }
 
-  SlurmJobId submit(const std::vector<std::string>& arguments, const fs::path& script,
-                    const std::string& comment) {
+  std::optional<SlurmJobId> submit(const std::vector<std::string>& arguments,
+                                   const fs::path& script, const std::string& comment,
+                                   bool excludes, std::string& refusal) {
     std::string why;
     for (int attempt = 0; attempt < 3; ++attempt) {
       if (attempt > 0) {
@@ -347,7 +413,195 @@ class Run {
       why = submission.why;
       if (!submission.unclear) break;
     }
+    if (excludes && why.find("node configuration is not available") != why.npos) {
+      refusal = why;
+      return {};
+    }
     throw Error(ExitCode::kEngine, fmt::format("Slurm did not take the job: {}", why));
+  }
+
+  // ---- nodes that hand work back
+
+  void look_at_reports() {
+    const ChunkReports found =
+        read_chunk_reports(directory_, record_.first_report, record_.next_chunk);
+    for (const std::string& problem : found.problems)
+      if (told_.insert(problem).second) say(problem + ".");
+    if (found.reports.empty()) return;
+    const auto nodes = client_.node_list(asked_.partition);
+    std::map<std::string, std::string> newly;  // by engine
+    for (const ChunkReport& report : found.reports) {
+      // sbatch refuses everything that excludes a node that Slurm has not.
+      if (nodes && !nodes->empty() &&
+          std::none_of(nodes->begin(), nodes->end(),
+                       [&](const SlurmNode& node) { return node.name == report.node; })) {
+        const std::string problem =
+            fmt::format("Chunk {} was handed back by '{}', and Slurm has no such node",
+                        report.number, report.node);
+        if (told_.insert(problem).second) say(problem + ".");
+        continue;
+      }
+      for (const LeftUndone& left : report.left) {
+        if (!without_engine_[left.engine].emplace(report.node, left.why).second) continue;
+        std::string& list = newly[left.engine];
+        list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", report.node, left.why);
+      }
+    }
+    for (const auto& [engine, list] : newly)
+      say(fmt::format("No more jobs{} for nodes that handed them back: {}.",
+                      engine.empty() ? "" : " of " + engine, printable(list, 1000)));
+  }
+
+  /// Nodes that jobs of this batch stay away from.
+  Nodes nodes_without(const std::string& batch) const {
+    Nodes nodes;
+    for (const std::string& engine : {std::string(), batch})
+      if (const auto at = without_engine_.find(engine); at != without_engine_.end())
+        for (const auto& [node, why] : at->second) nodes.insert(node);
+    return nodes;
+  }
+
+  std::string reasons_of(const Nodes& nodes, const std::string& batch) const {
+    std::string text;
+    for (const std::string& node : nodes)
+      for (const std::string& engine : {batch, std::string()})
+        if (const auto at = without_engine_.find(engine); at != without_engine_.end())
+          if (const auto why = at->second.find(node); why != at->second.end()) {
+            text += fmt::format("{}{} handed it back ({})", text.empty() ? "" : ", ", node,
+                                why->second);
+            break;
+          }
+    return printable(text, 1000);
+  }
+
+  void give_up(const std::vector<SlurmJob>& jobs, const std::vector<std::size_t>& places,
+               const std::string& why) {
+    for (const std::size_t place : places) outcome_.given_up.push_back(jobs[place].name);
+    say(fmt::format("{} of {} given up: {}.", count_text(places.size(), "job"),
+                    jobs[places.front()].batch, why));
+    work_.give_up(places, why);
+  }
+
+  /// Whether there are such jobs; missing() is to be asked again then.
+  bool give_up_where_no_node_is_left(const std::vector<SlurmJob>& jobs) {
+    std::map<std::string, std::vector<std::size_t>> batches;
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+      if (!nodes_without(jobs[i].batch).empty()) batches[jobs[i].batch].push_back(i);
+    bool any = false;
+    for (const auto& [batch, places] : batches) {
+      const Nodes without = nodes_without(batch);
+      std::string states;
+      if (!no_other_node_is_usable(without, states)) continue;
+      any = true;
+      give_up(jobs, places,
+              fmt::format("no node is left for it: {}{}{}", reasons_of(without, batch),
+                          states.empty() ? "" : "; the others: ", states));
+    }
+    return any;
+  }
+
+  /// Also false where Slurm does not say.
+  bool no_other_node_is_usable(const Nodes& without, std::string& states) const {
+    const auto nodes = client_.node_list(asked_.partition);
+    if (!nodes || nodes->empty()) return false;
+    for (const SlurmNode& node : *nodes) {
+      if (without.contains(node.name)) continue;
+      if (node.usable) return false;
+      states += fmt::format("{}{} is {}", states.empty() ? "" : ", ", node.name, node.state);
+    }
+    states = printable(states, 500);
+    return true;
+  }
+
+  // ---- elements that ended too early
+
+  /// Of the jobs of an earlier client: what they asked for may have been raised already.
+  void take_over_limits(const std::vector<SlurmJobId>& ids) {
+    for (const auto& array : record_.arrays) {
+      if (std::find(ids.begin(), ids.end(), array.id) == ids.end()) continue;
+      if (parse_slurm_time(array.time) > parse_slurm_time(asked_.time)) asked_.time = array.time;
+      if (parse_slurm_memory(array.memory) > parse_slurm_memory(asked_.memory))
+        asked_.memory = array.memory;
+    }
+  }
+
+  std::size_t ended(SlurmEnding end) const {
+    const auto at = ends_.find(end);
+    return at == ends_.end() ? 0 : at->second;
+  }
+
+  /// Then nothing is submitted against that will.
+  bool somebody_ended_it() const {
+    for (const SlurmEnding end : {SlurmEnding::kCancelled, SlurmEnding::kDeadline})
+      if (const std::size_t count = ended(end); count > 0) {
+        say(fmt::format("Nothing more is submitted: {}: {}. The same command goes on.",
+                        count_text(count, "element"), words_for(end)));
+        return true;
+      }
+    return false;
+  }
+
+  static constexpr char kMoreTime[] =
+      "give elements more with --time, or less to do with --chunk-seconds";
+  static constexpr char kMoreMemory[] = "give elements more with --sbatch=--mem=SIZE";
+
+  void say_what_was_too_little() const {
+    const auto tell = [&](SlurmEnding end, const std::string& asked, const char* advice) {
+      if (const std::size_t count = ended(end); count > 0)
+        say(fmt::format("{} of the last round: {}{}; {}.", count_text(count, "element"),
+                        words_for(end), asked.empty() ? "" : fmt::format(" ({})", asked), advice));
+    };
+    tell(SlurmEnding::kTime, asked_.time, kMoreTime);
+    tell(SlurmEnding::kMemory, asked_.memory, kMoreMemory);
+  }
+
+  void ask_for_more() {
+    const auto raise = [&](SlurmEnding end, std::string& asked, const auto& parse, const auto& text,
+                           const auto& most, const char* advice) {
+      const std::size_t count = ended(end);
+      if (count == 0) return;
+      const std::string what = fmt::format("{}: {}", count_text(count, "element"), words_for(end));
+      const auto before = parse(asked);
+      if (!before) {
+        say(fmt::format("{}; {}.", what, advice));
+        return;
+      }
+      const auto next = twice_at_most(*before, most());
+      if (!next) {
+        say(fmt::format("{}; {} is the most that can be had.", what, asked));
+        return;
+      }
+      say(fmt::format("{}; the next round asks for {} instead of {}.", what, text(*next), asked));
+      asked = text(*next);
+    };
+    raise(
+        SlurmEnding::kTime, asked_.time, parse_slurm_time, slurm_time_text,
+        [&] { return partition().most_seconds; }, kMoreTime);
+    raise(
+        SlurmEnding::kMemory, asked_.memory, parse_slurm_memory, slurm_memory_text,
+        [&] { return most_memory(); }, kMoreMemory);
+    ends_.clear();
+  }
+
+  /// What scontrol tells of the partition that is asked for, or of the default one.
+  SlurmPartition partition() const {
+    std::string name = asked_.partition;
+    if (name.empty())
+      if (const auto nodes = client_.node_list(""); nodes && !nodes->empty())
+        name = nodes->front().partition;
+    if (!is_node_name(name)) return {};
+    const auto found = client_.partition(name);
+    return found ? *found : SlurmPartition();
+  }
+
+  std::optional<long long> most_memory() const {
+    std::optional<long long> most = partition().most_mebibytes;
+    long long largest = 0;
+    if (const auto nodes = client_.node_list(asked_.partition))
+      for (const SlurmNode& node : *nodes)
+        if (node.usable) largest = std::max(largest, node.mebibytes);
+    if (largest > 0) most = most ? std::min(*most, largest) : largest;
+    return most;
   }
 
   // ---- waiting
@@ -356,20 +610,24 @@ class Run {
   void wait_until_gone(std::vector<SlurmJobId> ids) {
     Seconds interval = options_.first_poll;
     while (!ids.empty()) {
-      const auto elements = client_.elements(ids.front(), record_.name);
-      throw_if_interrupted();
-      answered(elements.why);
-      if (elements) {
+      // All of them each time: how elements ended is forgotten after a few minutes.
+      for (std::size_t i = 0; i < ids.size();) {
+        const auto elements = client_.elements(ids[i], record_.name);
+        throw_if_interrupted();
+        answered(elements.why);
+        if (!elements) break;
         const SlurmProgress progress = count(*elements);
-        if (options_.on_progress) options_.on_progress(progress);
+        if (i == 0 && options_.on_progress) options_.on_progress(progress);
         if (progress.pending + progress.running == 0) {
-          say_how_they_ended(ids.front(), *elements);
-          ids.erase(ids.begin());
-          stalled_since_.reset();
+          note_how_they_ended(ids[i], *elements);
+          ids.erase(ids.begin() + std::ptrdiff_t(i));
+          if (i == 0) stalled_since_.reset();
           continue;
         }
-        look_for_stall(*elements, progress);
+        if (i == 0) look_for_stall(ids[i], *elements, progress);
+        ++i;
       }
+      if (ids.empty()) return;
       if (!wait_for(interval)) throw_if_interrupted();
       interval = std::min(options_.last_poll, interval * 1.3);
     }
@@ -403,25 +661,34 @@ class Run {
     return progress;
   }
 
-  void say_how_they_ended(SlurmJobId id, const std::vector<SlurmElement>& elements) const {
+  void note_how_they_ended(SlurmJobId id, const std::vector<SlurmElement>& elements) {
     std::map<std::string, std::size_t> states;
-    for (const auto& element : elements)
-      if (element.state_name != "COMPLETED")
-        states[fmt::format("{} ({})", element.state_name, element.reason)] += element.count;
+    int logs = 100;  // are looked into
+    for (const auto& element : elements) {
+      SlurmEnding end = end_of(element);
+      if (end == SlurmEnding::kWell) continue;
+      if (end == SlurmEnding::kFailed && element.task && logs-- > 0 &&
+          log_tells_of_memory(directory_ / "log" / fmt::format("{}_{}.log", id, *element.task)))
+        end = SlurmEnding::kMemory;
+      ends_[end] += element.count;
+      const std::string_view words = words_for(end);
+      states[fmt::format("{} ({}){}{}", element.state_name, element.reason,
+                         words.empty() ? "" : ": ", words)] += element.count;
+    }
     for (const auto& [state, number] : states)
       say(fmt::format("Job {}: {} of its elements ended as {}; logs are in {}.", id, number, state,
                       (directory_ / "log").string()));
   }
 
   /// Throws once nothing has run for `stall` and nothing can without somebody's doing.
-  void look_for_stall(const std::vector<SlurmElement>& elements, const SlurmProgress& progress) {
+  void look_for_stall(SlurmJobId id, const std::vector<SlurmElement>& elements,
+                      const SlurmProgress& progress) {
     const bool held =
         std::all_of(elements.begin(), elements.end(), [](const SlurmElement& element) {
-          return element.state != SlurmElement::State::kPending ||
-                 waits_for_somebody(element.reason);
+          return element.state != SlurmElement::State::kPending || waits_for_somebody(element);
         });
     std::string nodes_say;
-    if (progress.running > 0 || !(held || no_node_is_usable(nodes_say))) {
+    if (progress.running > 0 || !(held || no_node_is_usable(id, nodes_say))) {
       stalled_since_.reset();
       return;
     }
@@ -444,7 +711,9 @@ class Run {
             ids_text(outcome_.jobs), progress.reason, what, record_.name));
   }
 
-  bool no_node_is_usable(std::string& states) const {
+  bool no_node_is_usable(SlurmJobId id, std::string& states) const {
+    if (const auto at = without_.find(id); at != without_.end() && !at->second.empty())
+      return no_other_node_is_usable(at->second, states);
     const auto nodes = client_.nodes(options_.slurm.partition);
     if (!nodes) return false;
     for (const auto& group : *nodes) {
@@ -499,13 +768,19 @@ class Run {
   const SlurmWork& work_;
   const SlurmRunOptions& options_;
   SlurmClient client_;
-  std::vector<std::string> arguments_;
+  SlurmOptions asked_;  ///< for elements; a round may raise it
+  const std::vector<std::string> finish_arguments_;
   fs::path directory_;
   RunRecord record_;
   SlurmOutcome outcome_;
   bool silent_ = false;   ///< Slurm, at the last call
   bool settled_ = false;  ///< nothing is to be cancelled any more
   std::optional<Clock::time_point> stalled_since_;
+  std::map<SlurmEnding, std::size_t> ends_;  ///< of elements since the last round was submitted
+  /// By engine (empty: of all), then by node: why it hands its jobs back.
+  std::map<std::string, std::map<std::string, std::string>> without_engine_;
+  std::map<SlurmJobId, Nodes> without_;
+  std::set<std::string> told_;  ///< problems of reports
 };
 
 }  // namespace

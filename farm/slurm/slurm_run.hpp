@@ -31,6 +31,8 @@ struct SlurmWork {
   /// Writes what element NUMBER is to do: positions in the last answer of missing(). A number is never used twice
   /// in a run directory.
   std::function<void(std::size_t number, std::span<const std::size_t> jobs)> write_chunk;
+  /// No node is left for these positions in the last answer of missing(), which names them no more from now on.
+  std::function<void(std::span<const std::size_t> jobs, const std::string& why)> give_up;
 };
 
 struct SlurmProgress {
@@ -59,14 +61,17 @@ struct SlurmRunOptions {
 };
 
 struct SlurmOutcome {
-  bool detached = false;             ///< jobs run on; nothing is known of the end
-  int rounds = 0;                    ///< submitted by this call
-  bool attached = false;             ///< it found jobs of an earlier client and waited for them
-  std::vector<SlurmJobId> jobs;      ///< all that it submitted or found
-  std::vector<std::string> missing;  ///< names without a result after the last round
+  bool detached = false;              ///< jobs run on; nothing is known of the end
+  int rounds = 0;                     ///< submitted by this call
+  bool attached = false;              ///< it found jobs of an earlier client and waited for them
+  std::vector<SlurmJobId> jobs;       ///< all that it submitted or found
+  std::vector<std::string> missing;   ///< names without a result after the last round
+  std::vector<std::string> given_up;  ///< names of those that no node is left for; not in `missing`
 };
 
-/// Runs until nothing is missing or the rounds are used up. Throws Error: kUsage (an option), kOutput (another
+/// Runs until nothing is missing or the rounds are used up. Elements that reached their time limit, or used more
+/// memory than they had asked for, get twice as much in the next round. Nodes that handed work back
+/// (farm/chunk_report.hpp) get no more of it. Where somebody cancelled elements nothing more is submitted. Throws Error: kUsage (an option), kOutput (another
 /// client has the run, or the directory cannot be written), kEngine (Slurm is not there, refuses, or the jobs stall:
 /// the message says what to type), kInterrupted.
 SlurmOutcome run_on_slurm(const SlurmWork& work, const SlurmRunOptions& options);

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "farm/chunk_report.hpp"
 #include "farm/slurm/doctor.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/farm/slurm/toy_work.hpp"
@@ -21,10 +24,11 @@ class SlurmCluster : public testing::Test {
       if (std::getenv("LOBELIA_REQUIRE_SLURM")) FAIL() << why;
       GTEST_SKIP() << why;
     }
-    cluster.up();
+    bring_up();
     options.chunks.target_seconds = 2;
     options.chunks.chunks_per_slot = 1;
   }
+  virtual void bring_up() { cluster.up(); }
   bool eventually_done(const ToyWork& toy, std::size_t jobs) {
     return eventually([&] { return toy.results().size() >= jobs; });
   }
@@ -154,6 +158,86 @@ TEST_F(SlurmCluster, ThatIsDrainedIsReportedAndNotWaitedFor) {
   const auto outcome = run_on_slurm(toy.work(), options);  // what it left in the queue
   EXPECT_TRUE(outcome.attached);
   EXPECT_EQ(toy.results(), toy.wanted());
+}
+
+TEST_F(SlurmCluster, GivesNoMoreToANodeThatHandsItsWorkBack) {
+  ToyWork toy(directory.path(), 6, 0.1);
+  toy.add({"picky", 0, 0.1, "toy"});
+  options.rounds = 9;
+  const auto outcome = run_on_slurm(toy.work(), options);  // only n3 does it
+  EXPECT_THAT(outcome.missing, IsEmpty());
+  EXPECT_LE(outcome.rounds, 3);
+  EXPECT_EQ(toy.results(), toy.wanted());
+  for (const char* number : {"n1", "n2"})
+    if (said.find(std::string(number) + " (picky)") != said.npos) return;
+  EXPECT_EQ(outcome.rounds, 1) << said;
+}
+
+TEST_F(SlurmCluster, GivesUpWhatNoNodeIsLeftFor) {
+  ToyWork toy(directory.path(), 1, 0.1);
+  std::size_t next = 0;
+  SlurmWork work = toy.work();
+  work.write_chunk = [&](std::size_t number, std::span<const std::size_t>) {
+    ::setenv("SLURMD_NODENAME", fmt::format("n{}", ++next).c_str(), 1);
+    const LeftUndone left{"toy", "it broke"};
+    write_chunk_report(work.run_directory, number, {&left, 1});
+  };
+  options.rounds = 9;
+  const auto outcome = run_on_slurm(work, options);
+  ::unsetenv("SLURMD_NODENAME");
+  EXPECT_EQ(outcome.rounds, 3) << said;
+  EXPECT_EQ(outcome.given_up, std::vector<std::string>{"job000"});
+  EXPECT_THAT(toy.given_up().at("job000"), HasSubstr("n3 handed it back (it broke)"));
+  // The user's own list leaves none besides ours: Slurm itself says so.
+  ToyWork other(directory.path() / "other", 1, 0.1);
+  work = other.work();
+  next = 0;
+  work.write_chunk = [&](std::size_t number, std::span<const std::size_t>) {
+    ::setenv("SLURMD_NODENAME", "n3", 1);
+    const LeftUndone left{"toy", "it broke"};
+    write_chunk_report(work.run_directory, number, {&left, 1});
+  };
+  options.slurm.raw = {"--exclude=n[1-2]"};
+  EXPECT_EQ(run_on_slurm(work, options).given_up, std::vector<std::string>{"job000"});
+  ::unsetenv("SLURMD_NODENAME");
+  EXPECT_THAT(other.given_up().at("job000"), HasSubstr("not available"));
+}
+
+/// Where Slurm kills what takes too much.
+class SlurmClusterWithLimits : public SlurmCluster {
+ protected:
+  void bring_up() override { cluster.up_with_memory_limits(); }
+};
+
+TEST_F(SlurmClusterWithLimits, GivesTwiceTheTimeAndTheMemoryToWhatWasKilledForIt) {
+  ToyWork toy(directory.path(), 6, 0.1);
+  toy.add({"hungry", 0, 2, "toy"});
+  toy.add({"slow", 0, 2, "toy"});
+  options.chunks.target_seconds = 1;
+  options.slurm.time = "1";
+  options.slurm.memory = "100M";
+  ClientProcess client(toy.work(), options, directory.path() / "log");
+  const auto began = [&](const char* name) {
+    const auto started = toy.started();
+    return std::count(started.begin(), started.end(), name) > 0;
+  };
+  ASSERT_TRUE(eventually([&] { return began("slow") && began("hungry"); }));
+  // Only the slow one is in the queue once the other is killed; a minute's limit is over in a second then. Slurm looks at
+  // limits every 30 s.
+  std::string left;
+  ASSERT_TRUE(eventually([&] {
+    left = cluster.slurm({"squeue", "-h", "-r", "-t", "running", "-o", "%i"});
+    return split(left, "\n").size() == 1;
+  }));
+  cluster.slurm({"scontrol", "update", "JobId=" + split(left, "\n").front(), "EndTime=now+1"});
+  EXPECT_EQ(client.wait(), 0);
+  const std::string log = read_file(directory.path() / "log", 1 << 20);
+  EXPECT_EQ(toy.results(), toy.wanted()) << log;
+  EXPECT_EQ(toy.started().size(), 10u) << "what was published stays: " << log;
+  EXPECT_THAT(log, AllOf(HasSubstr("1 element: time limit reached; the next round asks for 0:02:00 "
+                                   "instead of 1."),
+                         HasSubstr("1 element: more memory used than asked for; the next round "
+                                   "asks for 200M instead of 100M.")));
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ echo $n)");
 case "$*" in *--me*) exit 0;; esac
 echo "slurm_load_jobs error: Invalid job id specified" >&2; exit 1)");
     fake("scancel", "echo \"$*\" >> \"$d/cancelled\"");
-    fake("sinfo", "echo 'render*|up|idle|2|0/4/0/4'");
+    fake("sinfo", R"(
+case "$*" in *-N*) for n in n1 n2; do echo "$n|render*|up|idle|8000"; done;; *) echo 'render*|up|idle|2|0/4/0/4';; esac)");
     fake("scontrol", "echo 'MaxArraySize = 1001'; echo 'KillWait = 1 sec'");
   }
   ~FakeSlurm() override {
@@ -47,6 +48,28 @@ echo "slurm_load_jobs error: Invalid job id specified" >&2; exit 1)");
     write_file(bin() / name,
                fmt::format("#!/bin/sh\nd='{}'\n{}\n", directory_.path().string(), body));
     fs::permissions(bin() / name, fs::perms::owner_all);
+  }
+  /// Elements of an array do nothing, and squeue has `line` of each array, unless sbatch is given `needed`.
+  void elements_end(const std::string& line, const std::string& needed) {
+    if (!fs::exists(bin() / "sbatch.good")) fs::rename(bin() / "sbatch", bin() / "sbatch.good");
+    fake("sbatch", fmt::format(R"(
+case "$*" in *--array=*) ;; *) exec "$d/bin/sbatch.good" "$@";; esac
+case "$*" in *{0}*) exec "$d/bin/sbatch.good" "$@";; esac
+n=$(cat "$d/id" 2>/dev/null || echo 100); echo $((n + 1)) > "$d/id"
+printf '%s\n' "$*" >> "$d/submitted"
+echo '{1}' > "$d/ended-$n"
+echo $n)",
+                               shell_quote(needed), line));
+    fake("squeue", R"(
+case "$*" in *--me*) exit 0;; esac
+[ -e "$d/ended-$6" ] && exec cat "$d/ended-$6"
+echo "slurm_load_jobs error: Invalid job id specified" >&2; exit 1)");
+  }
+  /// sbatch's arguments for arrays, one line for each.
+  std::vector<std::string> arrays() const {
+    auto all = lines("submitted");
+    std::erase_if(all, [](const std::string& line) { return line.find("--array") == line.npos; });
+    return all;
   }
   std::vector<std::string> lines(const std::string& name) const {
     return fs::exists(in(name)) ? split(read_file(in(name), 1 << 20), "\n")

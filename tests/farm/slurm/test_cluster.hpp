@@ -31,6 +31,11 @@ class TestCluster {
     up_ = true;
     run({"up"});
   }
+  /// On which elements are killed that use more memory than they asked for.
+  void up_with_memory_limits() {
+    up_ = true;
+    run({"up"}, "memory");
+  }
   /// kill -9 of everything on it, as if the power were gone.
   void kill_node(const std::string& node) const { run({"kill-node"}, node); }
   void start_node(const std::string& node) const { run({"start-node"}, node); }
@@ -52,10 +57,10 @@ class TestCluster {
 
  private:
   static std::string script() { return LOBELIA_SOURCE_DIR "/tests/farm/slurm/cluster"; }
-  void run(std::vector<std::string> arguments, const std::string& node = "") const {
+  void run(std::vector<std::string> arguments, const std::string& more = "") const {
     arguments.insert(arguments.begin(), script());
     arguments.push_back(directory_.path().string());
-    if (!node.empty()) arguments.push_back(node);
+    if (!more.empty()) arguments.push_back(more);
     ProcessOptions options;
     options.uninterruptible = true;  // what it starts goes on
     const ProcessResult result = run_process(arguments, options);

@@ -34,7 +34,7 @@ class ToyWork {
     for (int i = 0; i < jobs; ++i) add({fmt::format("job{:03}", i), 0, seconds, "toy"});
     // Its directory has what a shell would trip over. Its own name may have no blank: by proctrack/linuxproc of
     // Slurm 22.05 such a process gets no signal.
-    write_file(program(), R"(#!/bin/sh
+    write_file(program(), R"sh(#!/bin/sh
 # farm exec-chunk RUN NUMBER, or farm finish RUN
 results=$(dirname "$3")/results
 [ "$2" = finish ] && { ls "$results" | wc -l > "$results/../finished"; exit; }
@@ -44,6 +44,19 @@ while read -r name seconds; do
   [ -e "$results/$name" ] && continue
   case $name in broken*) failed=7; continue;; esac
   echo "$name" >> "$results/../started"
+  case $name in
+    # Too long in its first round, unless somebody ends it.
+    slow*) [ "$(grep -c "^$name\$" "$results/../started")" -gt 1 ] || sleep 3600;;
+    # 150 MB: what tail keeps. Where it may not, it waits for its end.
+    hungry*) { head -c 150000000 /dev/zero; [ "$SLURM_MEM_PER_NODE" -ge 200 ] || sleep 3600; } | tail -c 150000000 > /dev/null;;
+    # A node that cannot do it.
+    picky*) if [ "$SLURMD_NODENAME" = n1 ] || [ "$SLURMD_NODENAME" = n2 ]; then
+        mkdir -p "$3/reports"
+        printf '{"schemaVersion": 1, "kind": "farm-chunk-report", "node": "%s", "left": [{"engine": "toy", "why": "picky"}]}' \
+          "$SLURMD_NODENAME" > "$3/reports/$4.json"
+        continue
+      fi;;
+  esac
   sleep "$seconds"
   part=$(mktemp "$results/.part.XXXXXX")
   echo "result of $name" > "$part"
@@ -51,7 +64,7 @@ while read -r name seconds; do
   rm -f "$part"
 done < "$3/chunks/$4"
 exit ${failed:-0}
-)");
+)sh");
     fs::permissions(program(), fs::perms::owner_all);
   }
 
@@ -64,7 +77,8 @@ exit ${failed:-0}
             [this] {
               missing_.clear();
               for (const auto& job : jobs_)
-                if (!fs::exists(directory_ / "results" / job.name)) missing_.push_back(job);
+                if (!fs::exists(directory_ / "results" / job.name) && !given_up_.contains(job.name))
+                  missing_.push_back(job);
               return missing_;
             },
             [this](std::size_t number, std::span<const std::size_t> jobs) {
@@ -74,8 +88,13 @@ exit ${failed:-0}
               for (const std::size_t job : jobs)
                 text += fmt::format("{} {}\n", missing_[job].name, missing_[job].seconds);
               write_file(path, text);
+            },
+            [this](std::span<const std::size_t> jobs, const std::string& why) {
+              for (const std::size_t job : jobs) given_up_[missing_[job].name] = why;
             }};
   }
+  /// Why, by name.
+  const std::map<std::string, std::string>& given_up() const { return given_up_; }
 
   /// What lies in results/, hidden files too, of which one may go while we look.
   std::map<std::string, std::string> results() const {
@@ -104,6 +123,7 @@ exit ${failed:-0}
  private:
   fs::path directory_;
   std::vector<SlurmJob> jobs_, missing_;
+  std::map<std::string, std::string> given_up_;
 };
 
 /// Options for tests: fast polls, small chunks, and what is said goes to `said`.

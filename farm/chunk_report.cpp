@@ -1,0 +1,180 @@
+#include "farm/chunk_report.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/host.hpp"
+#include "core/record.hpp"
+#include "core/text.hpp"
+#include "farm/slurm/slurm_answers.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr char kKind[] = "farm-chunk-report";
+constexpr std::size_t kMostBytes = 64 << 10;
+constexpr std::size_t kMostLeft = 100;      // far more than there are engines
+constexpr std::size_t kMostWhy = 500;       // bytes
+constexpr std::size_t kMostProblems = 10;   // are told
+constexpr std::size_t kMostReports = 2000;  // two rounds of as many elements as there can be
+
+fs::path reports_directory(const fs::path& run_directory) { return run_directory / "reports"; }
+
+/// "7.json": 7
+std::optional<std::size_t> number_of(std::string_view name) {
+  constexpr std::string_view kEnding = ".json";
+  if (!name.ends_with(kEnding)) return {};
+  name.remove_suffix(kEnding.size());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size() || std::to_string(number) != name)
+    return {};
+  return number;
+}
+
+bool is_engine_name(std::string_view name) {
+  return name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+           return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
+         });
+}
+
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+/// Throws Error(kInput) without a path.
+std::string read_beside(int directory, const std::string& name) {
+  // Without O_NONBLOCK a pipe would hold us up for ever.
+  const Descriptor file{
+      ::openat(directory, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+  struct stat status {};
+  if (file.fd < 0 || ::fstat(file.fd, &status) != 0)
+    throw Error(ExitCode::kInput, errno == ELOOP ? "a link" : std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) throw Error(ExitCode::kInput, "not a regular file");
+  std::string text(kMostBytes + 1, '\0');
+  std::size_t size = 0;
+  while (size < text.size()) {
+    const ssize_t n = ::read(file.fd, text.data() + size, text.size() - size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(ExitCode::kInput, std::strerror(errno));
+    if (n == 0) break;
+    size += std::size_t(n);
+  }
+  if (size > kMostBytes) throw Error(ExitCode::kInput, fmt::format("over {} bytes", kMostBytes));
+  text.resize(size);
+  return text;
+}
+
+ChunkReport parse_report(const std::string& text, std::size_t number) {
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("kind") != kKind || json.at("schemaVersion") != kRecordSchemaVersion)
+      throw Error(ExitCode::kInput, fmt::format("not a record of kind '{}'", kKind));
+    ChunkReport report{number, json.at("node").get<std::string>(), {}};
+    if (!is_node_name(report.node))
+      throw Error(ExitCode::kInput,
+                  fmt::format("'{}' is no name of a node", printable(report.node)));
+    for (const Json& one : json.at("left").get_ref<const Json::array_t&>()) {
+      LeftUndone left{one.at("engine").get<std::string>(), one.at("why").get<std::string>()};
+      if (!is_engine_name(left.engine))
+        throw Error(ExitCode::kInput,
+                    fmt::format("'{}' is no name of an engine", printable(left.engine)));
+      left.why = printable(left.why, kMostWhy);
+      report.left.push_back(std::move(left));
+    }
+    if (report.left.size() > kMostLeft)
+      throw Error(ExitCode::kInput, fmt::format("names over {} engines", kMostLeft));
+    return report;
+  } catch (const Json::exception& error) {
+    throw Error(ExitCode::kInput, printable(error.what(), 200));
+  }
+}
+
+}  // namespace
+
+std::string own_node_name() {
+  const char* given = std::getenv("SLURMD_NODENAME");
+  return given && is_node_name(given) ? given : host_name();
+}
+
+void write_chunk_report(const fs::path& run_directory, std::size_t number,
+                        std::span<const LeftUndone> left) {
+  if (left.empty()) return;
+  const fs::path directory = reports_directory(run_directory);
+  const fs::path path = directory / fmt::format("{}.json", number);
+  const std::string node = own_node_name();
+  if (!is_node_name(node))
+    throw Error(ExitCode::kOutput, fmt::format("{}: '{}' is no name of a node",
+                                               printable_path(path.string()), printable(node)));
+  make_directories(directory);
+  for (const fs::path& one : {directory, path}) {
+    std::error_code ignored;
+    if (fs::is_symlink(fs::symlink_status(one, ignored)))
+      throw Error(ExitCode::kOutput, fmt::format("{}: a link; a report is not written through it",
+                                                 printable_path(one.string())));
+  }
+  Json record = make_record(kKind);
+  record["node"] = node;
+  record["left"] = Json::array();
+  for (const LeftUndone& one : left.first(std::min(left.size(), kMostLeft)))
+    record["left"].push_back({{"engine", one.engine}, {"why", printable(one.why, kMostWhy)}});
+  write_record(path, record);
+}
+
+ChunkReports read_chunk_reports(const fs::path& run_directory, std::size_t first, std::size_t end) {
+  ChunkReports found;
+  const fs::path path = reports_directory(run_directory);
+  const auto problem = [&](const fs::path& where, std::string_view what) {
+    if (found.problems.size() < kMostProblems)
+      found.problems.push_back(
+          fmt::format("{}: not taken for a report: {}", printable_path(where.string()), what));
+  };
+  const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (fd < 0) {
+    if (errno != ENOENT) problem(path, "not a directory, or one that cannot be read");
+    return found;
+  }
+  const std::unique_ptr<DIR, int (*)(DIR*)> directory(::fdopendir(fd), ::closedir);
+  if (!directory) {
+    ::close(fd);
+    problem(path, std::strerror(errno));
+    return found;
+  }
+  std::vector<std::size_t> numbers;
+  while (const dirent* entry = ::readdir(directory.get()))
+    if (const auto number = number_of(entry->d_name); number && *number >= first && *number < end)
+      numbers.push_back(*number);
+  std::sort(numbers.begin(), numbers.end());
+  if (numbers.size() > kMostReports) {
+    problem(path, fmt::format("only the last {} of {} are read", kMostReports, numbers.size()));
+    numbers.erase(numbers.begin(), numbers.end() - kMostReports);
+  }
+  for (const std::size_t number : numbers) {
+    const std::string name = fmt::format("{}.json", number);
+    try {
+      found.reports.push_back(parse_report(read_beside(fd, name), number));
+    } catch (const Error& error) {
+      problem(path / name, error.what());
+    }
+  }
+  return found;
+}
+
+}  // namespace lobelia
