@@ -27,8 +27,9 @@ class FarmOnCluster : public FailingFarm {
     fs::rename(out(), root() / "local-out");
     fs::rename(cache(), root() / "local-cache");
     fake_povray("sleep 2");
-    cluster_.up();
+    bring_up();
   }
+  virtual void bring_up() { cluster_.up(); }
   std::vector<std::string> on_slurm() const {
     return command(
         {"--executor", "slurm", "--poll-seconds", "0.2", "--chunk-seconds", "0.5", "-q"});
@@ -127,6 +128,26 @@ TEST_F(FarmOnCluster, AJobThatFailsCostsOnlyItself) {
   EXPECT_EQ(cached_pictures(), kFarmPictures - 1);
   EXPECT_EQ(read_record(out() / "cells" / "n20" / "cell.json", "cell").at("status"), "failed");
   EXPECT_EQ(read_record(out() / "cells" / "n18" / "cell.json", "cell").at("status"), "pass");
+}
+
+/// Where Slurm kills what uses more memory than it asked for.
+class FarmOnClusterWithLimits : public FarmOnCluster {
+ protected:
+  void bring_up() override { cluster_.up_with_memory_limits(); }
+};
+
+TEST_F(FarmOnClusterWithLimits, MakesWithMoreMemoryWhatWasKilledForIt) {
+  // 700 MB that tail keeps until Slurm ends it all.
+  fake_povray("case $cell in n20) if " + first_times("hungry", 1) +
+              "; then { head -c 700000000 /dev/zero; sleep 3600; } | tail -c 700000000 > "
+              "/dev/null; fi;; esac");
+  std::vector<std::string> words = on_slurm();
+  words.insert(words.end(), {"--memory", "512M"});
+  const FarmRun farm = run_command(words);
+  EXPECT_EQ(farm.exit_code, 0) << farm.output;
+  EXPECT_THAT(farm.output, HasSubstr("1 element: more memory used than asked for; the next round "
+                                     "asks for 1G instead of 512M."));
+  expect_local_results(farm.output);
 }
 
 }  // namespace
