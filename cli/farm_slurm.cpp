@@ -144,6 +144,9 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
       const ChunkSummary done = exec_slurm_chunk(chunk->run, chunk->number);
       fmt::print("chunk {}: {} jobs, {} done, {} made here, {} failed; {:.1f} s\n", chunk->number,
                  done.jobs, done.done, done.work.made, done.failed, done.work.wall_seconds);
+      for (const auto& difference : done.handed_back)
+        fmt::print(stderr, "lobelia: chunk {} is handed back: {}\n", chunk->number, difference);
+      if (!done.handed_back.empty()) exit_code = ExitCode::kEngine;
       if (done.failed > 0) exit_code = ExitCode::kOutput;
     });
   }

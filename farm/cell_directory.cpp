@@ -222,10 +222,16 @@ Json CellDirectory::results(const CellRecords& records) const {
 }
 
 Json CellDirectory::made_from() const {
-  Json engines = Json::object();
-  for (const auto& here : graph_->engines())
-    if (here.is_known()) engines[here.name] = here.version;
-  return {{"program", program_id()}, {"scene", graph_->scene_hash(cell_)}, {"engines", engines}};
+  Json made_from;
+  own_identity().put_into(made_from);
+  made_from["scene"] = graph_->scene_hash(cell_);
+  made_from["engines"] = made_from["contents"] = Json::object();
+  for (const auto& here : graph_->engines()) {
+    if (!here.is_known()) continue;
+    made_from["engines"][here.name] = here.version;
+    if (!here.content.empty()) made_from["contents"][here.name] = here.content;
+  }
+  return made_from;
 }
 
 std::string CellDirectory::current_status(const ResultCache& cache,
@@ -367,16 +373,22 @@ std::string CellDirectory::reason(JobIndex job) const {
       const FarmEngine& here = graph_->engines()[e];
       if (!before.at("engines").contains(here.name)) return "";
       const std::string was = before.at("engines").at(here.name);
-      return was == here.version
+      if (was != here.version)
+        return fmt::format("engine version changed: {}, was {}", here.version, was);
+      return before.at("contents").value(here.name, "") == here.content
                  ? ""
-                 : fmt::format("engine version changed: {}, was {}", here.version, was);
+                 : fmt::format("engine changed under the same version {}", was);
     };
     if (wanted.engine != kNoEngine)
       if (std::string changed = engine_reason(wanted.engine); !changed.empty()) return changed;
     if (wanted.kind == JobKind::kProfile)
       for (std::size_t e = 0; e < graph_->engines().size(); ++e)
         if (std::string changed = engine_reason(e); !changed.empty()) return changed;
-    if (before.at("program") != program_id()) return "program changed";
+    const OwnIdentity& own = own_identity();
+    if (before.at("program") != own.program) return "program changed";
+    const OwnIdentity was = OwnIdentity::of_record(before);
+    if (was.libraries != own.libraries) return "libraries changed";
+    if (was.arithmetic != own.arithmetic) return "arithmetic differs";
     const std::string name = graph_->name(job).substr(graph_->cells().cells[cell_].id.size() + 1);
     if (record->at("results").contains(name) && record->at("results").at(name) == wanted.key.text())
       return "lost from the cache";

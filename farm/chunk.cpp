@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/text.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -30,7 +31,8 @@ std::vector<FarmEngine> planned_engines(const Json& chunk) {
   for (const auto& planned : chunk.at("engines").get_ref<const Json::array_t&>()) {
     const std::string name = planned.at("name");
     engines.push_back({make_engine(name, planned.value("program", std::string())), name,
-                       planned.at("version").get<std::string>()});
+                       planned.at("version").get<std::string>(),
+                       planned.at("content").get<std::string>()});
   }
   return engines;
 }
@@ -53,6 +55,33 @@ ChunkCells read_cells(const Json& chunk, const std::string& file_name) {
     cells.farm.cells.push_back(std::move(cell));
   }
   return cells;
+}
+
+bool wants_pictures_of(const ChunkCells& cells, const std::string& engine) {
+  for (std::size_t cell = 0; cell < cells.jobs.size(); ++cell)
+    if (cells.jobs[cell].contains(job_name(cells.farm.cells[cell].id, JobKind::kReference, engine)))
+      return true;
+  return false;
+}
+
+/// Takes the pictures of an engine out of what is to be done.
+void leave_out(ChunkCells& cells, const std::string& engine) {
+  for (std::size_t cell = 0; cell < cells.jobs.size(); ++cell)
+    cells.jobs[cell].erase(job_name(cells.farm.cells[cell].id, JobKind::kReference, engine));
+}
+
+/// For whoever decides which nodes get work.
+void tell_of_handing_back(const std::filesystem::path& file, const ChunkSummary& summary) {
+  Json record = make_record("farm-handed-back");
+  record["chunk"] = file.filename().string();
+  record["host"] = host_record();
+  record["host"]["name"] = host_name();
+  record["because"] = summary.handed_back;
+  std::string host = host_name();
+  std::ranges::replace(host, '/', '_');
+  write_record(
+      file.parent_path() / fmt::format("{}-handed-back-{}.json", file.stem().string(), host),
+      record);
 }
 
 /// What is to be done, and what is there of what that needs.
@@ -82,14 +111,14 @@ Json chunk_record(FarmWork& work, const ResultCache& cache, const FarmOptions& o
                   std::span<const JobIndex> jobs) {
   const JobGraph& graph = work.graph;
   Json record = make_record("farm-chunk");
-  record["program"] = program_id();
+  own_identity().put_into(record);
   record["cache"] = cache.directory().string();
   record["limits"] = {{"timeLimit", options.time_limit.count()},
                       {"noProgressLimit", options.no_progress_limit.count()},
                       {"attempts", options.attempts}};
   record["engines"] = Json::array();
   for (const auto& here : work.engines) {
-    Json engine{{"name", here.name}, {"version", here.version}};
+    Json engine{{"name", here.name}, {"version", here.version}, {"content", here.content}};
     if (const auto given = options.programs.find(here.name); given != options.programs.end())
       engine["program"] = std::filesystem::absolute(given->second).string();
     record["engines"].push_back(std::move(engine));
@@ -108,10 +137,8 @@ Json chunk_record(FarmWork& work, const ResultCache& cache, const FarmOptions& o
 ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
   const Json chunk = read_record(file, "farm-chunk");
   try {
-    if (chunk.at("program") != program_id())
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: planned by {}; this is {}", file.string(),
-                              printable(chunk.at("program").get<std::string>()), program_id()));
+    ChunkSummary summary;
+    summary.handed_back = identity_differences(OwnIdentity::of_record(chunk), own_identity());
     JobRunOptions options;
     options.threads = threads;
     options.time_limit = std::chrono::duration<double>(limit(chunk, "timeLimit", 0.1, 1e6));
@@ -125,6 +152,18 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
     ChunkCells cells = read_cells(chunk, file.filename().string());
     cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
     JobGraph graph(cells.farm, engines);
+    for (const auto& cell : cells.jobs) summary.jobs += cell.size();
+    if (summary.handed_back.empty())
+      for (const FarmEngine& planned : engines) {
+        if (!wants_pictures_of(cells, planned.name)) continue;
+        std::string difference = engine_difference(planned, options.programs);
+        if (difference.empty()) continue;
+        summary.handed_back.push_back(std::move(difference));
+        leave_out(cells, planned.name);
+      }
+    else
+      for (auto& cell : cells.jobs) cell.clear();
+    if (!summary.handed_back.empty()) tell_of_handing_back(file, summary);
     const ResultCache cache(chunk.at("cache").get<std::string>());
     const auto in_use = cache.use();
     remove_abandoned_temporaries();
@@ -132,11 +171,9 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
     std::vector<std::size_t> order(graph.cell_count());
     std::iota(order.begin(), order.end(), std::size_t{0});
     run.run(order, [](std::size_t) {});
-    ChunkSummary summary;
     summary.work = run.work();
     for (JobIndex job = 0; job < graph.size(); ++job) {
       if (!graph[job].exists || !cells.jobs[graph.cell_of(job)].contains(graph.name(job))) continue;
-      ++summary.jobs;
       if (run.state(job) == JobState::kDone) ++summary.done;
       if (run.state(job) == JobState::kFailed) ++summary.failed;
     }

@@ -21,11 +21,14 @@ struct ChunkSummary {
   std::size_t done = 0;    ///< whose results are in the cache now
   std::size_t failed = 0;  ///< whose failures are
   JobRunWork work;
+  /// Why this machine left jobs undone that another one can do: in what it is not as the plan has it, one sentence each.
+  /// They have not failed.
+  std::vector<std::string> handed_back;
 };
 
 /// Does what the file says, with `threads` threads. Jobs that are done already cost nothing; those whose inputs are neither there
-/// nor have failed are left alone. Throws Error: kInput (no such chunk, or one that another build planned),
-/// kOutput, kInterrupted.
+/// nor have failed are left alone. What is handed back is told in a record beside the file, too (kind
+/// "farm-handed-back", docs/records.md). Throws Error: kInput (no such chunk), kOutput, kInterrupted.
 ChunkSummary exec_chunk(const std::filesystem::path& file, int threads);
 
 }  // namespace lobelia

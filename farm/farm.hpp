@@ -24,6 +24,7 @@ struct FarmOptions : JobRunOptions {
   JobFilter filter;                  ///< jobs that may be done
   bool again = false;                ///< make every one of them again
   bool require_engines = false;      ///< one that is absent is an error
+  bool engines_as_recorded = false;  ///< nothing is made: what farm.json says of them holds
   std::vector<std::string> command;  ///< for the record
   /// Where whoever asked will publish what comes of it; a cluster's run has that done by its last element. Empty:
   /// nowhere.

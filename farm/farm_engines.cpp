@@ -22,11 +22,21 @@ Json engines_before(const fs::path& farm_directory) {
   }
 }
 
+void identify(FarmEngine& engine, FileHashes& hashes) {
+  const EngineStatus& status = engine.engine->status();
+  engine.version = status.version;
+  engine.files = engine_content(status, hashes);
+  engine.content = engine.files.sha256;
+}
+
 void take_from_last_run(FarmEngine& engine, const Json& before) {
-  for (const auto& was : before)
-    if (was.is_object() && was.value("name", Json()) == engine.name &&
-        was.value("version", Json()).is_string())
-      engine.version = was["version"];
+  for (const auto& was : before) {
+    if (!was.is_object() || was.value("name", Json()) != engine.name) continue;
+    if (!was.value("version", Json()).is_string() || !was.value("content", Json("")).is_string())
+      continue;
+    engine.version = was["version"];
+    engine.content = was.value("content", "");
+  }
 }
 
 }  // namespace
@@ -35,26 +45,53 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
                                      const EngineChoice& choice) {
   std::vector<FarmEngine> engines;
   const Json before = engines_before(choice.farm_directory);
+  FileHashes& hashes = FileHashes::of_user();
   for (const auto& name : names) {
     const auto program = choice.programs.find(name);
     const bool given = program != choice.programs.end();
-    FarmEngine engine{make_engine(name, given ? program->second : fs::path()), name, "", true};
+    if (choice.as_recorded) {
+      engines.push_back({make_engine(name, given ? program->second : fs::path()), name});
+      take_from_last_run(engines.back(), before);
+      continue;
+    }
+    FarmEngine engine = look_for_engine(name, given ? program->second : fs::path(), hashes);
     const EngineInfo& info = engine.engine->info();
     const EngineStatus& status = engine.engine->status();
     if (status.state == EngineState::kBroken)
       throw Error(ExitCode::kEngine, fmt::format("{} is broken: {}", info.title, status.why));
-    engine.here = status.available();
-    if (engine.here)
-      engine.version = status.version;
-    else if (given)
+    if (!engine.here && given)
       throw Error(ExitCode::kEngine, fmt::format("{}: {}", info.title, status.why));
-    else if (choice.required)
-      throw Error(ExitCode::kEngine, absence(engine));
-    else
-      take_from_last_run(engine, before);
+    if (!engine.here && choice.required) throw Error(ExitCode::kEngine, absence(engine));
+    if (!engine.here) take_from_last_run(engine, before);
     engines.push_back(std::move(engine));
   }
+  hashes.save();
   return engines;
+}
+
+FarmEngine look_for_engine(const std::string& name, const fs::path& program, FileHashes& hashes) {
+  FarmEngine engine{make_engine(name, program), name};
+  engine.here = engine.engine->status().available();
+  if (engine.here) identify(engine, hashes);
+  return engine;
+}
+
+std::string engine_difference(const FarmEngine& planned,
+                              const std::map<std::string, fs::path>& programs) {
+  FileHashes& hashes = FileHashes::of_user();
+  const auto program = programs.find(planned.name);
+  const FarmEngine here = look_for_engine(
+      planned.name, program == programs.end() ? fs::path() : program->second, hashes);
+  hashes.save();
+  const std::string_view title = planned.engine->info().title;
+  if (!here.is_here()) return fmt::format("{}: {}", title, here.engine->status().why);
+  if (here.version != planned.version)
+    return fmt::format("{}: engine version: {} here, {} in the plan", title, here.version,
+                       planned.version);
+  if (here.content != planned.content)
+    return fmt::format("{}: engine content: other files under the same version {}", title,
+                       here.version);
+  return "";
 }
 
 std::string absence(const FarmEngine& engine) {
@@ -71,11 +108,13 @@ Json engines_record(const std::vector<FarmEngine>& engines) {
                               {"state", state_name(EngineState::kReady)}}});
   for (const auto& here : engines) {
     const EngineInfo& info = here.engine->info();
-    Json engine{{"name", info.name},
-                {"title", info.title},
-                {"available", here.is_here()},
-                {"state", state_name(here.engine->status().state)}};
+    Json engine{
+        {"name", info.name},
+        {"title", info.title},
+        {"available", here.is_here()},
+        {"state", state_name(here.is_here() ? EngineState::kReady : here.engine->status().state)}};
     if (here.is_known()) engine["version"] = here.version;
+    if (!here.content.empty()) engine["content"] = here.content;
     if (!here.is_here()) {
       engine["why"] = here.engine->status().why;
       engine["install"] = info.install_hint;

@@ -41,7 +41,8 @@ void require_apart(const fs::path& cache, const fs::path& directory) {
 FarmWork::FarmWork(const Grid& g, const FarmOptions& options, const fs::path& directory)
     : grid(g),
       cells{cells_of(g), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); }},
-      engines(find_engines(g.engines, {options.programs, options.require_engines, directory})),
+      engines(find_engines(g.engines, {options.programs, options.require_engines, directory,
+                                       options.engines_as_recorded})),
       graph(cells, engines) {}
 
 std::vector<std::string> FarmWork::absences() const {
@@ -131,6 +132,8 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   }
   cache_.remove_abandoned();
   remove_abandoned_temporaries();
+  cache_.keep_content(own_libraries());
+  for (const auto& engine : work_.engines) cache_.keep_content(engine.files);
   remove_abandoned_files(directory_);
   look_at_cells();
   // Now as well as at the end: a run that is killed has its record too.

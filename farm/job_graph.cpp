@@ -8,22 +8,16 @@
 #include <mutex>
 #include <numeric>
 
-#include "core/build_id.hpp"
-#include "core/version.hpp"
 #include "farm/our_name.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
 
-const std::string& program_id() {
-  static const std::string id = std::string(kNameAndVersion) + " " + build_id();
-  return id;
-}
-
 JobGraph::JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engines)
     : cells_(&cells),
       engines_(&engines),
+      own_(own_identity().text()),
       stride_(2 + 2 * engines.size()),
       jobs_(cells.cells.size() * stride_),
       scenes_(cells.cells.size()) {
@@ -46,7 +40,7 @@ void JobGraph::plan_cell(std::size_t cell, std::map<std::size_t, std::string>& r
   const auto set = [&](JobIndex at, JobKind kind, std::size_t engine, const ResultKey& key) {
     jobs_[at] = {key, kind, std::uint8_t(engine), true};
   };
-  const ResultKey ours = result_key({"render", program_id(), scene_part});
+  const ResultKey ours = result_key({"render", own_, scene_part});
   set(render(cell), JobKind::kRender, kNoEngine, ours);
   const auto& compared_with = cells_->cells[cell].engines;
   std::vector<bool> with_engine(engines_->size());
@@ -60,10 +54,10 @@ void JobGraph::plan_cell(std::size_t cell, std::map<std::size_t, std::string>& r
       continue;
     }
     const ResultKey theirs =
-        result_key({"reference", program_id(), here.name, here.version, scene_part});
+        result_key({"reference", own_, here.name, here.version, here.content, scene_part});
     set(reference(cell, e), JobKind::kReference, e, theirs);
     set(compare(cell, e), JobKind::kCompare, e,
-        result_key({"compare", program_id(), as_part(ours), as_part(theirs)}));
+        result_key({"compare", own_, as_part(ours), as_part(theirs)}));
     with_engine[e] = true;
   }
   if (!scene.lights.empty() && !scene.spheres.empty() && beyond_single_rays(scene).empty())
@@ -74,7 +68,7 @@ ResultKey JobGraph::profile_key(std::size_t cell, const std::vector<bool>& with_
   std::string references;
   for (std::size_t e = 0; e < engines_->size(); ++e)
     if (with_engine[e]) references += as_part(jobs_[reference(cell, e)].key);
-  return result_key({"profile", program_id(), as_part(jobs_[render(cell)].key), references});
+  return result_key({"profile", own_, as_part(jobs_[render(cell)].key), references});
 }
 
 void JobGraph::narrow_profile(std::size_t cell, const std::function<bool(JobIndex)>& has_picture) {

@@ -12,6 +12,7 @@
 #include "farm/farm_engines.hpp"
 #include "farm/grid.hpp"
 #include "farm/job.hpp"
+#include "farm/own_identity.hpp"
 
 namespace lobelia {
 
@@ -86,14 +87,12 @@ class JobGraph {
 
   const FarmCells* cells_;
   const std::vector<FarmEngine>* engines_;
+  std::string own_;  ///< own_identity(), as a part of every key
   std::size_t stride_;
   std::vector<Job> jobs_;
   std::vector<Sha256Digest> scenes_;
   std::map<std::size_t, std::string> refusals_;  ///< by cell * engines + engine; few have one
 };
-
-/// What decides a result besides its scene: this program, to the build.
-const std::string& program_id();
 
 /// Cells from coarse to fine: after any part of them the ones that are done are spread over the whole grid. First
 /// the first value of each axis, then the one in the middle, then those between, and so on.

@@ -260,9 +260,14 @@ struct JobRun::Impl {
     record["job"] = kJobKindNames[int(one.kind)];
     if (one.engine != kNoEngine) record["engine"] = graph.engines()[one.engine].name;
     record["firstMadeFor"] = graph.cells().cells[cell].id;
-    record["inputs"] = {{"program", program_id()}, {"scene", graph.scene_hash(cell)}};
-    if (one.engine != kNoEngine)
-      record["inputs"]["engineVersion"] = graph.engines()[one.engine].version;
+    record["inputs"] = Json::object();
+    own_identity().put_into(record["inputs"]);
+    record["inputs"]["scene"] = graph.scene_hash(cell);
+    if (one.engine != kNoEngine) {
+      const FarmEngine& engine = graph.engines()[one.engine];
+      record["inputs"]["engineVersion"] = engine.version;
+      if (!engine.content.empty()) record["inputs"]["engineContent"] = engine.content;
+    }
     for (const JobIndex input : graph.inputs(job)) {
       if (state_of(input) == JobState::kDone)
         record["inputs"][graph.whose(input)] = graph[input].key.text();

@@ -24,7 +24,7 @@ constexpr char kLocksFile[] = "locks";
 constexpr std::uint64_t kUseLock = ~std::uint64_t{0};
 constexpr std::uint64_t kMaxLogBytes = 64 << 20;
 constexpr std::time_t kTouchAfterSeconds = 24 * 60 * 60;
-constexpr const char* kParts[] = {"results", "failures", "making"};
+constexpr const char* kParts[] = {"results", "failures", "contents", "making"};
 
 std::uint64_t number_of(const ResultKey& key) { return std::hash<ResultKey>()(key); }
 std::uint64_t number_of(const std::string& name) { return number_of(result_key({name})); }
@@ -412,6 +412,27 @@ void ResultCache::forget_failure(const ResultKey& key) const {
     Removal removing = removal();
     forget_failure(key, removing);
     return;
+  }
+}
+
+void ResultCache::keep_content(const Content& content) const {
+  const std::string name = content.sha256 + ".json";
+  if (content.sha256.empty() || ::access((directory_ / "contents" / name).c_str(), F_OK) == 0)
+    return;
+  try {
+    const ResultDraft made = draft();
+    write_record(made.file("json"), content_record(content));
+    move(made.file("json"), root().make_below("contents"), name);
+  } catch (const Error&) {  // one that may only be read stays as it is
+  }
+}
+
+std::optional<Content> ResultCache::content(const std::string& sha256) const {
+  if (!is_key(sha256)) return std::nullopt;
+  try {
+    return content_of_record(read_record(directory_ / "contents" / (sha256 + ".json"), "content"));
+  } catch (const std::exception&) {
+    return std::nullopt;
   }
 }
 

@@ -3,6 +3,7 @@
 //   CACHE/lobelia-cache             says that it is one, and of which layout
 //   CACHE/results/ab/KEY/           one result: its files and result.json, renamed into place as a whole
 //   CACHE/failures/ab/KEY.json      why there is none, and KEY.log beside it
+//   CACHE/contents/SHA256.json      what programs are made of that results were made by
 //   CACHE/making/                   results in the making (draft_name.hpp)
 //   CACHE/locks                     who is at work on what (byte_locks.hpp)
 //
@@ -18,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/content.hpp"
 #include "core/record.hpp"
 #include "core/removal.hpp"
 #include "farm/byte_locks.hpp"
@@ -124,6 +126,11 @@ class ResultCache {
   std::vector<ResultKey> failures() const;  ///< that are kept, in no order
   void forget_failure(const ResultKey& key) const;
   void forget_failure(const ResultKey& key, Removal& removal) const;
+
+  /// What programs are made of (core/content.hpp), by its hash; results name it. Without it they can be less well
+  /// explained, so a cache that may only be read is no error.
+  void keep_content(const Content& content) const;
+  std::optional<Content> content(const std::string& sha256) const;
 
   /// Drafts that nobody works on any more; to be called before this object has any.
   AbandonedDrafts remove_abandoned() const;

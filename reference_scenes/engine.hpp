@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/image.hpp"
 #include "core/record.hpp"
@@ -47,11 +48,21 @@ constexpr std::string_view state_name(EngineState state) {
   return kEngineStateNames[std::size_t(state)];
 }
 
+/// What an engine consists of, as far as asking its version showed: its content (engine_content.hpp) is theirs.
+struct EngineFiles {
+  std::vector<std::filesystem::path>
+      programs;  ///< that ran; a wrapper is one script and several programs
+  std::vector<std::filesystem::path> libraries;  ///< that these loaded
+  std::vector<std::filesystem::path>
+      directories;  ///< of scripts and data that it reads when it renders
+};
+
 struct EngineStatus {
   EngineState state = EngineState::kAbsent;
   std::filesystem::path program;
   std::string version;  ///< "3.7.0.10"
   std::string why;      ///< where not ready: one sentence
+  EngineFiles files = {};
   bool available() const { return state == EngineState::kReady; }
 };
 

@@ -14,6 +14,7 @@
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
+#include "reference_scenes/engine_content.hpp"
 
 namespace lobelia {
 namespace {
@@ -60,8 +61,12 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
     return status;
   }
   status.state = EngineState::kBroken;
+  const TemporaryDirectory home;
+  const LoaderTrace trace(home.path());
   ProcessOptions options;
   options.timeout = std::chrono::duration<double>(kProbeSeconds);
+  options.environment = private_home(home.path());
+  for (auto& variable : trace.environment()) options.environment.push_back(std::move(variable));
   // POV-Ray prints its version on stderr, after complaints about missing configuration files.
   options.on_line = [&](std::string_view line) {
     if (status.version.empty()) status.version = version_after(line, probe.version_prefix);
@@ -94,6 +99,15 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
                              engine.title, status.version, engine.supported_versions);
   else
     status.state = EngineState::kReady;
+  if (!status.available()) return status;
+  status.files = trace.files();
+  if (probe.directories) {
+    std::vector<std::filesystem::path> programs = status.files.programs;
+    programs.push_back(status.program);
+    for (const auto& one : programs)
+      for (auto& directory : probe.directories(one, status.version))
+        status.files.directories.push_back(std::move(directory));
+  }
   return status;
 }
 

@@ -17,6 +17,9 @@ struct EngineProbe {
   std::string_view program;         ///< as in $PATH
   std::string_view version_prefix;  ///< what stands before the version in `--version`: "Blender "
   bool (*supports)(int major, int minor) = nullptr;  ///< EngineInfo::supported_versions
+  /// Where a program of this version has its scripts and data; those that are not there do no harm. Null: nowhere.
+  std::vector<std::filesystem::path> (*directories)(const std::filesystem::path& program,
+                                                    std::string_view version) = nullptr;
 };
 
 /// Looks for the program (`program` if not empty) and runs it with --version.

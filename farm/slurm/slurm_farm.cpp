@@ -117,7 +117,7 @@ void write_run_record(const fs::path& run_directory, const fs::path& grid_file,
                       const fs::path& directory, const FarmSession& session,
                       const FarmOptions& options) {
   Json record = make_record("farm-run");
-  record["program"] = program_id();
+  own_identity().put_into(record);
   record["grid"] = fs::absolute(grid_file).string();
   record["directory"] = fs::absolute(directory).string();
   record["cache"] = session.cache().directory().string();
@@ -137,9 +137,12 @@ struct Run {
 Run read_run(const fs::path& run_directory) {
   const Json record = read_record(run_directory / kRunFile, "farm-run");
   try {
-    if (record.at("program") != program_id())
-      throw Error(ExitCode::kInput, fmt::format("{}: the run of another build of this program",
-                                                run_directory.string()));
+    // Here its results would have other names.
+    const auto differences = identity_differences(OwnIdentity::of_record(record), own_identity());
+    if (!differences.empty())
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: a run that cannot go on here: {}", run_directory.string(),
+                              fmt::join(differences, "; ")));
     Run run;
     run.grid_file = record.at("grid").get<std::string>();
     run.directory = record.at("directory").get<std::string>();
@@ -234,7 +237,8 @@ ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number)
 }
 
 SlurmEnd finish_slurm_run(const fs::path& run_directory) {
-  const Run run = read_run(run_directory);
+  Run run = read_run(run_directory);
+  run.options.engines_as_recorded = true;
   const Grid grid = read_grid(run.grid_file);
   FarmSession session(grid, run.directory, run.options);
   session.show_what_is_there();

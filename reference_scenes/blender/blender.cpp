@@ -36,9 +36,24 @@ constexpr int kSigAlrm = 14;
 constexpr int kMostIdleStarts = 3;
 
 /// The node groups' and point primitives' interface that render_scenes.py uses.
-constexpr EngineProbe kProbe{"blender", "Blender ", [](int major, int minor) {
-                               return major == 4 || (major == 3 && minor >= 4);
-                             }};
+/// Of a release as it is unpacked, and of a package: "3.4" beside the program, or ../share/blender. The Python of a
+/// release is none of it: what our script uses of that decides no pixel.
+std::vector<fs::path> blender_directories(const fs::path& program, std::string_view version) {
+  std::error_code ignored;
+  const fs::path place = fs::weakly_canonical(program, ignored).parent_path();
+  const auto minor = version.find('.', version.find('.') + 1);
+  const std::string series(version.substr(0, minor));
+  std::vector<fs::path> directories;
+  for (const fs::path& base : {place / series, place.parent_path() / "share" / "blender",
+                               place.parent_path() / "share" / "blender" / series})
+    for (const char* part : {"scripts", "datafiles"}) directories.push_back(base / part);
+  return directories;
+}
+
+constexpr EngineProbe kProbe{
+    "blender", "Blender ",
+    [](int major, int minor) { return major == 4 || (major == 3 && minor >= 4); },
+    blender_directories};
 
 /// Without the user's start-up file and add-ons, and with Python's failures as failures.
 /// `directory` holds script and job; Blender must be told where it is, because it believes $PWD

@@ -79,7 +79,74 @@ TEST_F(ChunkTest, ComparesAndDrawsWhatDidNotFail) {
   EXPECT_EQ(done.done, 2u) << "one comparison, and a profile without POV-Ray";
 }
 
-TEST_F(ChunkTest, OfAnotherBuildOrNoneIsRefused) {
+TEST_F(ChunkTest, OfAnotherMachineIsHandedBackUndoneAndNotFailed) {
+  const fs::path file = chunk(two(), "*");
+  const Json record = read_record(file, "farm-chunk");
+  const auto because = [&](const std::function<void(Json&)>& change) {
+    Json other = record;
+    change(other);
+    write_record(file, other);
+    const ChunkSummary summary = exec_chunk(file, 1);
+    EXPECT_EQ(summary.jobs, 8u);
+    EXPECT_EQ(summary.done + summary.failed + summary.work.made, 0u);
+    const ResultCache cache(out() / "cache");
+    EXPECT_TRUE(cache.list().empty() && cache.failures().empty());
+    Json told;
+    for (const auto& entry : fs::directory_iterator(file.parent_path()))
+      if (entry.path().filename().string().starts_with("chunk-handed-back-"))
+        told = read_record(entry.path(), "farm-handed-back").at("because");
+    EXPECT_EQ(told, Json(summary.handed_back));
+    return summary.handed_back;
+  };
+  using testing::ElementsAre;
+  using testing::StartsWith;
+  EXPECT_THAT(because([](Json& plan) { plan["program"] = "lobelia 9.9.9 abc"; }),
+              ElementsAre(testing::EndsWith("here, lobelia 9.9.9 abc in the plan")));
+  EXPECT_THAT(because([](Json& plan) { plan["libraries"] = "x"; }),
+              ElementsAre("libraries: other files"));
+  EXPECT_THAT(because([](Json& plan) { plan["arithmetic"]["libm"] = "x"; }),
+              ElementsAre("libm: other results"));
+  EXPECT_THAT(because([](Json& plan) { plan["arithmetic"]["kernels"] = "SSSE3"; }),
+              ElementsAre(StartsWith("kernels: ")));
+  EXPECT_THAT(because([](Json& plan) { plan["arithmetic"]["processor"] = "sse2"; }),
+              ElementsAre(StartsWith("processor: ")));
+  write_record(file, record);
+  EXPECT_EQ(exec_chunk(file, 1).done, 8u);
+}
+
+TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
+  const Grid small = grid("16", "<engine name=\"analytic\"/><engine name=\"povray\"/>");
+  FarmOptions options;
+  options.programs = {{"povray", failing_povray()}};
+  FarmWork work(small, options);
+  const ResultCache cache(out() / "cache");
+  std::vector<JobIndex> pictures;
+  for (JobIndex job = 0; job < work.graph.size(); ++job)
+    if (is_picture(work.graph[job].kind)) pictures.push_back(job);
+  const fs::path file = directory_.path() / "chunk.json";
+  const Json record = chunk_record(work, cache, options, pictures);
+  const auto exec = [&](const Json& plan) {
+    fs::remove_all(out() / "cache");
+    write_record(file, plan);
+    const ChunkSummary summary = exec_chunk(file, 1);
+    EXPECT_EQ(summary.done, 2u) << "ours, and the formula's";
+    EXPECT_EQ(summary.failed, 0u);
+    return summary.handed_back;
+  };
+  using testing::ElementsAre;
+  Json other = record;
+  other["engines"][1]["content"] = std::string(64, '0');
+  EXPECT_THAT(exec(other),
+              ElementsAre("POV-Ray: engine content: other files under the same version 3.7.0.10"));
+  other = record;
+  other["engines"][1]["version"] = "3.8.0";
+  EXPECT_THAT(exec(other),
+              ElementsAre("POV-Ray: engine version: 3.7.0.10 here, 3.8.0 in the plan"));
+  fs::remove(options.programs.at("povray"));
+  EXPECT_THAT(exec(record), ElementsAre(testing::HasSubstr("is not a program")));
+}
+
+TEST_F(ChunkTest, ThatIsNoneIsRefused) {
   const fs::path file = chunk(two(), "*");
   Json record = read_record(file, "farm-chunk");
   const auto refused = [&](const Json& changed) {
@@ -92,10 +159,8 @@ TEST_F(ChunkTest, OfAnotherBuildOrNoneIsRefused) {
       return std::string(error.what());
     }
   };
-  Json other = record;
-  other["program"] = "lobelia 9.9.9 abc";
-  EXPECT_THAT(refused(other), testing::HasSubstr("planned by lobelia 9.9.9 abc"));
-  for (const char* key : {"cells", "engines", "limits", "cache"}) {
+  Json other;
+  for (const char* key : {"cells", "engines", "limits", "cache", "libraries", "arithmetic"}) {
     other = record;
     other.erase(key);
     EXPECT_THAT(refused(other), testing::HasSubstr("not a chunk")) << key;

@@ -1,0 +1,86 @@
+#include "reference_scenes/engine_content.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr char kTraceName[] = "loaded";
+constexpr std::size_t kMostTraces = 500, kMostFiles = 5000;
+constexpr std::uint64_t kMostTraceBytes = 32 << 20;
+/// Programs of ours between us and an engine: no part of it.
+constexpr std::string_view kOurPrograms = "lobelia_";
+
+/// The text behind `what` in a line; empty if it is not there.
+std::string_view behind(std::string_view line, std::string_view what) {
+  const auto at = line.find(what);
+  return at == line.npos ? std::string_view() : line.substr(at + what.size());
+}
+
+/// As the loader tells them, of one process: libraries, and then the program that they are for.
+void take(const std::string& trace, EngineFiles& files) {
+  std::vector<fs::path> libraries;
+  for (const auto& line : split(trace, "\n")) {
+    if (const auto library = behind(line, "calling init: "); library.starts_with('/'))
+      libraries.emplace_back(library);
+    const auto program = behind(line, "transferring control: ");
+    if (program.empty()) continue;
+    if (fs::path(program).filename().native().starts_with(kOurPrograms)) {
+      libraries.clear();
+      continue;
+    }
+    // Told as it was called.
+    if (const fs::path found = find_program(std::string(program)); !found.empty())
+      files.programs.push_back(found);
+  }
+  files.libraries.insert(files.libraries.end(), libraries.begin(), libraries.end());
+}
+
+void keep_each_once(std::vector<fs::path>& paths) {
+  std::sort(paths.begin(), paths.end());
+  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+  if (paths.size() > kMostFiles) paths.resize(kMostFiles);
+}
+
+}  // namespace
+
+std::vector<std::string> LoaderTrace::environment() const {
+  return {"LD_DEBUG=files", fmt::format("LD_DEBUG_OUTPUT={}", (directory_ / kTraceName).string())};
+}
+
+EngineFiles LoaderTrace::files() const {
+  EngineFiles files;
+  std::size_t traces = 0;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(directory_, ignored)) {
+    if (!entry.path().filename().native().starts_with(kTraceName) || ++traces > kMostTraces)
+      continue;
+    try {
+      take(read_file(entry.path(), kMostTraceBytes), files);
+    } catch (const Error&) {  // of a program that writes where it should not
+    }
+  }
+  keep_each_once(files.programs);
+  keep_each_once(files.libraries);
+  return files;
+}
+
+Content engine_content(const EngineStatus& status, FileHashes& hashes) {
+  ContentReader reader(hashes);
+  if (!status.program.empty()) reader.add("program", "", status.program);
+  for (const auto& program : status.files.programs) reader.add("program", "", program);
+  for (const auto& library : status.files.libraries)
+    reader.add("library", library.filename().native(), library);
+  for (const auto& directory : status.files.directories) reader.add_directory(directory);
+  return reader.content();
+}
+
+}  // namespace lobelia
