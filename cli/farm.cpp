@@ -7,6 +7,7 @@
 #include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
+#include "cli/farm_explain.hpp"
 #include "cli/farm_slurm.hpp"
 #include "cli/farm_upkeep.hpp"
 #include "cli/progress.hpp"
@@ -210,6 +211,7 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
   options->programs.add_to(*command);
   options->slurm.add_to(*command);
   add_farm_upkeep(*command, exit_code);
+  add_farm_explain(*command, exit_code);
   add_farm_slurm(*command, exit_code);
   command->footer(
       "What the cache has is not made again, whichever grid it was made for. Ctrl-C leaves nothing\n"

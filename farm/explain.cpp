@@ -1,0 +1,216 @@
+#include "farm/explain.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/sha256.hpp"
+#include "core/text.hpp"
+#include "farm/farm_engines.hpp"
+#include "farm/own_identity.hpp"
+#include "farm/result_cache.hpp"
+#include "farm/upkeep.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostFilesNamed = 5;
+constexpr std::uint64_t kMostSceneBytes = 64 << 20;
+
+/// `type` is that of the thing itself: a link is not followed.
+bool is_there(const fs::path& path, mode_t type) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == type;
+}
+
+/// The directory of a cell whose name somebody typed.
+fs::path directory_of_cell(const fs::path& farm_directory, const std::string& cell) {
+  const fs::path cells = farm_directory / "cells";
+  if (!is_plain_file_name(cell) || !is_there(cells, S_IFDIR) || !is_there(cells / cell, S_IFDIR) ||
+      !is_there(cells / cell / "cell.json", S_IFREG))
+    throw Error(ExitCode::kInput, fmt::format("{}: no cell '{}' with a cell.json",
+                                              farm_directory.string(), printable(cell, 200)));
+  return cells / cell;
+}
+
+/// What there is on this machine, asked for once.
+class Now {
+ public:
+  explicit Now(const std::map<std::string, fs::path>& programs) : programs_(programs) {}
+  const FarmEngine& engine(const std::string& name) {
+    const auto found = engines_.find(name);
+    if (found != engines_.end()) return found->second;
+    const auto program = programs_.find(name);
+    const fs::path given = program == programs_.end() ? fs::path() : program->second;
+    return engines_.emplace(name, look_for_engine(name, given, FileHashes::of_user()))
+        .first->second;
+  }
+
+ private:
+  const std::map<std::string, fs::path>& programs_;
+  std::map<std::string, FarmEngine> engines_;
+};
+
+/// Of one job: parts of its key with what they were and what they are.
+class Parts {
+ public:
+  Parts(const std::optional<ResultCache>& cache, Now& now) : cache_(cache), now_(now) {}
+
+  void own(const OwnIdentity& was) {
+    const OwnIdentity& is = own_identity();
+    add("program", was.program, is.program);
+    add("libraries", was.libraries, is.libraries, files(was.libraries, own_libraries()));
+    add("arithmetic: libm", was.arithmetic.libm, is.arithmetic.libm);
+    add("arithmetic: kernels", was.arithmetic.kernels, is.arithmetic.kernels);
+    add("arithmetic: processor", was.arithmetic.processor, is.arithmetic.processor);
+  }
+
+  void scene(const std::string& was, const fs::path& file) {
+    std::string is = "not there";
+    try {
+      is = hex(sha256(read_file(file, kMostSceneBytes)));
+    } catch (const Error&) {
+    }
+    add("scene", was, is);
+  }
+
+  void engine(const std::string& name, const std::string& version, const std::string& content) {
+    const FarmEngine& here = now_.engine(name);
+    const std::string title(here.engine->info().title);
+    if (!here.is_here()) {
+      add(title, version,
+          fmt::format("{}: {}", state_name(here.engine->status().state),
+                      here.engine->status().why));
+      return;
+    }
+    add(title + ": version", version, here.version);
+    if (!content.empty() || !here.content.empty())
+      add(title + ": content", content, here.content, files(content, here.files));
+  }
+
+  void input(const std::string& whose, const std::string& key, const Json& results) {
+    const std::string job = whose == "lobelia" ? "render" : "reference-" + whose;
+    add("input " + job, key, results.value(job, "not there"));
+  }
+
+  Json record() && { return std::move(record_); }
+
+ private:
+  void add(const std::string& part, const std::string& was, const std::string& is,
+           std::vector<std::string> changed_files = {}) {
+    Json one{{"part", part}, {"was", was}, {"now", is}, {"same", was == is}};
+    if (was != is && !changed_files.empty()) one["files"] = std::move(changed_files);
+    record_.push_back(std::move(one));
+  }
+  std::vector<std::string> files(const std::string& was, const Content& is) const {
+    if (was == is.sha256 || !cache_) return {};
+    const auto before = cache_->content(was);
+    return before ? file_changes(*before, is, kMostFilesNamed) : std::vector<std::string>();
+  }
+
+  const std::optional<ResultCache>& cache_;
+  Now& now_;
+  Json record_ = Json::array();
+};
+
+/// Of a record that no farm has written.
+struct NotOurs {};
+
+/// Empty for a job of ours.
+std::string engine_of_job(const std::string& job) {
+  for (const std::string_view kind : {"reference-", "compare-"}) {
+    if (!job.starts_with(kind)) continue;
+    std::string engine = job.substr(kind.size());
+    if (std::ranges::find(engine_infos(), engine, &EngineInfo::name) == engine_infos().end())
+      throw NotOurs();
+    return engine;
+  }
+  return "";
+}
+
+Json explain_job(const std::string& job, const Json& cell, const fs::path& cell_directory,
+                 const std::optional<ResultCache>& cache, Now& now) {
+  const std::string key_text = cell.at("results").at(job);
+  ResultKey key;
+  if (!from_hex(key_text, key.digest)) throw NotOurs();
+  Json explained{{"job", job}, {"key", key_text}};
+  std::string why_not = "the cache is not there";
+  std::optional<Json> result;
+  if (cache) result = cache->find(key, ResultCache::Look::kQuick, why_not);
+  explained["inCache"] = result.has_value();
+  if (!result) explained["why"] = why_not;
+
+  // What is lost had the parts that the cell had.
+  const Json& made_from = cell.at("madeFrom");
+  const Json& inputs = result ? result->at("inputs") : made_from;
+  Parts parts(cache, now);
+  parts.own(OwnIdentity::of_record(inputs));
+  parts.scene(inputs.at("scene"), cell_directory / "scene.xml");
+  if (const std::string engine = engine_of_job(job); !engine.empty()) {
+    if (result)
+      parts.engine(engine, inputs.at("engineVersion"), inputs.value("engineContent", ""));
+    else
+      parts.engine(engine, made_from.at("engines").at(engine),
+                   made_from.at("contents").value(engine, ""));
+  }
+  if (result)
+    for (const auto& [whose, input] : inputs.items())
+      if (input.is_string() && (whose == "lobelia" || made_from.at("engines").contains(whose)))
+        parts.input(whose, input, cell.at("results"));
+  explained["parts"] = std::move(parts).record();
+  return explained;
+}
+
+}  // namespace
+
+Json explain_cell(const fs::path& directory, const std::string& cell, const std::string& job,
+                  const std::map<std::string, fs::path>& programs) {
+  const fs::path cell_directory = directory_of_cell(directory, cell);
+  std::optional<ResultCache> cache;
+  try {
+    cache.emplace(cache_of(directory));
+  } catch (const Error&) {  // then nothing is in it
+  }
+  const Json record = read_record(cell_directory / "cell.json", "cell");
+  const auto not_ours = [&] {
+    return Error(ExitCode::kInput, fmt::format("{}: its cell.json is none that this version wrote",
+                                               cell_directory.string()));
+  };
+  try {
+    Json explanation = make_record("farm-explanation");
+    explanation["cell"] = cell;
+    explanation["status"] = record.at("status");
+    explanation["jobs"] = Json::array();
+    Now now(programs);
+    std::string names;
+    for (const auto& [name, key] : record.at("results").items()) {
+      names += (names.empty() ? "" : ", ") + name;
+      if (job.empty() || job == name)
+        explanation["jobs"].push_back(explain_job(name, record, cell_directory, cache, now));
+    }
+    if (!job.empty() && explanation["jobs"].empty())
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: cell {} has no result of a job '{}'; it has {}",
+                              directory.string(), printable(cell, 200), printable(job, 200),
+                              names.empty() ? "none" : printable(names, 400)));
+    explanation["without"] = Json::array();
+    for (const auto& problem : record.at("problems"))
+      explanation["without"].push_back(fmt::format("{}: {}",
+                                                   problem.at("engine").get<std::string>(),
+                                                   problem.at("message").get<std::string>()));
+    for (const auto& engine : record.value("missingEngines", Json::array()))
+      explanation["without"].push_back(fmt::format("{}: it was absent", engine.get<std::string>()));
+    return explanation;
+  } catch (const Json::exception&) {
+    throw not_ours();
+  } catch (const NotOurs&) {
+    throw not_ours();
+  }
+}
+
+}  // namespace lobelia

@@ -1,0 +1,18 @@
+// What a cell's results were made of, and what of that is not the same on this machine now.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "core/record.hpp"
+
+namespace lobelia {
+
+/// Kind "farm-explanation" (docs/records.md) of a cell, or of one of its jobs ("reference-povray"; empty: all). Engines are
+/// looked for in $PATH, or at `programs`. Writes nothing. Throws Error(kInput) if there is no such farm, cell or job.
+Json explain_cell(const std::filesystem::path& directory, const std::string& cell,
+                  const std::string& job,
+                  const std::map<std::string, std::filesystem::path>& programs);
+
+}  // namespace lobelia
