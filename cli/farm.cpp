@@ -16,6 +16,7 @@
 #include "core/interrupt.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "farm/upkeep.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -24,7 +25,9 @@ struct Options {
   std::string grid, directory, cache, filter, gallery;
   EnginePrograms programs;
   SlurmSettings slurm;
-  int threads = 0, attempts = 3;
+  int threads = 0, attempts = 3, give_up_after = 5;
+  std::string memory = "4G", disk = "4G";
+  bool memory_given = false;
   double time_limit = 600, no_progress_limit = 300;
   bool again = false, require_engines = false, quiet = false, dry_run = false, fail_fast = false,
        keep_going = false;
@@ -38,6 +41,10 @@ FarmOptions farm_options(const Options& options) {
   farm.time_limit = std::chrono::duration<double>(options.time_limit);
   farm.no_progress_limit = std::chrono::duration<double>(options.no_progress_limit);
   farm.fail_fast = options.fail_fast;
+  farm.memory = parse_size(options.memory);
+  farm.disk = parse_size(options.disk);
+  farm.give_up_after = options.give_up_after;
+  farm.failed_directory = std::filesystem::absolute(options.directory) / "failed";
   farm.again = options.again;
   farm.require_engines = options.require_engines;
   farm.cache = options.cache;
@@ -110,8 +117,12 @@ ExitCode worse(ExitCode farm, ExitCode gallery) {
 }
 
 ExitCode run_on_cluster(const Grid& grid, const Options& options) {
+  SlurmRunOptions run_options = options.slurm.run_options();
+  if (options.memory_given)
+    run_options.slurm.memory =
+        memory_of_element(parse_size(options.memory), run_options.slurm.processors);
   const SlurmFarmSummary summary =
-      follow(options.slurm.run_options(), options.quiet, [&](const SlurmRunOptions& slurm) {
+      follow(run_options, options.quiet, [&](const SlurmRunOptions& slurm) {
         return run_farm_on_slurm(grid, options.grid, options.directory, farm_options(options),
                                  slurm);
       });
@@ -194,6 +205,21 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
                    "At a picture that fails in a way that may not repeat itself")
       ->check(between(1, 100))
       ->capture_default_str();
+  auto* memory = command->add_option(
+      "--memory", options->memory,
+      "What a job's processes may use together: 4G; 0 is any. On a cluster an element asks for it for "
+      "each of its threads, and 512M");
+  memory->type_name("SIZE")->capture_default_str();
+  command->add_option("--disk", options->disk, "What an engine may write for a picture; 0 is any")
+      ->type_name("SIZE")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--give-up-after", options->give_up_after,
+          "Pictures in a row that an engine fails at before it is not tried any more; 0 is "
+          "any number")
+      ->check(between(0, 1000000))
+      ->capture_default_str();
   auto* fail_fast =
       command->add_flag("--fail-fast", options->fail_fast, "Stop at the first failure");
   command
@@ -224,7 +250,8 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       "         lobelia gallery out/gallery");
   // A farm has engines to stop and records to write; on a cluster it asks what becomes of the jobs.
   command->preparse_callback([](std::size_t) { end_by_ourselves_when_interrupted(); });
-  command->callback([command, options, &exit_code] {
+  command->callback([command, memory, options, &exit_code] {
+    options->memory_given = memory->count() > 0;
     if (!command->get_subcommands().empty()) return;
     if (options->grid.empty()) throw CLI::RequiredError("GRID");
     if (options->directory.empty()) throw CLI::RequiredError("--output");

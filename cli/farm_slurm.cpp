@@ -26,9 +26,8 @@ void SlurmSettings::add_to(CLI::App& command) {
   const auto text = [&](const char* name, std::string& value, const char* what) {
     command.add_option(name, value, what)->group(kGroup);
   };
-  text("--partition", slurm_.partition, "As sbatch has it; likewise the next five");
+  text("--partition", slurm_.partition, "As sbatch has it; likewise the next four");
   text("--time", slurm_.time, "Of an element: 30, 1:00:00");
-  text("--memory", slurm_.memory, "Of an element: 4G");
   text("--account", slurm_.account, "");
   text("--qos", slurm_.qos, "");
   text("--constraint", slurm_.constraint, "");
@@ -112,8 +111,9 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
     command->add_option("--partition", settings->slurm.partition, "As sbatch has it");
     command->add_option("--account", settings->slurm.account, "");
     command->add_option("--qos", settings->slurm.qos, "");
-    command->footer("What this machine lacks to contain engines is a warning.\n\n"
-                    "Exit codes: 0 a grid would run, 1 it would not.");
+    command->footer(
+        "What this machine lacks to contain engines is a warning.\n\n"
+        "Exit codes: 0 a grid would run, 1 it would not.");
     command->callback([settings, directory, clean, &exit_code] {
       if (*clean) {
         const auto removed = remove_dead_temporaries(std::filesystem::temp_directory_path());
@@ -144,9 +144,10 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
       const ChunkSummary done = exec_slurm_chunk(chunk->run, chunk->number);
       fmt::print("chunk {}: {} jobs, {} done, {} made here, {} failed; {:.1f} s\n", chunk->number,
                  done.jobs, done.done, done.work.made, done.failed, done.work.wall_seconds);
-      for (const auto& difference : done.handed_back)
-        fmt::print(stderr, "lobelia: chunk {} is handed back: {}\n", chunk->number, difference);
-      if (!done.handed_back.empty()) exit_code = ExitCode::kEngine;
+      for (const auto& [engine, why] : done.left)
+        say("lobelia: {} left for another node: {}\n",
+            engine.empty() ? "the chunk is" : engine + " is", why);
+      if (!done.left.empty()) exit_code = ExitCode::kEngine;
       if (done.failed > 0) exit_code = ExitCode::kOutput;
     });
   }

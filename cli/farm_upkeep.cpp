@@ -9,19 +9,13 @@
 #include "cli/farm_slurm.hpp"
 #include "cli/progress.hpp"
 #include "cli/publish.hpp"
+#include "core/numbers.hpp"
+#include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "farm/upkeep.hpp"
 
 namespace lobelia::cli {
 namespace {
-
-std::string size_text(std::uint64_t bytes) {
-  constexpr const char* kUnits[] = {"B", "KiB", "MiB", "GiB", "TiB"};
-  double value = double(bytes);
-  std::size_t unit = 0;
-  for (; value >= 1024 && unit + 1 < std::size(kUnits); ++unit) value /= 1024;
-  return fmt::format("{:.{}f} {}", value, unit == 0 ? 0 : 1, kUnits[unit]);
-}
 
 void tell_of_lost_cache(const std::string& cache) {
   fmt::print("its cache {} is not there; the farm's command makes it again\n",
@@ -40,8 +34,7 @@ RemovalOptions removal_options(bool dry_run) {
 }
 
 void tell_what_stays(const std::vector<std::string>& stays) {
-  for (const auto& sentence : stays)
-    fmt::print(stderr, "lobelia: stays: {}\n", printable_path(sentence));
+  for (const auto& sentence : stays) say("lobelia: stays: {}\n", printable_path(sentence));
 }
 
 /// Of the run on a cluster, if there is one that lives.

@@ -11,8 +11,8 @@ inline constexpr int kKeeperLine = 3;
 
 /// Sent twice: when the program runs or cannot be started, and when nothing of it runs any more.
 struct KeeperReport {
-  std::int32_t start_error = 0;  ///< an errno; the keeper ends then
-  std::int32_t status = 0;       ///< of the program, as waitpid tells it
+  std::int32_t start_error = 0;       ///< an errno; the keeper ends then
+  std::int32_t status = 0;            ///< of the program, as waitpid tells it
   std::int64_t cpu_microseconds = 0;  ///< of all that ran, user and system
   std::int64_t peak_kibibytes = 0;    ///< resident, of the largest
 };

@@ -1,6 +1,7 @@
 // Numbers as people read them. Nothing here changes a value beyond rounding it for print.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace lobelia {
@@ -21,5 +22,7 @@ std::string degrees_text(double degrees);
 std::string stops_text(double stops);
 /// An integer with thin spaces: "65 536". Values that are not integers as number_text.
 std::string count_text(double count);
+/// "1.5 GiB"
+std::string size_text(std::uint64_t bytes);
 
 }  // namespace lobelia

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +21,7 @@
 #include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
 #include "core/keeper_protocol.hpp"
+#include "core/process_memory.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
 #include "core/write_limit.hpp"
@@ -32,7 +34,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kTailBytes = 4096;
-constexpr int kLookMilliseconds = 50;      // at whether it has to stop
+constexpr int kLookMilliseconds = 50;         // at whether it has to stop
 constexpr std::size_t kMaxLineBytes = 65536;  // a program that never ends its line is cut there
 
 /// Ours, with `changes` ("NAME=value") in place of the variables of those names.
@@ -79,47 +81,84 @@ class OutputSink {
   std::string tail_, line_;
 };
 
-/// Changes whenever a file in the directory appears, goes, grows or is written. Times are only told apart,
-/// never ordered: the clock may have been set.
-std::uint64_t fingerprint(const fs::path& directory) {
-  std::uint64_t sum = 0;
+struct DirectoryLook {
+  /// Changes whenever a file in the directory appears, goes, grows or is written. Times are only told apart,
+  /// never ordered: the clock may have been set.
+  std::uint64_t fingerprint = 0;
+  std::uint64_t bytes = 0;  ///< on the disk
+};
+
+DirectoryLook look_at(const fs::path& directory) {
+  DirectoryLook look;
   std::error_code error;
   for (fs::recursive_directory_iterator file(directory, error), end; !error && file != end;
        file.increment(error)) {
     std::error_code gone;  // files come and go while we look
     const std::uint64_t size = file->is_regular_file(gone) ? file->file_size(gone) : 0;
     const auto written = file->last_write_time(gone).time_since_epoch().count();
-    sum += std::hash<std::string>()(
+    look.fingerprint += std::hash<std::string>()(
         fmt::format("{} {} {}", file->path().native(), size, std::int64_t(written)));
+    constexpr std::uint64_t kBlock = 512;  // whatever the file system has
+    if (struct stat status{}; ::lstat(file->path().c_str(), &status) == 0)
+      look.bytes += std::uint64_t(status.st_blocks) * kBlock;
   }
-  return sum;
+  return look;
 }
 
-/// When the program last did something that can be seen from outside.
+/// When the program last did something that can be seen from outside, and what it has on the disk.
 class Progress {
  public:
   explicit Progress(const ProcessOptions& options) : options_(options) { look(); }
   void seen() { last_ = Clock::now(); }
+  /// Looks again now and then.
   bool is_over() {
-    if (options_.no_progress_limit.count() <= 0) return false;
     const auto limit = options_.no_progress_limit;
-    if (Clock::now() - looked_ >= std::min<std::chrono::duration<double>>(limit / 4, kLookEvery))
-      look();
-    return Clock::now() - last_ > limit;
+    const bool limited = limit.count() > 0;
+    const std::chrono::duration<double> every =
+        limited && limit < 4 * kLookEvery ? limit / 4 : kLookEvery;
+    if (Clock::now() - looked_ >= every) look();
+    return limited && Clock::now() - last_ > limit;
   }
+  std::uint64_t bytes() const { return bytes_; }
 
  private:
-  static constexpr std::chrono::seconds kLookEvery{1};
+  static constexpr std::chrono::duration<double> kLookEvery{1};
   void look() {
     looked_ = Clock::now();
-    if (options_.no_progress_limit.count() <= 0 || options_.progress_directory.empty()) return;
-    const std::uint64_t now = fingerprint(options_.progress_directory);
-    if (now != fingerprint_) seen();
-    fingerprint_ = now;
+    if (options_.no_progress_limit.count() <= 0 && options_.disk_limit == 0) return;
+    if (options_.progress_directory.empty()) return;
+    const DirectoryLook now = look_at(options_.progress_directory);
+    if (now.fingerprint != fingerprint_) seen();
+    fingerprint_ = now.fingerprint;
+    bytes_ = now.bytes;
   }
   const ProcessOptions& options_;
   Clock::time_point last_ = Clock::now(), looked_;
-  std::uint64_t fingerprint_ = 0;
+  std::uint64_t fingerprint_ = 0, bytes_ = 0;
+};
+
+/// What a keeper's processes have resident, looked at the more often the nearer it is to the limit.
+class Memory {
+ public:
+  Memory(std::uint64_t limit, pid_t keeper) : limit_(limit), keeper_(keeper) {}
+  /// What they use if that is too much, else 0.
+  std::uint64_t used_too_much() {
+    if (limit_ == 0 || Clock::now() < next_) return 0;
+    std::uint64_t used = memory_of_tree(keeper_);
+    // Pages that several processes share count once, where that decides: finding out is slow.
+    if (used > limit_)
+      if (const std::uint64_t exactly = memory_of_tree(keeper_, true)) used = exactly;
+    if (used > limit_) return used;
+    const double seconds = double(limit_ - used) / kMostBytesPerSecond;
+    next_ = Clock::now() + std::chrono::milliseconds(int(1000 * std::min(seconds, 1.0)));
+    return 0;
+  }
+
+ private:
+  static constexpr double kMostBytesPerSecond = 8e9;  // that a program takes
+  const std::uint64_t limit_;
+  const pid_t keeper_;
+  Clock::time_point next_;
 };
 
 [[noreturn]] void cannot_start(const std::string& program, int error) {
@@ -154,7 +193,8 @@ class Running {
                                             : environment_with(options.environment),
                          .working_directory = options.working_directory,
                          .input = options.input,
-                         .output = output};
+                         .output = output,
+                         .largest_file = options.disk_limit};
     std::optional<WriteLimit> limit;
     if (!options.writable.empty()) request.limit = &limit.emplace(options.writable);
     if (uninterruptible_)
@@ -173,6 +213,7 @@ class Running {
   Running& operator=(const Running&) = delete;
 
   const ProcessLimits& limits() const { return limits_; }
+  pid_t pid() const { return pid_; }
   /// Readable as soon as it has ended.
   int end() const { return line_ ? line_->get() : end_->get(); }
   void kill() {
@@ -264,6 +305,8 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   ProcessResult result;
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - started); };
   Progress progress(options);
+  Memory memory(options.memory_limit, running.pid());
+  const auto oom_kills = count_of_oom_kills();
   bool ended = false, stopped = false, open = true;
   const auto stop = [&](bool& why) {
     why = stopped = true;
@@ -272,7 +315,8 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   char buffer[16384];
   // Until it has ended; what one without a keeper leaves behind and still holds open is not waited for.
   while (!ended || open) {
-    pollfd waits[] = {{ended ? -1 : running.end(), POLLIN, 0}, {open ? output.get() : -1, POLLIN, 0}};
+    pollfd waits[] = {{ended ? -1 : running.end(), POLLIN, 0},
+                      {open ? output.get() : -1, POLLIN, 0}};
     ::poll(waits, 2, ended ? 0 : kLookMilliseconds);
     if (waits[1].revents != 0) {
       const ssize_t n = ::read(output.get(), buffer, sizeof buffer);
@@ -293,9 +337,22 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
       stop(result.timed_out);
     else if (progress.is_over())
       stop(result.no_progress);
+    else if (options.disk_limit > 0 && progress.bytes() > options.disk_limit) {
+      result.used_bytes = progress.bytes();
+      stop(result.over_disk_limit);
+    } else if (const std::uint64_t used = memory.used_too_much()) {
+      result.used_bytes = used;
+      stop(result.out_of_memory);
+    }
   }
   sink.flush_line();
   running.finish(result);
+  if (!stopped && options.disk_limit > 0 && result.exit_code == 128 + SIGXFSZ)
+    result.over_disk_limit = true;
+  // Somebody else may have been killed at the same time; that cannot be told.
+  if (!stopped && result.exit_code == 128 + SIGKILL && oom_kills &&
+      count_of_oom_kills() > oom_kills)
+    result.out_of_memory = true;
   result.seconds = seconds().count();
   result.output_tail = sink.tail();
   return result;

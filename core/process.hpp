@@ -34,7 +34,12 @@ struct ProcessOptions {
   /// Longest time without a sign of progress: output, or any change of a file in `progress_directory`,
   /// looked at about once a second. 0: none.
   std::chrono::duration<double> no_progress_limit{0};
-  std::filesystem::path progress_directory;       ///< empty: only output counts
+  std::filesystem::path progress_directory;  ///< empty: only output counts
+  /// Bytes that it and all that it started may have resident together, looked at up to 20 times a second; 0: any number.
+  std::uint64_t memory_limit = 0;
+  /// Bytes that its files in `progress_directory` may take on the disk together, looked at about once a second, and the
+  /// largest size of each; 0: any number.
+  std::uint64_t disk_limit = 0;
   const std::atomic<bool>* stop = nullptr;        ///< killed, as interrupted, once this is true
   std::function<void(std::string_view)> on_line;  ///< called with each line of output, if set
   std::function<void(const ProcessLimits&)> on_start;  ///< called once it runs, if set
@@ -44,10 +49,15 @@ struct ProcessResult {
   int exit_code = 0;         ///< of the program, or 128 + signal
   bool timed_out = false;    ///< it was killed, with all its children
   bool no_progress = false;  ///< likewise
+  /// It was killed for `memory_limit`, or by the kernel when the machine had no more memory.
+  bool out_of_memory = false;
+  bool over_disk_limit = false;  ///< it was killed for `disk_limit`
   bool interrupted = false;  ///< killed because interrupted() or ProcessOptions::stop became true
   double seconds = 0;        ///< wall time
   double cpu_seconds = 0;    ///< of it and all that it started: user and system
   std::uint64_t peak_memory_bytes = 0;  ///< resident, of the largest of them
+  /// What it used when it was killed for a limit: bytes of memory or of the disk; 0 where that is not known.
+  std::uint64_t used_bytes = 0;
   std::string output_tail;  ///< the last 4 KiB of its output
 };
 

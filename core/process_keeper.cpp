@@ -20,8 +20,8 @@
 
 namespace {
 
-using lobelia::kKeeperLine;
 using lobelia::KeeperReport;
+using lobelia::kKeeperLine;
 
 struct Signals {
   sigset_t mask;
@@ -138,7 +138,8 @@ int main(int count, char** arguments) {
   KeeperReport report;
   pid_t program = 0;
   report.start_error = signals < 0 ? errno : start(arguments + 1, before, program);
-  for (int i = 0; i < 3; ++i) ::close(i);  // so that their other ends see when the program has closed them
+  for (int i = 0; i < 3; ++i)
+    ::close(i);  // so that their other ends see when the program has closed them
   ::send(kKeeperLine, &report, sizeof report, MSG_NOSIGNAL);
   if (report.start_error != 0) return 1;
   keep(program, signals, report.status);

@@ -182,10 +182,9 @@ Spawned spawn(const SpawnRequest& request) {
   if (error != 0) error = start(child, 0, pid);
   ::pthread_sigmask(SIG_SETMASK, &child.mask, nullptr);
   if (error != 0)
-    throw Error(ExitCode::kEngine,
-                fmt::format("{}: cannot be started: {}",
-                            request.arguments[request.keeper_line >= 0 ? 1 : 0],
-                            std::strerror(error)));
+    throw Error(ExitCode::kEngine, fmt::format("{}: cannot be started: {}",
+                                               request.arguments[request.keeper_line >= 0 ? 1 : 0],
+                                               std::strerror(error)));
   return {pid, child.writes_limited, contained};
 }
 

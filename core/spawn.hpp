@@ -15,8 +15,8 @@ namespace lobelia {
 
 /// How surely everything ends that came of a program.
 enum class Containment {
-  kNone,          ///< its process group is killed, and that is all
-  kSubreaper,     ///< its keeper kills all descendants; a hostile program could kill the keeper first
+  kNone,       ///< its process group is killed, and that is all
+  kSubreaper,  ///< its keeper kills all descendants; a hostile program could kill the keeper first
   kPidNamespace,  ///< the kernel kills all of them
 };
 inline constexpr std::string_view kContainmentNames[] = {"none", "subreaper", "pid namespace"};

@@ -70,20 +70,6 @@ void leave_out(ChunkCells& cells, const std::string& engine) {
     cells.jobs[cell].erase(job_name(cells.farm.cells[cell].id, JobKind::kReference, engine));
 }
 
-/// For whoever decides which nodes get work.
-void tell_of_handing_back(const std::filesystem::path& file, const ChunkSummary& summary) {
-  Json record = make_record("farm-handed-back");
-  record["chunk"] = file.filename().string();
-  record["host"] = host_record();
-  record["host"]["name"] = host_name();
-  record["because"] = summary.handed_back;
-  std::string host = host_name();
-  std::ranges::replace(host, '/', '_');
-  write_record(
-      file.parent_path() / fmt::format("{}-handed-back-{}.json", file.stem().string(), host),
-      record);
-}
-
 /// What is to be done, and what is there of what that needs.
 std::vector<JobState> states_of(const ChunkCells& cells, const JobGraph& graph,
                                 const ResultCache& cache) {
@@ -115,7 +101,11 @@ Json chunk_record(FarmWork& work, const ResultCache& cache, const FarmOptions& o
   record["cache"] = cache.directory().string();
   record["limits"] = {{"timeLimit", options.time_limit.count()},
                       {"noProgressLimit", options.no_progress_limit.count()},
-                      {"attempts", options.attempts}};
+                      {"attempts", options.attempts},
+                      {"memory", options.memory},
+                      {"disk", options.disk},
+                      {"giveUpAfter", options.give_up_after}};
+  if (!options.failed_directory.empty()) record["failed"] = options.failed_directory.string();
   record["engines"] = Json::array();
   for (const auto& here : work.engines) {
     Json engine{{"name", here.name}, {"version", here.version}, {"content", here.content}};
@@ -138,13 +128,21 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
   const Json chunk = read_record(file, "farm-chunk");
   try {
     ChunkSummary summary;
-    summary.handed_back = identity_differences(OwnIdentity::of_record(chunk), own_identity());
+    for (auto& why : identity_differences(OwnIdentity::of_record(chunk), own_identity()))
+      summary.left.push_back({"", std::move(why)});
     JobRunOptions options;
     options.threads = threads;
     options.time_limit = std::chrono::duration<double>(limit(chunk, "timeLimit", 0.1, 1e6));
     options.no_progress_limit =
         std::chrono::duration<double>(limit(chunk, "noProgressLimit", 0, 1e6));
     options.attempts = int(limit(chunk, "attempts", 1, 100));
+    options.memory = std::uint64_t(limit(chunk, "memory", 0, 1e18));
+    options.disk = std::uint64_t(limit(chunk, "disk", 0, 1e18));
+    options.give_up_after = int(limit(chunk, "giveUpAfter", 0, 1e6));
+    options.leave_undone = true;
+    options.failed_directory = chunk.value("failed", std::string());
+    if (chunk.contains("failed") && !options.failed_directory.is_absolute())
+      throw Error(ExitCode::kInput, fmt::format("{}: 'failed' is no absolute path", file.string()));
     const std::vector<FarmEngine> engines = planned_engines(chunk);
     for (std::size_t e = 0; e < engines.size(); ++e)
       if (const auto& planned = chunk.at("engines")[e]; planned.contains("program"))
@@ -153,17 +151,16 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
     cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
     JobGraph graph(cells.farm, engines);
     for (const auto& cell : cells.jobs) summary.jobs += cell.size();
-    if (summary.handed_back.empty())
+    if (summary.left.empty())
       for (const FarmEngine& planned : engines) {
         if (!wants_pictures_of(cells, planned.name)) continue;
-        std::string difference = engine_difference(planned, options.programs);
-        if (difference.empty()) continue;
-        summary.handed_back.push_back(std::move(difference));
+        std::string why = engine_difference(planned, options.programs);
+        if (why.empty()) continue;
+        summary.left.push_back({planned.name, std::move(why)});
         leave_out(cells, planned.name);
       }
     else
       for (auto& cell : cells.jobs) cell.clear();
-    if (!summary.handed_back.empty()) tell_of_handing_back(file, summary);
     const ResultCache cache(chunk.at("cache").get<std::string>());
     const auto in_use = cache.use();
     remove_abandoned_temporaries();
@@ -172,10 +169,12 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     run.run(order, [](std::size_t) {});
     summary.work = run.work();
+    std::ranges::copy(summary.work.engines_given_up, std::back_inserter(summary.left));
     for (JobIndex job = 0; job < graph.size(); ++job) {
       if (!graph[job].exists || !cells.jobs[graph.cell_of(job)].contains(graph.name(job))) continue;
       if (run.state(job) == JobState::kDone) ++summary.done;
       if (run.state(job) == JobState::kFailed) ++summary.failed;
+      if (run.state(job) == JobState::kAbsent) ++summary.undone;
     }
     return summary;
   } catch (const Json::exception& error) {

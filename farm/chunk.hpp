@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/record.hpp"
+#include "farm/chunk_report.hpp"
 #include "farm/farm_session.hpp"
 #include "farm/job_run.hpp"
 
@@ -20,15 +21,14 @@ struct ChunkSummary {
   std::size_t jobs = 0;    ///< that the chunk names
   std::size_t done = 0;    ///< whose results are in the cache now
   std::size_t failed = 0;  ///< whose failures are
+  std::size_t undone = 0;  ///< left for another machine
   JobRunWork work;
-  /// Why this machine left jobs undone that another one can do: in what it is not as the plan has it, one sentence each.
-  /// They have not failed.
-  std::vector<std::string> handed_back;
+  /// Why: this machine is not as the plan has it, or an engine failed again and again. Undone is not failed.
+  std::vector<LeftUndone> left;
 };
 
 /// Does what the file says, with `threads` threads. Jobs that are done already cost nothing; those whose inputs are neither there
-/// nor have failed are left alone. What is handed back is told in a record beside the file, too (kind
-/// "farm-handed-back", docs/records.md). Throws Error: kInput (no such chunk), kOutput, kInterrupted.
+/// nor have failed are left alone. Throws Error: kInput (no such chunk), kOutput, kInterrupted.
 ChunkSummary exec_chunk(const std::filesystem::path& file, int threads);
 
 }  // namespace lobelia

@@ -84,7 +84,7 @@ bool parse_number_part(std::string_view text, std::uint64_t& value) {
 
 }  // namespace
 
-ProcessIdentity own_identity() {
+ProcessIdentity this_process() {
   return {host_part(), boot_part(), pid_namespace(), std::uint64_t(::getpid()),
           state_of("self").start};
 }

@@ -20,7 +20,7 @@ struct ProcessIdentity {
 };
 
 /// The calling process.
-ProcessIdentity own_identity();
+ProcessIdentity this_process();
 
 /// "draft.HOST.BOOT.PIDNAMESPACE.PID.START.INODE.RANDOM", less than 200 characters.
 struct DraftName {

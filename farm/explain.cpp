@@ -173,7 +173,8 @@ Json explain_cell(const fs::path& directory, const std::string& cell, const std:
   const fs::path cell_directory = directory_of_cell(directory, cell);
   std::optional<ResultCache> cache;
   try {
-    cache.emplace(cache_of(directory));
+    if (const CachePlace place = cache_of(directory); place.is_there)
+      cache.emplace(place.cache, ResultCache::Opening::kLook);
   } catch (const Error&) {  // then nothing is in it
   }
   const Json record = read_record(cell_directory / "cell.json", "cell");

@@ -14,6 +14,7 @@
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
+#include "farm/failed_jobs.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -136,6 +137,10 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   for (const auto& engine : work_.engines) cache_.keep_content(engine.files);
   remove_abandoned_files(directory_);
   look_at_cells();
+  FailedJobs(options.failed_directory)
+      .forget_if([&](const std::string& cell, const std::string& job) {
+        return !is_to_be_made(cell, job);
+      });
   // Now as well as at the end: a run that is killed has its record too.
   write_farm_record();
 }
@@ -154,6 +159,18 @@ void FarmSession::look_at_cells() {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
   for (const std::size_t cell : coarse_to_fine(work_.cells.cells))
     if (unfinished[cell]) waiting_cells_.push_back(cell);
+}
+
+/// Of a cell that may be of another grid.
+bool FarmSession::is_to_be_made(const std::string& cell, const std::string& job) const {
+  const JobGraph& graph = work_.graph;
+  for (std::size_t i = 0; i < graph.cell_count(); ++i) {
+    if (work_.cells.cells[i].id != cell) continue;
+    for (JobIndex j = graph.render(i); j < graph.render(i) + graph.stride(); ++j)
+      if (graph[j].exists && states_[j] != JobState::kDone && graph.name(j) == cell + "/" + job)
+        return true;
+  }
+  return false;
 }
 
 /// Whether everything of the cell is there. Where it is not, its record goes: it would speak of other results.

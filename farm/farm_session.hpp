@@ -66,6 +66,7 @@ class FarmSession {
   }
   void look_at_cells();
   bool look_at(std::size_t cell);
+  bool is_to_be_made(const std::string& cell, const std::string& job) const;
   void take_warnings(const CellRecords& records);
   std::size_t count_foreign_cells() const;
 

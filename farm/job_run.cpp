@@ -21,10 +21,16 @@
 #include "core/host.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
+#include "core/numbers.hpp"
 #include "core/process_memory.hpp"
 #include "core/text.hpp"
+#include "farm/failed_jobs.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
+#include "reference_scenes/engine_program.hpp"
+#include "reference_scenes/keep_input.hpp"
+#include "reference_scenes/replicates.hpp"
+#include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -66,6 +72,17 @@ class LostInput : public Error {
       : Error(ExitCode::kOutput, name + ": its result is no longer in the cache") {}
 };
 
+/// How often an engine has failed on this machine since it made a picture.
+struct Losses {
+  int attempts = 0, pictures = 0;  ///< in a row; of pictures all attempts
+  std::string last;                ///< why
+};
+
+void replace_all(std::string& text, std::string_view what, std::string_view by) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+    text.replace(at, what.size(), by);
+}
+
 struct JobFailure {
   FailureClass kind = FailureClass::kNone;
   std::string message;
@@ -76,12 +93,13 @@ struct JobFailure {
 
 struct JobRun::Impl {
   Impl(JobGraph& g, const ResultCache& c, const JobRunOptions& o, std::vector<JobState> s)
-      : graph(g), cache(c), options(o), states(std::move(s)) {}
+      : graph(g), cache(c), options(o), failed(o.failed_directory), states(std::move(s)) {}
 
   // ---- what is known ----
   JobGraph& graph;
   const ResultCache& cache;
   const JobRunOptions& options;
+  FailedJobs failed;
 
   mutable std::mutex mutex;  // of everything below
   std::condition_variable changed;
@@ -144,7 +162,9 @@ struct JobRun::Impl {
     count_step(job);
     for (const JobIndex next : graph.dependents(job)) {
       if (states[next] != JobState::kWaiting) continue;
-      if (state != JobState::kDone && !graph.may_lack(next, job))
+      if (state == JobState::kAbsent)
+        settle(next, state);
+      else if (state != JobState::kDone && !graph.may_lack(next, job))
         settle(next, JobState::kBlocked);
       else if (inputs_are_settled(next))
         make_ready(next);
@@ -186,13 +206,47 @@ struct JobRun::Impl {
     changed.notify_all();
   }
 
+  /// Of a job's name: the cell's id and what follows it.
+  std::pair<std::string, std::string> parts_of_name(JobIndex job) const {
+    const std::string& id = graph.cells().cells[graph.cell_of(job)].id;
+    return {id, graph.name(job).substr(id.size() + 1)};
+  }
+
   void settle_done(JobIndex job) {
     cache.forget_failure(graph[job].key);
+    if (const auto [cell, name] = parts_of_name(job); true) failed.forget(cell, name);
     const std::scoped_lock lock(mutex);
     settle(job, JobState::kDone);
   }
 
+  /// Keeps what an engine was given, so that somebody can look for the reason. Returns "failed/CELL/JOB", or "".
+  std::string keep_input(JobIndex job, const fs::path& log) {
+    const std::string& engine = graph.engines()[graph[job].engine].name;
+    const auto [cell, name] = parts_of_name(job);
+    return failed.keep(cell, name, [&](const fs::path& directory) {
+      const Scene scene = graph.cells().scene(graph.cell_of(job));
+      write_file(directory / "scene.xml", scene_to_xml(scene));
+      std::vector<std::string> again{"lobelia", "reference", "scene.xml",    "--engine",
+                                     engine,    "-o",        engine + ".exr"};
+      if (const auto given = options.programs.find(engine); given != options.programs.end())
+        again.insert(again.end(), {"--" + engine, given->second.string()});
+      write_file(directory / "again.sh", shell_join(again) + "\n");
+      constexpr std::uint64_t kMostLog = FailedJobs::kMostBytes / 2;
+      if (std::error_code none; !log.empty() && fs::file_size(log, none) <= kMostLog && !none)
+        write_file(directory / (engine + ".log"), read_file(log, kMostLog));
+      // Of an average the first of its pictures stands for all.
+      keep_engine_input(engine,
+                        needs_replicates(scene) ? replicates(scene, 1, 1, 0)[0][0].scene : scene,
+                        {}, directory);
+    });
+  }
+
   void settle_failed(JobIndex job, JobFailure failure, const fs::path& log) {
+    if (!is_kernel(job) && worth_retrying(failure.kind)) {
+      const std::string kept = keep_input(job, log);
+      replace_all(failure.message, kEngineDirectory, kept.empty() ? "." : kept);
+      if (!kept.empty()) failure.message += fmt::format("; its input and log are in {}", kept);
+    }
     Json record = make_record("failure");
     record["job"] = graph.name(job);
     record["key"] = graph[job].key.text();
@@ -313,7 +367,7 @@ struct JobRun::Impl {
     Json from = Json::object();
     switch (graph[job].kind) {
       case JobKind::kRender:
-        return make_render(scene, draft, options.time_limit);
+        return make_render(scene, draft, options.time_limit, options.memory);
       case JobKind::kCompare: {
         const MadePicture ours = input_picture(graph.render(cell), from);
         const MadePicture theirs = input_picture(graph.reference(cell, graph[job].engine), from);
@@ -469,22 +523,35 @@ struct JobRun::Impl {
         settle_cells();
         return;
       }
-      std::map<JobIndex, int> attempts;
+      EngineState state;
       while (!todo.empty()) {
         {
           const std::scoped_lock lock(mutex);
           if (over()) return;
         }
-        const std::size_t count = std::min(todo.size(), kScenesAtATime);
-        std::vector<JobIndex> batch(todo.begin(), todo.begin() + std::ptrdiff_t(count));
-        todo.erase(todo.begin(), todo.begin() + std::ptrdiff_t(count));
+        if (state.given_up) {
+          give_up(e, todo, state.losses);
+          break;
+        }
+        // What has failed comes first, so that it shows soon whether anything works.
+        const auto fresh = std::ranges::stable_partition(
+            todo, [&](JobIndex job) { return state.attempts.contains(job); });
+        if (fresh.begin() == todo.begin()) state.losses.attempts = 0;
+        const bool more_memory = state.short_of_memory.contains(todo.front());
+        auto end = todo.begin();
+        while (end != todo.end() && std::size_t(end - todo.begin()) < kScenesAtATime &&
+               state.short_of_memory.contains(*end) == more_memory)
+          ++end;
+        const std::vector<JobIndex> batch(todo.begin(), end);
+        todo.erase(todo.begin(), end);
         const std::size_t before = todo.size();
-        const std::vector<JobIndex> left = render_batch(e, batch, attempts);
+        const std::vector<JobIndex> left = render_batch(e, batch, state, more_memory);
         todo.insert(todo.end(), left.begin(), left.end());
         settle_cells();
         // Nothing but what others are making: let them.
         if (before == 0 && left.size() == batch.size()) std::this_thread::sleep_for(kLookAgain);
       }
+      settle_cells();
     } catch (...) {
       break_off();
     }
@@ -500,22 +567,88 @@ struct JobRun::Impl {
                              here.engine->info().title, status.version, here.version);
   }
 
-  /// Returns what is to be tried again.
-  std::vector<JobIndex> render_batch(std::size_t e, const std::vector<JobIndex>& batch,
-                                     std::map<JobIndex, int>& attempts) {
-    const FarmEngine& here = graph.engines()[e];
-    std::vector<Scene> scenes;
-    scenes.reserve(batch.size());
-    for (const JobIndex job : batch) scenes.push_back(graph.cells().scene(graph.cell_of(job)));
-    std::vector<JobIndex> again;
-    std::vector<std::unique_ptr<Claim>> claims(batch.size());
-    std::vector<Clock::time_point> begun(batch.size());
-    std::mutex begin_mutex;
+  /// Of an engine's thread.
+  struct EngineState {
+    std::map<JobIndex, int> attempts;
+    std::set<JobIndex> short_of_memory;  ///< they get twice as much
+    Losses losses;
+    bool given_up = false;
+  };
 
+  void give_up(std::size_t e, const std::vector<JobIndex>& jobs, const Losses& losses) {
+    const std::string why = fmt::format(
+        "{} is not tried any more on {}: it failed at {} pictures in a row, at every attempt; the "
+        "last time: {}",
+        graph.engines()[e].engine->info().title, host_name(), losses.pictures, losses.last);
+    if (options.leave_undone) {
+      const std::scoped_lock lock(mutex);
+      work.engines_given_up.push_back({graph.engines()[e].name, why});
+    }
+    for (const JobIndex job : jobs) {
+      if (is_there(job)) continue;
+      if (!options.leave_undone) {
+        settle_failed(job, {FailureClass::kGivenUp, why, 0}, {});
+        continue;
+      }
+      const std::scoped_lock lock(mutex);
+      ++work.undone;
+      settle(job, JobState::kAbsent);
+    }
+  }
+
+  /// Takes note of a picture or a failure. Returns whether the job is to be tried again.
+  bool is_for_another_attempt(JobIndex job, const JobFailure& failure, bool had_more_memory,
+                              EngineState& state) const {
+    if (failure.message.empty()) {
+      state.losses = {};
+      return false;
+    }
+    if (!worth_retrying(failure.kind)) return false;
+    state.losses.last = failure.message;
+    ++state.losses.attempts;
+    bool again = failure.attempts < options.attempts && !options.fail_fast;
+    if (failure.kind == FailureClass::kOutOfMemory) {
+      again = again && !had_more_memory && memory_of_job(true) > memory_of_job(false);
+      if (again) state.short_of_memory.insert(job);
+    }
+    if (!again) ++state.losses.pictures;
+    if (options.give_up_after > 0 && state.losses.pictures >= options.give_up_after)
+      state.given_up = true;
+    return again;
+  }
+
+  std::uint64_t memory_of_job(bool more) const {
+    return more ? std::max(options.memory, std::min(2 * options.memory, memory_of_machine()))
+                : options.memory;
+  }
+
+  /// Returns what is to be tried again.
+  std::vector<JobIndex> render_batch(std::size_t e, const std::vector<JobIndex>& jobs,
+                                     EngineState& state, bool more_memory) {
+    const FarmEngine& here = graph.engines()[e];
     ReferenceOptions reference;
     reference.threads = options.threads;
     reference.time_limit = options.time_limit;
     reference.no_progress_limit = options.no_progress_limit;
+    reference.memory_limit = memory_of_job(more_memory);
+    reference.disk_limit = options.disk;
+    std::vector<JobIndex> batch;
+    std::vector<Scene> scenes;
+    for (const JobIndex job : jobs) {
+      Scene scene = graph.cells().scene(graph.cell_of(job));
+      const std::uint64_t needed = memory_to_average(scene, reference);
+      if (reference.memory_limit > 0 && needed > memory_of_job(true)) {
+        settle_failed(job, too_large(needed), {});
+        continue;
+      }
+      batch.push_back(job);
+      scenes.push_back(std::move(scene));
+    }
+    std::vector<JobIndex> again;
+    std::vector<std::unique_ptr<Claim>> claims(batch.size());
+    std::vector<Clock::time_point> begun(batch.size());
+    std::mutex begin_mutex;  // also of `state`
+
     const TemporaryDirectory logs;
     reference.log_directory = logs.path();
     reference.begin = [&](std::size_t k) {
@@ -524,6 +657,13 @@ struct JobRun::Impl {
       {
         const std::scoped_lock lock(mutex);
         if (over()) return false;
+      }
+      // After many failures those that have failed are tried again before any other.
+      const bool doubtful =
+          options.give_up_after > 0 && state.losses.attempts >= options.give_up_after;
+      if (state.given_up || (doubtful && !state.attempts.contains(batch[k]))) {
+        again.push_back(batch[k]);
+        return false;
       }
       auto claim = claim_of(graph[batch[k]].key);
       if (!claim) {
@@ -536,7 +676,11 @@ struct JobRun::Impl {
     };
     here.engine->render(scenes, reference, [&](std::size_t k, ReferenceResult result) {
       const JobIndex job = batch[k];
-      const int attempt = ++attempts[job];
+      int attempt = 0;
+      {
+        const std::scoped_lock one_at_a_time(begin_mutex);
+        attempt = ++state.attempts[job];
+      }
       const fs::path log = logs.path() / fmt::format("{}-{}.log", here.name, k);
       const double wall = std::chrono::duration<double>(Clock::now() - begun[k]).count();
       JobFailure failure{result.failure, result.error, attempt};
@@ -547,14 +691,13 @@ struct JobRun::Impl {
           failure = {what.kind(), what.what(), attempt};
         }
       }
-      if (!failure.message.empty()) {
-        if (worth_retrying(failure.kind) && attempt < options.attempts && !options.fail_fast) {
-          const std::scoped_lock one_at_a_time(begin_mutex);
-          again.push_back(job);
-        } else {
-          settle_failed(job, std::move(failure), log);
-        }
+      bool is_for_again = false;
+      {
+        const std::scoped_lock one_at_a_time(begin_mutex);
+        is_for_again = is_for_another_attempt(job, failure, more_memory, state);
+        if (is_for_again) again.push_back(job);
       }
+      if (!failure.message.empty() && !is_for_again) settle_failed(job, std::move(failure), log);
       {
         const std::scoped_lock one_at_a_time(begin_mutex);
         claims[k].reset();
@@ -562,6 +705,13 @@ struct JobRun::Impl {
       settle_cells();
     });
     return again;
+  }
+
+  JobFailure too_large(std::uint64_t needed) const {
+    return {FailureClass::kOutOfMemory,
+            fmt::format("its pictures, of which it is the average, need {} of memory; allowed: {}",
+                        size_text(needed), size_text(options.memory)),
+            0};
   }
 
   void keep_reference(JobIndex job, const Scene& scene, const FarmEngine& here,

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "farm/chunk_report.hpp"
 #include "farm/job_graph.hpp"
 #include "farm/result_cache.hpp"
 #include "reference_scenes/failure.hpp"
@@ -29,11 +30,21 @@ struct JobRunOptions {
   std::chrono::duration<double> no_progress_limit = std::chrono::minutes(5);  ///< of an engine
   int attempts = 3;        ///< at a picture that fails in a way that may not repeat itself
   bool fail_fast = false;  ///< the first failure ends it
+  /// Bytes that a job's processes may use together; one that an engine fails at for want of it is tried once more with
+  /// twice as much. 0: any number.
+  std::uint64_t memory = std::uint64_t{4} << 30;
+  std::uint64_t disk = std::uint64_t{4}
+                       << 30;  ///< bytes that an engine may write for a job; 0: any number
+  /// An engine that has failed at so many pictures in a row, at all attempts, is not tried any more. 0: it always is.
+  int give_up_after = 5;
+  bool leave_undone =
+      false;  ///< what it was to do then, for another machine; otherwise that has failed
+  std::filesystem::path failed_directory;                ///< FailedJobs; empty: none
   std::function<void(const FarmProgress&)> on_progress;  ///< from any thread, one at a time
 };
 
 enum class JobState : std::uint8_t {
-  kAbsent,   ///< there is no such job, or nobody asked for it and it has no result
+  kAbsent,   ///< there is no such job, or it has no result and is not to be made here
   kWaiting,  ///< for its inputs, or for a thread
   kDone,     ///< its result is in the cache
   kFailed,
@@ -47,6 +58,8 @@ struct JobRunWork {
   std::size_t found = 0;      ///< that somebody else made meanwhile
   std::size_t different = 0;  ///< that somebody else made meanwhile, with other pixels
   std::size_t lost = 0;       ///< jobs not done because somebody took results or the cache away
+  std::size_t undone = 0;     ///< left for another machine
+  std::vector<LeftUndone> engines_given_up;  ///< each once
   double wall_seconds = 0;
   double engine_cpu_seconds = 0;  ///< of all their processes
   double kernel_cpu_seconds = 0;  ///< making our results: pictures, comparisons, profiles

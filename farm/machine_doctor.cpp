@@ -17,7 +17,8 @@ DoctorCheck processes() {
   options.on_start = [&](const ProcessLimits& found) { limits = found; };
   run_process({"/bin/true"}, options);
   if (limits.contained == Containment::kPidNamespace)
-    return {"engines' processes", Verdict::kOk, "a PID namespace for each: none can outlive its farm", ""};
+    return {"engines' processes", Verdict::kOk,
+            "a PID namespace for each: none can outlive its farm", ""};
   return {"engines' processes", Verdict::kWarning,
           "no PID namespace: a subreaper ends them, unless one kills that first",
           "allow user namespaces (kernel.unprivileged_userns_clone, user.max_user_namespaces)"};
@@ -36,10 +37,12 @@ DoctorCheck memory() {
     return {"engines' memory", Verdict::kWarning, "/proc tells nothing: --memory has no effect",
             "mount /proc"};
   if (!count_of_oom_kills())
-    return {"engines' memory", Verdict::kWarning,
-            "held to --memory; an engine that the kernel kills for want of memory counts as a crash",
-            "Linux 4.13 or later tells oom_kill in /proc/vmstat"};
-  return {"engines' memory", Verdict::kOk, "held to --memory, and the kernel's own kills are known", ""};
+    return {
+        "engines' memory", Verdict::kWarning,
+        "held to --memory; an engine that the kernel kills for want of memory counts as a crash",
+        "Linux 4.13 or later tells oom_kill in /proc/vmstat"};
+  return {"engines' memory", Verdict::kOk, "held to --memory, and the kernel's own kills are known",
+          ""};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "core/colour.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/numbers.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
 #include "reference_scenes/replicates.hpp"
@@ -30,10 +31,22 @@ RenderOptions options_until(Clock::time_point end, double seconds) {
   return options;
 }
 
+/// The picture, once more as it is read again, and an average's error with the sums for it.
+std::uint64_t memory_to_make(const Scene& scene) {
+  constexpr std::uint64_t kOfPicture = 3 * sizeof(float), kOfSums = 2 * 3 * sizeof(double);
+  return std::uint64_t(scene.film.width) * std::uint64_t(scene.film.height) *
+         (2 * kOfPicture + (needs_replicates(scene) ? kOfPicture + kOfSums : 0));
+}
+
 }  // namespace
 
 Json make_render(const Scene& scene, const ResultDraft& draft,
-                 std::chrono::duration<double> time_limit) {
+                 std::chrono::duration<double> time_limit, std::uint64_t memory_limit) {
+  if (const std::uint64_t needed = memory_to_make(scene); memory_limit > 0 && needed > memory_limit)
+    throw ResultFailure(
+        FailureClass::kOutOfMemory,
+        fmt::format("its picture of {} x {} needs {} of memory; allowed: {}", scene.film.width,
+                    scene.film.height, size_text(needed), size_text(memory_limit)));
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(time_limit);
   const RenderOptions options = options_until(end, time_limit.count());
   const std::string file = picture_file(kOurs);

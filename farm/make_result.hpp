@@ -39,9 +39,10 @@ std::string error_file(const std::string& engine);
 std::string comparison_name(const std::string& engine);
 
 /// lobelia.exr, .json and .png, scene.xml, and lobelia-error.exr where the picture is an average. Throws
-/// ResultFailure if it takes longer than `time_limit` or is not finite.
+/// ResultFailure if it takes longer than `time_limit`, needs more bytes than `memory_limit` (0: any number) or is not
+/// finite.
 Json make_render(const Scene& scene, const ResultDraft& draft,
-                 std::chrono::duration<double> time_limit);
+                 std::chrono::duration<double> time_limit, std::uint64_t memory_limit);
 
 /// An engine's picture: ENGINE.exr, .json, .log and ENGINE-error.exr. `result` has no error; `log` may not be there.
 Json make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,

@@ -192,7 +192,7 @@ HeldDirectory opened(const fs::path& directory, ResultCache::Opening opening) {
 ResultCache::ResultCache(fs::path directory, Opening opening)
     : directory_(fs::absolute(directory)),
       locks_(opened(directory_, opening), kLocksFile, opening),
-      self_(own_identity()) {
+      self_(this_process()) {
   std::error_code ignored;
   if (opening == Opening::kMake && !fs::exists(directory_ / kCacheMarkerFile, ignored)) draft();
 }

@@ -108,6 +108,13 @@ ReferenceResult average(const Scene& scene, Request& request, const ReferenceOpt
 
 }  // namespace
 
+std::uint64_t memory_to_average(const Scene& scene, const ReferenceOptions& options) {
+  if (!needs_replicates(scene)) return 0;
+  constexpr std::uint64_t kOfPicture = 3 * sizeof(float), kOfSums = 3 * 3 * sizeof(double);
+  return std::uint64_t(scene.film.width) * std::uint64_t(scene.film.height) *
+         (std::uint64_t(options.points) * kOfPicture + kOfSums);
+}
+
 std::string Engine::why_not(const Scene& scene, const ReferenceOptions& options) const {
   if (std::string why = why_not_comparable(scene); !why.empty()) return why;
   if (!needs_replicates(scene)) return why_not_simple(scene, options);

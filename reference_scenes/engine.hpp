@@ -72,6 +72,9 @@ struct ReferenceOptions {
   std::chrono::duration<double> time_limit = std::chrono::minutes(10);  ///< for each picture
   /// Longest time in which a program neither says nor writes anything; 0: none.
   std::chrono::duration<double> no_progress_limit{0};
+  std::uint64_t memory_limit =
+      0;  ///< bytes that the processes of a picture may have together; 0: any number
+  std::uint64_t disk_limit = 0;         ///< likewise on the disk
   std::filesystem::path log_directory;  ///< receives the engine's own output; empty: dropped
   /// Points of every light with a size, of the lens and of the pixel, where a scene has such; a multiple
   /// of kReplicates.
@@ -129,6 +132,9 @@ class Engine {
   virtual void render_simple(std::span<const Scene> scenes, const ReferenceOptions& options,
                              const OnResult& on_result) = 0;
 };
+
+/// Bytes that the pictures take of which a scene is the average, all at once; 0 of a scene that is one picture.
+std::uint64_t memory_to_average(const Scene& scene, const ReferenceOptions& options);
 
 /// The catalogue: the engines' names, and an engine by name (with `program` in place of the one in
 /// $PATH, if not empty).

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
+#include "core/numbers.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_content.hpp"
@@ -65,7 +66,8 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
   const LoaderTrace trace(home.path());
   ProcessOptions options;
   options.timeout = std::chrono::duration<double>(kProbeSeconds);
-  options.environment = private_home(home.path());
+  options.environment = engine_environment(home.path());
+  options.only_environment = true;
   for (auto& variable : trace.environment()) options.environment.push_back(std::move(variable));
   // POV-Ray prints its version on stderr, after complaints about missing configuration files.
   options.on_line = [&](std::string_view line) {
@@ -159,6 +161,22 @@ Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
     return {FailureClass::kNoProgress,
             fmt::format("{} was stopped after {:.6g} s without a sign of progress", engine.title,
                         options.no_progress_limit.count())};
+  if (result.over_disk_limit)
+    return {FailureClass::kDiskLimit,
+            fmt::format("{} was stopped because its files came to {}; allowed: {}", engine.title,
+                        result.used_bytes > 0 ? size_text(result.used_bytes) : "more",
+                        size_text(options.disk_limit))};
+  if (result.out_of_memory && result.used_bytes > 0)
+    return {FailureClass::kOutOfMemory,
+            fmt::format("{} was stopped because it used {} of memory; allowed: {}", engine.title,
+                        size_text(result.used_bytes), size_text(options.memory_limit))};
+  if (result.out_of_memory)
+    return {FailureClass::kOutOfMemory,
+            fmt::format("{} was killed by the kernel when there was no memory left; allowed: {}, "
+                        "and it had at most {}",
+                        engine.title,
+                        options.memory_limit > 0 ? size_text(options.memory_limit) : "any amount",
+                        size_text(result.peak_memory_bytes))};
   if (result.exit_code == 0) return {};
   const std::string words = last_words(result.output_tail);
   const int signal = result.exit_code - kSignalBase;
@@ -173,6 +191,8 @@ Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arg
                    ProcessOptions process, const ReferenceOptions& options, ProcessResult& result) {
   bool started = false;
   process.only_environment = true;
+  process.memory_limit = options.memory_limit;
+  process.disk_limit = options.disk_limit;
   process.on_start = [&started, told = std::move(process.on_start)](const ProcessLimits& limits) {
     started = true;
     if (told) told(limits);
@@ -186,7 +206,13 @@ Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arg
             error.what()};
   }
   if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
-  return process_failure(engine, result, options);
+  Failure failure = process_failure(engine, result, options);
+  // It is gone when anybody reads this.
+  const std::string directory = process.working_directory.string();
+  for (std::size_t at;
+       !directory.empty() && (at = failure.message.find(directory)) != std::string::npos;)
+    failure.message.replace(at, directory.size(), kEngineDirectory);
+  return failure;
 }
 
 Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::path& file,

@@ -44,6 +44,9 @@ std::string last_words(const std::string& output_tail);
 Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
                         const ReferenceOptions& options);
 
+/// Stands in messages for the temporary directory that an engine works in.
+inline constexpr std::string_view kEngineDirectory = "<its directory>";
+
 /// run_process in `process.environment` and nothing else; one that cannot be started is a failure. Throws
 /// Error(kInterrupted).
 Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arguments,

@@ -18,23 +18,26 @@ enum class FailureClass {
   kEngineMissing,  ///< there is no such program
   kRefused,        ///< the engine cannot show this scene
   kExitCode,       ///< it said itself that it failed
+  kOutOfMemory,    ///< it used more than was allowed, or the machine had no more
+  kDiskLimit,      ///< its files came to more than was allowed
+  kGivenUp,        ///< not tried: the engine had failed too often
 };
 
 /// In the order of FailureClass.
 inline constexpr std::string_view kFailureNames[] = {
-    "",           "crash",      "timed out",         "no progress",    "no output",
-    "wrong size", "non-finite", "unreadable output", "engine missing", "refused",
-    "exit code"};
-static_assert(std::size(kFailureNames) == std::size_t(FailureClass::kExitCode) + 1);
+    "",           "crash",         "timed out",         "no progress",    "no output",
+    "wrong size", "non-finite",    "unreadable output", "engine missing", "refused",
+    "exit code",  "out of memory", "disk limit",        "engine given up"};
+static_assert(std::size(kFailureNames) == std::size_t(FailureClass::kGivenUp) + 1);
 
 constexpr std::string_view failure_name(FailureClass failure) {
   return kFailureNames[std::size_t(failure)];
 }
 
-/// Whether the same again may end otherwise.
+/// Whether the same again may end otherwise; for want of memory only with more of it.
 constexpr bool worth_retrying(FailureClass failure) {
   return failure != FailureClass::kNone && failure != FailureClass::kEngineMissing &&
-         failure != FailureClass::kRefused;
+         failure != FailureClass::kRefused && failure != FailureClass::kGivenUp;
 }
 
 /// What went wrong with one picture; `kind` is kNone where nothing did.

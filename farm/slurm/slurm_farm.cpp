@@ -233,7 +233,9 @@ ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number)
     long long count = 0;
     if (parse_integer(given, count) && count >= 1 && count <= 1024) threads = int(count);
   }
-  return exec_chunk(chunk_file(run_directory, number), threads);
+  ChunkSummary summary = exec_chunk(chunk_file(run_directory, number), threads);
+  write_chunk_report(run_directory, number, summary.left);
+  return summary;
 }
 
 SlurmEnd finish_slurm_run(const fs::path& run_directory) {

@@ -31,6 +31,13 @@ void require_plain(std::string_view what, std::string_view value, std::size_t mo
 
 }  // namespace
 
+std::string memory_of_element(std::uint64_t job_bytes, int processors) {
+  constexpr std::uint64_t kMebibyte = 1 << 20, kOwn = 512;
+  if (job_bytes == 0) return "";
+  return fmt::format("{}M",
+                     (job_bytes + kMebibyte - 1) / kMebibyte * std::uint64_t(processors) + kOwn);
+}
+
 std::vector<std::string> sbatch_arguments(const SlurmOptions& options) {
   std::vector<std::string> result;
   const auto add = [&](const char* name, const std::string& value) {

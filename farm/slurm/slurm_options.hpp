@@ -1,6 +1,7 @@
 // What a user may ask of Slurm for the elements of a run.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct SlurmOptions {
   int throttle = 0;              ///< elements at once, 0: as many as there is room for
   std::vector<std::string> raw;  ///< further options of sbatch, "--name" or "--name=value"
 };
+
+/// What an element asks for whose jobs may use so many bytes each, one on each processor, and this program 512 MiB besides:
+/// "4608M".
+std::string memory_of_element(std::uint64_t job_bytes, int processors);
 
 /// Arguments of sbatch. Throws Error(kUsage) on a value that holds control characters or is out of range, and on
 /// a raw option that does not begin with "--" or is one of those that a run sets itself.

@@ -59,9 +59,8 @@ struct WorkItem {
   std::size_t job, pass;
 };
 
-std::string pass_stem(std::size_t scene, std::size_t pass) {
-  return fmt::format("scene{}-pass{}", scene, pass);
-}
+/// Also of what keep_povray_input() writes, so that messages name a file that is there.
+std::string pass_stem(std::size_t pass) { return fmt::format("pass{}", pass); }
 
 /// "  Trace Time:       0 hours  0 minutes  0 seconds (0.029 seconds)"; 0 for any other line.
 double seconds_in(std::string_view line, std::string_view what) {
@@ -298,9 +297,9 @@ void Povray::render_simple(std::span<const Scene> scenes, const ReferenceOptions
           gate.leave(0);
           continue;
         }
-        const std::string stem = pass_stem(index, pass);
         result =
-            run_pass(job, job.input.passes[pass], stem, directory.path() / stem, options, stop);
+            run_pass(job, job.input.passes[pass], pass_stem(pass),
+                     directory.path() / fmt::format("scene{}-pass{}", index, pass), options, stop);
       } catch (...) {
         gate.leave(0);
         throw;
@@ -330,7 +329,7 @@ void keep_povray_input(const Scene& scene, const ReferenceOptions& options,
   for (const auto& [file, text] : input.includes) write_file(directory / file, text);
   std::string commands;
   for (std::size_t p = 0; p < input.passes.size(); ++p) {
-    const std::string stem = fmt::format("pass{}", p);
+    const std::string stem = pass_stem(p);
     const auto keep = [&](const std::string& name, const std::string& text) {
       write_file(directory / (name + ".pov"), text);
       write_povray_ini(directory, name, input.passes[p].gain, povray_options(scene.film, 1));

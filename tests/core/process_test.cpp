@@ -210,8 +210,8 @@ int in_child(Rights rights, const std::function<void()>& work, int theirs = -1) 
     EXPECT_EQ(::read(begin[0], &nothing, 1), 0);
     if (rights == Rights::kWithoutNamespace) ::setenv("LOBELIA_NO_NAMESPACE", "1", 1);
     constexpr int kNobody = 65534;
-    if (rights == Rights::kOfNobody &&
-        (::setresgid(kNobody, kNobody, kNobody) != 0 || ::setresuid(kNobody, kNobody, kNobody) != 0))
+    if (rights == Rights::kOfNobody && (::setresgid(kNobody, kNobody, kNobody) != 0 ||
+                                        ::setresuid(kNobody, kNobody, kNobody) != 0))
       ::_exit(99);
     try {
       work();
@@ -239,19 +239,22 @@ class Contained : public testing::TestWithParam<Rights> {
                              const std::function<void(ProcessOptions&)>& change) {
     int ends[2];
     EXPECT_EQ(::pipe2(ends, O_CLOEXEC), 0);
-    const int status = in_child(GetParam(), [&] {
-      ProcessOptions options;
-      options.input = ends[0];
-      change(options);
-      try {
-        run_process(shell(script), options);
-      } catch (const std::runtime_error&) {  // of on_line
-      }
-      // Not only soon: when run_process returns.
-      ::close(ends[0]);
-      pollfd writer{ends[1], 0, 0};
-      if (::poll(&writer, 1, 0) != 1) ::_exit(1);
-    }, ends[0]);
+    const int status = in_child(
+        GetParam(),
+        [&] {
+          ProcessOptions options;
+          options.input = ends[0];
+          change(options);
+          try {
+            run_process(shell(script), options);
+          } catch (const std::runtime_error&) {  // of on_line
+          }
+          // Not only soon: when run_process returns.
+          ::close(ends[0]);
+          pollfd writer{ends[1], 0, 0};
+          if (::poll(&writer, 1, 0) != 1) ::_exit(1);
+        },
+        ends[0]);
     pollfd writer{ends[1], 0, 0};
     const bool ended = ::poll(&writer, 1, 600'000) == 1;
     ::close(ends[1]);
@@ -300,21 +303,26 @@ TEST_P(Contained, LeavesNothingWhenWeAreKilled) {
 }
 
 TEST_P(Contained, EndsAsItDoesAloneWithAllThatItTook) {
-  EXPECT_EQ(in_child(GetParam(), [] {
-              Containment contained = Containment::kNone;
-              ProcessOptions options;
-              options.on_start = [&](const ProcessLimits& limits) { contained = limits.contained; };
-              // The processor time of one that has left it counts as well.
-              const auto busy = run_process(
-                  shell("(setsid sh -c 'ulimit -t 1; while :; do :; done' &); sleep 2; exit 7"), options);
-              EXPECT_EQ(busy.exit_code, 7);
-              EXPECT_GT(busy.cpu_seconds, 0.4);
-              EXPECT_NE(contained, Containment::kNone);
-              EXPECT_EQ(run_process(shell("kill -ALRM $$"), {}).exit_code, 128 + SIGALRM);
-              EXPECT_EQ(run_process({"/bin/cat", "/no/such"}, {}).exit_code, 1);
-              if (testing::Test::HasFailure()) ::_exit(1);
-            }),
-            0);
+  EXPECT_EQ(
+      in_child(GetParam(),
+               [] {
+                 Containment contained = Containment::kNone;
+                 ProcessOptions options;
+                 options.on_start = [&](const ProcessLimits& limits) {
+                   contained = limits.contained;
+                 };
+                 // The processor time of one that has left it counts as well.
+                 const auto busy = run_process(
+                     shell("(setsid sh -c 'ulimit -t 1; while :; do :; done' &); sleep 2; exit 7"),
+                     options);
+                 EXPECT_EQ(busy.exit_code, 7);
+                 EXPECT_GT(busy.cpu_seconds, 0.4);
+                 EXPECT_NE(contained, Containment::kNone);
+                 EXPECT_EQ(run_process(shell("kill -ALRM $$"), {}).exit_code, 128 + SIGALRM);
+                 EXPECT_EQ(run_process({"/bin/cat", "/no/such"}, {}).exit_code, 1);
+                 if (testing::Test::HasFailure()) ::_exit(1);
+               }),
+      0);
 }
 
 TEST_P(Contained, IsOverIfItKillsItsKeeper) {
@@ -333,13 +341,16 @@ INSTANTIATE_TEST_SUITE_P(Process, Contained,
 TEST(Process, GoesOnWithoutUsIfItMustNotBeCutInTwo) {
   int ends[2];
   ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
-  in_child(Rights::kOurs, [&] {
-    ProcessOptions options;
-    options.input = ends[0];
-    options.uninterruptible = true;
-    options.on_line = [](std::string_view) { ::kill(::getpid(), SIGKILL); };
-    run_process(shell("echo begun; read end"), options);
-  }, ends[0]);
+  in_child(
+      Rights::kOurs,
+      [&] {
+        ProcessOptions options;
+        options.input = ends[0];
+        options.uninterruptible = true;
+        options.on_line = [](std::string_view) { ::kill(::getpid(), SIGKILL); };
+        run_process(shell("echo begun; read end"), options);
+      },
+      ends[0]);
   pollfd writer{ends[1], 0, 0};
   EXPECT_EQ(::poll(&writer, 1, 300), 0) << "it is gone";
   ::close(ends[1]);

@@ -26,7 +26,7 @@ std::uint64_t dead_pid() {
 }
 
 TEST(DraftName, SaysItsMakerAndIsReadStrictly) {
-  const DraftName name = of(own_identity());
+  const DraftName name = of(this_process());
   const std::string text = name.text();
   EXPECT_LT(text.size(), 200u);
   const auto read = DraftName::parse(text);
@@ -55,7 +55,7 @@ TEST(DraftName, SaysItsMakerAndIsReadStrictly) {
 }
 
 TEST(DraftName, TellsTheLivingFromTheDeadOfThisMachineAndNothingOfOthers) {
-  const ProcessIdentity self = own_identity();
+  const ProcessIdentity self = this_process();
   EXPECT_EQ(life_of(self, self), Life::kAlive);
   const auto with = [&](const auto& change) {
     ProcessIdentity other = self;
@@ -81,7 +81,7 @@ TEST(Drafts, OfTheDeadGoAndThoseOfOthersStayUntilTheirSharedLockIsFree) {
   const ResultCache cache(path);
   struct stat locks {};
   ASSERT_EQ(::stat((path / "locks").c_str(), &locks), 0);
-  const ProcessIdentity self = own_identity();
+  const ProcessIdentity self = this_process();
   const auto put = [&](ProcessIdentity maker, std::uint64_t inode) {
     const fs::path draft = path / "making" / of(maker, inode).text();
     fs::create_directory(draft);

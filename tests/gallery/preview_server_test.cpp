@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/files.hpp"
-#include "core/peak_memory.hpp"
+#include "core/process_memory.hpp"
 #include "gallery/byte_range.hpp"
 
 namespace lobelia::gallery {

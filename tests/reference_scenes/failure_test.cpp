@@ -112,10 +112,10 @@ TEST(FailureClasses, HaveEachANameAndTheSameAgainHelpsWhereTheEngineIsThereAndCa
   using enum FailureClass;
   EXPECT_EQ(failure_name(kBadOutput), "unreadable output");
   EXPECT_EQ(failure_name(kExitCode), "exit code");
-  for (const FailureClass failure :
-       {kCrash, kTimedOut, kNoProgress, kNoOutput, kWrongSize, kNonFinite, kBadOutput, kExitCode})
+  for (const FailureClass failure : {kCrash, kTimedOut, kNoProgress, kNoOutput, kWrongSize,
+                                     kNonFinite, kBadOutput, kExitCode, kOutOfMemory, kDiskLimit})
     EXPECT_TRUE(worth_retrying(failure)) << failure_name(failure);
-  for (const FailureClass failure : {kNone, kEngineMissing, kRefused})
+  for (const FailureClass failure : {kNone, kEngineMissing, kRefused, kGivenUp})
     EXPECT_FALSE(worth_retrying(failure)) << failure_name(failure);
 }
 

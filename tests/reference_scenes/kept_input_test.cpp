@@ -84,7 +84,7 @@ TEST(PovrayInItsDirectory, CannotWriteElsewhereThoughAFileAsksForIt) {
   options.working_directory = options.writable = own.path();
   options.environment = povray_home(own.path(), engine->status().version);
   bool limited = false;
-  options.on_start = [&](bool writes_limited) { limited = writes_limited; };
+  options.on_start = [&](const ProcessLimits& limits) { limited = limits.writes_limited; };
   const fs::path inside = own.path() / "inside", outside = other.path() / "outside";
   for (const fs::path& target : {inside, outside}) {
     const std::string stem = target.filename().string() + "-scene";

@@ -6,6 +6,7 @@
 
 #include "core/image_io.hpp"
 #include "failing_farm.hpp"
+#include "farm/chunk.hpp"
 #include "reference_scenes/failure.hpp"
 
 namespace lobelia {
@@ -35,6 +36,12 @@ constexpr Misdeed kMisdeeds[] = {
     {FailureClass::kExitCode, "head -c 3000000 /dev/zero; exit 1"},
     {FailureClass::kCrash, "kill -SEGV $$"},
     {FailureClass::kCrash, "kill -KILL $$"},
+    {FailureClass::kDiskLimit, "truncate -s 20G $stem.exr || exit $?"},
+    {FailureClass::kDiskLimit,
+     "for i in 1 2 3 4 5 6 7 8; do head -c 4000000 /dev/zero > part$i; done; sleep 600"},
+    // In a child, and more than twice what is allowed.
+    {FailureClass::kOutOfMemory,
+     "{ head -c 300000000 /dev/zero; sleep 600; } | tail -c 300000000 > /dev/null; exit 0"},
 };
 
 /// One cell for each misdeed, and one that is well.
@@ -59,13 +66,14 @@ TEST_F(BadEngine, FailsEachTimeInItsOwnClassAndStopsNothingElse) {
   for (std::size_t i = 0; i < std::size(kMisdeeds); ++i)
     misdeeds += fmt::format("n{}) {};;\n", i + 1, kMisdeeds[i].shell);
   fake_povray(misdeeds + "esac");
-  const FarmRun first = run({"--attempts", "2", "--no-progress-limit", "6", "--time-limit", "15"});
+  const FarmRun first = run({"--attempts", "2", "--no-progress-limit", "6", "--time-limit", "15",
+                             "--give-up-after", "0", "--memory", "100M", "--disk", "20M"});
   EXPECT_EQ(first.exit_code, 4) << first.output;
   // A slow run has lines of progress before.
   EXPECT_EQ(first.output.find("lobelia: n10: povray: "), first.output.find("lobelia: "))
       << "failures come first: " << first.output;
   EXPECT_THAT(first.output,
-              HasSubstr("17 cells: 16 failed, 0 differ, 1 pass; 18 pictures rendered"));
+              HasSubstr("20 cells: 19 failed, 0 differ, 1 pass; 21 pictures rendered"));
   for (std::size_t i = 0; i < std::size(kMisdeeds); ++i) {
     SCOPED_TRACE(kMisdeeds[i].shell);
     const std::string cell = fmt::format("n{}", i + 1);
@@ -74,11 +82,17 @@ TEST_F(BadEngine, FailsEachTimeInItsOwnClassAndStopsNothingElse) {
     EXPECT_EQ(failure.value("attempts", 0), 2);
     EXPECT_TRUE(fs::exists(out() / "cells" / cell / "povray.log"));
     EXPECT_TRUE(fs::exists(out() / "cells" / cell / "lobelia.exr"));
+    const std::string kept = fmt::format("failed/{}/reference-povray", cell);
+    EXPECT_THAT(failure.value("message", ""), HasSubstr("; its input and log are in " + kept));
+    for (const char* file :
+         {"pass0.pov", "pass0.ini", "povray.sh", "again.sh", "scene.xml", "povray.log"})
+      EXPECT_TRUE(fs::exists(out() / kept / file)) << file;
   }
   expect_nothing_half_written();
 
   fake_povray();
   expect_mended(run(), std::size(kMisdeeds));
+  EXPECT_TRUE(fs::is_empty(out() / "failed")) << "what has succeeded needs no looking at";
 }
 
 using OddEngine = FailingFarm;
@@ -96,11 +110,12 @@ TEST_F(OddEngine, ThatFailsAtFirstIsTriedAgainAndTheRecordSaysHowOften) {
 }
 
 TEST_F(OddEngine, ThatIsKilledWhenItIsAskedItsVersionIsAskedAgain) {
-  undisturbed();
   const std::string dies = "if " + first_times("failures", 1) + "; then kill -KILL $$; fi\n";
   const std::string well = read_file(fake_povray(), 1 << 20);
   script("povray", dies + well);
-  expect_mended(run(), pictures());
+  const FarmRun asked = run();
+  EXPECT_EQ(asked.exit_code, 0) << asked.output;
+  EXPECT_EQ(asked.rendered, pictures()) << asked.output;
 }
 
 TEST_F(OddEngine, IsTriedNoMoreOftenThanWasAllowed) {
@@ -194,6 +209,123 @@ TEST_F(OddEngine, IsInterruptedWithTheFarmAndLeavesNothing) {
   expect_mended(run(), 3);
 }
 
+TEST_F(OddEngine, NamesInItsMessageWhatIsStillThere) {
+  fake_povray("[ $cell = n16 ] && echo \"Error: $PWD/$stem.pov is too red\" && exit 3");
+  ASSERT_EQ(run({"--attempts", "1"}).exit_code, 4);
+  const std::string message = failure_of("n16").value("message", "");
+  EXPECT_THAT(message,
+              HasSubstr("Error: failed/n16/reference-povray/pass0.pov is too red; its input"));
+  EXPECT_THAT(message, testing::Not(HasSubstr("/tmp")));
+  EXPECT_TRUE(fs::exists(out() / "failed/n16/reference-povray/pass0.pov"));
+  EXPECT_THAT(read_file(out() / "failed/n16/reference-povray/again.sh", 1 << 20),
+              HasSubstr("lobelia reference scene.xml --engine povray"));
+  // A cell that is no longer of the grid takes it along.
+  grid({"8"});
+  ASSERT_EQ(run({"--attempts", "1"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(out() / "failed/n16"));
+}
+
+TEST_F(OddEngine, KeepsNothingByWayOfALink) {
+  const fs::path elsewhere = root() / "elsewhere";
+  for (const char* directory :
+       {"n16/reference-povray", "n64/reference-povray", "old/reference-povray"}) {
+    fs::create_directories(elsewhere / directory);
+    write_file(elsewhere / directory / "theirs", "x");
+  }
+  fs::create_directories(out());
+  const auto expect_untouched = [&] {
+    for (const char* directory : {"n16", "n64", "old"}) {
+      EXPECT_EQ(read_file(elsewhere / directory / "reference-povray/theirs", 10), "x");
+      EXPECT_EQ(
+          std::distance(fs::directory_iterator(elsewhere / directory / "reference-povray"), {}), 1);
+    }
+  };
+  fake_povray("[ $cell = n16 ] && exit 3");
+  fs::create_directory_symlink(elsewhere, out() / "failed");
+  EXPECT_EQ(run({"--attempts", "1"}).exit_code, 4);
+  expect_untouched();
+  EXPECT_THAT(failure_of("n16").value("message", ""), testing::Not(HasSubstr("input and log")));
+  fs::remove(out() / "failed");
+  fs::create_directories(out() / "failed/n64");
+  fs::create_directory_symlink(elsewhere / "n16", out() / "failed/n16");
+  fs::create_directory_symlink(elsewhere / "n64/reference-povray",
+                               out() / "failed/n64/reference-povray");
+  EXPECT_EQ(run({"--attempts", "1"}).exit_code, 4);
+  fake_povray();
+  EXPECT_EQ(run({"--attempts", "1"}).exit_code, 0);
+  expect_untouched();
+}
+
+TEST_F(OddEngine, ThatNeedsMoreMemoryGetsTwiceAsMuchOnce) {
+  undisturbed();
+  fake_povray(
+      "[ $cell = n16 ] && { head -c 60000000 /dev/zero; sleep 3; } | tail -c 60000000 > "
+      "/dev/null");
+  const FarmRun done = run({"--memory", "50M"});
+  expect_mended(done, pictures());
+  EXPECT_EQ(
+      read_record(result_of("n16", "reference-povray") / "result.json", "result").at("attempts"),
+      2);
+}
+
+TEST_F(OddEngine, IsNotNeededForAPictureOfOursThatIsTooLarge) {
+  grid({"8"}, "", 512);
+  EXPECT_EQ(run({"--memory", "2M"}).exit_code, 4);
+  EXPECT_EQ(failure_of("n8").value("failure", ""), "out of memory");
+  EXPECT_EQ(failure_of("n8").value("message", ""),
+            "its picture of 512 x 512 needs 6.0 MiB of memory; allowed: 2.0 MiB");
+  EXPECT_EQ(run({"--memory", "7M"}).exit_code, 0);
+}
+
+TEST_F(OddEngine, ThatFailsAtEverythingIsGivenUpUntilTheNextRun) {
+  std::vector<std::string> exponents;
+  for (int i = 1; i <= 60; ++i) exponents.push_back(std::to_string(i));
+  grid(exponents);
+  undisturbed();
+  fake_povray("echo Error: no licence; exit 3");
+  const FarmRun first = run({"--attempts", "2"});
+  EXPECT_EQ(first.exit_code, 4) << first.output;
+  std::map<std::string, int> classes;
+  std::string given_up;
+  for (const auto& exponent : exponents) {
+    const Json failure = failure_of("n" + exponent);
+    ++classes[failure.value("failure", "")];
+    if (failure.value("failure", "") == "engine given up") given_up = failure.value("message", "");
+  }
+  EXPECT_THAT(given_up, testing::AllOf(HasSubstr("pictures in a row, at every attempt"),
+                                       HasSubstr("no licence")));
+  EXPECT_GE(classes["exit code"], 5);
+  EXPECT_GT(classes["engine given up"], 0);
+  EXPECT_EQ(classes["exit code"] + classes["engine given up"], 60);
+  fake_povray();
+  expect_mended(run(), 60);
+}
+
+TEST_F(OddEngine, ThatFailsAtEverythingOnANodeLeavesTheRestToAnother) {
+  std::vector<std::string> exponents;
+  for (int i = 1; i <= 60; ++i) exponents.push_back(std::to_string(i));
+  const Grid read = read_grid(grid(exponents));
+  FarmOptions options;
+  options.programs["povray"] = fake_povray("exit 3");
+  options.attempts = 1;
+  FarmWork work(read, options);
+  const ResultCache results(cache());
+  std::vector<JobIndex> jobs;
+  for (JobIndex job = 0; job < work.graph.size(); ++job)
+    if (work.graph[job].exists) jobs.push_back(job);
+  write_record(root() / "chunk.json", chunk_record(work, results, options, jobs));
+  const ChunkSummary first = exec_chunk(root() / "chunk.json", 1);
+  EXPECT_GE(first.failed, 5u);
+  EXPECT_GT(first.undone, 0u);
+  EXPECT_EQ(first.work.undone, 60 - first.failed);
+  ASSERT_EQ(first.work.engines_given_up.size(), 1u);
+  EXPECT_THAT(first.work.engines_given_up[0].why, HasSubstr("POV-Ray is not tried any more on "));
+  std::size_t kept = 0;
+  for (const JobIndex job : jobs)
+    if (results.failure(work.graph[job].key)) ++kept;
+  EXPECT_EQ(kept, first.failed) << "what was not tried has not failed";
+}
+
 /// An engine that says what it has of our environment.
 class EngineOfTheEnvironment : public FailingFarm {};
 
@@ -216,9 +348,9 @@ TEST_F(EngineOfTheEnvironment, HasOnlyWhatTheListAllows) {
   for (const char* own : {"PWD", "OLDPWD", "SHLVL", "_"}) seen.erase(own);  // the shell's
   std::vector<std::string> names;
   for (const auto& [name, value] : seen) names.push_back(name);
-  EXPECT_THAT(names, testing::ElementsAre("HOME", "LC_ALL", "LD_LIBRARY_PATH", "PATH", "POVINI",
-                                          "TEMP", "TMP", "TMPDIR", "TZ", "XDG_CACHE_HOME",
-                                          "XDG_CONFIG_HOME"));
+  EXPECT_THAT(names,
+              testing::ElementsAre("HOME", "LC_ALL", "LD_LIBRARY_PATH", "PATH", "POVINI", "TEMP",
+                                   "TMP", "TMPDIR", "TZ", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"));
   EXPECT_EQ(seen["LD_LIBRARY_PATH"], "/no/such");
   EXPECT_EQ(seen["TZ"], "UTC");
   EXPECT_EQ(seen["LC_ALL"], "C.UTF-8");

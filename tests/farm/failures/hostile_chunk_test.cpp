@@ -16,7 +16,9 @@ class HostileChunk : public testing::Test {
     good_ = make_record("farm-chunk");
     own_identity().put_into(good_);
     good_["cache"] = (directory_.path() / "cache").string();
-    good_["limits"] = {{"timeLimit", 60}, {"noProgressLimit", 60}, {"attempts", 1}};
+    good_["limits"] = {{"timeLimit", 60}, {"noProgressLimit", 60}, {"attempts", 1}, {"memory", 0},
+                       {"disk", 0},       {"giveUpAfter", 5}};
+    good_["failed"] = (directory_.path() / "failed").string();
     good_["engines"] = Json::array();
     good_["cells"] = {
         {{"id", "a"},
@@ -48,7 +50,7 @@ TEST_F(HostileChunk, IsRefusedWithOneSentenceWhateverIsWrongInIt) {
     if (key == "madeBy" || key == "program" || key == "libraries") continue;
     Json without = good_;
     without.erase(key);
-    texts.push_back(without.dump());
+    if (key != "failed") texts.push_back(without.dump());  // without it nothing is kept
     for (const Json& other : others) {
       // Without cells, or engines, there is nothing to be done, and a cache may have any name.
       if (other.type() == value.type() && (other.empty() || key == "cache")) continue;
@@ -57,6 +59,12 @@ TEST_F(HostileChunk, IsRefusedWithOneSentenceWhateverIsWrongInIt) {
       texts.push_back(chunk.dump());
     }
   }
+  for (const char* key : {"memory", "disk", "giveUpAfter"})
+    for (const Json& other : {Json(nullptr), Json("x"), Json(-5), Json(1e300)}) {
+      Json chunk = good_;
+      chunk["limits"][key] = other;
+      texts.push_back(chunk.dump());
+    }
   for (const char* key : {"timeLimit", "noProgressLimit", "attempts"})
     for (const Json& other : {Json(nullptr), Json("x"), Json(-5), Json(1e300), Json(1e12)}) {
       Json chunk = good_;

@@ -1,0 +1,41 @@
+// What a failed job was given, and what its engine said, for whoever looks for the reason.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <string>
+
+namespace lobelia {
+
+/// DIR/failed/CELL/JOB/: at most kMost of them, each of at most kMostBytes. No link in it is followed, and nothing but
+/// what a farm puts there is removed. From any thread.
+class FailedJobs {
+ public:
+  static constexpr std::size_t kMost = 100;
+  static constexpr std::uint64_t kMostBytes = 16 << 20;
+
+  /// `directory` is DIR/failed; empty: nothing is kept.
+  explicit FailedJobs(std::filesystem::path directory);
+
+  /// Lets `write` put files into the job's directory, in place of what is there of an earlier failure. Returns its
+  /// name, "failed/CELL/JOB"; empty if it is not kept: there are too many, it is too large, or it cannot be written.
+  std::string keep(const std::string& cell, const std::string& job,
+                   const std::function<void(const std::filesystem::path& directory)>& write);
+  /// After a success.
+  void forget(const std::string& cell, const std::string& job);
+  /// Removes those of which `is_over` says so.
+  void forget_if(
+      const std::function<bool(const std::string& cell, const std::string& job)>& is_over);
+
+ private:
+  void remove(const std::string& cell, const std::string& job) const;
+
+  const std::filesystem::path directory_;
+  std::mutex mutex_;
+  std::set<std::string> kept_;  ///< "CELL/JOB"
+};
+
+}  // namespace lobelia
