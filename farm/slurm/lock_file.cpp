@@ -15,7 +15,7 @@
 namespace lobelia {
 
 LockFile::LockFile(const std::filesystem::path& path) {
-  fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (fd_ < 0)
     throw Error(ExitCode::kOutput, fmt::format("{}: {}", path.string(), std::strerror(errno)));
   struct flock lock {};
