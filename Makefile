@@ -7,6 +7,8 @@ GRID   ?= reference_scenes/grids/sphere_grid.xml
 JOBS   ?= $(shell nproc)
 SETUP  ?= yes
 FUZZ_SECONDS ?= 60
+MINUTES ?= 10
+SEED    ?= $(shell date +%s)
 
 # SETUP=no: for systems whose packages have other names than Debian's.
 setup     = $(if $(filter no,$(SETUP)),@:,@scripts/setup)
@@ -15,14 +17,14 @@ configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery references test sanitize build bench fuzz lint clean
+.PHONY: help gallery references test sanitize build bench fuzz chaos lint clean
 .NOTPARALLEL:
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## /make \1\t/p' Makefile | expand -t 16
 	@echo
 	@echo 'Variables: PRESET (release, dev, asan, tsan, ci), OUT (where the gallery goes), JOBS,'
-	@echo 'GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS'
+	@echo 'GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED'
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
 	$(setup) build engines
@@ -71,6 +73,12 @@ fuzz: ## looks for files that break the scene reader, and scenes that break a la
 	$(configure)
 	$(build) --target test_renderer_random_scenes test_verify_random_scenes
 	@scripts/fuzz build/fuzz "$(FUZZ_SECONDS)" "build/$(PRESET)/bin"
+
+chaos: ## farms to which faults happen at random, for MINUTES (10); SEED=N begins with that round
+	$(setup) build
+	$(configure)
+	$(build) --target test_farm_chaos
+	LOBELIA_RANDOM_SEED="$(SEED)" LOBELIA_RANDOM_SECONDS=$$((60 * $(MINUTES))) "build/$(PRESET)/bin/test_farm_chaos"
 
 lint: ## checks the layout of the source, and for common mistakes with TIDY=yes (minutes)
 	$(setup) build lint

@@ -116,9 +116,9 @@ std::vector<std::string> differences(const Results& a, const Results& b) {
 }
 
 RunningFarm::RunningFarm(std::vector<std::string> arguments, const fs::path& directory,
-                         const std::vector<std::string>& environment) {
+                         const std::vector<std::string>& environment, const fs::path& output) {
   static int count = 0;
-  output_ = directory / fmt::format("output-{}.txt", count++);
+  output_ = output.empty() ? directory / fmt::format("output-{}.txt", count++) : output;
   arguments.insert(arguments.begin(), LOBELIA_PROGRAM);
   std::vector<std::string> variables = environment;
   // Where tests put what is temporary, so that what stays behind can be seen.
@@ -151,6 +151,10 @@ RunningFarm::~RunningFarm() {
 }
 
 void RunningFarm::signal(int number) const { ::kill(pid_, number); }
+
+std::string RunningFarm::output() const {
+  return fs::is_regular_file(output_) ? read_file(output_, 1 << 26) : "";
+}
 
 bool RunningFarm::has_ended() {
   int status = 0;

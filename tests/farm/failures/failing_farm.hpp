@@ -29,18 +29,20 @@ std::vector<std::string> differences(const Results& a, const Results& b);
 /// The program at work.
 class RunningFarm {
  public:
+  /// What it prints goes to a file, or to `output`.
   RunningFarm(std::vector<std::string> arguments, const fs::path& directory,
-              const std::vector<std::string>& environment = {});
+              const std::vector<std::string>& environment = {}, const fs::path& output = {});
   ~RunningFarm();
   RunningFarm(const RunningFarm&) = delete;
   RunningFarm& operator=(const RunningFarm&) = delete;
+  int pid() const { return pid_; }
   void signal(int number) const;
   /// Until it has ended: its exit code, or 128 + signal. At most 120 s.
   int wait();
   bool has_ended();
   /// Processes of that name that come of it; not those that are only asked their version.
   std::vector<int> engines(const std::string& name) const;
-  std::string output() const { return read_file(output_, 1 << 26); }  ///< so far
+  std::string output() const;  ///< so far; empty unless it goes to a file
 
  private:
   fs::path output_;
