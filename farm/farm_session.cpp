@@ -98,9 +98,13 @@ const Grid& checked(const Grid& grid) {
   return grid;
 }
 
-/// Says at once, not after the first picture, that a part of it is a link.
+/// Says at once, not after the first picture or a night, that a part of it is a link, or that no gallery can be written.
 const fs::path& made(const fs::path& directory, const FarmOptions& options) {
   require_apart(cache_directory(options.cache, directory), directory);
+  if (!options.gallery.empty()) {
+    make_directories(options.gallery);
+    require_writable(options.gallery / "index.html");
+  }
   make_directories(directory);
   const HeldDirectory held(directory);
   for (const std::string& link : held.links())
@@ -126,11 +130,6 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   summary_.cells = work_.graph.cell_count();
   if (std::string warning = work_.filter_warning(options.filter); !warning.empty())
     summary_.warnings.insert(std::move(warning));
-  if (!options_.gallery.empty()) {
-    // Better said now than after a night.
-    make_directories(options_.gallery);
-    require_writable(options_.gallery / "index.html");
-  }
   cache_.remove_abandoned();
   remove_abandoned_temporaries();
   cache_.keep_content(own_libraries());

@@ -87,7 +87,7 @@ class FakeEngine : public testing::TestWithParam<std::string> {
     const std::string play = fmt::format(
         "case $name in scene1*) echo of the second; {} ;; *) cp '{}' \"$picture\" ;; esac\n", bad,
         good);
-    if (GetParam() == "povray") return "name=${1%.ini}\npicture=$name.exr\n" + play;
+    if (GetParam() == "povray") return "name=${PWD##*/}\npicture=${1%.ini}.exr\n" + play;
     return R"(for job; do :; done
               for name in $(grep -o 'scene[0-9]*"' "$job" | tr -d '"'); do
                 echo "lobelia: begin $name"

@@ -142,7 +142,7 @@ TEST_F(FarmOnClusterWithLimits, MakesWithMoreMemoryWhatWasKilledForIt) {
               "; then { head -c 700000000 /dev/zero; sleep 3600; } | tail -c 700000000 > "
               "/dev/null; fi;; esac");
   std::vector<std::string> words = on_slurm();
-  words.insert(words.end(), {"--memory", "512M"});
+  words.push_back("--sbatch=--mem=512M");
   const FarmRun farm = run_command(words);
   EXPECT_EQ(farm.exit_code, 0) << farm.output;
   EXPECT_THAT(farm.output, HasSubstr("1 element: more memory used than asked for; the next round "
