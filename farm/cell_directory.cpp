@@ -258,6 +258,10 @@ std::string CellDirectory::current_status(const ResultCache& cache,
   }
 }
 
+void CellDirectory::remove_abandoned() const {
+  if (const HeldDirectory directory = held()) remove_abandoned_parts(directory);
+}
+
 std::string CellDirectory::write(const ResultCache& cache, const CellRecords& records,
                                  const std::vector<CellProblem>& problems) const {
   const Cell& cell = graph_->cells().cells[cell_];

@@ -60,6 +60,9 @@ class CellDirectory {
   std::string write(const ResultCache& cache, const CellRecords& records,
                     const std::vector<CellProblem>& problems) const;
 
+  /// Removes what a killed farm left half-written there.
+  void remove_abandoned() const;
+
   /// Takes cell.json away, until the cell is written again.
   void forget() const;
 

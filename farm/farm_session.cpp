@@ -209,8 +209,12 @@ bool FarmSession::look_at(std::size_t cell) {
     cell_directory(cell).forget();
     return false;
   }
-  status_[cell] = cell_directory(cell).current_status(cache_, records);
-  if (status_[cell].empty()) status_[cell] = cell_directory(cell).write(cache_, records, {});
+  const CellDirectory there = cell_directory(cell);
+  status_[cell] = there.current_status(cache_, records);
+  if (status_[cell].empty())
+    status_[cell] = there.write(cache_, records, {});
+  else
+    there.remove_abandoned();
   return true;
 }
 
