@@ -377,6 +377,8 @@ void Chaos::mend() {
   for (const fs::path& link : links_)
     if (fs::is_symlink(link, gone)) fs::remove(link, gone);
   links_.clear();
+  // What is no file in its place is told, and is not the farm's to remove.
+  if (!fs::is_regular_file(out() / "farm.json")) fs::remove_all(out() / "farm.json", gone);
   fs::remove_all(root() / "beside", gone);
   for (const auto& entry : fs::directory_iterator(root()))
     if (entry.path().filename().native().starts_with("elsewhere-"))
