@@ -100,19 +100,26 @@ TEST(RenderCommand, KeepsTheOldPictureIfTheNewOneCannotBeWritten) {
   EXPECT_EQ(bytes(directory.path() / "x.exr"), "old");
 }
 
-/// Waits until the process catches signals: the bit of SIGINT in its mask.
+/// Writes the number that /proc has for this shell into the file `process`; in a PID namespace $$ is another.
+const std::string kTellProcess = "read process rest < /proc/self/stat; echo $process > process; ";
+/// Waits until that process catches signals: the bit of SIGINT in its mask.
 const std::string kWhenItListens =
     "when_it_listens() {\n"
-    "  until grep -q '^SigCgt:.*[2367abef]$' /proc/$1/status; do sleep 0.05; done\n"
+    "  until [ -s process ]; do sleep 0.05; done\n"
+    "  until grep -q '^SigCgt:.*[2367abef]$' /proc/$(cat process)/status; do\n"
+    "    [ -d /proc/$(cat process) ] || exit 99\n"
+    "    sleep 0.05\n"
+    "  done\n"
+    "  rm process\n"
     "}\n";
 const std::string kLongRender =
     "\"$LOBELIA\" render \"$SCENES\"oblique_45.xml --width 4096 --height 4096 --samples 4096 -q -o x.exr";
 
 TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
   const TemporaryDirectory directory;
-  const auto result =
-      run_shell(kWhenItListens + "{ when_it_listens $$; kill -INT $$; } & exec " + kLongRender,
-                directory.path());
+  const auto result = run_shell(kWhenItListens + "{ when_it_listens; kill -INT $$; } & " +
+                                    kTellProcess + "exec " + kLongRender,
+                                directory.path());
   EXPECT_EQ(result.exit_code, 130) << result.output_tail;
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
   EXPECT_EQ(files_in(directory.path()), 0u);
@@ -121,8 +128,8 @@ TEST(RenderCommand, StoppedByCtrlCLeavesNothingAndSaysSo) {
 TEST(RenderCommand, TakesTwoSignalsInOneBreathForOneWish) {
   const TemporaryDirectory directory;
   const auto result =
-      run_shell(kWhenItListens + kLongRender +
-                    " & job=$!\nwhen_it_listens $job; kill -TERM $job; kill -TERM $job; wait $job",
+      run_shell(kWhenItListens + "{ " + kTellProcess + "exec " + kLongRender +
+                    "; } & job=$!\nwhen_it_listens; kill -TERM $job; kill -TERM $job; wait $job",
                 directory.path());
   EXPECT_EQ(result.exit_code, 143) << result.output_tail;
   EXPECT_EQ(result.output_tail, "lobelia: interrupted\n");
