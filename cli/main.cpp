@@ -1,17 +1,22 @@
 // The program: builds the command line, runs one subcommand, prints errors, chooses the exit code.
 #include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <new>
 #include <span>
 
 #include "cli/commands.hpp"
 #include "core/interrupt.hpp"
+#include "core/no_resources.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "core/threads.hpp"
 #include "core/version.hpp"
 
 namespace lobelia::cli {
@@ -26,10 +31,10 @@ constexpr char kFooter[] =
     "  lobelia compare highlight.exr povray.exr\n"
     "\n"
     "Exit codes: 0 done, 1 differs, 2 usage, 3 bad input, 4 cannot write, 5 engine missing\n"
-    "or failed, 70 a bug of ours, 130 Ctrl-C, 143 SIGTERM.";
+    "or failed, 70 a bug of ours, 71 too little memory, threads or files, 130 Ctrl-C, 143 SIGTERM.";
 
 constexpr char kStdoutFailed[] = "standard output: cannot write";
-constexpr char kOutOfMemory[] = "lobelia: not enough memory\n";
+constexpr char kOutOfMemory[] = "lobelia: not enough memory (ulimit -v or -d, cgroup memory.max)\n";
 
 /// Each message on a line of its own, whatever bytes a file's name brings into it.
 int fail(ExitCode code, std::span<const std::string> messages) noexcept {
@@ -103,6 +108,18 @@ int run(int argc, char** argv) {
   return flushed(exit_code);
 }
 
+/// Memory may also end where nothing may be thrown: the destructor of a JSON value allocates.
+[[noreturn]] void end_for_want_of_memory() noexcept {
+  try {
+    if (const auto current = std::current_exception()) std::rethrow_exception(current);
+  } catch (const std::bad_alloc&) {
+    write_message(kOutOfMemory);
+    ::_exit(int(ExitCode::kNoResources));
+  } catch (...) {
+  }
+  std::abort();
+}
+
 }  // namespace
 
 const std::vector<std::string>& command_line() { return g_command_line; }
@@ -119,16 +136,20 @@ int main(int argc, char** argv) {
   end_soon_when_interrupted();
   cli::g_command_line.assign(argv, argv + argc);
   if (!cli::g_command_line.empty()) cli::g_command_line[0] = "lobelia";
+  std::set_terminate(cli::end_for_want_of_memory);
   try {
+    keep_to_usual_threads();
     return cli::run(argc, argv);
   } catch (const Error& error) {
     return cli::fail(error.code(), error.lines());
   } catch (const std::bad_alloc&) {
     write_message(cli::kOutOfMemory);
-    return int(ExitCode::kInternal);
+    return int(ExitCode::kNoResources);
   } catch (const std::exception& error) {
     // fmt::print throws where more than a buffer could not be written.
     if (std::ferror(stdout)) return cli::fail(ExitCode::kOutput, cli::kStdoutFailed);
+    if (const std::string lack = lacking(error); !lack.empty())
+      return cli::fail(ExitCode::kNoResources, lack);
     return cli::fail(ExitCode::kInternal, fmt::format("internal error: {}", error.what()));
   }
 }

@@ -19,11 +19,13 @@
 #include "core/error.hpp"
 #include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
+#include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
 #include "core/reader_protocol.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
+#include "core/thread_count.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -31,12 +33,14 @@ namespace {
 
 std::atomic<bool> g_on_one_thread{false}, g_any_format{false};
 
+/// The dynamic linker's exit code.
+constexpr int kNotLoaded = 127;
+
 /// How often a wait looks for Ctrl-C.
 constexpr int kLookMilliseconds = 50;
 
 [[noreturn]] void broken(const char* what, int error) {
-  throw Error(ExitCode::kInternal,
-              fmt::format("{}: {}: {}", kReaderFile, what, std::strerror(error)));
+  throw failure_of(fmt::format("{}: {}", kReaderFile, what), error, ExitCode::kInternal);
 }
 
 class Descriptor {
@@ -109,6 +113,7 @@ class Reader {
     socket_ = Descriptor(ends[0]);
     const Descriptor theirs(ends[1]);
     const Descriptor null(::open("/dev/null", O_WRONLY | O_CLOEXEC));
+    if (null.get() < 0) broken("/dev/null", errno);
     // In a group of its own: Ctrl-C is ours to answer. It ends when it finds the socket closed.
     pid_ = spawn({.arguments = {companion_file(kReaderFile).string()},
                   .environment = reader_environment(),
@@ -119,8 +124,7 @@ class Reader {
   }
   ~Reader() {
     ::kill(-pid_, SIGKILL);
-    while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
-    }
+    status();
   }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
@@ -143,6 +147,14 @@ class Reader {
     return ::sendmsg(socket_.get(), &message, MSG_NOSIGNAL) == ssize_t(request.size());
   }
 
+  /// Of the reader that is gone, as wait(2) has it; waits for that.
+  int status() {
+    while (!has_ended_ && ::waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
+    }
+    has_ended_ = true;
+    return status_;
+  }
+
   /// False if the reader is gone.
   bool verdict(ReaderVerdict& verdict) const {
     for (;;) {
@@ -155,6 +167,8 @@ class Reader {
  private:
   Descriptor socket_;
   pid_t pid_ = 0;
+  bool has_ended_ = false;
+  int status_ = 0;
 };
 
 /// As many as threads ask at once. One that was interrupted or is gone does not come back.
@@ -234,7 +248,7 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
   throw_if_interrupted();
   const PictureFile file(path);
   ReadingRequest request{.names_only = names_only,
-                         .on_one_thread = g_on_one_thread,
+                         .on_one_thread = g_on_one_thread || usual_threads() == 1,
                          .format = {},
                          .path = path.string(),
                          .layer = layer,
@@ -271,6 +285,17 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
         unreadable_picture(path, why.empty() ? outcome.problem : why);
       }
     }
+    const int status = reader->status();
+    if (WIFEXITED(status) && WEXITSTATUS(status) == int(ExitCode::kNoResources))
+      throw Error(ExitCode::kNoResources,
+                  fmt::format("{}: not enough memory or processes (ulimit -v, -d or -u, cgroup "
+                              "memory.max or pids.max)",
+                              kReaderFile));
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded)
+      throw Error(ExitCode::kNoResources,
+                  fmt::format("{}: cannot be loaded: a library is missing, or there is not enough "
+                              "memory (ulimit -v or -d) or too many files are open (ulimit -n)",
+                              kReaderFile));
     // Nothing that a picture does ends the reader itself: somebody killed it while it waited.
     if (attempt == 1)
       throw Error(ExitCode::kInternal, fmt::format("{} ends by itself", kReaderFile));

@@ -19,6 +19,7 @@ enum class ExitCode : int {
   kOutput = 4,         ///< an output is not there: it cannot be written, or a job of a farm failed
   kEngine = 5,         ///< a reference engine is missing or failed
   kInternal = 70,      ///< a bug of ours
+  kNoResources = 71,   ///< the system gives no more memory, threads, processes or open files
   kHungUp = 129,       ///< SIGHUP: its terminal was closed
   kInterrupted = 130,  ///< Ctrl-C; thrown for the other two as well, see interrupt_exit_code()
   kTerminated = 143    ///< SIGTERM

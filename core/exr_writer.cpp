@@ -13,10 +13,11 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
-#include <thread>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/no_resources.hpp"
+#include "core/thread_count.hpp"
 
 namespace lobelia {
 namespace {
@@ -112,7 +113,9 @@ struct ExrWriter::State {
       throw;
     } catch (const std::exception& error) {
       stream.rethrow();
-      throw Error(ExitCode::kInternal, fmt::format("EXR: {}", error.what()));
+      const std::string lack = lacking(error);
+      throw Error(lack.empty() ? ExitCode::kInternal : ExitCode::kNoResources,
+                  fmt::format("EXR: {}", lack.empty() ? error.what() : lack));
     }
   }
 };
@@ -120,7 +123,7 @@ struct ExrWriter::State {
 ExrWriter::ExrWriter(const std::filesystem::path& path, int width, int height,
                      const ImageMetadata& metadata, ExrOptions options)
     : width_(width), height_(height), state_(new State{Stream(path), nullptr}) {
-  set_pool(std::max(1, int(std::thread::hardware_concurrency())));
+  set_pool(usual_threads() == 1 ? 0 : usual_threads());
   const int threads = std::min(pool_threads, oneapi::tbb::this_task_arena::max_concurrency());
   state_->guarded([&] {
     state_->output = std::make_unique<Imf::OutputFile>(

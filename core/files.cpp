@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/no_resources.hpp"
 #include "core/removal.hpp"
 
 namespace lobelia {
@@ -30,8 +31,7 @@ struct FileDescriptor {
 };
 
 [[noreturn]] void output_error(const fs::path& path, int error) {
-  throw Error(ExitCode::kOutput,
-              fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
+  throw failure_of(path.string() + ": cannot write", error, ExitCode::kOutput);
 }
 
 bool names_directory(const fs::path& path) {
@@ -79,8 +79,7 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   struct stat status {};
   if (file.fd < 0 || ::fstat(file.fd, &status) != 0)
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+    throw failure_of(path.string() + ": cannot read", errno, ExitCode::kInput);
   if (!S_ISREG(status.st_mode))
     throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
   if (std::uint64_t(status.st_size) > max_bytes)

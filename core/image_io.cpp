@@ -3,13 +3,18 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+
+#include <cerrno>
 
 #include "core/contained_reader.hpp"
 #include "core/error.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io_module.hpp"
+#include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
+#include "core/thread_count.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -23,10 +28,42 @@ fs::path companion_file(const char* name) {
                           here.string()));
 }
 
+namespace {
+
+/// What the module and the 260 libraries that it brings take of address space (441 MB on Debian 12), how much of that
+/// is memory for data (101 MB), and how many threads they start (4), each with something to spare.
+constexpr std::size_t kModuleSpace = std::size_t{400} << 20, kModuleData = std::size_t{128} << 20;
+constexpr int kModuleThreads = 8;
+
+/// Whether as much could be mapped just now.
+bool is_free(std::size_t size, int access) {
+  void* const place =
+      ::mmap(nullptr, size, access, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  return place != MAP_FAILED && ::munmap(place, size) == 0;
+}
+
+/// Asked before, because one of those libraries (log4cplus) waits for ever where it gets two threads and not four.
+void require_room_for_module() {
+  const int error = startable_threads(kModuleThreads) < kModuleThreads ? EAGAIN
+                    : !is_free(kModuleSpace + kModuleData, PROT_NONE) ||
+                            !is_free(kModuleData, PROT_READ | PROT_WRITE)
+                        ? ENOMEM
+                        : 0;
+  if (error != 0) throw failure_of("image module", error, ExitCode::kInternal);
+}
+
+}  // namespace
+
 const ImageIoTable& image_io_table() {
   static const ImageIoTable& table = []() -> const ImageIoTable& {
+    require_room_for_module();
     void* handle = ::dlopen(companion_file(kImageIoModuleFile).c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!handle) throw Error(ExitCode::kInternal, fmt::format("image module: {}", ::dlerror()));
+    if (!handle) {
+      const std::runtime_error why(fmt::format("image module: {}", ::dlerror()));
+      const std::string lack = lacking(why);
+      throw Error(lack.empty() ? ExitCode::kInternal : ExitCode::kNoResources,
+                  lack.empty() ? why.what() : fmt::format("image module: {}", lack));
+    }
     const void* symbol = ::dlsym(handle, kImageIoTableSymbol);
     if (!symbol) throw Error(ExitCode::kInternal, fmt::format("image module: {}", ::dlerror()));
     return *static_cast<const ImageIoTable*>(symbol);

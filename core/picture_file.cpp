@@ -13,10 +13,20 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/no_resources.hpp"
 #include "core/picture_bytes.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
+namespace {
+
+[[noreturn]] void cannot_open(const std::filesystem::path& path, int error) {
+  if (const std::string lack = lacking(error); !lack.empty())
+    throw Error(ExitCode::kNoResources, fmt::format("{}: {}", path.string(), lack));
+  unreadable_picture(path, error == ENOENT ? "no such file" : std::strerror(error));
+}
+
+}  // namespace
 
 void unreadable_picture(const std::filesystem::path& path, std::string_view why) {
   throw Error(ExitCode::kInput,
@@ -26,8 +36,7 @@ void unreadable_picture(const std::filesystem::path& path, std::string_view why)
 PictureFile::PictureFile(const std::filesystem::path& path) : path_(path) {
   // Opening a pipe would wait for whoever writes to it.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (descriptor_ < 0)
-    unreadable_picture(path, errno == ENOENT ? "no such file" : std::strerror(errno));
+  if (descriptor_ < 0) cannot_open(path, errno);
   struct stat status {};
   std::string problem;
   if (::fstat(descriptor_, &status) != 0)
@@ -82,7 +91,7 @@ int PictureFile::copy_in_memory(std::uint64_t max_bytes) const {
         path_, fmt::format("the file has {} bytes; at most {} of such a format are read", size_,
                            max_bytes));
   const int copy = ::memfd_create("picture", MFD_CLOEXEC);
-  if (copy < 0) unreadable_picture(path_, std::strerror(errno));
+  if (copy < 0) cannot_open(path_, errno);
   off_t offset = 0;
   while (std::uint64_t(offset) < size_) {
     const ssize_t n = ::sendfile(copy, descriptor_, &offset, std::size_t{1} << 24);

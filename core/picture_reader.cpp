@@ -22,6 +22,7 @@
 
 #include "core/error.hpp"
 #include "core/image_io_module.hpp"
+#include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
 #include "core/reader_protocol.hpp"
@@ -194,11 +195,11 @@ int run() {
     struct stat status {};
     ::fstat(job.file, &status);
     int alive[2];
-    if (::pipe2(alive, O_CLOEXEC) != 0) return 1;
+    if (::pipe2(alive, O_CLOEXEC) != 0) return int(ExitCode::kNoResources);
     const pid_t child = ::fork();
     if (child == 0) serve(table, job, began_with);
     for (const int mine : {alive[1], job.file, job.answer}) ::close(mine);
-    if (child < 0) return 1;
+    if (child < 0) return int(ExitCode::kNoResources);
     const ReaderVerdict verdict = wait_for(
         child, alive[0], seconds_to_wait(std::uint64_t(status.st_size), job.request.limit));
     ::close(alive[0]);
@@ -213,7 +214,10 @@ int run() {
 int main() {
   try {
     return lobelia::run();
-  } catch (const std::exception&) {  // the program sees that there is no answer
-    return 1;
+  } catch (const lobelia::Error& error) {  // the program sees that there is no answer
+    return int(error.code());
+  } catch (const std::exception& error) {
+    return int(lobelia::lacking(error).empty() ? lobelia::ExitCode::kInternal
+                                               : lobelia::ExitCode::kNoResources);
   }
 }

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <optional>
 
@@ -21,6 +20,7 @@
 #include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
 #include "core/keeper_protocol.hpp"
+#include "core/no_resources.hpp"
 #include "core/process_memory.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
@@ -162,8 +162,7 @@ class Memory {
 };
 
 [[noreturn]] void cannot_start(const std::string& program, int error) {
-  throw Error(ExitCode::kEngine,
-              fmt::format("{}: cannot be started: {}", program, std::strerror(error)));
+  throw failure_of(program + ": cannot be started", error, ExitCode::kEngine);
 }
 
 class Descriptor {
@@ -292,8 +291,7 @@ class Running {
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const ProcessOptions& options) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0)
-    throw Error(ExitCode::kEngine, fmt::format("no pipe: {}", std::strerror(errno)));
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw failure_of("no pipe", errno, ExitCode::kEngine);
   const Descriptor output(ends[0]);
   Descriptor theirs(ends[1]);
   const auto started = Clock::now();

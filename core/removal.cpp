@@ -196,6 +196,7 @@ std::vector<std::string> HeldDirectory::list(bool links_only) const {
 
 std::optional<std::string> HeldDirectory::read(const std::string& name,
                                                std::uint64_t max_bytes) const {
+  errno = 0;
   if (fd_ < 0 || !is_plain(name)) return std::nullopt;
   const int fd = ::openat(fd_, name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return std::nullopt;

@@ -42,7 +42,7 @@ class HeldDirectory {
 
   std::vector<std::string> names() const;  ///< in it, sorted
   std::vector<std::string> links() const;  ///< of these the symbolic links
-  /// A regular file's text; empty if it is none or longer than that.
+  /// A regular file's text; empty if it is none or longer than that, or errno says why it cannot be opened.
   std::optional<std::string> read(const std::string& name, std::uint64_t max_bytes) const;
   bool is_same_as(const HeldDirectory& other) const;
   HeldDirectory copy() const;

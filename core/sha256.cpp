@@ -7,10 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/no_resources.hpp"
 
 namespace lobelia {
 namespace {
@@ -56,8 +56,7 @@ Sha256Digest sha256(std::string_view bytes) {
 
 Sha256Digest sha256_of_file(const std::filesystem::path& path) {
   const auto fail = [&](int error) {
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: cannot read: {}", path.string(), std::strerror(error)));
+    throw failure_of(path.string() + ": cannot read", error, ExitCode::kInput);
   };
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) fail(errno);

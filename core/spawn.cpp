@@ -15,9 +15,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 
 #include "core/error.hpp"
+#include "core/no_resources.hpp"
 
 /// clone(2) by the other name that glibc has for it: what the thread sanitizer puts in place of the first takes the
 /// child for a fork and keeps books in it, in our memory.
@@ -182,9 +182,8 @@ Spawned spawn(const SpawnRequest& request) {
   if (error != 0) error = start(child, 0, pid);
   ::pthread_sigmask(SIG_SETMASK, &child.mask, nullptr);
   if (error != 0)
-    throw Error(ExitCode::kEngine, fmt::format("{}: cannot be started: {}",
-                                               request.arguments[request.keeper_line >= 0 ? 1 : 0],
-                                               std::strerror(error)));
+    throw failure_of(request.arguments[request.keeper_line >= 0 ? 1 : 0] + ": cannot be started",
+                     error, ExitCode::kEngine);
   return {pid, child.writes_limited, contained};
 }
 

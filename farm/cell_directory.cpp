@@ -107,7 +107,8 @@ std::optional<Json> read_cell_record(const fs::path& directory) {
   if (::access((directory / kRecordFile).c_str(), F_OK) != 0) return std::nullopt;
   try {
     return read_record(directory / kRecordFile, "cell");
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
     return std::nullopt;
   }
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <condition_variable>
 #include <ctime>
 #include <deque>
@@ -21,9 +22,11 @@
 #include "core/host.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
+#include "core/no_resources.hpp"
 #include "core/numbers.hpp"
 #include "core/process_memory.hpp"
 #include "core/text.hpp"
+#include "core/thread_count.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
@@ -757,8 +760,13 @@ struct JobRun::Impl {
         }
       }
     }
-    work.processors = options.threads > 0 ? options.threads
-                                          : int(std::max(1u, std::thread::hardware_concurrency()));
+    // One that could not be started would keep the others waiting for ever.
+    const int engines =
+        int(std::ranges::count_if(of_engine, [](const auto& jobs) { return !jobs.empty(); }));
+    work.processors =
+        std::min(options.threads > 0 ? options.threads : usual_threads(),
+                 startable_threads(engines + std::max(options.threads, usual_threads())) - engines);
+    if (work.processors < 1) throw failure_of("the farm's threads", EAGAIN, ExitCode::kInternal);
     if (steps > 0) code_pictures_on_calling_threads();
     {
       std::vector<std::jthread> threads;

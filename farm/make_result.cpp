@@ -24,6 +24,7 @@ Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) 
     // Written by ourselves: what an engine wrote was read where it could do no harm, and encoded anew.
     image = read_trusted_image(file);
   } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
     throw ResultFailure(FailureClass::kBadOutput, error.what());
   }
   if (image.width() != scene.film.width || image.height() != scene.film.height)

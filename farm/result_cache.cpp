@@ -263,10 +263,14 @@ std::optional<Json> ResultCache::find(const ResultKey& key, Look look, std::stri
     }
     why_not.clear();
     return record;
-  } catch (const std::exception& error) {  // not a record, or not of ours
+  } catch (const Json::exception& error) {  // not of ours
     why_not = fmt::format("damaged: {}", error.what());
-    return std::nullopt;
+  } catch (const Error& error) {
+    // What the system refuses says nothing of the result, which would be made again for it.
+    if (error.code() != ExitCode::kInput) throw;
+    why_not = fmt::format("damaged: {}", error.what());
   }
+  return std::nullopt;
 }
 
 std::string ResultCache::new_draft_name() const {

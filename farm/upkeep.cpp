@@ -17,6 +17,7 @@
 #include "core/finite_image.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
+#include "core/no_resources.hpp"
 #include "core/removal.hpp"
 #include "core/seal.hpp"
 #include "core/sha256.hpp"
@@ -41,6 +42,7 @@ std::string why_not_readable(const fs::path& file) {
     return "";
   } catch (const Error& error) {
     return error.what();
+    if (error.code() != ExitCode::kInput) throw;
   }
 }
 
@@ -142,6 +144,8 @@ std::optional<Json> sealed_record(const HeldDirectory& cell, std::string& why_no
   const Json record = text ? Json::parse(*text, nullptr, false) : Json();
   if (!text)
     why_not = "is missing";
+  if (const std::string lack = lacking(errno); !text && !lack.empty())
+    throw Error(ExitCode::kNoResources, fmt::format("{}: {}", cell.path().string(), lack));
   else if (!record.is_object() || record.value("kind", Json()) != "cell")
     why_not = "is not a cell's record";
   else if (!record.contains("seal"))
@@ -188,7 +192,10 @@ CellFindings look_at_cell(const HeldDirectory& cell, const ResultCache* cache) {
       ++found.files;
       found.bytes += std::uint64_t(status.st_size);
     }
-  } catch (const std::exception& error) {
+  } catch (const Json::exception& error) {
+    found.damaged.emplace_back(kRecordFile, error.what());
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
     found.damaged.emplace_back(kRecordFile, error.what());
   }
   return found;

@@ -157,6 +157,7 @@ std::string CellReader::read_named(const std::string& file, const char* kind, co
     take(read_record(directory_ / file, kind));
     return "";
   } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
     cell_.flaws.push_back(
         {file, CellStatus::kDamaged, without_directory(error.what(), directory_)});
     return cell_.flaws.back().message;
@@ -286,6 +287,7 @@ CellData read_cell(const fs::path& directory, const CellEntry& entry) {
       return full;
     }
   } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
     cell.status = is_there ? CellStatus::kDamaged : CellStatus::kLost;
     cell.unreadable = without_directory(error.what(), here);
   }

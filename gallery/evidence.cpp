@@ -39,7 +39,8 @@ std::string damage_of(const fs::path& directory, const std::string& file) {
     if (file.ends_with(".json") && !Json::accept(read_file(directory / file, kMaxRecordBytes)))
       return file + " is not JSON.";
     return "";
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
     return file + " cannot be read: it is damaged or incomplete.";
   }
 }
@@ -48,7 +49,8 @@ std::string damage_of(const fs::path& directory, const std::string& file) {
 std::string hash_now(const fs::path& path) {
   try {
     return hex(sha256_of_file(path));
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
     return "";
   }
 }

@@ -83,6 +83,7 @@ ProfileData read_profile(const std::filesystem::path& directory, const std::stri
       }
     }
   } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
     profile = ProfileData{};
     profile.file = file;
     profile.problem = error.what();

@@ -1,0 +1,51 @@
+#include "core/no_resources.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+namespace lobelia {
+
+std::string lacking(int error) {
+  switch (error) {
+    case EAGAIN:
+      return "the system allows no more threads or processes (ulimit -u, cgroup pids.max), or no memory for their "
+             "stacks (ulimit -v)";
+    case ENOMEM:
+      return "not enough memory (ulimit -v or -d, cgroup memory.max)";
+    case EMFILE:
+    case ENFILE:
+      return "too many open files (ulimit -n)";
+    default:
+      return "";
+  }
+}
+
+Error failure_of(const std::string& what, int error, ExitCode otherwise) {
+  const std::string lack = lacking(error);
+  return Error(lack.empty() ? otherwise : ExitCode::kNoResources,
+               fmt::format("{}: {}", what, lack.empty() ? std::strerror(error) : lack));
+}
+
+std::string lacking(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return lacking(ENOMEM);
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error))
+    if (system->code().category() == std::generic_category() ||
+        system->code().category() == std::system_category())
+      return lacking(system->code().value());
+  // oneTBB has the call's name and the system's words, OpenEXR the words alone, or those of std::bad_alloc; the dynamic
+  // linker says which library does not fit.
+  const std::string_view words = error.what();
+  for (const int one : {EAGAIN, ENOMEM, EMFILE})
+    if (words.find(std::strerror(one)) != words.npos) return lacking(one);
+  for (const char* of_memory :
+       {"std::bad_alloc", "failed to map segment", "cannot allocate memory", "cannot create cache"})
+    if (words.find(of_memory) != words.npos) return lacking(ENOMEM);
+  return "";
+}
+
+}  // namespace lobelia

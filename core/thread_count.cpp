@@ -1,0 +1,50 @@
+#include "core/thread_count.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <latch>
+#include <thread>
+#include <vector>
+
+namespace lobelia {
+namespace {
+
+/// oneTBB's workers, OpenEXR's, and threads of our own: each may be as many as the processors.
+constexpr int kPools = 3;
+/// For what starts beside them: the watcher of interrupts, the process that decodes pictures, an engine.
+constexpr int kSpare = 4;
+
+}  // namespace
+
+int startable_threads(int wanted) noexcept {
+  int started = 0;
+  try {
+    std::latch end(1);
+    std::vector<std::jthread> threads;
+    threads.reserve(std::size_t(wanted));
+    try {
+      for (; started < wanted; ++started)
+        threads.emplace_back([&end] {
+          std::free(
+              std::malloc(1));  // the C library reserves memory for a thread at its first piece
+          end.wait();
+        });
+    } catch (const std::exception&) {  // that is what we wanted to know
+    }
+    end.count_down();
+  } catch (const std::exception&) {
+  }
+  return started;
+}
+
+int usual_threads() noexcept {
+  static const int count = [] {
+    const int processors = std::max(1, int(std::thread::hardware_concurrency()));
+    return std::clamp((startable_threads(kPools * processors + kSpare) - kSpare) / kPools, 1,
+                      processors);
+  }();
+  return count;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,114 @@
+// Every command under small limits of memory, threads, files and their size: it does its work, or says what to raise.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_lobelia.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kTakesTerabytes = true;  // of address space
+#else
+constexpr bool kTakesTerabytes = false;
+#endif
+
+/// The dynamic linker's exit code, which comes before any of ours.
+constexpr int kNotLoaded = 127;
+
+class ResourceLimits : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(path("grid.xml"),
+               "<grid version=\"1\"><scene file=\"" + kScenes +
+                   "head_on.xml\"/><film width=\"16\" height=\"16\"/><axis name=\"exponent\" "
+                   "values=\"16, 32\"/><engine name=\"analytic\"/></grid>");
+    const auto made = run_shell(
+        "\"$LOBELIA\" render -q \"$SCENES\"head_on.xml --width 64 --height 64 -o a.exr &&\n"
+        "\"$LOBELIA\" render -q \"$SCENES\"oblique_45.xml --width 64 --height 64 -o b.exr &&\n"
+        "\"$LOBELIA\" farm grid.xml -q -o run",
+        directory_.path());
+    ASSERT_EQ(made.exit_code, 0) << made.output_tail;
+  }
+  fs::path path(const std::string& name) const { return directory_.path() / name; }
+
+  /// Each command after `limit`, a line of shell. Counts those that did their work.
+  void expect_work_or_a_sentence(const std::string& limit) {
+    struct Command {
+      const char* arguments;
+      int exit_code;
+    };
+    for (const auto& [arguments, exit_code] : {
+             Command{"render \"$SCENES\"oblique_45.xml --width 64 --height 64 -q -o out.exr", 0},
+             {"compare a.exr b.exr", 1},
+             {"farm grid.xml -q -o out", 0},
+             {"farm verify run", 0},
+             {"gallery run -o out", 0},
+         }) {
+      const auto result = run_shell(
+          "(" + limit + "; exec \"$LOBELIA\" " + arguments +
+              ") > /dev/null; code=$?; rm -rf out out.exr out.exr.json out.json; exit $code",
+          directory_.path());
+      const std::string& errors = result.output_tail;
+      const std::string what = limit + "; " + arguments + "\n" + errors;
+      if (result.exit_code == exit_code) {
+        ++done_;
+        continue;
+      }
+      ++refused_;
+      if (result.exit_code == kNotLoaded) {
+        EXPECT_THAT(errors, HasSubstr("error while loading shared libraries")) << what;
+        continue;
+      }
+      EXPECT_TRUE(result.exit_code == 71 || result.exit_code == 3 || result.exit_code == 4)
+          << result.exit_code << " " << what;
+      EXPECT_TRUE(errors.starts_with("lobelia: ")) << what;
+      if (result.exit_code == 71) {
+        EXPECT_THAT(errors, HasSubstr("ulimit -")) << what;
+      }
+    }
+  }
+
+  TemporaryDirectory directory_;
+  int done_ = 0, refused_ = 0;
+};
+
+TEST_F(ResourceLimits, OfMemoryEndInWorkOrASentence) {
+  if (kTakesTerabytes) GTEST_SKIP() << "a sanitizer takes more address space than any limit";
+  for (const int megabytes :
+       {50, 75, 100, 125, 150, 200, 250, 300, 400, 500, 600, 800, 1000, 1500, 2000})
+    expect_work_or_a_sentence("ulimit -v " + std::to_string(megabytes * 1000));
+  for (const int megabytes : {1, 5, 20, 80, 300})
+    expect_work_or_a_sentence("ulimit -d " + std::to_string(megabytes * 1000));
+  EXPECT_GT(done_, 5);
+  EXPECT_GT(refused_, 5);
+}
+
+TEST_F(ResourceLimits, OfThreadsEndInWorkOrASentence) {
+  // LD_PRELOAD takes paths apart at blanks.
+  fs::create_symlink(LOBELIA_FEW_THREADS, path("few_threads.so"));
+  for (const int threads : {0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24})
+    expect_work_or_a_sentence(
+        "export THREADS_ALLOWED=" + std::to_string(threads) +
+        " ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" + path("few_threads.so").string());
+  EXPECT_GT(done_, 40) << "most need none but the first";
+}
+
+TEST_F(ResourceLimits, OfOpenFilesEndInWorkOrASentence) {
+  for (const int files : {4, 5, 6, 7, 8, 10, 12, 16, 24, 32, 64})
+    expect_work_or_a_sentence("ulimit -n " + std::to_string(files));
+  EXPECT_GT(done_, 10);
+  EXPECT_GT(refused_, 3);
+}
+
+TEST_F(ResourceLimits, OfAFilesSizeAreAnErrorOfWriting) {
+  for (const int blocks : {0, 1, 4})
+    expect_work_or_a_sentence("ulimit -f " + std::to_string(blocks));
+  EXPECT_GT(refused_, 3);
+}
+
+}  // namespace
+}  // namespace lobelia
