@@ -16,6 +16,7 @@
 #include "core/interrupt.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "farm/failed_jobs.hpp"
 #include "farm/upkeep.hpp"
 
 namespace lobelia::cli {
@@ -44,7 +45,7 @@ FarmOptions farm_options(const Options& options) {
   farm.memory = parse_size(options.memory);
   farm.disk = parse_size(options.disk);
   farm.give_up_after = options.give_up_after;
-  farm.failed_directory = std::filesystem::absolute(options.directory) / "failed";
+  farm.failed_directory = std::filesystem::absolute(options.directory) / FailedJobs::kName;
   farm.again = options.again;
   farm.require_engines = options.require_engines;
   farm.cache = options.cache;

@@ -175,7 +175,8 @@ void add_clean(CLI::App& farm) {
       farm.add_subcommand("clean", "Take away cells that are not of a farm's grid any more");
   auto options = std::make_shared<Options>();
   command->add_option("DIR", options->directory, "The farm's directory")->required();
-  command->add_flag("--all", options->all, "Every cell, and the farm's record; the cache stays");
+  command->add_flag("--all", options->all,
+                    "Every cell, what failed jobs left, and the farm's record; the cache stays");
   command->add_flag("--dry-run", options->dry_run, "Only list what would go, path by path");
   command->footer(
       "What neither a farm nor its gallery wrote stays, and is told. Exit codes: 0, 3 no farm's directory,\n"

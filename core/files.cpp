@@ -39,13 +39,13 @@ bool names_directory(const fs::path& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// Where a write to `path` ends up: the file behind a symbolic link is replaced, not the link.
-/// Throws Error(kOutput) for what is there and is not a regular file: a rename would replace a
-/// device by a file.
-fs::path final_target(const fs::path& path) {
+/// Where a write to `path` ends up. Throws Error(kOutput) for what is there and is not a regular file: a rename would
+/// replace a device by a file.
+fs::path final_target(const fs::path& path, AtLink at_link) {
   std::error_code ignored;
   fs::path target = path;
   if (fs::is_symlink(path, ignored)) {
+    if (at_link == AtLink::kReplace) return path;
     target = fs::weakly_canonical(path, ignored);
     if (target.empty()) output_error(path, ELOOP);
   }
@@ -100,8 +100,8 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   return text;
 }
 
-PartFile::PartFile(const fs::path& path)
-    : path_(path), target_(final_target(path)), part_([&] {
+PartFile::PartFile(const fs::path& path, AtLink at_link)
+    : path_(path), target_(final_target(path, at_link)), part_([&] {
         while (true) {
           const fs::path part = temporary_name(target_);
           fd_ = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -185,19 +185,20 @@ void FilesTogether::commit() {
   interrupts_come_too_late();
 }
 
-void write_file(const fs::path& path, std::span<const std::uint8_t> bytes) {
-  PartFile file(path);
+void write_file(const fs::path& path, std::span<const std::uint8_t> bytes, AtLink at_link) {
+  PartFile file(path, at_link);
   file.append(bytes);
   file.finish();
 }
 
-void write_file(const fs::path& path, std::string_view text) {
-  write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
+  write_file(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()),
+             at_link);
 }
 
 void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
-  const fs::path part = temporary_name(final_target(path));
+  const fs::path part = temporary_name(final_target(path, AtLink::kFollow));
   const EndDelay delay;
   const FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
   if (file.fd < 0) output_error(path, errno);

@@ -16,16 +16,24 @@ namespace lobelia {
 /// The whole file. Throws Error(kInput) if it is missing, not a regular file or over `max_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
+/// What becomes of a symbolic link where a file is to be written.
+enum class AtLink {
+  kFollow,  ///< the file that it leads to is replaced: for paths that a user chose
+  kReplace  ///< the link itself: for names of ours
+};
+
 /// Writes to a temporary name beside `path`, flushes it to the disk, then renames.
 /// Throws Error(kOutput) with the system's reason; then neither file is left behind.
-void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
-void write_file(const std::filesystem::path& path, std::string_view text);
+void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                AtLink at_link = AtLink::kFollow);
+void write_file(const std::filesystem::path& path, std::string_view text,
+                AtLink at_link = AtLink::kFollow);
 
 /// A file in the making, for what is too large or too slow to be written at once: under a temporary name
 /// beside `path`, which it gets by finish(). Without that nothing is left behind. Throws as write_file does.
 class PartFile {
  public:
-  explicit PartFile(const std::filesystem::path& path);
+  explicit PartFile(const std::filesystem::path& path, AtLink at_link = AtLink::kFollow);
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;

@@ -37,8 +37,8 @@ std::string record_text(const Json& record) {
   return writable.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void write_record(const std::filesystem::path& path, const Json& record) {
-  write_file(path, record_text(record));
+void write_record(const std::filesystem::path& path, const Json& record, AtLink at_link) {
+  write_file(path, record_text(record), at_link);
 }
 
 Json read_record(const std::filesystem::path& path, const std::string& kind) {

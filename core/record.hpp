@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/files.hpp"
 #include "core/vec.hpp"
 
 namespace lobelia {
@@ -20,7 +21,8 @@ Json make_record(const std::string& kind);
 
 /// Writes atomically, indented, with a final newline. NaN and infinity become strings, because
 /// JSON has none and null would hide which it was; bytes that are no UTF-8 become \xNN.
-void write_record(const std::filesystem::path& path, const Json& record);
+void write_record(const std::filesystem::path& path, const Json& record,
+                  AtLink at_link = AtLink::kFollow);
 std::string record_text(const Json& record);
 
 /// Throws Error(kInput) if it is missing, broken, of another kind or of another schemaVersion.

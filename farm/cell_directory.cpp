@@ -358,7 +358,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
   record["files"] = files_of(records);
   record = Json::parse(record_text(record));  // as whoever checks the seal reads it
   record["seal"] = seal_of(record);
-  write_record(directory_ / kRecordFile, record);
+  write_record(directory_ / kRecordFile, record, AtLink::kReplace);
   return status;
 }
 

@@ -135,7 +135,7 @@ void write_chunk_report(const fs::path& run_directory, std::size_t number,
   record["left"] = Json::array();
   for (const LeftUndone& one : left.first(std::min(left.size(), kMostLeft)))
     record["left"].push_back({{"engine", one.engine}, {"why", printable(one.why, kMostWhy)}});
-  write_record(path, record);
+  write_record(path, record, AtLink::kReplace);
 }
 
 ChunkReports read_chunk_reports(const fs::path& run_directory, std::size_t first, std::size_t end) {

@@ -14,6 +14,7 @@ namespace lobelia {
 /// what a farm puts there is removed. From any thread.
 class FailedJobs {
  public:
+  static constexpr char kName[] = "failed";  ///< of the directory in DIR
   static constexpr std::size_t kMost = 100;
   static constexpr std::uint64_t kMostBytes = 16 << 20;
 

@@ -295,7 +295,7 @@ void FarmSession::write_farm_record() const {
     record["cells"].push_back(
         {{"id", work_.cells.cells[i].id}, {"status", status_[i]}, {"axes", std::move(axes)}});
   }
-  write_record(directory_ / "farm.json", record);
+  write_record(directory_ / "farm.json", record, AtLink::kReplace);
 }
 
 bool FarmSession::has_lost(const JobRun& run) const {

@@ -23,6 +23,7 @@
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/cell_directory.hpp"
+#include "farm/failed_jobs.hpp"
 #include "farm/result_cache.hpp"
 
 namespace lobelia {
@@ -41,8 +42,8 @@ std::string why_not_readable(const fs::path& file) {
       return "is not JSON";
     return "";
   } catch (const Error& error) {
-    return error.what();
     if (error.code() != ExitCode::kInput) throw;
+    return error.what();
   }
 }
 
@@ -101,6 +102,8 @@ Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_ga
   long long pid = 0;
   const std::string& name = parts.back();
   if (parts.size() == 1 && (name == "farm.json" || is_part_name(name, pid))) return Owned::kFile;
+  if (parts[0] == FailedJobs::kName && parts.size() <= 3)
+    return parts.size() < 3 ? Owned::kDirectory : Owned::kTree;
   if (parts[0] != "cells" || parts.size() > 3) return Owned::kNo;
   if (parts.size() < 3) return Owned::kDirectory;
   return is_cell_file(name) || is_part_name(name, pid) || of_gallery.contains(relative.string())
@@ -141,11 +144,11 @@ std::vector<std::string> sentences(const std::vector<Removal::Kept>& kept) {
 /// A cell's own record: empty, with the reason, if it is not what the farm wrote.
 std::optional<Json> sealed_record(const HeldDirectory& cell, std::string& why_not) {
   const auto text = cell.read(kRecordFile, kMaxRecordBytes);
+  if (const std::string lack = lacking(errno); !text && !lack.empty())
+    throw Error(ExitCode::kNoResources, fmt::format("{}: {}", cell.path().string(), lack));
   const Json record = text ? Json::parse(*text, nullptr, false) : Json();
   if (!text)
     why_not = "is missing";
-  if (const std::string lack = lacking(errno); !text && !lack.empty())
-    throw Error(ExitCode::kNoResources, fmt::format("{}: {}", cell.path().string(), lack));
   else if (!record.is_object() || record.value("kind", Json()) != "cell")
     why_not = "is not a cell's record";
   else if (!record.contains("seal"))
@@ -415,11 +418,17 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
   }
   directories = report.cells;
   remove_parts("");
-  if (all) {
-    if (removal.remove("cells")) ++directories;
-    removal.remove("farm.json");
-  }
+  if (all && removal.remove("cells")) ++directories;
+  if (all) removal.remove("farm.json");
   report.files = paths - directories;
+  const fs::path failed = FailedJobs::kName;
+  for (const std::string& id : removal.directory(failed).names()) {
+    if (ids.contains(id)) continue;
+    for (const std::string& job : removal.directory(failed / id).names())
+      removal.remove(failed / id / job);
+    removal.remove(failed / id);
+  }
+  if (all && removal.directory(failed)) removal.remove(failed);
   report.stays = sentences(removal.kept());
   return report;
 }

@@ -126,7 +126,7 @@ void write_run_record(const fs::path& run_directory, const fs::path& grid_file,
   record["programs"] = Json::object();
   for (const auto& [engine, program] : options.programs)
     record["programs"][engine] = fs::absolute(program).string();
-  write_record(run_directory / kRunFile, record);
+  write_record(run_directory / kRunFile, record, AtLink::kReplace);
 }
 
 struct Run {

@@ -114,7 +114,7 @@ void write_run_record(const fs::path& run_directory, const RunRecord& record) {
     if (!array.memory.empty()) one["memory"] = array.memory;
     json["arrays"].push_back(std::move(one));
   }
-  write_record(record_path(run_directory), json);
+  write_record(record_path(run_directory), json, AtLink::kReplace);
 }
 
 /// Of the directory: another client of the same run gives its jobs the same name.

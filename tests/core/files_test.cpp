@@ -99,6 +99,20 @@ TEST(WriteFile, ThroughALinkReplacesTheFileBehindIt) {
   EXPECT_EQ(read_file(directory.path() / "real", 100), "new");
 }
 
+TEST(WriteFile, ReplacesALinkThatStandsInPlaceOfANameOfOurs) {
+  const TemporaryDirectory directory, other;
+  write_file(other.path() / "real", "old");
+  for (const fs::path& target : {other.path() / "real", other.path(), fs::path("nowhere")}) {
+    fs::create_symlink(target, directory.path() / "link");
+    write_file(directory.path() / "link", "new", AtLink::kReplace);
+    EXPECT_FALSE(fs::is_symlink(directory.path() / "link")) << target;
+    EXPECT_EQ(read_file(directory.path() / "link", 100), "new") << target;
+    fs::remove(directory.path() / "link");
+  }
+  EXPECT_EQ(read_file(other.path() / "real", 100), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(other.path()), {}), 1);
+}
+
 TEST(WriteFile, DoesNotReplaceAPipeOrADevice) {
   const TemporaryDirectory directory;
   const auto pipe = directory.path() / "pipe";

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "farm/failed_jobs.hpp"
 #include "farm/result_cache.hpp"
 #include "farm_fixture.hpp"
 
@@ -109,6 +110,25 @@ TEST_F(UpkeepTest, CleanTakesAwayWhatIsNotOfTheGridAndNothingElse) {
       << "two cells with the formulas, and a profile of one without";
   EXPECT_THROW(clean_farm(out(), false), Error) << "it is no farm's directory any more";
   EXPECT_THROW(clean_farm(directory_.path(), true), Error);
+}
+
+TEST_F(UpkeepTest, CleanTakesAwayWhatFailedJobsLeft) {
+  const fs::path failed = out() / FailedJobs::kName;
+  FarmOptions options;
+  options.attempts = 1;
+  options.failed_directory = failed;
+  options.programs = {{"povray", failing_povray()}};
+  run_farm(grid("16, 32", "<engine name=\"povray\"/>"), out(), options);
+  ASSERT_TRUE(fs::exists(failed / "n16") && fs::exists(failed / "n32"));
+  run_farm(grid("16", "<engine name=\"povray\"/>"), out(), options);
+  clean_farm(out(), false);
+  EXPECT_TRUE(fs::exists(failed / "n16"));
+  EXPECT_FALSE(fs::exists(failed / "n32"));
+  write_file(failed / "mine", "a user's");
+  const CleanReport report = clean_farm(out(), true);
+  EXPECT_FALSE(fs::exists(failed / "n16"));
+  EXPECT_TRUE(fs::exists(failed / "mine"));
+  EXPECT_THAT(report.stays, testing::Contains(testing::HasSubstr("failed")));
 }
 
 TEST_F(UpkeepTest, StatusTellsWhatHasBecomeOfEachCell) {

@@ -150,7 +150,9 @@ RunningFarm::~RunningFarm() {
   ::waitpid(pid_, nullptr, 0);
 }
 
-void RunningFarm::signal(int number) const { ::kill(pid_, number); }
+void RunningFarm::signal(int number) const {
+  if (exit_code_ < 0) ::kill(pid_, number);  // else the number may be another's by now
+}
 
 std::string RunningFarm::output() const {
   return fs::is_regular_file(output_) ? read_file(output_, 1 << 26) : "";
