@@ -66,7 +66,7 @@ bench: ## builds and runs the benchmarks
 	$(configure)
 	$(build) --target run_bench
 
-fuzz: ## looks for files that break the scene reader, and scenes that break a law, FUZZ_SECONDS (60) each; needs Clang
+fuzz: ## looks for files that break a reader, and scenes that break a law, FUZZ_SECONDS (60) each; needs Clang
 	$(setup) build fuzz
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel "$(JOBS)"

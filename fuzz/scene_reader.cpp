@@ -1,4 +1,4 @@
-#include "fuzz/scene_reader.hpp"
+#include "fuzz/checks.hpp"
 
 #include <optional>
 #include <stdexcept>

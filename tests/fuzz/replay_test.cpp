@@ -1,11 +1,17 @@
-// The corpus of `make fuzz` through the fuzzer's own entry, and every small change to each seed.
+// The corpora of `make fuzz` through the fuzzers' own checks, and small changes to each seed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <random>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
-#include "fuzz/scene_reader.hpp"
+#include "core/image_io.hpp"
+#include "farm/grid.hpp"
+#include "fuzz/bundle.hpp"
+#include "fuzz/checks.hpp"
+#include "gallery/farm_data.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::fuzz {
@@ -13,35 +19,83 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> seeds() {
+std::vector<fs::path> seeds(const std::string& corpus) {
   std::vector<fs::path> found;
   for (const auto& entry :
-       fs::directory_iterator(std::string(LOBELIA_SOURCE_DIR) + "/fuzz/corpus/scene"))
+       fs::directory_iterator(std::string(LOBELIA_SOURCE_DIR) + "/fuzz/corpus/" + corpus))
     found.push_back(entry.path());
   std::sort(found.begin(), found.end());
   return found;
 }
 
-TEST(SceneCorpus, BreaksNothing) {
-  int scenes = 0, refused = 0;
-  for (const fs::path& seed : seeds()) {
-    const std::string text = read_file(seed, 1 << 20);
-    EXPECT_NO_THROW(check_scene_reader(text)) << seed;
+/// How many seeds are read to their end, and how many are refused. A corpus that is refused as a whole reaches little.
+struct Counts {
+  int read = 0, refused = 0;
+};
+
+template <class Read>
+Counts replay(const std::string& corpus, void (*check)(std::string_view), Read read) {
+  Counts counts;
+  for (const fs::path& seed : seeds(corpus)) {
+    const std::string bytes = read_file(seed, 1 << 20);
+    EXPECT_NO_THROW(check(bytes)) << seed;
     try {
-      parse_scene(text, "s.xml");
-      ++scenes;
+      read(bytes);
+      ++counts.read;
     } catch (const std::exception&) {
-      ++refused;
+      ++counts.refused;
     }
   }
-  // A corpus that is refused as a whole reaches little.
-  EXPECT_GE(scenes, 8);
+  return counts;
+}
+
+TEST(SceneCorpus, BreaksNothing) {
+  const auto [read, refused] = replay("scene", check_scene_reader,
+                                      [](const std::string& text) { parse_scene(text, "s.xml"); });
+  EXPECT_GE(read, 8);
   EXPECT_GE(refused, 3);
+}
+
+/// The files of a bundle, and the directory of all.
+void unpack(const TemporaryDirectory& directory, const std::string& bundle) {
+  for (const auto& [name, text] : files_of_bundle(bundle))
+    write_plainly(directory.path() / name, text);
+}
+
+TEST(GridCorpus, BreaksNothing) {
+  const auto [read, refused] = replay("grid", check_grid_reader, [](const std::string& bundle) {
+    const TemporaryDirectory directory;
+    unpack(directory, bundle);
+    read_grid(directory.path() / "grid.xml");
+  });
+  EXPECT_GE(read, 4);
+  EXPECT_GE(refused, 2);
+}
+
+TEST(RecordCorpus, BreaksNothing) {
+  const auto [read, refused] =
+      replay("record", check_record_readers, [](const std::string& bundle) {
+        const TemporaryDirectory directory;
+        unpack(directory, bundle);
+        gallery::read_farm(directory.path());
+      });
+  EXPECT_GE(read, 2);
+  EXPECT_GE(refused, 2);
+}
+
+TEST(PictureCorpus, BreaksNothing) {
+  const auto [read, refused] = replay("picture", check_picture_door, [](const std::string& bytes) {
+    const TemporaryDirectory directory;
+    write_plainly(directory.path() / "picture.tga", bytes);
+    read_image(directory.path() / "picture.tga");
+  });
+  EXPECT_GE(read, 6);
+  EXPECT_GE(refused, 6);
 }
 
 TEST(SceneCorpus, BreaksNothingWithAByteLeftOutOrChanged) {
   int tried = 0;
-  for (const fs::path& seed : seeds()) {
+  for (const fs::path& seed : seeds("scene")) {
     const std::string text = read_file(seed, 1 << 20);
     if (text.size() > 2048) continue;  // bounded: each byte is nine inputs
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -58,6 +112,57 @@ TEST(SceneCorpus, BreaksNothingWithAByteLeftOutOrChanged) {
     }
   }
   EXPECT_GT(tried, 2000);
+}
+
+/// These write files for each input: bytes at random, the same ones each time, in place of all.
+void expect_survives_changed_bytes(const std::string& corpus, void (*check)(std::string_view),
+                                   int changes) {
+  std::mt19937 random(8);
+  for (const fs::path& seed : seeds(corpus)) {
+    const std::string bytes = read_file(seed, 1 << 20);
+    for (int i = 0; i < changes; ++i) {
+      std::string changed = bytes;
+      const std::size_t at = random() % bytes.size();
+      const auto how = random() % 3;
+      if (how == 0) changed.erase(at, 1 + random() % 8);
+      if (how == 1) changed[at] = char(random());
+      if (how == 2) changed.resize(at);
+      ASSERT_NO_THROW(check(changed)) << seed << ", change " << i;
+    }
+  }
+}
+
+TEST(GridCorpus, BreaksNothingWithBytesChanged) {
+  expect_survives_changed_bytes("grid", check_grid_reader, 100);
+}
+
+TEST(RecordCorpus, BreaksNothingWithBytesChanged) {
+  expect_survives_changed_bytes("record", check_record_readers, 100);
+}
+
+TEST(PictureCorpus, BreaksNothingWithBytesChanged) {
+  expect_survives_changed_bytes("picture", check_picture_door, 100);
+}
+
+TEST(PictureCorpus, IsAPictureOrARefusalInTheProcessThatDecodes) {
+  const TemporaryDirectory directory;
+  const auto decode = [&](std::string_view bytes) {
+    const fs::path path = directory.path() / "picture.tga";
+    write_plainly(path, bytes);
+    try {
+      read_image(path);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kInput) throw;
+    }
+  };
+  std::mt19937 random(9);
+  for (const fs::path& seed : seeds("picture")) {
+    std::string bytes = read_file(seed, 1 << 20);
+    for (int i = 0; i < 4; ++i) {
+      ASSERT_NO_THROW(decode(bytes)) << seed << ", change " << i;
+      bytes[random() % bytes.size()] = char(random());
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+// In place of core's reading of pictures, which is a process of its own: none can be read.
+#include "core/contained_reader.hpp"
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+
+namespace lobelia {
+
+Picture read_contained(const std::filesystem::path& path, const std::string&, const PictureLimit&) {
+  throw Error(ExitCode::kInput, path.string() + ": not a readable picture");
+}
+
+Image read_image(const std::filesystem::path& path) { return read_contained(path, "", {}).image; }
+
+}  // namespace lobelia

@@ -1,0 +1,57 @@
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "core/picture_bytes.hpp"
+#include "core/picture_file.hpp"
+#include "core/picture_message.hpp"
+#include "fuzz/bundle.hpp"
+#include "fuzz/checks.hpp"
+
+namespace lobelia::fuzz {
+namespace {
+
+template <class Message>
+void check_message(std::string_view bytes, Message (*unpack)(std::string_view)) {
+  Message message;
+  try {
+    message = unpack(bytes);
+  } catch (const Error&) {
+    throw std::logic_error("a message is refused as if a user had made it");
+  } catch (const std::runtime_error& error) {
+    if (std::string_view(error.what()).empty()) throw std::logic_error("refused without a word");
+    return;
+  }
+  // Numbers in it may be larger than what they stand for: true is 1, but 2 as well.
+  const std::string packed = pack(message);
+  if (pack(unpack(packed)) != packed)
+    throw std::logic_error("a message is accepted and packed to another one");
+}
+
+}  // namespace
+
+void check_picture_door(std::string_view bytes) {
+  const std::string_view footer = bytes.substr(bytes.size() - std::min(bytes.size(), kFooterBytes));
+  for (const char* ending : {".exr", ".tga"}) {
+    const auto format = picture_format(bytes, footer, ending);
+    is_cut_off(bytes, format);
+  }
+  is_exr_that_claims_too_much(bytes);
+  is_tiff_without_bits(bytes);
+  png_colour(bytes);
+
+  static const std::filesystem::path path = scratch() / "picture.tga";
+  write_plainly(path, bytes);
+  try {
+    const PictureFile file(path);
+    if (file.size() != bytes.size() || file.read_all() != bytes)
+      throw std::logic_error("a picture's file is read as another");
+    if (file.known_format().empty()) throw std::logic_error("a format without a name");
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput)
+      throw std::logic_error(std::string("refused as no fault of the input: ") + error.what());
+  }
+  check_message<ReadingRequest>(bytes, unpack_request);
+  check_message<ReadingAnswer>(bytes, unpack_answer);
+}
+
+}  // namespace lobelia::fuzz
