@@ -17,11 +17,11 @@ configure = cmake --preset "$(PRESET)"
 build     = cmake --build --preset "$(PRESET)" --parallel "$(JOBS)"
 
 .DEFAULT_GOAL := help
-.PHONY: help gallery references test sanitize build bench fuzz chaos lint clean
+.PHONY: help gallery references test sanitize sanitize-short build bench fuzz chaos lint clean
 .NOTPARALLEL:
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## /make \1\t/p' Makefile | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.*## /make \1\t/p' Makefile | expand -t 24
 	@echo
 	@echo 'Variables: PRESET (release, dev, asan, tsan, ci), OUT (where the gallery goes), JOBS,'
 	@echo 'GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED'
@@ -55,6 +55,12 @@ sanitize: ## runs the suite in the presets asan and tsan, without engines and br
 	cmake --preset tsan
 	cmake --build --preset tsan --parallel "$(JOBS)" --target threaded_tests
 	ctest --preset tsan --parallel "$(JOBS)" --label-regex threads
+
+sanitize-short: ## runs in the preset asan what reads scenes, grids, records and pictures, and the farm's unit tests
+	$(setup) build
+	cmake --preset asan
+	cmake --build --preset asan --parallel "$(JOBS)" --target reader_tests
+	ctest --preset asan --parallel "$(JOBS)" --label-regex readers --repeat until-pass:3
 
 build: ## builds everything into build/release
 	$(setup) build
