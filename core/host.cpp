@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <system_error>
 #include <thread>
 
 namespace lobelia {
@@ -32,6 +35,11 @@ Json host_record() {
   return {{"processor", processor_name()},
           {"threads", std::thread::hardware_concurrency()},
           {"system", std::string(system.sysname) + " " + system.release + " " + system.machine}};
+}
+
+bool proc_has_our_numbers() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self", ignored) == std::to_string(::getpid());
 }
 
 }  // namespace lobelia

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/host.hpp"
+
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
@@ -41,6 +43,7 @@ std::uint64_t peak_memory_of(pid_t process) {
 }
 
 std::uint64_t memory_of_tree(pid_t process, bool exactly) {
+  if (!proc_has_our_numbers()) return 0;
   std::uint64_t sum = 0;
   std::vector<pid_t> tree{process};
   for (std::size_t i = 0; i < tree.size() && i < kMostProcesses; ++i) {

@@ -13,7 +13,8 @@ namespace lobelia {
 std::uint64_t peak_memory_of(pid_t process);
 
 /// Resident bytes of a process and all that came of it, pages that several of them share counted once if `exactly` (PSS,
-/// for which the kernel has to look at every page), else once for each. 0 if it has ended.
+/// for which the kernel has to look at every page), else once for each. 0 if it has ended,
+/// or /proc has others' numbers.
 std::uint64_t memory_of_tree(pid_t process, bool exactly = false);
 
 /// How many processes this kernel has killed for want of memory since it started; nothing where it does not tell.

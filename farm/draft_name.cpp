@@ -126,7 +126,7 @@ Life life_of(const ProcessIdentity& maker, const ProcessIdentity& self) {
   const std::string untold(kBoot, '0');
   if (maker.boot == untold || self.boot == untold) return Life::kUnknown;
   if (maker.boot != self.boot) return maker.host == self.host ? Life::kDead : Life::kUnknown;
-  if (maker.pid_namespace != self.pid_namespace) return Life::kUnknown;
+  if (maker.pid_namespace != self.pid_namespace || !proc_has_our_numbers()) return Life::kUnknown;
   if (::kill(pid_t(maker.pid), 0) != 0 && errno == ESRCH) return Life::kDead;
   const ProcessState there = state_of(std::to_string(maker.pid));
   if (there.state == 0) return Life::kAlive;  // another user's, which the system does not show

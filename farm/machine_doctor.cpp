@@ -34,7 +34,8 @@ DoctorCheck writes() {
 
 DoctorCheck memory() {
   if (memory_of_tree(::getpid()) == 0)
-    return {"engines' memory", Verdict::kWarning, "/proc tells nothing: --memory has no effect",
+    return {"engines' memory", Verdict::kWarning,
+            "/proc is not there, or another PID namespace's: --memory has no effect",
             "mount /proc"};
   if (!count_of_oom_kills())
     return {

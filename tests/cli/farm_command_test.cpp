@@ -16,6 +16,20 @@ void write_small_grid(const std::filesystem::path& directory) {
                  "values=\"16, 32\"/><engine name=\"analytic\"/></grid>");
 }
 
+TEST(FarmCommand, DoctorTellsWhatHoldsAnEngineOnThisMachine) {
+  const TemporaryDirectory directory;
+  // What runs us may have given us a namespace without a /proc of its own.
+  const auto here =
+      run_shell("read process rest < /proc/self/stat; [ $process = $$ ]", directory.path());
+  const auto usual = run_shell("\"$LOBELIA\" farm doctor", directory.path());
+  EXPECT_THAT(usual.output_tail,
+              HasSubstr(here.exit_code == 0 ? "held to --memory" : "--memory has no effect"));
+  EXPECT_THAT(usual.output_tail, HasSubstr("engines' writing"));
+  const auto without =
+      run_shell("LOBELIA_NO_NAMESPACE=1 \"$LOBELIA\" farm doctor", directory.path());
+  EXPECT_THAT(without.output_tail, HasSubstr("no PID namespace: a subreaper ends them"));
+}
+
 TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
   const TemporaryDirectory directory;
   // An engine that would take a minute; known in the list of processes by its odd time.
