@@ -163,11 +163,18 @@ void Povray::run_pov(PassResult& result, const Job& job, const PovrayPass& pass,
     result.trace_seconds += seconds_in(line, "Trace Time:");
   };
   ProcessResult ended;
-  result.failure = run_engine(kPovrayInfo, arguments, process, options, ended);
-  result.commands.push_back(command);
-  result.seconds += ended.seconds;
-  result.cpu_seconds += ended.cpu_seconds;
-  result.peak_memory_bytes = std::max(result.peak_memory_bytes, ended.peak_memory_bytes);
+  // It waits some seconds for its own thread to start, which is not enough on a crowded machine.
+  constexpr std::string_view kSlowStart = "Timed out waiting for worker thread startup";
+  constexpr int kMostStarts = 5;
+  for (int start = 0; start < kMostStarts; ++start) {
+    result.failure = run_engine(kPovrayInfo, arguments, process, options, ended);
+    result.commands.push_back(command);
+    result.seconds += ended.seconds;
+    result.cpu_seconds += ended.cpu_seconds;
+    result.peak_memory_bytes = std::max(result.peak_memory_bytes, ended.peak_memory_bytes);
+    if (!result.failure) break;
+    if (ended.output_tail.find(kSlowStart) == ended.output_tail.npos) return;
+  }
   if (result.failure) return;
   Image image;
   result.failure = read_engine_picture(kPovrayInfo, home / (stem + ".exr"), job.film, image);

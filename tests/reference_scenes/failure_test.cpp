@@ -158,6 +158,17 @@ TEST_P(FakeEngine, ComplaintIsInTheErrorInOneLineAndInTheLog) {
   EXPECT_THAT(read_file(log, 1 << 20), HasSubstr("chatter"));
 }
 
+TEST_P(FakeEngine, ThatWasTooSlowToStartItsThreadsIsStartedAgain) {
+  if (GetParam() != "povray") GTEST_SKIP() << "POV-Ray alone gives up on itself";
+  const auto errors = errors_of(
+      "echo >> starts; if [ $(wc -l < starts) -lt 3 ]; then\n"
+      "echo 'Timed out waiting for worker thread startup' >&2; exit 1; fi\n"
+      "echo 'Parse Error: the third start' >&2; exit 7");
+  EXPECT_THAT(errors.at(0), HasSubstr("stopped with exit code 7: Parse Error: the third start"));
+  EXPECT_THAT(errors_of("echo 'Timed out waiting for worker thread startup' >&2; exit 1").at(0),
+              HasSubstr("stopped with exit code 1: Timed out waiting"));
+}
+
 TEST_P(FakeEngine, CrashIsThatScenesResult) {
   for (const auto& [scene, error] : errors_of(std::string(kBeginFirst) + "\nkill -SEGV $$", 3))
     EXPECT_THAT(error, HasSubstr("was ended by signal 11")) << scene;
