@@ -94,12 +94,14 @@ void place_file(const fs::path& cached, const HeldDirectory& directory, const st
   }
 }
 
-/// Of a cell's directory: our files in it.
+/// Of a cell's directory: our files in it, and what is empty in place of one.
 Removal removal_from(const HeldDirectory& directory) {
   return Removal(directory.path(),
                  {[&](const HeldDirectory& root) { return root.is_same_as(directory); },
-                  [](const fs::path& name) {
-                    return is_cell_file(name.string()) ? Owned::kFile : Owned::kNo;
+                  [&](const fs::path& name) {
+                    return !is_cell_file(name.string())     ? Owned::kNo
+                           : directory.below(name.string()) ? Owned::kDirectory
+                                                            : Owned::kFile;
                   }});
 }
 
@@ -284,6 +286,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     if (!records[slot]) continue;
     for (const auto& file : records[slot]->at("files")) {
       const std::string name = file.at("name");
+      if (removal.directory(name)) removal.remove(name);  // if it is empty
       place_file(cache.file(job.key, name), directory, name);
       foreign.erase(name);
     }

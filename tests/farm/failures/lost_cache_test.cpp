@@ -133,6 +133,24 @@ TEST_F(LostCache, VerifyReadsTheFilesUnderCellsToo) {
   EXPECT_EQ(run_command({"farm", "verify", "out", "-q"}).exit_code, 0);
 }
 
+TEST_F(LostCache, WithAnEmptyDirectoryInPlaceOfACellsFileMakesTheFile) {
+  const Results before = results_of(out());
+  for (const char* name : {"scene.xml", "lobelia.exr", "cell.json"}) {
+    const fs::path file = out() / "cells" / "n16" / name;
+    fs::remove(file);
+    fs::create_directory(file);
+    write_file(file / "a user's", "x");
+    const FarmRun refused = run_command(command());
+    EXPECT_EQ(refused.exit_code, 4) << refused.output;
+    EXPECT_THAT(refused.output, HasSubstr(name));
+    EXPECT_TRUE(fs::exists(file / "a user's"));
+    fs::remove(file / "a user's");
+    const FarmRun made = run_command(command());
+    EXPECT_EQ(made.exit_code, 0) << made.output;
+    EXPECT_THAT(differences(before, results_of(out())), IsEmpty()) << name;
+  }
+}
+
 TEST_F(LostCache, WithALinkInPlaceOfAnyPartIsRefusedAndWhatItLeadsToStays) {
   const fs::path outside = root() / "outside";
   fs::create_directories(outside / "0123456789abcdef");
