@@ -82,6 +82,7 @@ class Chaos : public FailingFarm {
 
   std::vector<fs::path> entries(const fs::path& directory, bool files) const {
     std::vector<fs::path> found;
+    if (!is_here(directory)) return found;
     std::error_code gone;  // a farm may be at work there
     for (fs::recursive_directory_iterator entry(directory, gone), end; !gone && entry != end;
          entry.increment(gone))
