@@ -56,11 +56,11 @@ sanitize: ## runs the suite in the presets asan and tsan, without engines and br
 	cmake --build --preset tsan --parallel "$(JOBS)" --target threaded_tests
 	ctest --preset tsan --parallel "$(JOBS)" --label-regex threads
 
-sanitize-short: ## runs in the preset asan what reads scenes, grids, records and pictures, and the farm's unit tests
+sanitize-short: ## runs under the address sanitizer what reads scenes, grids, records and pictures, and the farm's unit tests
 	$(setup) build
-	cmake --preset asan
-	cmake --build --preset asan --parallel "$(JOBS)" --target reader_tests
-	ctest --preset asan --parallel "$(JOBS)" --label-regex readers --repeat until-pass:3
+	cmake --preset asan-short
+	cmake --build --preset asan-short --parallel "$(JOBS)"
+	ctest --preset asan-short --parallel "$(JOBS)" --label-regex readers
 
 build: ## builds everything into build/release
 	$(setup) build

@@ -5,7 +5,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdint>
+
+#include "core/no_resources.hpp"
 
 namespace lobelia {
 namespace {
@@ -30,7 +33,9 @@ bool allow(int ruleset, const std::filesystem::path& path, std::uint64_t rights)
   const landlock_path_beneath_attr rule{rights, place};
   const long added =
       ::syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+  const int error = errno;
   ::close(place);
+  errno = error;
   return added == 0;
 }
 
@@ -43,11 +48,12 @@ WriteLimit::WriteLimit(const std::filesystem::path& directory) {
   landlock_ruleset_attr attributes{};
   attributes.handled_access_fs = writing(version);
   ruleset_ = int(::syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes, 0));
-  if (ruleset_ < 0) return;
-  if (!allow(ruleset_, directory, attributes.handled_access_fs)) {
-    ::close(ruleset_);
-    ruleset_ = -1;
-    return;
+  if (ruleset_ < 0 || !allow(ruleset_, directory, attributes.handled_access_fs)) {
+    const int error = errno;
+    if (ruleset_ >= 0) ::close(ruleset_);
+    // A kernel that can limit a program is not to start one without a limit.
+    throw failure_of(directory.string() + ": no program can be held to it", error,
+                     ExitCode::kEngine);
   }
   allow(ruleset_, "/dev/null",
         attributes.handled_access_fs & (LANDLOCK_ACCESS_FS_WRITE_FILE | kTruncate));

@@ -9,6 +9,7 @@ namespace lobelia {
 /// below `directory` only, /dev/null aside; reading stays free.
 class WriteLimit {
  public:
+  /// Throws Error(kEngine or kNoResources) where the kernel has limits and does not give this one.
   explicit WriteLimit(const std::filesystem::path& directory);
   ~WriteLimit();
   WriteLimit(const WriteLimit&) = delete;

@@ -418,6 +418,15 @@ TEST(Process, WritesNowhereButWhereItMay) {
   write_file(other.path() / "ours", "we are not limited ourselves");
 }
 
+TEST(Process, IsNotStartedWhereItCannotBeHeldToItsDirectory) {
+  const TemporaryDirectory own;
+  if (WriteLimit(own.path()).ruleset() < 0)
+    GTEST_SKIP() << "this kernel has no Landlock to limit writing with";
+  ProcessOptions options;
+  options.writable = own.path() / "gone";
+  EXPECT_THROW(run_process({"/bin/true"}, options), Error);
+}
+
 TEST(Process, ManyLinesAreAllSeenAndTheTailIsBounded) {
   std::size_t count = 0;
   ProcessOptions options;
