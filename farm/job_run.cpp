@@ -365,7 +365,7 @@ struct JobRun::Impl {
     return {engine, cache.result_directory(one.key)};
   }
 
-  Json make(JobIndex job, const Scene& scene, const ResultDraft& draft) {
+  Json make(JobIndex job, const Scene& scene, ResultDraft& draft) {
     const std::size_t cell = graph.cell_of(job);
     Json from = Json::object();
     switch (graph[job].kind) {

@@ -29,7 +29,7 @@ NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
 }  // namespace
 
 Json make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
-                     const ResultDraft& draft) {
+                     ResultDraft& draft) {
   const std::string& engine = theirs.engine;
   const Image a = read_whole_picture(ours.directory / picture_file(kOurs), scene);
   const Image b = read_whole_picture(theirs.directory / picture_file(engine), scene);

@@ -4,7 +4,7 @@
 namespace lobelia {
 
 Json make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
-                  const ResultDraft& draft) {
+                  ResultDraft& draft) {
   std::vector<Image> images;
   images.reserve(pictures.size());
   NamedImages named;

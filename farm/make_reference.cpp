@@ -11,8 +11,7 @@ constexpr std::uint64_t kMaxLogBytes = 1 << 30;  // each pass and sample of a sc
 }
 
 Json make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
-                    ReferenceResult result, const std::filesystem::path& log,
-                    const ResultDraft& draft) {
+                    ReferenceResult result, const std::filesystem::path& log, ResultDraft& draft) {
   const std::string file = picture_file(engine.name);
   Json command{"lobelia", "reference", "scene.xml", "--engine", engine.name, "-o", file};
   if (!program.empty()) command.insert(command.end(), {"--" + engine.name, program});

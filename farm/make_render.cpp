@@ -40,8 +40,8 @@ std::uint64_t memory_to_make(const Scene& scene) {
 
 }  // namespace
 
-Json make_render(const Scene& scene, const ResultDraft& draft,
-                 std::chrono::duration<double> time_limit, std::uint64_t memory_limit) {
+Json make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<double> time_limit,
+                 std::uint64_t memory_limit) {
   if (const std::uint64_t needed = memory_to_make(scene); memory_limit > 0 && needed > memory_limit)
     throw ResultFailure(
         FailureClass::kOutOfMemory,

@@ -19,6 +19,9 @@ std::string comparison_name(const std::string& engine) { return std::string(kOur
 
 Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) {
   const std::string name = file.filename().string();
+  if (std::error_code unknown; !std::filesystem::exists(file, unknown))
+    throw Error(ExitCode::kOutput,
+                fmt::format("{}: somebody took it away while it was needed", file.string()));
   Image image;
   try {
     // Written by ourselves: what an engine wrote was read where it could do no harm, and encoded anew.

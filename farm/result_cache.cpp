@@ -292,34 +292,41 @@ ResultDraft ResultCache::draft() const {
   }
   ResultDraft made{directory, std::move(*alive)};
   if (::faccessat(held.fd(), kCacheMarkerFile, F_OK, AT_SYMLINK_NOFOLLOW) != 0) {
-    write_file(made.file(kCacheMarkerFile), kLayout);
-    move(made.file(kCacheMarkerFile), held, kCacheMarkerFile);
+    write_file(directory / kCacheMarkerFile, kLayout);
+    move(directory / kCacheMarkerFile, held, kCacheMarkerFile);
   }
   return made;
 }
 
+namespace {
+/// Of a draft, which somebody may have taken away by now.
+std::string hash_of_output(const fs::path& file) {
+  try {
+    return hex(sha256_of_file(file));
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    throw Error(ExitCode::kOutput, error.what());
+  }
+}
+}  // namespace
+
 Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key, Json record) const {
   record["key"] = key.text();
   Json files = Json::array();
-  std::vector<fs::path> paths;
-  std::error_code unreadable;
-  for (const auto& entry : fs::directory_iterator(draft.directory(), unreadable))
-    paths.push_back(entry.path());
-  if (unreadable) fail(draft.directory(), "read", unreadable.value());
-  std::sort(paths.begin(), paths.end());
-  for (const auto& path : paths) {
+  for (const std::string& name : draft.files_) {
+    const fs::path path = draft.directory() / name;
     struct stat status {};
     // Read-only, because a farm's directories link to it: who edits a picture there means a copy.
     if (::chmod(path.c_str(), 0444) != 0 || ::stat(path.c_str(), &status) != 0)
       fail(path, "write", errno);
-    files.push_back({{"name", path.filename().string()},
+    files.push_back({{"name", name},
                      {"bytes", std::uint64_t(status.st_size)},
-                     {"sha256", hex(sha256_of_file(path))},
+                     {"sha256", hash_of_output(path)},
                      {"modified", modified(status)}});
   }
   record["files"] = std::move(files);
   record["seal"] = seal_of(record);
-  write_record(draft.file(kManifestFile), record);
+  write_record(draft.directory() / kManifestFile, record);
 
   const fs::path target = result_directory(key);
   const HeldDirectory to = shelf("results", key);
@@ -379,7 +386,7 @@ ByteLocks::Claim ResultCache::use() const {
 
 void ResultCache::keep_failure(const ResultKey& key, const Json& record,
                                const fs::path& log) const {
-  const ResultDraft made = draft();
+  ResultDraft made = draft();
   const HeldDirectory to = shelf("failures", key);
   std::error_code ignored;
   write_record(made.file("json"), record);
@@ -424,7 +431,7 @@ void ResultCache::keep_content(const Content& content) const {
   if (content.sha256.empty() || ::access((directory_ / "contents" / name).c_str(), F_OK) == 0)
     return;
   try {
-    const ResultDraft made = draft();
+    ResultDraft made = draft();
     write_record(made.file("json"), content_record(content));
     move(made.file("json"), root().make_below("contents"), name);
   } catch (const Error&) {  // one that may only be read stays as it is

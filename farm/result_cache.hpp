@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,11 +42,17 @@ bool is_plain_file_name(const std::string& name);
 class ResultDraft {
  public:
   ResultDraft(ResultDraft&& other) noexcept
-      : directory_(std::exchange(other.directory_, {})), alive_(std::move(other.alive_)) {}
+      : directory_(std::exchange(other.directory_, {})),
+        files_(std::move(other.files_)),
+        alive_(std::move(other.alive_)) {}
   ResultDraft& operator=(ResultDraft&&) = delete;
   ~ResultDraft();
   const std::filesystem::path& directory() const { return directory_; }
-  std::filesystem::path file(const std::string& name) const { return directory_ / name; }
+  /// Where a file of the result belongs. It is not published without any that was asked for.
+  std::filesystem::path file(const std::string& name) {
+    files_.insert(name);
+    return directory_ / name;
+  }
   /// False if somebody took it away, with the cache or without.
   bool is_there() const;
 
@@ -54,6 +61,7 @@ class ResultDraft {
   ResultDraft(std::filesystem::path directory, ByteLocks::Claim alive)
       : directory_(std::move(directory)), alive_(std::move(alive)) {}
   std::filesystem::path directory_;
+  std::set<std::string> files_;
   ByteLocks::Claim alive_;
 };
 
@@ -99,7 +107,7 @@ class ResultCache {
   /// Throws Error(kOutput).
   ResultDraft draft() const;
   /// Adds to `record` the list of files, each with its size and hash, writes it as result.json and renames all into
-  /// place. Throws Error(kOutput).
+  /// place. Throws Error(kOutput), also if somebody took one of the files away.
   Publication publish(ResultDraft& draft, const ResultKey& key, Json record) const;
 
   /// Of drafts, results and kept failures; of nothing while the marker is missing.

@@ -139,6 +139,18 @@ TEST_F(ResultCacheTest, ADraftThatIsNotPublishedLeavesNothing) {
   EXPECT_EQ(drafts(), 0u);
 }
 
+TEST_F(ResultCacheTest, PublishesNothingThatHasLostAFile) {
+  const ResultCache cache(path());
+  for (const char* lost : {"a.exr", "b.json"}) {
+    ResultDraft draft = cache.draft();
+    write_file(draft.file("a.exr"), "x");
+    write_file(draft.file("b.json"), "{}");
+    fs::remove(draft.directory() / lost);
+    EXPECT_THROW(cache.publish(draft, key_, make_record("result")), Error) << lost;
+    EXPECT_FALSE(cache.has(key_)) << lost;
+  }
+}
+
 TEST_F(ResultCacheTest, TakesAwayDraftsOfTheDeadAndLeavesThoseOfTheLiving) {
   const ResultCache living(path()), other(path());
   const ResultDraft draft = living.draft();
