@@ -147,7 +147,7 @@ class Reader {
     return ::sendmsg(socket_.get(), &message, MSG_NOSIGNAL) == ssize_t(request.size());
   }
 
-  /// Of the reader that is gone, as wait(2) has it; waits for that.
+  /// Waits until the reader has ended. Its status, as wait(2) gives it.
   int status() {
     while (!has_ended_ && ::waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
     }

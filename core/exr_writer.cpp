@@ -113,9 +113,7 @@ struct ExrWriter::State {
       throw;
     } catch (const std::exception& error) {
       stream.rethrow();
-      const std::string lack = lacking(error);
-      throw Error(lack.empty() ? ExitCode::kInternal : ExitCode::kNoResources,
-                  fmt::format("EXR: {}", lack.empty() ? error.what() : lack));
+      throw failure_of("EXR", error, ExitCode::kInternal);
     }
   }
 };

@@ -16,7 +16,7 @@ namespace lobelia {
 /// The whole file. Throws Error(kInput) if it is missing, not a regular file or over `max_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-/// What becomes of a symbolic link where a file is to be written.
+/// What to do if the path to write is a symbolic link.
 enum class AtLink {
   kFollow,  ///< the file that it leads to is replaced: for paths that a user chose
   kReplace  ///< the link itself: for names of ours

@@ -25,12 +25,6 @@ std::string lacking(int error) {
   }
 }
 
-Error failure_of(const std::string& what, int error, ExitCode otherwise) {
-  const std::string lack = lacking(error);
-  return Error(lack.empty() ? otherwise : ExitCode::kNoResources,
-               fmt::format("{}: {}", what, lack.empty() ? std::strerror(error) : lack));
-}
-
 std::string lacking(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error)) return lacking(ENOMEM);
   if (const auto* system = dynamic_cast<const std::system_error*>(&error))
@@ -46,6 +40,22 @@ std::string lacking(const std::exception& error) {
        {"std::bad_alloc", "failed to map segment", "cannot allocate memory", "cannot create cache"})
     if (words.find(of_memory) != words.npos) return lacking(ENOMEM);
   return "";
+}
+
+namespace {
+Error failure_of(const std::string& what, const std::string& lack, const char* why,
+                 ExitCode otherwise) {
+  return Error(lack.empty() ? otherwise : ExitCode::kNoResources,
+               fmt::format("{}: {}", what, lack.empty() ? why : lack));
+}
+}  // namespace
+
+Error failure_of(const std::string& what, int error, ExitCode otherwise) {
+  return failure_of(what, lacking(error), std::strerror(error), otherwise);
+}
+
+Error failure_of(const std::string& what, const std::exception& error, ExitCode otherwise) {
+  return failure_of(what, lacking(error), error.what(), otherwise);
 }
 
 }  // namespace lobelia

@@ -1,8 +1,7 @@
-// What the system refuses for want of something, said so that a person knows what to raise.
+// Errors for want of memory, threads, processes or open files, with the limit to raise.
 #pragma once
 
 #include <exception>
-#include <optional>
 #include <string>
 
 #include "core/error.hpp"
@@ -16,8 +15,8 @@ std::string lacking(int error);
 /// Error(ExitCode::kNoResources) if lacking(), else of `otherwise`: "WHAT: WHY".
 Error failure_of(const std::string& what, int error, ExitCode otherwise);
 
-/// What a library's exception means by that: of memory (std::bad_alloc) and of threads, which libraries word as they
-/// like. Empty if it means something else.
+/// The same for an exception of a library: std::bad_alloc, or one whose words say that memory or threads ran out.
 std::string lacking(const std::exception& error);
+Error failure_of(const std::string& what, const std::exception& error, ExitCode otherwise);
 
 }  // namespace lobelia

@@ -21,8 +21,7 @@ namespace lobelia {
 namespace {
 
 [[noreturn]] void cannot_open(const std::filesystem::path& path, int error) {
-  if (const std::string lack = lacking(error); !lack.empty())
-    throw Error(ExitCode::kNoResources, fmt::format("{}: {}", path.string(), lack));
+  if (!lacking(error).empty()) throw failure_of(path.string(), error, ExitCode::kInput);
   unreadable_picture(path, error == ENOENT ? "no such file" : std::strerror(error));
 }
 

@@ -1,4 +1,4 @@
-// How much memory programs have, as the kernel tells from outside.
+// The memory of other processes, as the kernel counts it.
 #pragma once
 
 #include <sys/types.h>
@@ -12,9 +12,8 @@ namespace lobelia {
 /// process takes over the peak of the one that started it, and keeps it as the least that it may have had.
 std::uint64_t peak_memory_of(pid_t process);
 
-/// Resident bytes of a process and all that came of it, pages that several of them share counted once if `exactly` (PSS,
-/// for which the kernel has to look at every page), else once for each. 0 if it has ended,
-/// or /proc has others' numbers.
+/// Resident bytes of a process and its descendants. Shared pages count once if `exactly` (PSS, for which the kernel
+/// looks at every page), else once for each process. 0 if it has ended or if /proc is of another PID namespace.
 std::uint64_t memory_of_tree(pid_t process, bool exactly = false);
 
 /// How many processes this kernel has killed for want of memory since it started; nothing where it does not tell.

@@ -94,7 +94,7 @@ void place_file(const fs::path& cached, const HeldDirectory& directory, const st
   }
 }
 
-/// Of a cell's directory: our files in it, and what is empty in place of one.
+/// May remove a cell's own files, and empty directories that have the name of one.
 Removal removal_from(const HeldDirectory& directory) {
   return Removal(directory.path(),
                  {[&](const HeldDirectory& root) { return root.is_same_as(directory); },

@@ -266,7 +266,7 @@ std::optional<Json> ResultCache::find(const ResultKey& key, Look look, std::stri
   } catch (const Json::exception& error) {  // not of ours
     why_not = fmt::format("damaged: {}", error.what());
   } catch (const Error& error) {
-    // What the system refuses says nothing of the result, which would be made again for it.
+    // Too little memory or too many open files: the result may well be whole.
     if (error.code() != ExitCode::kInput) throw;
     why_not = fmt::format("damaged: {}", error.what());
   }

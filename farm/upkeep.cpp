@@ -144,8 +144,8 @@ std::vector<std::string> sentences(const std::vector<Removal::Kept>& kept) {
 /// A cell's own record: empty, with the reason, if it is not what the farm wrote.
 std::optional<Json> sealed_record(const HeldDirectory& cell, std::string& why_not) {
   const auto text = cell.read(kRecordFile, kMaxRecordBytes);
-  if (const std::string lack = lacking(errno); !text && !lack.empty())
-    throw Error(ExitCode::kNoResources, fmt::format("{}: {}", cell.path().string(), lack));
+  if (const int error = errno; !text && !lacking(error).empty())
+    throw failure_of(cell.path().string(), error, ExitCode::kInput);
   const Json record = text ? Json::parse(*text, nullptr, false) : Json();
   if (!text)
     why_not = "is missing";
@@ -388,7 +388,7 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
   const FarmDirectoryLock alone(
       directory, FarmDirectoryLock::Use::kAlone,
       options.dry_run ? ByteLocks::Opening::kLook : ByteLocks::Opening::kMake);
-  std::set<std::string> ids;
+  std::set<std::string> ids;  // of the cells that stay
   if (!all)
     for (const auto& cell : record.at("cells")) ids.insert(cell.at("id").get<std::string>());
   CleanReport report;

@@ -1,4 +1,4 @@
-// What must hold of our readers for any bytes whatever. Each check throws std::logic_error where it does not, and
+// Laws that our readers keep for every input. Each check throws std::logic_error where it does not, and
 // lets every exception through that the reader may not throw: each is a find.
 #pragma once
 

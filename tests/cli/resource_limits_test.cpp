@@ -95,6 +95,7 @@ TEST_F(ResourceLimits, OfThreadsEndInWorkOrASentence) {
         "export THREADS_ALLOWED=" + std::to_string(threads) +
         " ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" + path("few_threads.so").string());
   EXPECT_GT(done_, 40) << "most need none but the first";
+  EXPECT_GT(refused_, 0) << "the limit holds";
 }
 
 TEST_F(ResourceLimits, OfOpenFilesEndInWorkOrASentence) {
