@@ -19,8 +19,8 @@ endif()
 # kernels' compile time would go into it.
 set(LOBELIA_LEFT_OUT HWY_SSE4)
 if(LOBELIA_SANITIZE)
-  # Instrumented, each fused kernel takes 47 s for each target: the narrowest registers are enough to find what is
-  # wrong with the text that they all share.
+  # Instrumented, a fused kernel takes minutes for all its targets: the narrowest registers are enough to find what
+  # is wrong with the text that they all share.
   set(LOBELIA_LEFT_OUT "(HWY_SSE4|HWY_AVX2|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 target_compile_definitions(lobelia_options INTERFACE "HWY_DISABLED_TARGETS=${LOBELIA_LEFT_OUT}")
@@ -29,7 +29,10 @@ if(LOBELIA_WERROR)
 endif()
 if(LOBELIA_SANITIZE)
   target_compile_options(lobelia_options INTERFACE
-    -fsanitize=${LOBELIA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    -fsanitize=${LOBELIA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+    # A check at every pointer would take as long to compile as all others together. A null or wild pointer ends the
+    # process anyway, with the address sanitizer's report.
+    -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
   target_link_options(lobelia_options INTERFACE -fsanitize=${LOBELIA_SANITIZE})
 endif()
 
@@ -43,6 +46,9 @@ function(lobelia_paths target)
   target_compile_options(${target} PRIVATE "SHELL:-include lobelia_paths.hpp")
 endfunction()
 
+# The presets of the sanitizers optimise nothing, which compiles fastest, except what computes most.
+set(LOBELIA_COMPUTING_ROOMS renderer compare truth)
+
 # One library per room: lobelia_room(core SOURCES a.cpp b.cpp LINK fmt::fmt).
 function(lobelia_room name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
@@ -50,4 +56,7 @@ function(lobelia_room name)
   add_library(lobelia::${name} ALIAS lobelia_${name})
   set_target_properties(lobelia_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(lobelia_${name} PUBLIC lobelia_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  if(LOBELIA_SANITIZE AND name IN_LIST LOBELIA_COMPUTING_ROOMS)
+    target_compile_options(lobelia_${name} PRIVATE -O1)
+  endif()
 endfunction()
