@@ -81,6 +81,10 @@ __attribute__((noinline, no_sanitize("address", "thread", "undefined"))) int bec
         (input = int(::syscall(SYS_openat, AT_FDCWD, "/dev/null", O_RDONLY | O_CLOEXEC, 0))) >= 0;
   int descriptors[4] = {input, child.output, child.output, child.line};
   const int wanted = child.line >= 0 ? 4 : 3;
+  int ruleset = child.ruleset;
+  if (ready && ruleset >= 0 && ruleset < wanted)  // another one comes to be in its place
+    ready =
+        (ruleset = int(::syscall(SYS_fcntl, ruleset, F_DUPFD_CLOEXEC, kFirstFreeDescriptor))) >= 0;
   for (int i = 0; i < wanted; ++i)  // out of the way of those that come before it
     if (ready && descriptors[i] != i && descriptors[i] < wanted)
       ready = (descriptors[i] = int(::syscall(SYS_fcntl, descriptors[i], F_DUPFD_CLOEXEC,
@@ -95,9 +99,9 @@ __attribute__((noinline, no_sanitize("address", "thread", "undefined"))) int bec
   if (ready && child.largest_file.rlim_cur > 0)
     ready = ::syscall(SYS_prlimit64, 0, RLIMIT_FSIZE, &child.largest_file, nullptr) == 0;
   // Without root's rights the kernel wants to be sure that no set-user-ID program is misled.
-  if (ready && child.ruleset >= 0)
-    child.writes_limited = ::syscall(SYS_prctl, PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-                           ::syscall(SYS_landlock_restrict_self, child.ruleset, 0) == 0;
+  if (ready && ruleset >= 0)
+    ready = child.writes_limited = ::syscall(SYS_prctl, PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+                                   ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
   if (ready) {
     ::syscall(SYS_rt_sigprocmask, SIG_SETMASK, &child.mask, nullptr, kSignalSetBytes);
     ::syscall(SYS_execve, child.arguments[0], child.arguments, child.environment);

@@ -18,6 +18,7 @@
 #include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
 #include "core/keeper_protocol.hpp"
+#include "core/spawn.hpp"
 #include "core/write_limit.hpp"
 
 namespace lobelia {
@@ -416,6 +417,36 @@ TEST(Process, WritesNowhereButWhereItMay) {
   EXPECT_EQ(read_file(other.path() / "there", 100), "as it was");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(other.path()), {}), 1);
   write_file(other.path() / "ours", "we are not limited ourselves");
+}
+
+TEST(Process, IsHeldToItsDirectoryWhateverNumberTheLimitHas) {
+  const TemporaryDirectory own, other;
+  if (WriteLimit(own.path()).ruleset() < 0)
+    GTEST_SKIP() << "this kernel has no Landlock to limit writing with";
+  // The number at which a keeper gets its line.
+  constexpr int kLine = 3;
+  const int before = ::fcntl(kLine, F_DUPFD_CLOEXEC, 10);
+  ::close(kLine);
+  {
+    const WriteLimit limit(own.path());
+    ASSERT_EQ(limit.ruleset(), kLine);
+    const int null = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    const auto written = (other.path() / "new").string();
+    const Spawned child = spawn({.arguments = {"/bin/sh", "-c", "echo x > \"$0\"", written},
+                                 .environment = {},
+                                 .working_directory = own.path(),
+                                 .output = null,
+                                 .limit = &limit,
+                                 .keeper_line = null});
+    ::waitpid(child.pid, nullptr, 0);
+    ::close(null);
+    EXPECT_TRUE(child.writes_limited);
+    EXPECT_FALSE(std::filesystem::exists(written));
+  }
+  if (before >= 0) {
+    ::dup2(before, kLine);
+    ::close(before);
+  }
 }
 
 TEST(Process, IsNotStartedWhereItCannotBeHeldToItsDirectory) {
