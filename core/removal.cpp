@@ -17,6 +17,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "core/no_resources.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -36,6 +37,11 @@ bool is_on_one_device(int a, int b) {
   struct stat first {
   }, second{};
   return ::fstat(a, &first) == 0 && ::fstat(b, &second) == 0 && first.st_dev == second.st_dev;
+}
+
+/// What cannot be opened for want of memory or open files may well be there.
+void throw_if_lacking(const fs::path& path, int error) {
+  if (!lacking(error).empty()) throw failure_of(path.string(), error, ExitCode::kOutput);
 }
 
 /// A mount of the same file system elsewhere has its device's number: only openat2 knows it.
@@ -110,7 +116,9 @@ HeldDirectory::HeldDirectory(const fs::path& path)
     : fd_(::open(path.empty() ? "." : path.c_str(),
                  O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK)),
       error_(fd_ < 0 ? errno : 0),
-      path_(path) {}
+      path_(path) {
+  throw_if_lacking(path_, error_);
+}
 
 HeldDirectory::~HeldDirectory() {
   if (fd_ >= 0) ::close(fd_);
@@ -134,6 +142,7 @@ HeldDirectory HeldDirectory::below(const std::string& name, Border border) const
   found.fd_ = open_directory(fd_, name, border);
   if (found.fd_ >= 0) return found;
   found.error_ = errno;
+  throw_if_lacking(found.path_, found.error_);
   struct stat status {};
   if (::fstatat(fd_, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode))
     found.error_ = ELOOP;
@@ -176,7 +185,9 @@ std::vector<std::string> HeldDirectory::list(bool links_only) const {
   const int fd = fd_ < 0 ? -1 : ::openat(fd_, ".", kOpenDirectory);
   DIR* const directory = fd < 0 ? nullptr : ::fdopendir(fd);
   if (!directory) {
+    const int error = fd_ < 0 ? 0 : errno;
     if (fd >= 0) ::close(fd);
+    throw_if_lacking(path_, error);
     return found;
   }
   while (const dirent* entry = ::readdir(directory)) {
@@ -196,10 +207,12 @@ std::vector<std::string> HeldDirectory::list(bool links_only) const {
 
 std::optional<std::string> HeldDirectory::read(const std::string& name,
                                                std::uint64_t max_bytes) const {
-  errno = 0;
   if (fd_ < 0 || !is_plain(name)) return std::nullopt;
   const int fd = ::openat(fd_, name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) return std::nullopt;
+  if (fd < 0) {
+    throw_if_lacking(path_ / name, errno);
+    return std::nullopt;
+  }
   struct stat status {};
   std::optional<std::string> text;
   if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
@@ -230,6 +243,7 @@ HeldDirectory HeldDirectory::copy() const {
   held.path_ = path_;
   held.fd_ = fd_ < 0 ? -1 : ::fcntl(fd_, F_DUPFD_CLOEXEC, 0);
   held.error_ = held.fd_ < 0 ? (fd_ < 0 ? error_ : errno) : 0;
+  throw_if_lacking(path_, held.error_);
   return held;
 }
 
@@ -341,7 +355,7 @@ bool is_part_name(std::string_view name, long long& pid) {
          parse_integer(name.substr(dash + 1), number) && number >= 0;
 }
 
-void remove_part(const fs::path& path) {
+void remove_part(const fs::path& path) try {
   Removal(path.parent_path(), {[](const HeldDirectory&) { return true; },
                                [](const fs::path& relative) {
                                  long long pid = 0;
@@ -349,6 +363,7 @@ void remove_part(const fs::path& path) {
                                                                              : Owned::kNo;
                                }})
       .remove(path.filename());
+} catch (const Error&) {  // stays, for the next farm to remove
 }
 
 AbandonedPart::AbandonedPart(const HeldDirectory& directory, const std::string& name) {
@@ -375,7 +390,7 @@ void remove_abandoned_parts(const HeldDirectory& directory) {
       ::unlinkat(directory.fd(), name.c_str(), 0);
 }
 
-bool remove_temporary(const fs::path& path) {
+bool remove_temporary(const fs::path& path) try {
   long long pid = 0;
   if (is_part_name(path.filename().native(), pid)) {
     remove_part(path);
@@ -384,6 +399,8 @@ bool remove_temporary(const fs::path& path) {
   Removal removal = removal_of_temporary(path);
   removal.remove(path.filename());
   return removal.kept().empty();
+} catch (const Error&) {
+  return false;
 }
 
 void remove_in_temporary_directory(const fs::path& path) {

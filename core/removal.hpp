@@ -15,6 +15,7 @@
 namespace lobelia {
 
 /// A directory that is held open, whatever becomes of its path. Names in it are looked up without following links.
+/// Whatever opens something throws Error(kNoResources) for want of memory or open files: that is no "not there".
 class HeldDirectory {
  public:
   HeldDirectory() = default;  ///< holds none
@@ -42,7 +43,7 @@ class HeldDirectory {
 
   std::vector<std::string> names() const;  ///< in it, sorted
   std::vector<std::string> links() const;  ///< of these the symbolic links
-  /// A regular file's text; empty if it is none or longer than that, or errno says why it cannot be opened.
+  /// A regular file's text; empty if it is none, is longer than that or cannot be opened.
   std::optional<std::string> read(const std::string& name, std::uint64_t max_bytes) const;
   bool is_same_as(const HeldDirectory& other) const;
   HeldDirectory copy() const;
@@ -111,7 +112,7 @@ class Removal {
 
 /// Whether `name` is that of a file in the making, ".NAME.PID-N.part"; `pid` gets its process.
 bool is_part_name(std::string_view name, long long& pid);
-/// Removes such a file of this process. Nothing else of any name.
+/// Removes such a file of this process, if it can. Nothing else of any name. Throws nothing.
 void remove_part(const std::filesystem::path& path);
 
 /// A file in the making whose process is gone, here and on other machines; locked while this lives.

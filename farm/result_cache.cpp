@@ -140,8 +140,11 @@ bool is_cache(const fs::path& directory) {
 
 ResultDraft::~ResultDraft() {
   if (directory_.empty()) return;
-  Removal(directory_.parent_path().parent_path(), ownership())
-      .remove(directory_.parent_path().filename() / directory_.filename());
+  try {
+    Removal(directory_.parent_path().parent_path(), ownership())
+        .remove(directory_.parent_path().filename() / directory_.filename());
+  } catch (const Error&) {  // stays, for the next farm to remove
+  }
 }
 
 bool ResultDraft::is_there() const {

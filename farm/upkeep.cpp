@@ -17,7 +17,6 @@
 #include "core/finite_image.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
-#include "core/no_resources.hpp"
 #include "core/removal.hpp"
 #include "core/seal.hpp"
 #include "core/sha256.hpp"
@@ -144,8 +143,6 @@ std::vector<std::string> sentences(const std::vector<Removal::Kept>& kept) {
 /// A cell's own record: empty, with the reason, if it is not what the farm wrote.
 std::optional<Json> sealed_record(const HeldDirectory& cell, std::string& why_not) {
   const auto text = cell.read(kRecordFile, kMaxRecordBytes);
-  if (const int error = errno; !text && !lacking(error).empty())
-    throw failure_of(cell.path().string(), error, ExitCode::kInput);
   const Json record = text ? Json::parse(*text, nullptr, false) : Json();
   if (!text)
     why_not = "is missing";

@@ -182,13 +182,16 @@ class Doctor {
       const HeldDirectory base, made;
       ~Remover() {
         const fs::path name = made.path().filename();
-        Removal(base.path(), {[&](const HeldDirectory& root) {
-                                return root.below(name.string()).is_same_as(made);
-                              },
-                              [&](const fs::path& relative) {
-                                return relative == name ? Owned::kTree : Owned::kNo;
-                              }})
-            .remove(name);
+        try {
+          Removal(base.path(), {[&](const HeldDirectory& root) {
+                                  return root.below(name.string()).is_same_as(made);
+                                },
+                                [&](const fs::path& relative) {
+                                  return relative == name ? Owned::kTree : Owned::kNo;
+                                }})
+              .remove(name);
+        } catch (const Error&) {  // the check has been done
+        }
       }
     };
     HeldDirectory held(base);

@@ -7,6 +7,7 @@
 #include <sched.h>
 #include <sys/file.h>
 #include <sys/mount.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +17,7 @@
 #include <random>
 #include <thread>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
 
 namespace lobelia {
@@ -218,6 +220,58 @@ TEST_F(RemovalTest, OfAResultAtOnceTellsWhereItWas) {
   EXPECT_TRUE(removing.remove_at_once("tree", "directory/tree7"));
   EXPECT_THAT(told, ElementsAre("tree/a", "tree"));
   EXPECT_TRUE(fs::is_empty(root() / "directory"));
+}
+
+/// While it lives, no file can be opened.
+class NoOpenFiles {
+ public:
+  NoOpenFiles() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit none{1, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoOpenFiles() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(RemovalTest, TakesNothingForMissingOrEmptyThatTooManyOpenFilesHide) {
+  fs::create_directories(root() / "tree" / "inner");
+  const HeldDirectory held(root());
+  Removal all = removal();
+  const std::function<void()> looks[] = {[&] { HeldDirectory here(root()); },
+                                         [&] { held.below("tree"); },
+                                         [&] { held.below("tree", HeldDirectory::Border::kCross); },
+                                         [&] { held.names(); },
+                                         [&] { held.links(); },
+                                         [&] { held.read("marker", 10); },
+                                         [&] { held.copy(); },
+                                         [&] { all.remove("tree"); }};
+  for (const auto& look : looks) {
+    const NoOpenFiles limit;
+    try {
+      look();
+      ADD_FAILURE() << &look - looks;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kNoResources) << &look - looks;
+      EXPECT_THAT(error.what(), HasSubstr("too many open files (ulimit -n)"));
+    }
+  }
+  EXPECT_TRUE(fs::exists(root() / "tree" / "inner"));
+}
+
+TEST_F(RemovalTest, OfWhatATaskLeavesBehindWaitsForTheNextFarmWhereTooManyFilesAreOpen) {
+  const std::string part = fmt::format(".a.exr.{}-1.part", ::getpid());
+  write_file(root() / part, "x");
+  {
+    const NoOpenFiles limit;
+    remove_part(root() / part);
+    EXPECT_FALSE(remove_temporary(root() / "lobelia-temporary-abcdef"));
+  }
+  EXPECT_TRUE(fs::exists(root() / part));
+  remove_part(root() / part);
+  EXPECT_FALSE(fs::exists(root() / part));
 }
 
 TEST(PartNames, AreReadStrictly) {

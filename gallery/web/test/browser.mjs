@@ -86,6 +86,9 @@ export async function says(page, selector, pattern) {
   assert.match(await text(), pattern);
 }
 
+/** As the page has it now; page.url() hears of a change later. */
+export const address = (page) => page.evaluate(() => location.href);
+
 /** The viewer has its float pictures. */
 export const ready = (page, count = 2) => page.waitForFunction((n) => Number(document.querySelector('.stage')?.dataset.ready) >= n, count);
 

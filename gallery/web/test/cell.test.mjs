@@ -4,7 +4,7 @@ import { readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { close, fileUrl, launch, lobelia, open, ready, requireAccessible, says, scratch, seenAt, serve } from './browser.mjs';
+import { address, close, fileUrl, launch, lobelia, open, ready, requireAccessible, says, scratch, seenAt, serve } from './browser.mjs';
 import { errorOf, kPeak, ours, writeFarm } from './farm.mjs';
 
 const kSize = 64;
@@ -132,7 +132,7 @@ test('keys choose pictures and ways to compare, and the link says which', async 
   await page.keyboard.press('f');
   await says(page, '.tags', /^Blender Cycles$/);
   // The same again from the link alone.
-  const again = await open(browser, page.url());
+  const again = await open(browser, await address(page));
   await ready(again);
   await says(again, '.tags', /^Blender Cycles$/);
   await close(again);

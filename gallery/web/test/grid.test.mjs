@@ -4,7 +4,7 @@ import { spawnSync } from 'node:child_process';
 import { copyFileSync, existsSync, rmSync, truncateSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { close, fileUrl, launch, lobelia, open, program, requireAccessible, says, scratch, serve } from './browser.mjs';
+import { address, close, fileUrl, launch, lobelia, open, program, requireAccessible, says, scratch, serve } from './browser.mjs';
 import { writeFarm } from './farm.mjs';
 
 const kHostile = '<img src=x onerror=alert(1)>';
@@ -52,7 +52,7 @@ test('rows and columns can be exchanged, and any axis can be either', async () =
   assert.deepEqual((await heads(page)).sort(), ['front', 'side']);
   await page.getByRole('combobox', { name: 'Rows', exact: true }).selectOption({ label: 'exponent' });
   assert.deepEqual(await heads(page), ['exponent 16', 'exponent 128']);
-  const again = await open(browser, page.url());
+  const again = await open(browser, await address(page));
   assert.deepEqual(await heads(again), ['exponent 16', 'exponent 128']);
   assert.equal(await again.locator('.grid .cell').count(), 12);
   await close(again);

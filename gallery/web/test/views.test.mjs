@@ -5,7 +5,7 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
-import { close, fileUrl, launch, lobelia, open, requireAccessible, says, scratch, serve } from './browser.mjs';
+import { address, close, fileUrl, launch, lobelia, open, requireAccessible, says, scratch, serve } from './browser.mjs';
 import { writeFarm } from './farm.mjs';
 
 const directory = scratch(), run = path.join(directory, 'run'), site = path.join(directory, 'site');
@@ -151,7 +151,7 @@ test('explorer: exponent by slider and by number, two highlights, all of it in t
   await page.locator('#lobe2').selectOption('schlick');
   await page.locator('#explorer-scale').selectOption('log');
   assert.equal(await page.locator('#norm2 option[value=paper]').evaluate((option) => option.disabled), true);
-  const hash = await hashOf(page), again = await open(browser, page.url());
+  const hash = await hashOf(page), again = await open(browser, await address(page));
   assert.deepEqual([hash.n, hash.lobe2, hash.scale], ['20', 'schlick', 'log']);
   assert.equal(await again.locator('#n').inputValue(), '20');
   assert.equal(await again.locator('.explorer svg.interactive path.series').first().getAttribute('d'), await drawn());
@@ -176,7 +176,7 @@ test('stability: cases, lobe and exponent by choice; what is no number is at the
   await page.locator('#over-angle-figure svg.interactive').focus();
   await page.keyboard.press('ArrowRight');
   await says(page, '#over-angle-figure .readout', /at 0: naive float32 0\.2/);
-  const hash = await hashOf(page), again = await open(browser, page.url());
+  const hash = await hashOf(page), again = await open(browser, await address(page));
   assert.deepEqual(hash, { lobe: 'cosine', n: '1000', show: 'error' });
   assert.equal(await again.locator('#show').inputValue(), 'error');
   await close(again);
@@ -192,10 +192,10 @@ test('paper: claims by verdict and words, and a link to one shows it', async () 
   assert.equal(await page.locator('.claim:visible').getAttribute('data-verdict'), 'not reproduced');
   await page.getByLabel('Verdict').selectOption('confirmed');
   await says(page, '.count', /showing 0 of 3/);
-  const again = await open(browser, page.url());
+  const again = await open(browser, await address(page));
   await says(again, '.count', /showing 0 of 3/);
   await again.locator('.figures-section a', { hasText: 'second' }).click();
-  assert.ok(await again.locator('#claim-2').isVisible());
+  await again.locator('#claim-2').waitFor();
   await close(again);
   await page.locator('[data-chart] svg.interactive').focus();
   await page.keyboard.press('ArrowLeft');
@@ -216,11 +216,11 @@ test('cost: a way is marked in chart and table, by pointer and by keys, and in t
   assert.deepEqual(await marked(), ['TR middling', 'g middling']);
   await page.keyboard.press('Enter');
   assert.deepEqual(await hashOf(page), { table: '0', way: 'middling' });
-  const again = await open(browser, page.url());
+  const again = await open(browser, await address(page));
   assert.deepEqual(await again.locator('.marked').evaluateAll((all) => all.map((e) => e.dataset.key)), ['middling', 'middling']);
   await close(again);
   await page.keyboard.press('Enter');
-  assert.equal(new URL(page.url()).hash, '#top');
+  assert.equal(new URL(await address(page)).hash, '#top');
   assert.equal(await page.locator('g.point[tabindex="0"]').count(), 1);
   await close(page);
 });
