@@ -45,14 +45,14 @@ test: ## builds everything and runs the test suite
 	$(build)
 	ctest --preset "$(PRESET)" --parallel "$(JOBS)"
 
-sanitize: ## runs the suite in the presets asan and tsan, without engines and browsers
+sanitize: ## runs the suite in the presets asan and tsan, without engines, browsers and what is slow
 	$(setup) build
 	cmake --preset asan
-	cmake --build --preset asan --parallel "$(JOBS)"
-	ctest --preset asan --parallel "$(JOBS)" --label-exclude 'engines|browser'
+	cmake --build --preset asan --parallel "$(JOBS)" --target quick_tests
+	ctest --preset asan --parallel "$(JOBS)" --label-exclude 'engines|browser|slow'
 	cmake --preset tsan
 	cmake --build --preset tsan --parallel "$(JOBS)" --target threaded_tests
-	ctest --preset tsan --parallel "$(JOBS)" --label-regex threads
+	ctest --preset tsan --parallel "$(JOBS)" --label-regex threads --label-exclude slow
 
 sanitize-short: ## the part of it that reads scenes and pictures, and the farm's unit tests; no thread sanitizer
 	$(setup) build

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/scene/scene_io.hpp"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "lobelia_paths.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 

@@ -17,6 +17,7 @@
 #include "farm/result_cache.hpp"
 #include "farm/slurm/chunks.hpp"
 #include "farm/slurm/slurm_farm.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia::bench {
 namespace {

@@ -5,6 +5,7 @@
 #include "bench/child.hpp"
 #include "bench/sections.hpp"
 #include "core/files.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia::bench {
 namespace {

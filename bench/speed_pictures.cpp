@@ -9,6 +9,7 @@
 #include "bench/sections.hpp"
 #include "core/threads.hpp"
 #include "core/timing.hpp"
+#include "lobelia_paths.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"

@@ -9,6 +9,7 @@
 #include "core/files.hpp"
 #include "core/timing.hpp"
 #include "farm/grid.hpp"
+#include "lobelia_paths.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::bench {

@@ -6,6 +6,7 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/timing.hpp"
+#include "lobelia_paths.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 

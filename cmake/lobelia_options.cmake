@@ -36,18 +36,25 @@ if(LOBELIA_SANITIZE)
   target_link_options(lobelia_options INTERFACE -fsanitize=${LOBELIA_SANITIZE})
 endif()
 
-# lobelia_paths(TARGET): its sources know LOBELIA_SOURCE_DIR and LOBELIA_PROGRAM. By a header, because a compiler's
-# cache that has compiled the others in one directory knows them in every other; raw, for whatever is in a path.
+# Where a test finds the sources and the program. A header, because a compiler's cache that has compiled the others in
+# one directory knows them in every other; raw, for whatever is in a path.
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lobelia_paths.hpp @ONLY CONTENT
-"#define LOBELIA_SOURCE_DIR R\"lobelia(@PROJECT_SOURCE_DIR@)lobelia\"
+"#pragma once
+#define LOBELIA_SOURCE_DIR R\"lobelia(@PROJECT_SOURCE_DIR@)lobelia\"
 #define LOBELIA_PROGRAM R\"lobelia(@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/lobelia)lobelia\"
 ")
-function(lobelia_paths target)
-  target_compile_options(${target} PRIVATE "SHELL:-include lobelia_paths.hpp")
-endfunction()
 
-# The presets of the sanitizers optimise nothing, which compiles fastest, except what computes most.
-set(LOBELIA_COMPUTING_ROOMS renderer compare truth)
+# The presets of the sanitizers optimise nothing, which compiles fastest, except what computes most. And several files of
+# a room or a test are compiled as one, but for those that its CMakeLists.txt says have names in common.
+set(LOBELIA_COMPUTING_ROOMS renderer compare truth verify cost)
+function(lobelia_compile_for_sanitizers target room)
+  if(LOBELIA_SANITIZE)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+    if(room IN_LIST LOBELIA_COMPUTING_ROOMS)
+      target_compile_options(${target} PRIVATE -O1)
+    endif()
+  endif()
+endfunction()
 
 # One library per room: lobelia_room(core SOURCES a.cpp b.cpp LINK fmt::fmt).
 function(lobelia_room name)
@@ -56,7 +63,5 @@ function(lobelia_room name)
   add_library(lobelia::${name} ALIAS lobelia_${name})
   set_target_properties(lobelia_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(lobelia_${name} PUBLIC lobelia_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
-  if(LOBELIA_SANITIZE AND name IN_LIST LOBELIA_COMPUTING_ROOMS)
-    target_compile_options(lobelia_${name} PRIVATE -O1)
-  endif()
+  lobelia_compile_for_sanitizers(lobelia_${name} ${name})
 endfunction()

@@ -7,7 +7,7 @@
 
 namespace lobelia {
 namespace {
-constexpr std::uint64_t kMaxLogBytes = 1 << 30;  // each pass and sample of a scene adds to it
+constexpr std::uint64_t kMaxEngineLogBytes = 1 << 30;  // each pass and sample of a scene adds to it
 }
 
 Json make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
@@ -28,7 +28,7 @@ Json make_reference(const Scene& scene, const FarmEngine& engine, const std::str
   write_record(draft.file(engine.name + ".json"), result.record);
   // An engine may have had nothing to say.
   if (std::error_code none; !log.empty() && std::filesystem::exists(log, none))
-    write_file(draft.file(engine.name + ".log"), read_file(log, kMaxLogBytes));
+    write_file(draft.file(engine.name + ".log"), read_file(log, kMaxEngineLogBytes));
 
   Json made{{"command", std::move(command)}};
   for (const char* key : {"engineCommands", "witness"})

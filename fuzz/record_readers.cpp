@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostCells = 3;
+constexpr std::size_t kMostFarmCells = 3;
 
 /// The record with the hashes of the files that it names in `directory`, and its seal; as it is if it is none.
 std::string sealed(const std::string& text, const fs::path& directory, const char* key) {
@@ -57,7 +57,7 @@ void check_gallery(const std::map<std::string, std::string>& files, bool seal) {
     return;
   }
   if (farm.axes.empty()) throw std::logic_error("a farm without axes");
-  for (std::size_t i = 0; i < std::min(farm.cells.size(), kMostCells); ++i) {
+  for (std::size_t i = 0; i < std::min(farm.cells.size(), kMostFarmCells); ++i) {
     const fs::path directory = run / "cells" / farm.cells[i].id;
     if (directory.parent_path() != run / "cells")
       throw std::logic_error("a cell's id is no name: " + farm.cells[i].id);

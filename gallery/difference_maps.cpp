@@ -11,8 +11,8 @@
 namespace lobelia::gallery {
 namespace {
 
-constexpr char kFormat[] = "map 1";    // of the scripts; another number makes them anew
-constexpr int kPrecisions[] = {6, 2};  // bits: 1 % of a value, and enough for its colour
+constexpr char kMapFormat[] = "map 1";  // of the scripts; another number makes them anew
+constexpr int kPrecisions[] = {6, 2};   // bits: 1 % of a value, and enough for its colour
 constexpr int kMostBlock = 16;
 
 /// Grey, which costs no more than one channel; of each block of pixels the largest, so that nothing large is lost.
@@ -59,7 +59,7 @@ void publish_difference_maps(CellPictures& pictures, const std::vector<MapKind>&
     for (const MapKind& kind : kinds) {
       const std::string file = fmt::format("{}.map.{}.js", comparison.b, kind.id);
       const std::string key = fmt::format(
-          "{} of {}: {} of {} and {}, {} stops, {} pixels per degree", kFormat, bytes, kind.id,
+          "{} of {}: {} of {} and {}, {} stops, {} pixels per degree", kMapFormat, bytes, kind.id,
           a->exr_sha256, b->exr_sha256, viewing.exposure_stops, viewing.pixels_per_degree);
       if (publisher.derive("cells/" + cell.id + "/" + file, key, [&] {
             return script_of(kind, viewing, pictures.of(a->exr), pictures.of(b->exr), bytes);

@@ -9,7 +9,7 @@ namespace lobelia::gallery {
 namespace {
 
 constexpr std::size_t kMostExponents = 1000, kMostPoints = 1000;
-constexpr double kLargest = 1e250;
+constexpr double kLargestDrawn = 1e250;
 
 /// As docs/records.md defines them: 0 to `reach`.
 std::vector<double> spread(double reach, double exponent, std::size_t count) {
@@ -25,13 +25,13 @@ void require_drawable(const Fields& fields, const char* key, const std::vector<d
   if (values.size() != count)
     fields.fail(key, fmt::format("must have {} numbers, not {}", count, values.size()));
   for (const double value : values)
-    if (!(value >= least && value <= kLargest))
+    if (!(value >= least && value <= kLargestDrawn))
       fields.fail(key, "has a number that cannot be drawn");
 }
 
 std::vector<double> read_positive(const Fields& fields, const char* key, std::size_t count) {
   std::vector<double> values = fields.numbers(key);
-  require_drawable(fields, key, values, count, 1 / kLargest);
+  require_drawable(fields, key, values, count, 1 / kLargestDrawn);
   return values;
 }
 
@@ -42,7 +42,7 @@ Rows read_rows(const Fields& fields, const char* key, std::size_t count) {
   const std::size_t points = rows.empty() ? 0 : rows[0].size();
   if (points < 2 || points > kMostPoints)
     fields.fail(key, fmt::format("must have arrays of 2 to {} numbers", kMostPoints));
-  for (const auto& row : rows) require_drawable(fields, key, row, points, -kLargest);
+  for (const auto& row : rows) require_drawable(fields, key, row, points, -kLargestDrawn);
   return rows;
 }
 
@@ -90,7 +90,7 @@ HighlightTables read_highlight_tables(const Fields& record) {
                          {}};
   const std::size_t count = tables.exponents.size();
   if (count < 2 || count > kMostExponents || !std::ranges::is_sorted(tables.exponents) ||
-      !(tables.exponents.front() > 0) || !(tables.exponents.back() <= kLargest))
+      !(tables.exponents.front() > 0) || !(tables.exponents.back() <= kLargestDrawn))
     record.fail("exponents", "must be numbers above 0 that ascend");
   const double per = tables.per_octave;
   if (!(per >= 1 && per <= 16) || per != std::floor(per) || (count - 1) % std::size_t(per) != 0)

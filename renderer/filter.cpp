@@ -9,21 +9,22 @@
 namespace lobelia {
 namespace {
 
-constexpr auto kNames = map_types<std::string_view>(Filters{}, []<class F>() { return F::kName; });
+constexpr auto kFilterNames =
+    map_types<std::string_view>(Filters{}, []<class F>() { return F::kName; });
 
 /// Steps of the cumulative distribution: the filter is taken as linear within one, off by 1e-7 of it.
 constexpr int kSteps = 4096;
 
 }  // namespace
 
-std::span<const std::string_view> filter_names() { return kNames; }
-std::string_view name(Filter filter) { return kNames.at(filter.index); }
+std::span<const std::string_view> filter_names() { return kFilterNames; }
+std::string_view name(Filter filter) { return kFilterNames.at(filter.index); }
 
 int reach_of(Filter filter) { return int(std::ceil(filter.radius + 0.5)); }
 
 std::optional<Filter> find_filter(std::string_view name) {
   static constexpr auto kRadii = map_types<double>(Filters{}, []<class F>() { return F::kRadius; });
-  const auto index = find_id<std::size_t>(kNames, name);
+  const auto index = find_id<std::size_t>(kFilterNames, name);
   if (!index) return std::nullopt;
   return Filter{std::uint8_t(*index), kRadii[*index]};
 }

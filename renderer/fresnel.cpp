@@ -6,13 +6,13 @@
 
 namespace lobelia {
 namespace {
-constexpr std::string_view kNames[] = {"none", "schlick"};
+constexpr std::string_view kFresnelNames[] = {"none", "schlick"};
 }
 
-std::span<const std::string_view> fresnel_names() { return kNames; }
-std::string_view name(Fresnel fresnel) { return kNames[std::size_t(fresnel)]; }
+std::span<const std::string_view> fresnel_names() { return kFresnelNames; }
+std::string_view name(Fresnel fresnel) { return kFresnelNames[std::size_t(fresnel)]; }
 std::optional<Fresnel> find_fresnel(std::string_view name) {
-  return find_id<Fresnel>(kNames, name);
+  return find_id<Fresnel>(kFresnelNames, name);
 }
 
 double mirror_at_grazing(Rgb reflectance) { return std::min(1.0, 50 * max_component(reflectance)); }

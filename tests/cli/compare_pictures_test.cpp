@@ -18,7 +18,7 @@
 namespace lobelia {
 namespace {
 
-using namespace testing;
+using namespace fixtures;
 using ::testing::HasSubstr;
 using Record = nlohmann::json;
 

@@ -16,7 +16,7 @@ namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace testing;
+using namespace fixtures;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 

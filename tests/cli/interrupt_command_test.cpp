@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/image_io.hpp"
+#include "lobelia_paths.hpp"
 #include "run_lobelia.hpp"
 
 namespace lobelia {

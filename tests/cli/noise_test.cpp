@@ -11,8 +11,8 @@ namespace {
 using testing::HasSubstr;
 
 /// Renders the scene with an area light in `directory`.
-void render(const TemporaryDirectory& directory, const std::string& output,
-            std::vector<std::string> more) {
+void render_area_light(const TemporaryDirectory& directory, const std::string& output,
+                       std::vector<std::string> more) {
   std::vector<std::string> arguments{
       "render", kScenes + "effects/area_light.xml", "--width", "64", "--height", "64", "-q", "-o",
       output};
@@ -24,10 +24,11 @@ void render(const TemporaryDirectory& directory, const std::string& output,
 TEST(CompareWithNoise, OfHalvesExitsWith0ForSame1ForDifferentAnd1ForUndecided) {
   const TemporaryDirectory directory;
   for (const char* seed : {"1", "2", "3", "4"})
-    render(directory, std::string("half") + seed + ".exr", {"--samples", "32", "--seed", seed});
+    render_area_light(directory, std::string("half") + seed + ".exr",
+                      {"--samples", "32", "--seed", seed});
   for (const char* seed : {"5", "6"})
-    render(directory, std::string("other") + seed + ".exr",
-           {"--samples", "32", "--seed", seed, "--exponent", "12"});
+    render_area_light(directory, std::string("other") + seed + ".exr",
+                      {"--samples", "32", "--seed", seed, "--exponent", "12"});
   const auto compare = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"compare", "half1.exr", "half3.exr", "--a-replicate",
                                        "half2.exr"};
@@ -55,9 +56,9 @@ TEST(CompareWithNoise, OfHalvesExitsWith0ForSame1ForDifferentAnd1ForUndecided) {
 
 TEST(RenderCommand, WritesTheErrorOfItsPictureByWhichAnotherSeedIsTheSame) {
   const TemporaryDirectory directory;
-  render(directory, "plain.exr", {"--samples", "64"});
-  render(directory, "a.exr", {"--samples", "64", "--standard-error", "error.exr"});
-  render(directory, "b.exr", {"--samples", "64", "--seed", "99"});
+  render_area_light(directory, "plain.exr", {"--samples", "64"});
+  render_area_light(directory, "a.exr", {"--samples", "64", "--standard-error", "error.exr"});
+  render_area_light(directory, "b.exr", {"--samples", "64", "--seed", "99"});
   EXPECT_EQ(read_file(directory.path() / "a.exr", 1 << 24),
             read_file(directory.path() / "plain.exr", 1 << 24))
       << "the picture is not changed by it";

@@ -10,6 +10,7 @@
 #include <array>
 #include <thread>
 
+#include "lobelia_paths.hpp"
 #include "run_lobelia.hpp"
 
 namespace lobelia {

@@ -10,13 +10,13 @@
 namespace lobelia {
 namespace {
 
-struct Pair {
+struct LabPair {
   Lab a, b;
   double difference;
 };
 
 // G. Sharma, W. Wu, E. N. Dalal, Color Research and Application 30 (2005), Table 1, all 34 pairs.
-constexpr Pair kSharma[] = {
+constexpr LabPair kSharma[] = {
     {{50.0000, 2.6772, -79.7751}, {50.0000, 0.0000, -82.7485}, 2.0425},
     {{50.0000, 3.1571, -77.2803}, {50.0000, 0.0000, -82.7485}, 2.8615},
     {{50.0000, 2.8361, -74.0200}, {50.0000, 0.0000, -82.7485}, 3.4412},
@@ -56,7 +56,7 @@ constexpr Pair kSharma[] = {
 TEST(Ciede2000, AgreesWithThe34PairsOfSharma) {
   ASSERT_EQ(std::size(kSharma), 34u);
   for (std::size_t i = 0; i < std::size(kSharma); ++i) {
-    const Pair& pair = kSharma[i];
+    const LabPair& pair = kSharma[i];
     // Four digits are printed: half a unit of the last is the whole tolerance.
     EXPECT_NEAR(ciede2000(pair.a, pair.b), pair.difference, 0.5001e-4) << "pair " << i + 1;
     EXPECT_NEAR(ciede2000(pair.b, pair.a), pair.difference, 0.5001e-4) << "exchanged, " << i + 1;
@@ -102,7 +102,7 @@ TEST(Ciede2000, PutsThePrimariesOfTheDisplayWhereTablesHaveThem) {
 }
 
 TEST(Ciede2000, PercentileIsTheValueThatNineteenPixelsInTwentyDoNotExceed) {
-  const Image reference = testing::flat(100, 1, 0, 0, 0);
+  const Image reference = fixtures::flat(100, 1, 0, 0, 0);
   Image picture = reference;
   for (int x = 0; x < 5; ++x) picture.pixel(x, 0)[0] = picture.pixel(x, 0)[1] = 1;
   EXPECT_EQ(compare(picture, reference, {}).value("ciede2000.p95"), 0);
@@ -122,7 +122,7 @@ TEST(Percentile, IsTheLeastThatEnoughValuesDoNotExceed) {
 
 TEST(Ciede2000, PercentilesAreTheNearestRankOfTheSortedPixels) {
   // 200 greys, each farther from white than the one before, in an order that is not sorted.
-  const Image reference = testing::flat(200, 1, 1, 1, 1);
+  const Image reference = fixtures::flat(200, 1, 1, 1, 1);
   Image picture = reference;
   std::vector<float> sorted;
   for (int i = 0; i < 200; ++i) {
@@ -140,7 +140,7 @@ TEST(Ciede2000, PercentilesAreTheNearestRankOfTheSortedPixels) {
 }
 
 TEST(Ciede2000, OfAPictureIsThatOfItsPixels) {
-  const Image a = testing::noise(37, 5, 1, 1.5f), b = testing::noise(37, 5, 2, 1.2f);
+  const Image a = fixtures::noise(37, 5, 1, 1.5f), b = fixtures::noise(37, 5, 2, 1.2f);
   const DisplayLight shown_a(a, 0), shown_b(b, 0);
   const std::vector<float> values = ciede2000_of_pixels(shown_a, shown_b).values;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -152,7 +152,8 @@ TEST(Ciede2000, OfAPictureIsThatOfItsPixels) {
 
 TEST(Ciede2000, LooksAtTheExposedPicture) {
   // Both are white at three stops more, and so the same to the eye.
-  const Image a = testing::flat(8, 8, 0.2f, 0.2f, 0.2f), b = testing::flat(8, 8, 0.4f, 0.4f, 0.4f);
+  const Image a = fixtures::flat(8, 8, 0.2f, 0.2f, 0.2f),
+              b = fixtures::flat(8, 8, 0.4f, 0.4f, 0.4f);
   ComparisonOptions options;
   EXPECT_GT(compare(a, b, options).value("ciede2000.mean"), 10);
   options.viewing.exposure_stops = 3;

@@ -8,14 +8,14 @@
 namespace lobelia {
 namespace {
 
-struct Pair {
+struct ItpPair {
   double ictcp_a[3], ictcp_b[3];
   double difference;
 };
 
 // From the tests of the package colour-science, function delta_E_ITP: I, Ct and Cp of the colours that
 // are named beside them, and the differences, to ten digits.
-constexpr Pair kPublished[] = {
+constexpr ItpPair kPublished[] = {
     {{0.4885468072, -0.04739350675, 0.07475401302},  // dark skin
      {0.4899203231, -0.04567508203, 0.07361341775},
      1.426572247},
@@ -46,7 +46,7 @@ constexpr Pair kPublished[] = {
 };
 
 TEST(DeltaEItp, AgreesWithPublishedPairs) {
-  for (const Pair& pair : kPublished) {
+  for (const ItpPair& pair : kPublished) {
     const auto itp = [](const double(&ictcp)[3]) { return Itp{ictcp[0], ictcp[1] / 2, ictcp[2]}; };
     // The colours are rounded to 1e-10, six numbers of them, times 720; measured: 3.6e-8.
     EXPECT_NEAR(delta_e_itp(itp(pair.ictcp_a), itp(pair.ictcp_b)), pair.difference, 1e-7);
@@ -86,7 +86,8 @@ TEST(DeltaEItp, PutsWhiteAt203CandelasWhichIs58PerCentOfPq) {
 }
 
 TEST(DeltaEItp, LooksAtTheExposedPicture) {
-  const Image a = testing::flat(8, 8, 0.2f, 0.2f, 0.2f), b = testing::flat(8, 8, 0.4f, 0.4f, 0.4f);
+  const Image a = fixtures::flat(8, 8, 0.2f, 0.2f, 0.2f),
+              b = fixtures::flat(8, 8, 0.4f, 0.4f, 0.4f);
   ComparisonOptions options;
   EXPECT_GT(compare(a, b, options).value("delta_e_itp.mean"), 10);
   options.viewing.exposure_stops = 3;
@@ -94,7 +95,7 @@ TEST(DeltaEItp, LooksAtTheExposedPicture) {
 }
 
 TEST(DeltaEItp, PercentileLeavesOutOnePixelInTwenty) {
-  const Image reference = testing::flat(100, 1, 0, 0, 0);
+  const Image reference = fixtures::flat(100, 1, 0, 0, 0);
   Image picture = reference;
   for (int x = 0; x < 5; ++x) picture.pixel(x, 0)[0] = 1;
   EXPECT_EQ(compare(picture, reference, {}).value("delta_e_itp.p95"), 0);
@@ -105,7 +106,7 @@ TEST(DeltaEItp, PercentileLeavesOutOnePixelInTwenty) {
 }
 
 TEST(DeltaEItp, OfAPictureIsThatOfItsPixels) {
-  const Image a = testing::noise(37, 5, 1, 1.5f), b = testing::noise(37, 5, 2, 1.2f);
+  const Image a = fixtures::noise(37, 5, 1, 1.5f), b = fixtures::noise(37, 5, 2, 1.2f);
   const DisplayLight shown_a(a, 0), shown_b(b, 0);
   double mean = 0, max = 0;
   for (std::size_t i = 0; i < a.pixel_count(); ++i) {

@@ -71,7 +71,7 @@ TEST(Disagreement, IsNotMadeOfWhatWasNotMeasured) {
 }
 
 TEST(Disagreement, StandsInTheRecordOfTwoPicturesThatOneBrightPixelTellsApart) {
-  const Image b = testing::flat(64, 64, 0.5f, 0.5f, 0.5f);
+  const Image b = fixtures::flat(64, 64, 0.5f, 0.5f, 0.5f);
   Image a = b;
   a.pixel(9, 9)[0] = 1;
   const Comparison comparison = compare(a, b, {});

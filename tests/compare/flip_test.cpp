@@ -19,7 +19,7 @@ float decoded(int code) {
 }
 
 Image flat_codes(int r, int g, int b) {
-  return testing::flat(64, 64, decoded(r), decoded(g), decoded(b));
+  return fixtures::flat(64, 64, decoded(r), decoded(g), decoded(b));
 }
 
 struct Check {
@@ -74,7 +74,7 @@ TEST(Flip, DefaultViewerSees67PixelsPerDegree) {
 }
 
 TEST(Flip, SeesLessOfAFineDifferenceFromFarther) {
-  const Image grey = testing::flat(64, 64, 0.2f, 0.2f, 0.2f);
+  const Image grey = fixtures::flat(64, 64, 0.2f, 0.2f, 0.2f);
   Image checker = grey;
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x)
@@ -120,7 +120,7 @@ std::vector<float> errors_of(const DisplayLight& a, const DisplayLight& b,
 }
 
 TEST(Flip, ComesOutTheSameWhereverATileEnds) {
-  const Image a = testing::noise(70, 100, 3, 1.0f), b = testing::noise(70, 100, 4, 1.0f);
+  const Image a = fixtures::noise(70, 100, 3, 1.0f), b = fixtures::noise(70, 100, 4, 1.0f);
   const DisplayLight shown_a(a, 0), shown_b(b, 0);
   const FlipFilters filters{float(kDefaultPixelsPerDegree)};
   const std::vector<float> whole = errors_of(shown_a, shown_b, filters, {0, 0, 70, 100});
@@ -142,10 +142,10 @@ TEST(Flip, AgreesWithADoubleLoopOverEachPixelsWindow) {
   const FlipFilters filters{float(kDefaultPixelsPerDegree)};
   for (const auto& [width, height] : kSizes)
     for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
-      const Image a = testing::noise(width, height, 5, 1.3f),
-                  b = testing::noise(width, height, 6, 1.2f);
+      const Image a = fixtures::noise(width, height, 5, 1.3f),
+                  b = fixtures::noise(width, height, 6, 1.2f);
       const DisplayLight shown_a(a, -0.5, curve), shown_b(b, -0.5, curve);
-      const std::vector<double> plain = testing::plain_flip(shown_a, shown_b, filters);
+      const std::vector<double> plain = fixtures::plain_flip(shown_a, shown_b, filters);
       const std::vector<float> errors = errors_of(shown_a, shown_b, filters, {0, 0, width, height});
       double largest = 0, mean = 0, max = 0;
       for (std::size_t i = 0; i < plain.size(); ++i) {
@@ -165,7 +165,7 @@ TEST(Flip, AgreesWithADoubleLoopOverEachPixelsWindow) {
 }
 
 TEST(Flip, HasTheSameErrorsOnEveryInstructionSet) {
-  const Image a = testing::noise(261, 40, 5, 1.3f), b = testing::highlight(261, 40, 20, 1.2);
+  const Image a = fixtures::noise(261, 40, 5, 1.3f), b = fixtures::highlight(261, 40, 20, 1.2);
   const FlipFilters filters{float(kDefaultPixelsPerDegree)};
   const FlipTile whole{0, 0, 261, 40};
   for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
@@ -183,8 +183,8 @@ TEST(Flip, HasTheSameErrorsOnEveryInstructionSet) {
 }
 
 TEST(HdrFlip, AgreesWithTheReferenceToolOnConstants) {
-  const Image reference = testing::flat(64, 64, 0.25f, 0.25f, 0.25f);
-  const Image picture = testing::flat(64, 64, 0.5f, 0.5f, 0.5f);
+  const Image reference = fixtures::flat(64, 64, 0.25f, 0.25f, 0.25f);
+  const Image picture = fixtures::flat(64, 64, 0.5f, 0.5f, 0.5f);
   ComparisonOptions options;
   const HdrExposures automatic = automatic_exposures(reference);
   EXPECT_NEAR(automatic.start_stops, 3.083297, 5e-7);
@@ -217,12 +217,12 @@ TEST(HdrFlip, AgreesWithTheReferenceToolOnARamp) {
 }
 
 TEST(HdrFlip, IsLeftOutWithoutARangeOfExposures) {
-  const Image image = testing::flat(8, 8, 1, 1, 1);
+  const Image image = fixtures::flat(8, 8, 1, 1, 1);
   EXPECT_TRUE(std::isnan(compare(image, image, {}).value("flip.hdr.mean")));
 }
 
 TEST(HdrFlip, SeesWhatIsTooBrightForOneExposure) {
-  const Image a = testing::flat(32, 32, 50, 50, 50), b = testing::flat(32, 32, 100, 100, 100);
+  const Image a = fixtures::flat(32, 32, 50, 50, 50), b = fixtures::flat(32, 32, 100, 100, 100);
   ComparisonOptions options;
   options.viewing.hdr_exposures = HdrExposures{-8, 0, 9};
   const Comparison comparison = compare(a, b, options);
@@ -231,10 +231,10 @@ TEST(HdrFlip, SeesWhatIsTooBrightForOneExposure) {
 }
 
 TEST(HdrFlip, IsTheSameForHugeAndNegativeValuesAsForWhiteAndBlack) {
-  const Image black = testing::flat(16, 16, 0, 0, 0),
-              white = testing::flat(16, 16, 1e9f, 1e9f, 1e9f);
-  const Image huge = testing::flat(16, 16, 3e38f, 3e38f, 3e38f);
-  const Image negative = testing::flat(16, 16, -1, -1, -1);
+  const Image black = fixtures::flat(16, 16, 0, 0, 0),
+              white = fixtures::flat(16, 16, 1e9f, 1e9f, 1e9f);
+  const Image huge = fixtures::flat(16, 16, 3e38f, 3e38f, 3e38f);
+  const Image negative = fixtures::flat(16, 16, -1, -1, -1);
   ComparisonOptions options;
   options.viewing.hdr_exposures = HdrExposures{0, 4, 2};
   const double expected = compare(black, white, options).value("flip.hdr.mean");
@@ -242,7 +242,7 @@ TEST(HdrFlip, IsTheSameForHugeAndNegativeValuesAsForWhiteAndBlack) {
 }
 
 TEST(HdrFlip, RefusesAnAutomaticRangeOfASphereOverBlackInWords) {
-  Image image = testing::flat(8, 8, 0, 0, 0);
+  Image image = fixtures::flat(8, 8, 0, 0, 0);
   for (int x = 0; x < 8; ++x) image.pixel(x, 0)[1] = 2;
   try {
     automatic_exposures(image);

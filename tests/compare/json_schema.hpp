@@ -11,6 +11,7 @@
 
 #include "core/files.hpp"
 #include "core/record.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia {
 

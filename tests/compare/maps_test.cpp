@@ -45,12 +45,12 @@ TEST_P(EveryDifferenceMap, IsFoundByAnIdOfItsOwn) {
 }
 
 TEST_P(EveryDifferenceMap, IsZeroEverywhereForEqualPictures) {
-  const Image image = testing::highlight(70, 67, 20, 3);
+  const Image image = fixtures::highlight(70, 67, 20, 3);
   EXPECT_THAT(measure_difference_map(*GetParam(), image, image, {}), Each(0.0f));
 }
 
 TEST_P(EveryDifferenceMap, SaysSomethingWhereTheTwoDiffer) {
-  const Image a = testing::highlight(70, 67, 20, 0.9), b = testing::highlight(70, 67, 24, 0.9);
+  const Image a = fixtures::highlight(70, 67, 20, 0.9), b = fixtures::highlight(70, 67, 24, 0.9);
   const auto map = measure_difference_map(*GetParam(), a, b, {});
   ASSERT_EQ(map.size(), a.pixel_count());
   EXPECT_GT(largest_magnitude(map), 0.01);
@@ -58,7 +58,7 @@ TEST_P(EveryDifferenceMap, SaysSomethingWhereTheTwoDiffer) {
 
 TEST_P(EveryDifferenceMap, ExchangesItsSignOrNothingWhenThePicturesAre) {
   if (GetParam()->id == "relative") return;  // a share of the second picture
-  const Image a = testing::noise(40, 30, 1, 0.7f), b = testing::noise(40, 30, 2, 0.7f);
+  const Image a = fixtures::noise(40, 30, 1, 0.7f), b = fixtures::noise(40, 30, 2, 0.7f);
   const auto one = measure_difference_map(*GetParam(), a, b, {});
   const auto other = measure_difference_map(*GetParam(), b, a, {});
   for (std::size_t i = 0; i < one.size(); ++i)
@@ -66,7 +66,7 @@ TEST_P(EveryDifferenceMap, ExchangesItsSignOrNothingWhenThePicturesAre) {
 }
 
 TEST_P(EveryDifferenceMap, IsNanWhereAPictureIsNotFiniteAndNowhereElse) {
-  Image a = testing::noise(40, 30, 1, 0.7f), b = testing::noise(40, 30, 2, 0.7f);
+  Image a = fixtures::noise(40, 30, 1, 0.7f), b = fixtures::noise(40, 30, 2, 0.7f);
   a.pixel(3, 0)[1] = std::numeric_limits<float>::quiet_NaN();
   b.pixel(5, 0)[2] = -std::numeric_limits<float>::infinity();
   const auto map = measure_difference_map(*GetParam(), a, b, {});
@@ -74,7 +74,7 @@ TEST_P(EveryDifferenceMap, IsNanWhereAPictureIsNotFiniteAndNowhereElse) {
 }
 
 TEST(DifferenceMaps, AddUpToTheMetricsOfTheirName) {
-  const Image a = testing::noise(90, 70, 1, 1.2f), b = testing::noise(90, 70, 2, 1.1f);
+  const Image a = fixtures::noise(90, 70, 1, 1.2f), b = fixtures::noise(90, 70, 2, 1.1f);
   const Comparison measured = compare(a, b, {});
   const auto map = [&](std::string_view id) {
     return measure_difference_map(*find_difference_map(id), a, b, {});
@@ -92,7 +92,7 @@ TEST(DifferenceMaps, AddUpToTheMetricsOfTheirName) {
 }
 
 TEST(DifferenceMaps, LookAtThePicturesAtTheExposureThatTheMetricsHave) {
-  const Image a = testing::noise(40, 30, 1, 0.1f), b = testing::noise(40, 30, 2, 0.1f);
+  const Image a = fixtures::noise(40, 30, 1, 0.1f), b = fixtures::noise(40, 30, 2, 0.1f);
   ComparisonOptions options;
   options.viewing.exposure_stops = 3;
   const auto map = measure_difference_map(*find_difference_map("ciede2000"), a, b, options.viewing);
@@ -100,7 +100,7 @@ TEST(DifferenceMaps, LookAtThePicturesAtTheExposureThatTheMetricsHave) {
 }
 
 TEST(DifferenceMaps, RelativeIsOfTheReferenceAndLargestWhereThatHasNothing) {
-  Image a = testing::flat(3, 1, 1.5f, 1, 1), b = testing::flat(3, 1, 1, 1, 1);
+  Image a = fixtures::flat(3, 1, 1.5f, 1, 1), b = fixtures::flat(3, 1, 1, 1, 1);
   b.pixel(1, 0)[0] = 0;
   b.pixel(2, 0)[0] = -3;
   const auto map = measure_difference_map(*find_difference_map("relative"), a, b, {});

@@ -19,13 +19,13 @@ const Tolerance kTolerance{1e-3, 1e-4, 3};
 
 std::vector<std::pair<Image, Image>> pairs() {
   std::vector<std::pair<Image, Image>> list;
-  list.emplace_back(testing::flat(16, 16, 0, 0, 0), testing::flat(16, 16, 1, 1, 1));
-  list.emplace_back(testing::noise(40, 33, 1, 1.0f), testing::noise(40, 33, 2, 1.0f));
-  list.emplace_back(testing::highlight(64, 48, 20, 3.0), testing::highlight(64, 48, 22, 3.1));
-  list.emplace_back(testing::noise(1, 1, 3, 0.1f), testing::noise(1, 1, 4, 0.1f));
-  list.emplace_back(testing::noise(70, 1, 5, 30.0f), testing::noise(70, 1, 6, 30.0f));
-  list.emplace_back(testing::flat(3, 50, -1, 0.2f, 0), testing::flat(3, 50, 0.1f, 0.2f, 0.3f));
-  list.emplace_back(testing::highlight(200, 180, 20, 1.0), testing::highlight(200, 180, 22, 0.9));
+  list.emplace_back(fixtures::flat(16, 16, 0, 0, 0), fixtures::flat(16, 16, 1, 1, 1));
+  list.emplace_back(fixtures::noise(40, 33, 1, 1.0f), fixtures::noise(40, 33, 2, 1.0f));
+  list.emplace_back(fixtures::highlight(64, 48, 20, 3.0), fixtures::highlight(64, 48, 22, 3.1));
+  list.emplace_back(fixtures::noise(1, 1, 3, 0.1f), fixtures::noise(1, 1, 4, 0.1f));
+  list.emplace_back(fixtures::noise(70, 1, 5, 30.0f), fixtures::noise(70, 1, 6, 30.0f));
+  list.emplace_back(fixtures::flat(3, 50, -1, 0.2f, 0), fixtures::flat(3, 50, 0.1f, 0.2f, 0.3f));
+  list.emplace_back(fixtures::highlight(200, 180, 20, 1.0), fixtures::highlight(200, 180, 22, 0.9));
   return list;
 }
 
@@ -38,7 +38,7 @@ std::vector<double> measure(const Metric& metric, const MetricInput& input) {
 }
 
 std::vector<double> measure(const Metric& metric, const Image& a, const Image& b) {
-  return measure(metric, testing::input(a, b, &kTolerance));
+  return measure(metric, fixtures::input(a, b, &kTolerance));
 }
 
 double measure(std::string_view id, const Image& a, const Image& b) {
@@ -143,13 +143,13 @@ TEST(MetricLaws, AMetricThatIsNotCalledSymmetricIsNot) {
     for (std::size_t i = 0; i < metric->outputs.size(); ++i) {
       if (metric->outputs[i].symmetric) continue;
       bool changed = false;
-      const Image dim = testing::flat(8, 8, 0.0015f, 0, 0);
-      Image bright = testing::flat(8, 8, 1, 0, 0);
+      const Image dim = fixtures::flat(8, 8, 0.0015f, 0, 0);
+      Image bright = fixtures::flat(8, 8, 1, 0, 0);
       // Nothing differs in the first row and column: a place is seen to change.
       for (int k = 0; k < 8; ++k) bright.pixel(k, 0)[0] = bright.pixel(0, k)[0] = 0.0015f;
       const Tolerance half{0.9985, 0, 0, std::vector<std::uint8_t>(8 * 8, 0)};
-      const std::vector<double> forth = measure(*metric, testing::input(dim, bright, &half));
-      const std::vector<double> back = measure(*metric, testing::input(bright, dim, &half));
+      const std::vector<double> forth = measure(*metric, fixtures::input(dim, bright, &half));
+      const std::vector<double> back = measure(*metric, fixtures::input(bright, dim, &half));
       changed = forth.at(i) != back.at(i);
       EXPECT_TRUE(changed) << metric->outputs[i].id;
     }
@@ -178,20 +178,20 @@ void expect_ever_worse(const Image& reference, const std::vector<Image>& picture
 TEST(MetricLaws, ALargerErrorIsNeverRatedLower) {
   std::vector<Image> pictures;
   for (const double peak : {0.999, 0.99, 0.95, 0.8})
-    pictures.push_back(testing::highlight(192, 192, 20, peak));
-  expect_ever_worse(testing::highlight(192, 192, 20, 1.0), pictures);
+    pictures.push_back(fixtures::highlight(192, 192, 20, peak));
+  expect_ever_worse(fixtures::highlight(192, 192, 20, 1.0), pictures);
 }
 
 TEST(MetricLaws, ABlurrierHighlightIsNeverRatedBetter) {
   // A Gaussian blurred by a Gaussian is one that is wider, and lower by as much.
   std::vector<Image> pictures;
   for (const double wider : {1.02, 1.1, 1.3, 1.6})
-    pictures.push_back(testing::highlight(192, 192, 40 / wider, 1 / wider));
-  expect_ever_worse(testing::highlight(192, 192, 40, 1.0), pictures);
+    pictures.push_back(fixtures::highlight(192, 192, 40 / wider, 1 / wider));
+  expect_ever_worse(fixtures::highlight(192, 192, 40, 1.0), pictures);
 }
 
 TEST(MetricLaws, AHighlightThatIsFartherOffIsNeverRatedBetter) {
-  const Image wide = testing::highlight(256, 192, 40, 1.0);
+  const Image wide = fixtures::highlight(256, 192, 40, 1.0);
   const auto shifted = [&](int columns) {
     Image image(192, 192);
     for (int y = 0; y < 192; ++y)
@@ -203,7 +203,7 @@ TEST(MetricLaws, AHighlightThatIsFartherOffIsNeverRatedBetter) {
 }
 
 TEST(MetricLaws, TheNumberOfThreadsDoesNotChangeABit) {
-  const Image a = testing::noise(300, 200, 8, 1.0f), b = testing::highlight(300, 200, 5, 1.0);
+  const Image a = fixtures::noise(300, 200, 8, 1.0f), b = fixtures::highlight(300, 200, 5, 1.0);
   for (const Metric* metric : metrics()) {
     const std::vector<double> many = measure(*metric, a, b);
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
@@ -212,57 +212,57 @@ TEST(MetricLaws, TheNumberOfThreadsDoesNotChangeABit) {
 }
 
 TEST(Rmse, IsTheRootOfTheMeanSquareOverAllChannels) {
-  const Image a = testing::flat(5, 4, 1, 2, 3), b = testing::flat(5, 4, 1, 2, 6);
+  const Image a = fixtures::flat(5, 4, 1, 2, 3), b = fixtures::flat(5, 4, 1, 2, 6);
   EXPECT_DOUBLE_EQ(measure("rmse", a, b), std::sqrt(9.0 / 3));
 }
 
 TEST(Rmse, KeepsItsDigitsOnAPictureWhereAFloatSumWouldStall) {
   // Each square is 2^-26: a float32 sum of more than 2^24 of them no longer grows.
-  const Image a = testing::flat(4096, 2048, 0, 0, 0);
+  const Image a = fixtures::flat(4096, 2048, 0, 0, 0);
   const float step = 1.0f / 8192;
-  const Image b = testing::flat(4096, 2048, step, step, step);
+  const Image b = fixtures::flat(4096, 2048, step, step, step);
   EXPECT_DOUBLE_EQ(measure("rmse", a, b), step);
 }
 
 TEST(MaxAbs, SaysWhichPixel) {
-  const Image a = testing::flat(9, 7, 0.5f, 0.5f, 0.5f);
+  const Image a = fixtures::flat(9, 7, 0.5f, 0.5f, 0.5f);
   Image b = a;
   b.pixel(6, 2)[1] = 0.75f;
   EXPECT_THAT(measure(*find_metric("max_abs"), a, b), ::testing::ElementsAre(0.25, 6, 2));
 }
 
 TEST(MaxRelPeak, IsInfiniteAgainstABlackReference) {
-  const Image black = testing::flat(4, 4, 0, 0, 0), grey = testing::flat(4, 4, 0.1f, 0.1f, 0.1f);
+  const Image black = fixtures::flat(4, 4, 0, 0, 0), grey = fixtures::flat(4, 4, 0.1f, 0.1f, 0.1f);
   EXPECT_TRUE(std::isinf(measure("max_rel_peak", grey, black)));
   EXPECT_FLOAT_EQ(float(measure("max_rel_peak", black, grey)), 1.0f);
 }
 
 TEST(Mae, IsTheMeanOverAllChannels) {
-  const Image a = testing::flat(5, 4, 1, 2, 3), b = testing::flat(5, 4, 1, 1, 5);
+  const Image a = fixtures::flat(5, 4, 1, 2, 3), b = fixtures::flat(5, 4, 1, 1, 5);
   EXPECT_DOUBLE_EQ(measure("mae", a, b), 1);
   EXPECT_DOUBLE_EQ(measure("mse", a, b), 5.0 / 3);
 }
 
 TEST(Psnr, IsInDecibelsOfTheReferencesPeak) {
-  const Image a = testing::flat(5, 4, 2, 2, 2), b = testing::flat(5, 4, 2.5f, 1.5f, 1.5f);
+  const Image a = fixtures::flat(5, 4, 2, 2, 2), b = fixtures::flat(5, 4, 2.5f, 1.5f, 1.5f);
   EXPECT_DOUBLE_EQ(measure("psnr", a, b), 20 * std::log10(2.5 / 0.5));
   EXPECT_DOUBLE_EQ(measure("psnr", b, a), 20 * std::log10(2.0 / 0.5));
-  const Image black = testing::flat(5, 4, 0, 0, 0);
+  const Image black = fixtures::flat(5, 4, 0, 0, 0);
   EXPECT_EQ(measure("psnr", a, black), -std::numeric_limits<double>::infinity());
 }
 
 TEST(Drift, HasTheSignOfWhatIsTooBright) {
-  const Image dim = testing::flat(5, 4, 1, 1, 1), bright = testing::flat(5, 4, 1, 1, 1.75f);
+  const Image dim = fixtures::flat(5, 4, 1, 1, 1), bright = fixtures::flat(5, 4, 1, 1, 1.75f);
   EXPECT_DOUBLE_EQ(measure("drift", bright, dim), 0.25);
   EXPECT_DOUBLE_EQ(measure("drift", dim, bright), -0.25);
 }
 
 TEST(Drift, DoesNotSeeWhatCancels) {
-  EXPECT_EQ(measure("drift", testing::flat(5, 4, 1, 0, 2), testing::flat(5, 4, 0, 1, 2)), 0);
+  EXPECT_EQ(measure("drift", fixtures::flat(5, 4, 1, 0, 2), fixtures::flat(5, 4, 0, 1, 2)), 0);
 }
 
 TEST(Relmse, WeighsEachValueByTheReferences) {
-  const Image a = testing::flat(5, 4, 1, 2, 3), b = testing::flat(5, 4, 1, 1, 0);
+  const Image a = fixtures::flat(5, 4, 1, 2, 3), b = fixtures::flat(5, 4, 1, 1, 0);
   EXPECT_DOUBLE_EQ(measure("relmse.eps=0.01", a, b), (1 / 1.01 + 9 / 0.01) / 3);
 }
 
@@ -293,7 +293,7 @@ TEST(DisplayLight, IsExposedAndClipped) {
 }
 
 TEST(DisplayLight, OfARowIsThatOfItsPixels) {
-  const Image image = testing::noise(13, 3, 1, 2.5f);
+  const Image image = fixtures::noise(13, 3, 1, 2.5f);
   for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
     const DisplayLight shown(image, 0.3, curve);
     std::vector<float> rgb(3 * 9);

@@ -9,7 +9,7 @@
 #include "compare/uncertainty/noise.hpp"
 #include "tests/compare/pictures.hpp"
 
-namespace lobelia::testing {
+namespace lobelia::fixtures {
 
 /// Uniform numbers in (0, 1), one after the other.
 class Uniform {
@@ -103,4 +103,4 @@ inline NoisyPicture noisy_mean(NoiseKind kind, std::uint64_t seed, int count, in
   return mean_of_replicates(replicates, false);
 }
 
-}  // namespace lobelia::testing
+}  // namespace lobelia::fixtures

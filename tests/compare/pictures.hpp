@@ -8,7 +8,7 @@
 #include "compare/uncertainty/z_test.hpp"
 #include "core/image.hpp"
 
-namespace lobelia::testing {
+namespace lobelia::fixtures {
 
 inline Image flat(int width, int height, float r, float g, float b) {
   Image image(width, height);
@@ -67,4 +67,4 @@ inline MetricInput input(const Image& a, const Image& b, const Tolerance* tolera
           &kExact};
 }
 
-}  // namespace lobelia::testing
+}  // namespace lobelia::fixtures

@@ -8,7 +8,7 @@
 #include "compare/display_light.hpp"
 #include "compare/metrics/flip_filters.hpp"
 
-namespace lobelia::testing {
+namespace lobelia::fixtures {
 
 class PlainFlip {
  public:
@@ -102,4 +102,4 @@ inline std::vector<double> plain_flip(const DisplayLight& shown_a, const Display
   return errors;
 }
 
-}  // namespace lobelia::testing
+}  // namespace lobelia::fixtures

@@ -41,7 +41,7 @@ struct Patch {
   }
 };
 
-double gaussian(double angle, double half_width_degrees) {
+double gaussian_of_width(double angle, double half_width_degrees) {
   const double x = angle / (half_width_degrees * kDegree);
   return std::exp(-std::numbers::ln2 * x * x);
 }
@@ -49,7 +49,8 @@ double gaussian(double angle, double half_width_degrees) {
 TEST(Profile, FindsPeakWidthAndEnergyOfAKnownHighlight) {
   const Patch patch;
   for (const double width : {5.0, 10.0, 15.0}) {
-    const Image image = patch.image([&](double angle) { return 3 * gaussian(angle, width); });
+    const Image image =
+        patch.image([&](double angle) { return 3 * gaussian_of_width(angle, width); });
     const double blooming = width * std::sqrt(std::log2(1000.0));
     const Profile profile =
         measure_profile(patch.geometry(width, blooming / 2, blooming), {{"ours", &image}}, {});
@@ -86,7 +87,7 @@ TEST(Profile, HalfWidthOfACosinePowerShrinksAsTheRootOfTheExponent) {
 
 TEST(Profile, CurveIsTheRadianceAtItsAngles) {
   const Patch patch;
-  const Image image = patch.image([](double angle) { return gaussian(angle, 10); });
+  const Image image = patch.image([](double angle) { return gaussian_of_width(angle, 10); });
   const Profile profile = measure_profile(patch.geometry(10, 18, 31.5), {{"ours", &image}}, {});
   ASSERT_GE(profile.angle.size(), 40u);
   std::size_t pixels = 0;
@@ -97,7 +98,7 @@ TEST(Profile, CurveIsTheRadianceAtItsAngles) {
       EXPECT_GT(profile.angle[bin], profile.angle[bin - 1]);
     }
     // Half a bin (0.3 degrees) squared times the largest curvature, ln 4 / width^2, halved.
-    EXPECT_NEAR(profile.radiance[0][bin], gaussian(profile.angle[bin], 10), 1e-3);
+    EXPECT_NEAR(profile.radiance[0][bin], gaussian_of_width(profile.angle[bin], 10), 1e-3);
   }
   EXPECT_GT(pixels, 10000u);
   EXPECT_GT(profile.angle.back(), 31.5 * kDegree) << "the curve shows the end of the zone";
@@ -105,7 +106,7 @@ TEST(Profile, CurveIsTheRadianceAtItsAngles) {
 
 TEST(Profile, PutsAnErrorIntoItsZone) {
   const Patch patch;
-  const auto exact = [](double angle) { return 2 * gaussian(angle, 10); };
+  const auto exact = [](double angle) { return 2 * gaussian_of_width(angle, 10); };
   const Image reference = patch.image(exact);
   const Image inner = patch.image([&](double a) { return exact(a) + (a < 5 * kDegree ? 0.1 : 0); });
   const Image outer = patch.image(
@@ -133,7 +134,7 @@ TEST(Profile, PutsAnErrorIntoItsZone) {
 
 TEST(Profile, DoesNotHideANaN) {
   const Patch patch;
-  const Image good = patch.image([](double angle) { return gaussian(angle, 10); });
+  const Image good = patch.image([](double angle) { return gaussian_of_width(angle, 10); });
   Image broken = good;
   broken.pixel(Patch::kSize / 2 + 3, Patch::kSize / 2)[1] = std::nanf("");
   const Profile profile = measure_profile(patch.geometry(10, 18, 31.5),
@@ -187,8 +188,8 @@ struct FullPatch : Patch {
 
 TEST(HighlightFigures, AreThoseOfWhatLiesOverTheBase) {
   const FullPatch patch;
-  const Image image =
-      patch.image([&](double angle) { return FullPatch::kBase + 3 * gaussian(angle, 10); });
+  const Image image = patch.image(
+      [&](double angle) { return FullPatch::kBase + 3 * gaussian_of_width(angle, 10); });
   const Profile profile = measure_profile(patch.full(10, 20.8, 31.5), {{"ours", &image}}, {});
   const HighlightFigures& figures = profile.figures.at(0);
   EXPECT_EQ(figures.why_not, "");
@@ -223,7 +224,7 @@ TEST(HighlightFigures, SayWhatKeepsThemFromBeingMeasured) {
   const Image black(Patch::kSize, Patch::kSize);
   EXPECT_EQ(of(black, 30).why_not, "it is black") << "below the base is no light either";
   const Image narrow =
-      patch.image([&](double angle) { return FullPatch::kBase + gaussian(angle, 0.7); });
+      patch.image([&](double angle) { return FullPatch::kBase + gaussian_of_width(angle, 0.7); });
   EXPECT_EQ(of(narrow, 3).why_not,
             "not resolved: 5 pixels are above half of its peak, 9 are needed");
   EXPECT_TRUE(std::isnan(of(narrow, 3).along.pixels));
@@ -235,7 +236,7 @@ TEST(HighlightFigures, SayWhatKeepsThemFromBeingMeasured) {
 
 TEST(ProfileRecord, HasWhatTheDocumentationPromises) {
   const Patch patch;
-  const Image image = patch.image([](double angle) { return gaussian(angle, 10); });
+  const Image image = patch.image([](double angle) { return gaussian_of_width(angle, 10); });
   const Json record =
       profile_record(measure_profile(patch.geometry(10, 18, 31.5),
                                      {{"analytic", &image}, {"lobelia", &image}}, {{1, 0}}),

@@ -11,7 +11,8 @@ namespace lobelia {
 namespace {
 
 TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
-  const Image a = testing::highlight(180, 180, 10, 1.0), b = testing::highlight(180, 180, 10, 1.1);
+  const Image a = fixtures::highlight(180, 180, 10, 1.0),
+              b = fixtures::highlight(180, 180, 10, 1.1);
   ComparisonOptions options;
   options.viewing.exposure_stops = -1;
   options.viewing.hdr_exposures = HdrExposures{-2, 1.5, 3};
@@ -49,10 +50,10 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
 }
 
 TEST(ComparisonRecord, OfPicturesWithNoiseSaysHowItWasTakenIntoAccount) {
-  const Image a = testing::highlight(48, 48, 10, 1.0), b = testing::highlight(48, 48, 10, 1.01);
+  const Image a = fixtures::highlight(48, 48, 10, 1.0), b = fixtures::highlight(48, 48, 10, 1.01);
   ComparisonOptions options;
   options.limits = {{"rmse", 1}, {"drift", 0.003}};
-  options.noise = NoiseOptions{.a = testing::even_noise(48, 48, 0.01f, 7, true),
+  options.noise = NoiseOptions{.a = fixtures::even_noise(48, 48, 0.01f, 7, true),
                                .significance = 0.02,
                                .bootstraps = 8,
                                .seed = 5};
@@ -86,7 +87,7 @@ TEST(ComparisonRecord, OfPicturesWithNoiseSaysHowItWasTakenIntoAccount) {
 }
 
 TEST(ComparisonRecord, OfABrokenPictureHasNoMetricsAndNoPass) {
-  const Image good = testing::flat(4, 4, 1, 1, 1);
+  const Image good = fixtures::flat(4, 4, 1, 1, 1);
   Image broken = good;
   broken.pixel(1, 1)[0] = std::numeric_limits<float>::quiet_NaN();
   const Json record = comparison_record(compare(broken, good, {}), "a", "b");
@@ -104,7 +105,7 @@ TEST(ComparisonRecord, OfABrokenPictureHasNoMetricsAndNoPass) {
 
 TEST(ComparisonRecord, NamesAnInfinityRatherThanLosingIt) {
   const Json record = comparison_record(
-      compare(testing::flat(4, 4, 1, 1, 1), testing::flat(4, 4, 0, 0, 0), {}), "a", "b");
+      compare(fixtures::flat(4, 4, 1, 1, 1), fixtures::flat(4, 4, 0, 0, 0), {}), "a", "b");
   EXPECT_EQ(record["metrics"]["max_rel_peak"], "inf");
 }
 

@@ -36,7 +36,7 @@ ComparisonOptions everything(const Image& image) {
 }
 
 TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdict) {
-  const Image a = testing::highlight(180, 180, 10, 1), b = testing::highlight(180, 180, 11, 1.1);
+  const Image a = fixtures::highlight(180, 180, 10, 1), b = fixtures::highlight(180, 180, 11, 1.1);
   Image broken = a;
   broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
   for (const auto& [left, right] : {std::pair{&a, &b}, {&a, &a}, {&broken, &a}, {&a, &broken}}) {
@@ -49,13 +49,13 @@ TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdict) {
 }
 
 ComparisonOptions with_noise(ComparisonOptions options, const Image& image, float error) {
-  options.noise =
-      NoiseOptions{.a = testing::even_noise(image.width(), image.height(), error), .bootstraps = 4};
+  options.noise = NoiseOptions{.a = fixtures::even_noise(image.width(), image.height(), error),
+                               .bootstraps = 4};
   return options;
 }
 
 TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdictOnNoise) {
-  const Image a = testing::highlight(180, 180, 10, 1), b = testing::highlight(180, 180, 11, 1.1);
+  const Image a = fixtures::highlight(180, 180, 10, 1), b = fixtures::highlight(180, 180, 11, 1.1);
   Image broken = a;
   broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
   std::set<std::string> verdicts;
@@ -70,7 +70,7 @@ TEST(ComparisonSchema, HoldsForRecordsOfEveryVerdictOnNoise) {
 }
 
 TEST(ComparisonSchema, DoesNotHoldForABrokenRecordOfNoise) {
-  const Image image = testing::highlight(32, 32, 10, 1);
+  const Image image = fixtures::highlight(32, 32, 10, 1);
   const Plain good = record(image, image, with_noise({}, image, 0.1f));
   ASSERT_EQ(problems(good), "");
   const auto broken = [&](auto change) {
@@ -87,7 +87,7 @@ TEST(ComparisonSchema, DoesNotHoldForABrokenRecordOfNoise) {
 }
 
 TEST(ComparisonSchema, HoldsForNumbersThatAreNotFinite) {
-  const Image grey = testing::flat(16, 16, 1, 1, 1), black = testing::flat(16, 16, 0, 0, 0);
+  const Image grey = fixtures::flat(16, 16, 1, 1, 1), black = fixtures::flat(16, 16, 0, 0, 0);
   const Plain made = record(grey, black, {});
   EXPECT_EQ(made["metrics"]["max_rel_peak"], "inf");
   EXPECT_EQ(made["metrics"]["psnr"], "-inf");
@@ -96,7 +96,7 @@ TEST(ComparisonSchema, HoldsForNumbersThatAreNotFinite) {
 
 /// With what two files add to it: layers that pass, differ, are broken and have two sizes.
 Plain record_of_files() {
-  const Image good = testing::flat(16, 16, 1, 1, 1), other = testing::flat(16, 16, 2, 2, 2);
+  const Image good = fixtures::flat(16, 16, 1, 1, 1), other = fixtures::flat(16, 16, 2, 2, 2);
   Image broken = good;
   broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
   PictureSource source;
@@ -167,7 +167,7 @@ TEST(ComparisonSchema, KnowsEveryMetricAndNoOther) {
 }
 
 TEST(ComparisonSchema, DoesNotHoldForABrokenRecord) {
-  const Image image = testing::highlight(32, 32, 10, 1);
+  const Image image = fixtures::highlight(32, 32, 10, 1);
   const Plain good = record(image, image, everything(image));
   ASSERT_EQ(problems(good), "");
   const auto broken = [&](auto change) {
@@ -199,7 +199,7 @@ TEST(ComparisonSchema, DoesNotHoldForABrokenRecord) {
 }
 
 TEST(ComparisonSchema, HoldsForValuesThatAreNotFiniteAndTheirPlaces) {
-  Image a = testing::highlight(32, 32, 10, 1), b = a;
+  Image a = fixtures::highlight(32, 32, 10, 1), b = a;
   a.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
   b.pixel(5, 6)[2] = std::numeric_limits<float>::quiet_NaN();
   Comparison comparison = compare(a, b, {});
@@ -222,7 +222,7 @@ TEST(ComparisonSchema, HoldsForValuesThatAreNotFiniteAndTheirPlaces) {
 }
 
 TEST(ComparisonSchema, HoldsForARecordWithASecondReference) {
-  const Image a = testing::highlight(32, 32, 10, 1), c = testing::highlight(32, 32, 11, 1);
+  const Image a = fixtures::highlight(32, 32, 10, 1), c = fixtures::highlight(32, 32, 11, 1);
   Image broken = c;
   broken.pixel(3, 3)[0] = std::numeric_limits<float>::quiet_NaN();
   for (const Image* second : {&a, &c, static_cast<const Image*>(&broken)}) {
@@ -237,7 +237,7 @@ TEST(ComparisonSchema, HoldsForARecordWithASecondReference) {
 }
 
 TEST(ComparisonSetSchema, HoldsForASetAndNotForABrokenOne) {
-  const Image a = testing::highlight(32, 32, 10, 1), b = testing::highlight(32, 32, 11, 1);
+  const Image a = fixtures::highlight(32, 32, 10, 1), b = fixtures::highlight(32, 32, 11, 1);
   SetReport set{"one", "other", "", {}, {"gone.exr"}, {"new.exr"}, 2, {"one/out"}};
   set.pairs.push_back({"x.exr", "one/x.exr", "other/x.exr", "", compare(a, b, {}), "", 0.1});
   set.pairs.push_back({"y.exr", "one/y.exr", "other/y.exr", "", {}, "not a picture", 0});

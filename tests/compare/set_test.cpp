@@ -107,8 +107,8 @@ TEST_F(FolderPairing, OfAFolderThatIsNotThereSaysWhich) {
 }
 
 PairReport compared(const std::string& name, float value_a, float value_b) {
-  const Image a = testing::flat(20, 20, value_a, value_a, value_a);
-  const Image b = testing::flat(20, 20, value_b, value_b, value_b);
+  const Image a = fixtures::flat(20, 20, value_a, value_a, value_a);
+  const Image b = fixtures::flat(20, 20, value_b, value_b, value_b);
   ComparisonOptions options;
   options.limits = {{"rmse", 0.01}};
   return {name, "a/" + name, "b/" + name, "", compare(a, b, options), "", 0.25};

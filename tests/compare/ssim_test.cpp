@@ -14,7 +14,7 @@ Image grey_code(int width, int height, int code) {
   const double value = code / 255.0;
   const auto light =
       float(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
-  return testing::flat(width, height, light, light, light);
+  return fixtures::flat(width, height, light, light, light);
 }
 
 /// {mean of l c s, mean of c s} with 121 weights a window and deviations from the mean.
@@ -57,21 +57,22 @@ TEST(Ssim, OfTwoGreysIsThePublishedValue) {
 
 TEST(Ssim, AgreesWithADoubleLoopOverTheWindows) {
   for (const auto& [width, height] : {std::pair{40, 33}, std::pair{11, 90}, std::pair{11, 11}}) {
-    const Image a = testing::noise(width, height, 1, 1.2f), b = testing::noise(width, height, 2, 1);
+    const Image a = fixtures::noise(width, height, 1, 1.2f),
+                b = fixtures::noise(width, height, 2, 1);
     EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(shown_luma(a), shown_luma(b))[0], 1e-12)
         << width << " x " << height;
   }
 }
 
 TEST(Ssim, OfTheNegativeOfAPatternIsNegative) {
-  const Image a = testing::noise(40, 40, 1, 1.0f);
+  const Image a = fixtures::noise(40, 40, 1, 1.0f);
   Image b = a;
   for (float& value : b.values()) value = 1 - value;
   EXPECT_LT(compare(a, b, {}).value("ssim"), -0.5);
 }
 
 TEST(Ssim, FallsAsThePictureIsBlurredOrShifted) {
-  const Image reference = testing::noise(64, 64, 1, 1.0f);
+  const Image reference = fixtures::noise(64, 64, 1, 1.0f);
   double before = 1;
   for (const int radius : {1, 2, 3}) {
     Image blurred = reference;
@@ -91,7 +92,7 @@ TEST(Ssim, FallsAsThePictureIsBlurredOrShifted) {
 
 TEST(Ssim, IsLeftOutWhereThereIsNoRoomForAWindow) {
   for (const auto& [width, height] : {std::pair{10, 200}, std::pair{200, 10}}) {
-    const Image image = testing::flat(width, height, 1, 1, 1);
+    const Image image = fixtures::flat(width, height, 1, 1, 1);
     ComparisonOptions options;
     options.limits = {{"ssim", 0.5}};
     const Comparison comparison = compare(image, image, options);
@@ -103,7 +104,7 @@ TEST(Ssim, IsLeftOutWhereThereIsNoRoomForAWindow) {
 
 TEST(MsSsim, IsTheProductOfThePowersOfItsScales) {
   // Odd at every scale: 179, 90, 45, 23, 12.
-  const Image a = testing::highlight(179, 179, 20, 1), b = testing::highlight(179, 179, 30, 0.8);
+  const Image a = fixtures::highlight(179, 179, 20, 1), b = fixtures::highlight(179, 179, 30, 0.8);
   LumaPlane la = shown_luma(a), lb = shown_luma(b);
   double expected = 1;
   for (const double weight : {0.0448, 0.2856, 0.3001, 0.2363, 0.1333}) {
@@ -122,13 +123,13 @@ TEST(MsSsim, OfTwoGreysIsTheLuminanceTermOfTheCoarsestScale) {
 }
 
 TEST(MsSsim, IsLeftOutBelow176Pixels) {
-  const Image small = testing::flat(175, 400, 1, 1, 1), enough = testing::flat(176, 400, 1, 1, 1);
+  const Image small = fixtures::flat(175, 400, 1, 1, 1), enough = fixtures::flat(176, 400, 1, 1, 1);
   EXPECT_TRUE(std::isnan(compare(small, small, {}).value("ms_ssim")));
   EXPECT_EQ(compare(enough, enough, {}).value("ms_ssim"), 1);
 }
 
 TEST(Luma, OfEveryPixelIsTheWeightedSumOfItsCodes) {
-  const Image image = testing::noise(37, 3, 4, 1.1f);
+  const Image image = fixtures::noise(37, 3, 4, 1.1f);
   const DisplayLight shown(image, 0);
   const LumaPlane plane = plane_of(luma(shown));
   const auto code = [](double light) {
@@ -143,7 +144,7 @@ TEST(Luma, OfEveryPixelIsTheWeightedSumOfItsCodes) {
 
 TEST(Luma, OfAGreyIsItsCodeAndOfAColourIsWeighed) {
   EXPECT_NEAR(shown_luma(grey_code(1, 1, 128)).values[0], 128 / 255.0, 1e-7);
-  EXPECT_NEAR(shown_luma(testing::flat(1, 1, 0, 1, 0)).values[0], 0.7152, 1e-7);
+  EXPECT_NEAR(shown_luma(fixtures::flat(1, 1, 0, 1, 0)).values[0], 0.7152, 1e-7);
 }
 
 TEST(Luma, HalfTheSizeHasTheMeansAndRepeatsAnOddBorder) {

@@ -18,12 +18,12 @@
 namespace lobelia {
 namespace {
 
-using testing::NoiseKind;
+using fixtures::NoiseKind;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 ZTest test_of(const Image& a, const Image& b, NoiseOfPair noise,
               const Tolerance* tolerance = nullptr) {
-  MetricInput input = testing::input(a, b, tolerance);
+  MetricInput input = fixtures::input(a, b, tolerance);
   input.noise = &noise;
   return z_test(input);
 }
@@ -67,7 +67,7 @@ TEST(CriticalT, IsTheZOfItsLevelAndNeverLess) {
 // ---- noise
 
 TEST(Noise, OfTwoHalvesIsHalfTheirDifferenceAndTheirMeanIsThePicture) {
-  const Image halves[] = {testing::flat(9, 9, 1, 2, 3), testing::flat(9, 9, 3, 2, 2.5f)};
+  const Image halves[] = {fixtures::flat(9, 9, 1, 2, 3), fixtures::flat(9, 9, 3, 2, 2.5f)};
   const NoisyPicture mean = mean_of_replicates(halves, false);
   EXPECT_THAT(mean.image.pixel(4, 4), ::testing::ElementsAre(2.0f, 2.0f, 2.75f));
   EXPECT_THAT(mean.noise.standard_error.pixel(4, 4), ::testing::ElementsAre(1.0f, 0.0f, 0.25f));
@@ -78,7 +78,7 @@ TEST(Noise, OfTwoHalvesIsHalfTheirDifferenceAndTheirMeanIsThePicture) {
 TEST(Noise, OfManyReplicatesIsTheStandardErrorOfTheirMean) {
   std::vector<Image> replicates;
   for (const float value : {1.0f, 2.0f, 3.0f, 6.0f})
-    replicates.push_back(testing::flat(3, 2, value, value, value));
+    replicates.push_back(fixtures::flat(3, 2, value, value, value));
   const NoisyPicture mean = mean_of_replicates(replicates, false);
   EXPECT_FLOAT_EQ(mean.image.pixel(0, 0)[0], 3);
   // (4 + 1 + 0 + 9) / (4 * 3)
@@ -89,7 +89,7 @@ TEST(Noise, OfManyReplicatesIsTheStandardErrorOfTheirMean) {
 
 TEST(Noise, OfFiguresIsFreeOfTheBiasOfARootAndStaysWithItsPixel) {
   // The mean of the standard deviation of n normal values is 1 - 1 / (4 (n - 1)) of the true one.
-  Image error = testing::flat(12, 12, 0, 0, 0);
+  Image error = fixtures::flat(12, 12, 0, 0, 0);
   error.pixel(6, 6)[0] = 1;
   EXPECT_FLOAT_EQ(noise_of_standard_errors(error, 15, false).standard_error.pixel(6, 6)[0],
                   61.0f / 60);
@@ -102,8 +102,8 @@ TEST(Noise, OfFiguresIsFreeOfTheBiasOfARootAndStaysWithItsPixel) {
 }
 
 TEST(Noise, ThatIsCautiousIsNeverLessThanAValuesOwn) {
-  for (const NoiseKind kind : testing::kNoiseKinds) {
-    const Image halves[] = {testing::noisy(kind, 3, 8), testing::noisy(kind, 4, 8)};
+  for (const NoiseKind kind : fixtures::kNoiseKinds) {
+    const Image halves[] = {fixtures::noisy(kind, 3, 8), fixtures::noisy(kind, 4, 8)};
     const Image cautious = mean_of_replicates(halves, false).noise.cautious;
     for (std::size_t i = 0; i < cautious.values().size(); ++i)
       ASSERT_GE(cautious.values()[i],
@@ -113,7 +113,7 @@ TEST(Noise, ThatIsCautiousIsNeverLessThanAValuesOwn) {
 
 TEST(Noise, ThatIsCautiousFollowsThinLinesAndEdges) {
   // A pixel whose replicates happened to agree, on a noisy line, and on the noisy side of an edge.
-  Image row = testing::flat(40, 40, 0, 0, 0), diagonal = row, edge = row;
+  Image row = fixtures::flat(40, 40, 0, 0, 0), diagonal = row, edge = row;
   for (int k = 0; k < 40; ++k) row.pixel(k, 20)[0] = diagonal.pixel(k, 39 - k)[0] = 1;
   for (int y = 0; y < 40; ++y)
     for (int x = 20 + (y - 20) / 3; x < 40; ++x) edge.pixel(x, y)[0] = 1;
@@ -128,7 +128,7 @@ TEST(Noise, ThatIsCautiousFollowsThinLinesAndEdges) {
 }
 
 TEST(Noise, ThatIsNoErrorOrFitsNothingIsRefused) {
-  Image error = testing::flat(4, 4, 1, 1, 1);
+  Image error = fixtures::flat(4, 4, 1, 1, 1);
   EXPECT_THROW(noise_of_standard_errors(error, 0.5, false), Error);
   EXPECT_THROW(noise_of_standard_errors(error, std::nan(""), false), Error);
   EXPECT_THROW(noise_of_standard_errors(Image(), 15, false), Error);
@@ -136,11 +136,11 @@ TEST(Noise, ThatIsNoErrorOrFitsNothingIsRefused) {
   EXPECT_THROW(noise_of_standard_errors(error, 15, false), Error);
   error.pixel(1, 2)[0] = std::numeric_limits<float>::infinity();
   EXPECT_THROW(noise_of_standard_errors(error, 15, false), Error);
-  const Image different[] = {testing::flat(4, 4, 1, 1, 1), testing::flat(4, 5, 1, 1, 1)};
+  const Image different[] = {fixtures::flat(4, 4, 1, 1, 1), fixtures::flat(4, 5, 1, 1, 1)};
   EXPECT_THROW(mean_of_replicates(different, false), Error);
   EXPECT_THROW(mean_of_replicates(std::span(different).first(1), false), Error);
   ComparisonOptions options;
-  options.noise = NoiseOptions{.a = testing::even_noise(8, 9, 1)};
+  options.noise = NoiseOptions{.a = fixtures::even_noise(8, 9, 1)};
   EXPECT_THROW(compare(Image(8, 8), Image(8, 8), options), Error);
 }
 
@@ -159,22 +159,22 @@ TEST(ZTest, FindsNothingInNoiseMoreOftenThanItsSignificanceSays) {
   constexpr double kSignificance = 0.05;
   constexpr Tolerance kRounding{1e-6, 1e-7, 0};
   for (const int count : {2, 4})
-    for (const NoiseKind kind : testing::kNoiseKinds) {
-      const Image truth = testing::expectation(kind);
+    for (const NoiseKind kind : fixtures::kNoiseKinds) {
+      const Image truth = fixtures::expectation(kind);
       const int trials = kind == NoiseKind::kSilhouette ? 60 : 20;
       int against_truth = 0, against_another = 0;
       for (int trial = 0; trial < trials; ++trial) {
         const auto seed = std::uint64_t(trial);
-        const NoisyPicture a = testing::noisy_mean(kind, 1000 + seed, count, 8);
-        const NoisyPicture b = testing::noisy_mean(kind, 9000 + seed, count, 8);
+        const NoisyPicture a = fixtures::noisy_mean(kind, 1000 + seed, count, 8);
+        const NoisyPicture b = fixtures::noisy_mean(kind, 9000 + seed, count, 8);
         against_truth +=
             found(test_of(a.image, truth, {&a.noise, nullptr, kSignificance}, &kRounding));
         against_another +=
             found(test_of(a.image, b.image, {&a.noise, &b.noise, kSignificance}, &kRounding));
       }
-      EXPECT_LE(against_truth, most_alarms(trials, kSignificance)) << testing::name(kind) << count;
+      EXPECT_LE(against_truth, most_alarms(trials, kSignificance)) << fixtures::name(kind) << count;
       EXPECT_LE(against_another, most_alarms(trials, kSignificance))
-          << testing::name(kind) << count;
+          << fixtures::name(kind) << count;
     }
 }
 
@@ -182,7 +182,7 @@ TEST(ZTest, HoldsItsLevelWherePixelsErrTogether) {
   // All pixels of a picture are too bright, or too dark, by the same number of standard errors.
   constexpr int kTrials = 100, kEstimates = 16;
   constexpr double kSignificance = 0.05;
-  const Image truth = testing::highlight(16, 16, 3, 1);
+  const Image truth = fixtures::highlight(16, 16, 3, 1);
   int shared = 0, independent = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<Image> estimates(kEstimates, truth);
@@ -204,9 +204,9 @@ TEST(ZTest, HoldsItsLevelWherePixelsErrTogether) {
 TEST(ZTest, FindsASinglePixelThatIsOffByManyErrors) {
   int found_at = 0;
   constexpr int kTrials = 20;
-  const Image truth = testing::expectation(NoiseKind::kEven);
+  const Image truth = fixtures::expectation(NoiseKind::kEven);
   for (int trial = 0; trial < kTrials; ++trial) {
-    NoisyPicture a = testing::noisy_mean(NoiseKind::kEven, 50 + std::uint64_t(trial), 16, 4);
+    NoisyPicture a = fixtures::noisy_mean(NoiseKind::kEven, 50 + std::uint64_t(trial), 16, 4);
     // The true error is 0.03. One and a half of that, said of its noise at the most, and Student's
     // quantile for 17 degrees of freedom, 8 where a normal one is 5, are 12.
     a.image.pixel(20, 30)[1] += 16 * 0.03f;
@@ -221,7 +221,7 @@ TEST(ZTest, FindsADriftOfAPercentThatNoPixelShows) {
   // Two half-sample pictures with noise of 10 % of each value: 0.01 is a seventh of the error of a pixel's mean,
   // and 13 errors of the mean of all.
   constexpr int kSide = 96;
-  const Image truth = testing::flat(kSide, kSide, 0.5f, 0.4f, 0.3f);
+  const Image truth = fixtures::flat(kSide, kSide, 0.5f, 0.4f, 0.3f);
   for (int trial = 0; trial < 10; ++trial) {
     Image halves[] = {truth, truth};
     for (int half = 0; half < 2; ++half)
@@ -237,8 +237,8 @@ TEST(ZTest, FindsADriftOfAPercentThatNoPixelShows) {
 }
 
 TEST(ZTest, WithoutNoiseFindsEveryDifferenceAndNothingElse) {
-  const Image b = testing::highlight(20, 13, 3, 1);
-  const PictureNoise none = testing::even_noise(20, 13, 0);
+  const Image b = fixtures::highlight(20, 13, 3, 1);
+  const PictureNoise none = fixtures::even_noise(20, 13, 0);
   EXPECT_EQ(test_of(b, b, {&none, &none}).largest, 0);
   EXPECT_FALSE(found(test_of(b, b, {&none, &none})));
   Image a = b;
@@ -252,11 +252,11 @@ TEST(ZTest, WithoutNoiseFindsEveryDifferenceAndNothingElse) {
 }
 
 TEST(ZTest, TakesOffWhatATolerancePermitsAndItsOutliers) {
-  const Image b = testing::flat(16, 16, 1, 1, 1);
+  const Image b = fixtures::flat(16, 16, 1, 1, 1);
   Image a = b;
   for (float& value : a.values()) value += 0.0009f;  // rounding, all to one side
   a.pixel(3, 3)[0] = 2;
-  const PictureNoise noise = testing::even_noise(16, 16, 1e-5f);
+  const PictureNoise noise = fixtures::even_noise(16, 16, 1e-5f);
   Tolerance tolerance{1e-3, 0, 1};
   ZTest test = test_of(a, b, {&noise}, &tolerance);
   EXPECT_EQ(test.beyond, 1);
@@ -271,15 +271,15 @@ TEST(ZTest, TakesOffWhatATolerancePermitsAndItsOutliers) {
   EXPECT_GT(test_of(a, b, {&noise}, &tolerance).regions, 0);
   tolerance = {0, 1e-4, 1};
   EXPECT_EQ(test_of(a, b, {&noise}, &tolerance).beyond, 256);
-  const PictureNoise strong = testing::even_noise(16, 16, 1e-3f);
+  const PictureNoise strong = fixtures::even_noise(16, 16, 1e-3f);
   EXPECT_EQ(test_of(a, b, {&strong}, &tolerance).open, 256) << "most are within, none surely";
 }
 
 TEST(ZTest, RatesALargerErrorHigherAndALargerNoiseLower) {
-  const Image b = testing::highlight(32, 32, 3, 1);
+  const Image b = fixtures::highlight(32, 32, 3, 1);
   const auto z = [&](double scale, float error) {
-    const PictureNoise noise = testing::even_noise(32, 32, error);
-    return test_of(testing::highlight(32, 32, 3, scale), b, {&noise, &noise}).largest;
+    const PictureNoise noise = fixtures::even_noise(32, 32, error);
+    return test_of(fixtures::highlight(32, 32, 3, scale), b, {&noise, &noise}).largest;
   };
   EXPECT_LT(z(1.001, 0.1f), z(1.01, 0.1f));
   EXPECT_LT(z(1.01, 0.1f), z(1.1, 0.1f));
@@ -296,7 +296,8 @@ const ErrorBar& bar_of(const Comparison& comparison, std::string_view id) {
 TEST(ErrorBars, HoldTheFigureOfTheExpectationsAsOftenAsTheySay) {
   // A highlight that is 2 % too bright, under noise of 5 % of the peak in four replicates of a.
   constexpr int kTrials = 60;
-  const Image b = testing::highlight(48, 48, 6, 1), expected = testing::highlight(48, 48, 6, 1.02);
+  const Image b = fixtures::highlight(48, 48, 6, 1),
+              expected = fixtures::highlight(48, 48, 6, 1.02);
   ComparisonOptions options;
   options.noise = NoiseOptions{};
   const Comparison truth = compare(expected, b, {});
@@ -334,10 +335,10 @@ TEST(ErrorBars, HoldTheFigureOfTheExpectationsAsOftenAsTheySay) {
 }
 
 TEST(ErrorBars, HaveTheNoiseFloorOfTheTextbook) {
-  const Image b = testing::flat(40, 40, 0.5f, 0.5f, 0.5f);
+  const Image b = fixtures::flat(40, 40, 0.5f, 0.5f, 0.5f);
   ComparisonOptions options;
-  options.noise = NoiseOptions{.a = testing::even_noise(40, 40, 0.03f, 1e9),
-                               .b = testing::even_noise(40, 40, 0.04f, 1e9)};
+  options.noise = NoiseOptions{.a = fixtures::even_noise(40, 40, 0.03f, 1e9),
+                               .b = fixtures::even_noise(40, 40, 0.04f, 1e9)};
   const Comparison comparison = compare(b, b, options);
   EXPECT_NEAR(bar_of(comparison, "rmse").floor, 0.05, 0.05 * 0.01);
   EXPECT_NEAR(bar_of(comparison, "mae").floor, 0.05 * std::sqrt(2 / 3.14159265), 0.0005);
@@ -348,9 +349,9 @@ TEST(ErrorBars, HaveTheNoiseFloorOfTheTextbook) {
 }
 
 TEST(ErrorBars, OfNoNoiseAreTheFigureItself) {
-  const Image b = testing::highlight(32, 32, 5, 1), a = testing::highlight(32, 32, 5, 1.1);
+  const Image b = fixtures::highlight(32, 32, 5, 1), a = fixtures::highlight(32, 32, 5, 1.1);
   ComparisonOptions options;
-  options.noise = NoiseOptions{.a = testing::even_noise(32, 32, 0)};
+  options.noise = NoiseOptions{.a = fixtures::even_noise(32, 32, 0)};
   for (const Image* picture : {&a, &b}) {
     const Comparison comparison = compare(*picture, b, options);
     for (const ErrorBar& bar : comparison.uncertainty->error_bars) {
@@ -364,9 +365,9 @@ TEST(ErrorBars, OfNoNoiseAreTheFigureItself) {
 }
 
 TEST(ErrorBars, DependOnTheSeedAndNotOnTheNumberOfThreads) {
-  const Image b = testing::highlight(64, 64, 5, 1), a = testing::highlight(64, 64, 5, 1.1);
+  const Image b = fixtures::highlight(64, 64, 5, 1), a = fixtures::highlight(64, 64, 5, 1.1);
   ComparisonOptions options;
-  options.noise = NoiseOptions{.a = testing::even_noise(64, 64, 0.1f), .bootstraps = 5};
+  options.noise = NoiseOptions{.a = fixtures::even_noise(64, 64, 0.1f), .bootstraps = 5};
   const auto error = [&] { return bar_of(compare(a, b, options), "rmse").standard_error; };
   const double many = error();
   {
@@ -380,7 +381,7 @@ TEST(ErrorBars, DependOnTheSeedAndNotOnTheNumberOfThreads) {
 TEST(ErrorBars, CallNoLimitBrokenWherePixelsErrInGroupsAndNothingDiffers) {
   // Neither each by itself nor all together: rows of pixels share their noise.
   constexpr int kTrials = 30;
-  const Image b = testing::highlight(32, 32, 4, 1);
+  const Image b = fixtures::highlight(32, 32, 4, 1);
   ComparisonOptions options;
   options.limits = {{"max_abs", 0.01}, {"rmse", 0.002}, {"drift", 0.002}, {"flip.ldr.mean", 0.01}};
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -390,7 +391,7 @@ TEST(ErrorBars, CallNoLimitBrokenWherePixelsErrInGroupsAndNothingDiffers) {
         for (float& value : a.pixel(x, y))
           value += 0.05f * float(gaussian(std::uint64_t(trial), std::uint64_t(y)));
     options.noise =
-        NoiseOptions{.a = testing::even_noise(32, 32, 0.05f, 15, true), .bootstraps = 8};
+        NoiseOptions{.a = fixtures::even_noise(32, 32, 0.05f, 15, true), .bootstraps = 8};
     for (const LimitResult& limit : compare(a, b, options).limits)
       EXPECT_NE(limit.standing, Standing::kBroken) << limit.metric;
   }
@@ -404,7 +405,7 @@ struct Pair {
 
 /// A highlight that is too bright by a share, each value of `a` off by so much noise.
 Pair pair(double brighter, float error, std::uint64_t seed = 0) {
-  Pair result{testing::highlight(48, 48, 4, 1 + brighter), testing::highlight(48, 48, 4, 1)};
+  Pair result{fixtures::highlight(48, 48, 4, 1 + brighter), fixtures::highlight(48, 48, 4, 1)};
   for (std::size_t i = 0; i < result.a.values().size(); ++i)
     result.a.values()[i] += error * float(gaussian(seed, i));
   return result;
@@ -412,7 +413,7 @@ Pair pair(double brighter, float error, std::uint64_t seed = 0) {
 
 Comparison compare_noisy(double brighter, float error, ComparisonOptions options) {
   const auto [a, b] = pair(brighter, error);
-  options.noise = NoiseOptions{.a = testing::even_noise(48, 48, error, 1e9), .bootstraps = 8};
+  options.noise = NoiseOptions{.a = fixtures::even_noise(48, 48, error, 1e9), .bootstraps = 8};
   return compare(a, b, options);
 }
 
@@ -474,7 +475,7 @@ TEST(NoisyVerdict, OfAPictureThatIsNotFiniteIsStillNonFinite) {
   auto [a, b] = pair(0, 0);
   a.pixel(1, 1)[0] = std::numeric_limits<float>::quiet_NaN();
   ComparisonOptions options;
-  options.noise = NoiseOptions{.a = testing::even_noise(48, 48, 1)};
+  options.noise = NoiseOptions{.a = fixtures::even_noise(48, 48, 1)};
   const Comparison comparison = compare(a, b, options);
   EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
   EXPECT_FALSE(comparison.uncertainty);
@@ -486,8 +487,8 @@ TEST(NoisyVerdict, OfAPictureThatIsNotFiniteIsStillNonFinite) {
 TEST(NoisyVerdict, OfALimitThatCouldNotBeMeasuredIsUndecided) {
   ComparisonOptions options;
   options.limits = {{"ssim", 0.5}};
-  options.noise = NoiseOptions{.a = testing::even_noise(4, 4, 1)};
-  const Image small = testing::flat(4, 4, 1, 1, 1);
+  options.noise = NoiseOptions{.a = fixtures::even_noise(4, 4, 1)};
+  const Image small = fixtures::flat(4, 4, 1, 1, 1);
   EXPECT_EQ(compare(small, small, options).verdict, Verdict::kUndecided);
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 template <class Function>
 Error error_of(Function function) {
@@ -33,15 +33,15 @@ Error error_of(Function function) {
 }
 
 TEST(Verdict, OfAPictureWithItselfIsPass) {
-  const Image image = testing::highlight(32, 32, 10, 2.0);
+  const Image image = fixtures::highlight(32, 32, 10, 2.0);
   const Comparison comparison = compare(image, image, {});
   EXPECT_EQ(comparison.verdict, Verdict::kPass);
   EXPECT_EQ(comparison.limits.size(), default_limits().size());
 }
 
 TEST(Verdict, OfOneBadPixelInManyIsNonFinite) {
-  const Image good = testing::highlight(256, 256, 10, 2.0);
-  for (const float bad : {kNaN, kInfinity, -kInfinity})
+  const Image good = fixtures::highlight(256, 256, 10, 2.0);
+  for (const float bad : {kFloatNaN, kFloatInfinity, -kFloatInfinity})
     for (const std::size_t channel : {0u, 1u, 2u}) {
       Image broken = good;
       broken.pixel(200, 201)[channel] = bad;
@@ -57,14 +57,15 @@ TEST(Verdict, OfOneBadPixelInManyIsNonFinite) {
 }
 
 TEST(Verdict, OfTwoPicturesBrokenInTheSameWayIsNonFinite) {
-  const Image broken = testing::flat(4, 4, kNaN, kNaN, kNaN);
+  const Image broken = fixtures::flat(4, 4, kFloatNaN, kFloatNaN, kFloatNaN);
   const Comparison comparison = compare(broken, broken, {});
   EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
   EXPECT_EQ(comparison.nonfinite_a, 16) << "pixels are counted, not values";
 }
 
 TEST(Verdict, FollowsTheLimitsOfTheUser) {
-  const Image a = testing::flat(8, 8, 0.5f, 0.5f, 0.5f), b = testing::flat(8, 8, 0.75f, 0.5f, 0.5f);
+  const Image a = fixtures::flat(8, 8, 0.5f, 0.5f, 0.5f),
+              b = fixtures::flat(8, 8, 0.75f, 0.5f, 0.5f);
   ComparisonOptions options;
   options.limits = {{"max_abs", 0.25}};
   EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass) << "the limit itself passes";
@@ -75,7 +76,7 @@ TEST(Verdict, FollowsTheLimitsOfTheUser) {
 }
 
 TEST(Verdict, FollowsALimitBelowAndALimitOnASize) {
-  const Image a = testing::flat(8, 8, 0.5f, 0.5f, 0.5f), b = testing::flat(8, 8, 1, 0.5f, 0.5f);
+  const Image a = fixtures::flat(8, 8, 0.5f, 0.5f, 0.5f), b = fixtures::flat(8, 8, 1, 0.5f, 0.5f);
   ComparisonOptions options;
   options.limits = {{"psnr", 10}, {"drift", 0.17}};  // 10.8 dB, -1/6
   EXPECT_EQ(compare(a, b, options).verdict, Verdict::kPass);
@@ -88,20 +89,20 @@ TEST(Verdict, FollowsALimitBelowAndALimitOnASize) {
 }
 
 TEST(Verdict, OfADefaultComparisonSeesAWrongNormalisationAndPassesHalfFloatRounding) {
-  const Image reference = testing::highlight(128, 128, 10, 1.0);
-  EXPECT_EQ(compare(testing::highlight(128, 128, 10, 1.0005), reference, {}).verdict,
+  const Image reference = fixtures::highlight(128, 128, 10, 1.0);
+  EXPECT_EQ(compare(fixtures::highlight(128, 128, 10, 1.0005), reference, {}).verdict,
             Verdict::kPass);
-  EXPECT_EQ(compare(testing::highlight(128, 128, 10, 1.03), reference, {}).verdict,
+  EXPECT_EQ(compare(fixtures::highlight(128, 128, 10, 1.03), reference, {}).verdict,
             Verdict::kDiffers);
 }
 
 TEST(Verdict, AgainstABlackReferenceIsDiffers) {
-  EXPECT_EQ(compare(testing::flat(4, 4, 1e-6f, 0, 0), testing::flat(4, 4, 0, 0, 0), {}).verdict,
+  EXPECT_EQ(compare(fixtures::flat(4, 4, 1e-6f, 0, 0), fixtures::flat(4, 4, 0, 0, 0), {}).verdict,
             Verdict::kDiffers);
 }
 
 TEST(Tolerance, CountsPixelsAndAllowsSoMany) {
-  const Image b = testing::flat(10, 10, 1, 0.001f, 0);
+  const Image b = fixtures::flat(10, 10, 1, 0.001f, 0);
   Image a = b;
   a.pixel(1, 1)[0] = 1.1f;
   a.pixel(1, 1)[1] = 0.5f;  // the same pixel again
@@ -122,13 +123,13 @@ TEST(Tolerance, CountsPixelsAndAllowsSoMany) {
 }
 
 TEST(Tolerance, IsNotMeasuredUnlessAskedFor) {
-  const Image image = testing::flat(4, 4, 1, 1, 1);
+  const Image image = fixtures::flat(4, 4, 1, 1, 1);
   EXPECT_TRUE(std::isnan(compare(image, image, {}).value("outliers")));
 }
 
 TEST(Comparison, RefusesSizesThatDiffer) {
   const Error error =
-      error_of([] { compare(testing::flat(4, 8, 0, 0, 0), testing::flat(8, 4, 0, 0, 0), {}); });
+      error_of([] { compare(fixtures::flat(4, 8, 0, 0, 0), fixtures::flat(8, 4, 0, 0, 0), {}); });
   EXPECT_EQ(error.code(), ExitCode::kInput);
   EXPECT_STREQ(error.what(), "the sizes differ: 4 x 8 against 8 x 4");
 }
@@ -159,7 +160,7 @@ TEST(Comparison, RefusesOptionsOutOfRange) {
     change(options);
     EXPECT_EQ(error_of([&] { check_options(options); }).code(), ExitCode::kUsage);
   };
-  const double nan = kNaN;
+  const double nan = kFloatNaN;
   refused([&](ComparisonOptions& o) { o.viewing.exposure_stops = nan; });
   refused([](ComparisonOptions& o) { o.viewing.exposure_stops = 1e6; });
   refused([](ComparisonOptions& o) { o.viewing.pixels_per_degree = 0; });
@@ -179,7 +180,7 @@ TEST(Comparison, RefusesOptionsOutOfRange) {
 }
 
 TEST(Mask, HasErrorsOfItsOwn) {
-  const Image b = testing::flat(4, 2, 1, 1, 1);
+  const Image b = fixtures::flat(4, 2, 1, 1, 1);
   Image a = b;
   a.pixel(0, 0)[0] = 4;  // outside
   a.pixel(2, 1)[0] = 1.75f;
@@ -198,7 +199,7 @@ TEST(Mask, HasErrorsOfItsOwn) {
 }
 
 TEST(Mask, WithoutAPixelMeasuresNothingAndPassesNothing) {
-  const Image image = testing::flat(2, 2, 1, 1, 1);
+  const Image image = fixtures::flat(2, 2, 1, 1, 1);
   ComparisonOptions options;
   options.mask.assign(4, 0);
   options.limits = {{"mae.mask", 1}};
@@ -209,14 +210,14 @@ TEST(Mask, WithoutAPixelMeasuresNothingAndPassesNothing) {
 }
 
 TEST(Mask, OfAnotherSizeIsRefused) {
-  const Image image = testing::flat(2, 2, 1, 1, 1);
+  const Image image = fixtures::flat(2, 2, 1, 1, 1);
   ComparisonOptions options;
   options.mask.assign(5, 1);
   EXPECT_EQ(error_of([&] { compare(image, image, options); }).code(), ExitCode::kInput);
 }
 
 TEST(DifferencePicture, ShowsTheErrorAsAShareOfWhite) {
-  const Image b = testing::flat(2, 1, 0.5f, 0.5f, 0.5f);
+  const Image b = fixtures::flat(2, 1, 0.5f, 0.5f, 0.5f);
   Image a = b;
   a.pixel(0, 0)[0] = 0.75f;
   a.pixel(0, 0)[1] = 0.25f;
@@ -227,9 +228,9 @@ TEST(DifferencePicture, ShowsTheErrorAsAShareOfWhite) {
 }
 
 TEST(DifferencePicture, IsMagentaWhereAValueIsNotFinite) {
-  const Image b = testing::flat(2, 1, 0, 0, 0);
+  const Image b = fixtures::flat(2, 1, 0, 0, 0);
   Image a = b;
-  a.pixel(1, 0)[1] = kNaN;
+  a.pixel(1, 0)[1] = kFloatNaN;
   EXPECT_THAT(difference_picture(a, b, 1).rgb, ::testing::ElementsAre(0, 0, 0, 255, 0, 255));
 }
 
@@ -271,7 +272,7 @@ colorspaces:
         - !<MatrixTransform> {matrix: [0.25, 0, 0, 0, 0, 0.25, 0, 0, 0, 0, 0.25, 0, 0, 0, 0, 1]}
         - !<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055, direction: inverse}
 )"));
-  const Image a = testing::highlight(32, 32, 10, 1), b = testing::highlight(32, 32, 11, 1);
+  const Image a = fixtures::highlight(32, 32, 10, 1), b = fixtures::highlight(32, 32, 11, 1);
   ComparisonOptions through, exposed;
   through.viewing.display = DisplayView::open({config, "", "", ""});
   exposed.viewing.exposure_stops = -2;

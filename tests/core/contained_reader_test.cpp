@@ -28,13 +28,14 @@
 #include "core/picture_message.hpp"
 #include "core/reading_limits.hpp"
 #include "core/spawn.hpp"
+#include "lobelia_paths.hpp"
 #include "tests/core/format_samples.hpp"
 
 namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace testing;
+using namespace fixtures;
 using ::testing::HasSubstr;
 
 class ContainedReader : public ::testing::Test {

@@ -8,7 +8,7 @@
 
 #include "tests/core/picture_files.hpp"
 
-namespace lobelia::testing {
+namespace lobelia::fixtures {
 
 inline std::string from_hex(std::string_view digits) {
   std::string bytes;
@@ -133,4 +133,4 @@ inline std::vector<Sample> format_samples() {
   return samples;
 }
 
-}  // namespace lobelia::testing
+}  // namespace lobelia::fixtures

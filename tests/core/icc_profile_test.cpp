@@ -12,7 +12,7 @@
 namespace lobelia {
 namespace {
 
-using namespace testing;
+using namespace fixtures;
 
 std::string fixed(double value) { return big_endian(std::uint32_t(std::lround(value * 65536))); }
 

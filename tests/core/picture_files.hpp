@@ -21,7 +21,7 @@
 
 #include "core/files.hpp"
 
-namespace lobelia::testing {
+namespace lobelia::fixtures {
 
 inline std::string big_endian(std::uint32_t value, int bytes = 4) {
   std::string text;
@@ -233,4 +233,4 @@ inline void write_exr_channels(const std::filesystem::path& path, int width, int
   write_exr_parts(path, {{"", window(0, 0, width, height), window(0, 0, width, height), channels}});
 }
 
-}  // namespace lobelia::testing
+}  // namespace lobelia::fixtures

@@ -19,7 +19,7 @@
 namespace lobelia {
 namespace {
 
-using namespace testing;
+using namespace fixtures;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -334,8 +334,8 @@ TEST_F(Curves, OfAnExrAreLinearWhateverALibrarySaysInIt) {
 
 using Primaries = PictureFiles;
 
-const Imf::Chromaticities kAces({0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f},
-                                {0.32168f, 0.33767f});
+const Imf::Chromaticities kAcesOfOpenExr({0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f},
+                                         {0.32168f, 0.33767f});
 
 TEST_F(Primaries, OfAnExrAreConvertedAndSaid) {
   const auto box = window(0, 0, 1, 1);
@@ -354,7 +354,7 @@ TEST_F(Primaries, OfAnExrAreConvertedAndSaid) {
   EXPECT_THAT(values(plain.image), ElementsAre(0.5f, 0.25f, 0.125f));
   part.chromaticities = Imf::Chromaticities();  // Rec. 709
   EXPECT_THAT(values(read_image(exr("same.exr", {part}))), ElementsAre(0.5f, 0.25f, 0.125f));
-  part.chromaticities = kAces;
+  part.chromaticities = kAcesOfOpenExr;
   const auto path = exr("aces.exr", {part});
   const Picture aces = read_picture(path, "");
   EXPECT_EQ(aces.source.chromaticities.size(), 8u);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/files.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia {
 namespace {

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "cost/lobe_candidates.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -18,8 +19,7 @@ constexpr const char* kScenes[] = {"grazing_80",  "head_on",    "oblique_45",
 constexpr double kExponents[] = {3.5, 16, 64, 250.5};
 
 Scene scene(const std::string& name, int side = 96) {
-  Scene result =
-      read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
+  Scene result = canonical_scene(name);
   result.film.width = result.film.height = side;
   return result;
 }

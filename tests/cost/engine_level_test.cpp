@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "lobelia_paths.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 

@@ -8,15 +8,12 @@
 #include "cost/picture_truth.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
 
 namespace lobelia::cost {
 namespace {
 
 using ::testing::HasSubstr;
-
-Scene scene(const std::string& name) {
-  return read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
-}
 
 const Way& find(const Table& table, const std::string& name) {
   for (const Way& way : table.ways)
@@ -27,7 +24,7 @@ const Way& find(const Table& table, const std::string& name) {
 TEST(PictureLevel, HasAWayForEachLobeAndPrecisionHeldAgainstTheFormulas) {
   Options options;
   options.effort = Effort::kQuick;
-  options.scenes = {{"head_on", scene("head_on")}};
+  options.scenes = {{"head_on", canonical_scene("head_on")}};
   const auto tables = measure_pictures(options);
   ASSERT_EQ(tables.size(), 1u);
   const Table& table = tables[0];
@@ -63,7 +60,7 @@ TEST(PictureLevel, HasAWayForEachLobeAndPrecisionHeldAgainstTheFormulas) {
 TEST(PictureLevel, SaysOfARandomPictureWhatItsTruthIs) {
   Options options;
   options.effort = Effort::kQuick;
-  Scene soft = scene("effects/area_light");
+  Scene soft = canonical_scene("effects/area_light");
   soft.sampler.sample_count = 2;
   options.scenes = {{"soft", soft}};
   const Table table = measure_pictures(options).at(0);
@@ -75,7 +72,7 @@ TEST(PictureLevel, SaysOfARandomPictureWhatItsTruthIs) {
 }
 
 TEST(WithLobe, KeepsTheCoefficientOfAMaterialThatHasItAlready) {
-  Scene s = scene("head_on");
+  Scene s = canonical_scene("head_on");
   s.materials.push_back(s.materials[0]);
   s.materials[0].highlight.normalisation = s.materials[1].highlight.normalisation =
       Normalisation::kPaper;
@@ -89,14 +86,14 @@ TEST(WithLobe, KeepsTheCoefficientOfAMaterialThatHasItAlready) {
 }
 
 TEST(LobeCandidates, HaveTheScenesOwnLobeThoughNoListHasIt) {
-  Scene s = scene("head_on");
+  Scene s = canonical_scene("head_on");
   EXPECT_EQ(lobe_candidates(s).size(), all_lobes().size());
   s.materials[0].highlight.lobe = *find_lobe("cs10");
   EXPECT_EQ(lobe_candidates(s).size(), all_lobes().size() + 1);
 }
 
 TEST(PictureTruth, IsTheSceneAsItStandsCoefficientIncluded) {
-  Scene s = scene("head_on");
+  Scene s = canonical_scene("head_on");
   s.film.width = s.film.height = 32;
   s.materials[0].highlight.exponent = 20;
   s.materials[0].highlight.lobe = *find_lobe("cs16");

@@ -6,18 +6,19 @@
 
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
 
 namespace lobelia::cost {
 namespace {
 
-Scene scene(int side) {
-  Scene result = read_scene(LOBELIA_SOURCE_DIR "/reference_scenes/scenes/oblique_45.xml");
+Scene oblique(int side) {
+  Scene result = canonical_scene("oblique_45");
   result.film.width = result.film.height = side;
   return result;
 }
 
 TEST(PixelSubset, IsOfThePicturesOwnPixels) {
-  Scene s = scene(301);
+  Scene s = oblique(301);
   s.film.height = 213;
   s.camera.principal_point_offset_x = 0.1;
   s.camera.principal_point_offset_y = -0.05;
@@ -40,7 +41,7 @@ TEST(PixelSubset, IsOfThePicturesOwnPixels) {
 }
 
 TEST(PixelSubset, OfASmallPictureIsThePicture) {
-  const Scene s = scene(40);
+  const Scene s = oblique(40);
   EXPECT_EQ(pixel_subset(s, 40).film.width, 40);
   EXPECT_EQ(pixel_subset(s, 40).camera.fov_degrees, s.camera.fov_degrees);
   Scene line = s;

@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "core/record.hpp"
 #include "farm/farm.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia {
 

@@ -9,6 +9,7 @@
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm_fixture.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia {
 namespace {

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/image_io.hpp"
+#include "lobelia_paths.hpp"
 #include "tests/farm/grid_text.hpp"
 
 namespace lobelia {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "farm/grid.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia {
 

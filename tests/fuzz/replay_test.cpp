@@ -12,6 +12,7 @@
 #include "fuzz/bundle.hpp"
 #include "fuzz/checks.hpp"
 #include "gallery/farm_data.hpp"
+#include "lobelia_paths.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::fuzz {

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "gallery/gallery.hpp"
+#include "lobelia_paths.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 

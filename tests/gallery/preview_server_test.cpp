@@ -17,6 +17,7 @@
 #include "core/files.hpp"
 #include "core/process_memory.hpp"
 #include "gallery/byte_range.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia::gallery {
 namespace {

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::string kHostile = "<img src=x onerror=alert(1)>";
+const std::string kHostileTitle = "<img src=x onerror=alert(1)>";
 
 Json explorer_record() {
   Json record = make_record("highlight-tables");
@@ -25,7 +25,7 @@ Json explorer_record() {
   record["mostGrazing"] = 1.5706;
   record["error"] = {{"curve", 2e-4}};
   record["models"] = Json::array({{{"name", "modified_phong"},
-                                   {"title", kHostile},
+                                   {"title", kHostileTitle},
                                    {"angle", "L and R"},
                                    {"appliesCosine", true},
                                    {"normalised", "radiance"},
@@ -65,9 +65,9 @@ Json stability_record() {
   record["cases"] = 12;
   record["outside"] = 0;
   record["notCompared"] = 5;
-  record["groups"] = Json::array({{{"name", "lobe"}, {"meaning", "The lobe " + kHostile}}});
-  record["byCase"] = Json::array(
-      {summary("lobe", "case", "angle 0", "inf"), summary("lobe", "case", kHostile.c_str(), 0.5)});
+  record["groups"] = Json::array({{{"name", "lobe"}, {"meaning", "The lobe " + kHostileTitle}}});
+  record["byCase"] = Json::array({summary("lobe", "case", "angle 0", "inf"),
+                                  summary("lobe", "case", kHostileTitle.c_str(), 0.5)});
   record["byCase"][0]["meaning"] = "hard because & why";
   record["byExponent"] = Json::array();
   for (const double n : {1.0, 100.0, 1e4}) {
@@ -102,10 +102,10 @@ Json paper_record() {
              {{{"what", "largest"}, {"value", 0.017}, {"text", "1.70e-2"}, {"at", "n = 16"}}})},
         {"definition", "by a scan"},
         {"verdict", verdict},
-        {"reason", "because " + kHostile}};
+        {"reason", "because " + kHostileTitle}};
   };
   record["claims"] = Json::array({claim("one", "confirmed"), claim("two", "not reproduced"),
-                                  claim(kHostile.c_str(), "found")});
+                                  claim(kHostileTitle.c_str(), "found")});
   record["figures"] = Json::array(
       {{{"id", "bad id \""},
         {"title", "A figure"},

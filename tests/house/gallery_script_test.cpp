@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
 
 namespace house {

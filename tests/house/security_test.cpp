@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
 
 namespace house {

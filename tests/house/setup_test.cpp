@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "lobelia_paths.hpp"
 #include "tests/house/tree.hpp"
 
 namespace house {

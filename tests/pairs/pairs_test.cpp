@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lobelia_paths.hpp"
 #include "tests/cli/run_lobelia.hpp"
 
 namespace lobelia {

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -107,7 +108,7 @@ void write_must_pass(const Pairs& pairs) {
 
 // ---- files that say more than a picture: layers, windows, colours; 16 x 16 pixels of grey
 
-using namespace testing;
+using namespace fixtures;
 
 constexpr int kFileSide = 16;
 using Channels = std::vector<ExrChannel>;

@@ -6,6 +6,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/record.hpp"
+#include "lobelia_paths.hpp"
 #include "reference_scenes/agreement/cases.hpp"
 #include "reference_scenes/agreement/witness.hpp"
 #include "tests/reference_scenes/require_engine.hpp"

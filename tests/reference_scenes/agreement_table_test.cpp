@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "lobelia_paths.hpp"
 #include "reference_scenes/agreement/report.hpp"
 #include "renderer/highlight.hpp"
 #include "tests/cli/run_lobelia.hpp"

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/version.hpp"
+#include "lobelia_paths.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"

@@ -7,6 +7,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/record.hpp"
+#include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "lobelia_paths.hpp"
 #include "reference_scenes/blender/blender_input.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/keep_input.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/files.hpp"
+#include "lobelia_paths.hpp"
 #include "renderer/filters/catalogue.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/plan/effects/catalogue.hpp"

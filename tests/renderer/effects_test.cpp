@@ -8,15 +8,12 @@
 
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-Scene canonical(const std::string& name) {
-  return read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
-}
 
 Material matt(double albedo) {
   Material m;
@@ -97,7 +94,7 @@ Scene on_the_ground() {
 std::vector<Named> scenes() {
   std::vector<Named> all;
   for (const char* name : {"head_on", "oblique_45", "point_light", "two_lights", "two_spheres"}) {
-    Scene scene = canonical(name);
+    Scene scene = canonical_scene(name);
     scene.film = {61, 43};
     all.push_back({name, scene, false});
   }
@@ -109,7 +106,7 @@ std::vector<Named> scenes() {
   all.push_back({"mirrors", scene, false});
   scene.materials[0].fresnel = Fresnel::kSchlick;
   all.push_back({"mirrors with fresnel", scene, false});
-  Scene crowd = canonical("head_on");
+  Scene crowd = canonical_scene("head_on");
   crowd.film = {40, 40};
   crowd.materials[0].mirror_reflectance = {0.3, 0.3, 0.3};
   crowd.depth.mirror = 2;
@@ -547,7 +544,7 @@ TEST(DepthOfField, SpreadsAPointOverADiscOfTheKnownSize) {
 }
 
 TEST(Antialiasing, SpendsItsSamplesOnEdgesAndKeepsThePicture) {
-  Scene scene = canonical("two_spheres");
+  Scene scene = canonical_scene("two_spheres");
   scene.sampler.sample_count = 128;
   const RenderResult planned = render(scene, {}), all = with_all(scene);
   EXPECT_LT(planned.work.camera_rays, all.work.camera_rays / 2);
@@ -558,7 +555,7 @@ TEST(Antialiasing, SpendsItsSamplesOnEdgesAndKeepsThePicture) {
 }
 
 TEST(Antialiasing, SpendsThemEverywhereWhereTheHighlightIsSmallerThanAPixel) {
-  Scene scene = canonical("head_on");
+  Scene scene = canonical_scene("head_on");
   scene.film = {32, 32};
   scene.sampler.sample_count = 64;
   scene.materials[0].highlight.exponent = 1e6;

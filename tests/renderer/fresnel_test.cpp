@@ -6,6 +6,7 @@
 #include "renderer/reflector.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
 #include "tests/renderer/laws/directions.hpp"
 
 namespace lobelia {
@@ -106,8 +107,7 @@ Rgb radiance_at(const Scene& scene, const CameraFrame& camera,
 TEST(Render, WithFresnelAndDiffuseBaseIsTheReflectorInEveryPixel) {
   for (const char* name : {"oblique_45", "grazing_80", "point_light", "two_lights"})
     for (const Highlight& h : highlights(every_model(), std::vector{1.0, 128.0, 1e4})) {
-      Scene scene =
-          read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
+      Scene scene = canonical_scene(name);
       scene.film = {32, 24};
       ASSERT_EQ(scene.spheres.size(), 1u) << name;
       std::vector<Reflector> reflectors;

@@ -7,13 +7,10 @@
 #include <numbers>
 
 #include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
 
 namespace lobelia {
 namespace {
-
-Scene canonical(const std::string& name) {
-  return read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
-}
 
 const EffectDecision& effect(const Plan& plan, std::string_view name) {
   const auto found = std::find_if(plan.effects.begin(), plan.effects.end(),
@@ -24,12 +21,13 @@ const EffectDecision& effect(const Plan& plan, std::string_view name) {
 
 TEST(Plan, GivesAReasonForEveryEffect) {
   for (const char* name : {"head_on", "two_lights", "two_spheres"})
-    for (const auto& decision : make_plan(canonical(name), EffectPolicy::kAsCalledFor).effects)
+    for (const auto& decision :
+         make_plan(canonical_scene(name), EffectPolicy::kAsCalledFor).effects)
       EXPECT_FALSE(decision.reason.empty()) << decision.name;
 }
 
 Precision chosen(const std::string& scene_name, std::string_view model, double exponent) {
-  Scene scene = canonical(scene_name);
+  Scene scene = canonical_scene(scene_name);
   scene.materials[0].highlight = {*find_model(model), *find_lobe("cosine"), {}, exponent};
   const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
   EXPECT_EQ(plan.precision.size(), scene.lights.size());
@@ -67,29 +65,29 @@ TEST(Plan, AHalfVectorNeedsMoreDigitsWhereLightAndEyeFaceEachOther) {
 
 TEST(Plan, TakesThePrecisionThatIsAskedForAndSaysSo) {
   for (const Precision precision : {Precision::kFloat32, Precision::kMixed, Precision::kFloat64}) {
-    const Plan plan = make_plan(canonical("two_spheres"), EffectPolicy::kAll, precision);
+    const Plan plan = make_plan(canonical_scene("two_spheres"), EffectPolicy::kAll, precision);
     for (const auto& row : plan.precision)
       for (const Precision here : row) EXPECT_EQ(here, precision);
     EXPECT_EQ(plan.precision_reason, std::string(name(precision)) + " was asked for");
   }
-  EXPECT_NE(make_plan(canonical("head_on"), EffectPolicy::kAll).precision_reason, "");
+  EXPECT_NE(make_plan(canonical_scene("head_on"), EffectPolicy::kAll).precision_reason, "");
 }
 
 TEST(Plan, FresnelIsOnWhereAMaterialHasIt) {
-  Scene scene = canonical("two_spheres");
+  Scene scene = canonical_scene("two_spheres");
   EXPECT_FALSE(effect(make_plan(scene, EffectPolicy::kAsCalledFor), "fresnel").on);
   scene.materials.back().fresnel = Fresnel::kSchlick;
   EXPECT_TRUE(effect(make_plan(scene, EffectPolicy::kAsCalledFor), "fresnel").on);
 }
 
 TEST(Plan, OneSphereNeedsNoShadows) {
-  const Plan plan = make_plan(canonical("grazing_80"), EffectPolicy::kAsCalledFor);
+  const Plan plan = make_plan(canonical_scene("grazing_80"), EffectPolicy::kAsCalledFor);
   EXPECT_FALSE(effect(plan, "shadows").on);
   EXPECT_EQ(plan.max_shadow_rays, 0u);
 }
 
 TEST(Plan, OnlyTheSphereInTheWayOfTheLightOccludes) {
-  const Plan plan = make_plan(canonical("two_spheres"), EffectPolicy::kAsCalledFor);
+  const Plan plan = make_plan(canonical_scene("two_spheres"), EffectPolicy::kAsCalledFor);
   EXPECT_TRUE(effect(plan, "shadows").on);
   ASSERT_EQ(plan.occluders.size(), 1u);
   EXPECT_EQ(plan.occluders[0][0].spheres,
@@ -98,13 +96,13 @@ TEST(Plan, OnlyTheSphereInTheWayOfTheLightOccludes) {
 }
 
 TEST(Plan, ASphereBesideThePathOfTheLightCostsNothing) {
-  Scene scene = canonical("two_spheres");
+  Scene scene = canonical_scene("two_spheres");
   scene.spheres[1].center = {2, -2, 0};
   EXPECT_FALSE(effect(make_plan(scene, EffectPolicy::kAsCalledFor), "shadows").on);
 }
 
 TEST(Plan, ASphereBehindAPointLightCostsNothing) {
-  Scene scene = canonical("point_light");
+  Scene scene = canonical_scene("point_light");
   const Vec3 light = std::get<PointLight>(scene.lights[0]).position;
   scene.spheres.push_back({3 * light, 0.5, 0});
   const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
@@ -113,7 +111,7 @@ TEST(Plan, ASphereBehindAPointLightCostsNothing) {
 }
 
 TEST(Plan, ALightInsideASphereRulesNothingOut) {
-  Scene scene = canonical("point_light");
+  Scene scene = canonical_scene("point_light");
   std::get<PointLight>(scene.lights[0]).position = {0, 0, 0};
   scene.spheres.push_back({{0, 0, 3}, 0.1, 0});
   EXPECT_EQ(make_plan(scene, EffectPolicy::kAsCalledFor).occluders[0][0].spheres,
@@ -121,18 +119,20 @@ TEST(Plan, ALightInsideASphereRulesNothingOut) {
 }
 
 TEST(Plan, ALightThatDoesNotShineCastsNoShadows) {
-  Scene scene = canonical("two_spheres");
+  Scene scene = canonical_scene("two_spheres");
   std::get<DirectionalLight>(scene.lights[0]).irradiance = {};
   EXPECT_FALSE(effect(make_plan(scene, EffectPolicy::kAsCalledFor), "shadows").on);
 }
 
 TEST(Plan, DiffuseIsOnWhereSomeMaterialHasIt) {
-  EXPECT_FALSE(effect(make_plan(canonical("head_on"), EffectPolicy::kAsCalledFor), "diffuse").on);
-  EXPECT_TRUE(effect(make_plan(canonical("two_lights"), EffectPolicy::kAsCalledFor), "diffuse").on);
+  EXPECT_FALSE(
+      effect(make_plan(canonical_scene("head_on"), EffectPolicy::kAsCalledFor), "diffuse").on);
+  EXPECT_TRUE(
+      effect(make_plan(canonical_scene("two_lights"), EffectPolicy::kAsCalledFor), "diffuse").on);
 }
 
 TEST(Plan, CountsCameraRaysExactly) {
-  Scene scene = canonical("head_on");
+  Scene scene = canonical_scene("head_on");
   scene.film = {30, 20};
   scene.sampler.sample_count = 7;
   const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
@@ -142,7 +142,7 @@ TEST(Plan, CountsCameraRaysExactly) {
 
 TEST(MinHalfLengths, AreBelowThatOfEveryPointThatIsSeenAndLitAndNotFarBelow) {
   for (const char* name : {"head_on", "oblique_45", "grazing_80", "point_light"}) {
-    const Scene scene = canonical(name);
+    const Scene scene = canonical_scene(name);
     double least = 2;
     for (int i = 0; i <= 200; ++i)
       for (int j = 0; j < 200; ++j) {
@@ -161,7 +161,7 @@ TEST(MinHalfLengths, AreBelowThatOfEveryPointThatIsSeenAndLitAndNotFarBelow) {
 }
 
 TEST(MinHalfLengths, AreUnknownWhereAnyDirectionCounts) {
-  Scene scene = canonical("head_on");
+  Scene scene = canonical_scene("head_on");
   EXPECT_GT(min_half_lengths(scene).at(0), 1);
   Scene lens = scene, mirror = scene, glossy = scene, plane = scene, soft = scene;
   lens.camera.aperture_radius = 0.1;

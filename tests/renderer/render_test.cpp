@@ -10,16 +10,16 @@
 #include "renderer/highlight_map.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
 
 namespace lobelia {
 namespace {
 
-const std::string kScenes = std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/";
 constexpr const char* kCanonical[] = {"head_on",     "oblique_45", "grazing_80",
                                       "point_light", "two_lights", "two_spheres"};
 
 Scene canonical(const std::string& name, int width = 96, int height = 96) {
-  Scene scene = read_scene(kScenes + name + ".xml");
+  Scene scene = canonical_scene(name);
   scene.film = {width, height};
   return scene;
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <sstream>
 
+#include "lobelia_paths.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "tests/renderer/scene_text.hpp"
 

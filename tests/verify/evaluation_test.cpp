@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
 #include "verify/stability/sphere_scenes.hpp"
 
@@ -412,8 +413,7 @@ TEST(EdgeRing, HasTheSilhouetteThatAMirrorShowsAsFarAsMirrorsAreFollowed) {
 }
 
 Scene canonical(const std::string& name) {
-  Scene scene =
-      read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml");
+  Scene scene = canonical_scene(name);
   scene.film = {128, 128};
   return scene;
 }

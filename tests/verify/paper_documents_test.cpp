@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include "lobelia_paths.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/verify/measured_claims.hpp"
 #include "verify/paper/errata.hpp"

@@ -14,6 +14,7 @@
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/grid.hpp"
+#include "lobelia_paths.hpp"
 #include "reference_scenes/povray/povray_input.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/render.hpp"

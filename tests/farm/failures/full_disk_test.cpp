@@ -2,6 +2,7 @@
 #include "core/process.hpp"
 #include "core/text.hpp"
 #include "failing_farm.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia {
 namespace {

@@ -6,6 +6,7 @@
 #include "core/files.hpp"
 #include "farm/chunk.hpp"
 #include "farm/job_graph.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
+#include "lobelia_paths.hpp"
 
 namespace lobelia {
 

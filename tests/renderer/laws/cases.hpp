@@ -14,16 +14,16 @@
 #include <vector>
 
 #include "renderer/highlight.hpp"
+#include "renderer/lobe_properties.hpp"
 
 namespace lobelia {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kExponents[] = {0.1, 1, 2, 15.9, 16, 54, 128, 1024, 1e4, 1e6, 1e8};
+inline constexpr double kSampledExponents[] = {1, 16, 1024,
+                                               1e5};  ///< where each costs many samples
 
 inline double radians(double degrees) { return degrees * kPi / 180; }
-
-/// 1 - cos, without the loss of digits.
-inline double versine(double angle) { return 2 * std::pow(std::sin(angle / 2), 2); }
 
 inline std::string text(const Highlight& h) {
   return fmt::format("{} {} {} n = {:g}", info(h.model).name, info(h.lobe).name,

@@ -9,7 +9,6 @@
 namespace lobelia {
 namespace {
 
-constexpr double kSampledExponents[] = {1, 16, 1024, 1e5};
 constexpr double kIncidences[] = {0, 30, 60, 85, 89.9};
 
 TEST(EverySample, IsADirectionWithTheRadianceAndThePdfThatItSays) {

@@ -8,7 +8,7 @@ LobeId cs(int k) { return *find_lobe("cs" + std::to_string(k)); }
 const LobeId kCosine = *find_lobe("cosine"), kGaussian = *find_lobe("spherical_gaussian");
 
 /// Values of s in [0, 1), dense where a lobe of exponent n falls.
-std::vector<double> abscissae(double n) {
+std::vector<double> abscissae_below_1(double n) {
   std::vector<double> s;
   for (double x = 1e-6; x < 40; x *= 1.05)
     if (x < n) s.push_back(x / n);
@@ -18,7 +18,7 @@ std::vector<double> abscissae(double n) {
 
 TEST(Cs, OfOrderNIsTheCosineLobe) {
   for (const int k : {2, 4, 6, 12, 16, 50, 64, 1000, 1024})
-    for (const double s : abscissae(k))
+    for (const double s : abscissae_below_1(k))
       EXPECT_NEAR(lobe_value(cs(k), s, k), lobe_value(kCosine, s, k), 1e-15 * k) << k << " " << s;
 }
 
@@ -38,7 +38,7 @@ TEST(Cs, IsNeverAboveTheCosineLobeWhereNIsAtLeastK) {
   // Bernoulli's inequality; 1e-15 for the rounding of each of k factors.
   for (const int k : {2, 16, 64, 1024})
     for (const double n : {1.0, 4.0, 64.0, 1e4})
-      for (const double s : abscissae(n * k))
+      for (const double s : abscissae_below_1(n * k))
         EXPECT_LE(lobe_value(cs(k), s, n * k), lobe_value(kCosine, s, n * k) + 1e-15 * k)
             << k << " " << n * k << " " << s;
 }
@@ -48,7 +48,7 @@ TEST(Cs, GrowsIntoTheSphericalGaussianAsKGrows) {
     double previous = 1;
     for (const int k : {16, 64, 256, 1024}) {
       double largest = 0;
-      for (const double s : abscissae(n))
+      for (const double s : abscissae_below_1(n))
         largest =
             std::max(largest, std::abs(lobe_value(cs(k), s, n) - lobe_value(kGaussian, s, n)));
       // (1 - x/k)^k = e^-x (1 - x^2/(2k) + ...), and x^2 e^-x / 2 is at most 2/e^2 = 0.27.
@@ -65,7 +65,7 @@ TEST(ClosedForms, DrawEachAngleAsOftenAsTheLobeIsHigh) {
   for (const LobeId lobe : closed)
     for (const double n : kExponents) {
       const PreparedLobe prepared = prepare(lobe, n);
-      for (const double s : abscissae(n))
+      for (const double s : abscissae_below_1(n))
         EXPECT_NEAR(prepared.density(s), prepared.density(0) * prepared.value(s),
                     1e-14 * prepared.density(0))
             << info(lobe).name << " " << n << " " << s;

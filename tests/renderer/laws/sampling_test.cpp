@@ -7,8 +7,7 @@
 namespace lobelia {
 namespace {
 
-constexpr double kSampledExponents[] = {1, 16, 1024, 1e5};
-constexpr double kIncidences[] = {0, 30, 60, 85, 89.9};
+constexpr double kSampledIncidences[] = {0, 30, 60, 85, 89.9};
 
 /// The highlight alone, or half hidden in a diffuse base and growing towards grazing.
 Material material(const Highlight& h, bool with_base) {
@@ -20,10 +19,10 @@ Material material(const Highlight& h, bool with_base) {
 double significance(std::size_t tests) { return 1 - std::pow(1 - 0.01, 1.0 / double(tests)); }
 
 void expect_draws_as_the_pdf_says(const std::vector<Highlight>& cases, bool with_base) {
-  const double limit = significance(2 * cases.size() * std::size(kIncidences));
+  const double limit = significance(2 * cases.size() * std::size(kSampledIncidences));
   std::uint64_t seed = 1;
   for (const Highlight& h : cases)
-    for (const double degrees : kIncidences) {
+    for (const double degrees : kSampledIncidences) {
       const Reflector reflector(material(h, with_base));
       const ChiSquare test(reflector, reflector, info(h.model).angle, radians(degrees), seed++);
       EXPECT_GT(test.p_value(), limit) << text(h) << " at " << degrees << " degrees";
