@@ -49,10 +49,10 @@ sanitize: ## runs the suite in the presets asan and tsan, without engines, brows
 	$(setup) build
 	cmake --preset asan
 	cmake --build --preset asan --parallel "$(JOBS)" --target quick_tests
-	ctest --preset asan --parallel "$(JOBS)" --label-exclude 'engines|browser|slow'
+	ctest --preset asan --parallel "$(JOBS)" --label-regex quick
 	cmake --preset tsan
 	cmake --build --preset tsan --parallel "$(JOBS)" --target threaded_tests
-	ctest --preset tsan --parallel "$(JOBS)" --label-regex threads --label-exclude slow
+	ctest --preset tsan --parallel "$(JOBS)" --label-regex threads --label-regex quick
 
 sanitize-short: ## the part of it that reads scenes and pictures, and the farm's unit tests; no thread sanitizer
 	$(setup) build
