@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,11 +14,10 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "cost/quad.hpp"
 
 namespace lobelia::cost {
 namespace {
-
-using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 constexpr std::size_t kLeaf = 1 << 14;  // numbers that are looked at together
 constexpr int kTerms = 6;               // of cos^n about the middle of a leaf

@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "cost/quad.hpp"
 #include "verify/definition.hpp"
 #include "verify/truth/truth.hpp"
 
 namespace lobelia::cost {
 namespace {
-
-using Quad = boost::multiprecision::cpp_bin_float_quad;
-static_assert(std::numeric_limits<Quad>::digits == 113);
 
 constexpr std::size_t kCore = 2048, kTail = 512;
 

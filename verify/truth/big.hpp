@@ -5,6 +5,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <limits>
 
+#include "verify/truth/number_limits.hpp"
 #include "verify/truth/vector.hpp"
 
 namespace lobelia::truth {
@@ -14,6 +15,7 @@ namespace lobelia::truth {
 using Big = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                           boost::multiprecision::et_off>;
 static_assert(std::numeric_limits<Big>::digits >= 113);
+inline const bool kBigLimits = made_limits<Big>();
 
 using Big3 = Vector<Big>;
 
