@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CompareArguments {
   CompareJob job;
   std::string json, csv, junit, tolerance, exposures, scene;
   std::vector<std::string> fail, warn;
@@ -81,7 +81,7 @@ HdrExposures parse_exposures(const std::string& text) {
 }
 
 /// Both files, or both folders; a third like them.
-bool are_folders(const Options& options) {
+bool are_folders(const CompareArguments& options) {
   const auto is_folder = [](const std::string& path) {
     std::error_code unknown;
     return std::filesystem::is_directory(path, unknown);
@@ -121,7 +121,7 @@ std::optional<FileId> file_id(const fs::path& path) {
 }
 
 /// Every file that is read.
-std::set<FileId> inputs_of(const Options& options, const FolderPairs* names) {
+std::set<FileId> inputs_of(const CompareArguments& options, const FolderPairs* names) {
   const CompareJob& job = options.job;
   std::set<FileId> inputs;
   const auto add = [&](const fs::path& file) {
@@ -160,7 +160,7 @@ void require_outside(const fs::path& directory, const CompareJob& job) {
 }
 
 /// All can be written, each is a file of its own, and none is a file that is read, by any path.
-void require_outputs(const Options& options, const FolderPairs* names) {
+void require_outputs(const CompareArguments& options, const FolderPairs* names) {
   const CompareJob& job = options.job;
   std::vector<fs::path> reports, pictures;
   for (const std::string& file : {options.json, options.csv, options.junit})
@@ -190,7 +190,7 @@ void require_outputs(const Options& options, const FolderPairs* names) {
 }
 
 /// Whether a report goes to stdout in place of the table.
-bool prints_report(const Options& options) {
+bool prints_report(const CompareArguments& options) {
   const std::string* reports[] = {&options.json, &options.csv, &options.junit};
   const auto count =
       std::ranges::count_if(reports, [](const std::string* report) { return *report == kStdout; });
@@ -200,7 +200,7 @@ bool prints_report(const Options& options) {
 }
 
 /// Files get their names together.
-void write_reports(const Options& options, const SetReport& report, bool folders,
+void write_reports(const CompareArguments& options, const SetReport& report, bool folders,
                    FilesTogether& files) {
   std::string printed;
   const auto put = [&](const std::string& file, const auto& text) {
@@ -219,7 +219,7 @@ void write_reports(const Options& options, const SetReport& report, bool folders
   fmt::print("{}", printed);
 }
 
-ExitCode run(Options options) {
+ExitCode run_compare(CompareArguments options) {
   ComparisonOptions& comparison = options.job.comparison;
   for (const std::string& text : options.fail)
     comparison.limits.push_back(parse_limit("--fail", text));
@@ -363,7 +363,7 @@ void add_difference_options(CLI::App& command, DifferencePicture& difference) {
 
 void add_compare(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("compare", "Compare two pictures: metrics and a verdict");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareArguments>();
   CompareJob& job = options->job;
   Viewing& viewing = job.comparison.viewing;
   command->add_option("A", job.a, "Picture to judge, or a folder of them")->required();
@@ -488,7 +488,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str()
       ->group("Output");
   command->footer(footer());
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 
 }  // namespace lobelia::cli

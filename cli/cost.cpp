@@ -16,7 +16,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct CostArguments {
   std::vector<std::string> scenes, levels;
   std::string directory, json;
   EnginePrograms programs;
@@ -24,7 +24,7 @@ struct Options {
 };
 
 /// Those that were named, or all that have something to measure.
-std::vector<const cost::Level*> chosen_levels(const Options& options) {
+std::vector<const cost::Level*> chosen_levels(const CostArguments& options) {
   std::vector<const cost::Level*> chosen;
   for (const cost::Level& level : cost::levels()) {
     const bool named =
@@ -37,7 +37,7 @@ std::vector<const cost::Level*> chosen_levels(const Options& options) {
   return chosen;
 }
 
-void run(const Options& options) {
+void run_cost(const CostArguments& options) {
   const auto levels = chosen_levels(options);
   cost::Options measured;
   for (const std::string& file : options.scenes)
@@ -87,7 +87,7 @@ std::string level_lines() {
 void add_cost(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "cost", "Measure what accuracy costs in time: error and time of every way, in one run");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CostArguments>();
   command->add_option("SCENE", options->scenes, "Scene files, for the levels that need some");
   std::vector<std::string> names;
   for (const cost::Level& level : cost::levels()) names.emplace_back(level.name);
@@ -120,7 +120,7 @@ void add_cost(CLI::App& app, ExitCode&) {
       "  lobelia cost reference_scenes/scenes/oblique_45.xml -o cost\n"
       "\nExit codes: 0 done, 2 usage, 3 a scene is unreadable, 4 an output cannot be "
       "written, 5 an engine failed,\n130 Ctrl-C, 143 SIGTERM. Times decide nothing.");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_cost(*options); });
 }
 
 }  // namespace lobelia::cli

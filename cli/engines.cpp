@@ -11,7 +11,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct EnginesArguments {
   EnginePrograms programs;
   bool json = false;
 };
@@ -53,7 +53,7 @@ void print_engine(const EngineInfo& engine, const EngineStatus& status) {
   row("effects", engine.effects);
 }
 
-ExitCode run(const Options& options) {
+ExitCode run_engines(const EnginesArguments& options) {
   Json record = make_record("engines");
   record["engines"] = Json::array();
   std::vector<std::string> problems;
@@ -78,7 +78,7 @@ ExitCode run(const Options& options) {
 void add_engines(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand(
       "engines", "List the reference engines: which are here, what they can do, how to get them");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EnginesArguments>();
   options->programs.add_to(*command);
   command->add_flag("--json", options->json, "Print the list as JSON");
   command->footer(
@@ -86,7 +86,7 @@ void add_engines(CLI::App& app, ExitCode& exit_code) {
       "not end, or tells no version that can be driven. Which scenes one refuses, 'lobelia farm' says.\n\n"
       "Exit codes: 0 all of them can be driven, 5 one is absent or broken.\n\n"
       "Example: lobelia engines --blender /opt/blender/blender");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = run_engines(*options); });
 }
 
 }  // namespace lobelia::cli

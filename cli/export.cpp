@@ -14,13 +14,13 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct ExportArguments {
   std::string language, lobe = "cosine", normalisation = "exact", output;
   std::vector<std::string> models;
   std::optional<double> exponent;
 };
 
-void run(const Options& options) {
+void run_export(const ExportArguments& options) {
   ShaderExport request;
   request.language = chosen(options.language, "--language", shader_language_names(),
                             join(shader_language_names()), find_shader_language);
@@ -44,7 +44,7 @@ void run(const Options& options) {
 
 void add_export(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand("export", "Write models as shader functions, to take home");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportArguments>();
   command->add_option("MODEL", options->models, fmt::format("Models: {}", join(model_names())))
       ->required();
   command
@@ -72,7 +72,7 @@ void add_export(CLI::App& app, ExitCode&) {
       "  lobelia export --language glsl modified_phong blinn_phong_rdf --lobe cs16\n"
       "  lobelia export --language osl phong_rdf --lobe gauss --exponent 64 -o gauss.h\n"
       "  lobelia export --language povray modified_phong -o lobelia_modified_phong_cosine.inc");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_export(*options); });
 }
 
 }  // namespace lobelia::cli

@@ -22,7 +22,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct FarmArguments {
   std::string grid, directory, cache, filter, gallery;
   EnginePrograms programs;
   SlurmSettings slurm;
@@ -34,7 +34,7 @@ struct Options {
        keep_going = false;
 };
 
-FarmOptions farm_options(const Options& options) {
+FarmOptions farm_options(const FarmArguments& options) {
   FarmOptions farm;
   farm.programs = options.programs.given();
   farm.threads = options.threads;
@@ -55,7 +55,7 @@ FarmOptions farm_options(const Options& options) {
   return farm;
 }
 
-void dry_run(const Grid& grid, const Options& options) {
+void dry_run(const Grid& grid, const FarmArguments& options) {
   fmt::memory_buffer lines;
   const auto flush = [&] {
     std::fwrite(lines.data(), 1, lines.size(), stdout);
@@ -89,7 +89,7 @@ std::string work_text(const FarmSummary& summary) {
   return text;
 }
 
-ExitCode report(const FarmSummary& summary, const Options& options) {
+ExitCode report(const FarmSummary& summary, const FarmArguments& options) {
   for (const auto& problem : summary.problems) say("lobelia: {}\n", printable(problem, 2000));
   for (const auto& sentence : summary.absent_engines) say("lobelia: {}\n", sentence);
   for (const auto& sentence : summary.refusals) say("lobelia: {}\n", sentence);
@@ -117,7 +117,7 @@ ExitCode worse(ExitCode farm, ExitCode gallery) {
   return farm == ExitCode::kSuccess ? gallery : farm;
 }
 
-ExitCode run_on_cluster(const Grid& grid, const Options& options) {
+ExitCode run_on_cluster(const Grid& grid, const FarmArguments& options) {
   SlurmRunOptions run_options = options.slurm.run_options();
   if (options.memory_given)
     run_options.slurm.memory =
@@ -143,7 +143,7 @@ ExitCode run_on_cluster(const Grid& grid, const Options& options) {
   return code;
 }
 
-ExitCode run(const Options& options) {
+ExitCode run_farm_command(const FarmArguments& options) {
   const Grid grid = read_grid(options.grid);
   if (options.dry_run) {
     dry_run(grid, options);
@@ -174,7 +174,7 @@ ExitCode run(const Options& options) {
 
 void add_farm(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("farm", "Render, reference and compare every cell of a grid");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FarmArguments>();
   command->add_option("GRID", options->grid, "Grid file (docs/grid_format.md)");
   command->add_option("-o,--output", options->directory, "Directory for pictures and records")
       ->type_name("DIR");
@@ -256,7 +256,7 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
     if (!command->get_subcommands().empty()) return;
     if (options->grid.empty()) throw CLI::RequiredError("GRID");
     if (options->directory.empty()) throw CLI::RequiredError("--output");
-    exit_code = run(*options);
+    exit_code = run_farm_command(*options);
   });
 }
 

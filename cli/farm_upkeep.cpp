@@ -48,7 +48,7 @@ std::string cluster_text(const std::string& directory) {
       status.elements.reason.empty() ? "" : " (" + status.elements.reason + ")", directory);
 }
 
-void add_status(CLI::App& farm, ExitCode& exit_code) {
+void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
   struct Options {
     std::string directory;
     bool json = false, attach = false;
@@ -90,7 +90,7 @@ void add_status(CLI::App& farm, ExitCode& exit_code) {
   });
 }
 
-void add_verify(CLI::App& farm, ExitCode& exit_code) {
+void add_farm_verify(CLI::App& farm, ExitCode& exit_code) {
   struct Options {
     std::string directory;
     bool remove = false, quiet = false;
@@ -132,7 +132,7 @@ void add_verify(CLI::App& farm, ExitCode& exit_code) {
   });
 }
 
-void add_gc(CLI::App& farm) {
+void add_farm_gc(CLI::App& farm) {
   struct Options {
     std::string directory, max_size;
     bool dry_run = false;
@@ -166,7 +166,7 @@ void add_gc(CLI::App& farm) {
   });
 }
 
-void add_clean(CLI::App& farm) {
+void add_farm_clean(CLI::App& farm) {
   struct Options {
     std::string directory;
     bool all = false, dry_run = false;
@@ -193,10 +193,10 @@ void add_clean(CLI::App& farm) {
 }  // namespace
 
 void add_farm_upkeep(CLI::App& farm, ExitCode& exit_code) {
-  add_status(farm, exit_code);
-  add_verify(farm, exit_code);
-  add_gc(farm);
-  add_clean(farm);
+  add_farm_status(farm, exit_code);
+  add_farm_verify(farm, exit_code);
+  add_farm_gc(farm);
+  add_farm_clean(farm);
 }
 
 }  // namespace lobelia::cli

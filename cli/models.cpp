@@ -91,13 +91,13 @@ void print_measured(double exponent) {
       "reciprocity holds.\n");
 }
 
-struct Options {
+struct ModelsArguments {
   bool json = false;
   double exponent = 64;
   std::string tables;
 };
 
-void run(const Options& options, bool has_exponent) {
+void run_models(const ModelsArguments& options, bool has_exponent) {
   if (!options.tables.empty()) {
     require_writable(options.tables);
     const std::vector<double> exponents =
@@ -119,7 +119,7 @@ void run(const Options& options, bool has_exponent) {
 void add_models(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "models", "List models, lobes and normalisations: formulas, cost, what was measured of them");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ModelsArguments>();
   auto* json = command->add_flag("--json", options->json, "Print the catalogue as JSON");
   auto* exponent =
       command->add_option("--exponent", options->exponent, "Exponent n at which to measure")
@@ -135,7 +135,7 @@ void add_models(CLI::App& app, ExitCode&) {
   command->callback([options, exponent] {
     if (!options->tables.empty() && options->exponent < 1)
       throw CLI::ValidationError("--exponent", "with --tables it is at least 1");
-    run(*options, exponent->count() > 0);
+    run_models(*options, exponent->count() > 0);
   });
 }
 

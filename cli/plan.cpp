@@ -11,13 +11,13 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct PlanArguments {
   std::string scene;
   bool json = false;
   SceneOverrides overrides;
 };
 
-void run(const Options& options) {
+void run_plan(const PlanArguments& options) {
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
   warn_of(scene);
@@ -43,12 +43,12 @@ void run(const Options& options) {
 
 void add_plan(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand("plan", "Say which effects a scene calls for, and why");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanArguments>();
   command->add_option("SCENE", options->scene, "Scene file")->required();
   command->add_flag("--json", options->json, "Print the plan as JSON");
   options->overrides.add_to(*command);
   command->footer("Example: lobelia plan reference_scenes/scenes/two_spheres.xml");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_plan(*options); });
 }
 
 }  // namespace lobelia::cli

@@ -19,7 +19,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct ProfileArguments {
   std::string a, b, scene, json, csv;
   std::string svg;
   std::optional<int> light, sphere;
@@ -27,7 +27,7 @@ struct Options {
 };
 
 /// Names for the pictures that differ from each other, and from the formula's.
-std::pair<std::string, std::string> picture_names(const Options& options) {
+std::pair<std::string, std::string> picture_names(const ProfileArguments& options) {
   const auto stem = [](const std::string& path) {
     return printable(std::filesystem::path(path).stem().string());
   };
@@ -43,7 +43,7 @@ std::pair<std::string, std::string> picture_names(const Options& options) {
 /// Of one highlight where one is chosen, else of all; more would take minutes and be read by nobody.
 constexpr std::size_t kMostHighlights = 64;
 
-std::vector<Json> profiles_of(const Scene& scene, const Options& options,
+std::vector<Json> profiles_of(const Scene& scene, const ProfileArguments& options,
                               const NamedImages& images) {
   if (options.light || options.sphere)
     return {profile_scene(scene, options.light.value_or(0), options.sphere.value_or(0), images)};
@@ -70,7 +70,7 @@ struct Result {
   std::string text, csv, svg;
 };
 
-Result measured(const Options& options, const NamedImages& images) {
+Result measured(const ProfileArguments& options, const NamedImages& images) {
   if (options.scene.empty()) {
     const Json record = blob_record(measure_blob(images));
     return {record, blob_text(record), blob_csv(record), blob_svg(record)};
@@ -93,7 +93,7 @@ Result measured(const Options& options, const NamedImages& images) {
   return result;
 }
 
-void run(const Options& options) {
+void run_profile(const ProfileArguments& options) {
   const bool json_to_file = !options.json.empty() && options.json != "-";
   for (const std::string& path : {json_to_file ? options.json : "", options.csv, options.svg})
     if (!path.empty()) require_writable(path);
@@ -120,7 +120,7 @@ void run(const Options& options) {
 void add_profile(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "profile", "Measure a highlight: peak, width, energy, exponent, and its curve");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ProfileArguments>();
   command->add_option("A", options->a, "Picture")->required();
   command->add_option("B", options->b, "Another one, the reference");
   add_any_format(*command);
@@ -168,7 +168,7 @@ void add_profile(CLI::App& app, ExitCode&) {
       "Exit codes: 0 done, 2 usage, 3 an input is unreadable or does not fit the scene, 4 an "
       "output\n"
       "cannot be written.");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_profile(*options); });
 }
 
 }  // namespace lobelia::cli

@@ -25,7 +25,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct ReferenceArguments {
   std::string scene, engine, output, log_directory, keep_input;
   int threads = 0;
   double time_limit = 600;
@@ -54,7 +54,7 @@ std::vector<std::string_view> precisions(const EngineInfo& engine) {
   return {engine.plain, engine.fine};
 }
 
-ReferenceOptions reference_options(const EngineInfo& engine, const Options& options) {
+ReferenceOptions reference_options(const EngineInfo& engine, const ReferenceArguments& options) {
   ReferenceOptions reference;
   if (!options.precision.empty())
     reference.fine = chosen_place(options.precision, fmt::format("--precision of {}", engine.name),
@@ -75,7 +75,7 @@ ReferenceResult render_one(Engine& engine, const Scene& scene, const ReferenceOp
   return result;
 }
 
-void run(const Options& options) {
+void run_reference(const ReferenceArguments& options) {
   const auto engine = make_engine(options.engine, options.programs.of(options.engine));
   const ReferenceOptions reference = reference_options(engine->info(), options);
   Scene scene = read_scene(options.scene);
@@ -150,7 +150,7 @@ std::string engine_words() {
 void add_reference(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "reference", "Render a scene with an engine that is not ours, to the same kind of EXR");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReferenceArguments>();
   command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
   command->add_option("--engine", options->engine, fmt::format("Who renders: {}", engine_list()))
       ->required();
@@ -199,7 +199,7 @@ void add_reference(CLI::App& app, ExitCode&) {
       "Each takes one ray at a pixel's centre. lobelia engines says which are here.\n\n"
       "Example: lobelia reference reference_scenes/scenes/oblique_45.xml --engine povray "
       "-o povray.exr");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_reference(*options); });
 }
 
 }  // namespace lobelia::cli

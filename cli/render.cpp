@@ -25,7 +25,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct RenderArguments {
   std::string scene, output, png, standard_error, effects = "as-called-for";
   double exposure = 0;
   std::string precision = "sufficient";
@@ -53,8 +53,8 @@ struct Stages {
 
 /// Rows are packed and written while the next ones are rendered. A picture for the eye too, or one whose
 /// accuracy is measured, is kept whole.
-RenderResult render_and_write(const Scene& scene, const RenderOptions& how, const Options& options,
-                              Stages& stages) {
+RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
+                              const RenderArguments& options, Stages& stages) {
   const bool checked = !options.accuracy.empty() && options.accuracy_check != "none";
   if (!options.png.empty() || checked) {
     RenderResult result = render(scene, how);
@@ -73,7 +73,7 @@ RenderResult render_and_write(const Scene& scene, const RenderOptions& how, cons
 }
 
 /// The cheapest way to the accuracy that was asked for.
-std::optional<cost::Choice> choice_of(const Scene& scene, const Options& options) {
+std::optional<cost::Choice> choice_of(const Scene& scene, const RenderArguments& options) {
   if (options.accuracy.empty()) return std::nullopt;
   const cost::Accuracy asked = cost::parse_accuracy(options.accuracy);
   return cost::choose(scene, asked, options.max_samples.value_or(cost::kMostChosenSamples));
@@ -81,7 +81,7 @@ std::optional<cost::Choice> choice_of(const Scene& scene, const Options& options
 
 /// Says what was reached, where that was measured, and puts it into the record.
 ExitCode settle(const Scene& scene, const cost::Choice& choice, const Image& picture,
-                const Options& options, Json& record) {
+                const RenderArguments& options, Json& record) {
   std::optional<cost::Reached> reached;
   if (options.accuracy_check != "none") reached = cost::measure_reached(scene, choice, picture);
   record["accuracy"] = cost::accuracy_record(choice, reached);
@@ -90,7 +90,7 @@ ExitCode settle(const Scene& scene, const cost::Choice& choice, const Image& pic
   return !reached || reached->held(choice) ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
-void run(const Options& options, ExitCode& code) {
+void run_render(const RenderArguments& options, ExitCode& code) {
   Stages stages;
   Scene scene;
   stages.read = seconds_of([&] {
@@ -155,7 +155,7 @@ void run(const Options& options, ExitCode& code) {
 
 void add_render(CLI::App& app, ExitCode& code) {
   auto* command = app.add_subcommand("render", "Render a scene to a linear float32 EXR");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RenderArguments>();
   command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
   command
       ->add_option("-o,--output", options->output,
@@ -229,7 +229,7 @@ void add_render(CLI::App& app, ExitCode& code) {
       "was reached; exit code 1 if that is not what was asked, 3 if nothing can reach it.\n\n"
       "Example: lobelia render reference_scenes/scenes/head_on.xml --model modified_phong "
       "--exponent 128 -o out.exr");
-  command->callback([options, &code] { run(*options, code); });
+  command->callback([options, &code] { run_render(*options, code); });
 }
 
 }  // namespace lobelia::cli

@@ -17,7 +17,7 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct VerifyReferencesArguments {
   std::string output;
   std::vector<std::string> engines;
   int size = 0;
@@ -26,7 +26,7 @@ struct Options {
 };
 
 /// Those that are named, which have to be there, or all.
-std::vector<std::unique_ptr<Engine>> engines_of(const Options& options) {
+std::vector<std::unique_ptr<Engine>> engines_of(const VerifyReferencesArguments& options) {
   std::vector<std::string_view> names;
   for (const EngineInfo& engine : engine_infos())
     if (engine.is_program) names.push_back(engine.name);
@@ -51,7 +51,7 @@ std::vector<std::unique_ptr<Engine>> engines_of(const Options& options) {
 }
 
 /// What to type for the same table, wherever its files went.
-std::string command_for(const Options& options) {
+std::string command_for(const VerifyReferencesArguments& options) {
   std::string command = "lobelia verify references";
   if (options.small) command += " --small";
   if (options.size > 0) command += fmt::format(" --size {}", options.size);
@@ -59,7 +59,7 @@ std::string command_for(const Options& options) {
   return command;
 }
 
-ExitCode run(const Options& options) {
+ExitCode run_verify_references(const VerifyReferencesArguments& options) {
   agreement::Scope scope{options.small,
                          options.small ? agreement::kSmallSize : agreement::kFullSize};
   if (options.size > 0) scope.size = options.size;
@@ -94,7 +94,7 @@ ExitCode run(const Options& options) {
 void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
   auto* command = verify.add_subcommand(
       "references", "Hold ours and every engine to the formulas, and engines to one another");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyReferencesArguments>();
   command
       ->add_option("-o,--output", options->output,
                    "Directory for agreement.json (kind agreement), agreement.csv and agreement.md")
@@ -120,7 +120,7 @@ void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
       "\n"
       "Exit codes: 0 every target is met, 1 some are missed; 2 usage, 4 an output cannot be\n"
       "written, 5 an engine that was named or required is absent, one is broken, or one failed.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = run_verify_references(*options); });
 }
 
 }  // namespace lobelia::cli

@@ -14,12 +14,12 @@
 namespace lobelia::cli {
 namespace {
 
-struct Options {
+struct VerifyStabilityArguments {
   std::string json, pictures, lobe;
   bool all = false, no_timing = false, quiet = false;
 };
 
-ExitCode run(const Options& options) {
+ExitCode run_verify_stability(const VerifyStabilityArguments& options) {
   std::vector<LobeId> lobes = stability::lobes_under_test();
   if (!options.lobe.empty())
     lobes = {chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe)};
@@ -62,7 +62,7 @@ ExitCode run(const Options& options) {
 void add_verify_stability(CLI::App& verify, ExitCode& exit_code) {
   auto* command = verify.add_subcommand(
       "stability", "Hold float32 and geometry to a reference of 50 digits, in the hard cases");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyStabilityArguments>();
   command->add_option("--json", options->json, "Write the record (kind verify-stability) to FILE")
       ->type_name("FILE");
   command
@@ -84,7 +84,7 @@ void add_verify_stability(CLI::App& verify, ExitCode& exit_code) {
       "\n"
       "Exit codes: 0 no case is outside its stated bound, 1 some are; 2 usage, 4 an output\n"
       "cannot be written.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = run_verify_stability(*options); });
 }
 
 }  // namespace lobelia::cli
