@@ -12,7 +12,8 @@ namespace lobelia::cost {
 inline std::filesystem::path named_program(const Options& options, std::string_view engine) {
   for (const auto& [name, program] : options.programs)
     if (name == engine) return program;
-  return engine == "lobelia" ? "/proc/self/exe" : "";
+  // Resolved here: in the keeper that starts it the link would lead to the keeper.
+  return engine == "lobelia" ? std::filesystem::read_symlink("/proc/self/exe") : "";
 }
 
 }  // namespace lobelia::cost

@@ -99,5 +99,15 @@ TEST(RenderAccuracy, RefusesNonsenseAndWhatItChoosesItself) {
   EXPECT_EQ(files_in(directory.path()), 0u);
 }
 
+TEST(CostCommand, MeasuresItselfAsAProgram) {
+  const TemporaryDirectory directory;
+  const auto result = run_lobelia(
+      {"cost", "--quick", "--level", "engine", kScenes + "oblique_45.xml", "-q", "-o", "cost"},
+      directory.path());
+  ASSERT_EQ(result.exit_code, 0) << result.output_tail;
+  const Json record = read_record(directory.path() / "cost" / "cost.json", "cost");
+  EXPECT_FALSE(record.at("tables").at(0).at("ways").empty());
+}
+
 }  // namespace
 }  // namespace lobelia
