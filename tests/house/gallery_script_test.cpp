@@ -15,15 +15,17 @@ using ::testing::Not;
 
 class GalleryScript : public ::testing::Test {
  protected:
-  /// Runs the script with a farm that exits with `farm_status`, and a gallery likewise; returns the script's exit code.
-  int run(int farm_status, int gallery_status = 0) {
+  /// Runs the script with commands that exit with `gallery_status` and `cost_status`, all others with `farm_status`;
+  /// returns the script's exit code.
+  int run(int farm_status, int gallery_status = 0, int cost_status = 0) {
     const fs::path program = scratch_ / "lobelia";
     write(
         program,
         "#!/bin/sh\necho \"$1|$2|$3\" >> \"$(dirname \"$0\")/calls\"\nif [ $1 = gallery ]; then echo \"$2/index.html\"; exit " +
-            std::to_string(gallery_status) +
-            "; fi\n"
-            "echo \"$1|$2|$3|$4\"\nmkdir -p \"$4\"\nexit " +
+            std::to_string(gallery_status) + "; fi\n[ $1 != cost ] || exit " +
+            std::to_string(cost_status) +
+            "\n"
+            "echo \"$1|$2|$3|$4\"\n[ $1 != farm ] || mkdir -p \"$4\"\nexit " +
             std::to_string(farm_status) + "\n");
     fs::permissions(program, fs::perms::owner_all);
     const std::string command = quoted(LOBELIA_SOURCE_DIR "/scripts/gallery") + " " +
@@ -60,6 +62,17 @@ TEST_F(GalleryScript,
 
 TEST_F(GalleryScript, an_interrupted_farm_makes_no_gallery) {
   EXPECT_EQ(run(130), 130);
+  EXPECT_THAT(said, Not(HasSubstr("index.html")));
+}
+
+TEST_F(GalleryScript, a_view_that_cannot_be_measured_is_an_exit_code) {
+  EXPECT_EQ(run(0, 0, 1), 4);
+  EXPECT_THAT(said, EndsWith("/a place/index.html\n"));
+  EXPECT_EQ(run(1, 0, 1), 1);
+}
+
+TEST_F(GalleryScript, an_interrupted_view_makes_no_gallery) {
+  EXPECT_EQ(run(0, 0, 130), 130);
   EXPECT_THAT(said, Not(HasSubstr("index.html")));
 }
 
