@@ -217,6 +217,10 @@ class Chaos : public FailingFarm {
     const auto engines = processes_with((root() / "povray").string());
     if (!engines.empty()) ::kill(any_of(engines), SIGKILL);
   }
+  /// That gives up an engine which hangs long before a test would be over.
+  std::vector<std::string> impatient_command() const {
+    return command({"--no-progress-limit", "4", "--time-limit", "30"});
+  }
   void wait_a_moment() { std::this_thread::sleep_for(std::chrono::milliseconds(below(400))); }
 
   /// Of living processes those that have the words on their command line, but for farms.
@@ -307,11 +311,11 @@ const std::vector<Chaos::Fault>& Chaos::faults() {
       {"ulimit -v", {}, limit(RLIMIT_AS, 1 << 28)},
       {"second farm, same directory",
        {},
-       [](Chaos& chaos, RunningFarm&) { chaos.run_beside(chaos.command()); }},
+       [](Chaos& chaos, RunningFarm&) { chaos.run_beside(chaos.impatient_command()); }},
       {"second farm, same cache",
        {},
        [](Chaos& chaos, RunningFarm&) {
-         auto arguments = chaos.command();
+         auto arguments = chaos.impatient_command();
          arguments[3] = "beside";
          chaos.run_beside(arguments);
        }},
@@ -349,8 +353,7 @@ void Chaos::episode() {
     story_ += "  stdout and stderr full\n";
   }
   story_ += "  farm\n";
-  RunningFarm farm(command({"--no-progress-limit", "4", "--time-limit", "30"}), root(), {},
-                   stderr_or_not);
+  RunningFarm farm(impatient_command(), root(), {}, stderr_or_not);
   ended_by_ = 0;
   for (std::size_t i = 0; i < meanwhile; ++i) {
     wait_a_moment();
