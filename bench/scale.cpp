@@ -62,7 +62,9 @@ void publish(const ResultCache& cache, std::size_t i) {
   ResultDraft draft = cache.draft();
   for (const char* name : {"lobelia.exr", "lobelia.json", "lobelia.png"})
     write_file(draft.file(name), std::string(2000, char('a' + i % 26)));
-  cache.publish(draft, key_of(i), make_record("result"));
+  records::Result result;
+  result.job = "render";
+  cache.publish(draft, key_of(i), result);
 }
 
 void caching(const fs::path& directory) {

@@ -23,6 +23,7 @@ void add_cost(CLI::App& app, ExitCode& exit_code);
 void add_farm(CLI::App& app, ExitCode& exit_code);
 void add_gallery(CLI::App& app, ExitCode& exit_code);
 void add_verify(CLI::App& app, ExitCode& exit_code);
+void add_records(CLI::App& app, ExitCode& exit_code);
 
 /// What the user typed, program name first; for records.
 const std::vector<std::string>& command_line();

@@ -21,6 +21,7 @@
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
+#include "records/record.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "verify/truth/evaluation.hpp"
 
@@ -213,7 +214,8 @@ void write_reports(const CompareArguments& options, const SetReport& report, boo
   put(options.csv, [&] { return set_csv(report); });
   put(options.junit, [&] { return set_junit(report); });
   put(options.json, [&] {
-    return record_text(folders ? set_record(report) : pair_record(report.pairs.front()));
+    return folders ? record_text(set_record(report))
+                   : record_text(pair_record(report.pairs.front()));
   });
   files.commit();
   fmt::print("{}", printed);

@@ -44,7 +44,7 @@ void print_layers(const OtherLayers& layers, const std::string& a, const std::st
     print_names("a", layers.common->only_a);
     print_names("b", layers.common->only_b);
   }
-  if (!layers.not_compared.is_empty())
+  if (!is_empty(layers.not_compared))
     fmt::print("  not compared: {}\n", to_text(layers.not_compared));
 }
 

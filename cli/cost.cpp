@@ -10,6 +10,7 @@
 #include "core/host.hpp"
 #include "cost/levels.hpp"
 #include "cost/report.hpp"
+#include "records/record.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -52,7 +53,7 @@ void run_cost(const CostArguments& options) {
     require_writable(std::filesystem::path(options.directory) / "cost.json");
   }
   ProgressLine line(!options.quiet);
-  cost::Report report{command_line(), host_record(), kernels().instruction_set, {}};
+  cost::Report report{command_line(), records::this_host(), kernels().instruction_set, {}};
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const double done = double(i) / double(levels.size());
     measured.on_progress = [&](const std::string& what) {

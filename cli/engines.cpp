@@ -6,6 +6,7 @@
 #include "cli/engine_programs.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 
 namespace lobelia::cli {
@@ -16,19 +17,20 @@ struct EnginesArguments {
   bool json = false;
 };
 
-Json engine_record(const EngineInfo& engine, const EngineStatus& status) {
-  Json record{{"name", engine.name},
-              {"title", engine.title},
-              {"available", status.available()},
-              {"state", state_name(status.state)}};
-  if (!status.program.empty()) record["program"] = status.program.string();
-  if (!status.version.empty()) record["version"] = status.version;
-  if (!status.available()) record["why"] = status.why;
-  record["supportedVersions"] = engine.supported_versions;
-  record["witness"] = engine.witness;
-  record["precision"] = engine.precision;
-  record["effects"] = engine.effects;
-  record["install"] = engine.install_hint;
+records::EngineFound engine_record(const EngineInfo& engine, const EngineStatus& status) {
+  records::EngineFound record;
+  record.name = engine.name;
+  record.title = engine.title;
+  record.available = status.available();
+  record.state = state_name(status.state);
+  record.program = status.program.string();
+  record.version = status.version;
+  if (!status.available()) record.why = status.why;
+  record.supported_versions = engine.supported_versions;
+  record.witness = engine.witness;
+  record.precision = engine.precision;
+  record.effects = engine.effects;
+  record.install = engine.install_hint;
   return record;
 }
 
@@ -54,14 +56,13 @@ void print_engine(const EngineInfo& engine, const EngineStatus& status) {
 }
 
 ExitCode run_engines(const EnginesArguments& options) {
-  Json record = make_record("engines");
-  record["engines"] = Json::array();
+  records::Engines record;
   std::vector<std::string> problems;
   for (const EngineInfo& info : engine_infos()) {
     const auto engine = make_engine(info.name, options.programs.of(std::string(info.name)));
     const EngineStatus& status = engine->status();
     if (options.json)
-      record["engines"].push_back(engine_record(info, status));
+      record.engines.push_back(engine_record(info, status));
     else
       print_engine(info, status);
     if (!status.available())

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
 #include "cli/engine_programs.hpp"
 #include "core/text.hpp"
 #include "farm/explain.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -20,29 +22,23 @@ std::string brief(const std::string& value) {
   return is_hash ? value.substr(0, kShown) + "..." : printable(value, 400);
 }
 
-void print_part(const Json& part) {
-  const std::string was = part.at("was"), now = part.at("now");
-  const std::string name = part.at("part");
-  if (part.at("same"))
-    fmt::print("  {}: {}\n", name, brief(was));
+void print_part(const records::ExplainedPart& part) {
+  if (part.same)
+    fmt::print("  {}: {}\n", part.part, brief(part.was));
   else
-    fmt::print("  {}: CHANGED: {}, was {}\n", name, brief(now), brief(was));
-  for (const auto& file : part.value("files", Json::array()))
-    fmt::print("    {}\n", printable(file.get<std::string>(), 400));
+    fmt::print("  {}: CHANGED: {}, was {}\n", part.part, brief(part.now), brief(part.was));
+  for (const auto& file : part.files) fmt::print("    {}\n", printable(file, 400));
 }
 
-/// Whether all is as it was.
-bool print_job(const Json& job) {
-  bool same = job.at("inCache");
-  fmt::print("{}: {}\n", printable(job.at("job").get<std::string>()),
-             same ? "in the cache"
-                  : "not in the cache: " + printable(job.at("why").get<std::string>(), 400));
-  fmt::print("  key: {}\n", brief(job.at("key")));
-  for (const auto& part : job.at("parts")) {
-    print_part(part);
-    same = same && part.at("same");
-  }
-  return same;
+void print_job(const records::ExplainedJob& job) {
+  fmt::print("{}: {}\n", printable(job.job),
+             job.in_cache ? "in the cache" : "not in the cache: " + printable(job.why, 400));
+  fmt::print("  key: {}\n", brief(job.key));
+  for (const auto& part : job.parts) print_part(part);
+}
+
+bool is_unchanged(const records::ExplainedJob& job) {
+  return job.in_cache && std::ranges::all_of(job.parts, &records::ExplainedPart::same);
 }
 
 }  // namespace
@@ -60,29 +56,22 @@ void add_farm_explain(CLI::App& farm, ExitCode& exit_code) {
   command->add_option("CELL", options->cell, "The cell's id, as in DIR/cells")->required();
   command->add_option("JOB", options->job, "One of its jobs: render, reference-povray, profile...");
   options->programs.add_to(*command);
-  command->add_flag("--json", options->json,
-                    "As a record (kind farm-explanation, docs/records.md)");
+  command->add_flag("--json", options->json, "As a record (kind farm-explanation, docs/reference)");
   command->footer(
       "Hashes are shown by their beginning; --json has all of them. Exit codes: 0 all results are in the\n"
       "cache, and nothing has changed on this machine, 1 something has, 3 no such farm, cell or job.\n\n"
       "Example: lobelia farm explain out/gallery phong_rdf-n16 reference-povray");
   command->callback([options, &exit_code] {
-    const Json explanation =
+    const records::FarmExplanation explanation =
         explain_cell(options->directory, options->cell, options->job, options->programs.given());
-    bool same = true;
-    if (options->json) fmt::print("{}", record_text(explanation));
-    for (const auto& job : explanation.at("jobs")) {
-      if (!options->json) {
-        same = print_job(job) && same;
-        continue;
-      }
-      same = same && job.at("inCache");
-      for (const auto& part : job.at("parts")) same = same && part.at("same");
+    if (options->json) {
+      fmt::print("{}", record_text(explanation));
+    } else {
+      for (const auto& job : explanation.jobs) print_job(job);
+      for (const auto& text : explanation.without)
+        fmt::print("no result: {}\n", printable(text, 2000));
     }
-    if (!options->json)
-      for (const auto& text : explanation.at("without"))
-        fmt::print("no result: {}\n", printable(text.get<std::string>(), 2000));
-    if (!same) exit_code = ExitCode::kDiffers;
+    if (!std::ranges::all_of(explanation.jobs, is_unchanged)) exit_code = ExitCode::kDiffers;
   });
 }
 

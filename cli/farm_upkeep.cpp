@@ -13,6 +13,7 @@
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "farm/upkeep.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -56,7 +57,7 @@ void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
   auto* command = farm.add_subcommand("status", "What has become of a farm's cells so far");
   auto options = std::make_shared<Options>();
   command->add_option("DIR", options->directory, "The farm's directory")->required();
-  command->add_flag("--json", options->json, "As a record (kind farm-status, docs/records.md)");
+  command->add_flag("--json", options->json, "As a record (kind farm-status, docs/reference)");
   command->add_flag("--attach", options->attach,
                     "Go back to a run on a cluster and follow it to its end");
   command->callback([options, &exit_code] {
@@ -67,25 +68,26 @@ void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
       });
       exit_code = publish_if_wanted(options->directory, followed.gallery);
     }
-    const Json status = farm_status(options->directory);
+    const records::FarmStatus status = farm_status(options->directory);
     if (options->json) {
       fmt::print("{}", record_text(status));
       return;
     }
-    for (const auto& failure : status.at("failures"))
-      fmt::print("failed: {}: {}: {} ({} attempts): {}\n",
-                 printable(failure.at("cell").get<std::string>()),
-                 failure.at("engine").get<std::string>(), failure.at("failure").get<std::string>(),
-                 failure.at("attempts").get<int>(),
-                 printable(failure.at("message").get<std::string>(), 400));
+    for (const auto& failure : status.failures)
+      fmt::print("failed: {}: {}: {} ({} attempts): {}\n", printable(failure.cell), failure.engine,
+                 failure.failure, failure.attempts, printable(failure.message, 400));
     std::string counts;
-    for (const auto& [name, count] : status.at("status").items())
-      if (const auto n = count.get<std::size_t>(); n > 0)
-        counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", n, name);
-    fmt::print("{} cells: {}{}\n", status.at("cells").get<std::size_t>(), counts,
-               status.at("atWork").get<bool>() ? "; a farm is at work in its cache" : "");
-    if (!status.at("cacheIsThere").get<bool>())
-      tell_of_lost_cache(status.at("cache").get<std::string>());
+    const records::StatusCounts& of = status.status;
+    for (const auto& [name, count] : {std::pair("failed", of.failed),
+                                      {"differs", of.differs},
+                                      {"undecided", of.undecided},
+                                      {"missing", of.missing},
+                                      {"unchecked", of.unchecked},
+                                      {"pass", of.pass}})
+      if (count > 0) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, name);
+    fmt::print("{} cells: {}{}\n", status.cells, counts,
+               status.at_work ? "; a farm is at work in its cache" : "");
+    if (!status.cache_is_there) tell_of_lost_cache(status.cache);
     fmt::print("{}", cluster_text(options->directory));
   });
 }

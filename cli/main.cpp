@@ -90,7 +90,7 @@ int run(int argc, char** argv) {
   ExitCode exit_code = ExitCode::kSuccess;
   for (const auto add :
        {add_render, add_plan, add_models, add_scene_format, add_export, add_engines, add_reference,
-        add_compare, add_profile, add_cost, add_farm, add_gallery, add_verify})
+        add_compare, add_profile, add_cost, add_farm, add_gallery, add_verify, add_records})
     add(app, exit_code);
   if (const std::string error = unknown_subcommand(app, argc, argv); !error.empty())
     return fail(ExitCode::kUsage, error);

@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/scene_overrides.hpp"
 #include "cli/warnings.hpp"
+#include "records/record.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
 

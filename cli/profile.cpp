@@ -14,6 +14,7 @@
 #include "core/image_io.hpp"
 #include "core/text.hpp"
 #include "farm/profile_scene.hpp"
+#include "records/record.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::cli {
@@ -43,8 +44,8 @@ std::pair<std::string, std::string> picture_names(const ProfileArguments& option
 /// Of one highlight where one is chosen, else of all; more would take minutes and be read by nobody.
 constexpr std::size_t kMostHighlights = 64;
 
-std::vector<Json> profiles_of(const Scene& scene, const ProfileArguments& options,
-                              const NamedImages& images) {
+std::vector<records::Profile> profiles_of(const Scene& scene, const ProfileArguments& options,
+                                          const NamedImages& images) {
   if (options.light || options.sphere)
     return {profile_scene(scene, options.light.value_or(0), options.sphere.value_or(0), images)};
   const auto highlights = highlights_of(scene);
@@ -58,7 +59,7 @@ std::vector<Json> profiles_of(const Scene& scene, const ProfileArguments& option
         fmt::format("{}: it has {} highlights, and up to {} are measured at once; choose one "
                     "with --sphere and --light",
                     options.scene, highlights.size(), kMostHighlights));
-  std::vector<Json> profiles;
+  std::vector<records::Profile> profiles;
   for (const auto& [sphere, light] : highlights)
     profiles.push_back(profile_scene(scene, light, sphere, images));
   return profiles;
@@ -66,29 +67,26 @@ std::vector<Json> profiles_of(const Scene& scene, const ProfileArguments& option
 
 /// What is to be written, however it was measured.
 struct Result {
-  Json record;
-  std::string text, csv, svg;
+  std::string record, text, csv, svg;
 };
 
 Result measured(const ProfileArguments& options, const NamedImages& images) {
   if (options.scene.empty()) {
-    const Json record = blob_record(measure_blob(images));
-    return {record, blob_text(record), blob_csv(record), blob_svg(record)};
+    const records::Blob record = blob_record(measure_blob(images));
+    return {record_text(record), blob_text(record), blob_csv(record), blob_svg(record)};
   }
   Scene scene = read_scene(options.scene);
   options.overrides.apply(scene);
-  const std::vector<Json> profiles = profiles_of(scene, options, images);
+  const std::vector<records::Profile> profiles = profiles_of(scene, options, images);
   if (profiles.size() > 1 && !options.svg.empty())
     throw Error(ExitCode::kUsage,
                 fmt::format("--svg draws one highlight, and there are {}: choose with --sphere and "
                             "--light",
                             profiles.size()));
-  Result result{profiles.front(), "", profile_csv(profiles), profile_svg(profiles.front())};
-  if (!options.light && !options.sphere) {
-    result.record = make_record("profiles");
-    result.record["profiles"] = profiles;
-  }
-  for (const Json& profile : profiles)
+  const bool chosen = options.light || options.sphere;
+  Result result{chosen ? record_text(profiles.front()) : record_text(records::Profiles{profiles}),
+                "", profile_csv(profiles), profile_svg(profiles.front())};
+  for (const records::Profile& profile : profiles)
     result.text += (result.text.empty() ? "" : "\n") + profile_text(profile);
   return result;
 }
@@ -110,9 +108,9 @@ void run_profile(const ProfileArguments& options) {
   FilesTogether files;
   if (!options.csv.empty()) write_file(options.csv, result.csv);
   if (!options.svg.empty()) write_file(options.svg, result.svg);
-  if (json_to_file) write_record(options.json, result.record);
+  if (json_to_file) write_file(options.json, result.record);
   files.commit();
-  fmt::print("{}", options.json == "-" ? record_text(result.record) : result.text);
+  fmt::print("{}", options.json == "-" ? result.record : result.text);
 }
 
 }  // namespace

@@ -4,41 +4,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "core/svg_chart.hpp"
+#include "core/text.hpp"
 #include "core/ticks.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::cli {
 namespace {
 
-/// A number of the record, which is a name ("nan") where it is not finite.
-double number(const Json& value) {
-  if (!value.is_string()) return value.get<double>();
-  const std::string name = value.get<std::string>();
-  if (name == "nan") return std::numeric_limits<double>::quiet_NaN();
-  return (name == "-inf" ? -1 : 1) * std::numeric_limits<double>::infinity();
-}
-std::string shown(const Json& value) {
-  const double x = number(value);
-  return std::isnan(x) ? "-" : fmt::format("{:.6g}", x);
-}
-std::string three_digits(const Json& value) {
-  const double x = number(value);
-  return std::isnan(x) ? "-" : fmt::format("{:.3f}", x);
-}
-std::string in_a_cell(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
+using Radiance = records::Named<std::vector<double>>;
+
+std::string shown(double x) { return std::isnan(x) ? "-" : fmt::format("{:.6g}", x); }
+std::string three_digits(double x) { return std::isnan(x) ? "-" : fmt::format("{:.3f}", x); }
 
 /// Lines of a table: a name, and cells.
 class Table {
  public:
   /// Wide enough for the names of the pictures and of their differences.
-  explicit Table(const Json& record) {
-    for (const char* members : {"images", "differences"})
-      for (const auto& [name, member] : record[members].items())
-        width_ = std::max(width_, name.size() + 2);
+  template <class T>
+  explicit Table(const T& record) {
+    for (const auto& [name, image] : record.images) width_ = std::max(width_, name.size() + 2);
+    for (const auto& [name, zones] : record.differences) width_ = std::max(width_, name.size() + 2);
   }
   std::string row(const std::string& head, std::initializer_list<std::string> cells) const {
     std::string line = fmt::format("{:<{}}", head, width_);
@@ -50,97 +38,75 @@ class Table {
   std::size_t width_ = 24;
 };
 
-std::string curve_table(const Table& table, const Json& profile) {
+std::string curve_table(const Table& table, const records::Profile& profile) {
   std::string text = table.row("the curve", {"peak", "at degrees", "half-width", "energy"});
-  for (const auto& [name, shape] : profile["images"].items())
-    text += table.row(name, {shown(shape["peak"]), shown(shape["peakAngleDegrees"]),
-                             shown(shape["halfWidthDegrees"]), shown(shape["energy"])});
+  for (const auto& [name, shape] : profile.images)
+    text += table.row(name, {shown(shape.peak), shown(shape.peak_angle_degrees),
+                             shown(shape.half_width_degrees), shown(shape.energy)});
   return text;
 }
 
 /// What is to be said of a peak that is not a fitted one.
-std::string peak_remark(const Json& peak) {
-  const std::string found = peak["found"];
-  if (found == "pixel") return "its peak is known to the pixel alone";
-  if (found == "plateau")
+std::string peak_remark(const records::Peak& peak) {
+  if (peak.found == "pixel") return "its peak is known to the pixel alone";
+  if (peak.found == "plateau")
     return "its peak is the middle of many pixels of the same value: clipped, or flat";
-  if (found == "edge")
+  if (peak.found == "edge")
     return "its brightest pixel is at the border, at the sphere's rim or where light ends: the peak "
            "may lie beyond";
   return "";
 }
 
-std::string figures_table(const Table& table, const Json& profile) {
+std::string figures_table(const Table& table, const records::Profile& profile) {
   std::string places =
       table.row("the highlight alone", {"peak", "at x", "y", "centroid x", "y", "energy"});
   std::string widths = table.row("half-width", {"along, px", "degrees", "across, px", "degrees"});
   std::string remarks;
-  for (const auto& [name, image] : profile["images"].items()) {
-    const Json& h = image["highlight"];
-    const Json &peak = h["peak"], &centroid = h["centroid"];
-    const Json &along = h["halfWidthAlong"], &across = h["halfWidthAcross"];
-    places += table.row(
-        name, {shown(peak["radiance"]), three_digits(peak["x"]), three_digits(peak["y"]),
-               three_digits(centroid["x"]), three_digits(centroid["y"]), shown(h["energy"])});
-    widths += table.row(name, {three_digits(along["pixels"]), three_digits(along["degrees"]),
-                               three_digits(across["pixels"]), three_digits(across["degrees"])});
-    const Json& cosine = h["cosineLobe"];
-    if (cosine.contains("because"))
-      remarks += fmt::format("{}: no power of a cosine can be told: {}\n", name,
-                             cosine["because"].get<std::string>());
+  for (const auto& [name, image] : profile.images) {
+    const records::HighlightFigures& h = *image.highlight;
+    places +=
+        table.row(name, {shown(h.peak.radiance), three_digits(h.peak.x), three_digits(h.peak.y),
+                         three_digits(h.centroid.x), three_digits(h.centroid.y), shown(h.energy)});
+    widths += table.row(name, {three_digits(h.along.pixels), three_digits(h.along.degrees),
+                               three_digits(h.across.pixels), three_digits(h.across.degrees)});
+    const records::CosineLobe& cosine = h.cosine_lobe;
+    if (!cosine.because.empty())
+      remarks += fmt::format("{}: no power of a cosine can be told: {}\n", name, cosine.because);
     else
       remarks += fmt::format(
           "{}: this highlight is a cosine lobe of n = {} (but for {:.2g} of its peak)\n", name,
-          with_error(number(cosine["exponent"]), number(cosine["standardError"])),
-          number(cosine["rmsOfPeak"]));
-    if (h.contains("because"))
-      remarks += fmt::format("{}: {}\n", name, h["because"].get<std::string>());
-    if (const std::string remark = peak_remark(peak); !remark.empty())
+          with_error(*cosine.exponent, *cosine.standard_error), *cosine.rms_of_peak);
+    if (!h.because.empty()) remarks += fmt::format("{}: {}\n", name, h.because);
+    if (const std::string remark = peak_remark(h.peak); !remark.empty())
       remarks += fmt::format("{}: {}\n", name, remark);
   }
   return places + '\n' + widths + '\n' + remarks;
 }
 
-std::string differences_table(const Table& table, const Json& differences) {
+std::string differences_table(const Table& table,
+                              const records::Named<records::ZoneErrors>& differences) {
   if (differences.empty()) return "";
   std::string text =
       '\n' + table.row("difference", {"", "pixels", "max error", "rms error", "of the peak"});
-  for (const auto& [name, zones] : differences.items())
-    for (const auto& [zone, error] : zones.items())
-      text += table.row(zone == "epicentre" ? name : "",
-                        {zone, in_a_cell(error["pixels"]), shown(error["maxAbs"]),
-                         shown(error["rms"]), shown(error["maxRelPeak"])});
+  for (const auto& [name, zones] : differences)
+    for (const auto& [zone, error] : {std::pair("epicentre", zones.epicentre),
+                                      {"flank", zones.flank},
+                                      {"blooming", zones.blooming}})
+      text += table.row(zone == std::string_view("epicentre") ? name : "",
+                        {zone, std::to_string(error.pixels), shown(error.max_abs), shown(error.rms),
+                         shown(error.max_rel_peak)});
   return text;
 }
 
-std::string csv_quoted(const std::string& name) {
-  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
-/// Names of the columns, and their values line by line, each after `front`.
-std::string csv_head(const Json& columns) {
+std::string csv_head(const Radiance& columns) {
   std::string text;
-  for (const auto& [name, column] : columns.items()) text += "," + csv_quoted(name);
+  for (const auto& [name, column] : columns) text += "," + csv_field(name);
   return text + '\n';
 }
-std::string csv_lines(const Json& columns, const std::string& front) {
+std::string csv_values(const Radiance& columns, std::size_t line) {
   std::string text;
-  const std::size_t count = columns.empty() ? 0 : columns.begin()->size();
-  for (std::size_t line = 0; line < count; ++line) {
-    text += front;
-    for (const auto& [name, column] : columns.items()) text += "," + in_a_cell(column[line]);
-    text += '\n';
-  }
-  return text;
-}
-
-std::vector<double> numbers(const Json& column) {
-  std::vector<double> values;
-  for (const Json& value : column) values.push_back(number(value));
-  return values;
+  for (const auto& [name, column] : columns) text += "," + records::json_number(column[line]);
+  return text + '\n';
 }
 
 /// Lines 1 to 5; 0 lies broad beneath them.
@@ -174,141 +140,126 @@ std::string with_error(double value, double error) {
                      std::round(error / unit) * unit, decimals);
 }
 
-std::string profile_text(const Json& profile) {
+std::string profile_text(const records::Profile& profile) {
   const Table table(profile);
-  std::string text =
-      fmt::format("sphere {}, light {}", profile["sphere"].get<int>(), profile["light"].get<int>());
-  const bool has_figures = profile.contains("lobe");
-  if (has_figures)
-    text += fmt::format(": {}, lobe {} of n = {:g}", profile["lobe"]["model"].get<std::string>(),
-                        profile["lobe"]["lobe"].get<std::string>(),
-                        profile["lobe"]["exponent"].get<double>());
+  std::string text = fmt::format("sphere {}, light {}", profile.sphere, profile.light);
+  if (const auto& lobe = profile.lobe)
+    text += fmt::format(": {}, lobe {} of n = {:g}", lobe->model, lobe->lobe, lobe->exponent);
   text += '\n';
-  const Json& formula = profile["images"].front();
-  if (has_figures && formula["highlight"]["peak"]["found"] == "none")
-    return text + fmt::format("  no highlight to measure: {}\n",
-                              formula["highlight"]["because"].get<std::string>());
-  text += "epicentre";
-  for (const auto& [zone, range] : profile["zones"].items())
-    text += fmt::format("{} to {}",
-                        zone == "epicentreDegrees" ? ""
-                        : zone == "flankDegrees"   ? " degrees, flank"
-                                                   : ", blooming zone",
-                        shown(range[1]));
-  text +=
-      fmt::format(" ({} angle)\n", profile["angle"] == "reflection" ? "reflection" : "half-vector");
-  if (has_figures) {
-    text += profile.contains("planeOfIncidence")
+  if (const auto& formula = profile.images.front().second.highlight;
+      profile.lobe && formula && formula->peak.found == "none")
+    return text + fmt::format("  no highlight to measure: {}\n", formula->because);
+  text += fmt::format("epicentre to {} degrees, flank to {}, blooming zone to {} ({} angle)\n",
+                      shown(profile.zones.epicentre[1]), shown(profile.zones.flank[1]),
+                      shown(profile.zones.blooming[1]),
+                      profile.angle == "reflection" ? "reflection" : "half-vector");
+  if (profile.lobe) {
+    const auto& plane = profile.plane_of_incidence;
+    text += plane
                 ? fmt::format("plane of incidence along ({:.4f}, {:.4f}) of the picture, y down\n",
-                              profile["planeOfIncidence"]["x"].get<double>(),
-                              profile["planeOfIncidence"]["y"].get<double>())
+                              plane->x, plane->y)
                 : "eye, sphere and light on a line: no plane of incidence; along is x, across y\n";
     text +=
         fmt::format("taken away beneath it, of its peak: {:.2g} diffuse, {:.2g} of other lights\n",
-                    number(profile["subtracted"]["diffuseOfPeak"]),
-                    number(profile["subtracted"]["otherLightsOfPeak"]));
+                    profile.subtracted->diffuse_of_peak, profile.subtracted->other_lights_of_peak);
   }
   text += '\n' + curve_table(table, profile);
-  if (has_figures) text += '\n' + figures_table(table, profile);
-  return text + differences_table(table, profile["differences"]);
+  if (profile.lobe) text += '\n' + figures_table(table, profile);
+  return text + differences_table(table, profile.differences);
 }
 
-std::string profile_csv(std::span<const Json> profiles) {
+std::string profile_csv(std::span<const records::Profile> profiles) {
   std::string text;
-  for (const Json& profile : profiles) {
-    if (text.empty()) text = "sphere,light" + csv_head(profile["curve"]);
-    text += csv_lines(profile["curve"], fmt::format("{},{}", profile["sphere"].get<int>(),
-                                                    profile["light"].get<int>()));
+  for (const records::Profile& profile : profiles) {
+    const records::ProfileCurve& curve = profile.curve;
+    if (text.empty()) text = "sphere,light,angleDegrees,pixels" + csv_head(curve.radiance);
+    for (std::size_t i = 0; i < curve.pixels.size(); ++i)
+      text += fmt::format("{},{},{},{}", profile.sphere, profile.light,
+                          records::json_number(curve.angle_degrees[i]), curve.pixels[i]) +
+              csv_values(curve.radiance, i);
   }
   return text;
 }
 
-std::string profile_svg(const Json& profile) {
+std::string profile_svg(const records::Profile& profile) {
   Chart chart;
   chart.id = "profile";
-  chart.title = fmt::format("Highlight of light {} on sphere {}", profile["light"].get<int>(),
-                            profile["sphere"].get<int>());
+  chart.title = fmt::format("Highlight of light {} on sphere {}", profile.light, profile.sphere);
   chart.description = "Mean radiance of the pixels at each angle of the lobe.";
-  const Json& curve = profile["curve"];
-  const std::vector<double> angle = numbers(curve["angleDegrees"]);
-  chart.x = {profile["angle"] == "reflection" ? "angle between light and mirror direction (degrees)"
-                                              : "angle between normal and half vector (degrees)",
+  const std::vector<double>& angle = profile.curve.angle_degrees;
+  chart.x = {profile.angle == "reflection" ? "angle between light and mirror direction (degrees)"
+                                           : "angle between normal and half vector (degrees)",
              0, angle.empty() ? 90 : angle.back()};
-  for (const auto& [zone, range] : profile["zones"].items())
-    chart.bands.push_back(
-        {number(range[0]), number(range[1]),
-         zone == "bloomingDegrees" ? "blooming zone" : zone.substr(0, zone.find("Degrees"))});
+  const records::ZoneRanges& zones = profile.zones;
+  chart.bands = {{zones.epicentre[0], zones.epicentre[1], "epicentre"},
+                 {zones.flank[0], zones.flank[1], "flank"},
+                 {zones.blooming[0], zones.blooming[1], "blooming zone"}};
   std::size_t line = 0;
-  for (const auto& [name, column] : curve.items()) {
-    if (name == "angleDegrees" || name == "pixels") continue;
+  for (const auto& [name, column] : profile.curve.radiance) {
     const bool formula = name == "analytic";
     chart.series.push_back(
-        {formula ? "formula" : name, angle, numbers(column), formula ? 0 : style_of(line++)});
+        {formula ? "formula" : name, angle, column, formula ? 0 : style_of(line++)});
   }
   set_top(chart);
   return draw_chart_file(chart);
 }
 
-std::string blob_text(const Json& blob) {
+std::string blob_text(const records::Blob& blob) {
   const Table table(blob);
   std::string text =
       table.row("brightest blob", {"peak", "at x", "y", "centroid x", "y", "pixels"});
-  for (const auto& [name, b] : blob["images"].items())
-    text += table.row(name, {shown(b["peak"]["radiance"]), three_digits(b["peak"]["x"]),
-                             three_digits(b["peak"]["y"]), three_digits(b["centroid"]["x"]),
-                             three_digits(b["centroid"]["y"]), in_a_cell(b["pixels"])});
+  for (const auto& [name, b] : blob.images)
+    text += table.row(
+        name, {shown(b.peak.radiance), three_digits(b.peak.x), three_digits(b.peak.y),
+               three_digits(b.centroid.x), three_digits(b.centroid.y), std::to_string(b.pixels)});
   text += '\n' + table.row("half-width, pixels", {"long axis", "along x", "along y", "short axis",
                                                   "background", "energy"});
   std::string remarks;
-  for (const auto& [name, b] : blob["images"].items()) {
-    text += table.row(
-        name, {three_digits(b["halfWidthPixels"]["major"]), three_digits(b["majorAxis"]["x"]),
-               three_digits(b["majorAxis"]["y"]), three_digits(b["halfWidthPixels"]["minor"]),
-               shown(b["background"]), shown(b["energy"])});
-    if (b.contains("because"))
-      remarks += fmt::format("{}: no blob: {}\n", name, b["because"].get<std::string>());
-    else if (!std::isnan(number(b["gaussianSigmaPixels"]["major"])))
-      remarks += fmt::format("{}: as wide as a Gaussian of {} x {} pixels standard deviation\n",
-                             name, three_digits(b["gaussianSigmaPixels"]["major"]),
-                             three_digits(b["gaussianSigmaPixels"]["minor"]));
-    if (b.contains("remark"))
-      remarks += fmt::format("{}: {}\n", name, b["remark"].get<std::string>());
-    else if (const std::string remark = peak_remark(b["peak"]); !remark.empty())
+  for (const auto& [name, b] : blob.images) {
+    text += table.row(name, {three_digits(b.half_width.major), three_digits(b.major_axis.x),
+                             three_digits(b.major_axis.y), three_digits(b.half_width.minor),
+                             shown(b.background), shown(b.energy)});
+    if (!b.because.empty())
+      remarks += fmt::format("{}: no blob: {}\n", name, b.because);
+    else if (!std::isnan(b.gaussian_sigma.major))
+      remarks +=
+          fmt::format("{}: as wide as a Gaussian of {} x {} pixels standard deviation\n", name,
+                      three_digits(b.gaussian_sigma.major), three_digits(b.gaussian_sigma.minor));
+    if (!b.remark.empty())
+      remarks += fmt::format("{}: {}\n", name, b.remark);
+    else if (const std::string remark = peak_remark(b.peak); !remark.empty())
       remarks += fmt::format("{}: {}\n", name, remark);
-    if (b["nonfinite"] > 0)
-      remarks += fmt::format("{}: {} pixels are not finite and are left out\n", name,
-                             in_a_cell(b["nonfinite"]));
+    if (b.nonfinite > 0)
+      remarks += fmt::format("{}: {} pixels are not finite and are left out\n", name, b.nonfinite);
   }
   return text + '\n' + remarks +
          "An exponent needs to know which angle each pixel sees: --scene.\n" +
-         differences_table(table, blob["differences"]);
+         differences_table(table, blob.differences);
 }
 
-std::string blob_csv(const Json& blob) {
+std::string blob_csv(const records::Blob& blob) {
   std::string text;
-  for (const auto& [axis, columns] : blob["curves"].items()) {
-    if (text.empty()) text = "axis" + csv_head(columns);
-    text += csv_lines(columns, axis);
+  for (const auto& [axis, curve] : blob.curves) {
+    if (text.empty()) text = "axis,offsetPixels" + csv_head(curve.radiance);
+    for (std::size_t i = 0; i < curve.offset.size(); ++i)
+      text += axis + "," + records::json_number(curve.offset[i]) + csv_values(curve.radiance, i);
   }
   return text.empty() ? "axis,offsetPixels\n" : text;
 }
 
-std::string blob_svg(const Json& blob) {
+std::string blob_svg(const records::Blob& blob) {
   Chart chart;
   chart.id = "blob";
   chart.title = "The brightest blob, along its axes";
   chart.description = "Radiance over the distance from the peak along the long and the short axis.";
   chart.x = {"pixels from the reference's peak", -1, 1};
   std::size_t line = 0;
-  for (const auto& [axis, columns] : blob["curves"].items()) {
-    const std::vector<double> offset = numbers(columns["offsetPixels"]);
-    chart.x.from = offset.front();
-    chart.x.to = offset.back();
-    for (const auto& [name, column] : columns.items())
-      if (name != "offsetPixels")
-        chart.series.push_back(
-            {fmt::format("{}, {} axis", name, axis == "major" ? "long" : "short"), offset,
-             numbers(column), style_of(line++)});
+  for (const auto& [axis, curve] : blob.curves) {
+    chart.x.from = curve.offset.front();
+    chart.x.to = curve.offset.back();
+    for (const auto& [name, column] : curve.radiance)
+      chart.series.push_back({fmt::format("{}, {} axis", name, axis == "major" ? "long" : "short"),
+                              curve.offset, column, style_of(line++)});
   }
   set_top(chart);
   return draw_chart_file(chart);

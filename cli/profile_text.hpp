@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "core/record.hpp"
+#include "records/profile.hpp"
 
 namespace lobelia::cli {
 
@@ -12,15 +12,13 @@ namespace lobelia::cli {
 /// millionth of the value, which is what float32 pictures tell.
 std::string with_error(double value, double error);
 
-/// Of kind profile.
-std::string profile_text(const Json& profile);
+std::string profile_text(const records::Profile& profile);
 /// A line per angle of each: sphere, light, and the columns of its curve. All have the same columns.
-std::string profile_csv(std::span<const Json> profiles);
-std::string profile_svg(const Json& profile);
+std::string profile_csv(std::span<const records::Profile> profiles);
+std::string profile_svg(const records::Profile& profile);
 
-/// Of kind blob.
-std::string blob_text(const Json& blob);
-std::string blob_csv(const Json& blob);
-std::string blob_svg(const Json& blob);
+std::string blob_text(const records::Blob& blob);
+std::string blob_csv(const records::Blob& blob);
+std::string blob_svg(const records::Blob& blob);
 
 }  // namespace lobelia::cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/maps/difference_map.hpp"
+#include "compare/metrics/catalogue.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
 
@@ -25,6 +26,17 @@ std::vector<gallery::MapKind> visual_maps() {
   return kinds;
 }
 
+std::vector<gallery::MetricInfo> metric_infos() {
+  std::vector<gallery::MetricInfo> infos;
+  for (const Metric* metric : metrics())
+    for (const MetricOutput& output : metric->outputs)
+      if (!output.title.empty())
+        infos.push_back({std::string(output.id), std::string(output.title),
+                         std::string(output.explanation), std::string(unit_name(output.unit)),
+                         output.better == Better::kHigher});
+  return infos;
+}
+
 constexpr std::size_t kMostNamed = 20;
 
 void say_doubts(const gallery::PublishedGallery& made) {
@@ -40,6 +52,7 @@ void say_doubts(const gallery::PublishedGallery& made) {
 
 Published publish(const std::filesystem::path& run, gallery::GalleryOptions options) {
   options.maps = visual_maps();
+  options.metrics = metric_infos();
   const gallery::PublishedGallery made = write_gallery(run, options);
   if (made.doubts.empty()) return {made.index};
   say_doubts(made);

@@ -16,6 +16,7 @@
 #include "core/image_io.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/reference_metadata.hpp"
@@ -107,18 +108,17 @@ void run_reference(const ReferenceArguments& options) {
               reference_metadata(scene, result.record));
   }
   const std::filesystem::path output(options.output);
-  Json& record = result.record;
-  record["command"] = command_line();
-  record["image"]["file"] = output.filename().string();
-  record["highlights"] = Json::array();
+  records::Reference& record = result.record;
+  record.command = command_line();
+  record.image.file = output.filename().string();
   for (const Material& material : scene.materials)
-    record["highlights"].push_back(highlight_record(material.highlight));
+    record.highlights.push_back(highlight_record(material.highlight));
   write_record(record_path, record);
   files.commit();
   if (!options.quiet)
     say("{}: {} x {}, {:.3f} s, {} {}, {}\n", printable_path(options.output), result.image.width(),
-        result.image.height(), record["seconds"]["total"].get<double>(), engine_info.title,
-        engine->status().version, record["witness"].get<std::string>());
+        result.image.height(), record.seconds.total, engine_info.title, engine->status().version,
+        record.witness);
 }
 
 std::string engine_list() {

@@ -17,6 +17,7 @@
 #include "core/text.hpp"
 #include "core/timing.hpp"
 #include "cost/accuracy.hpp"
+#include "records/record.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_error.hpp"
 #include "renderer/render_record.hpp"
@@ -81,10 +82,10 @@ std::optional<cost::Choice> choice_of(const Scene& scene, const RenderArguments&
 
 /// Says what was reached, where that was measured, and puts it into the record.
 ExitCode settle(const Scene& scene, const cost::Choice& choice, const Image& picture,
-                const RenderArguments& options, Json& record) {
+                const RenderArguments& options, records::Render& record) {
   std::optional<cost::Reached> reached;
   if (options.accuracy_check != "none") reached = cost::measure_reached(scene, choice, picture);
-  record["accuracy"] = cost::accuracy_record(choice, reached);
+  record.accuracy = cost::accuracy_record(choice, reached);
   if (!options.quiet)
     say("{}{}", cost::choice_text(choice), reached ? cost::reached_text(choice, *reached) : "");
   return !reached || reached->held(choice) ? ExitCode::kSuccess : ExitCode::kDiffers;
@@ -137,10 +138,11 @@ void run_render(const RenderArguments& options, ExitCode& code) {
   progress.clear();
 
   const std::filesystem::path output(options.output);
-  Json record = render_record(rendered, result, command_line(), output.filename().string());
-  record["seconds"]["read"] = stages.read;
-  record["seconds"]["pack"] = stages.pack;
-  record["seconds"]["write"] = stages.write;
+  records::Render record =
+      render_record(rendered, result, command_line(), output.filename().string());
+  record.seconds.read = stages.read;
+  record.seconds.pack = stages.pack;
+  record.seconds.write = stages.write;
   if (choice) code = settle(scene, *choice, result.image, options, record);
   write_record(record_path, record);
   files.commit();

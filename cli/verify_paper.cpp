@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "core/files.hpp"
+#include "records/record.hpp"
 #include "verify/paper/catalogue.hpp"
 #include "verify/paper/errata.hpp"
 #include "verify/paper/plots.hpp"

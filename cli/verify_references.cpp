@@ -11,6 +11,7 @@
 #include "cli/engine_programs.hpp"
 #include "cli/progress.hpp"
 #include "core/files.hpp"
+#include "records/record.hpp"
 #include "reference_scenes/agreement/report.hpp"
 #include "reference_scenes/engine_program.hpp"
 
@@ -73,7 +74,7 @@ ExitCode run_verify_references(const VerifyReferencesArguments& options) {
   const auto result = agreement::measure(
       scope, engines, [&](double done, std::string_view what) { progress.show(done, what); });
   progress.clear();
-  const Json record = agreement::report_record(result, command_line());
+  const records::Agreement record = agreement::report_record(result, command_line());
   const std::string page = agreement::report_markdown(result, command_for(options));
   if (!options.output.empty()) {
     FilesTogether files;

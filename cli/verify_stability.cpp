@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "core/files.hpp"
+#include "records/record.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/report.hpp"
 

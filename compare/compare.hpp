@@ -13,7 +13,7 @@
 #include "compare/uncertainty/error_bars.hpp"
 #include "compare/uncertainty/noise.hpp"
 #include "core/image.hpp"
-#include "core/record.hpp"
+#include "records/comparison.hpp"
 
 namespace lobelia {
 
@@ -143,10 +143,10 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
 ReferenceFloor measure_reference_floor(const Image& c, const Image& b,
                                        const ComparisonOptions& options);
 
-/// As docs/records.md has it; `a`, `b` and the second reference `c`, if there was one, are the file names
+/// `a`, `b` and the second reference `c`, if there was one, are the file names
 /// that stand in it.
-Json comparison_record(const Comparison& comparison, const std::string& a, const std::string& b,
-                       const std::string& c = "");
+records::Comparison comparison_record(const Comparison& comparison, const std::string& a,
+                                      const std::string& b, const std::string& c = "");
 
 /// |a - b| per channel / white_at, clipped at 1, not display-encoded. Magenta where it is not
 /// finite. With white_at 0 every difference is white. Throws Error(kInput) if the sizes differ.

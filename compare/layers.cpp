@@ -28,8 +28,43 @@ std::vector<std::string> without(std::span<const std::string> names,
   return result;
 }
 
-Json sources_json(const PictureSource& a, const PictureSource& b) {
-  return {{"a", to_json(a)}, {"b", to_json(b)}};
+records::Window window_record(const PixelWindow& window) {
+  return {window.x, window.y, window.width, window.height};
+}
+
+records::PictureRead picture_record(const PictureSource& source) {
+  records::PictureRead record;
+  record.format = source.format;
+  record.layer = source.layer;
+  record.channels = source.channels;
+  record.value_type = source.value_type;
+  record.transfer = source.transfer;
+  record.multiplied_by_alpha = source.multiplied_by_alpha;
+  record.data = window_record(source.data);
+  record.display = window_record(source.display);
+  record.chromaticities = source.chromaticities;
+  record.icc_profile = source.icc_profile;
+  if (!source.icc_profile.empty()) record.icc_is_srgb = source.icc_is_srgb;
+  return record;
+}
+
+records::LayerComparison layer_record(const LayerComparison& layer) {
+  records::LayerComparison record;
+  record.layer = layer.name;
+  record.verdict = verdict_name(layer.verdict());
+  if (layer.overscan) record.overscan = window_record(*layer.overscan);
+  if (layer.identical) record.identical = true;
+  record.problem = layer.problem;
+  if (layer.comparison) {
+    records::Comparison whole = comparison_record(*layer.comparison, "", "");
+    record.nonfinite = std::move(whole.nonfinite);
+    record.metrics = std::move(whole.metrics);
+    record.limits = std::move(whole.limits);
+    record.disagreement = std::move(whole.disagreement);
+    record.not_measured = std::move(whole.not_measured);
+  }
+  record.pictures = pictures_record(layer.a, layer.b);
+  return record;
 }
 
 bool are_identical(const Image& a, const Image& b) {
@@ -230,30 +265,17 @@ Verdict worst_verdict(Verdict picture, const OtherLayers& others) {
   return worst;
 }
 
-void add_pictures(Json& record, const PictureSource& a, const PictureSource& b) {
-  record["pictures"] = sources_json(a, b);
+records::PicturesRead pictures_record(const PictureSource& a, const PictureSource& b) {
+  return {picture_record(a), picture_record(b)};
 }
 
-void add_layers(Json& record, Verdict worst, const OtherLayers& others) {
-  record["verdict"] = verdict_name(worst);
-  record["notCompared"] = to_json(others.not_compared);
-  record["layers"] = Json::array();
-  for (const LayerComparison& layer : others.compared) {
-    Json entry = {{"layer", layer.name}, {"verdict", verdict_name(layer.verdict())}};
-    if (layer.overscan) entry["overscan"] = to_json(*layer.overscan);
-    if (layer.identical) entry["identical"] = true;
-    if (!layer.problem.empty()) entry["problem"] = layer.problem;
-    if (layer.comparison) {
-      const Json whole = comparison_record(*layer.comparison, "", "");
-      for (const char* key : {"nonfinite", "metrics", "limits", "disagreement"})
-        entry[key] = whole[key];
-      if (whole.contains("notMeasured")) entry["notMeasured"] = whole["notMeasured"];
-    }
-    entry["pictures"] = sources_json(layer.a, layer.b);
-    record["layers"].push_back(std::move(entry));
-  }
+void add_layers(records::Comparison& record, Verdict worst, const OtherLayers& others) {
+  record.verdict = verdict_name(worst);
+  record.not_compared = others.not_compared;
+  auto& layers = record.layers.emplace();
+  for (const LayerComparison& layer : others.compared) layers.push_back(layer_record(layer));
   if (others.common)
-    record["layersInOne"] = {{"a", others.common->only_a}, {"b", others.common->only_b}};
+    record.layers_in_one = records::LayersInOne{others.common->only_a, others.common->only_b};
 }
 
 }  // namespace lobelia

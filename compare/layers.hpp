@@ -79,10 +79,10 @@ OtherLayers compare_others(const std::filesystem::path& a, const std::filesystem
 /// The worst verdict of the picture and the others.
 Verdict worst_verdict(Verdict picture, const OtherLayers& others);
 
-/// Adds `pictures` to a record of comparison_record().
-void add_pictures(Json& record, const PictureSource& a, const PictureSource& b);
+/// How both files were read.
+records::PicturesRead pictures_record(const PictureSource& a, const PictureSource& b);
 
-/// Adds `notCompared`, `layers` and `layersInOne` to it, and makes `verdict` the worst of all.
-void add_layers(Json& record, Verdict worst, const OtherLayers& others);
+/// Adds the other layers to a record of comparison_record(), with the worst verdict of all.
+void add_layers(records::Comparison& record, Verdict worst, const OtherLayers& others);
 
 }  // namespace lobelia

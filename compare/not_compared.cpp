@@ -22,8 +22,9 @@ std::string layers_text(const std::vector<std::string>& layers) {
 
 }  // namespace
 
-bool NotCompared::is_empty() const {
-  return layers.empty() && !alpha && overscan_pixels == 0 && mip_levels == 0;
+bool is_empty(const NotCompared& not_compared) {
+  return not_compared.layers.empty() && !not_compared.alpha && not_compared.overscan_pixels == 0 &&
+         not_compared.mip_levels == 0;
 }
 
 void add(const NotCompared& one, NotCompared& all) {
@@ -47,13 +48,6 @@ std::string to_text(const NotCompared& not_compared) {
                                 not_compared.mip_levels == 1 ? "" : "s"));
   if (parts.empty()) return "nothing";
   return fmt::format("{}", fmt::join(parts, "; "));
-}
-
-Json to_json(const NotCompared& not_compared) {
-  return {{"layers", not_compared.layers},
-          {"alpha", not_compared.alpha},
-          {"overscanPixels", not_compared.overscan_pixels},
-          {"mipLevels", not_compared.mip_levels}};
 }
 
 }  // namespace lobelia

@@ -1,6 +1,5 @@
 #include "core/host.hpp"
 
-#include <sys/utsname.h>
 #include <unistd.h>
 
 #include <array>
@@ -8,10 +7,8 @@
 #include <fstream>
 #include <string>
 #include <system_error>
-#include <thread>
 
 namespace lobelia {
-namespace {
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -21,20 +18,10 @@ std::string processor_name() {
   return "unknown";
 }
 
-}  // namespace
-
 std::string host_name() {
   std::array<char, 256> name{};
   ::gethostname(name.data(), name.size() - 1);
   return name.data();
-}
-
-Json host_record() {
-  utsname system{};
-  ::uname(&system);
-  return {{"processor", processor_name()},
-          {"threads", std::thread::hardware_concurrency()},
-          {"system", std::string(system.sysname) + " " + system.release + " " + system.machine}};
 }
 
 bool proc_has_our_numbers() {

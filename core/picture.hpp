@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/image.hpp"
-#include "core/record.hpp"
 
 namespace lobelia {
 
@@ -37,9 +36,5 @@ struct Picture {
   Image overscan;  ///< of the data window, where that leaves the display window; else empty
   PictureSource source;
 };
-
-Json to_json(const PixelWindow& window);
-/// An entry of a comparison's `pictures`, docs/records.md.
-Json to_json(const PictureSource& source);
 
 }  // namespace lobelia

@@ -234,4 +234,12 @@ std::string printable(std::string_view text, std::size_t max_length) {
   return result;
 }
 
+bool is_plain_name(std::string_view name) {
+  return !name.empty() && name.size() <= kMaxNameBytes && name.front() != '.' &&
+         std::ranges::all_of(name, [](char c) {
+           const auto byte = static_cast<unsigned char>(c);
+           return c != '/' && c != '\\' && byte >= 0x20 && byte != 0x7f;
+         });
+}
+
 }  // namespace lobelia

@@ -45,4 +45,9 @@ std::string printable(std::string_view text, std::size_t max_length = 80);
 /// printable() for a file's name, of which nothing is cut off.
 inline std::string printable_path(std::string_view path) { return printable(path, 1 << 14); }
 
+/// Whether a name is that of a file in a directory, and nothing else: not empty, hidden or over kMaxNameBytes, without
+/// slashes, backslashes (which browsers take for slashes) and control characters.
+inline constexpr std::size_t kMaxNameBytes = 255;
+bool is_plain_name(std::string_view name);
+
 }  // namespace lobelia

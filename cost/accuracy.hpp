@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/image.hpp"
-#include "core/record.hpp"
 #include "cost/shading_cost.hpp"
+#include "records/render.hpp"
 #include "renderer/render.hpp"
 
 namespace lobelia::cost {
@@ -79,8 +79,7 @@ Reached measure_reached(const Scene& scene, const Choice& choice, const Image& p
 
 std::string measure_text(Measure measure);  ///< "largest error of the peak"
 
-/// What docs/records.md has under "accuracy".
-Json accuracy_record(const Choice& choice, const std::optional<Reached>& reached);
+records::Accuracy accuracy_record(const Choice& choice, const std::optional<Reached>& reached);
 /// Lines for people: what was chosen and why; what was reached.
 std::string choice_text(const Choice& choice);
 std::string reached_text(const Choice& choice, const Reached& reached);

@@ -51,23 +51,21 @@ std::string measure_text(Measure measure) {
   return "largest error, of the peak";
 }
 
-Json accuracy_record(const Choice& choice, const std::optional<Reached>& reached) {
-  Json record{{"asked", choice.asked.value},
-              {"unit", choice.asked.unit == Accuracy::Unit::kCiede2000 ? "de2000" : "ofPeak"},
-              {"measure", measure_text(choice.measure)},
-              {"chose",
-               {{"lobe", choice.lobe ? Json(info(*choice.lobe).name) : Json()},
-                {"precision", name(choice.precision)},
-                {"samples", choice.samples.value_or(1)}}},
-              {"why", choice.why},
-              {"operations", {{"chosen", choice.cost}, {"ownInFloat64", choice.own_cost}}},
-              {"basis", choice.basis == Basis::kBound ? "bound" : "look"},
-              {"predicted", choice.predicted}};
+records::Accuracy accuracy_record(const Choice& choice, const std::optional<Reached>& reached) {
+  records::Accuracy record;
+  record.asked = choice.asked.value;
+  record.unit = choice.asked.unit == Accuracy::Unit::kCiede2000 ? "de2000" : "ofPeak";
+  record.measure = measure_text(choice.measure);
+  if (choice.lobe) record.chose.lobe = info(*choice.lobe).name;
+  record.chose.precision = name(choice.precision);
+  record.chose.samples = choice.samples.value_or(1);
+  record.why = choice.why;
+  record.operations = {choice.cost, choice.own_cost};
+  record.basis = choice.basis == Basis::kBound ? "bound" : "look";
+  record.predicted = choice.predicted;
   if (reached)
-    record["reached"] = {{"value", reached->value},
-                         {"held", reached->held(choice)},
-                         {"against", reached->against},
-                         {"seconds", reached->seconds}};
+    record.reached = records::AccuracyReached{reached->value, reached->held(choice),
+                                              reached->against, reached->seconds};
   return record;
 }
 

@@ -16,6 +16,7 @@
 #include "cost/pareto.hpp"
 #include "cost/report.hpp"
 #include "renderer/render.hpp"
+#include "renderer/render_record.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -74,19 +75,12 @@ std::uint64_t rays(const Work& work) {
   return work.camera_rays + work.shadow_rays + work.mirror_rays + work.scattered_rays;
 }
 
-Json rays_json(const Work& work) {
-  return {{"camera", work.camera_rays},
-          {"shadow", work.shadow_rays},
-          {"mirror", work.mirror_rays},
-          {"scattered", work.scattered_rays}};
-}
-
-Json effects_json(const RenderResult& result) {
-  Json work = Json::object();
+records::Named<records::Work> effects_record(const RenderResult& result) {
+  records::Named<records::Work> work;
   for (std::size_t i = 0; i < result.plan.effects.size(); ++i)
-    if (result.plan.effects[i].on)
-      work[std::string(result.plan.effects[i].name)] = {{"unit", result.plan.effects[i].work},
-                                                        {"count", result.work.of_effect[i]}};
+    if (const EffectDecision& effect = result.plan.effects[i]; effect.on)
+      work.emplace_back(effect.name,
+                        records::Work{std::string(effect.work), result.work.of_effect[i]});
   return work;
 }
 
@@ -143,10 +137,11 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
     way.time = times[i];
     way.errors = {comparison.value("ciede2000.p99"), comparison.value("ciede2000.mean"),
                   comparison.value("flip.ldr.mean")};
-    way.facts = {{"rays", rays_json(one.result.work)},
-                 {"raysSaved", double(rays(cases[0].result.work)) - double(rays(one.result.work))},
-                 {"secondsSaved", times[0].median - times[i].median},
-                 {"work", effects_json(one.result)}};
+    records::CostFacts& facts = way.facts.emplace();
+    facts.rays = rays_record(one.result.work);
+    facts.rays_saved = double(rays(cases[0].result.work)) - double(rays(one.result.work));
+    facts.seconds_saved = times[0].median - times[i].median;
+    facts.work = effects_record(one.result);
     table.ways.push_back(std::move(way));
     if (!one.effect.empty())
       table.remarks.push_back(price(table.ways.back(), table.ways[0], one, cases[0]));

@@ -20,6 +20,7 @@
 #include "cost/engine_program.hpp"
 #include "cost/film_size.hpp"
 #include "cost/report.hpp"
+#include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -34,7 +35,7 @@ constexpr std::array kStages = {"start", "parse", "trace", "write"};
 struct Made {
   Image image;
   double seconds = 0;
-  Json stages = Json::object();
+  records::Named<double> stages = {};
 };
 
 struct Contender {
@@ -46,9 +47,9 @@ struct Contender {
   std::map<std::string, std::vector<double>> stages = {};
 };
 
-/// A command of ours as a process, from its start to OUT.exr on the disk; `took` are its record's seconds.
+/// A command of ours as a process, from its start to KIND.exr and KIND.json in `directory`.
 Made run_lobelia(const std::filesystem::path& program, std::vector<std::string> arguments,
-                 const std::string& kind, const std::filesystem::path& directory, Json& took) {
+                 const std::string& kind, const std::filesystem::path& directory) {
   const auto picture = directory / (kind + ".exr");
   arguments.insert(arguments.begin(), program.string());
   arguments.insert(arguments.end(), {"-q", "-o", picture.string()});
@@ -57,19 +58,17 @@ Made run_lobelia(const std::filesystem::path& program, std::vector<std::string> 
   if (ended.exit_code != 0)
     throw Error(ExitCode::kEngine,
                 fmt::format("lobelia {} failed: {}", arguments[1], last_words(ended.output_tail)));
-  took = read_record(directory / (kind + ".json"), kind).at("seconds");
-  return {read_image(picture), ended.seconds, Json::object()};
+  return {read_image(picture), ended.seconds};
 }
 
 Made make_ours(const std::filesystem::path& program, const std::filesystem::path& directory) {
-  Json took;
-  Made made = run_lobelia(program, {"render", (directory / "scene.xml").string()}, "render",
-                          directory, took);
-  const auto seconds = [&](const char* stage) { return took.at(stage).get<double>(); };
-  const double write = seconds("pack") + seconds("write");
-  const double trace = seconds("total") - seconds("pack");
-  made.stages = {{"start", made.seconds - seconds("read") - trace - write},
-                 {"parse", seconds("read")},
+  Made made =
+      run_lobelia(program, {"render", (directory / "scene.xml").string()}, "render", directory);
+  const auto took = records::read_record<records::Render>(directory / "render.json").seconds;
+  const double read = *took.read, write = *took.pack + *took.write;
+  const double trace = took.total - *took.pack;
+  made.stages = {{"start", made.seconds - read - trace - write},
+                 {"parse", read},
                  {"trace", trace},
                  {"write", write}};
   return made;
@@ -78,11 +77,11 @@ Made make_ours(const std::filesystem::path& program, const std::filesystem::path
 /// An engine that is part of our program.
 Made make_built_in(const std::filesystem::path& program, std::string_view engine,
                    const std::filesystem::path& directory) {
-  Json took;
   Made made = run_lobelia(
       program, {"reference", (directory / "scene.xml").string(), "--engine", std::string(engine)},
-      "reference", directory, took);
-  made.stages = {{"trace", took.at("total")}};
+      "reference", directory);
+  const auto record = records::read_record<records::Reference>(directory / "reference.json");
+  made.stages = {{"trace", record.seconds.total}};
   return made;
 }
 
@@ -94,9 +93,12 @@ Made make_theirs(Engine& engine, const Scene& scene, const ReferenceOptions& opt
     engine.render(std::span(&scene, 1), options, [&](std::size_t, ReferenceResult result) {
       error = result.error;
       made.image = std::move(result.image);
-      for (const char* stage : kStages)
-        if (result.record.contains("seconds") && result.record["seconds"].contains(stage))
-          made.stages[stage] = result.record["seconds"][stage];
+      const records::EngineSeconds& took = result.record.seconds;
+      for (const auto& [stage, seconds] : {std::pair("start", took.start),
+                                           {"parse", took.parse},
+                                           {"trace", took.trace},
+                                           {"write", took.write}})
+        if (seconds) made.stages.emplace_back(stage, *seconds);
     });
   });
   if (!error.empty()) throw Error(ExitCode::kEngine, error);
@@ -166,9 +168,10 @@ Way way_of(Contender& one, const Image& truth, const std::vector<std::uint8_t>& 
   way.settings = one.settings;
   way.time = summary(one.seconds);
   way.errors = {comparison.value("max_rel_peak"), comparison.value("ciede2000.p99")};
-  Json stages = Json::object();
-  for (const auto& [stage, seconds] : one.stages) stages[stage] = summary(seconds).median;
-  if (!stages.empty()) way.facts = {{"stageSeconds", stages}};
+  records::Named<double> stages;
+  for (const auto& [stage, seconds] : one.stages)
+    stages.emplace_back(stage, summary(seconds).median);
+  if (!stages.empty()) way.facts.emplace().stage_seconds = std::move(stages);
   return way;
 }
 
@@ -176,12 +179,11 @@ Way way_of(Contender& one, const Image& truth, const std::vector<std::uint8_t>& 
 std::string stages_text(const Way& way) {
   std::string text;
   double told = 0;
-  const Json stages = way.facts.value("stageSeconds", Json::object());
+  const auto stages = way.facts ? way.facts->stage_seconds : std::nullopt;
   for (const char* stage : kStages)
-    if (stages.contains(stage)) {
-      const double seconds = stages[stage].get<double>();
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", stage, short_time_text(seconds));
-      told += seconds;
+    if (const double* seconds = stages ? records::find(*stages, stage) : nullptr) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", stage, short_time_text(*seconds));
+      told += *seconds;
     }
   if (text.empty())
     return fmt::format("{}: {}, not told apart", way.name, short_time_text(way.time.median));
@@ -222,8 +224,7 @@ Table measure_scene(const NamedScene& named, const Options& options) {
           fmt::format("{}: round {} of {}, {}", named.name, round + 1, rounds, one.name));
       one.last = one.make();
       one.seconds.push_back(one.last.seconds);
-      for (const auto& [stage, seconds] : one.last.stages.items())
-        one.stages[stage].push_back(seconds.get<double>());
+      for (const auto& [stage, seconds] : one.last.stages) one.stages[stage].push_back(seconds);
     }
 
   ComparisonOptions seen;

@@ -69,17 +69,14 @@ Way row(const Circuit& circuit, const CircuitErrors& e) {
   const std::string rounding(name(circuit.f.rounding));
   Times count;
   count.least = count.median = count.most = circuit.operations;
-  Way way{
-      fmt::format("{}, {} bits, {}", circuit.what, circuit.f.bits, rounding),
-      {{"lobe", circuit.what}, {"bits", std::to_string(circuit.f.bits)}, {"rounding", rounding}},
-      count,
-      {e.max, e.rms, e.energy},
-      {},
-      {{"shape", e.shape},
-       {"rounding", e.rounding},
-       {"quantisation", e.quantisation},
-       {"steps", e.steps},
-       {"stepsLookedAt", e.looked_at}}};
+  Way way;
+  way.name = fmt::format("{}, {} bits, {}", circuit.what, circuit.f.bits, rounding);
+  way.settings = {
+      {"lobe", circuit.what}, {"bits", std::to_string(circuit.f.bits)}, {"rounding", rounding}};
+  way.time = count;
+  way.errors = {e.max, e.rms, e.energy};
+  way.facts.emplace().circuit = records::CircuitErrors{
+      e.shape, e.rounding, e.quantisation, std::size_t(e.steps), std::size_t(e.looked_at)};
   if (e.looked_at < e.steps) {
     way.errors_at_most = {e.max_at_most, NAN, NAN};
     way.error_spreads = {0, e.rms_spread, e.energy_spread};

@@ -96,32 +96,28 @@ void check(const LobeWay& way, double exponent, const Points& points) {
   }
 }
 
-Json to_json(const LobeErrors& errors) {
-  return {{"max", errors.max}, {"rms", errors.rms}, {"energy", errors.energy}};
-}
-
-Json rounding_json(const LobeWay& way, const LobeErrors& errors) {
-  Json json = to_json(errors);
-  json["maxAtMost"] = way.allowed;
-  return json;
+records::LobeErrors errors_record(const LobeErrors& errors) {
+  return {errors.max, errors.rms, errors.energy, std::nullopt};
 }
 
 Way row(const LobeWay& way, const LobeWayErrors& errors, const LargestError& largest,
         const Times& times) {
-  return {way.name(),
-          {{"lobe", std::string(info(way.lobe).name)},
-           {"method", way.method},
-           {"precision", way.wide ? "float64" : "float32"},
-           {"lanes", way.simd ? "SIMD" : "scalar"}},
-          times,
-          {largest.found, errors.all.rms, errors.all.energy},
-          {},
-          {{"operations", lobelia::to_json(way.operations)},
-           {"shape", to_json(errors.shape)},
-           {"rounding", rounding_json(way, errors.rounding)},
-           {"numbersLookedAt", largest.numbers}},
-          largest.at_most > largest.found ? std::vector<double>{largest.at_most, NAN, NAN}
-                                          : std::vector<double>{}};
+  Way made;
+  made.name = way.name();
+  made.settings = {{"lobe", std::string(info(way.lobe).name)},
+                   {"method", way.method},
+                   {"precision", way.wide ? "float64" : "float32"},
+                   {"lanes", way.simd ? "SIMD" : "scalar"}};
+  made.time = times;
+  made.errors = {largest.found, errors.all.rms, errors.all.energy};
+  records::CostFacts& facts = made.facts.emplace();
+  facts.operations = operations_record(way.operations);
+  facts.shape = errors_record(errors.shape);
+  facts.rounding = errors_record(errors.rounding);
+  facts.rounding->max_at_most = way.allowed;
+  facts.numbers_looked_at = largest.numbers;
+  if (largest.at_most > largest.found) made.errors_at_most = {largest.at_most, NAN, NAN};
+  return made;
 }
 
 /// Whether its shape or its rounding makes more of a way's largest error.

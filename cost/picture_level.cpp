@@ -15,6 +15,7 @@
 #include "cost/picture_truth.hpp"
 #include "cost/shading_cost.hpp"
 #include "renderer/render.hpp"
+#include "renderer/render_record.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -57,8 +58,7 @@ std::string order_remark(const std::vector<Way>& ways) {
       const int slower = clearly_slower(ways[i], ways[j]);
       if (slower == 0) continue;
       ++clear;
-      const double predicted = ways[j].facts["predictedCost"].get<double>() -
-                               ways[i].facts["predictedCost"].get<double>();
+      const double predicted = *ways[j].facts->predicted_cost - *ways[i].facts->predicted_cost;
       if (predicted * slower >= 0) continue;
       ++reversed;
       const double ratio = ways[i].time.median / ways[j].time.median;
@@ -116,20 +116,17 @@ Table table_of(const NamedScene& named, const Options& options) {
       return measure_at_peak(metric, c.first, truth.image);
     };
     const std::string lobe(info(c.lobe).name), precision(name(c.precision));
-    table.ways.push_back(
-        {fmt::format("{}, {}", lobe, precision),
-         {{"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.samples)}},
-         per(summary(std::move(c.seconds)), megapixels),
-         {error("ciede2000.p99"), error("flip.ldr.mean"), error("max_rel_peak")},
-         {},
-         {{"samples", c.samples},
-          {"kernel", c.kernel},
-          {"predictedCost", shading_cost(c.lobe, c.precision)},
-          {"rays",
-           {{"camera", c.work.camera_rays},
-            {"shadow", c.work.shadow_rays},
-            {"mirror", c.work.mirror_rays},
-            {"scattered", c.work.scattered_rays}}}}});
+    Way& way = table.ways.emplace_back();
+    way.name = fmt::format("{}, {}", lobe, precision);
+    way.settings = {
+        {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.samples)}};
+    way.time = per(summary(std::move(c.seconds)), megapixels);
+    way.errors = {error("ciede2000.p99"), error("flip.ldr.mean"), error("max_rel_peak")};
+    records::CostFacts& facts = way.facts.emplace();
+    facts.samples = c.samples;
+    facts.kernel = c.kernel;
+    facts.predicted_cost = shading_cost(c.lobe, c.precision);
+    facts.rays = rays_record(c.work);
   }
   if (scene.sampler.sample_count > 1)
     table.remarks.push_back(

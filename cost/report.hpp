@@ -8,8 +8,7 @@
 
 namespace lobelia::cost {
 
-/// docs/records.md, kind cost.
-Json cost_record(const Report& report);
+records::Cost cost_record(const Report& report);
 
 /// A line for each way and error.
 std::string cost_csv(const Report& report);

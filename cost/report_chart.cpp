@@ -5,6 +5,7 @@
 #include "core/files.hpp"
 #include "cost/pareto.hpp"
 #include "cost/report.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::cost {
 
@@ -33,7 +34,7 @@ void write_cost(const Report& report, const std::filesystem::path& directory) {
     for (std::size_t e = 0; e < table.errors.size(); ++e)
       write_file(directory / (table.id + "-" + table.errors[e].id + ".svg"), cost_chart(table, e));
   write_file(directory / "cost.csv", cost_csv(report));
-  write_record(directory / "cost.json", cost_record(report));
+  records::write_record(directory / "cost.json", cost_record(report));
 }
 
 }  // namespace lobelia::cost

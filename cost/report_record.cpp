@@ -11,62 +11,66 @@
 namespace lobelia::cost {
 namespace {
 
-Json way_json(const Table& table, const Way& way) {
-  Json entry = {{"name", way.name}, {"settings", Json::object()}, {"errors", Json::object()}};
-  if (table.is_timed())
-    entry["seconds"] = {{"median", way.time.median},
-                        {"spread", way.time.spread},
-                        {"least", way.time.least},
-                        {"most", way.time.most},
-                        {"rounds", way.time.rounds}};
-  else
-    entry["count"] = way.time.median;
-  for (const auto& [key, value] : way.settings) entry["settings"][key] = value;
+/// A value for each kind of error of the table.
+records::Named<double> by_error(const Table& table, const std::vector<double>& values) {
+  records::Named<double> named;
   for (std::size_t e = 0; e < table.errors.size(); ++e)
-    entry["errors"][table.errors[e].id] = number_or_name(way.errors[e]);
-  if (!way.error_spreads.empty()) {
-    entry["errorSpreads"] = Json::object();
-    for (std::size_t e = 0; e < table.errors.size(); ++e)
-      entry["errorSpreads"][table.errors[e].id] = number_or_name(way.error_spreads[e]);
-  }
-  for (std::size_t e = 0; e < way.errors_at_most.size(); ++e)
-    if (!std::isnan(way.errors_at_most[e]))
-      entry["errorsAtMost"][table.errors[e].id] = way.errors_at_most[e];
-  if (!way.facts.empty()) entry["facts"] = way.facts;
-  return entry;
+    named.emplace_back(table.errors[e].id, values[e]);
+  return named;
 }
 
-Json table_json(const Table& table) {
-  Json entry = {{"id", table.id},        {"level", table.level},     {"title", table.title},
-                {"unit", table.unit},    {"per", table.per},         {"errors", Json::array()},
-                {"ways", Json::array()}, {"fronts", Json::object()}, {"remarks", table.remarks}};
-  for (const ErrorKind& kind : table.errors)
-    entry["errors"].push_back({{"id", kind.id}, {"meaning", kind.meaning}});
-  for (const Way& way : table.ways) entry["ways"].push_back(way_json(table, way));
-  for (std::size_t e = 0; e < table.errors.size(); ++e) {
-    Json names = Json::array(), by = Json::object();
-    const Front front = pareto_front(table, e);
-    for (const std::size_t i : front.ways) names.push_back(table.ways[i].name);
-    for (std::size_t i = 0; i < table.ways.size(); ++i)
-      if (front.dominated_by[i] != kNone)
-        by[table.ways[i].name] = table.ways[front.dominated_by[i]].name;
-    entry["fronts"][table.errors[e].id] = {{"ways", names},
-                                           {"dominatedBy", by},
-                                           {"inWords", front_sentences(table, e)},
-                                           {"chart", table.id + "-" + table.errors[e].id + ".svg"}};
-  }
-  return entry;
+records::CostWay way_record(const Table& table, const Way& way) {
+  records::CostWay record;
+  record.name = way.name;
+  record.settings = way.settings;
+  record.errors = by_error(table, way.errors);
+  if (table.is_timed())
+    record.seconds = records::CostSeconds{way.time.median, way.time.spread, way.time.least,
+                                          way.time.most, way.time.rounds};
+  else
+    record.count = way.time.median;
+  if (!way.error_spreads.empty()) record.error_spreads = by_error(table, way.error_spreads);
+  records::Named<double> at_most;
+  for (std::size_t e = 0; e < way.errors_at_most.size(); ++e)
+    if (!std::isnan(way.errors_at_most[e]))
+      at_most.emplace_back(table.errors[e].id, way.errors_at_most[e]);
+  if (!at_most.empty()) record.errors_at_most = std::move(at_most);
+  record.facts = way.facts;
+  return record;
+}
+
+records::CostFront front_record(const Table& table, std::size_t error) {
+  const Front front = pareto_front(table, error);
+  records::CostFront record;
+  for (const std::size_t i : front.ways) record.ways.push_back(table.ways[i].name);
+  for (std::size_t i = 0; i < table.ways.size(); ++i)
+    if (front.dominated_by[i] != kNone)
+      record.dominated_by.emplace_back(table.ways[i].name, table.ways[front.dominated_by[i]].name);
+  record.in_words = front_sentences(table, error);
+  record.chart = table.id + "-" + table.errors[error].id + ".svg";
+  return record;
+}
+
+records::CostTable table_record(const Table& table) {
+  records::CostTable record;
+  record.id = table.id;
+  record.level = table.level;
+  record.title = table.title;
+  record.unit = table.unit;
+  record.per = table.per;
+  for (const ErrorKind& kind : table.errors) record.errors.push_back({kind.id, kind.meaning});
+  for (const Way& way : table.ways) record.ways.push_back(way_record(table, way));
+  for (std::size_t e = 0; e < table.errors.size(); ++e)
+    record.fronts.emplace_back(table.errors[e].id, front_record(table, e));
+  record.remarks = table.remarks;
+  return record;
 }
 
 }  // namespace
 
-Json cost_record(const Report& report) {
-  Json record = make_record("cost");
-  record["command"] = report.command;
-  record["host"] = report.host;
-  record["instructionSet"] = report.instruction_set;
-  record["tables"] = Json::array();
-  for (const Table& table : report.tables) record["tables"].push_back(table_json(table));
+records::Cost cost_record(const Report& report) {
+  records::Cost record{report.command, report.host, report.instruction_set, {}};
+  for (const Table& table : report.tables) record.tables.push_back(table_record(table));
   return record;
 }
 

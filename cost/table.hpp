@@ -1,12 +1,13 @@
 // What accuracy costs: ways of making one thing, each with its time and its errors, measured in one run.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/record.hpp"
 #include "core/timing.hpp"
+#include "records/cost.hpp"
 
 namespace lobelia::cost {
 
@@ -18,8 +19,8 @@ struct Way {
   Times time;                  ///< of one of what the table counts, in its unit: seconds
   std::vector<double> errors;  ///< by the table's errors, not negative; NaN where not known
   std::vector<double>
-      error_spreads;            ///< standard deviations over repeats; empty where nothing is random
-  Json facts = Json::object();  ///< whatever else was counted: operations, rays, stages of time
+      error_spreads;  ///< standard deviations over repeats; empty where nothing is random
+  std::optional<records::CostFacts> facts = {};  ///< what else was counted
   /// Bounds of errors that are the largest of what was looked at; NaN or empty where an error is what it says.
   std::vector<double> errors_at_most = {};
   double setting(const std::string& name) const;  ///< as a number; NaN without
@@ -45,7 +46,7 @@ struct Table {
 
 struct Report {
   std::vector<std::string> command;
-  Json host;  ///< host_record()
+  records::Host host;
   std::string instruction_set;
   std::vector<Table> tables;
 };

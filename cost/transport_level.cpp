@@ -22,6 +22,7 @@
 #include "cost/transport/scenes.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
+#include "renderer/render_record.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -59,7 +60,7 @@ struct Converged {
 struct Point {
   int samples = 1;
   std::vector<double> seconds, errors;  ///< by seed; errors are root mean squares
-  Json facts = Json::object();
+  records::CostFacts facts;
 };
 
 /// One way to draw samples, by one engine.
@@ -87,12 +88,7 @@ void measure_ours(const Scene& scene, int seed, const Converged& truth, Directio
     const Timed timed = render_timed(scene, point.samples, std::uint64_t(seed), how);
     point.seconds.push_back(timed.seconds);
     point.errors.push_back(rms_of_difference(timed.result.image, truth.image));
-    const Work& work = timed.result.work;
-    point.facts = {{"rays",
-                    {{"camera", work.camera_rays},
-                     {"shadow", work.shadow_rays},
-                     {"mirror", work.mirror_rays},
-                     {"scattered", work.scattered_rays}}}};
+    point.facts.rays = rays_record(timed.result.work);
   }
 }
 
@@ -112,7 +108,7 @@ void measure_cycles(const std::filesystem::path& blender, const Scene& scene,
     require_picture(pictures[i].image, "Cycles");
     point.seconds.push_back(pictures[i].seconds);
     point.errors.push_back(rms_of_difference(pictures[i].image, truth.image));
-    point.facts = {{"secondsOfTinyCall", pictures[1].seconds}};
+    point.facts.seconds_of_tiny_call = pictures[1].seconds;
   }
 }
 

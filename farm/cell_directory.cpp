@@ -14,9 +14,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/removal.hpp"
-#include "core/seal.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -105,39 +105,31 @@ Removal removal_from(const HeldDirectory& directory) {
                   }});
 }
 
-std::optional<Json> read_cell_record(const fs::path& directory) {
+std::optional<records::Cell> read_cell_record(const fs::path& directory) {
   if (::access((directory / kRecordFile).c_str(), F_OK) != 0) return std::nullopt;
   try {
-    return read_record(directory / kRecordFile, "cell");
+    return records::read_record<records::Cell>(directory / kRecordFile);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;
     return std::nullopt;
   }
 }
 
-/// The hash of one of a result's files, as its record has it.
-std::string hash_of(const Json& record, const std::string& name) {
-  for (const auto& file : record.at("files"))
-    if (file.at("name") == name) return file.at("sha256");
-  return "";
-}
-
 /// Every file of the results with its hash, by which a gallery knows it again.
-Json files_of(const CellRecords& records) {
-  Json files = Json::array();
+std::vector<records::CellFile> files_of(const CellRecords& records) {
+  std::vector<records::CellFile> files;
   for (const auto& record : records) {
     if (!record) continue;
-    for (const auto& file : record->at("files"))
-      files.push_back({{"name", file.at("name")}, {"sha256", file.at("sha256")}});
+    for (const auto& file : record->files) files.push_back({file.name, file.sha256});
   }
   return files;
 }
 
 /// A comparison or a profile is of the very pictures that are there now, not of ones that have been made again.
-bool is_of(const Json& record, const CellRecords& records, const JobGraph& graph,
+bool is_of(const records::Result& record, const CellRecords& records, const JobGraph& graph,
            std::size_t cell) {
-  for (const auto& [engine, hash] : record.at("from").items()) {
-    const Json* picture = nullptr;
+  for (const auto& [engine, hash] : *record.from) {
+    const records::Result* picture = nullptr;
     if (engine == kOurs) {
       if (records[0]) picture = &*records[0];
     } else {
@@ -146,7 +138,7 @@ bool is_of(const Json& record, const CellRecords& records, const JobGraph& graph
           if (const auto& found = records[graph.reference(cell, e) - graph.render(cell)])
             picture = &*found;
     }
-    if (!picture || hash_of(*picture, picture_file(engine)) != hash) return false;
+    if (!picture || picture->hash_of(picture_file(engine)) != hash) return false;
   }
   return true;
 }
@@ -189,8 +181,7 @@ CellRecords find_records(const ResultCache& cache, const JobGraph& graph, std::s
     if (!jobs[slot].exists) continue;
     std::string why;
     records[slot] = cache.find(jobs[slot].key, ResultCache::Look::kQuick, why);
-    if (records[slot] && records[slot]->contains("from") &&
-        !is_of(*records[slot], records, graph, cell)) {
+    if (records[slot] && records[slot]->from && !is_of(*records[slot], records, graph, cell)) {
       records[slot].reset();
       why = "its pictures are made again";
     }
@@ -214,25 +205,24 @@ HeldDirectory CellDirectory::held() const {
       .below(directory_.filename().string(), kCross);
 }
 
-Json CellDirectory::results(const CellRecords& records) const {
-  Json found = Json::object();
+records::Named<std::string> CellDirectory::results(const CellRecords& records) const {
+  records::Named<std::string> found;
   const std::size_t prefix = graph_->cells().cells[cell_].id.size() + 1;
   for (std::size_t slot = 0; slot < records.size(); ++slot)
     if (records[slot])
-      found[graph_->name(JobIndex(graph_->render(cell_) + slot)).substr(prefix)] =
-          records[slot]->at("key");
+      found.emplace_back(graph_->name(JobIndex(graph_->render(cell_) + slot)).substr(prefix),
+                         records[slot]->key);
   return found;
 }
 
-Json CellDirectory::made_from() const {
-  Json made_from;
+records::MadeFrom CellDirectory::made_from() const {
+  records::MadeFrom made_from;
   own_identity().put_into(made_from);
-  made_from["scene"] = graph_->scene_hash(cell_);
-  made_from["engines"] = made_from["contents"] = Json::object();
+  made_from.scene = graph_->scene_hash(cell_);
   for (const auto& here : graph_->engines()) {
     if (!here.is_known()) continue;
-    made_from["engines"][here.name] = here.version;
-    if (!here.content.empty()) made_from["contents"][here.name] = here.content;
+    made_from.engines.emplace_back(here.name, here.version);
+    if (!here.content.empty()) made_from.contents.emplace_back(here.name, here.content);
   }
   return made_from;
 }
@@ -241,24 +231,17 @@ std::string CellDirectory::current_status(const ResultCache& cache,
                                           const CellRecords& records) const {
   const auto record = held() ? read_cell_record(directory_) : std::nullopt;
   if (!record) return "";
-  try {
-    if (!record->at("problems").empty() || record->at("results") != results(records) ||
-        record->at("madeFrom") != made_from() || record->at("files") != files_of(records) ||
-        record->at("seal") != seal_of(*record))
-      return "";
-    for (std::size_t slot = 0; slot < records.size(); ++slot) {
-      if (!records[slot]) continue;
-      const fs::path cached =
-          cache.result_directory((*graph_)[JobIndex(graph_->render(cell_) + slot)].key);
-      for (const auto& file : records[slot]->at("files")) {
-        const std::string name = file.at("name");
-        if (!is_same_file(cached / name, directory_ / name)) return "";
-      }
-    }
-    return record->at("status").get<std::string>();
-  } catch (const Json::exception&) {
-    return "";  // not a record that we wrote
+  if (!record->problems.empty() || record->results != results(records) ||
+      record->made_from != made_from() || record->files != files_of(records))
+    return "";
+  for (std::size_t slot = 0; slot < records.size(); ++slot) {
+    if (!records[slot]) continue;
+    const fs::path cached =
+        cache.result_directory((*graph_)[JobIndex(graph_->render(cell_) + slot)].key);
+    for (const auto& file : records[slot]->files)
+      if (!is_same_file(cached / file.name, directory_ / file.name)) return "";
   }
+  return record->status;
 }
 
 void CellDirectory::remove_abandoned() const {
@@ -267,7 +250,6 @@ void CellDirectory::remove_abandoned() const {
 
 std::string CellDirectory::write(const ResultCache& cache, const CellRecords& records,
                                  const std::vector<CellProblem>& problems) const {
-  const Cell& cell = graph_->cells().cells[cell_];
   make_directories(farm_directory_);
   const auto border = HeldDirectory::Border::kCross;
   const HeldDirectory directory = HeldDirectory(farm_directory_)
@@ -284,8 +266,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     const Job& job = graph_->of_cell(cell_)[slot];
     complete = complete && (!job.exists || records[slot]);
     if (!records[slot]) continue;
-    for (const auto& file : records[slot]->at("files")) {
-      const std::string name = file.at("name");
+    for (const auto& [name, bytes, sha256, modified] : records[slot]->files) {
       if (removal.directory(name)) removal.remove(name);  // if it is empty
       place_file(cache.file(job.key, name), directory, name);
       foreign.erase(name);
@@ -293,8 +274,9 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
   }
   for (const auto& problem : problems) {
     if (problem.log.empty()) continue;
-    place_file(problem.log, directory, problem.engine + ".log");
-    foreign.erase(problem.engine + ".log");
+    const std::string log = problem.record.engine + ".log";
+    place_file(problem.log, directory, log);
+    foreign.erase(log);
   }
   // What an engine made that is absent now could not be made again.
   for (const auto& engine : graph_->engines())
@@ -302,67 +284,59 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
       for (const auto& name : names_of(engine.name)) foreign.erase(name);
   for (const auto& name : foreign) removal.remove(name);
 
-  Json record = make_record("cell");
-  record["id"] = cell.id;
-  record["axes"] = Json::object();
-  for (const auto& [name, value] : cell.axes) record["axes"][name] = value;
-  record["status"] = "";  // keeps its place near the top
-  const auto& ours = records[0];
-  if (ours && ours->contains("highlight")) record["highlight"] = ours->at("highlight");
-  if (ours) record["exposureStops"] = ours->at("exposureStops");
-  record["images"] = Json::array();
-  record["comparisons"] = Json::array();
-  Json not_comparable = Json::array();
-  const auto add_image = [&](const std::string& engine, const Json& result, bool shown) {
-    Json image{{"engine", engine}, {"exr", picture_file(engine)}};
-    if (shown) image["png"] = engine + ".png";
-    image["record"] = engine + ".json";
-    image["sha256"] = hash_of(result, picture_file(engine));
-    record["images"].push_back(std::move(image));
+  records::Cell record = cell_record(records);
+  for (const auto& problem : problems) record.problems.push_back(problem.record);
+  if (!problems.empty())
+    record.status = "failed";
+  else if (!complete)
+    record.status = "missing";
+  records::write_record(directory_ / kRecordFile, record, AtLink::kReplace);
+  return record.status;
+}
+
+records::Cell CellDirectory::cell_record(const CellRecords& records) const {
+  const Cell& cell = graph_->cells().cells[cell_];
+  records::Cell record;
+  record.id = cell.id;
+  for (const auto& [name, value] : cell.axes) record.axes.emplace_back(name, value);
+  const auto add_image = [&](const std::string& engine, const records::Result& result) {
+    const std::string file = picture_file(engine);
+    record.images.push_back(
+        {engine, file, engine + ".png", engine + ".json", result.hash_of(file)});
   };
-  if (ours) add_image(kOurs, *ours, true);
+  if (const auto& ours = records[0]) {
+    record.highlight = ours->highlight;
+    record.exposure_stops = ours->exposure_stops;
+    add_image(kOurs, *ours);
+  }
   bool judged = false;
   std::string worst = "pass";
   for (std::size_t e = 0; e < graph_->engines().size(); ++e) {
     const std::string& engine = graph_->engines()[e].name;
     if (std::string why = graph_->refusal(cell_, e); !why.empty())
-      not_comparable.push_back({{"engine", engine}, {"because", std::move(why)}});
+      record.not_comparable.push_back({engine, std::move(why)});
     const auto& reference = records[graph_->reference(cell_, e) - graph_->render(cell_)];
     const auto& compared = records[graph_->compare(cell_, e) - graph_->render(cell_)];
     if (!reference || !compared) continue;
-    add_image(engine, *reference, true);
-    if (compared->contains("notComparable")) {
-      not_comparable.push_back({{"engine", engine}, {"because", compared->at("notComparable")}});
+    add_image(engine, *reference);
+    if (!compared->entry) {
+      record.not_comparable.push_back({engine, compared->not_comparable});
       continue;
     }
-    record["comparisons"].push_back(compared->at("entry"));
+    record.comparisons.push_back(*compared->entry);
     judged = true;
-    const std::string verdict = compared->at("verdict");
+    const std::string& verdict = compared->verdict;
     if (verdict == "undecided" && worst == "pass") worst = "undecided";
     if (verdict != "undecided" && verdict != "pass" && verdict != "same") worst = "differs";
   }
-  if (records.back()) record["profile"] = "profile.json";
-  record["notComparable"] = std::move(not_comparable);
+  record.status = judged ? worst : "unchecked";
+  if (records.back()) record.profile = "profile.json";
   for (const std::size_t e : graph_->missing_engines(cell_))
-    record["missingEngines"].push_back(graph_->engines()[e].name);
-  record["problems"] = Json::array();
-  for (const auto& problem : problems)
-    record["problems"].push_back({{"engine", problem.engine},
-                                  {"message", problem.message},
-                                  {"failure", problem.failure},
-                                  {"attempts", problem.attempts}});
-  record["madeFrom"] = made_from();
-  record["results"] = results(records);
-  const std::string status = !problems.empty() ? "failed"
-                             : !complete       ? "missing"
-                             : judged          ? worst
-                                               : "unchecked";
-  record["status"] = status;
-  record["files"] = files_of(records);
-  record = Json::parse(record_text(record));  // as whoever checks the seal reads it
-  record["seal"] = seal_of(record);
-  write_record(directory_ / kRecordFile, record, AtLink::kReplace);
-  return status;
+    record.missing_engines.push_back(graph_->engines()[e].name);
+  record.made_from = made_from();
+  record.results = results(records);
+  record.files = files_of(records);
+  return record;
 }
 
 void CellDirectory::forget() const {
@@ -373,36 +347,32 @@ std::string CellDirectory::reason(JobIndex job) const {
   if (!before_) before_ = read_cell_record(directory_);
   const auto& record = *before_;
   const Job& wanted = (*graph_)[job];
-  if (!record || !record->contains("madeFrom")) return "missing";
-  try {
-    const Json& before = record->at("madeFrom");
-    if (before.at("scene") != graph_->scene_hash(cell_)) return "scene changed";
-    const auto engine_reason = [&](std::size_t e) -> std::string {
-      const FarmEngine& here = graph_->engines()[e];
-      if (!before.at("engines").contains(here.name)) return "";
-      const std::string was = before.at("engines").at(here.name);
-      if (was != here.version)
-        return fmt::format("engine version changed: {}, was {}", here.version, was);
-      return before.at("contents").value(here.name, "") == here.content
-                 ? ""
-                 : fmt::format("engine changed under the same version {}", was);
-    };
-    if (wanted.engine != kNoEngine)
-      if (std::string changed = engine_reason(wanted.engine); !changed.empty()) return changed;
-    if (wanted.kind == JobKind::kProfile)
-      for (std::size_t e = 0; e < graph_->engines().size(); ++e)
-        if (std::string changed = engine_reason(e); !changed.empty()) return changed;
-    const OwnIdentity& own = own_identity();
-    if (before.at("program") != own.program) return "program changed";
-    const OwnIdentity was = OwnIdentity::of_record(before);
-    if (was.libraries != own.libraries) return "libraries changed";
-    if (was.arithmetic != own.arithmetic) return "arithmetic differs";
-    const std::string name = graph_->name(job).substr(graph_->cells().cells[cell_].id.size() + 1);
-    if (record->at("results").contains(name) && record->at("results").at(name) == wanted.key.text())
-      return "lost from the cache";
-  } catch (const Json::exception&) {
-  }
-  return "missing";
+  if (!record) return "missing";
+  const records::MadeFrom& before = record->made_from;
+  if (before.scene != graph_->scene_hash(cell_)) return "scene changed";
+  const auto engine_reason = [&](std::size_t e) -> std::string {
+    const FarmEngine& here = graph_->engines()[e];
+    const std::string* was = records::find(before.engines, here.name);
+    if (!was) return "";
+    if (*was != here.version)
+      return fmt::format("engine version changed: {}, was {}", here.version, *was);
+    const std::string* content = records::find(before.contents, here.name);
+    return (content ? *content : "") == here.content
+               ? ""
+               : fmt::format("engine changed under the same version {}", *was);
+  };
+  if (wanted.engine != kNoEngine)
+    if (std::string changed = engine_reason(wanted.engine); !changed.empty()) return changed;
+  if (wanted.kind == JobKind::kProfile)
+    for (std::size_t e = 0; e < graph_->engines().size(); ++e)
+      if (std::string changed = engine_reason(e); !changed.empty()) return changed;
+  const OwnIdentity& own = own_identity();
+  if (before.program != own.program) return "program changed";
+  if (before.libraries != own.libraries) return "libraries changed";
+  if (before.arithmetic != own.arithmetic) return "arithmetic differs";
+  const std::string name = graph_->name(job).substr(graph_->cells().cells[cell_].id.size() + 1);
+  const std::string* key = records::find(record->results, name);
+  return key && *key == wanted.key.text() ? "lost from the cache" : "missing";
 }
 
 }  // namespace lobelia

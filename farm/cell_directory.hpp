@@ -6,22 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "core/record.hpp"
 #include "farm/job_graph.hpp"
 #include "farm/result_cache.hpp"
+#include "records/farm.hpp"
 
 namespace lobelia {
 
 /// Why a cell has no result of an engine, or of ours.
 struct CellProblem {
-  std::string engine, message;
-  std::string failure;  ///< its class, failure_name()
-  int attempts = 0;
+  records::CellProblem record;
   std::filesystem::path log;  ///< the engine's; empty: it had nothing to say
 };
 
 /// The records of a cell's results, by place in the graph; null where there is no job or no result.
-using CellRecords = std::vector<std::optional<Json>>;
+using CellRecords = std::vector<std::optional<records::Result>>;
 
 /// In the result cache, each looked at; `why_not` gets a reason for each that is null though the job exists.
 CellRecords find_records(const ResultCache& cache, const JobGraph& graph, std::size_t cell,
@@ -71,14 +69,17 @@ class CellDirectory {
   std::string reason(JobIndex job) const;
 
  private:
-  Json results(const CellRecords& records) const;
-  Json made_from() const;
+  records::Named<std::string> results(const CellRecords& records) const;
+  records::MadeFrom made_from() const;
+  /// With the verdict of its comparisons; without problems.
+  records::Cell cell_record(const CellRecords& records) const;
   HeldDirectory held() const;
 
   const JobGraph* graph_;
   std::size_t cell_;
   std::filesystem::path farm_directory_, directory_;
-  mutable std::optional<std::optional<Json>> before_;  ///< cell.json, once it was asked for
+  mutable std::optional<std::optional<records::Cell>>
+      before_;  ///< cell.json, once it was asked for
 };
 
 }  // namespace lobelia

@@ -11,29 +11,18 @@
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/text.hpp"
+#include "records/record.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
 namespace {
 
-/// As the options of the command line are held to.
-double limit(const Json& chunk, const char* name, double least, double most) {
-  const double value = chunk.at("limits").at(name).get<double>();
-  if (!(value >= least && value <= most))
-    throw Error(ExitCode::kInput, fmt::format("a chunk's limit {} is {}; allowed: {} to {}", name,
-                                              value, least, most));
-  return value;
-}
-
 /// Engines as the plan has them; whether they are here is seen when they are asked for a picture.
-std::vector<FarmEngine> planned_engines(const Json& chunk) {
+std::vector<FarmEngine> planned_engines(const records::FarmChunk& chunk) {
   std::vector<FarmEngine> engines;
-  for (const auto& planned : chunk.at("engines").get_ref<const Json::array_t&>()) {
-    const std::string name = planned.at("name");
-    engines.push_back({make_engine(name, planned.value("program", std::string())), name,
-                       planned.at("version").get<std::string>(),
-                       planned.at("content").get<std::string>()});
-  }
+  for (const auto& planned : chunk.engines)
+    engines.push_back({make_engine(planned.name, planned.program), planned.name, planned.version,
+                       planned.content});
   return engines;
 }
 
@@ -43,15 +32,15 @@ struct ChunkCells {
   std::vector<std::set<std::string>> jobs;  ///< names, by cell
 };
 
-ChunkCells read_cells(const Json& chunk, const std::string& file_name) {
+ChunkCells read_cells(const records::FarmChunk& chunk, const std::string& file_name) {
   ChunkCells cells;
-  for (const auto& one : chunk.at("cells").get_ref<const Json::array_t&>()) {
+  for (const auto& one : chunk.cells) {
     Cell cell;
-    cell.id = one.at("id");
-    cell.engines = one.at("engines").get<std::vector<std::string>>();
-    cells.scenes.push_back(parse_scene(one.at("scene").get<std::string>(),
-                                       fmt::format("{} ({})", file_name, printable(cell.id))));
-    cells.jobs.push_back(one.at("jobs").get<std::set<std::string>>());
+    cell.id = one.id;
+    cell.engines = one.engines;
+    cells.scenes.push_back(
+        parse_scene(one.scene, fmt::format("{} ({})", file_name, printable(cell.id))));
+    cells.jobs.emplace_back(one.jobs.begin(), one.jobs.end());
     cells.farm.cells.push_back(std::move(cell));
   }
   return cells;
@@ -93,94 +82,83 @@ std::vector<JobState> states_of(const ChunkCells& cells, const JobGraph& graph,
 
 }  // namespace
 
-Json chunk_record(FarmWork& work, const ResultCache& cache, const FarmOptions& options,
-                  std::span<const JobIndex> jobs) {
+records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
+                                const FarmOptions& options, std::span<const JobIndex> jobs) {
   const JobGraph& graph = work.graph;
-  Json record = make_record("farm-chunk");
+  records::FarmChunk record;
   own_identity().put_into(record);
-  record["cache"] = cache.directory().string();
-  record["limits"] = {{"timeLimit", options.time_limit.count()},
-                      {"noProgressLimit", options.no_progress_limit.count()},
-                      {"attempts", options.attempts},
-                      {"memory", options.memory},
-                      {"disk", options.disk},
-                      {"giveUpAfter", options.give_up_after}};
-  if (!options.failed_directory.empty()) record["failed"] = options.failed_directory.string();
-  record["engines"] = Json::array();
+  record.cache = cache.directory().string();
+  record.limits = {options.time_limit.count(),
+                   options.no_progress_limit.count(),
+                   options.attempts,
+                   options.memory,
+                   options.disk,
+                   options.give_up_after};
+  record.failed = options.failed_directory.string();
   for (const auto& here : work.engines) {
-    Json engine{{"name", here.name}, {"version", here.version}, {"content", here.content}};
-    if (const auto given = options.programs.find(here.name); given != options.programs.end())
-      engine["program"] = std::filesystem::absolute(given->second).string();
-    record["engines"].push_back(std::move(engine));
+    const auto given = options.programs.find(here.name);
+    record.engines.push_back(
+        {here.name, here.version, here.content,
+         given == options.programs.end() ? "" : std::filesystem::absolute(given->second).string()});
   }
-  std::map<std::size_t, Json> names;
+  std::map<std::size_t, std::vector<std::string>> names;
   for (const JobIndex job : jobs) names[graph.cell_of(job)].push_back(graph.name(job));
-  record["cells"] = Json::array();
   for (auto& [cell, of_cell] : names)
-    record["cells"].push_back({{"id", work.cells.cells[cell].id},
-                               {"engines", work.cells.cells[cell].engines},
-                               {"scene", scene_to_xml(work.cells.scene(cell))},
-                               {"jobs", std::move(of_cell)}});
+    record.cells.push_back({work.cells.cells[cell].id, work.cells.cells[cell].engines,
+                            scene_to_xml(work.cells.scene(cell)), std::move(of_cell)});
   return record;
 }
 
 ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
-  const Json chunk = read_record(file, "farm-chunk");
-  try {
-    ChunkSummary summary;
-    for (auto& why : identity_differences(OwnIdentity::of_record(chunk), own_identity()))
-      summary.left.push_back({"", std::move(why)});
-    JobRunOptions options;
-    options.threads = threads;
-    options.time_limit = std::chrono::duration<double>(limit(chunk, "timeLimit", 0.1, 1e6));
-    options.no_progress_limit =
-        std::chrono::duration<double>(limit(chunk, "noProgressLimit", 0, 1e6));
-    options.attempts = int(limit(chunk, "attempts", 1, 100));
-    options.memory = std::uint64_t(limit(chunk, "memory", 0, 1e18));
-    options.disk = std::uint64_t(limit(chunk, "disk", 0, 1e18));
-    options.give_up_after = int(limit(chunk, "giveUpAfter", 0, 1e6));
-    options.leave_undone = true;
-    options.failed_directory = chunk.value("failed", std::string());
-    if (chunk.contains("failed") && !options.failed_directory.is_absolute())
-      throw Error(ExitCode::kInput, fmt::format("{}: 'failed' is no absolute path", file.string()));
-    const std::vector<FarmEngine> engines = planned_engines(chunk);
-    for (std::size_t e = 0; e < engines.size(); ++e)
-      if (const auto& planned = chunk.at("engines")[e]; planned.contains("program"))
-        options.programs[engines[e].name] = planned.at("program").get<std::string>();
-    ChunkCells cells = read_cells(chunk, file.filename().string());
-    cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
-    JobGraph graph(cells.farm, engines);
-    for (const auto& cell : cells.jobs) summary.jobs += cell.size();
-    if (summary.left.empty())
-      for (const FarmEngine& planned : engines) {
-        if (!wants_pictures_of(cells, planned.name)) continue;
-        std::string why = engine_difference(planned, options.programs);
-        if (why.empty()) continue;
-        summary.left.push_back({planned.name, std::move(why)});
-        leave_out(cells, planned.name);
-      }
-    else
-      for (auto& cell : cells.jobs) cell.clear();
-    const ResultCache cache(chunk.at("cache").get<std::string>());
-    const auto in_use = cache.use();
-    remove_abandoned_temporaries();
-    JobRun run(graph, cache, options, states_of(cells, graph, cache));
-    std::vector<std::size_t> order(graph.cell_count());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    run.run(order, [](std::size_t) {});
-    summary.work = run.work();
-    std::ranges::copy(summary.work.engines_given_up, std::back_inserter(summary.left));
-    for (JobIndex job = 0; job < graph.size(); ++job) {
-      if (!graph[job].exists || !cells.jobs[graph.cell_of(job)].contains(graph.name(job))) continue;
-      if (run.state(job) == JobState::kDone) ++summary.done;
-      if (run.state(job) == JobState::kFailed) ++summary.failed;
-      if (run.state(job) == JobState::kAbsent) ++summary.undone;
+  const auto chunk = records::read_record<records::FarmChunk>(file);
+  ChunkSummary summary;
+  for (auto& why : identity_differences(OwnIdentity::of_record(chunk), own_identity()))
+    summary.left.push_back({"", std::move(why)});
+  JobRunOptions options;
+  options.threads = threads;
+  options.time_limit = std::chrono::duration<double>(chunk.limits.time_limit);
+  options.no_progress_limit = std::chrono::duration<double>(chunk.limits.no_progress_limit);
+  options.attempts = chunk.limits.attempts;
+  options.memory = chunk.limits.memory;
+  options.disk = chunk.limits.disk;
+  options.give_up_after = chunk.limits.give_up_after;
+  options.leave_undone = true;
+  options.failed_directory = chunk.failed;
+  if (!chunk.failed.empty() && !options.failed_directory.is_absolute())
+    throw Error(ExitCode::kInput, fmt::format("{}: 'failed' is no absolute path", file.string()));
+  const std::vector<FarmEngine> engines = planned_engines(chunk);
+  for (const auto& planned : chunk.engines)
+    if (!planned.program.empty()) options.programs[planned.name] = planned.program;
+  ChunkCells cells = read_cells(chunk, file.filename().string());
+  cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
+  JobGraph graph(cells.farm, engines);
+  for (const auto& cell : cells.jobs) summary.jobs += cell.size();
+  if (summary.left.empty())
+    for (const FarmEngine& planned : engines) {
+      if (!wants_pictures_of(cells, planned.name)) continue;
+      std::string why = engine_difference(planned, options.programs);
+      if (why.empty()) continue;
+      summary.left.push_back({planned.name, std::move(why)});
+      leave_out(cells, planned.name);
     }
-    return summary;
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: not a chunk of a farm: {}", file.string(), error.what()));
+  else
+    for (auto& cell : cells.jobs) cell.clear();
+  const ResultCache cache(chunk.cache);
+  const auto in_use = cache.use();
+  remove_abandoned_temporaries();
+  JobRun run(graph, cache, options, states_of(cells, graph, cache));
+  std::vector<std::size_t> order(graph.cell_count());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  run.run(order, [](std::size_t) {});
+  summary.work = run.work();
+  std::ranges::copy(summary.work.engines_given_up, std::back_inserter(summary.left));
+  for (JobIndex job = 0; job < graph.size(); ++job) {
+    if (!graph[job].exists || !cells.jobs[graph.cell_of(job)].contains(graph.name(job))) continue;
+    if (run.state(job) == JobState::kDone) ++summary.done;
+    if (run.state(job) == JobState::kFailed) ++summary.failed;
+    if (run.state(job) == JobState::kAbsent) ++summary.undone;
   }
+  return summary;
 }
 
 }  // namespace lobelia

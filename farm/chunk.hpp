@@ -6,16 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "core/record.hpp"
 #include "farm/chunk_report.hpp"
 #include "farm/farm_session.hpp"
 #include "farm/job_run.hpp"
 
 namespace lobelia {
 
-/// The jobs of one chunk (kind "farm-chunk", docs/records.md).
-Json chunk_record(FarmWork& work, const ResultCache& cache, const FarmOptions& options,
-                  std::span<const JobIndex> jobs);
+/// The jobs of one chunk.
+records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
+                                const FarmOptions& options, std::span<const JobIndex> jobs);
 
 struct ChunkSummary {
   std::size_t jobs = 0;    ///< that the chunk names

@@ -17,15 +17,14 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
-#include "core/record.hpp"
 #include "core/text.hpp"
 #include "farm/slurm/slurm_answers.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kKind[] = "farm-chunk-report";
 constexpr std::size_t kMostBytes = 64 << 10;
 constexpr std::size_t kMostLeft = 100;      // far more than there are engines
 constexpr std::size_t kMostWhy = 500;       // bytes
@@ -83,28 +82,16 @@ std::string read_beside(int directory, const std::string& name) {
 }
 
 ChunkReport parse_report(const std::string& text, std::size_t number) {
-  try {
-    const Json json = Json::parse(text);
-    if (json.at("kind") != kKind || json.at("schemaVersion") != kRecordSchemaVersion)
-      throw Error(ExitCode::kInput, fmt::format("not a record of kind '{}'", kKind));
-    ChunkReport report{number, json.at("node").get<std::string>(), {}};
-    if (!is_node_name(report.node))
+  auto record = records::parse_record<records::FarmChunkReport>(text, "");
+  if (!is_node_name(record.node))
+    throw Error(ExitCode::kInput, fmt::format("'{}' is no name of a node", printable(record.node)));
+  for (LeftUndone& left : record.left) {
+    if (!is_engine_name(left.engine))
       throw Error(ExitCode::kInput,
-                  fmt::format("'{}' is no name of a node", printable(report.node)));
-    for (const Json& one : json.at("left").get_ref<const Json::array_t&>()) {
-      LeftUndone left{one.at("engine").get<std::string>(), one.at("why").get<std::string>()};
-      if (!is_engine_name(left.engine))
-        throw Error(ExitCode::kInput,
-                    fmt::format("'{}' is no name of an engine", printable(left.engine)));
-      left.why = printable(left.why, kMostWhy);
-      report.left.push_back(std::move(left));
-    }
-    if (report.left.size() > kMostLeft)
-      throw Error(ExitCode::kInput, fmt::format("names over {} engines", kMostLeft));
-    return report;
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::kInput, printable(error.what(), 200));
+                  fmt::format("'{}' is no name of an engine", printable(left.engine)));
+    left.why = printable(left.why, kMostWhy);
   }
+  return {number, std::move(record.node), std::move(record.left)};
 }
 
 }  // namespace
@@ -130,12 +117,11 @@ void write_chunk_report(const fs::path& run_directory, std::size_t number,
       throw Error(ExitCode::kOutput, fmt::format("{}: a link; a report is not written through it",
                                                  printable_path(one.string())));
   }
-  Json record = make_record(kKind);
-  record["node"] = node;
-  record["left"] = Json::array();
+  records::FarmChunkReport record;
+  record.node = node;
   for (const LeftUndone& one : left.first(std::min(left.size(), kMostLeft)))
-    record["left"].push_back({{"engine", one.engine}, {"why", printable(one.why, kMostWhy)}});
-  write_record(path, record, AtLink::kReplace);
+    record.left.push_back({one.engine, printable(one.why, kMostWhy)});
+  records::write_record(path, record, AtLink::kReplace);
 }
 
 ChunkReports read_chunk_reports(const fs::path& run_directory, std::size_t first, std::size_t end) {

@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "records/cluster.hpp"
+
 namespace lobelia {
 
 /// Jobs that an element has left undone because of its node: another node may do them.
-struct LeftUndone {
-  std::string engine;  ///< whose jobs; empty: all of the chunk
-  std::string why;     ///< one sentence
-};
+using records::LeftUndone;
 
 struct ChunkReport {
   std::size_t number = 0;  ///< of the chunk
@@ -25,7 +24,7 @@ struct ChunkReport {
 /// The node that this process runs on: $SLURMD_NODENAME, otherwise the host's name.
 std::string own_node_name();
 
-/// Writes the report of chunk NUMBER (kind "farm-chunk-report", docs/records.md), over an earlier one; nothing
+/// Writes the report of chunk NUMBER over an earlier one; nothing
 /// where nothing was left. Throws Error(kOutput), also where a link lies in the way or the node has no proper name.
 void write_chunk_report(const std::filesystem::path& run_directory, std::size_t number,
                         std::span<const LeftUndone> left);

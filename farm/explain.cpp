@@ -14,6 +14,7 @@
 #include "farm/own_identity.hpp"
 #include "farm/result_cache.hpp"
 #include "farm/upkeep.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -31,7 +32,7 @@ bool is_there(const fs::path& path, mode_t type) {
 /// The directory of a cell whose name somebody typed.
 fs::path directory_of_cell(const fs::path& farm_directory, const std::string& cell) {
   const fs::path cells = farm_directory / "cells";
-  if (!is_plain_file_name(cell) || !is_there(cells, S_IFDIR) || !is_there(cells / cell, S_IFDIR) ||
+  if (!is_plain_name(cell) || !is_there(cells, S_IFDIR) || !is_there(cells / cell, S_IFDIR) ||
       !is_there(cells / cell / "cell.json", S_IFREG))
     throw Error(ExitCode::kInput, fmt::format("{}: no cell '{}' with a cell.json",
                                               farm_directory.string(), printable(cell, 200)));
@@ -93,19 +94,20 @@ class Parts {
       add(title + ": content", content, here.content, files(content, here.files));
   }
 
-  void input(const std::string& whose, const std::string& key, const Json& results) {
+  void input(const std::string& whose, const std::string& key,
+             const records::Named<std::string>& results) {
     const std::string job = whose == "lobelia" ? "render" : "reference-" + whose;
-    add("input " + job, key, results.value(job, "not there"));
+    const std::string* now = records::find(results, job);
+    add("input " + job, key, now ? *now : "not there");
   }
 
-  Json record() && { return std::move(record_); }
+  std::vector<records::ExplainedPart> list() && { return std::move(list_); }
 
  private:
   void add(const std::string& part, const std::string& was, const std::string& is,
            std::vector<std::string> changed_files = {}) {
-    Json one{{"part", part}, {"was", was}, {"now", is}, {"same", was == is}};
-    if (was != is && !changed_files.empty()) one["files"] = std::move(changed_files);
-    record_.push_back(std::move(one));
+    if (was == is) changed_files.clear();
+    list_.push_back({part, was, is, was == is, std::move(changed_files)});
   }
   std::vector<std::string> files(const std::string& was, const Content& is) const {
     if (was == is.sha256 || !cache_) return {};
@@ -115,7 +117,7 @@ class Parts {
 
   const std::optional<ResultCache>& cache_;
   Now& now_;
-  Json record_ = Json::array();
+  std::vector<records::ExplainedPart> list_;
 };
 
 /// Of a record that no farm has written.
@@ -133,43 +135,46 @@ std::string engine_of_job(const std::string& job) {
   return "";
 }
 
-Json explain_job(const std::string& job, const Json& cell, const fs::path& cell_directory,
-                 const std::optional<ResultCache>& cache, Now& now) {
-  const std::string key_text = cell.at("results").at(job);
+std::string value_of(const records::Named<std::string>& values, const std::string& name) {
+  const std::string* value = records::find(values, name);
+  return value ? *value : "";
+}
+
+records::ExplainedJob explain_job(const std::string& job, const std::string& key_text,
+                                  const records::Cell& cell, const fs::path& cell_directory,
+                                  const std::optional<ResultCache>& cache, Now& now) {
   ResultKey key;
   if (!from_hex(key_text, key.digest)) throw NotOurs();
-  Json explained{{"job", job}, {"key", key_text}};
   std::string why_not = "the cache is not there";
-  std::optional<Json> result;
+  std::optional<records::Result> result;
   if (cache) result = cache->find(key, ResultCache::Look::kQuick, why_not);
-  explained["inCache"] = result.has_value();
-  if (!result) explained["why"] = why_not;
 
   // What is lost had the parts that the cell had.
-  const Json& made_from = cell.at("madeFrom");
-  const Json& inputs = result ? result->at("inputs") : made_from;
+  const records::MadeFrom& made_from = cell.made_from;
   Parts parts(cache, now);
-  parts.own(OwnIdentity::of_record(inputs));
-  parts.scene(inputs.at("scene"), cell_directory / "scene.xml");
+  parts.own(result ? OwnIdentity::of_record(result->inputs) : OwnIdentity::of_record(made_from));
+  parts.scene(result ? result->inputs.scene : made_from.scene, cell_directory / "scene.xml");
   if (const std::string engine = engine_of_job(job); !engine.empty()) {
     if (result)
-      parts.engine(engine, inputs.at("engineVersion"), inputs.value("engineContent", ""));
+      parts.engine(engine, result->inputs.engine_version, result->inputs.engine_content);
+    else if (records::find(made_from.engines, engine))
+      parts.engine(engine, value_of(made_from.engines, engine),
+                   value_of(made_from.contents, engine));
     else
-      parts.engine(engine, made_from.at("engines").at(engine),
-                   made_from.at("contents").value(engine, ""));
+      throw NotOurs();
   }
   if (result)
-    for (const auto& [whose, input] : inputs.items())
-      if (input.is_string() && (whose == "lobelia" || made_from.at("engines").contains(whose)))
-        parts.input(whose, input, cell.at("results"));
-  explained["parts"] = std::move(parts).record();
-  return explained;
+    for (const auto& [whose, input] : result->inputs.pictures)
+      if (whose == "lobelia" || records::find(made_from.engines, whose))
+        parts.input(whose, input, cell.results);
+  return {job, key_text, result.has_value(), result ? "" : why_not, std::move(parts).list()};
 }
 
 }  // namespace
 
-Json explain_cell(const fs::path& directory, const std::string& cell, const std::string& job,
-                  const std::map<std::string, fs::path>& programs) {
+records::FarmExplanation explain_cell(const fs::path& directory, const std::string& cell,
+                                      const std::string& job,
+                                      const std::map<std::string, fs::path>& programs) {
   const fs::path cell_directory = directory_of_cell(directory, cell);
   std::optional<ResultCache> cache;
   try {
@@ -177,41 +182,32 @@ Json explain_cell(const fs::path& directory, const std::string& cell, const std:
       cache.emplace(place.cache, ResultCache::Opening::kLook);
   } catch (const Error&) {  // then nothing is in it
   }
-  const Json record = read_record(cell_directory / "cell.json", "cell");
-  const auto not_ours = [&] {
-    return Error(ExitCode::kInput, fmt::format("{}: its cell.json is none that this version wrote",
-                                               cell_directory.string()));
-  };
+  const auto record = records::read_record<records::Cell>(cell_directory / "cell.json");
+  records::FarmExplanation explanation;
+  explanation.cell = cell;
+  explanation.status = record.status;
+  Now now(programs);
+  std::string names;
   try {
-    Json explanation = make_record("farm-explanation");
-    explanation["cell"] = cell;
-    explanation["status"] = record.at("status");
-    explanation["jobs"] = Json::array();
-    Now now(programs);
-    std::string names;
-    for (const auto& [name, key] : record.at("results").items()) {
+    for (const auto& [name, key] : record.results) {
       names += (names.empty() ? "" : ", ") + name;
       if (job.empty() || job == name)
-        explanation["jobs"].push_back(explain_job(name, record, cell_directory, cache, now));
+        explanation.jobs.push_back(explain_job(name, key, record, cell_directory, cache, now));
     }
-    if (!job.empty() && explanation["jobs"].empty())
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: cell {} has no result of a job '{}'; it has {}",
-                              directory.string(), printable(cell, 200), printable(job, 200),
-                              names.empty() ? "none" : printable(names, 400)));
-    explanation["without"] = Json::array();
-    for (const auto& problem : record.at("problems"))
-      explanation["without"].push_back(fmt::format("{}: {}",
-                                                   problem.at("engine").get<std::string>(),
-                                                   problem.at("message").get<std::string>()));
-    for (const auto& engine : record.value("missingEngines", Json::array()))
-      explanation["without"].push_back(fmt::format("{}: it was absent", engine.get<std::string>()));
-    return explanation;
-  } catch (const Json::exception&) {
-    throw not_ours();
   } catch (const NotOurs&) {
-    throw not_ours();
+    throw Error(ExitCode::kInput, fmt::format("{}: its cell.json is none that this version wrote",
+                                              cell_directory.string()));
   }
+  if (!job.empty() && explanation.jobs.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: cell {} has no result of a job '{}'; it has {}",
+                            directory.string(), printable(cell, 200), printable(job, 200),
+                            names.empty() ? "none" : printable(names, 400)));
+  for (const auto& problem : record.problems)
+    explanation.without.push_back(fmt::format("{}: {}", problem.engine, problem.message));
+  for (const auto& engine : record.missing_engines)
+    explanation.without.push_back(fmt::format("{}: it was absent", engine));
+  return explanation;
 }
 
 }  // namespace lobelia

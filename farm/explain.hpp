@@ -5,14 +5,14 @@
 #include <map>
 #include <string>
 
-#include "core/record.hpp"
+#include "records/farm.hpp"
 
 namespace lobelia {
 
-/// Kind "farm-explanation" (docs/records.md) of a cell, or of one of its jobs ("reference-povray"; empty: all). Engines are
+/// Of a cell, or of one of its jobs ("reference-povray"; empty: all). Engines are
 /// looked for in $PATH, or at `programs`. Writes nothing. Throws Error(kInput) if there is no such farm, cell or job.
-Json explain_cell(const std::filesystem::path& directory, const std::string& cell,
-                  const std::string& job,
-                  const std::map<std::string, std::filesystem::path>& programs);
+records::FarmExplanation explain_cell(const std::filesystem::path& directory,
+                                      const std::string& cell, const std::string& job,
+                                      const std::map<std::string, std::filesystem::path>& programs);
 
 }  // namespace lobelia

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/removal.hpp"
+#include "core/text.hpp"
 #include "farm/result_cache.hpp"
 
 namespace lobelia {
@@ -51,7 +52,7 @@ FailedJobs::FailedJobs(fs::path directory) : directory_(std::move(directory)) {
 
 std::string FailedJobs::keep(const std::string& cell, const std::string& job,
                              const std::function<void(const fs::path&)>& write) {
-  if (directory_.empty() || !is_plain_file_name(cell) || !is_plain_file_name(job)) return "";
+  if (directory_.empty() || !is_plain_name(cell) || !is_plain_name(job)) return "";
   const std::string name = cell + "/" + job;
   {
     const std::scoped_lock lock(mutex_);

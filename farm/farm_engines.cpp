@@ -5,20 +5,20 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "farm/our_name.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace {
 namespace fs = std::filesystem;
 
 /// What the last run's farm.json says of its engines, as far as there is one that can be read.
-Json engines_before(const fs::path& farm_directory) {
+std::vector<records::FarmEngine> engines_before(const fs::path& farm_directory) {
   std::error_code ignored;
-  if (farm_directory.empty() || !fs::exists(farm_directory / "farm.json", ignored))
-    return Json::array();
+  if (farm_directory.empty() || !fs::exists(farm_directory / "farm.json", ignored)) return {};
   try {
-    return read_record(farm_directory / "farm.json", "farm").value("engines", Json::array());
+    return records::read_record<records::Farm>(farm_directory / "farm.json").engines;
   } catch (const std::exception&) {
-    return Json::array();  // written anew soon
+    return {};  // written anew soon
   }
 }
 
@@ -29,13 +29,11 @@ void identify(FarmEngine& engine, FileHashes& hashes) {
   engine.content = engine.files.sha256;
 }
 
-void take_from_last_run(FarmEngine& engine, const Json& before) {
+void take_from_last_run(FarmEngine& engine, const std::vector<records::FarmEngine>& before) {
   for (const auto& was : before) {
-    if (!was.is_object() || was.value("name", Json()) != engine.name) continue;
-    if (!was.value("version", Json()).is_string() || !was.value("content", Json("")).is_string())
-      continue;
-    engine.version = was["version"];
-    engine.content = was.value("content", "");
+    if (was.name != engine.name) continue;
+    engine.version = was.version;
+    engine.content = was.content;
   }
 }
 
@@ -44,7 +42,7 @@ void take_from_last_run(FarmEngine& engine, const Json& before) {
 std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
                                      const EngineChoice& choice) {
   std::vector<FarmEngine> engines;
-  const Json before = engines_before(choice.farm_directory);
+  const auto before = engines_before(choice.farm_directory);
   FileHashes& hashes = FileHashes::of_user();
   for (const auto& name : names) {
     const auto program = choice.programs.find(name);
@@ -100,28 +98,29 @@ std::string absence(const FarmEngine& engine) {
                      engine.is_known() ? "; what it made before is kept" : "", info.install_hint);
 }
 
-Json engines_record(const std::vector<FarmEngine>& engines) {
-  Json record = Json::array({{{"name", kOurs},
-                              {"title", "Lobelia"},
-                              {"version", kVersion},
-                              {"available", true},
-                              {"state", state_name(EngineState::kReady)}}});
+std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines) {
+  std::vector<records::FarmEngine> found;
+  records::FarmEngine& ours = found.emplace_back();
+  ours.name = kOurs;
+  ours.title = "Lobelia";
+  ours.version = kVersion;
+  ours.available = true;
+  ours.state = state_name(EngineState::kReady);
   for (const auto& here : engines) {
     const EngineInfo& info = here.engine->info();
-    Json engine{
-        {"name", info.name},
-        {"title", info.title},
-        {"available", here.is_here()},
-        {"state", state_name(here.is_here() ? EngineState::kReady : here.engine->status().state)}};
-    if (here.is_known()) engine["version"] = here.version;
-    if (!here.content.empty()) engine["content"] = here.content;
+    records::FarmEngine& engine = found.emplace_back();
+    engine.name = info.name;
+    engine.title = info.title;
+    engine.available = here.is_here();
+    engine.state = state_name(here.is_here() ? EngineState::kReady : here.engine->status().state);
+    engine.version = here.version;
+    engine.content = here.content;
     if (!here.is_here()) {
-      engine["why"] = here.engine->status().why;
-      engine["install"] = info.install_hint;
+      engine.why = here.engine->status().why;
+      engine.install = info.install_hint;
     }
-    record.push_back(std::move(engine));
   }
-  return record;
+  return found;
 }
 
 }  // namespace lobelia

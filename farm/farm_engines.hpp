@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/record.hpp"
+#include "records/farm.hpp"
 #include "reference_scenes/engine_content.hpp"
 
 namespace lobelia {
@@ -51,6 +51,6 @@ FarmEngine look_for_engine(const std::string& name, const std::filesystem::path&
 std::string absence(const FarmEngine& engine);
 
 /// What farm.json says of ours and of each.
-Json engines_record(const std::vector<FarmEngine>& engines);
+std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines);
 
 }  // namespace lobelia

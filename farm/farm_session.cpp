@@ -15,6 +15,7 @@
 #include "core/text.hpp"
 #include "core/threads.hpp"
 #include "farm/failed_jobs.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -219,9 +220,8 @@ bool FarmSession::look_at(std::size_t cell) {
 }
 
 void FarmSession::take_warnings(const CellRecords& records) {
-  if (!records[0] || !records[0]->contains("warnings")) return;
-  for (const auto& warning : records[0]->at("warnings"))
-    summary_.warnings.insert(warning.get<std::string>());
+  if (records[0] && records[0]->warnings)
+    summary_.warnings.insert(records[0]->warnings->begin(), records[0]->warnings->end());
 }
 
 void FarmSession::finish_cell(std::size_t cell) {
@@ -243,17 +243,17 @@ void FarmSession::finish_cell(std::size_t cell) {
     if (!job.exists || records[slot]) continue;
     const auto failure = cache_.failure(job.key);
     if (!failure) continue;
-    problems.push_back({graph.whose(JobIndex(graph.render(cell) + slot)),
-                        failure->value("message", ""), failure->value("failure", ""),
-                        failure->value("attempts", 1), cache_.failure_log(job.key)});
+    problems.push_back({{graph.whose(JobIndex(graph.render(cell) + slot)), failure->message,
+                         failure->failure, failure->attempts},
+                        cache_.failure_log(job.key)});
   }
   std::string status = cell_directory(cell).write(cache_, records, problems);
   const std::scoped_lock lock(mutex_);
   status_[cell] = std::move(status);
   take_warnings(records);
   for (const auto& problem : problems)
-    summary_.problems.push_back(
-        fmt::format("{}: {}: {}", work_.cells.cells[cell].id, problem.engine, problem.message));
+    summary_.problems.push_back(fmt::format("{}: {}: {}", work_.cells.cells[cell].id,
+                                            problem.record.engine, problem.record.message));
 }
 
 void FarmSession::show_what_is_there() {
@@ -270,32 +270,30 @@ void FarmSession::show_what_is_there() {
 
 void FarmSession::write_farm_record() const {
   const Grid& grid = work_.grid;
-  Json record = make_record("farm");
-  record["title"] = grid.title;
-  record["grid"] = grid.file_name;
-  record["command"] = shell_join(options_.command);
-  record["host"] = host_record();
-  record["cache"] = cache_.directory().lexically_proximate(fs::absolute(directory_)).string();
-  record["locks"] = {{"shared", lock_sharing_.shared}, {"why", lock_sharing_.why}};
-  record["axes"] = Json::array();
+  records::Farm record;
+  record.title = grid.title;
+  record.grid = grid.file_name;
+  record.command = shell_join(options_.command);
+  record.host = records::this_host();
+  record.cache = cache_.directory().lexically_proximate(fs::absolute(directory_)).string();
+  record.locks = records::Locks{lock_sharing_.shared, lock_sharing_.why};
   for (const auto& axis : grid.axes) {
-    Json values = Json::array();
-    for (const auto& value : axis.values)
-      values.push_back({{"value", value.value}, {"label", value.label}});
-    record["axes"].push_back({{"name", axis.name}, {"values", std::move(values)}});
+    records::Axis& one = record.axes.emplace_back();
+    one.name = axis.name;
+    for (const auto& value : axis.values) one.values.push_back({value.value, value.label});
   }
-  record["engines"] = engines_record(work_.engines);
+  record.engines = engines_record(work_.engines);
   for (std::size_t e = 0; e < work_.engines.size(); ++e)
-    record["engines"][e + 1]["refusedCells"] = work_.graph.refusals(e);
-  record["cells"] = Json::array();
+    record.engines[e + 1].refused_cells = work_.graph.refusals(e);
   const std::scoped_lock lock(mutex_);
   for (std::size_t i = 0; i < status_.size(); ++i) {
-    Json axes = Json::object();
-    for (const auto& [name, value] : work_.cells.cells[i].axes) axes[name] = value;
-    record["cells"].push_back(
-        {{"id", work_.cells.cells[i].id}, {"status", status_[i]}, {"axes", std::move(axes)}});
+    const Cell& cell = work_.cells.cells[i];
+    records::FarmCell& one = record.cells.emplace_back();
+    one.id = cell.id;
+    one.status = status_[i];
+    for (const auto& [name, value] : cell.axes) one.axes.emplace_back(name, value);
   }
-  write_record(directory_ / "farm.json", record, AtLink::kReplace);
+  records::write_record(directory_ / "farm.json", record, AtLink::kReplace);
 }
 
 bool FarmSession::has_lost(const JobRun& run) const {

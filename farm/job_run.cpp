@@ -59,12 +59,8 @@ double thread_cpu_seconds() {
   return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
 }
 
-Json host_of_result() {
-  static const Json host = [] {
-    Json record = host_record();
-    record["name"] = host_name();
-    return record;
-  }();
+const records::Host& host_of_result() {
+  static const records::Host host = records::this_node();
   return host;
 }
 
@@ -250,14 +246,11 @@ struct JobRun::Impl {
       replace_all(failure.message, kEngineDirectory, kept.empty() ? "." : kept);
       if (!kept.empty()) failure.message += fmt::format("; its input and log are in {}", kept);
     }
-    Json record = make_record("failure");
-    record["job"] = graph.name(job);
-    record["key"] = graph[job].key.text();
-    record["failure"] = failure_name(failure.kind);
-    record["message"] = failure.message;
-    record["attempts"] = failure.attempts;
-    record["host"] = host_of_result();
-    cache.keep_failure(graph[job].key, record, log);
+    cache.keep_failure(
+        graph[job].key,
+        {graph.name(job), graph[job].key.text(), std::string(failure_name(failure.kind)),
+         failure.message, failure.attempts, host_of_result()},
+        log);
     const std::scoped_lock lock(mutex);
     if (options.fail_fast) stopped = true;
     settle(job, JobState::kFailed);
@@ -310,27 +303,25 @@ struct JobRun::Impl {
     return claim->lock ? std::move(claim) : nullptr;
   }
 
-  Json result_record(JobIndex job, int attempts) const {
+  records::Result result_record(JobIndex job, int attempts) const {
     const Job& one = graph[job];
     const std::size_t cell = graph.cell_of(job);
-    Json record = make_record("result");
-    record["job"] = kJobKindNames[int(one.kind)];
-    if (one.engine != kNoEngine) record["engine"] = graph.engines()[one.engine].name;
-    record["firstMadeFor"] = graph.cells().cells[cell].id;
-    record["inputs"] = Json::object();
-    own_identity().put_into(record["inputs"]);
-    record["inputs"]["scene"] = graph.scene_hash(cell);
+    records::Result record;
+    record.job = kJobKindNames[int(one.kind)];
+    record.first_made_for = graph.cells().cells[cell].id;
+    own_identity().put_into(record.inputs);
+    record.inputs.scene = graph.scene_hash(cell);
     if (one.engine != kNoEngine) {
       const FarmEngine& engine = graph.engines()[one.engine];
-      record["inputs"]["engineVersion"] = engine.version;
-      if (!engine.content.empty()) record["inputs"]["engineContent"] = engine.content;
+      record.engine = engine.name;
+      record.inputs.engine_version = engine.version;
+      record.inputs.engine_content = engine.content;
     }
-    for (const JobIndex input : graph.inputs(job)) {
+    for (const JobIndex input : graph.inputs(job))
       if (state_of(input) == JobState::kDone)
-        record["inputs"][graph.whose(input)] = graph[input].key.text();
-    }
-    record["host"] = host_of_result();
-    record["attempts"] = attempts;
+        record.inputs.pictures.emplace_back(graph.whose(input), graph[input].key.text());
+    record.host = host_of_result();
+    record.attempts = attempts;
     return record;
   }
 
@@ -339,7 +330,7 @@ struct JobRun::Impl {
     return states[job];
   }
 
-  void publish(JobIndex job, ResultDraft& draft, Json record) {
+  void publish(JobIndex job, ResultDraft& draft, records::Result record) {
     const Publication publication = cache.publish(draft, graph[job].key, std::move(record));
     {
       const std::scoped_lock lock(mutex);
@@ -354,37 +345,35 @@ struct JobRun::Impl {
     settle_done(job);
   }
 
+  using Hashes = records::Named<std::string>;
+
   /// Of a picture that is an input: its directory, and in `from` the hash of what is read there.
-  MadePicture input_picture(JobIndex job, Json& from) const {
+  MadePicture input_picture(JobIndex job, Hashes& from) const {
     const Job& one = graph[job];
     const std::string engine = graph.whose(job);
     const auto record = cache.find(one.key);
     if (!record) throw LostInput(graph.name(job));
-    for (const auto& file : record->at("files"))
-      if (file.at("name") == picture_file(engine)) from[engine] = file.at("sha256");
+    from.emplace_back(engine, record->hash_of(picture_file(engine)));
     return {engine, cache.result_directory(one.key)};
   }
 
-  Json make(JobIndex job, const Scene& scene, ResultDraft& draft) {
+  void make(JobIndex job, const Scene& scene, ResultDraft& draft, records::Result& record) {
     const std::size_t cell = graph.cell_of(job);
-    Json from = Json::object();
     switch (graph[job].kind) {
       case JobKind::kRender:
-        return make_render(scene, draft, options.time_limit, options.memory);
+        return make_render(scene, draft, options.time_limit, options.memory, record);
       case JobKind::kCompare: {
+        Hashes& from = record.from.emplace();
         const MadePicture ours = input_picture(graph.render(cell), from);
         const MadePicture theirs = input_picture(graph.reference(cell, graph[job].engine), from);
-        Json made = make_comparison(scene, ours, theirs, draft);
-        made["from"] = std::move(from);
-        return made;
+        return make_comparison(scene, ours, theirs, draft, record);
       }
       case JobKind::kProfile: {
+        Hashes& from = record.from.emplace();
         std::vector<MadePicture> pictures;
         for (const JobIndex input : graph.inputs(job))
           if (state_of(input) == JobState::kDone) pictures.push_back(input_picture(input, from));
-        Json made = make_profile(scene, pictures, draft);
-        made["from"] = std::move(from);
-        return made;
+        return make_profile(scene, pictures, draft);
       }
       case JobKind::kReference:
         break;
@@ -392,12 +381,10 @@ struct JobRun::Impl {
     const FarmEngine& here = graph.engines()[graph[job].engine];
     ReferenceOptions reference;
     reference.threads = 1;
-    Json made;
     here.engine->render({&scene, 1}, reference, [&](std::size_t, ReferenceResult result) {
       if (!result.error.empty()) throw ResultFailure(result.failure, result.error);
-      made = make_reference(scene, here, "", std::move(result), {}, draft);
+      make_reference(scene, here, "", std::move(result), {}, draft, record);
     });
-    return made;
   }
 
   /// Whether it has been settled; false: somebody else is at work on it.
@@ -417,14 +404,11 @@ struct JobRun::Impl {
       if (is_there(job)) return true;
       const Scene scene = graph.cells().scene(graph.cell_of(job));
       draft.emplace(cache.draft());
-      Json record = result_record(job, 1);
-      record.update(make(job, scene, *draft));
+      records::Result record = result_record(job, 1);
+      make(job, scene, *draft, record);
       const double cpu = thread_cpu_seconds() - cpu_before;
-      record["threads"] = 1;
-      record["seconds"] = {
-          {"wall", std::chrono::duration<double>(Clock::now() - wall_before).count()},
-          {"cpu", cpu}};
-      record["peakMemoryBytes"] = peak_memory_of(::getpid());
+      record.seconds = {std::chrono::duration<double>(Clock::now() - wall_before).count(), cpu};
+      record.peak_memory_bytes = peak_memory_of(::getpid());
       count_kernel(cpu);
       publish(job, *draft, std::move(record));
     } catch (const Error& error) {
@@ -446,7 +430,7 @@ struct JobRun::Impl {
   bool is_there(JobIndex job) {
     const auto record = cache.find(graph[job].key);
     if (!record) return false;
-    if (record->contains("from") && !is_of_these_inputs(job, record->at("from"))) {
+    if (record->from && !is_of_these_inputs(job, *record->from)) {
       cache.discard(graph[job].key);
       return false;
     }
@@ -458,8 +442,8 @@ struct JobRun::Impl {
     return true;
   }
 
-  bool is_of_these_inputs(JobIndex job, const Json& made_from) const {
-    Json from = Json::object();
+  bool is_of_these_inputs(JobIndex job, const Hashes& made_from) const {
+    Hashes from;
     for (const JobIndex input : graph.inputs(job))
       if (state_of(input) == JobState::kDone) input_picture(input, from);
     return from == made_from;
@@ -721,15 +705,15 @@ struct JobRun::Impl {
                       ReferenceResult result, const fs::path& log, int attempt, double wall) {
     const auto given = options.programs.find(here.name);
     const std::string program = given == options.programs.end() ? "" : given->second.string();
-    Json record = result_record(job, attempt);
-    const Json& made_by = result.record;
-    record["threads"] = made_by.value("threads", 1);
-    record["seconds"] = {{"wall", wall}, {"cpu", made_by.value("cpuSeconds", 0.0)}};
-    record["peakMemoryBytes"] = made_by.value("peakMemoryBytes", std::uint64_t{0});
+    records::Result record = result_record(job, attempt);
+    const records::Reference& made_by = result.record;
+    record.threads = made_by.threads.value_or(1);
+    record.seconds = {wall, made_by.cpu_seconds.value_or(0)};
+    record.peak_memory_bytes = made_by.peak_memory_bytes.value_or(0);
     ResultDraft draft = cache.draft();
     try {
       const double cpu_before = thread_cpu_seconds();
-      record.update(make_reference(scene, here, program, std::move(result), log, draft));
+      make_reference(scene, here, program, std::move(result), log, draft, record);
       count_kernel(thread_cpu_seconds() - cpu_before);
       publish(job, draft, std::move(record));
     } catch (const Error&) {

@@ -4,6 +4,7 @@
 #include "farm/agreement.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
+#include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/render_error.hpp"
 #include "verify/truth/evaluation.hpp"
@@ -28,8 +29,8 @@ NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
 
 }  // namespace
 
-Json make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
-                     ResultDraft& draft) {
+void make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
+                     ResultDraft& draft, records::Result& record) {
   const std::string& engine = theirs.engine;
   const Image a = read_whole_picture(ours.directory / picture_file(kOurs), scene);
   const Image b = read_whole_picture(theirs.directory / picture_file(engine), scene);
@@ -39,10 +40,11 @@ Json make_comparison(const Scene& scene, const MadePicture& ours, const MadePict
   // A tolerance for each pixel is one of pictures without noise. Where there is noise, the tolerance is what
   // rounding may do, and the usual limits say how fine the answer has to be.
   const bool exact = truth::why_not_evaluated(scene).empty();
-  if (!exact && !(has_error(ours) && has_error(theirs)))
-    return {{"notComparable",
-             "its picture may have noise that is not known, and no tolerance of single pixels "
-             "judges that"}};
+  if (!exact && !(has_error(ours) && has_error(theirs))) {
+    record.not_comparable =
+        "its picture may have noise that is not known, and no tolerance of single pixels judges that";
+    return;
+  }
   ComparisonOptions options;
   options.viewing.exposure_stops = exposure;
   options.tolerance =
@@ -58,15 +60,11 @@ Json make_comparison(const Scene& scene, const MadePicture& ours, const MadePict
   const double relative = exact ? options.tolerance->relative + options.tolerance->of_peak : 0.1;
   const double white_at = relative * brightest(b);
   write_png(draft.file(name + ".png"), difference_picture(a, b, white_at));
-  write_record(draft.file(name + ".json"),
-               comparison_record(comparison, picture_file(kOurs), picture_file(engine)));
-  return {{"verdict", verdict_name(comparison.verdict)},
-          {"entry",
-           {{"a", kOurs},
-            {"b", engine},
-            {"record", name + ".json"},
-            {"png", name + ".png"},
-            {"difference", {{"whiteAt", white_at}, {"relativeToPeak", relative}}}}}};
+  records::write_record(draft.file(name + ".json"),
+                        comparison_record(comparison, picture_file(kOurs), picture_file(engine)));
+  record.verdict = verdict_name(comparison.verdict);
+  record.entry =
+      records::CellComparison{kOurs, engine, name + ".json", name + ".png", {white_at, relative}};
 }
 
 }  // namespace lobelia

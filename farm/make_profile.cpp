@@ -1,9 +1,10 @@
 #include "farm/make_result.hpp"
 #include "farm/profile_scene.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 
-Json make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
+void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
                   ResultDraft& draft) {
   std::vector<Image> images;
   images.reserve(pictures.size());
@@ -14,8 +15,7 @@ Json make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
     images.push_back(read_whole_picture(picture.directory / picture_file(picture.engine), scene));
     named.emplace_back(picture.engine, &images.back());
   }
-  write_record(draft.file("profile.json"), profile_scene(scene, 0, 0, named));
-  return Json::object();
+  records::write_record(draft.file("profile.json"), profile_scene(scene, 0, 0, named));
 }
 
 }  // namespace lobelia

@@ -8,6 +8,7 @@
 #include "core/numbers.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
+#include "records/record.hpp"
 #include "reference_scenes/replicates.hpp"
 #include "renderer/render_error.hpp"
 #include "renderer/render_record.hpp"
@@ -40,8 +41,8 @@ std::uint64_t memory_to_make(const Scene& scene) {
 
 }  // namespace
 
-Json make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<double> time_limit,
-                 std::uint64_t memory_limit) {
+void make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<double> time_limit,
+                 std::uint64_t memory_limit, records::Result& made) {
   if (const std::uint64_t needed = memory_to_make(scene); memory_limit > 0 && needed > memory_limit)
     throw ResultFailure(
         FailureClass::kOutOfMemory,
@@ -52,28 +53,29 @@ Json make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<d
   const std::string file = picture_file(kOurs);
   const ImageMetadata metadata = render_metadata(scene);
   const RenderResult result = render(scene, options);
-  Json record = render_record(scene, result, {"lobelia", "render", "scene.xml", "-o", file}, file);
+  records::Render record =
+      render_record(scene, result, {"lobelia", "render", "scene.xml", "-o", file}, file);
   write_exr(draft.file(file), result.image, metadata);
   // An engine's average is compared with it, by the noise of both.
   if (needs_replicates(scene)) {
-    record["standardError"] = error_file(kOurs);
+    record.standard_error = error_file(kOurs);
     write_exr(draft.file(error_file(kOurs)), standard_error_of_render(scene, options), metadata);
   }
   const Image image = read_whole_picture(draft.file(file), scene);
   const double exposure = cell_exposure(image);
   write_png(draft.file(std::string(kOurs) + ".png"), to_display(image, exposure));
-  write_record(draft.file(std::string(kOurs) + ".json"), record);
+  records::write_record(draft.file(std::string(kOurs) + ".json"), record);
   write_file(draft.file("scene.xml"), scene_to_xml(scene));
 
-  Json made{{"command", record["command"]}, {"exposureStops", exposure}};
+  made.command = record.command;
+  made.exposure_stops = exposure;
   if (!scene.spheres.empty())
-    made["highlight"] =
+    made.highlight =
         highlight_record(scene.materials.at(std::size_t(scene.spheres.front().material)).highlight);
-  made["warnings"] = Json::array();
+  auto& warnings = made.warnings.emplace();
   for (const Material& material : scene.materials)
     if (std::string text = warning(material.highlight); !text.empty())
-      made["warnings"].push_back(std::move(text));
-  return made;
+      warnings.push_back(std::move(text));
 }
 
 }  // namespace lobelia

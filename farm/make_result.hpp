@@ -1,4 +1,4 @@
-// How the result of each kind of job is made: its files in a draft, and what is its own in the result's record.
+// How the result of each kind of job is made: its files in a draft, and its part of the result's record.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/image.hpp"
-#include "core/record.hpp"
 #include "farm/farm_engines.hpp"
 #include "farm/result_cache.hpp"
 #include "reference_scenes/failure.hpp"
@@ -41,20 +40,20 @@ std::string comparison_name(const std::string& engine);
 /// lobelia.exr, .json and .png, scene.xml, and lobelia-error.exr where the picture is an average. Throws
 /// ResultFailure if it takes longer than `time_limit`, needs more bytes than `memory_limit` (0: any number) or is not
 /// finite.
-Json make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<double> time_limit,
-                 std::uint64_t memory_limit);
+void make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<double> time_limit,
+                 std::uint64_t memory_limit, records::Result& record);
 
 /// An engine's picture: ENGINE.exr, .json, .log and ENGINE-error.exr. `result` has no error; `log` may not be there.
-Json make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
-                    ReferenceResult result, const std::filesystem::path& log, ResultDraft& draft);
+void make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
+                    ReferenceResult result, const std::filesystem::path& log, ResultDraft& draft,
+                    records::Result& record);
 
-/// ENGINE.png at our picture's exposure, and unless its noise is not known, lobelia-ENGINE.json and .png. The record
-/// has `verdict` and `entry`, as it stands in cell.json, or `notComparable`: why not.
-Json make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
-                     ResultDraft& draft);
+/// ENGINE.png at our picture's exposure, and unless its noise is not known, lobelia-ENGINE.json and .png.
+void make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
+                     ResultDraft& draft, records::Result& record);
 
 /// profile.json.
-Json make_profile(const Scene& scene, const std::vector<MadePicture>& pictures, ResultDraft& draft);
+void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures, ResultDraft& draft);
 
 /// Reads a picture of a result again: ResultFailure unless it opens, has the scene's size and finite values.
 Image read_whole_picture(const std::filesystem::path& file, const Scene& scene);

@@ -75,22 +75,6 @@ std::string OwnIdentity::text() const {
                      arithmetic.processor);
 }
 
-void OwnIdentity::put_into(Json& record) const {
-  record["program"] = program;
-  record["libraries"] = libraries;
-  record["arithmetic"] = {{"libm", arithmetic.libm},
-                          {"kernels", arithmetic.kernels},
-                          {"processor", arithmetic.processor}};
-}
-
-OwnIdentity OwnIdentity::of_record(const Json& record) {
-  const Json& how = record.at("arithmetic");
-  return {record.at("program").get<std::string>(),
-          record.at("libraries").get<std::string>(),
-          {how.at("libm").get<std::string>(), how.at("kernels").get<std::string>(),
-           how.at("processor").get<std::string>()}};
-}
-
 const OwnIdentity& own_identity() {
   static const OwnIdentity identity{std::string(kNameAndVersion) + " " + build_id(),
                                     own_libraries().sha256, arithmetic()};

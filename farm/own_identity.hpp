@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/content.hpp"
-#include "core/record.hpp"
 #include "farm/arithmetic.hpp"
+#include "reference_scenes/content.hpp"
 
 namespace lobelia {
 
@@ -19,9 +18,17 @@ struct OwnIdentity {
   bool operator==(const OwnIdentity&) const = default;
   /// In a key.
   std::string text() const;
-  /// Members `program`, `libraries` and `arithmetic` of a record, and back. Throws Json::exception.
-  void put_into(Json& record) const;
-  static OwnIdentity of_record(const Json& record);
+  /// Members of a record that has such, and back.
+  template <class T>
+  void put_into(T& record) const {
+    record.program = program;
+    record.libraries = libraries;
+    record.arithmetic = arithmetic;
+  }
+  template <class T>
+  static OwnIdentity of_record(const T& record) {
+    return {record.program, record.libraries, record.arithmetic};
+  }
 };
 
 /// Of this process, found out once. Throws Error(kInternal) if a file of ours is not there.

@@ -73,7 +73,8 @@ Image analytic_image(const Scene& scene, int sphere) {
   return image;
 }
 
-Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images) {
+records::Profile profile_scene(const Scene& scene, int light, int sphere,
+                               const NamedImages& images) {
   require_index("light", light, scene.lights.size());
   require_index("sphere", sphere, scene.spheres.size());
   if (!is_delta(scene.lights[std::size_t(light)]))
@@ -131,9 +132,10 @@ Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages&
   }
   const Profile profile = measure_profile(geometry, all, pairs);
   const bool reflection = info(highlight.model).angle == LobeAngle::kReflection;
-  Json record = profile_record(profile, light, sphere, reflection ? "reflection" : "half_vector");
+  records::Profile record =
+      profile_record(profile, light, sphere, reflection ? "reflection" : "half_vector");
   if (has_highlight(material)) {
-    record["lobe"] = highlight_record(highlight);
+    record.lobe = highlight_record(highlight);
     // As the mean of R, G and B, where it is largest in the lobe.
     double peak = 0, of_diffuse = 0, of_others = 0;
     for (std::size_t i = 0; i < map.angle.size(); ++i) {
@@ -143,8 +145,7 @@ Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages&
       of_diffuse = std::max(of_diffuse, diffuse[i]);
       if (!single.empty()) of_others = std::max(of_others, radiance_at(with_all, i) - alone);
     }
-    record["subtracted"] = {{"diffuseOfPeak", number_or_name(of_diffuse / peak)},
-                            {"otherLightsOfPeak", number_or_name(of_others / peak)}};
+    record.subtracted = records::Subtracted{of_diffuse / peak, of_others / peak};
   }
   return record;
 }

@@ -3,7 +3,6 @@
 
 #include "compare/profile/profile.hpp"
 #include "core/image.hpp"
-#include "core/record.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -20,7 +19,8 @@ Image analytic_image(const Scene& scene, int sphere);
 /// The formula is added in front as "analytic"; differences are of the first picture from each other one, and of
 /// each from the formula. Throws Error(kInput) if there is no such light or sphere, if the scene has what a
 /// single ray a pixel does not tell, or if a picture has not the size of the scene's film.
-Json profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images);
+records::Profile profile_scene(const Scene& scene, int light, int sphere,
+                               const NamedImages& images);
 
 /// Every sphere whose material has a highlight, with every light, as (sphere, light). Whether the picture
 /// shows it is for its record to say. Throws as profile_scene() does.

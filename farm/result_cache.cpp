@@ -13,7 +13,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/seal.hpp"
+#include "core/text.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -88,26 +89,23 @@ Ownership ownership() {
 }
 
 /// The pictures of a record, which its times and hosts are no part of.
-std::vector<std::pair<std::string, std::string>> pictures(const Json& record) {
+std::vector<std::pair<std::string, std::string>> pictures(const records::Result& record) {
   std::vector<std::pair<std::string, std::string>> found;
-  for (const auto& file : record.at("files"))
-    if (const std::string name = file.at("name"); name.ends_with(".exr") || name.ends_with(".png"))
-      found.emplace_back(name, file.at("sha256"));
+  for (const auto& file : record.files)
+    if (file.name.ends_with(".exr") || file.name.ends_with(".png"))
+      found.emplace_back(file.name, file.sha256);
   return found;
 }
 
 /// Why a file is not what its record says; empty if it is.
-std::string damage_of(const fs::path& path, const Json& file, ResultCache::Look look) {
+std::string damage_of(const fs::path& path, const records::ResultFile& file,
+                      ResultCache::Look look) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return "is missing";
-  if (std::uint64_t(status.st_size) != file.at("bytes").get<std::uint64_t>())
-    return "has another size";
+  if (std::uint64_t(status.st_size) != file.bytes) return "has another size";
   // Compared for equality alone: a clock may have been set back since.
-  if (look == ResultCache::Look::kQuick &&
-      file.at("modified").get<std::int64_t>() == modified(status))
-    return "";
-  return hex(sha256_of_file(path)) == file.at("sha256").get<std::string>() ? ""
-                                                                           : "has another content";
+  if (look == ResultCache::Look::kQuick && file.modified == modified(status)) return "";
+  return hex(sha256_of_file(path)) == file.sha256 ? "" : "has another content";
 }
 
 /// Of what is named KEY or KEY.json in the directories under this one.
@@ -126,10 +124,6 @@ std::vector<ResultKey> keys_on_shelves(const HeldDirectory& directory) {
 }
 
 }  // namespace
-
-bool is_plain_file_name(const std::string& name) {
-  return !name.empty() && name.find('/') == name.npos && name.front() != '.';
-}
 
 bool is_cache(const fs::path& directory) {
   const HeldDirectory root(directory);
@@ -235,39 +229,32 @@ bool ResultCache::has(const ResultKey& key) const {
          ::access(file(key, kManifestFile).c_str(), F_OK) == 0;
 }
 
-std::optional<Json> ResultCache::find(const ResultKey& key, Look look) const {
+std::optional<records::Result> ResultCache::find(const ResultKey& key, Look look) const {
   std::string ignored;
   return find(key, look, ignored);
 }
 
-std::optional<Json> ResultCache::find(const ResultKey& key, Look look, std::string& why_not) const {
+std::optional<records::Result> ResultCache::find(const ResultKey& key, Look look,
+                                                 std::string& why_not) const {
   why_not = "missing";
   if (!has(key)) {
     if (::access(result_directory(key).c_str(), F_OK) == 0) why_not = "damaged: it has no record";
     return std::nullopt;
   }
   try {
-    Json record = read_record(file(key, kManifestFile), "result");
-    if (record.at("key") != key.text()) {
+    auto record = records::read_record<records::Result>(file(key, kManifestFile));
+    if (record.key != key.text()) {
       why_not = "damaged: its record is of another result";
       return std::nullopt;
     }
-    if (record.at("seal") != seal_of(record)) {
-      why_not = "damaged: its record has another content";
-      return std::nullopt;
-    }
-    for (const auto& one : record.at("files")) {
-      const std::string name = one.at("name");
-      const std::string damage =
-          is_plain_file_name(name) ? damage_of(file(key, name), one, look) : "has no plain name";
+    for (const auto& one : record.files) {
+      const std::string damage = damage_of(file(key, one.name), one, look);
       if (damage.empty()) continue;
-      why_not = fmt::format("damaged: {} {}", name, damage);
+      why_not = fmt::format("damaged: {} {}", one.name, damage);
       return std::nullopt;
     }
     why_not.clear();
     return record;
-  } catch (const Json::exception& error) {  // not of ours
-    why_not = fmt::format("damaged: {}", error.what());
   } catch (const Error& error) {
     // Too little memory or too many open files: the result may well be whole.
     if (error.code() != ExitCode::kInput) throw;
@@ -313,23 +300,20 @@ std::string hash_of_output(const fs::path& file) {
 }
 }  // namespace
 
-Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key, Json record) const {
-  record["key"] = key.text();
-  Json files = Json::array();
+Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key,
+                                 records::Result record) const {
+  record.key = key.text();
+  record.files.clear();
   for (const std::string& name : draft.files_) {
     const fs::path path = draft.directory() / name;
     struct stat status {};
     // Read-only, because a farm's directories link to it: who edits a picture there means a copy.
     if (::chmod(path.c_str(), 0444) != 0 || ::stat(path.c_str(), &status) != 0)
       fail(path, "write", errno);
-    files.push_back({{"name", name},
-                     {"bytes", std::uint64_t(status.st_size)},
-                     {"sha256", hash_of_output(path)},
-                     {"modified", modified(status)}});
+    record.files.push_back(
+        {name, std::uint64_t(status.st_size), hash_of_output(path), modified(status)});
   }
-  record["files"] = std::move(files);
-  record["seal"] = seal_of(record);
-  write_record(draft.directory() / kManifestFile, record);
+  records::write_record(draft.directory() / kManifestFile, record);
 
   const fs::path target = result_directory(key);
   const HeldDirectory to = shelf("results", key);
@@ -387,12 +371,12 @@ ByteLocks::Claim ResultCache::use() const {
   return std::move(*claim);
 }
 
-void ResultCache::keep_failure(const ResultKey& key, const Json& record,
+void ResultCache::keep_failure(const ResultKey& key, const records::Failure& record,
                                const fs::path& log) const {
   ResultDraft made = draft();
   const HeldDirectory to = shelf("failures", key);
   std::error_code ignored;
-  write_record(made.file("json"), record);
+  records::write_record(made.file("json"), record);
   if (!log.empty() && fs::file_size(log, ignored) <= kMaxLogBytes && !ignored) {
     write_file(made.file("log"), read_file(log, kMaxLogBytes));
     move(made.file("log"), to, key.text() + ".log");
@@ -407,10 +391,10 @@ fs::path ResultCache::failure_log(const ResultKey& key) const {
   return ::access(log.c_str(), F_OK) == 0 ? log : fs::path();
 }
 
-std::optional<Json> ResultCache::failure(const ResultKey& key) const {
+std::optional<records::Failure> ResultCache::failure(const ResultKey& key) const {
   if (::access(failure_file(key, ".json").c_str(), F_OK) != 0) return std::nullopt;
   try {
-    return read_record(failure_file(key, ".json"), "failure");
+    return records::read_record<records::Failure>(failure_file(key, ".json"));
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -435,7 +419,7 @@ void ResultCache::keep_content(const Content& content) const {
     return;
   try {
     ResultDraft made = draft();
-    write_record(made.file("json"), content_record(content));
+    records::write_record(made.file("json"), content);
     move(made.file("json"), root().make_below("contents"), name);
   } catch (const Error&) {  // one that may only be read stays as it is
   }
@@ -444,7 +428,7 @@ void ResultCache::keep_content(const Content& content) const {
 std::optional<Content> ResultCache::content(const std::string& sha256) const {
   if (!is_key(sha256)) return std::nullopt;
   try {
-    return content_of_record(read_record(directory_ / "contents" / (sha256 + ".json"), "content"));
+    return records::read_record<Content>(directory_ / "contents" / (sha256 + ".json"));
   } catch (const std::exception&) {
     return std::nullopt;
   }

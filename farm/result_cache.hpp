@@ -20,12 +20,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/content.hpp"
-#include "core/record.hpp"
 #include "core/removal.hpp"
 #include "farm/byte_locks.hpp"
 #include "farm/draft_name.hpp"
 #include "farm/result_key.hpp"
+#include "reference_scenes/content.hpp"
 
 namespace lobelia {
 
@@ -34,9 +33,6 @@ inline constexpr char kCacheMarkerFile[] = "lobelia-cache";  ///< by which a cac
 
 /// Whether there is a cache: by its marker, or because it holds nothing but what caches do and has lost that.
 bool is_cache(const std::filesystem::path& directory);
-
-/// A name in a record is that of a file beside it and nothing else.
-bool is_plain_file_name(const std::string& name);
 
 /// A result in the making: a directory to put files into. Taken away with all of them unless it is published.
 class ResultDraft {
@@ -99,16 +95,16 @@ class ResultCache {
     kQuick,  ///< a file of the size and with the time of change that its record tells is taken for whole
     kThorough,  ///< every byte is read again
   };
-  /// The record of the result (kind "result") if it is whole, in every file; empty if it is missing or damaged.
-  std::optional<Json> find(const ResultKey& key, Look look = Look::kQuick) const;
+  /// The record of the result if it is whole, in every file; empty if it is missing or damaged.
+  std::optional<records::Result> find(const ResultKey& key, Look look = Look::kQuick) const;
   /// The same, and why not, as a few words.
-  std::optional<Json> find(const ResultKey& key, Look look, std::string& why_not) const;
+  std::optional<records::Result> find(const ResultKey& key, Look look, std::string& why_not) const;
 
   /// Throws Error(kOutput).
   ResultDraft draft() const;
   /// Adds to `record` the list of files, each with its size and hash, writes it as result.json and renames all into
   /// place. Throws Error(kOutput), also if somebody took one of the files away.
-  Publication publish(ResultDraft& draft, const ResultKey& key, Json record) const;
+  Publication publish(ResultDraft& draft, const ResultKey& key, records::Result record) const;
 
   /// Of drafts, results and kept failures; of nothing while the marker is missing.
   Removal removal(Removal::Mode mode = Removal::Mode::kForReal) const;
@@ -126,16 +122,16 @@ class ResultCache {
   ByteLocks::Claim use() const;
 
   /// With the log of whoever failed, unless that is not there.
-  void keep_failure(const ResultKey& key, const Json& record,
+  void keep_failure(const ResultKey& key, const records::Failure& record,
                     const std::filesystem::path& log = {}) const;
   /// Where that log is, if there is one; otherwise empty.
   std::filesystem::path failure_log(const ResultKey& key) const;
-  std::optional<Json> failure(const ResultKey& key) const;
+  std::optional<records::Failure> failure(const ResultKey& key) const;
   std::vector<ResultKey> failures() const;  ///< that are kept, in no order
   void forget_failure(const ResultKey& key) const;
   void forget_failure(const ResultKey& key, Removal& removal) const;
 
-  /// What programs are made of (core/content.hpp), by its hash; results name it. Without it they can be less well
+  /// What programs are made of (reference_scenes/content.hpp), by its hash; results name it. Without it they can be less well
   /// explained, so a cache that may only be read is no error.
   void keep_content(const Content& content) const;
   std::optional<Content> content(const std::string& sha256) const;

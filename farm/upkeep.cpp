@@ -18,12 +18,12 @@
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
-#include "core/seal.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/cell_directory.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/result_cache.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -37,7 +37,7 @@ std::string why_not_readable(const fs::path& file) {
       return "has values that are not finite";
     if (name.ends_with(".png")) read_trusted_image(file);
     if (name.ends_with(".json") &&
-        !Json::accept(read_file(file, std::numeric_limits<std::uint32_t>::max())))
+        !records::is_json(read_file(file, std::numeric_limits<std::uint32_t>::max())))
       return "is not JSON";
     return "";
   } catch (const Error& error) {
@@ -46,42 +46,15 @@ std::string why_not_readable(const fs::path& file) {
   }
 }
 
-std::string title_of(const ResultKey& key, const std::optional<Json>& record) {
+std::string title_of(const ResultKey& key, const std::optional<records::Result>& record) {
   if (!record) return key.text();
-  const auto text = [&](const char* name) {
-    const auto found = record->find(name);
-    return found != record->end() && found->is_string() ? printable(found->get<std::string>())
-                                                        : std::string("?");
-  };
-  return fmt::format("{} ({}{} of {})", key.text(), text("job"),
-                     record->contains("engine") ? " by " + text("engine") : "",
-                     text("firstMadeFor"));
+  return fmt::format("{} ({}{} of {})", key.text(), record->job,
+                     record->engine.empty() ? "" : " by " + printable(record->engine),
+                     printable(record->first_made_for));
 }
 
-std::uint64_t bytes_of(const Json& record) {
-  std::uint64_t sum = 0;
-  for (const auto& file : record.at("files")) sum += file.at("bytes").get<std::uint64_t>();
-  return sum;
-}
-
-/// Whoever reads it takes cells away by their names.
-Json read_farm_record(const fs::path& directory) {
-  Json record = read_record(directory / "farm.json", "farm");
-  try {
-    for (const char* name : {"title", "cache"})
-      if (record.contains(name)) record.at(name).get_ref<const std::string&>();
-    for (const auto& cell : record.at("cells").get_ref<const Json::array_t&>()) {
-      cell.at("status").get_ref<const std::string&>();
-      if (const std::string id = cell.at("id"); !is_plain_file_name(id))
-        throw Error(ExitCode::kInput,
-                    fmt::format("{}: no name of a cell: '{}'", (directory / "farm.json").string(),
-                                printable(id)));
-    }
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::kInput, fmt::format("{}: not a farm's record: {}",
-                                              (directory / "farm.json").string(), error.what()));
-  }
-  return record;
+records::Farm read_farm_record(const fs::path& directory) {
+  return records::read_record<records::Farm>(directory / "farm.json");
 }
 
 /// The number of the file's last change, for an order.
@@ -92,7 +65,6 @@ std::pair<std::int64_t, std::int64_t> changed(const fs::path& path) {
 }
 
 constexpr char kRecordFile[] = "cell.json";
-constexpr std::uint64_t kMaxRecordBytes = std::uint64_t{1} << 28;
 
 /// Every path below a farm's directory that it or its gallery may have written, and that clean may take away.
 Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_gallery) {
@@ -110,23 +82,23 @@ Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_ga
              : Owned::kNo;
 }
 
-/// What a gallery that lies in the farm's directory says that it wrote.
+/// The files that a gallery in the farm's directory says it wrote.
 std::set<std::string> files_of_gallery(const fs::path& directory) {
-  std::set<std::string> files;
-  const auto text = HeldDirectory(directory).read("gallery.json", kMaxRecordBytes);
-  const Json record = text ? Json::parse(*text, nullptr, false) : Json();
-  if (!record.is_object() || record.value("kind", Json()) != "gallery") return files;
-  if (const auto list = record.find("files"); list != record.end() && list->is_array())
-    for (const auto& file : *list)
-      if (file.is_string()) files.insert(file.get<std::string>());
-  return files;
+  const auto text = HeldDirectory(directory).read("gallery.json", records::kMaxRecordBytes);
+  if (!text) return {};
+  try {
+    const auto files = records::parse_record<records::GalleryList>(*text, "").files;
+    return {files.begin(), files.end()};
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 /// Of a farm's directory, whose record has been read.
 Removal removal_from_farm(const fs::path& directory, bool dry_run) {
   return Removal(directory,
                  {[](const HeldDirectory& root) {
-                    return root.read("farm.json", kMaxRecordBytes).has_value();
+                    return root.read("farm.json", records::kMaxRecordBytes).has_value();
                   },
                   [files = files_of_gallery(directory)](const fs::path& relative) {
                     return owned_in_farm(relative, files);
@@ -140,23 +112,6 @@ std::vector<std::string> sentences(const std::vector<Removal::Kept>& kept) {
   return found;
 }
 
-/// A cell's own record: empty, with the reason, if it is not what the farm wrote.
-std::optional<Json> sealed_record(const HeldDirectory& cell, std::string& why_not) {
-  const auto text = cell.read(kRecordFile, kMaxRecordBytes);
-  const Json record = text ? Json::parse(*text, nullptr, false) : Json();
-  if (!text)
-    why_not = "is missing";
-  else if (!record.is_object() || record.value("kind", Json()) != "cell")
-    why_not = "is not a cell's record";
-  else if (!record.contains("seal"))
-    why_not = "has no hashes, being of an earlier version";
-  else if (record.at("seal") != seal_of(record))
-    why_not = "has another content";
-  else
-    return record;
-  return std::nullopt;
-}
-
 /// What a cell's record names and is not so.
 struct CellFindings {
   std::vector<std::pair<std::string, std::string>> damaged;  ///< file and why
@@ -167,36 +122,31 @@ struct CellFindings {
 
 CellFindings look_at_cell(const HeldDirectory& cell, const ResultCache* cache) {
   CellFindings found;
-  std::string why;
-  const auto record = sealed_record(cell, why);
-  if (!record) {
-    found.damaged.emplace_back(kRecordFile, why);
+  const auto text = cell.read(kRecordFile, records::kMaxRecordBytes);
+  if (!text) {
+    found.damaged.emplace_back(kRecordFile, "is missing");
     return found;
   }
   try {
-    for (const auto& [job, text] : record->at("results").items()) {
+    const auto record = records::parse_record<records::Cell>(*text, "");
+    for (const auto& [job, key_text] : record.results) {
       ResultKey key;
-      if (!from_hex(text.get<std::string>(), key.digest) || !cache || !cache->has(key))
-        found.missing.insert(key);
+      if (!from_hex(key_text, key.digest) || !cache || !cache->has(key)) found.missing.insert(key);
     }
-    for (const auto& file : record->at("files")) {
-      const std::string name = file.at("name");
+    for (const auto& [name, sha256] : record.files) {
       struct stat status {};
-      if (!is_plain_file_name(name) ||
-          ::fstatat(cell.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 ||
+      if (::fstatat(cell.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 ||
           !S_ISREG(status.st_mode)) {
         found.damaged.emplace_back(name, "is missing");
-      } else if (hex(sha256_of_file(cell.path() / name)) != file.at("sha256")) {
+      } else if (hex(sha256_of_file(cell.path() / name)) != sha256) {
         found.damaged.emplace_back(name, "has another content");
       }
       ++found.files;
       found.bytes += std::uint64_t(status.st_size);
     }
-  } catch (const Json::exception& error) {
-    found.damaged.emplace_back(kRecordFile, error.what());
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;
-    found.damaged.emplace_back(kRecordFile, error.what());
+    found.damaged.emplace_back(kRecordFile, fmt::format("is damaged: {}", error.what()));
   }
   return found;
 }
@@ -212,8 +162,8 @@ CachePlace cache_of(const fs::path& path) {
         fmt::format("{}: neither a farm's directory (it has no farm.json) nor a cache (it has "
                     "no lobelia-cache)",
                     path.string()));
-  const Json record = read_farm_record(path);
-  const fs::path cache = (path / record.value("cache", std::string("cache"))).lexically_normal();
+  const std::string recorded = read_farm_record(path).cache;
+  const fs::path cache = (path / (recorded.empty() ? "cache" : recorded)).lexically_normal();
   return {cache, is_cache(cache), true};
 }
 
@@ -233,15 +183,13 @@ VerifyReport verify_cache(
     std::string why;
     const auto record = cache.find(keys[i], ResultCache::Look::kThorough, why);
     if (record)
-      for (const auto& file : record->at("files")) {
-        const std::string name = file.at("name");
-        if (const std::string bad = why_not_readable(cache.file(keys[i], name)); !bad.empty())
-          why = fmt::format("{} {}", name, bad);
-      }
+      for (const auto& file : record->files)
+        if (const std::string bad = why_not_readable(cache.file(keys[i], file.name)); !bad.empty())
+          why = fmt::format("{} {}", file.name, bad);
     const std::scoped_lock lock(mutex);
     if (record) {
-      report.files += record->at("files").size();
-      report.bytes += bytes_of(*record);
+      report.files += record->files.size();
+      report.bytes += record->bytes();
     }
     if (!why.empty()) damaged[keys[i]] = title_of(keys[i], record) + ": " + why;
     if (on_progress) on_progress(++done, keys.size());
@@ -256,7 +204,7 @@ VerifyReport verify_cache(
 VerifyReport verify_farm(
     const fs::path& directory, bool remove,
     const std::function<void(std::size_t done, std::size_t all)>& on_progress) {
-  const Json farm = read_farm_record(directory);
+  const records::Farm farm = read_farm_record(directory);
   std::optional<FarmDirectoryLock> alone;
   if (remove) alone.emplace(directory, FarmDirectoryLock::Use::kAlone);
   const CachePlace place = cache_of(directory);
@@ -270,19 +218,18 @@ VerifyReport verify_farm(
       HeldDirectory(directory).below("cells", HeldDirectory::Border::kCross);
   if (!cells && !cells.is_missing())
     throw Error(ExitCode::kOutput, fmt::format("{}: {}", cells.path().string(), cells.why_not()));
-  const auto& all = farm.at("cells");
+  const auto& all = farm.cells;
   std::vector<CellFindings> findings(all.size());
   std::mutex mutex;
   std::size_t done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     throw_if_interrupted();
-    const HeldDirectory cell =
-        cells.below(all[i].at("id").get<std::string>(), HeldDirectory::Border::kCross);
+    const HeldDirectory cell = cells.below(all[i].id, HeldDirectory::Border::kCross);
     // One that was never finished has no record, and names nothing.
     struct stat ignored {};
     const bool has_record =
         cell && ::fstatat(cell.fd(), kRecordFile, &ignored, AT_SYMLINK_NOFOLLOW) == 0;
-    if (has_record || all[i].at("status") != "missing")
+    if (has_record || all[i].status != "missing")
       findings[i] = look_at_cell(cell, cache ? &*cache : nullptr);
     const std::scoped_lock lock(mutex);
     if (on_progress) on_progress(++done, all.size());
@@ -290,14 +237,14 @@ VerifyReport verify_farm(
   Removal removal = removal_from_farm(directory, false);
   std::set<ResultKey> missing;
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    const fs::path cell = fs::path("cells") / all[i].at("id").get<std::string>();
+    const fs::path cell = fs::path("cells") / all[i].id;
     report.files += findings[i].files;
     report.bytes += findings[i].bytes;
     missing.insert(findings[i].missing.begin(), findings[i].missing.end());
     for (const auto& [name, why] : findings[i].damaged) {
       report.damaged.push_back(fmt::format("{} {}", (cell / name).string(), why));
       if (!remove) continue;
-      if (is_plain_file_name(name)) removal.remove(cell / name);
+      removal.remove(cell / name);
       removal.remove(cell / kRecordFile);
     }
   }
@@ -335,7 +282,7 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
       continue;
     }
     cache.forget_failure(key, removal);
-    results.push_back({changed(cache.result_directory(key)), key, bytes_of(*record)});
+    results.push_back({changed(cache.result_directory(key)), key, record->bytes()});
     report.kept_bytes += results.back().bytes;
   }
   std::sort(results.begin(), results.end(), [](const Candidate& a, const Candidate& b) {
@@ -381,13 +328,13 @@ std::uint64_t parse_size(const std::string& text) {
 }
 
 CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions& options) {
-  const Json record = read_farm_record(directory);
+  const records::Farm record = read_farm_record(directory);
   const FarmDirectoryLock alone(
       directory, FarmDirectoryLock::Use::kAlone,
       options.dry_run ? ByteLocks::Opening::kLook : ByteLocks::Opening::kMake);
   std::set<std::string> ids;  // of the cells that stay
   if (!all)
-    for (const auto& cell : record.at("cells")) ids.insert(cell.at("id").get<std::string>());
+    for (const auto& cell : record.cells) ids.insert(cell.id);
   CleanReport report;
   Removal removal = removal_from_farm(directory, options.dry_run);
   std::size_t paths = 0;
@@ -430,47 +377,40 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
   return report;
 }
 
-Json farm_status(const fs::path& directory) {
-  const Json farm = read_farm_record(directory);
-  Json record = make_record("farm-status");
-  record["title"] = farm.value("title", "");
+records::FarmStatus farm_status(const fs::path& directory) {
+  const records::Farm farm = read_farm_record(directory);
+  records::FarmStatus record;
+  record.title = farm.title;
+  record.cells = farm.cells.size();
   std::map<std::string, std::size_t> counts;
-  Json failures = Json::array();
-  for (const auto& cell : farm.at("cells")) {
+  for (const auto& [id, status, axes] : farm.cells) {
     throw_if_interrupted();
-    const std::string id = cell.at("id");
-    std::string status = cell.at("status");
+    std::string now = status;
     // The farm's record is as old as its last look; a cell's own is not.
-    const fs::path file = directory / "cells" / id / "cell.json";
+    const fs::path file = directory / "cells" / id / kRecordFile;
     std::error_code ignored;
     if (fs::exists(file, ignored)) {
       try {
-        const Json own = read_record(file, "cell");
-        status = own.at("status");
-        for (const auto& problem : own.at("problems"))
-          failures.push_back({{"cell", id},
-                              {"engine", problem.at("engine").get<std::string>()},
-                              {"failure", problem.value("failure", "")},
-                              {"attempts", problem.value("attempts", 0)},
-                              {"message", problem.at("message").get<std::string>()}});
+        const auto own = records::read_record<records::Cell>(file);
+        now = own.status;
+        for (const auto& problem : own.problems)
+          record.failures.push_back(
+              {id, problem.engine, problem.failure, problem.attempts, problem.message});
       } catch (const std::exception&) {  // being written, or broken: as the farm's record has it
       }
     }
-    ++counts[status];
+    ++counts[now];
   }
-  record["cells"] = farm.at("cells").size();
-  for (const char* status : {"failed", "differs", "undecided", "missing", "unchecked", "pass"})
-    record["status"][status] = counts[status];
+  record.status = {counts["failed"],  counts["differs"],   counts["undecided"],
+                   counts["missing"], counts["unchecked"], counts["pass"]};
   const CachePlace place = cache_of(directory);
-  bool at_work = false;
   try {
-    if (place.is_there) at_work = ResultCache(place.cache, ResultCache::Opening::kLook).is_in_use();
+    record.at_work =
+        place.is_there && ResultCache(place.cache, ResultCache::Opening::kLook).is_in_use();
   } catch (const Error&) {  // one that cannot be read
   }
-  record["cache"] = place.cache.string();
-  record["cacheIsThere"] = place.is_there;
-  record["atWork"] = at_work;
-  record["failures"] = std::move(failures);
+  record.cache = place.cache.string();
+  record.cache_is_there = place.is_there;
   return record;
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/record.hpp"
+#include "records/farm.hpp"
 
 namespace lobelia {
 
@@ -73,7 +73,7 @@ struct CleanReport {
 CleanReport clean_farm(const std::filesystem::path& directory, bool all,
                        const RemovalOptions& options = {});
 
-/// What has become of every cell so far: kind "farm-status", docs/records.md. Also while a farm is at work there.
-Json farm_status(const std::filesystem::path& directory);
+/// What has become of every cell so far, also while a farm is at work there.
+records::FarmStatus farm_status(const std::filesystem::path& directory);
 
 }  // namespace lobelia

@@ -3,13 +3,13 @@
 
 #include "core/error.hpp"
 #include "core/removal.hpp"
-#include "core/seal.hpp"
 #include "core/sha256.hpp"
+#include "core/text.hpp"
 #include "farm/result_cache.hpp"
 #include "fuzz/bundle.hpp"
 #include "fuzz/checks.hpp"
-#include "gallery/cell_data.hpp"
-#include "gallery/farm_data.hpp"
+#include "gallery/checked_cell.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia::fuzz {
 namespace {
@@ -28,14 +28,14 @@ std::string sealed(const std::string& text, const fs::path& directory, const cha
       if (!file.is_object() || !file.contains("name") || !file["name"].is_string()) continue;
       const std::string name = file["name"];
       std::error_code error;
-      if (!is_plain_file_name(name) || name.find('\0') != name.npos) continue;
+      if (!is_plain_name(name) || name.find('\0') != name.npos) continue;
       const auto size = fs::file_size(directory / name, error);
       if (error) continue;
       file["bytes"] = std::uint64_t(size);
       file["sha256"] = hex(sha256_of_file(directory / name));
     }
   try {
-    record["seal"] = seal_of(record);
+    record["seal"] = records::seal_of(record);
     return record.dump();
   } catch (const Json::exception&) {  // bytes that are no UTF-8
     return text;
@@ -48,7 +48,7 @@ void check_gallery(const std::map<std::string, std::string>& files, bool seal) {
   fs::create_directories(run);
   if (const auto farm = files.find("farm.json"); farm != files.end())
     write_plainly(run / "farm.json", farm->second);
-  gallery::FarmData farm;
+  gallery::ShownFarm farm;
   try {
     farm = gallery::read_farm(run);
   } catch (const Error& error) {
@@ -56,7 +56,7 @@ void check_gallery(const std::map<std::string, std::string>& files, bool seal) {
       throw std::logic_error(std::string("refused as no fault of the input: ") + error.what());
     return;
   }
-  if (farm.axes.empty()) throw std::logic_error("a farm without axes");
+  if (farm.record.axes.empty()) throw std::logic_error("a farm without axes");
   for (std::size_t i = 0; i < std::min(farm.cells.size(), kMostFarmCells); ++i) {
     const fs::path directory = run / "cells" / farm.cells[i].id;
     if (directory.parent_path() != run / "cells")
@@ -67,9 +67,9 @@ void check_gallery(const std::map<std::string, std::string>& files, bool seal) {
     if (const auto cell = files.find("cell.json"); cell != files.end())
       write_plainly(directory / "cell.json",
                     seal ? sealed(cell->second, directory, nullptr) : cell->second);
-    const gallery::CellData data = gallery::read_cell(run, farm.cells[i]);
+    const gallery::CheckedCell data = gallery::check_cell(run, farm.cells[i], farm.metrics);
     for (const std::string& name : files_of(data))
-      if (!is_plain_file_name(name)) throw std::logic_error("a cell shows the file " + name);
+      if (!is_plain_name(name)) throw std::logic_error("a cell shows the file " + name);
   }
 }
 
@@ -90,8 +90,7 @@ void check_cache(const std::map<std::string, std::string>& files, bool seal) {
     const auto found = cache.find(key, look, why_not);
     if (found.has_value() != why_not.empty())
       throw std::logic_error("a result is refused without a word, or accepted with one");
-    if (found && !found->at("files").is_structured())
-      throw std::logic_error("a result without a list of files");
+    if (found && found->key != key.text()) throw std::logic_error("a result of another key");
   }
 }
 

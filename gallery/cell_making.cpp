@@ -1,7 +1,9 @@
 #include "core/numbers.hpp"
+#include "core/text.hpp"
 #include "gallery/cell_sections.hpp"
-#include "gallery/names.hpp"
+#include "gallery/link.hpp"
 #include "gallery/page.hpp"
+#include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -20,16 +22,46 @@ void write_file_link(Html& html, const std::string& file, const std::string& wha
   html.text(" " + what);
 }
 
-std::string seconds_words(const NamedNumbers& seconds) {
+template <class Seconds>
+std::string seconds_words(const Seconds& seconds) {
   std::string words;
-  for (const auto& [stage, value] : seconds) {
-    if (!words.empty()) words += ", ";
-    words += stage + " " + seconds_text(value);
-  }
+  for (const auto& [stage, value] : numbers_of(seconds))
+    words += (words.empty() ? "" : ", ") + stage + " " + seconds_text(value);
   return words;
 }
 
-void write_engine(Html& html, const EngineEntry& engine, const CellImage* image) {
+void write_version(Html& html, const records::FarmEngine& engine, const std::string& version) {
+  if (version.empty()) return;
+  const Tag item(html, "div");
+  html.element("dt", "Version");
+  const Tag value(html, "dd");
+  html.element("code", {{"class", "copied"}, {"data-what", "the version of " + engine.title}},
+               version);
+}
+
+void write_facts(Html& html, const records::FarmEngine& engine, const EnginePicture& image) {
+  const Tag list(html, "dl", {{"class", "facts"}});
+  if (image.render) write_version(html, engine, image.render->engine.version);
+  if (image.reference) write_version(html, engine, image.reference->engine.version);
+  write_fact(html, "Written by", image.made_by);
+  if (const auto& made = image.render) {
+    write_fact(html, "Time", seconds_words(made->seconds));
+    write_fact(html, "Samples per pixel", count_text(made->samples));
+    write_fact(html, "Rays", in_words(made->rays));
+    write_fact(html, "Instruction set", made->instruction_set);
+  }
+  if (const auto& made = image.reference) {
+    const std::vector<std::string_view> options(made->engine_options.begin(),
+                                                made->engine_options.end());
+    write_fact(html, "Witness", made->witness);
+    write_fact(html, "Time", seconds_words(made->seconds));
+    write_fact(html, "Method", made->method);
+    write_fact(html, "Passes", count_text(double(made->passes)));
+    write_fact(html, "Options", join(options));
+  }
+}
+
+void write_engine(Html& html, const records::FarmEngine& engine, const EnginePicture* image) {
   const Tag block(html, "div", {{"class", "engine"}});
   html.element("h3", engine.title);
   if (!image) {
@@ -42,30 +74,17 @@ void write_engine(Html& html, const EngineEntry& engine, const CellImage* image)
     return;
   }
   if (!image->problem.empty()) write_absence(html, "Its record cannot be read. " + image->problem);
-  {
-    const Tag list(html, "dl", {{"class", "facts"}});
-    if (!image->version.empty()) {
-      const Tag item(html, "div");
-      html.element("dt", "Version");
-      const Tag value(html, "dd");
-      html.element("code", {{"class", "copied"}, {"data-what", "the version of " + engine.title}},
-                   image->version);
-    }
-    write_fact(html, "Written by", image->made_by);
-    write_fact(html, "Witness", image->witness);
-    write_fact(html, "Time", seconds_words(image->seconds));
-    for (const auto& [name, value] : image->facts) write_fact(html, name, value);
-  }
-  if (!image->command.empty()) {
+  write_facts(html, engine, *image);
+  if (image->render || image->reference) {
     html.element("p", "The command, to be typed in the cell’s directory:");
-    write_command(html, image->command);
+    write_command(html,
+                  shell_join(image->render ? image->render->command : image->reference->command));
   }
-  if (!image->engine_commands.empty()) {
+  if (image->reference && !image->reference->engine_commands.empty()) {
     html.element("p", "What it ran:");
     std::string lines;
-    for (const std::string& command : image->engine_commands) {
+    for (const std::string& command : image->reference->engine_commands)
       lines += (lines.empty() ? "" : "\n") + command;
-    }
     write_command(html, lines);
   }
   if (!image->exr_sha256.empty()) {
@@ -83,11 +102,11 @@ void write_engine(Html& html, const EngineEntry& engine, const CellImage* image)
 
 }  // namespace
 
-void write_making(Html& html, const FarmData& farm, const CellData& cell) {
+void write_making(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"class", "making"}, {"aria-labelledby", "making"}});
   if (cell.has_record) {
     html.element("h2", {{"id", "making"}}, "How each picture was made");
-    for (const EngineEntry& engine : farm.engines) {
+    for (const records::FarmEngine& engine : farm.record.engines) {
       write_engine(html, engine, cell.find_image(engine.name));
     }
     html.element("h3", "Files of the cell");
@@ -102,10 +121,10 @@ void write_making(Html& html, const FarmData& farm, const CellData& cell) {
   }
   if (!cell.has_record) return;
   write_file_link(html, "cell.json", "what belongs to the cell");
-  for (const CellComparison& comparison : cell.comparisons) {
-    if (comparison.problem.empty()) write_file_link(html, comparison.record, "comparison");
+  for (const CheckedComparison& comparison : cell.comparisons) {
+    if (comparison.problem.empty()) write_file_link(html, comparison.entry.record, "comparison");
   }
-  if (cell.profile.problem.empty()) write_file_link(html, cell.profile.file, "profile");
+  if (cell.profile) write_file_link(html, cell.record.profile, "profile");
 }
 
 }  // namespace lobelia::gallery

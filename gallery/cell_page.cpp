@@ -4,9 +4,9 @@
 
 #include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
-#include "gallery/metric_notes.hpp"
-#include "gallery/names.hpp"
+#include "gallery/link.hpp"
 #include "gallery/page.hpp"
+#include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -18,22 +18,22 @@ std::string neighbour_link(const CellEntry& cell) {
   return "../" + link_to({cell.id, "index.html"});
 }
 
-const CellEntry* cell_beside(const FarmData& farm, const CellEntry& entry, int axis, int value) {
-  if (value < 0 || value >= static_cast<int>(farm.axes[axis].values.size())) return nullptr;
+const CellEntry* cell_beside(const ShownFarm& farm, const CellEntry& entry, int axis, int value) {
+  if (value < 0 || value >= static_cast<int>(farm.record.axes[axis].values.size())) return nullptr;
   std::vector<int> at = entry.at;
   at[axis] = value;
   return farm.find_cell(at);
 }
 
-void write_step(Html& html, const FarmData& farm, const CellEntry& entry, int axis, int step) {
+void write_step(Html& html, const ShownFarm& farm, const CellEntry& entry, int axis, int step) {
   const std::string arrow = step < 0 ? "←" : "→";
   const CellEntry* cell = cell_beside(farm, entry, axis, entry.at[axis] + step);
   if (!cell) {
     html.element("span", {{"class", "step"}, {"aria-hidden", "true"}}, arrow);
     return;
   }
-  const std::string words = (step < 0 ? "Previous " : "Next ") + farm.axes[axis].name + ": " +
-                            farm.axes[axis].values[cell->at[axis]].label;
+  const std::string words = (step < 0 ? "Previous " : "Next ") + farm.record.axes[axis].name +
+                            ": " + farm.record.axes[axis].values[cell->at[axis]].label;
   html.element("a",
                {{"class", "step"},
                 {"href", neighbour_link(*cell)},
@@ -43,8 +43,8 @@ void write_step(Html& html, const FarmData& farm, const CellEntry& entry, int ax
                arrow);
 }
 
-void write_axis(Html& html, const FarmData& farm, const CellEntry& entry, int axis) {
-  const GridAxis& a = farm.axes[axis];
+void write_axis(Html& html, const ShownFarm& farm, const CellEntry& entry, int axis) {
+  const records::Axis& a = farm.record.axes[axis];
   const int here = entry.at[axis];
   const Tag row(html, "div", {{"class", "axis-row"}});
   html.element("span", {{"class", "axis-name"}}, a.name);
@@ -67,43 +67,41 @@ void write_axis(Html& html, const FarmData& farm, const CellEntry& entry, int ax
   }
 }
 
-void write_navigation(Html& html, const FarmData& farm, const CellEntry& entry) {
+void write_navigation(Html& html, const ShownFarm& farm, const CellEntry& entry) {
   const Tag nav(html, "nav", {{"class", "axes"}, {"aria-label", "Neighbouring cells"}});
-  for (int axis = 0; axis < static_cast<int>(farm.axes.size()); ++axis) {
+  for (int axis = 0; axis < static_cast<int>(farm.record.axes.size()); ++axis) {
     if (entry.at[axis] >= 0) write_axis(html, farm, entry, axis);
   }
 }
 
-std::string time_text(const CellImage* image) {
-  if (!image) return "–";
-  for (const auto& [stage, seconds] : image->seconds)
-    if (stage == "total") return seconds_text(seconds);
-  return "–";
+std::string time_text(const EnginePicture* image) {
+  if (image && image->render) return seconds_text(image->render->seconds.total);
+  return image && image->reference ? seconds_text(image->reference->seconds.total) : "–";
 }
 
 /// How far each is from ours, in the one figure that the grid has too, and what time each took.
-void write_agreement(Html& html, const FarmData& farm, const CellData& cell) {
+void write_agreement(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   constexpr char kFigure[] = "max_rel_peak";
   if (cell.comparisons.empty()) return;
   const Tag table(html, "table", {{"class", "agreement"}});
   {
     const Tag head(html, "thead");
     const Tag row(html, "tr");
-    for (const std::string& title : {std::string("Picture"), metric_note(kFigure).title,
+    for (const std::string& title : {std::string("Picture"), farm.metrics.info(kFigure).title,
                                      std::string("Verdict"), std::string("Time")})
       html.element("th", {{"scope", "col"}}, title);
   }
   const Tag body(html, "tbody");
-  for (const CellComparison& comparison : cell.comparisons) {
+  for (const CheckedComparison& comparison : cell.comparisons) {
     const Tag row(html, "tr");
-    html.element("th", {{"scope", "row"}}, farm.engine_title(comparison.b));
+    html.element("th", {{"scope", "row"}}, farm.engine_title(comparison.entry.b));
     const auto worst = comparison.metric(kFigure);
-    html.element("td", {{"class", "number"}}, worst ? metric_text(kFigure, *worst) : "–");
+    html.element("td", {{"class", "number"}}, worst ? farm.metrics.text(kFigure, *worst) : "–");
     std::string words = verdict_words(comparison);
     if (const double outliers = comparison.metric("outliers").value_or(0); outliers > 0)
       words += ", " + count_text(outliers) + " px beyond the tolerance";
     html.element("td", words);
-    html.element("td", time_text(cell.find_image(comparison.b)));
+    html.element("td", time_text(cell.find_image(comparison.entry.b)));
   }
   const Tag row(html, "tr");
   html.element("th", {{"scope", "row"}}, farm.engine_title(kOurEngine));
@@ -113,7 +111,7 @@ void write_agreement(Html& html, const FarmData& farm, const CellData& cell) {
 }
 
 /// Lists each file that is not as the farm wrote it.
-void write_flaws(Html& html, const FarmData& farm, const CellData& cell) {
+void write_flaws(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   if (!cell.flaws.empty()) {
     const Tag list(html, "ul", {{"class", "flaws"}});
     for (const Flaw& flaw : cell.flaws) {
@@ -125,13 +123,13 @@ void write_flaws(Html& html, const FarmData& farm, const CellData& cell) {
   }
   for (const std::string& sentence : cell.contradictions) html.element("p", sentence);
   const bool to_be_made_again = is_flaw(cell.status) || cell.status == CellStatus::kUnsealed;
-  if (!to_be_made_again || farm.command.empty()) return;
+  if (!to_be_made_again || farm.record.command.empty()) return;
   html.element("p",
                "No verdict is shown for what cannot be checked. To make the cell whole again:");
-  write_command(html, farm.command);
+  write_command(html, farm.record.command);
 }
 
-void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
+void write_verdict(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag box(html, "div", {{"class", "verdict " + std::string(info(cell.status).name)}});
   {
     const Tag line(html, "p");
@@ -142,26 +140,26 @@ void write_verdict(Html& html, const FarmData& farm, const CellData& cell) {
   if (!cell.unreadable.empty()) html.element("p", cell.unreadable);
   write_flaws(html, farm, cell);
   write_agreement(html, farm, cell);
-  for (const CellProblem& problem : cell.problems) {
+  for (const records::CellProblem& problem : cell.record.problems) {
     const Tag line(html, "p");
     if (!problem.engine.empty()) html.element("strong", farm.engine_title(problem.engine) + ": ");
     html.text(problem.message);
   }
-  for (const CellProblem& one : cell.not_comparable) {
+  for (const records::NotComparable& one : cell.record.not_comparable) {
     const Tag line(html, "p");
     html.element("strong", farm.engine_title(one.engine) + ": ");
-    html.text("not comparable, because " + one.message + ".");
+    html.text("not comparable, because " + one.because + ".");
   }
-  if (cell.status == CellStatus::kMissing && !farm.command.empty()) {
+  if (cell.status == CellStatus::kMissing && !farm.record.command.empty()) {
     html.element("p", "The same command takes the farm up again where it stopped:");
-    write_command(html, farm.command);
+    write_command(html, farm.record.command);
   }
 }
 
-void write_highlight(Html& html, const CellData& cell) {
-  if (cell.highlight.empty()) return;
+void write_highlight(Html& html, const CheckedCell& cell) {
+  if (!cell.record.highlight) return;
   const Tag list(html, "dl", {{"class", "facts"}});
-  for (const auto& [name, value] : cell.highlight) {
+  for (const auto& [name, value] : words_of(*cell.record.highlight)) {
     const Tag item(html, "div");
     html.element("dt", name);
     html.element("dd", value);
@@ -170,8 +168,8 @@ void write_highlight(Html& html, const CellData& cell) {
 
 }  // namespace
 
-std::string cell_page(const SiteFrame& site, const FarmData& farm, const CellEntry& entry,
-                      const CellData& cell) {
+std::string cell_page(const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
+                      const CheckedCell& cell) {
   Html html;
   {
     const Tag header(html, "header");
@@ -193,7 +191,7 @@ std::string cell_page(const SiteFrame& site, const FarmData& farm, const CellEnt
   }
   write_making(html, farm, cell);
   const std::string folder = link_to({"cells", entry.id}) + "/";
-  const CellImage* ours = cell.find_image(kOurEngine);
+  const EnginePicture* ours = cell.find_image(kOurEngine);
   const PageFrame frame{entry.label.empty() ? entry.id : entry.label,
                         "cell",
                         kRoot,

@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "gallery/cell_data.hpp"
+#include "gallery/checked_cell.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {
 
 inline constexpr char kCellData[] = "data.js";  ///< beside the page
 
-std::string cell_page(const SiteFrame& site, const FarmData& farm, const CellEntry& entry,
-                      const CellData& cell);
+std::string cell_page(const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
+                      const CheckedCell& cell);
 
 }  // namespace lobelia::gallery

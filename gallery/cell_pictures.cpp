@@ -1,6 +1,6 @@
 #include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
-#include "gallery/names.hpp"
+#include "gallery/link.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {
@@ -38,7 +38,7 @@ void write_image(Html& html, const Picture& picture, const std::string& alt) {
   write();
 }
 
-std::string why_no_picture(const EngineEntry& engine, const CellData& cell) {
+std::string why_no_picture(const records::FarmEngine& engine, const CheckedCell& cell) {
   if (!engine.available) {
     std::string words = engine.title + " was not there";
     if (!engine.why.empty()) words += ": " + engine.why;
@@ -46,25 +46,26 @@ std::string why_no_picture(const EngineEntry& engine, const CellData& cell) {
     if (!engine.install.empty()) words += " To get it: " + engine.install;
     return words;
   }
-  for (const CellProblem& problem : cell.problems) {
+  for (const records::CellProblem& problem : cell.record.problems) {
     if (problem.engine == engine.name) return engine.title + " made no picture: " + problem.message;
   }
-  for (const CellProblem& one : cell.not_comparable) {
-    if (one.engine == engine.name) return "Not comparable, because " + one.message + ".";
+  for (const records::NotComparable& one : cell.record.not_comparable) {
+    if (one.engine == engine.name) return "Not comparable, because " + one.because + ".";
   }
-  if (const CellImage* image = cell.find_image(engine.name)) return image->png.why_not;
+  if (const EnginePicture* image = cell.find_image(engine.name)) return image->png.why_not;
   return engine.title + " has not made this picture.";
 }
 
-std::string witness_words(const CellImage& image) {
-  if (image.witness == "native") return "its own shading of this model";
-  if (image.witness == "expressed") return "the model written in its language";
-  if (image.witness == "analytic") return "the formulas, pixel by pixel";
-  return image.witness;
+std::string witness_words(const EnginePicture& image) {
+  if (!image.reference) return "";
+  const std::string& witness = image.reference->witness;
+  if (witness == "native") return "its own shading of this model";
+  return witness == "expressed" ? "the model written in its language"
+                                : "the formulas, pixel by pixel";
 }
 
-void write_engine_picture(Html& html, const EngineEntry& engine, const CellData& cell) {
-  const CellImage* image = cell.find_image(engine.name);
+void write_engine_picture(Html& html, const records::FarmEngine& engine, const CheckedCell& cell) {
+  const EnginePicture* image = cell.find_image(engine.name);
   const Tag figure(html, "figure");
   {
     const Tag caption(html, "figcaption");
@@ -84,20 +85,18 @@ void write_engine_picture(Html& html, const EngineEntry& engine, const CellData&
   }
 }
 
-void write_scale(Html& html, const CellComparison& comparison) {
-  if (!comparison.white_at) return;
-  std::string words = "white = " + number_text(*comparison.white_at);
-  if (comparison.relative_to_peak) {
-    words += " = " + percent_text(*comparison.relative_to_peak) + " of the peak";
-  }
+void write_scale(Html& html, const CheckedComparison& comparison) {
+  const records::Difference& difference = comparison.entry.difference;
+  const std::string words = "white = " + number_text(difference.white_at) + " = " +
+                            percent_text(difference.relative_to_peak) + " of the peak";
   const Tag scale(html, "p", {{"class", "scale"}});
   html.element("span", "0");
   html.element("span", {{"class", "ramp"}, {"aria-hidden", "true"}}, "");
   html.element("span", words);
 }
 
-void write_difference(Html& html, const EngineEntry& engine, const CellData& cell) {
-  const CellComparison* comparison = cell.find_comparison(engine.name);
+void write_difference(Html& html, const records::FarmEngine& engine, const CheckedCell& cell) {
+  const CheckedComparison* comparison = cell.find_comparison(engine.name);
   const Tag figure(html, "figure");
   html.element("figcaption", {}, "Difference from " + engine.title);
   if (!comparison) {
@@ -110,11 +109,11 @@ void write_difference(Html& html, const EngineEntry& engine, const CellData& cel
   }
 }
 
-void write_explanation(Html& html, const CellData& cell) {
+void write_explanation(Html& html, const CheckedCell& cell) {
   const Tag note(html, "div", {{"class", "note"}});
-  if (cell.exposure_stops) {
+  if (cell.record.exposure_stops) {
     html.element("p", "For the eye, every picture of the first row has the same exposure, " +
-                          stops_text(*cell.exposure_stops) +
+                          stops_text(*cell.record.exposure_stops) +
                           ", and is then encoded for an sRGB display. The numbers below are taken "
                           "from the linear float pictures, not from these.");
   }
@@ -126,17 +125,18 @@ void write_explanation(Html& html, const CellData& cell) {
 
 }  // namespace
 
-void write_pictures(Html& html, const FarmData& farm, const CellData& cell) {
+void write_pictures(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"class", "pictures"}, {"aria-labelledby", "pictures"}});
   html.element("h2", {{"id", "pictures"}}, "Pictures");
   html.element("span", {{"class", "size-title"}}, "Size");
   write_size_choice(html);
   {
     const Tag row(html, "div", {{"class", "picture-row engines"}});
-    for (const EngineEntry& engine : farm.engines) write_engine_picture(html, engine, cell);
+    for (const records::FarmEngine& engine : farm.record.engines)
+      write_engine_picture(html, engine, cell);
   }
   const Tag row(html, "div", {{"class", "picture-row"}});
-  for (const EngineEntry& engine : farm.engines) {
+  for (const records::FarmEngine& engine : farm.record.engines) {
     if (engine.name == kOurEngine) {
       write_explanation(html, cell);
     } else {

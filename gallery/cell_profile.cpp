@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <map>
+#include <optional>
+#include <span>
 
 #include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
@@ -9,8 +10,8 @@
 namespace lobelia::gallery {
 namespace {
 
-void write_curves(Html& html, const FarmData& farm, const ProfileData& profile) {
-  if (profile.degrees.empty() || profile.curves.empty()) {
+void write_curves(Html& html, const ShownFarm& farm, const records::Profile& profile) {
+  if (profile.curve.angle_degrees.empty() || profile.curve.radiance.empty()) {
     write_absence(html,
                   "The profile has no curve: no pixel of the picture lies in this highlight.");
     return;
@@ -23,7 +24,7 @@ void write_curves(Html& html, const FarmData& farm, const ProfileData& profile) 
         "The highlight as a curve: mean radiance (of red, green and blue) of the pixels at "
         "each angle. Lines that lie on each other show through by their dashes.");
   }
-  const NamedCurve* analytic = profile.find_curve(kAnalytic);
+  const std::vector<double>* analytic = records::find(profile.curve.radiance, kAnalytic);
   if (!analytic) {
     write_absence(html, "The profile has no curve of the formula to compare with.");
     return;
@@ -41,8 +42,8 @@ void write_curves(Html& html, const FarmData& farm, const ProfileData& profile) 
                "without any difference.");
 }
 
-struct FigureTitle {
-  std::string title;
+struct FigureColumn {
+  const char* title;
   std::string (*text)(double);
 };
 
@@ -54,36 +55,41 @@ std::string seven_digits(double value) { return number_text(value, 7); }
 std::string two_digits(double value) { return number_text(value, 2); }
 std::string per_cent(double value) { return percent_text(value); }
 
-FigureTitle figure_title(const std::string& id) {
-  static const std::map<std::string, FigureTitle> kTitles = {
-      {"peak", {"Peak", five_digits}},
-      {"peakAngleDegrees", {"At angle", degrees_text}},
-      {"halfWidthDegrees", {"Half-width", degrees_text}},
-      {"energy", {"Energy", five_digits}},
-      {"exponent", {"n as a cosine lobe", seven_digits}},
-      {"standardError", {"± of n", two_digits}},
-      {"pixels", {"Pixels", count_text}},
-      {"maxAbs", {"Largest difference", three_digits}},
-      {"rms", {"Root mean square", three_digits}},
-      {"maxRelPeak", {"Largest, of the peak", per_cent}}};
-  const auto at = kTitles.find(id);
-  return at == kTitles.end() ? FigureTitle{id, five_digits} : at->second;
-}
+constexpr FigureColumn kShapeColumns[] = {
+    {"Peak", five_digits},   {"At angle", degrees_text},           {"Half-width", degrees_text},
+    {"Energy", five_digits}, {"n as a cosine lobe", seven_digits}, {"± of n", two_digits}};
+constexpr FigureColumn kZoneColumns[] = {{"Pixels", count_text},
+                                         {"Largest difference", three_digits},
+                                         {"Root mean square", three_digits},
+                                         {"Largest, of the peak", per_cent}};
 
 struct FigureRow {
   std::vector<std::string> heads;
-  NamedNumbers values;
+  std::vector<std::optional<double>> values;  ///< of each column
 };
 
-/// Rows that may lack some of the columns; a hole is a dash.
-void write_figures(Html& html, const std::string& caption, const std::vector<std::string>& head,
-                   const std::vector<FigureRow>& rows) {
-  std::vector<std::string> columns;
-  for (const FigureRow& row : rows) {
-    for (const auto& [id, value] : row.values) {
-      if (std::find(columns.begin(), columns.end(), id) == columns.end()) columns.push_back(id);
-    }
+FigureRow row_of(const std::string& head, const records::HighlightShape& shape) {
+  FigureRow row{{head},
+                {shape.peak, shape.peak_angle_degrees, shape.half_width_degrees, shape.energy,
+                 std::nullopt, std::nullopt}};
+  if (shape.highlight) {
+    row.values[4] = shape.highlight->cosine_lobe.exponent;
+    row.values[5] = shape.highlight->cosine_lobe.standard_error;
   }
+  return row;
+}
+
+FigureRow row_of(const std::string& pair, const std::string& zone, const records::ZoneError& e) {
+  return {{pair, zone}, {double(e.pixels), e.max_abs, e.rms, e.max_rel_peak}};
+}
+
+/// Rows that may lack some of the columns: a hole is a dash, a column of holes is left out.
+void write_figures(Html& html, const std::string& caption, const std::vector<std::string>& head,
+                   std::span<const FigureColumn> columns, const std::vector<FigureRow>& rows) {
+  const auto is_there = [&](std::size_t column) {
+    return std::ranges::any_of(
+        rows, [&](const FigureRow& row) { return row.values[column].has_value(); });
+  };
   const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table", {{"class", "figures"}});
   html.element("caption", caption);
@@ -91,24 +97,22 @@ void write_figures(Html& html, const std::string& caption, const std::vector<std
     const Tag thead(html, "thead");
     const Tag line(html, "tr");
     for (const std::string& title : head) html.element("th", {{"scope", "col"}}, title);
-    for (const std::string& id : columns) {
-      html.element("th", {{"scope", "col"}, {"class", "number"}}, figure_title(id).title);
-    }
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (is_there(i))
+        html.element("th", {{"scope", "col"}, {"class", "number"}}, columns[i].title);
   }
   const Tag tbody(html, "tbody");
   for (const FigureRow& row : rows) {
     const Tag line(html, "tr");
     for (const std::string& words : row.heads) html.element("th", {{"scope", "row"}}, words);
-    for (const std::string& id : columns) {
-      const auto value = std::find_if(row.values.begin(), row.values.end(),
-                                      [&](const auto& v) { return v.first == id; });
-      html.element("td", {{"class", "number"}},
-                   value == row.values.end() ? "–" : figure_title(id).text(value->second));
-    }
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (is_there(i))
+        html.element("td", {{"class", "number"}},
+                     row.values[i] ? columns[i].text(*row.values[i]) : "–");
   }
 }
 
-std::string pair_title(const FarmData& farm, const std::string& pair) {
+std::string pair_title(const ShownFarm& farm, const std::string& pair) {
   const auto dash = pair.find('-');
   if (dash == std::string::npos) return curve_title(farm, pair);
   return curve_title(farm, pair.substr(0, dash)) + " − " + curve_title(farm, pair.substr(dash + 1));
@@ -116,32 +120,32 @@ std::string pair_title(const FarmData& farm, const std::string& pair) {
 
 }  // namespace
 
-void write_profile(Html& html, const FarmData& farm, const CellData& cell) {
-  const ProfileData& profile = cell.profile;
+void write_profile(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"aria-labelledby", "profile"}});
   html.element("h2", {{"id", "profile"}}, "The highlight as a curve");
-  if (profile.file.empty()) return write_absence(html, "This cell has no profile.");
-  if (!profile.problem.empty()) return write_absence(html, profile.problem);
+  if (cell.record.profile.empty()) return write_absence(html, "This cell has no profile.");
+  if (!cell.profile) return write_absence(html, cell.profile_problem);
+  const records::Profile& profile = *cell.profile;
   write_curves(html, farm, profile);
   const Tag tables(html, "div", {{"class", "side-by-side"}});
   if (!profile.images.empty()) {
     std::vector<FigureRow> rows;
-    for (const auto& [name, values] : profile.images) {
-      rows.push_back({{curve_title(farm, name)}, values});
-    }
-    write_figures(html, "Each highlight in figures", {"Picture"}, rows);
+    for (const auto& [name, shape] : profile.images)
+      rows.push_back(row_of(curve_title(farm, name), shape));
+    write_figures(html, "Each highlight in figures", {"Picture"}, kShapeColumns, rows);
   }
   if (!profile.differences.empty()) {
     std::vector<FigureRow> rows;
+    const std::vector<records::ShownZone> titles = zones_of(profile);
     for (const auto& [pair, zones] : profile.differences) {
-      for (const ZoneDifference& zone : zones) {
-        rows.push_back({{pair_title(farm, pair), zone_title(zone.zone)}, zone.values});
-      }
+      const records::ZoneError errors[] = {zones.epicentre, zones.flank, zones.blooming};
+      for (std::size_t i = 0; i < titles.size(); ++i)
+        rows.push_back(row_of(pair_title(farm, pair), titles[i].title, errors[i]));
     }
     std::string caption = "Differences by zone";
-    for (const ProfileZone& zone : profile.zones)
+    for (const records::ShownZone& zone : titles)
       caption += "; " + zone.title + " " + degrees_text(zone.from) + " to " + degrees_text(zone.to);
-    write_figures(html, caption, {"Pictures", "Zone"}, rows);
+    write_figures(html, caption, {"Pictures", "Zone"}, kZoneColumns, rows);
   }
 }
 

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include "core/numbers.hpp"
-#include "gallery/metric_notes.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-EngineFigure figure(const EngineEntry& engine, const CellData& cell) {
-  EngineFigure result{engine.short_title, "–", ""};
-  const CellComparison* comparison = cell.find_comparison(engine.name);
+EngineFigure figure(const ShownFarm& farm, const records::FarmEngine& engine,
+                    const CheckedCell& cell) {
+  EngineFigure result{farm.short_title(engine), "–", ""};
+  const CheckedComparison* comparison = cell.find_comparison(engine.name);
   if (!comparison) {
     if (cell.has_record) result.worst = "none";
     return result;
@@ -29,28 +29,29 @@ EngineFigure figure(const EngineEntry& engine, const CellData& cell) {
   return result;
 }
 
-std::vector<std::string> reasons_of(const FarmData& farm, const CellData& cell) {
+std::vector<std::string> reasons_of(const ShownFarm& farm, const CheckedCell& cell) {
   std::vector<std::string> reasons;
   if (!cell.unreadable.empty()) reasons.push_back(cell.unreadable);
   for (const Flaw& flaw : cell.flaws) reasons.push_back(flaw.message);
   for (const std::string& sentence : cell.contradictions) reasons.push_back(sentence);
   if (cell.status == CellStatus::kUnsealed)
     reasons.emplace_back("cell.json has no hashes of its files");
-  for (const CellProblem& problem : cell.problems) {
+  for (const records::CellProblem& problem : cell.record.problems) {
     const std::string who = problem.engine.empty() ? "" : farm.engine_title(problem.engine) + ": ";
     reasons.push_back(who + problem.message);
   }
-  for (const CellProblem& one : cell.not_comparable) {
-    reasons.push_back(farm.engine_title(one.engine) + ": not comparable, because " + one.message);
+  for (const records::NotComparable& one : cell.record.not_comparable) {
+    reasons.push_back(farm.engine_title(one.engine) + ": not comparable, because " + one.because);
   }
-  for (const CellComparison& comparison : cell.comparisons) {
-    const std::string pair = farm.engine_title(comparison.b) + " · ";
+  for (const CheckedComparison& comparison : cell.comparisons) {
+    const std::string pair = farm.engine_title(comparison.entry.b) + " · ";
     if (comparison.verdict == "non-finite") reasons.push_back(pair + "pixels that are not finite");
-    for (const MetricLimit& limit : comparison.limits) {
+    for (const records::Limit& limit : comparison.record.limits) {
       if (limit.pass) continue;
-      reasons.push_back(fmt::format("{}{}: {}, limit {}", pair, metric_note(limit.metric).title,
-                                    metric_text(limit.metric, limit.value),
-                                    metric_text(limit.metric, limit.limit)));
+      reasons.push_back(fmt::format("{}{}: {}, limit {}", pair,
+                                    farm.metrics.info(limit.metric).title,
+                                    farm.metrics.text(limit.metric, limit.value),
+                                    farm.metrics.text(limit.metric, limit.limit)));
     }
   }
   return reasons;
@@ -58,24 +59,24 @@ std::vector<std::string> reasons_of(const FarmData& farm, const CellData& cell) 
 
 }  // namespace
 
-CellSummary summarise(const FarmData& farm, const CellEntry& entry, const CellData& cell) {
+CellSummary summarise(const ShownFarm& farm, const CellEntry& entry, const CheckedCell& cell) {
   CellSummary summary;
   summary.entry = &entry;
   summary.status = cell.status;
   summary.is_as_written =
       !is_flaw(cell.status) && cell.status != CellStatus::kUnsealed && cell.contradictions.empty();
-  if (const CellImage* ours = cell.find_image(kOurEngine)) summary.picture = ours->png;
-  for (const EngineEntry& engine : farm.engines) {
+  if (const EnginePicture* ours = cell.find_image(kOurEngine)) summary.picture = ours->png;
+  for (const records::FarmEngine& engine : farm.record.engines) {
     if (engine.name != kOurEngine && engine.available) {
-      summary.figures.push_back(figure(engine, cell));
+      summary.figures.push_back(figure(farm, engine, cell));
     }
   }
-  for (const CellComparison& comparison : cell.comparisons) {
-    if (comparison.a != kOurEngine || comparison.doubt) continue;
-    NamedNumbers numbers;
-    for (const auto& metric : comparison.metrics)
+  for (const CheckedComparison& comparison : cell.comparisons) {
+    if (comparison.entry.a != kOurEngine || comparison.doubt) continue;
+    records::Named<double> numbers;
+    for (const auto& metric : comparison.record.metrics)
       if (!is_coordinate(metric.first)) numbers.push_back(metric);
-    summary.metrics.emplace_back(comparison.b, std::move(numbers));
+    summary.metrics.emplace_back(comparison.entry.b, std::move(numbers));
   }
   if (summary.status != CellStatus::kPass) summary.reasons = reasons_of(farm, cell);
   return summary;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gallery/cell_data.hpp"
+#include "gallery/checked_cell.hpp"
 
 namespace lobelia::gallery {
 
@@ -23,9 +23,9 @@ struct CellSummary {
   std::vector<EngineFigure> figures;  ///< one per reference engine that is there
   std::vector<std::string> reasons;   ///< why it is not a pass
   /// Of each engine that was compared with ours, all metrics but coordinates.
-  std::vector<std::pair<std::string, NamedNumbers>> metrics;
+  records::Named<records::Named<double>> metrics;
 };
 
-CellSummary summarise(const FarmData& farm, const CellEntry& entry, const CellData& cell);
+CellSummary summarise(const ShownFarm& farm, const CellEntry& entry, const CheckedCell& cell);
 
 }  // namespace lobelia::gallery

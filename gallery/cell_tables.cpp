@@ -4,120 +4,129 @@
 
 #include "core/numbers.hpp"
 #include "gallery/cell_sections.hpp"
-#include "gallery/metric_notes.hpp"
 #include "gallery/page.hpp"
+#include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
 /// Ids of all metrics, in the order in which the records have them.
-std::vector<std::string> metric_ids(const CellData& cell) {
+std::vector<std::string> metric_ids(const CheckedCell& cell) {
   std::vector<std::string> ids;
   const auto add = [&](const std::string& id) {
     if (!is_coordinate(id) && std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
   };
-  for (const CellComparison& comparison : cell.comparisons) {
-    for (const auto& [id, value] : comparison.metrics) add(id);
-    for (const MetricLimit& limit : comparison.limits) add(limit.metric);
+  for (const CheckedComparison& comparison : cell.comparisons) {
+    for (const auto& [id, value] : comparison.record.metrics) add(id);
+    for (const records::Limit& limit : comparison.record.limits) add(limit.metric);
   }
   return ids;
 }
 
-std::string value_text(const CellComparison& comparison, const std::string& id) {
+std::string value_text(const ShownFarm& farm, const CheckedComparison& comparison,
+                       const std::string& id) {
   const auto value = comparison.metric(id);
   if (!value) return "–";
-  std::string words = metric_text(id, *value);
+  std::string words = farm.metrics.text(id, *value);
   const auto x = comparison.metric(id + ".x"), y = comparison.metric(id + ".y");
   if (x && y) words += " at (" + count_text(*x) + ", " + count_text(*y) + ")";
   return words;
 }
 
-std::string limit_text(const CellComparison& comparison, const std::string& id) {
+std::string limit_text(const ShownFarm& farm, const CheckedComparison& comparison,
+                       const std::string& id) {
   std::string words;
-  for (const MetricLimit& limit : comparison.limits) {
+  for (const records::Limit& limit : comparison.record.limits) {
     if (limit.metric != id) continue;
-    words += limit.pass ? "✓ within " : limit.open ? "± on either side of " : "≠ over ";
-    words += metric_text(id, limit.limit);
+    words += limit.pass                 ? "✓ within "
+             : limit.standing == "open" ? "± on either side of "
+                                        : "≠ over ";
+    words += farm.metrics.text(id, limit.limit);
   }
   return words;
 }
 
-void write_metric_row(Html& html, const CellData& cell, const std::string& id) {
-  const MetricNote note = metric_note(id);
+void write_metric_row(Html& html, const ShownFarm& farm, const CheckedCell& cell,
+                      const std::string& id) {
+  const MetricInfo metric = farm.metrics.info(id);
   const Tag row(html, "tr");
   {
     const Tag head(html, "th", {{"scope", "row"}});
-    html.text(note.title);
-    if (!note.meaning.empty()) html.element("small", note.meaning);
+    html.text(metric.title);
+    if (!metric.meaning.empty()) html.element("small", metric.meaning);
   }
-  for (const CellComparison& comparison : cell.comparisons) {
+  for (const CheckedComparison& comparison : cell.comparisons) {
     const Tag value(html, "td", {{"class", "number"}});
-    html.text(value_text(comparison, id));
-    for (const ErrorBar& bar : comparison.error_bars) {
-      if (bar.metric != id) continue;
-      html.element("small", "from " + metric_text(id, bar.low) + " to " +
-                                metric_text(id, bar.high) + " without noise; noise alone shows " +
-                                metric_text(id, bar.floor));
-    }
-    const std::string limit = limit_text(comparison, id);
+    html.text(value_text(farm, comparison, id));
+    const auto& bars = comparison.record.error_bars;
+    if (const auto* bar = bars ? records::find(*bars, id) : nullptr)
+      html.element("small", "from " + farm.metrics.text(id, bar->low) + " to " +
+                                farm.metrics.text(id, bar->high) +
+                                " without noise; noise alone shows " +
+                                farm.metrics.text(id, bar->noise_floor));
+    const std::string limit = limit_text(farm, comparison, id);
     if (limit.empty()) continue;
     html.element("small", {{"class", limit.starts_with("≠") ? "over" : "within"}}, limit);
   }
 }
 
 template <class Words>
-void write_words_row(Html& html, const CellData& cell, const std::string& head,
+void write_words_row(Html& html, const CheckedCell& cell, const std::string& head,
                      const Words& words) {
   const Tag row(html, "tr");
   html.element("th", {{"scope", "row"}}, head);
-  for (const CellComparison& comparison : cell.comparisons) {
+  for (const CheckedComparison& comparison : cell.comparisons) {
     html.element("td", words(comparison));
   }
 }
 
-std::string tolerance_text(const CellComparison& comparison) {
-  if (!comparison.tolerance) return "none";
-  const Tolerance& t = *comparison.tolerance;
+std::string tolerance_text(const CheckedComparison& comparison) {
+  if (!comparison.record.tolerance) return "none";
+  const records::Tolerance& t = *comparison.record.tolerance;
   std::string words;
   const auto add = [&](const std::string& part) { words += (words.empty() ? "" : " + ") + part; };
-  if (t.relative && *t.relative != 0) add(percent_text(*t.relative) + " of the value");
-  if (t.of_peak && *t.of_peak != 0) add(percent_text(*t.of_peak) + " of the peak");
+  if (t.relative != 0) add(percent_text(t.relative) + " of the value");
+  if (t.of_peak != 0) add(percent_text(t.of_peak) + " of the peak");
   if (words.empty()) words = "exactly equal";
-  if (t.allowed_outliers && *t.allowed_outliers != 0) {
-    words += ", but for " + count_text(*t.allowed_outliers) + " pixels";
-  }
+  if (t.allowed_outliers != 0)
+    words += ", but for " + count_text(double(t.allowed_outliers)) + " pixels";
   return words;
 }
 
-std::string nonfinite_text(const CellComparison& comparison) {
-  return count_text(comparison.nonfinite_a.value_or(0)) + " in ours, " +
-         count_text(comparison.nonfinite_b.value_or(0)) + " in theirs";
+std::string nonfinite_text(const CheckedComparison& comparison) {
+  const records::Nonfinite& nonfinite = comparison.record.nonfinite;
+  return count_text(double(nonfinite.a)) + " in ours, " + count_text(double(nonfinite.b)) +
+         " in theirs";
 }
 
-std::string viewing_text(const CellComparison& comparison) {
-  std::string words;
-  for (const auto& [name, value] : comparison.viewing) {
-    if (!words.empty()) words += ", ";
-    words += name == "exposureStops"     ? "exposure " + value + " stops"
-             : name == "pixelsPerDegree" ? value + " pixels per degree"
-                                         : name + " " + value;
-  }
+std::string viewing_text(const CheckedComparison& comparison) {
+  if (!comparison.problem.empty()) return std::string();
+  const records::Viewing& seen = comparison.record.viewing;
+  std::string words =
+      fmt::format("exposure {} stops, {} pixels per degree", number_text(seen.exposure_stops, 6),
+                  number_text(seen.pixels_per_degree, 6));
+  const auto add = [&](const char* what, const auto& part) {
+    if (part) words += fmt::format(", {} {}", what, in_words(*part));
+  };
+  add("HDR exposures", seen.hdr_exposures);
+  add("display", seen.display);
   return words;
 }
 
-void write_metric_head(Html& html, const FarmData& farm, const CellData& cell) {
+void write_metric_head(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag thead(html, "thead");
   const Tag line(html, "tr");
   html.element("th", {{"scope", "col"}}, "Measure");
-  for (const CellComparison& comparison : cell.comparisons) {
-    html.element("th", {{"scope", "col"}},
-                 farm.engine_title(comparison.a) + " and " + farm.engine_title(comparison.b));
+  for (const CheckedComparison& comparison : cell.comparisons) {
+    html.element(
+        "th", {{"scope", "col"}},
+        farm.engine_title(comparison.entry.a) + " and " + farm.engine_title(comparison.entry.b));
   }
 }
 
 }  // namespace
 
-std::string verdict_words(const CellComparison& comparison) {
+std::string verdict_words(const CheckedComparison& comparison) {
   if (comparison.doubt)
     return fmt::format("{} {}", info(*comparison.doubt).mark, info(*comparison.doubt).word);
   if (!comparison.problem.empty()) return comparison.problem;
@@ -128,7 +137,7 @@ std::string verdict_words(const CellComparison& comparison) {
   return "✕ " + (verdict.empty() ? "no verdict" : verdict);
 }
 
-void write_numbers(Html& html, const FarmData& farm, const CellData& cell) {
+void write_numbers(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"aria-labelledby", "numbers"}});
   html.element("h2", {{"id", "numbers"}}, "The numbers");
   if (cell.comparisons.empty()) {
@@ -142,15 +151,15 @@ void write_numbers(Html& html, const FarmData& farm, const CellData& cell) {
   write_words_row(html, cell, "Verdict", verdict_words);
   write_words_row(html, cell, "Pixels that are not finite", nonfinite_text);
   write_words_row(html, cell, "Tolerance of each pixel", tolerance_text);
-  for (const std::string& id : metric_ids(cell)) write_metric_row(html, cell, id);
+  for (const std::string& id : metric_ids(cell)) write_metric_row(html, farm, cell, id);
   write_words_row(html, cell, "Seen at", viewing_text);
 }
 
-void write_plan(Html& html, const CellData& cell) {
-  const CellImage* ours = cell.find_image(kOurEngine);
+void write_plan(Html& html, const CheckedCell& cell) {
+  const EnginePicture* ours = cell.find_image(kOurEngine);
   const Tag section(html, "section", {{"aria-labelledby", "plan"}});
   html.element("h2", {{"id", "plan"}}, "The plan");
-  if (!ours || ours->effects.empty()) {
+  if (!ours || !ours->render || ours->render->plan.effects.empty()) {
     write_absence(html, "The record of our picture has no plan.");
     return;
   }
@@ -164,7 +173,7 @@ void write_plan(Html& html, const CellData& cell) {
       html.element("th", {{"scope", "col"}}, title);
   }
   const Tag tbody(html, "tbody");
-  for (const PlannedEffect& effect : ours->effects) {
+  for (const records::Effect& effect : ours->render->plan.effects) {
     const Tag row(html, "tr");
     html.element("th", {{"scope", "row"}}, effect.name);
     html.element("td", {{"class", effect.on ? "on" : "off"}}, effect.on ? "● on" : "○ off");

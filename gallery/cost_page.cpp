@@ -4,42 +4,68 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error_time_chart.hpp"
 #include "core/html.hpp"
 #include "core/numbers.hpp"
-#include "gallery/cost_data.hpp"
+#include "core/text.hpp"
 #include "gallery/page.hpp"
 #include "gallery/record_page.hpp"
+#include "records/cost.hpp"
+#include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
+using records::CostError, records::CostTable, records::CostWay;
+
+constexpr char kRecord[] = "cost/cost.json", kCsv[] = "cost/cost.csv";
 constexpr char kTitle[] = "What accuracy costs in time";
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kChartWidth = 800;           // beside a table
 constexpr std::size_t kMostSentences = 8;  // of a front; the rest can be unfolded
 
+/// Empty: seconds.
+std::string cost_unit(const CostTable& table) { return table.unit == "s" ? "" : table.unit; }
+
+double cost_of(const CostWay& way) {
+  return way.seconds ? way.seconds->median : way.count.value_or(kUnknown);
+}
+double spread_of(const CostWay& way) { return way.seconds ? way.seconds->spread : 0; }
+
+double error_of(const CostWay& way, const CostError& error) {
+  const double* value = records::find(way.errors, error.id);
+  return value ? *value : kUnknown;
+}
+double error_spread_of(const CostWay& way, const CostError& error) {
+  const double* spread = way.error_spreads ? records::find(*way.error_spreads, error.id) : nullptr;
+  return spread ? *spread : 0;
+}
+
 std::string cost_text(const CostTable& table, double cost) {
   if (std::isnan(cost)) return "–";
-  return table.cost_unit.empty() ? short_time_text(cost) : number_text(cost);
+  return cost_unit(table).empty() ? short_time_text(cost) : number_text(cost);
 }
 
 std::string error_text(double error) { return std::isnan(error) ? "–" : number_text(error); }
 
-bool is_on(const CostError& error, const CostWay& way) {
-  return std::find(error.front.begin(), error.front.end(), way.name) != error.front.end();
+/// Whether no other is both as fast and as accurate.
+bool is_on_front(const CostTable& table, const CostError& error, const CostWay& way) {
+  const records::CostFront* front = records::find(table.fronts, error.id);
+  return front && std::ranges::find(front->ways, way.name) != front->ways.end();
 }
 
-std::string chart_of(const CostTable& table, std::size_t e, const std::string& id) {
-  ErrorTimes times{id, table.title, table.per, table.cost_unit, table.errors[e].meaning, {}};
-  for (const CostWay& way : table.ways)
-    times.points.push_back(
-        {way.name,
-         fmt::format("{}: {} ± {} %, {} {}", way.name, cost_text(table, way.median),
-                     number_text(100 * way.spread, 2), table.errors[e].id,
-                     error_text(way.errors[e])),
-         way.median, way.spread * way.median, way.errors[e], way.error_spreads[e],
-         is_on(table.errors[e], way), way.name});
+std::string chart_of(const CostTable& table, const CostError& error, const std::string& id) {
+  ErrorTimes times{id, table.title, table.per, cost_unit(table), error.meaning, {}};
+  for (const CostWay& way : table.ways) {
+    const double cost = cost_of(way), spread = spread_of(way), value = error_of(way, error);
+    times.points.push_back({way.name,
+                            fmt::format("{}: {} ± {} %, {} {}", way.name, cost_text(table, cost),
+                                        number_text(100 * spread, 2), error.id, error_text(value)),
+                            cost, spread * cost, value, error_spread_of(way, error),
+                            is_on_front(table, error, way), way.name});
+  }
   Chart chart = error_time_chart(times);
   chart.width = kChartWidth;
   return draw_chart(chart);
@@ -74,7 +100,7 @@ void write_ways(Html& html, const CostTable& table) {
     const Tag row(html, "tr");
     html.element("th", {{"scope", "col"}}, "way");
     html.element("th", {{"scope", "col"}},
-                 (table.cost_unit.empty() ? "time per " : table.cost_unit + " per ") + table.per);
+                 (cost_unit(table).empty() ? "time per " : cost_unit(table) + " per ") + table.per);
     html.element("th", {{"scope", "col"}}, "±");
     for (const CostError& error : table.errors) html.element("th", {{"scope", "col"}}, error.id);
     html.element("th", {{"scope", "col"}}, "on the front by");
@@ -83,21 +109,21 @@ void write_ways(Html& html, const CostTable& table) {
   for (const CostWay& way : table.ways) ways.push_back(&way);
   // NaN last: it compares as nothing.
   std::stable_sort(ways.begin(), ways.end(), [](const CostWay* a, const CostWay* b) {
-    const double x = std::isnan(a->median) ? HUGE_VAL : a->median;
-    const double y = std::isnan(b->median) ? HUGE_VAL : b->median;
-    return x < y;
+    const double x = cost_of(*a), y = cost_of(*b);
+    return (std::isnan(x) ? HUGE_VAL : x) < (std::isnan(y) ? HUGE_VAL : y);
   });
   const Tag body(html, "tbody");
   for (const CostWay* way : ways) {
     const Tag row(html, "tr", {{"data-key", way->name}});
     html.element("th", {{"scope", "row"}}, way->name);
-    html.element("td", {{"class", "number"}}, cost_text(table, way->median));
-    html.element("td", {{"class", "number"}}, fmt::format("{} %", number_text(100 * way->spread)));
-    for (const double error : way->errors)
-      html.element("td", {{"class", "number"}}, error_text(error));
+    html.element("td", {{"class", "number"}}, cost_text(table, cost_of(*way)));
+    html.element("td", {{"class", "number"}},
+                 fmt::format("{} %", number_text(100 * spread_of(*way))));
+    for (const CostError& error : table.errors)
+      html.element("td", {{"class", "number"}}, error_text(error_of(*way, error)));
     std::string on;
     for (const CostError& error : table.errors)
-      if (is_on(error, *way)) on += (on.empty() ? "" : ", ") + error.id;
+      if (is_on_front(table, error, *way)) on += (on.empty() ? "" : ", ") + error.id;
     html.element("td", on);
   }
 }
@@ -113,16 +139,17 @@ void write_table(Html& html, const CostTable& table, std::size_t number) {
       html.element("h3", error.meaning);
       {
         const Tag figure(html, "figure", {{"class", "chart-figure"}});
-        html.raw(chart_of(table, e, fmt::format("cost-{}-{}", number, e)));
+        html.raw(chart_of(table, error, fmt::format("cost-{}-{}", number, e)));
       }
-      write_sentences(html, error.in_words);
+      if (const auto* front = records::find(table.fronts, error.id))
+        write_sentences(html, front->in_words);
     }
     for (const std::string& remark : table.remarks) html.element("p", remark);
   }
   write_ways(html, table);
 }
 
-void write_cost(Html& html, const CostData& cost) {
+void write_cost(Html& html, const records::Cost& cost) {
   {
     const Tag header(html, "header");
     html.element("h1", kTitle);
@@ -143,17 +170,17 @@ void write_cost(Html& html, const CostData& cost) {
   {
     const Tag section(html, "section");
     html.element("h2", "How it was measured");
-    write_command(html, cost.command);
+    write_command(html, shell_join(cost.command));
     {
       const Tag line(html, "p");
       html.text("All of it is in ");
-      html.element("a", {{"href", kCostRecord}}, "cost.json");
+      html.element("a", {{"href", kRecord}}, "cost.json");
       html.text(" and ");
-      html.element("a", {{"href", kCostTable}}, "cost.csv");
+      html.element("a", {{"href", kCsv}}, "cost.csv");
       html.text(".");
     }
     const Tag list(html, "dl");
-    for (const auto& [name, value] : cost.host) {
+    for (const auto& [name, value] : words_of(cost.host)) {
       const Tag item(html, "div");
       html.element("dt", name);
       html.element("dd", value);
@@ -164,10 +191,12 @@ void write_cost(Html& html, const CostData& cost) {
 }  // namespace
 
 std::optional<ViewPage> cost_view(const std::filesystem::path& run) {
-  return record_page(run, kCostRecord, "cost", kTitle, [&](ViewPage& page, const Fields& record) {
-    write_cost(page.main, read_cost(record));
-    if (std::filesystem::is_regular_file(run / kCostTable)) page.files.push_back(kCostTable);
-  });
+  return record_page<records::Cost>(run, kRecord, kTitle,
+                                    [&](ViewPage& page, const records::Cost& record) {
+                                      write_cost(page.main, record);
+                                      if (std::filesystem::is_regular_file(run / kCsv))
+                                        page.files.push_back(kCsv);
+                                    });
 }
 
 }  // namespace lobelia::gallery

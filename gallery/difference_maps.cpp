@@ -46,18 +46,18 @@ std::string script_of(const MapKind& kind, const MapViewing& viewing, const std:
 }  // namespace
 
 void publish_difference_maps(CellPictures& pictures, const std::vector<MapKind>& kinds,
-                             CellData& cell, Publisher& publisher) {
+                             CheckedCell& cell, Publisher& publisher) {
   if (kinds.empty()) return;
-  for (CellComparison& comparison : cell.comparisons) {
-    const CellImage* a = cell.find_image(comparison.a);
-    const CellImage* b = cell.find_image(comparison.b);
-    if (!a || !b || a->exr.empty() || b->exr.empty() || !comparison.exposure_stops ||
-        !comparison.pixels_per_degree)
+  for (CheckedComparison& comparison : cell.comparisons) {
+    const EnginePicture* a = cell.find_image(comparison.entry.a);
+    const EnginePicture* b = cell.find_image(comparison.entry.b);
+    const records::Viewing& seen = comparison.record.viewing;
+    if (!a || !b || a->exr.empty() || b->exr.empty() || !comparison.problem.empty() || seen.display)
       continue;
-    const MapViewing viewing{*comparison.exposure_stops, *comparison.pixels_per_degree};
+    const MapViewing viewing{seen.exposure_stops, seen.pixels_per_degree};
     const std::size_t bytes = kMapBytes / (kinds.size() * cell.comparisons.size());
     for (const MapKind& kind : kinds) {
-      const std::string file = fmt::format("{}.map.{}.js", comparison.b, kind.id);
+      const std::string file = fmt::format("{}.map.{}.js", comparison.entry.b, kind.id);
       const std::string key = fmt::format(
           "{} of {}: {} of {} and {}, {} stops, {} pixels per degree", kMapFormat, bytes, kind.id,
           a->exr_sha256, b->exr_sha256, viewing.exposure_stops, viewing.pixels_per_degree);

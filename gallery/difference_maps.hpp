@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "gallery/cell_data.hpp"
+#include "gallery/checked_cell.hpp"
 #include "gallery/gallery.hpp"
 #include "gallery/packed_images.hpp"
 #include "gallery/publisher.hpp"
@@ -19,6 +19,6 @@ inline constexpr float kLeastOfMap = 0x1p-10f;
 /// says so in the comparisons' `maps`. One that is too large, as of noise, has of each block of pixels the largest
 /// value alone.
 void publish_difference_maps(CellPictures& pictures, const std::vector<MapKind>& kinds,
-                             CellData& cell, Publisher& publisher);
+                             CheckedCell& cell, Publisher& publisher);
 
 }  // namespace lobelia::gallery

@@ -10,13 +10,12 @@
 #include "core/image_io.hpp"
 #include "core/sha256.hpp"
 #include "gallery/picture.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t kMaxRecordBytes = 64u << 20;
 
 std::size_t count_nonfinite_pixels(const Image& image) {
   std::size_t count = 0;
@@ -36,7 +35,8 @@ std::string damage_of(const fs::path& directory, const std::string& file) {
         return fmt::format("{} has {} {} that {} not finite.", file, count,
                            count == 1 ? "pixel" : "pixels", count == 1 ? "is" : "are");
     }
-    if (file.ends_with(".json") && !Json::accept(read_file(directory / file, kMaxRecordBytes)))
+    if (file.ends_with(".json") &&
+        !records::is_json(read_file(directory / file, records::kMaxRecordBytes)))
       return file + " is not JSON.";
     return "";
   } catch (const Error& error) {
@@ -59,11 +59,11 @@ std::string shortened(const std::string& hash) { return hash.substr(0, 12) + "â€
 
 }  // namespace
 
-Evidence::Evidence(fs::path directory, const Fields& cell) : directory_(std::move(directory)) {
-  for (const Fields& entry : cell.objects("files")) {
-    const std::string file = entry.plain_name("name"), sealed = entry.text("sha256");
-    if (file.empty()) entry.fail("name", "must not be empty");
-    if (!hashes_.emplace(file, sealed).second) entry.fail("name", "stands there twice");
+Evidence::Evidence(fs::path directory, const std::vector<records::CellFile>& files)
+    : directory_(std::move(directory)) {
+  for (const auto& [file, sealed] : files) {
+    if (!hashes_.emplace(file, sealed).second)
+      throw Error(ExitCode::kInput, fmt::format("cell.json: files: {} stands there twice", file));
     std::error_code ignored;
     if (!fs::is_regular_file(directory_ / file, ignored)) {
       flaws_.push_back({file, CellStatus::kLost, file + " is missing."});

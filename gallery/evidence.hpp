@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gallery/fields.hpp"
 #include "gallery/status.hpp"
+#include "records/farm.hpp"
 
 namespace lobelia::gallery {
 
@@ -20,10 +20,10 @@ struct Flaw {
 
 class Evidence {
  public:
-  /// Hashes every file of `directory` that `cell`, its record, lists in `files`.
-  Evidence(std::filesystem::path directory, const Fields& cell);
+  /// Hashes every file of `directory` that its record lists. Throws Error(kInput) where it lists one twice.
+  Evidence(std::filesystem::path directory, const std::vector<records::CellFile>& files);
 
-  /// In the order of `files`.
+  /// In the order of the list.
   const std::vector<Flaw>& flaws() const { return flaws_; }
   bool has(const std::string& file) const { return hashes_.contains(file); }
   /// The SHA-256 of a file without a flaw. Throws Error(kInput) if it cannot be read.
@@ -31,7 +31,7 @@ class Evidence {
 
  private:
   std::filesystem::path directory_;
-  std::map<std::string, std::string> hashes_;  ///< that `files` has, by name
+  std::map<std::string, std::string> hashes_;  ///< of those listed, by name
   std::vector<Flaw> flaws_;
 };
 

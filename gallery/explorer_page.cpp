@@ -9,12 +9,16 @@
 
 #include "core/numbers.hpp"
 #include "core/svg_chart.hpp"
-#include "gallery/highlight_tables_data.hpp"
+#include "gallery/highlight_curves.hpp"
 #include "gallery/page.hpp"
 #include "gallery/record_page.hpp"
+#include "records/pages.hpp"
+#include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
+
+using records::HighlightTable, records::HighlightTables, records::LobeTable, records::ModelTable;
 
 constexpr char kRecord[] = "explorer/tables.json";
 constexpr char kTitle[] = "Highlights to explore";
@@ -55,8 +59,9 @@ Chart lobe_chart(const HighlightTables& tables, std::size_t at) {
   for (const LobeTable& lobe : tables.lobes) {
     if (lobe.order > 0 && lobe.order != 2 && lobe.order != 16) continue;
     if (chart.series.size() == kMostLines) break;
-    ChartSeries series{lobe.title, in_degrees(lobe.angles(at, n)), {}, int(chart.series.size())};
-    for (const double number : lobe.curves[at]) series.y.push_back(lobe.value(number));
+    ChartSeries series{
+        lobe.title, in_degrees(curve_angles(lobe, at, n)), {}, int(chart.series.size())};
+    for (const std::int64_t number : lobe.curves[at]) series.y.push_back(lobe_value(lobe, number));
     chart.series.push_back(std::move(series));
   }
   return chart;
@@ -74,10 +79,10 @@ Chart albedo_chart(const HighlightTables& tables, std::size_t at, const std::str
   chart.y = {"share of a beam that leaves", 0, 2, false};
   for (const HighlightTable& highlight : tables.highlights) {
     if (highlight.lobe != lobe || chart.series.size() == kMostLines) continue;
-    const auto incidences = tables.incidences(n, highlight.seen[at].size());
+    const auto incidences = incidences_of(tables, n, highlight.seen[at].size());
     const auto model = std::ranges::find(tables.models, highlight.model, &ModelTable::name);
     chart.series.push_back({model == tables.models.end() ? highlight.model : model->title,
-                            in_degrees(incidences), highlight.beam(at, incidences),
+                            in_degrees(incidences), beam_of(highlight, at, incidences),
                             int(chart.series.size())});
   }
   return chart;
@@ -125,82 +130,50 @@ void write_highlights(Html& html, const HighlightTables& tables, std::size_t at)
                        "energy at normal incidence", "most seen", "most of a beam"});
   const Tag body(html, "tbody");
   for (const HighlightTable& one : tables.highlights) {
-    const auto incidences = tables.incidences(tables.exponents[at], one.seen[at].size());
-    const double most_seen = one.albedo(*std::ranges::max_element(one.seen[at]));
-    const double most_lit = std::ranges::max(one.beam(at, incidences));
+    const auto incidences = incidences_of(tables, tables.exponents[at], one.seen[at].size());
+    const double most_seen = albedo_of(one, std::ranges::max(one.seen[at]));
+    const double most_lit = std::ranges::max(beam_of(one, at, incidences));
     const Tag row(html, "tr");
     html.element("th", {{"scope", "row"}}, one.model);
     html.element("td", one.lobe);
     for (const std::string& text :
          {number_text(one.exact[at], 5), one.paper.empty() ? "–" : number_text(one.paper[at], 5),
-          number_text(one.albedo(one.seen[at].back()), 4), number_text(most_seen, 4),
+          number_text(albedo_of(one, one.seen[at].back()), 4), number_text(most_seen, 4),
           number_text(most_lit, 4)})
       html.element("td", {{"class", "number"}}, text);
   }
 }
 
-/// With more digits than the tables are good for, shorter than a double's.
-Json rounded(const std::vector<double>& values) {
-  Json result = Json::array();
-  for (const double value : values)
-    result.push_back(std::strtod(fmt::format("{:.8g}", value).c_str(), nullptr));
-  return result;
+/// More digits than the tables are good for, shorter than a double's.
+void round_all(std::vector<double>& values) {
+  for (double& value : values) value = std::strtod(fmt::format("{:.8g}", value).c_str(), nullptr);
 }
 
-/// Second differences from exponent to exponent, which are short: the first row, how the second differs from it,
+/// To second differences from exponent to exponent, which are short: the first row, how the second differs from it,
 /// and from then on how much this changes.
-Json differences(const Rows& rows) {
-  Json result = Json::array();
-  const auto at = [&](std::size_t row, std::size_t back, std::size_t i) {
-    return row >= back ? rows[row - back][i] : 0;
-  };
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    Json one = Json::array();
-    for (std::size_t i = 0; i < rows[r].size(); ++i) {
-      const double expected = r == 1 ? at(r, 1, i) : 2 * at(r, 1, i) - at(r, 2, i);
-      one.push_back(std::int64_t(std::clamp(rows[r][i] - (r == 0 ? 0 : expected), -1e15, 1e15)));
-    }
-    result.push_back(one);
-  }
-  return result;
+void take_differences(Rows& rows) {
+  for (std::size_t r = rows.size(); r-- > 1;)
+    for (std::size_t i = 0; i < rows[r].size(); ++i)
+      rows[r][i] -= r == 1 ? rows[0][i] : 2 * rows[r - 1][i] - rows[r - 2][i];
 }
 
-Json page_data(const HighlightTables& tables) {
-  Json json{{"exponents", tables.exponents},
-            {"perOctave", tables.per_octave},
-            {"mostGrazing", tables.most_grazing},
-            {"error", Json::object()},
-            {"models", Json::array()},
-            {"lobes", Json::array()},
-            {"highlights", Json::array()}};
-  for (const auto& [name, error] : tables.errors) json["error"][name] = number_or_name(error);
-  for (const ModelTable& m : tables.models)
-    json["models"].push_back({{"name", m.name},
-                              {"title", m.title},
-                              {"angle", m.angle},
-                              {"appliesCosine", m.applies_cosine},
-                              {"coefficient", m.coefficient}});
-  for (const LobeTable& l : tables.lobes)
-    json["lobes"].push_back({{"name", l.name},
-                             {"title", l.title},
-                             {"formula", l.formula},
-                             {"order", l.order},
-                             {"unit", l.unit},
-                             {"reach", rounded(l.reach)},
-                             {"halfWidth", rounded(l.half_width)},
-                             {"curves", differences(l.curves)}});
-  for (const HighlightTable& h : tables.highlights) {
-    Json one{{"model", h.model}, {"lobe", h.lobe}, {"exact", rounded(h.exact)}, {"unit", h.unit}};
-    if (!h.paper.empty()) one["paper"] = rounded(h.paper);
-    one["seen"] = differences(h.seen);
-    if (!h.lit.empty()) one["lit"] = differences(h.lit);
-    json["highlights"].push_back(one);
+records::ExplorerPage page_data(HighlightTables tables) {
+  for (LobeTable& lobe : tables.lobes) {
+    round_all(lobe.reach);
+    round_all(lobe.half_width);
+    take_differences(lobe.curves);
   }
-  return json;
+  for (HighlightTable& highlight : tables.highlights) {
+    round_all(highlight.exact);
+    round_all(highlight.paper);
+    take_differences(highlight.seen);
+    take_differences(highlight.lit);
+  }
+  return tables;
 }
 
-void draw(ViewPage& page, const Fields& record) {
-  const HighlightTables tables = read_highlight_tables(record);
+void draw(ViewPage& page, const HighlightTables& tables) {
+  require_drawable(tables, kRecord);
   const std::size_t at = nearest(tables.exponents, kShown);
   Html& html = page.main;
   write_lead(
@@ -225,7 +198,7 @@ void draw(ViewPage& page, const Fields& record) {
     write_highlights(html, tables, at);
   }
   std::string errors;
-  for (const auto& [name, error] : tables.errors)
+  for (const auto& [name, error] : numbers_of(tables.error))
     errors += (errors.empty() ? "" : ", ") + name + " " + number_text(error);
   const Tag section(html, "section");
   html.element("h2", "Where the numbers come from");
@@ -239,13 +212,13 @@ void draw(ViewPage& page, const Fields& record) {
   write_command(html, "lobelia models --tables tables.json");
   // Megabytes that the page's data says shorter.
   page.files.clear();
-  page.data = page_data(tables);
+  page.data = records::record_line(page_data(tables));
 }
 
 }  // namespace
 
 std::optional<ViewPage> explorer_view(const std::filesystem::path& run) {
-  return record_page(run, kRecord, "highlight-tables", kTitle, draw);
+  return record_page<HighlightTables>(run, kRecord, kTitle, draw);
 }
 
 }  // namespace lobelia::gallery

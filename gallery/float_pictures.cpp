@@ -67,7 +67,7 @@ Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t
 /// All scripts of a cell, made together when the first is asked for: a second publication reads no picture.
 class CellScripts {
  public:
-  CellScripts(CellPictures& pictures, const CellData& cell) : pictures_(pictures), cell_(cell) {}
+  CellScripts(CellPictures& pictures, const CheckedCell& cell) : pictures_(pictures), cell_(cell) {}
 
   std::string of(const std::string& engine) {
     if (!made_) make();
@@ -77,13 +77,13 @@ class CellScripts {
 
  private:
   void make() {
-    const CellImage* our_image = cell_.find_image(kOurEngine);
+    const EnginePicture* our_image = cell_.find_image(kOurEngine);
     const std::optional<Image>& ours = pictures_.of(our_image->exr);
     if (!ours) return;
     std::vector<PackedImage> others;
     // What is not finite in ours would hide theirs in a difference.
     const bool from_ours = is_finite(*ours);
-    for (const CellImage& image : cell_.images) {
+    for (const EnginePicture& image : cell_.images) {
       if (&image == our_image || image.exr.empty()) continue;
       const std::optional<Image>& theirs = pictures_.of(image.exr);
       if (!theirs || theirs->width() != ours->width() || theirs->height() != ours->height())
@@ -102,22 +102,22 @@ class CellScripts {
   }
 
   CellPictures& pictures_;
-  const CellData& cell_;
+  const CheckedCell& cell_;
   bool made_ = false;
   std::map<std::string, std::string> scripts_;
 };
 
 }  // namespace
 
-void publish_float_pictures(CellPictures& pictures, CellData& cell, Publisher& publisher) {
-  const CellImage* our_image = cell.find_image(kOurEngine);
+void publish_float_pictures(CellPictures& pictures, CheckedCell& cell, Publisher& publisher) {
+  const EnginePicture* our_image = cell.find_image(kOurEngine);
   if (!our_image || our_image->exr.empty()) return;
   // Each script depends on all pictures of the cell, by the bytes that are left for it.
   std::string all_hashes;
-  for (const CellImage& image : cell.images)
+  for (const EnginePicture& image : cell.images)
     all_hashes += (all_hashes.empty() ? "" : " ") + image.exr_sha256;
   CellScripts scripts(pictures, cell);
-  for (CellImage& image : cell.images) {
+  for (EnginePicture& image : cell.images) {
     if (image.exr.empty()) continue;
     const std::string file = image.engine + ".float.js";
     const bool made =

@@ -9,17 +9,17 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
-#include "gallery/cell_json.hpp"
 #include "gallery/cell_page.hpp"
 #include "gallery/cell_summary.hpp"
 #include "gallery/difference_maps.hpp"
 #include "gallery/float_pictures.hpp"
-#include "gallery/grid_json.hpp"
 #include "gallery/index_page.hpp"
 #include "gallery/page.hpp"
+#include "gallery/page_data.hpp"
 #include "gallery/publisher.hpp"
 #include "gallery/small_picture.hpp"
 #include "gallery/views.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 
@@ -51,16 +51,16 @@ void require_title(const std::string& title) {
 }
 
 /// The files of the run that a cell's page shows or links to.
-void copy_cell_files(const fs::path& run, const CellData& cell, Publisher& publisher) {
+void copy_cell_files(const fs::path& run, const CheckedCell& cell, Publisher& publisher) {
   const std::string folder = "cells/" + cell.id + "/";
   for (const std::string& file : files_of(cell)) publisher.copy(run, folder + file);
 }
 
 CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, const SiteFrame& site,
-                         const FarmData& farm, const CellEntry& entry, Publisher& publisher) {
-  CellData cell = read_cell(run, entry);
+                         const ShownFarm& farm, const CellEntry& entry, Publisher& publisher) {
+  CheckedCell cell = check_cell(run, entry, farm.metrics);
   if (options.metrics_only)
-    for (CellImage& image : cell.images) image.exr.clear();
+    for (EnginePicture& image : cell.images) image.exr.clear();
   publish_small_pictures(run, cell, options.metrics_only, publisher);
   if (!options.metrics_only) {
     CellPictures pictures(run / "cells" / cell.id);
@@ -69,7 +69,8 @@ CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, con
   }
   const std::string folder = "cells/" + entry.id + "/";
   copy_cell_files(run, cell, publisher);
-  publisher.write(folder + kCellData, data_script("page", cell_json(farm, entry, cell)));
+  publisher.write(folder + kCellData,
+                  data_script("page", records::record_line(cell_page_data(farm, entry, cell))));
   publisher.write(folder + "index.html", cell_page(site, farm, entry, cell));
   return summarise(farm, entry, cell);
 }
@@ -88,9 +89,9 @@ std::vector<std::string> doubts_of(const std::vector<CellSummary>& cells) {
 PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& options) {
   SiteFrame site{options.title, checked_base_url(options.base_url), {{"index.html", "Grid"}}};
   require_title(options.title);
-  FarmData farm = read_farm(run);
-  if (site.title.empty()) site.title = farm.title;
-  farm.title = site.title;
+  ShownFarm farm = read_farm(run, Metrics(options.metrics));
+  if (site.title.empty()) site.title = farm.record.title;
+  farm.record.title = site.title;
   Publisher publisher(options.site.empty() ? run : options.site);
   publisher.write(kStyleFile, embedded::gallery_style);
   publisher.write(kScriptFile, embedded::gallery_script);
@@ -105,7 +106,7 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
   for (const auto& [view, page] : pages) {
     PageFrame frame{
         page.title, std::string(view->name), "", std::string(view->file), page.made_by, "", ""};
-    if (!page.data.is_null()) {
+    if (!page.data.empty()) {
       frame.data = std::string(view->name) + ".data.js";
       publisher.write(frame.data, data_script("page", page.data));
     }
@@ -120,7 +121,8 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
     summaries[i] = publish_cell(run, options, site, farm, farm.cells[i], publisher);
   });
   // Last, so that an index never names a page that is not there.
-  publisher.write(kGridData, data_script("page", grid_json(farm, summaries)));
+  publisher.write(kGridData,
+                  data_script("page", records::record_line(grid_page_data(farm, summaries))));
   publisher.write("index.html", index_page(site, farm, summaries));
   const EndDelay delay;
   throw_if_interrupted();

@@ -1,7 +1,6 @@
 // From a farm's records to a static site that opens from a double-click, without a network.
 //
-// The room has a namespace of its own, because it has its own idea of an axis, a limit and a cell:
-// what records say of them, as against what they are to those that wrote the records.
+// The room has a namespace of its own: a grid, a metric and a picture are here what pages show of them.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "core/image.hpp"
+#include "gallery/metrics.hpp"
 
 namespace lobelia::gallery {
 
@@ -28,10 +28,11 @@ struct MapKind {
 };
 
 struct GalleryOptions {
-  std::filesystem::path site;  ///< where to; empty: the run's own directory
-  bool metrics_only = false;   ///< no float pictures: numbers, curves and thumbnails
-  std::vector<MapKind> maps;   ///< of every comparison, unless metrics_only
-  std::string title;           ///< in place of the grid's; empty: that
+  std::filesystem::path site;       ///< where to; empty: the run's own directory
+  bool metrics_only = false;        ///< no float pictures: numbers, curves and thumbnails
+  std::vector<MapKind> maps;        ///< of every comparison, unless metrics_only
+  std::vector<MetricInfo> metrics;  ///< that pages can explain; any other is shown by its id
+  std::string title;                ///< in place of the grid's; empty: that
   std::string base_url;  ///< where it will be published, for links to it by others; empty: unknown
 };
 

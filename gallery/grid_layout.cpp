@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t kMaxPlaces = 200'000;
 constexpr int kMostGroupedColumns = 12;  // more would leave thumbnails too small to see
 
-void require_drawable(const FarmData& farm) {
+void require_drawable(const ShownFarm& farm) {
   std::size_t places = 1;
-  for (const GridAxis& axis : farm.axes) {
+  for (const records::Axis& axis : farm.record.axes) {
     places *= axis.values.size();
     if (places > kMaxPlaces) {
       throw Error(ExitCode::kInput,
@@ -27,18 +27,18 @@ void require_drawable(const FarmData& farm) {
 }
 
 /// The grid's order, but what lights the scene comes last: highlights are compared under one light.
-std::vector<int> in_reading_order(const FarmData& farm) {
-  std::vector<int> axes(farm.axes.size());
+std::vector<int> in_reading_order(const ShownFarm& farm) {
+  std::vector<int> axes(farm.record.axes.size());
   std::iota(axes.begin(), axes.end(), 0);
   std::stable_partition(axes.begin(), axes.end(), [&](int axis) {
-    return farm.axes[axis].name != "light" && farm.axes[axis].name != "scene";
+    return farm.record.axes[axis].name != "light" && farm.record.axes[axis].name != "scene";
   });
   return axes;
 }
 
 }  // namespace
 
-GridLayout lay_out(const FarmData& farm) {
+GridLayout lay_out(const ShownFarm& farm) {
   require_drawable(farm);
   std::vector<int> axes = in_reading_order(farm);
   GridLayout layout;
@@ -82,10 +82,11 @@ std::vector<int> GridLayout::position(const std::vector<int>& section, int row, 
   return at;
 }
 
-std::string GridLayout::section_label(const FarmData& farm, const std::vector<int>& section) const {
+std::string GridLayout::section_label(const ShownFarm& farm,
+                                      const std::vector<int>& section) const {
   std::string label;
   for (std::size_t i = 0; i < section.size(); ++i) {
-    const GridAxis& axis = farm.axes[section_axes[i]];
+    const records::Axis& axis = farm.record.axes[section_axes[i]];
     if (!label.empty()) label += " · ";
     label += axis.name + ": " + axis.values[section[i]].label;
   }
@@ -94,11 +95,11 @@ std::string GridLayout::section_label(const FarmData& farm, const std::vector<in
   return label;
 }
 
-int axis_size(const FarmData& farm, int axis) {
-  return axis < 0 ? 1 : static_cast<int>(farm.axes[axis].values.size());
+int axis_size(const ShownFarm& farm, int axis) {
+  return axis < 0 ? 1 : static_cast<int>(farm.record.axes[axis].values.size());
 }
 
-std::vector<const CellEntry*> cells_without_place(const FarmData& farm) {
+std::vector<const CellEntry*> cells_without_place(const ShownFarm& farm) {
   std::vector<const CellEntry*> result;
   for (const CellEntry& cell : farm.cells) {
     const bool unknown = std::count(cell.at.begin(), cell.at.end(), -1) > 0;

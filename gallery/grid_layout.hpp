@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gallery/farm_data.hpp"
+#include "gallery/shown_farm.hpp"
 
 namespace lobelia::gallery {
 
@@ -20,16 +20,16 @@ struct GridLayout {
   /// The place of a cell on all axes.
   std::vector<int> position(const std::vector<int>& section, int row, int group, int column) const;
   /// "Light: 45 degrees"; empty if there are no section axes.
-  std::string section_label(const FarmData& farm, const std::vector<int>& section) const;
+  std::string section_label(const ShownFarm& farm, const std::vector<int>& section) const;
 };
 
 /// Throws Error(kInput) if the axes span more places than a page can show.
-GridLayout lay_out(const FarmData& farm);
+GridLayout lay_out(const ShownFarm& farm);
 
 /// Number of values, or 1 where there is no such axis.
-int axis_size(const FarmData& farm, int axis);
+int axis_size(const ShownFarm& farm, int axis);
 
 /// Cells that have no place: a value that its axis does not list, or a place that is taken.
-std::vector<const CellEntry*> cells_without_place(const FarmData& farm);
+std::vector<const CellEntry*> cells_without_place(const ShownFarm& farm);
 
 }  // namespace lobelia::gallery

@@ -117,8 +117,11 @@ float largest_of(const Image& image) {
 
 }  // namespace
 
-HalfPicture half_picture(const Image& image, int precision) {
-  HalfPicture result{image.width(), image.height(), 0, std::max(1, precision), 0, true, ""};
+records::PackedPicture half_picture(const Image& image, int precision) {
+  records::PackedPicture result;
+  result.width = image.width();
+  result.height = image.height();
+  result.mantissa_bits = std::max(1, precision);
   const float largest = largest_of(image);
   int exponent = 0;
   std::frexp(largest, &exponent);  // largest < 2^exponent
@@ -135,8 +138,8 @@ HalfPicture half_picture(const Image& image, int precision) {
                               kHalfMantissa - result.mantissa_bits, is_predicted));
   };
   const std::string predicted_bytes = packed(true), plain_bytes = packed(false);
-  result.is_predicted = predicted_bytes.size() <= plain_bytes.size();
-  result.base64 = base64(result.is_predicted ? predicted_bytes : plain_bytes);
+  result.predicted = predicted_bytes.size() <= plain_bytes.size();
+  result.planes = base64(result.predicted ? predicted_bytes : plain_bytes);
   return result;
 }
 

@@ -2,7 +2,7 @@
 
 #include "gallery/grid_layout.hpp"
 #include "gallery/index_page.hpp"
-#include "gallery/names.hpp"
+#include "gallery/link.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {
@@ -10,7 +10,7 @@ namespace {
 
 class GridWriter {
  public:
-  GridWriter(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells)
+  GridWriter(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells)
       : html_(html), farm_(farm), cells_(cells), layout_(lay_out(farm)) {}
 
   void write() {
@@ -19,7 +19,9 @@ class GridWriter {
   }
 
  private:
-  const std::vector<AxisValue>& values(int axis) const { return farm_.axes[axis].values; }
+  const std::vector<records::AxisValue>& values(int axis) const {
+    return farm_.record.axes[axis].values;
+  }
   int groups() const { return axis_size(farm_, layout_.groups); }
   int columns() const { return axis_size(farm_, layout_.columns); }
 
@@ -45,7 +47,7 @@ class GridWriter {
   void write_corner(const std::string& rowspan) {
     if (layout_.rows < 0) return;
     html_.element("th", {{"scope", "col"}, {"class", "corner"}, {"rowspan", rowspan}},
-                  farm_.axes[layout_.rows].name);
+                  farm_.record.axes[layout_.rows].name);
   }
 
   void write_label(const std::string& axis, const std::string& label) {
@@ -55,7 +57,7 @@ class GridWriter {
   }
 
   void write_column_heads(int group) {
-    const std::string& name = farm_.axes[layout_.columns].name;
+    const std::string& name = farm_.record.axes[layout_.columns].name;
     for (int column = 0; column < columns(); ++column) {
       const bool first = group > 0 && column == 0;
       const Tag head(html_, "th", {{"scope", "col"}, {"class", first ? "first" : "inner"}});
@@ -73,7 +75,7 @@ class GridWriter {
                        {{"scope", "colgroup"},
                         {"colspan", std::to_string(columns())},
                         {"class", group > 0 ? "first" : "inner"}});
-        write_label(farm_.axes[layout_.groups].name, values(layout_.groups)[group].label);
+        write_label(farm_.record.axes[layout_.groups].name, values(layout_.groups)[group].label);
       }
     }
     const Tag line(html_, "tr", {{"class", "columns"}});
@@ -151,14 +153,14 @@ class GridWriter {
   }
 
   Html& html_;
-  const FarmData& farm_;
+  const ShownFarm& farm_;
   const std::vector<CellSummary>& cells_;
   const GridLayout layout_;
 };
 
 }  // namespace
 
-void write_grid(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
+void write_grid(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   GridWriter(html, farm, cells).write();
 }
 

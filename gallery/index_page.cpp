@@ -6,8 +6,9 @@
 #include <span>
 
 #include "core/numbers.hpp"
-#include "gallery/names.hpp"
+#include "gallery/link.hpp"
 #include "gallery/page.hpp"
+#include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -21,9 +22,9 @@ constexpr CellStatus kLookOrder[] = {
     CellStatus::kDiffers, CellStatus::kUndecided, CellStatus::kUnsealed};
 
 /// "POV-Ray and Blender Cycles"
-std::string reference_titles(const FarmData& farm, bool available_only) {
+std::string reference_titles(const ShownFarm& farm, bool available_only) {
   std::vector<std::string> titles;
-  for (const EngineEntry& engine : farm.engines) {
+  for (const records::FarmEngine& engine : farm.record.engines) {
     if (engine.name != kOurEngine && (engine.available || !available_only)) {
       titles.push_back(engine.title);
     }
@@ -54,14 +55,15 @@ void write_counts(Html& html, const std::vector<CellSummary>& cells) {
   }
 }
 
-bool has_formulas(const FarmData& farm) {
-  return std::ranges::any_of(
-      farm.engines, [](const EngineEntry& e) { return e.name == "analytic" && e.available; });
+bool has_formulas(const ShownFarm& farm) {
+  return std::ranges::any_of(farm.record.engines, [](const records::FarmEngine& e) {
+    return e.name == "analytic" && e.available;
+  });
 }
 
-void write_introduction(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
+void write_introduction(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const Tag header(html, "header", {{"class", "top"}});
-  html.element("h1", farm.title);
+  html.element("h1", farm.record.title);
   write_counts(html, cells);
   const std::string references = reference_titles(farm, true);
   html.element(
@@ -73,8 +75,8 @@ void write_introduction(Html& html, const FarmData& farm, const std::vector<Cell
                 references + " drew the same scenes, and each pair was compared pixel by pixel.");
 }
 
-void write_missing_engines(Html& html, const FarmData& farm) {
-  for (const EngineEntry& engine : farm.engines) {
+void write_missing_engines(Html& html, const ShownFarm& farm) {
+  for (const records::FarmEngine& engine : farm.record.engines) {
     if (engine.available) continue;
     const Tag box(html, "div", {{"class", "notice"}, {"role", "note"}});
     {
@@ -89,7 +91,7 @@ void write_missing_engines(Html& html, const FarmData& farm) {
 }
 
 /// So that nobody who opens the page misses it.
-void write_doubts(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
+void write_doubts(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const auto count = std::ranges::count(cells, false, &CellSummary::is_as_written);
   if (count == 0) return;
   const Tag box(html, "div", {{"class", "notice doubts"}, {"role", "note"}});
@@ -101,15 +103,15 @@ void write_doubts(Html& html, const FarmData& farm, const std::vector<CellSummar
         " Every picture and record was compared with its hash when this page was made. "
         "What does not fit has no verdict.");
   }
-  if (farm.command.empty()) return;
+  if (farm.record.command.empty()) return;
   html.element("p", "To make them whole again:");
-  write_command(html, farm.command);
+  write_command(html, farm.record.command);
 }
 
-void write_making(Html& html, const FarmData& farm) {
+void write_making(Html& html, const ShownFarm& farm) {
   const Tag section(html, "section", {{"class", "making"}, {"aria-labelledby", "making"}});
   html.element("h2", {{"id", "making"}}, "How it was made");
-  if (!farm.command.empty()) write_command(html, farm.command);
+  if (!farm.record.command.empty()) write_command(html, farm.record.command);
   const Tag list(html, "dl", {{"class", "facts"}});
   const auto fact = [&](const std::string& name, const std::string& value) {
     if (value.empty()) return;
@@ -117,17 +119,18 @@ void write_making(Html& html, const FarmData& farm) {
     html.element("dt", name);
     html.element("dd", value);
   };
-  for (const EngineEntry& engine : farm.engines) {
+  for (const records::FarmEngine& engine : farm.record.engines) {
     fact(engine.title, !engine.available        ? "missing"
                        : engine.version.empty() ? "present"
                                                 : engine.version);
   }
-  fact("Grid", farm.grid);
-  for (const auto& [name, value] : farm.host) fact(name, value);
+  fact("Grid", farm.record.grid);
+  if (!farm.record.host) return;
+  for (const auto& [name, value] : words_of(*farm.record.host)) fact(name, value);
 }
 
 /// Explains only the marks that this grid has.
-void write_legend(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells) {
+void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const Tag section(html, "section", {{"class", "legend"}, {"aria-labelledby", "legend"}});
   html.element("h2", {{"id", "legend"}}, "How to read the grid");
   {
@@ -208,7 +211,7 @@ void write_attention(Html& html, const std::vector<CellSummary>& cells) {
 
 }  // namespace
 
-std::string index_page(const SiteFrame& site, const FarmData& farm,
+std::string index_page(const SiteFrame& site, const ShownFarm& farm,
                        const std::vector<CellSummary>& cells) {
   Html html;
   write_introduction(html, farm, cells);

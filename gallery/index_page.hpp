@@ -13,10 +13,10 @@ namespace lobelia::gallery {
 inline constexpr char kGridData[] = "grid.data.js";
 
 /// `cells` in the order of farm.cells.
-std::string index_page(const SiteFrame& site, const FarmData& farm,
+std::string index_page(const SiteFrame& site, const ShownFarm& farm,
                        const std::vector<CellSummary>& cells);
 
 /// The grid as thumbnails, a table for each section (index_grid.cpp).
-void write_grid(Html& html, const FarmData& farm, const std::vector<CellSummary>& cells);
+void write_grid(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells);
 
 }  // namespace lobelia::gallery

@@ -6,30 +6,30 @@
 #include <array>
 #include <cmath>
 
-#include "gallery/metric_notes.hpp"
-
 namespace lobelia::gallery {
 namespace {
 
 enum class Standing { kHolds, kOpen, kBroken };
 
-bool is_within(const std::string& metric, double value, double limit) {
-  // A signed figure is as good as it is near to 0.
-  return metric_note(metric).more_is_better ? value >= limit : std::abs(value) <= limit;
-}
+bool is_noisy(const records::Limit& limit) { return !limit.standing.empty(); }
 
 /// Where noise is known, the value may be anywhere in its error bar.
-Standing standing_of(const CellComparison& comparison, const MetricLimit& limit) {
-  const double value = comparison.metric(limit.metric).value_or(limit.value);
+Standing standing_of(const records::Comparison& comparison, const records::Limit& limit,
+                     bool more_is_better) {
+  const double* measured = records::find(comparison.metrics, limit.metric);
+  const double value = measured ? *measured : limit.value;
   if (limit.metric == "z.open") return value <= limit.limit ? Standing::kHolds : Standing::kOpen;
   double low = value, high = value;
-  if (limit.noisy)
-    for (const ErrorBar& bar : comparison.error_bars)
-      if (bar.metric == limit.metric) low = bar.low, high = bar.high;
+  if (is_noisy(limit) && comparison.error_bars)
+    if (const auto* bar = records::find(*comparison.error_bars, limit.metric))
+      low = bar->low, high = bar->high;
   if (std::isnan(value) || std::isnan(low) || std::isnan(high))
-    return limit.noisy ? Standing::kOpen : Standing::kBroken;
-  const bool low_holds = is_within(limit.metric, low, limit.limit),
-             high_holds = is_within(limit.metric, high, limit.limit);
+    return is_noisy(limit) ? Standing::kOpen : Standing::kBroken;
+  // A signed figure is as good as it is near to 0.
+  const auto holds = [&](double at) {
+    return more_is_better ? at >= limit.limit : std::abs(at) <= limit.limit;
+  };
+  const bool low_holds = holds(low), high_holds = holds(high);
   if (low_holds && high_holds) return Standing::kHolds;
   return low_holds || high_holds || (low < 0 && high > 0) ? Standing::kOpen : Standing::kBroken;
 }
@@ -49,19 +49,19 @@ std::size_t rank(CellStatus status) {
 }
 
 /// An engine's picture is there, but neither a comparison with it nor a reason why not.
-bool lacks_a_comparison(const CellData& cell) {
-  return std::ranges::any_of(cell.images, [&](const CellImage& image) {
+bool lacks_a_comparison(const CheckedCell& cell) {
+  return std::ranges::any_of(cell.images, [&](const EnginePicture& image) {
     return image.engine != kOurEngine && !cell.find_comparison(image.engine) &&
-           std::ranges::find(cell.not_comparable, image.engine, &CellProblem::engine) ==
-               cell.not_comparable.end();
+           std::ranges::find(cell.record.not_comparable, image.engine,
+                             &records::NotComparable::engine) == cell.record.not_comparable.end();
   });
 }
 
-CellStatus judged_status(const CellData& cell, CellStatus recorded) {
-  if (!cell.problems.empty()) return CellStatus::kFailed;
+CellStatus judged_status(const CheckedCell& cell, CellStatus recorded) {
+  if (!cell.record.problems.empty()) return CellStatus::kFailed;
   if (recorded == CellStatus::kMissing || lacks_a_comparison(cell)) return CellStatus::kMissing;
   int worst = -1;
-  for (const CellComparison& comparison : cell.comparisons)
+  for (const CheckedComparison& comparison : cell.comparisons)
     worst = std::max(worst, rank(comparison.verdict));
   return worst < 0    ? CellStatus::kUnchecked
          : worst == 0 ? CellStatus::kPass
@@ -70,10 +70,10 @@ CellStatus judged_status(const CellData& cell, CellStatus recorded) {
 }
 
 /// A flaw of the comparison's record or of one of its two pictures; null if there is none.
-const Flaw* flaw_behind(const CellData& cell, const CellComparison& comparison) {
+const Flaw* flaw_behind(const CheckedCell& cell, const CheckedComparison& comparison) {
   const auto is_behind = [&](const Flaw& flaw) {
-    if (flaw.file == comparison.record) return true;
-    for (const std::string& engine : {comparison.a, comparison.b})
+    if (flaw.file == comparison.entry.record) return true;
+    for (const std::string& engine : {comparison.entry.a, comparison.entry.b})
       if (flaw.file == engine + ".exr" || flaw.file == engine + "-error.exr") return true;
     return false;
   };
@@ -83,31 +83,31 @@ const Flaw* flaw_behind(const CellData& cell, const CellComparison& comparison) 
 
 }  // namespace
 
-std::string judge(const CellComparison& comparison) {
-  if (comparison.nonfinite_a.value_or(0) > 0 || comparison.nonfinite_b.value_or(0) > 0)
-    return "non-finite";
+std::string judge(const records::Comparison& comparison, const Metrics& metrics) {
+  if (comparison.nonfinite.a > 0 || comparison.nonfinite.b > 0) return "non-finite";
   bool noisy = false;
   Standing worst = comparison.limits.empty() ? Standing::kBroken : Standing::kHolds;
-  for (const MetricLimit& limit : comparison.limits) {
-    noisy = noisy || limit.noisy;
-    worst = std::max(worst, standing_of(comparison, limit));
+  for (const records::Limit& limit : comparison.limits) {
+    noisy = noisy || is_noisy(limit);
+    worst =
+        std::max(worst, standing_of(comparison, limit, metrics.info(limit.metric).more_is_better));
   }
   if (worst == Standing::kHolds) return noisy ? "same" : "pass";
   return worst == Standing::kOpen && noisy ? "undecided" : noisy ? "different" : "differs";
 }
 
-void judge_cell(CellData& cell) {
+void judge_cell(CheckedCell& cell, const Metrics& metrics) {
   const auto contradict = [&](const std::string& record, std::string_view said,
                               std::string_view found) {
     cell.contradictions.push_back(
         fmt::format("{} says “{}”, but its figures say “{}”.", record, said, found));
   };
-  for (CellComparison& comparison : cell.comparisons) {
+  for (CheckedComparison& comparison : cell.comparisons) {
     if (const Flaw* flaw = flaw_behind(cell, comparison)) comparison.doubt = flaw->status;
     if (!comparison.problem.empty()) continue;
-    const std::string judged = judge(comparison);
+    const std::string judged = judge(comparison.record, metrics);
     if (rank(judged) == rank(comparison.verdict)) continue;
-    contradict(comparison.record, comparison.verdict, judged);
+    contradict(comparison.entry.record, comparison.verdict, judged);
     if (rank(judged) > rank(comparison.verdict)) comparison.verdict = judged;
   }
   const CellStatus recorded = cell.status, judged = judged_status(cell, recorded);

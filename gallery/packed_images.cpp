@@ -6,6 +6,7 @@
 #include "core/image_io.hpp"
 #include "gallery/half_picture.hpp"
 #include "gallery/page.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -13,16 +14,10 @@ constexpr std::size_t kReferencePixels = 512 * 512;
 }
 
 std::string packed_image(const Image& image, int precision, bool from_ours, int block) {
-  const HalfPicture picture = half_picture(image, precision);
-  return data_script("float picture", {{"width", picture.width},
-                                       {"height", picture.height},
-                                       {"fromOurs", from_ours},
-                                       {"block", block},
-                                       {"scaleLog2", picture.scale_log2},
-                                       {"mantissaBits", picture.mantissa_bits},
-                                       {"least", picture.least},
-                                       {"predicted", picture.is_predicted},
-                                       {"planes", picture.base64}});
+  records::PackedPicture picture = half_picture(image, precision);
+  picture.from_ours = from_ours;
+  picture.block = block;
+  return data_script("float picture", records::record_line(picture));
 }
 
 const std::optional<Image>& CellPictures::of(const std::string& file) {

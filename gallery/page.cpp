@@ -71,8 +71,7 @@ std::string finish_page(const SiteFrame& site, const PageFrame& frame, const Htm
   return html.str();
 }
 
-std::string data_script(std::string_view name, const Json& data) {
-  const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string data_script(std::string_view name, std::string_view json) {
   std::string script = "lobelia('" + std::string(name) + "','";
   script.reserve(script.size() + json.size() + json.size() / 16);
   for (const char c : json) {

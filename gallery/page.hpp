@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/html.hpp"
-#include "core/record.hpp"
 #include "gallery/status.hpp"
 
 namespace lobelia::gallery {
@@ -44,8 +43,8 @@ struct PageFrame {
 /// The whole document around the content of <main>.
 std::string finish_page(const SiteFrame& site, const PageFrame& frame, const Html& main);
 
-/// A classic script that hands `data` to gallery.js under that name: lobelia('page','{...}').
-std::string data_script(std::string_view name, const Json& data);
+/// A classic script that hands JSON to gallery.js under that name: lobelia('page','{...}').
+std::string data_script(std::string_view name, std::string_view json);
 
 void write_status(Html& html, CellStatus status);
 /// A command that a reader may copy.

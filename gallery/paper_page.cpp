@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 
-#include "core/chart_record.hpp"
+#include "core/error.hpp"
+#include "core/svg_chart.hpp"
 #include "core/text.hpp"
-#include "gallery/chart_data.hpp"
 #include "gallery/page.hpp"
 #include "gallery/record_page.hpp"
+#include "records/pages.hpp"
 
 namespace lobelia::gallery {
 namespace {
+
+using records::Claim, records::PaperFigure, records::VerifyPaper;
 
 constexpr char kRecord[] = "paper/paper.json";
 constexpr char kTitle[] = "The paper's claims, measured";
@@ -24,24 +27,64 @@ constexpr VerdictInfo kVerdicts[] = {{"confirmed", "pass", "✓", "confirmed"},
                                      {"not reproduced", "differs", "≠", "not reproduced"},
                                      {"found", "unchecked", "+", "found beyond the paper"}};
 
-struct PaperFigure {
+/// Records may say anything that a double can hold; axes stay away from its ends.
+constexpr double kLargest = 1e250, kSmallest = 1e-250;
+constexpr int kLastStyle = 5;
+
+const VerdictInfo& verdict_of(const Claim& claim) {
+  return *std::ranges::find_if(kVerdicts,
+                               [&](const VerdictInfo& v) { return claim.verdict == v.name; });
+}
+
+/// On the page, by its place in the record.
+std::string id_of(const Claim& claim, const std::vector<Claim>& claims) {
+  return fmt::format("claim-{}", &claim - claims.data() + 1);
+}
+
+void require_drawable(records::ChartAxis& axis) {
+  const bool is_drawable = std::abs(axis.from) <= kLargest && std::abs(axis.to) <= kLargest &&
+                           axis.from < axis.to &&
+                           (!axis.logarithmic.value_or(false) || axis.from >= kSmallest);
+  if (!is_drawable)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: the axis '{}' cannot be drawn", kRecord, printable(axis.label)));
+  std::erase_if(axis.ticks, [&](double tick) { return !(tick >= axis.from && tick <= axis.to); });
+}
+
+/// The figure as it can be drawn, with its id on the page. Throws Error(kInput) for axes that cannot.
+PaperFigure drawable(PaperFigure figure, std::size_t number) {
+  figure.id = fmt::format("plot-{}", number);
+  require_drawable(figure.x);
+  require_drawable(figure.y);
+  for (records::ChartBand& band : figure.bands) {
+    band.from = std::max(figure.x.from, band.from);
+    band.to = std::min(figure.x.to, band.to);
+  }
+  std::erase_if(figure.bands, [](const auto& band) { return !(band.from < band.to); });
+  for (records::ChartSeries& series : figure.series)
+    series.style = std::clamp(series.style, 0, kLastStyle);
+  return figure;
+}
+
+Chart chart_of(const PaperFigure& figure) {
+  const auto axis = [](const records::ChartAxis& a) {
+    return ChartAxis{a.label, a.from, a.to, a.logarithmic.value_or(false), a.ticks};
+  };
   Chart chart;
-  std::vector<std::string> claims;
-};
+  chart.id = figure.id;
+  chart.title = figure.title;
+  chart.description = figure.description;
+  chart.width = 760;
+  chart.height = 400;
+  chart.x = axis(figure.x);
+  chart.y = axis(figure.y);
+  for (const auto& [title, from, to] : figure.bands) chart.bands.push_back({from, to, title});
+  for (const auto& [name, style, x, y] : figure.series) chart.series.push_back({name, x, y, style});
+  return chart;
+}
 
-struct PaperClaim {
-  const Fields* fields;
-  std::string name, id;
-  const VerdictInfo* verdict;
-};
-
-const VerdictInfo& verdict_of(const Fields& claim) {
-  const std::string name = claim.text("verdict");
-  const auto* found =
-      std::ranges::find_if(kVerdicts, [&](const VerdictInfo& v) { return name == v.name; });
-  if (found == std::end(kVerdicts))
-    claim.fail("verdict", "must be confirmed, not reproduced or found");
-  return *found;
+bool shows(const PaperFigure& figure, const Claim& claim) {
+  return std::ranges::find(figure.claims, claim.name) != figure.claims.end();
 }
 
 void write_verdict(Html& html, const VerdictInfo& verdict) {
@@ -50,25 +93,24 @@ void write_verdict(Html& html, const VerdictInfo& verdict) {
   html.text(fmt::format(" {}", verdict.word));
 }
 
-void write_counts(Html& html, const std::vector<PaperClaim>& claims) {
+void write_counts(Html& html, const std::vector<Claim>& claims) {
   const Tag list(html, "ul", {{"class", "counts"}});
   for (const VerdictInfo& verdict : kVerdicts) {
     const Tag item(html, "li");
     html.element("strong",
-                 std::to_string(std::ranges::count(claims, &verdict, &PaperClaim::verdict)));
+                 std::to_string(std::ranges::count(claims, verdict.name, &Claim::verdict)));
     html.text(" ");
     write_verdict(html, verdict);
   }
 }
 
-void write_measured(Html& html, const Fields& claim) {
+void write_measured(Html& html, const Claim& claim) {
   const Tag list(html, "ul", {{"class", "measured"}});
-  for (const Fields& figure : claim.objects("measured")) {
+  for (const records::Measured& figure : claim.measured) {
     const Tag item(html, "li");
-    html.text(figure.text("what") + ": ");
-    html.element("strong", figure.text("text"));
-    const std::string at = figure.text("at");
-    if (!at.empty()) html.element("small", " at " + at);
+    html.text(figure.what + ": ");
+    html.element("strong", figure.text);
+    if (!figure.at.empty()) html.element("small", " at " + figure.at);
   }
 }
 
@@ -83,73 +125,61 @@ void write_links(Html& html, const std::string& words,
   }
 }
 
-void write_claim(Html& html, const PaperClaim& claim, const std::vector<PaperFigure>& figures) {
-  const Fields& fields = *claim.fields;
+void write_claim(Html& html, const Claim& claim, const std::string& id,
+                 const std::vector<PaperFigure>& figures) {
   const Tag article(html, "article",
-                    {{"class", "claim"}, {"id", claim.id}, {"data-verdict", claim.verdict->name}});
+                    {{"class", "claim"}, {"id", id}, {"data-verdict", claim.verdict}});
   {
     const Tag head(html, "h3");
-    html.text(fields.text("statement"));
+    html.text(claim.statement);
   }
   {
     const Tag line(html, "p", {{"class", "verdict-line"}});
-    write_verdict(html, *claim.verdict);
-    html.element("span", {{"class", "where"}}, fields.text("where"));
+    write_verdict(html, verdict_of(claim));
+    html.element("span", {{"class", "where"}}, claim.where);
   }
   {
     const Tag pair(html, "dl", {{"class", "printed-measured"}});
-    const std::string printed = fields.text("printed");
-    if (!printed.empty()) {
+    if (!claim.printed.empty()) {
       const Tag item(html, "div");
       html.element("dt", "printed");
-      html.element("dd", printed);
+      html.element("dd", claim.printed);
     }
     const Tag item(html, "div");
     html.element("dt", "measured");
     const Tag value(html, "dd");
-    write_measured(html, fields);
+    write_measured(html, claim);
   }
-  const std::string reason = fields.text("reason");
-  if (!reason.empty()) html.element("p", reason);
+  if (!claim.reason.empty()) html.element("p", claim.reason);
   std::vector<std::pair<std::string, std::string>> links;
   for (const PaperFigure& figure : figures)
-    if (std::ranges::find(figure.claims, claim.name) != figure.claims.end())
-      links.push_back({figure.chart.id + "-figure", figure.chart.title});
+    if (shows(figure, claim)) links.push_back({figure.id + "-figure", figure.title});
   write_links(html, "Drawn in: ", links);
   const Tag details(html, "details");
   html.element("summary", "How it is measured");
-  html.element("p", fields.text("definition"));
+  html.element("p", claim.definition);
 }
 
-void write_figure(Html& html, const PaperFigure& figure, const std::vector<PaperClaim>& claims) {
-  const Tag element(html, "figure",
-                    {{"class", "chart-figure"},
-                     {"id", figure.chart.id + "-figure"},
-                     {"data-chart", figure.chart.id}});
-  html.element("h3", figure.chart.title);
-  html.raw(draw_chart(figure.chart));
+void write_figure(Html& html, const PaperFigure& figure, const std::vector<Claim>& claims) {
+  const Tag element(
+      html, "figure",
+      {{"class", "chart-figure"}, {"id", figure.id + "-figure"}, {"data-chart", figure.id}});
+  html.element("h3", figure.title);
+  html.raw(draw_chart(chart_of(figure)));
   const Tag caption(html, "figcaption");
-  html.text(figure.chart.description);
+  html.text(figure.description);
   std::vector<std::pair<std::string, std::string>> links;
-  for (const PaperClaim& claim : claims)
-    if (std::ranges::find(figure.claims, claim.name) != figure.claims.end())
-      links.push_back({claim.id, claim.fields->text("statement")});
+  for (const Claim& claim : claims)
+    if (shows(figure, claim)) links.push_back({id_of(claim, claims), claim.statement});
   write_links(html, "Shows: ", links);
 }
 
-void draw(ViewPage& page, const Fields& record) {
-  const auto all = record.objects("claims");
-  std::vector<PaperClaim> claims;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    claims.push_back(
-        {&all[i], all[i].text("name"), fmt::format("claim-{}", i + 1), &verdict_of(all[i])});
-  std::vector<PaperFigure> figures;
-  page.data["charts"] = Json::array();
-  for (const Fields& fields : record.objects("figures")) {
-    figures.push_back(
-        {read_chart(fields, fmt::format("plot-{}", figures.size() + 1)), fields.texts("claims")});
-    page.data["charts"].push_back(chart_record(figures.back().chart));
-  }
+void draw(ViewPage& page, const VerifyPaper& record) {
+  const std::vector<Claim>& claims = record.claims;
+  records::PaperPage data;
+  for (const PaperFigure& figure : record.figures)
+    data.charts.push_back(drawable(figure, data.charts.size() + 1));
+  page.data = records::record_line(data);
 
   Html& html = page.main;
   write_lead(
@@ -161,24 +191,24 @@ void draw(ViewPage& page, const Fields& record) {
   {
     const Tag section(html, "section", {{"class", "figures-section"}});
     html.element("h2", "The curves behind the claims");
-    if (figures.empty())
+    if (data.charts.empty())
       write_absence(html, "The record has none: 'lobelia verify paper --plots' draws them.");
     const Tag grid(html, "div", {{"class", "figure-grid"}});
-    for (const PaperFigure& figure : figures) write_figure(html, figure, claims);
+    for (const PaperFigure& figure : data.charts) write_figure(html, figure, claims);
   }
   {
     const Tag section(html, "section", {{"class", "claims"}});
     html.element("h2", "Claim by claim");
     const Tag grid(html, "div", {{"class", "claim-grid"}});
-    for (const PaperClaim& claim : claims) write_claim(html, claim, figures);
+    for (const Claim& claim : claims) write_claim(html, claim, id_of(claim, claims), data.charts);
   }
-  write_source(html, shell_join(record.texts("command")), kRecord);
+  write_source(html, shell_join(record.command), kRecord);
 }
 
 }  // namespace
 
 std::optional<ViewPage> paper_view(const std::filesystem::path& run) {
-  return record_page(run, kRecord, "verify-paper", kTitle, draw);
+  return record_page<VerifyPaper>(run, kRecord, kTitle, draw);
 }
 
 }  // namespace lobelia::gallery

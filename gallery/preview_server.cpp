@@ -25,8 +25,9 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/open_beneath.hpp"
+#include "core/text.hpp"
 #include "gallery/byte_range.hpp"
-#include "gallery/names.hpp"
+#include "gallery/link.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {

@@ -13,53 +13,67 @@ constexpr double kMaxDecades = 10;     // of the logarithmic panel
 // What records say may be anything that a double can hold; axes stay away from its ends.
 constexpr double kLargest = 1e250, kSmallest = 1e-250;
 
+struct Curve {
+  std::string name;
+  const std::vector<double>& values;
+};
+
 /// The formula first, because it lies under the others; then the engines as farm.json has them.
-std::vector<const NamedCurve*> in_order(const FarmData& farm, const ProfileData& profile) {
-  std::vector<const NamedCurve*> result;
-  if (const NamedCurve* curve = profile.find_curve(kAnalytic)) result.push_back(curve);
-  for (const EngineEntry& engine : farm.engines) {
-    if (engine.name == kAnalytic) continue;  // an engine too, and the formula already
-    if (const NamedCurve* curve = profile.find_curve(engine.name)) result.push_back(curve);
-  }
+std::vector<Curve> in_order(const ShownFarm& farm, const records::Profile& profile) {
+  std::vector<Curve> result;
+  const auto add = [&](const std::string& name) {
+    if (const auto* values = records::find(profile.curve.radiance, name))
+      result.push_back({name, *values});
+  };
+  add(kAnalytic);
+  for (const records::FarmEngine& engine : farm.record.engines)
+    if (engine.name != kAnalytic) add(engine.name);  // an engine too, and the formula already
   return result;
 }
 
-int style_of(const FarmData& farm, const std::string& name) {
+int style_of(const ShownFarm& farm, const std::string& name) {
   if (name == kAnalytic) return 0;
-  for (std::size_t i = 0; i < farm.engines.size(); ++i) {
-    if (farm.engines[i].name == name) return static_cast<int>(i) + 1;
+  for (std::size_t i = 0; i < farm.record.engines.size(); ++i) {
+    if (farm.record.engines[i].name == name) return static_cast<int>(i) + 1;
   }
   return 0;
 }
 
-ChartAxis angle_axis(const ProfileData& profile) {
+ChartAxis angle_axis(const records::Profile& profile) {
   const bool half = profile.angle.find("half") != std::string::npos;
   ChartAxis axis{half ? "angle between normal and half vector (degrees)"
                       : "angle between light and mirror direction (degrees)",
                  0, 0, false};
-  for (const double angle : profile.degrees) {
+  for (const double angle : profile.curve.angle_degrees) {
     if (angle <= 180) axis.to = std::max(axis.to, angle);
   }
-  if (!profile.zones.empty() && profile.zones.back().to > 0) {
-    axis.to = std::min(axis.to, kBeyondZones * profile.zones.back().to);
-  }
+  const double zones_end = profile.zones.blooming[1];
+  if (zones_end > 0) axis.to = std::min(axis.to, kBeyondZones * zones_end);
   if (!(axis.to > 0)) axis.to = 90;
   return axis;
 }
 
-std::vector<ChartBand> zone_bands(const ProfileData& profile) {
+std::vector<ChartBand> zone_bands(const records::Profile& profile) {
   std::vector<ChartBand> bands;
-  for (const ProfileZone& zone : profile.zones) bands.push_back({zone.from, zone.to, zone.title});
+  for (const records::ShownZone& zone : zones_of(profile))
+    bands.push_back({zone.from, zone.to, zone.title});
   return bands;
 }
 
 }  // namespace
 
-std::string curve_title(const FarmData& farm, const std::string& name) {
+std::vector<records::ShownZone> zones_of(const records::Profile& profile) {
+  const auto& [epicentre, flank, blooming] = profile.zones;
+  return {{"epicentre", epicentre[0], epicentre[1]},
+          {"flank", flank[0], flank[1]},
+          {"blooming zone", blooming[0], blooming[1]}};
+}
+
+std::string curve_title(const ShownFarm& farm, const std::string& name) {
   return name == kAnalytic ? "formula" : farm.engine_title(name);
 }
 
-Chart radiance_chart(const FarmData& farm, const ProfileData& profile) {
+Chart radiance_chart(const ShownFarm& farm, const records::Profile& profile) {
   Chart chart;
   chart.id = "radiance";
   chart.title = "Radiance over angle";
@@ -67,10 +81,10 @@ Chart radiance_chart(const FarmData& farm, const ProfileData& profile) {
   chart.x = angle_axis(profile);
   chart.bands = zone_bands(profile);
   double top = 0;
-  for (const NamedCurve* curve : in_order(farm, profile)) {
-    chart.series.push_back({curve_title(farm, curve->name), profile.degrees, curve->values,
-                            style_of(farm, curve->name)});
-    for (const double value : curve->values) {
+  for (const auto& [name, values] : in_order(farm, profile)) {
+    chart.series.push_back(
+        {curve_title(farm, name), profile.curve.angle_degrees, values, style_of(farm, name)});
+    for (const double value : values) {
       if (value <= kLargest) top = std::max(top, value);
     }
   }
@@ -78,8 +92,8 @@ Chart radiance_chart(const FarmData& farm, const ProfileData& profile) {
   return chart;
 }
 
-Chart difference_chart(const FarmData& farm, const ProfileData& profile,
-                       const NamedCurve& analytic) {
+Chart difference_chart(const ShownFarm& farm, const records::Profile& profile,
+                       const std::vector<double>& analytic) {
   Chart chart;
   chart.id = "difference";
   chart.title = "Difference from the formula over angle";
@@ -88,18 +102,18 @@ Chart difference_chart(const FarmData& farm, const ProfileData& profile,
   chart.x = angle_axis(profile);
   chart.bands = zone_bands(profile);
   double low = INFINITY, high = 0;
-  for (const NamedCurve* curve : in_order(farm, profile)) {
-    if (curve->name == kAnalytic) continue;
-    ChartSeries series{curve_title(farm, curve->name) + " − formula",
-                       profile.degrees,
+  for (const auto& [name, values] : in_order(farm, profile)) {
+    if (name == kAnalytic) continue;
+    ChartSeries series{curve_title(farm, name) + " − formula",
+                       profile.curve.angle_degrees,
                        {},
-                       style_of(farm, curve->name)};
+                       style_of(farm, name)};
     bool any = false;
-    for (std::size_t i = 0; i < curve->values.size(); ++i) {
-      const double difference = std::abs(curve->values[i] - analytic.values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double difference = std::abs(values[i] - analytic[i]);
       series.y.push_back(difference);
       const bool drawn = difference >= kSmallest && difference <= kLargest;
-      if (!drawn || profile.degrees[i] > chart.x.to) continue;
+      if (!drawn || profile.curve.angle_degrees[i] > chart.x.to) continue;
       low = std::min(low, difference);
       high = std::max(high, difference);
       any = true;

@@ -4,23 +4,27 @@
 #include <string>
 
 #include "core/svg_chart.hpp"
-#include "gallery/farm_data.hpp"
-#include "gallery/profile_data.hpp"
+#include "gallery/shown_farm.hpp"
+#include "records/pages.hpp"
+#include "records/profile.hpp"
 
 namespace lobelia::gallery {
 
 /// The curve that the formula itself gives, as the record calls it.
 inline constexpr char kAnalytic[] = "analytic";
 
+/// From the middle outward.
+std::vector<records::ShownZone> zones_of(const records::Profile& profile);
+
 /// "formula", or the engine's title.
-std::string curve_title(const FarmData& farm, const std::string& name);
+std::string curve_title(const ShownFarm& farm, const std::string& name);
 
 /// Radiance over angle, linear: the formula broad and pale, the engines' lines over it.
-Chart radiance_chart(const FarmData& farm, const ProfileData& profile);
+Chart radiance_chart(const ShownFarm& farm, const records::Profile& profile);
 
 /// |engine - formula| over angle, logarithmic: the one subtraction that the gallery makes, for
 /// drawing alone. A chart without series if no curve differs at all.
-Chart difference_chart(const FarmData& farm, const ProfileData& profile,
-                       const NamedCurve& analytic);
+Chart difference_chart(const ShownFarm& farm, const records::Profile& profile,
+                       const std::vector<double>& analytic);
 
 }  // namespace lobelia::gallery

@@ -14,10 +14,10 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
-#include "core/record.hpp"
 #include "core/removal.hpp"
-#include "gallery/fields.hpp"
-#include "gallery/names.hpp"
+#include "core/text.hpp"
+#include "records/farm.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -82,12 +82,10 @@ Publisher::Publisher(fs::path site) : site_(std::move(site)) {
   std::error_code ignored;
   if (!fs::exists(site_ / kList, ignored)) return;
   try {
-    const Json record = read_record(site_ / kList, "gallery");
-    const Fields fields(record, kList);
-    for (std::string& name : fields.texts("files"))
-      if (is_path_of_plain_names(name)) earlier_.insert(std::move(name));
-    if (const auto keys = fields.object("madeOf"))
-      for (auto& [name, key] : keys->described_members()) earlier_keys_.emplace(name, key);
+    const auto list = records::read_record<records::GalleryList>(site_ / kList);
+    for (const std::string& name : list.files)
+      if (is_path_of_plain_names(name)) earlier_.insert(name);
+    earlier_keys_.insert(list.made_of.begin(), list.made_of.end());
   } catch (const Error&) {
     earlier_.clear();  // then nothing is removed, which harms nobody
   }
@@ -180,11 +178,8 @@ void Publisher::remove_stale() {
 
 void Publisher::finish() {
   remove_stale();
-  Json record = make_record("gallery");
-  record["files"] = Json(std::vector<std::string>(files_.begin(), files_.end()));
-  record["madeOf"] = Json::object();
-  for (const auto& [name, key] : keys_) record["madeOf"][name] = key;
-  const std::string text = record_text(record);
+  const std::string text = records::record_text(
+      records::GalleryList{{files_.begin(), files_.end()}, {keys_.begin(), keys_.end()}});
   if (!is_same_text(site_ / kList, text)) write_file(site_ / kList, text);
 }
 

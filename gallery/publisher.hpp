@@ -11,7 +11,7 @@
 
 namespace lobelia::gallery {
 
-/// Names are paths below the site's directory, with '/', of plain names (names.hpp). Several threads may write, each
+/// Names are paths below the site's directory, with '/', of plain names. Several threads may write, each
 /// its own files; finish() comes after them.
 class Publisher {
  public:

@@ -1,22 +1,20 @@
 #include "gallery/record_page.hpp"
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {
 
-std::optional<ViewPage> record_page(const std::filesystem::path& run, const char* file,
-                                    const char* kind, const char* title,
-                                    const std::function<void(ViewPage&, const Fields&)>& draw) {
+std::optional<ViewPage> detail::record_page(
+    const std::filesystem::path& run, const char* file, const char* title,
+    const std::function<void(ViewPage& page, const std::string& text)>& draw) {
   if (!std::filesystem::exists(run / file)) return std::nullopt;
-  const auto empty = [&] { return ViewPage{title, "", {}, nullptr, {}}; };
+  const auto empty = [&] { return ViewPage{title, "", {}, "", {}}; };
   try {
-    const Json record = read_record(run / file, kind);
-    const Fields fields(record, file);
     ViewPage page = empty();
-    page.made_by = fields.text("madeBy");
     page.files.push_back(file);
-    draw(page, fields);
+    draw(page, read_file(run / file, records::kMaxRecordBytes));
     return page;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;

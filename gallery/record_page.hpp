@@ -6,16 +6,30 @@
 #include <initializer_list>
 #include <optional>
 
-#include "gallery/fields.hpp"
 #include "gallery/views.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::gallery {
 
-/// Empty where RUN/file is not there. `draw` fills what is on the page below its title; where it throws
-/// Error(kInput) the page says that in place of everything.
+namespace detail {
+std::optional<ViewPage> record_page(
+    const std::filesystem::path& run, const char* file, const char* title,
+    const std::function<void(ViewPage& page, const std::string& text)>& draw);
+}  // namespace detail
+
+/// Empty where RUN/file is not there, else the page that `draw` fills of its record. Where the record cannot be read,
+/// or `draw` throws Error(kInput), the page says that in place of everything.
+template <class T>
 std::optional<ViewPage> record_page(const std::filesystem::path& run, const char* file,
-                                    const char* kind, const char* title,
-                                    const std::function<void(ViewPage&, const Fields&)>& draw);
+                                    const char* title,
+                                    const std::function<void(ViewPage&, const T&)>& draw) {
+  return detail::record_page(run, file, title, [&](ViewPage& page, const std::string& text) {
+    records::Origin origin;
+    const T record = records::parse_record<T>(text, file, &origin);
+    page.made_by = origin.made_by;
+    draw(page, record);
+  });
+}
 
 /// <header> with the title and a sentence below it.
 void write_lead(Html& html, const char* title, const std::string& words);

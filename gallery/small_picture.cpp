@@ -65,10 +65,11 @@ void publish_small(const fs::path& run, const std::string& folder, bool all, Pic
 
 }  // namespace
 
-void publish_small_pictures(const fs::path& run, CellData& cell, bool all, Publisher& publisher) {
+void publish_small_pictures(const fs::path& run, CheckedCell& cell, bool all,
+                            Publisher& publisher) {
   const std::string folder = "cells/" + cell.id + "/";
-  for (CellImage& image : cell.images) publish_small(run, folder, all, image.png, publisher);
-  for (CellComparison& comparison : cell.comparisons)
+  for (EnginePicture& image : cell.images) publish_small(run, folder, all, image.png, publisher);
+  for (CheckedComparison& comparison : cell.comparisons)
     publish_small(run, folder, all, comparison.png, publisher);
 }
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "gallery/cell_data.hpp"
+#include "gallery/checked_cell.hpp"
 #include "gallery/publisher.hpp"
 
 namespace lobelia::gallery {
@@ -14,7 +14,7 @@ inline constexpr std::uintmax_t kLightBytes =
 
 /// Writes "NAME.small.png" of every picture of the cell that is heavier than that, and says so in its `small`; with
 /// `all` also of every one that is longer than kSmallSide.
-void publish_small_pictures(const std::filesystem::path& run, CellData& cell, bool all,
+void publish_small_pictures(const std::filesystem::path& run, CheckedCell& cell, bool all,
                             Publisher& publisher);
 
 }  // namespace lobelia::gallery

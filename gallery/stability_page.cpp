@@ -6,16 +6,20 @@
 #include <cmath>
 #include <map>
 
+#include "core/error.hpp"
 #include "core/numbers.hpp"
 #include "core/svg_chart.hpp"
-#include "gallery/names.hpp"
+#include "core/text.hpp"
+#include "gallery/link.hpp"
 #include "gallery/page.hpp"
 #include "gallery/picture.hpp"
 #include "gallery/record_page.hpp"
-#include "gallery/stability_data.hpp"
+#include "records/pages.hpp"
 
 namespace lobelia::gallery {
 namespace {
+
+using records::VerifyStability, records::StabilityErrors, records::StabilityCurve;
 
 constexpr char kRecord[] = "stability/stability.json", kDirectory[] = "stability";
 constexpr char kTitle[] = "The hard cases";
@@ -48,13 +52,13 @@ Chart new_chart(const char* id, const std::string& title, const std::string& des
 }
 
 /// The worst of all lobes over the exponent.
-Chart exponent_chart(const StabilityData& data) {
+Chart exponent_chart(const VerifyStability& data) {
   Chart chart = new_chart("over-exponent", "Error over exponent",
                           "The largest error of all lobes, textbook and ours, over the exponent.");
   std::map<double, std::pair<double, double>> worst;
-  for (const StabilitySummary& s : data.by_exponent) {
-    if (s.group != kShownGroup || !(s.exponent > 0)) continue;
-    auto& [naive, ours] = worst[s.exponent];
+  for (const records::StabilityOfLobe& s : data.by_exponent) {
+    if (s.group != kShownGroup || !(s.exponent > 0.0)) continue;
+    auto& [naive, ours] = worst[*s.exponent];
     naive = std::max(naive, drawn(s.naive.of_peak));
     ours = std::max(ours, drawn(s.ours.of_peak));
   }
@@ -68,7 +72,7 @@ Chart exponent_chart(const StabilityData& data) {
   return chart;
 }
 
-const StabilityCurve* shown_curve(const StabilityData& data) {
+const StabilityCurve* shown_curve(const VerifyStability& data) {
   const auto at = std::ranges::find(data.curves, kShownExponent, &StabilityCurve::exponent);
   if (at != data.curves.end()) return &*at;
   return data.curves.empty() ? nullptr : &data.curves.back();
@@ -98,7 +102,7 @@ void write_chart(Html& html, const Chart& chart, const std::string& words) {
   html.element("figcaption", words);
 }
 
-void write_charts(Html& html, const StabilityData& data) {
+void write_charts(Html& html, const VerifyStability& data) {
   const Chart over_exponent = exponent_chart(data);
   const StabilityCurve* curve = shown_curve(data);
   if (over_exponent.series.empty() && !curve) return;
@@ -135,7 +139,16 @@ void write_picture(Html& html, ViewPage& page, const std::filesystem::path& run,
                      {"loading", "lazy"}});
 }
 
-void write_pictures(ViewPage& page, const std::filesystem::path& run, const StabilityData& data) {
+/// Pictures lie beside the record, wherever the command was told to put them.
+std::string name_of(const std::string& file) {
+  const std::string name = std::filesystem::path(file).filename().string();
+  if (!name.empty() && !is_plain_name(name))
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: '{}' is no plain name of a file", kRecord, printable(name)));
+  return name;
+}
+
+void write_pictures(ViewPage& page, const std::filesystem::path& run, const VerifyStability& data) {
   if (data.pictures.empty()) return;
   Html& html = page.main;
   const Tag section(html, "section");
@@ -144,19 +157,19 @@ void write_pictures(ViewPage& page, const std::filesystem::path& run, const Stab
       "p",
       "A modified Phong highlight that fills the picture. Errors relative to the peak: black 10⁻⁸ "
       "and below, blue 10⁻⁶, red 10⁻⁴, yellow 10⁻², white 1; magenta is no number.");
-  for (const StabilityPicture& picture : data.pictures) {
-    html.element("h3", "n = " + power_text(picture.exponent));
+  for (const auto& [exponent, naive, ours] : data.pictures) {
+    html.element("h3", "n = " + power_text(exponent));
     const Tag row(html, "div", {{"class", "picture-four"}});
-    write_picture(html, page, run, picture.naive, "naive float32");
-    write_picture(html, page, run, picture.ours, "ours");
-    write_picture(html, page, run, picture.naive_error,
-                  "error of naive: at most " + error_text(picture.naive_off));
-    write_picture(html, page, run, picture.ours_error,
-                  "error of ours: at most " + error_text(picture.ours_off));
+    write_picture(html, page, run, name_of(naive.png), "naive float32");
+    write_picture(html, page, run, name_of(ours.png), "ours");
+    write_picture(html, page, run, name_of(naive.error),
+                  "error of naive: at most " + error_text(naive.largest_error_of_peak));
+    write_picture(html, page, run, name_of(ours.error),
+                  "error of ours: at most " + error_text(ours.largest_error_of_peak));
   }
 }
 
-void write_error(Html& html, const WorstError& error) {
+void write_error(Html& html, const StabilityErrors& error) {
   html.element("td", {{"class", std::isfinite(error.of_peak) ? "number" : "number over"}},
                error_text(error.of_peak));
   html.element("td", {{"class", "number"}}, error_text(error.ulp));
@@ -164,14 +177,14 @@ void write_error(Html& html, const WorstError& error) {
                count_text(error.wrong_pixels));
 }
 
-void write_case(Html& html, const StabilitySummary& one) {
+void write_case(Html& html, const records::StabilityOfCase& one) {
   const Tag row(html, "tr");
   {
     const Tag head(html, "th", {{"scope", "row"}});
     html.text(one.name);
     if (!one.meaning.empty()) html.element("small", one.meaning);
   }
-  html.element("td", {{"class", "number"}}, count_text(one.cases));
+  html.element("td", {{"class", "number"}}, count_text(double(one.cases)));
   write_error(html, one.naive);
   write_error(html, one.ours);
   html.element("td", {{"class", "number"}},
@@ -182,7 +195,7 @@ void write_case(Html& html, const StabilitySummary& one) {
   write_status(html, one.outside > 0 ? CellStatus::kDiffers : CellStatus::kPass);
 }
 
-void write_group(Html& html, const StabilityData& data, const std::string& group,
+void write_group(Html& html, const VerifyStability& data, const std::string& group,
                  const std::string& meaning) {
   Attributes attributes{{"class", "case-group"}, {"id", "group-" + group}};
   if (group == kShownGroup) attributes.push_back({"open", "open"});
@@ -209,38 +222,23 @@ void write_group(Html& html, const StabilityData& data, const std::string& group
       html.element("th", {{"scope", "col"}}, column);
   }
   const Tag body(html, "tbody");
-  for (const StabilitySummary& one : data.by_case)
+  for (const records::StabilityOfCase& one : data.by_case)
     if (one.group == group) write_case(html, one);
 }
 
-Json error_json(const WorstError& e) {
-  return Json::array({number_or_name(e.of_peak), number_or_name(e.ulp)});
+records::StabilityPage page_data(const VerifyStability& data) {
+  records::StabilityPage page;
+  page.curves = data.curves;
+  for (const records::StabilityOfLobe& s : data.by_exponent)
+    page.summaries.push_back({s.group,
+                              s.lobe,
+                              s.exponent.value_or(0),
+                              {s.naive.of_peak, s.naive.ulp},
+                              {s.ours.of_peak, s.ours.ulp}});
+  return page;
 }
 
-Json page_data(const StabilityData& data) {
-  Json json{{"summaries", Json::array()}, {"curves", Json::array()}};
-  for (const StabilitySummary& s : data.by_exponent)
-    json["summaries"].push_back({{"group", s.group},
-                                 {"lobe", s.name},
-                                 {"exponent", number_or_name(s.exponent)},
-                                 {"naive", error_json(s.naive)},
-                                 {"ours", error_json(s.ours)}});
-  for (const StabilityCurve& c : data.curves) {
-    Json curve{{"exponent", number_or_name(c.exponent)}};
-    for (const auto& [name, values] : {std::pair{"degrees", &c.degrees},
-                                       {"truth", &c.truth},
-                                       {"naive", &c.naive},
-                                       {"ours", &c.ours}}) {
-      curve[name] = Json::array();
-      for (const double value : *values) curve[name].push_back(number_or_name(value));
-    }
-    json["curves"].push_back(curve);
-  }
-  return json;
-}
-
-void draw(ViewPage& page, const std::filesystem::path& run, const Fields& record) {
-  const StabilityData data = read_stability(record);
+void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStability& data) {
   Html& html = page.main;
   write_lead(
       html, kTitle,
@@ -250,16 +248,16 @@ void draw(ViewPage& page, const std::filesystem::path& run, const Fields& record
     const Tag list(html, "ul", {{"class", "counts"}});
     {
       const Tag item(html, "li");
-      html.element("strong", count_text(data.cases));
+      html.element("strong", count_text(double(data.cases)));
       html.text(" cases");
     }
     {
       const Tag item(html, "li");
-      html.element("strong", count_text(data.outside));
+      html.element("strong", count_text(double(data.outside)));
       html.text(" outside their stated bounds");
     }
     const Tag item(html, "li");
-    html.element("strong", count_text(data.not_compared));
+    html.element("strong", count_text(double(data.not_compared)));
     html.text(" not compared, for want of a bound");
   }
   write_charts(html, data);
@@ -274,17 +272,18 @@ void draw(ViewPage& page, const std::filesystem::path& run, const Fields& record
         "case uses.");
     for (const auto& [group, meaning] : data.groups) write_group(html, data, group, meaning);
   }
-  write_source(html, data.command, kRecord);
+  write_source(html, shell_join(data.command), kRecord);
   if (!data.instruction_set.empty())
     html.element("p", "Instruction set: " + data.instruction_set + ".");
-  page.data = page_data(data);
+  page.data = records::record_line(page_data(data));
 }
 
 }  // namespace
 
 std::optional<ViewPage> stability_view(const std::filesystem::path& run) {
-  return record_page(run, kRecord, "verify-stability", kTitle,
-                     [&](ViewPage& page, const Fields& record) { draw(page, run, record); });
+  return record_page<VerifyStability>(
+      run, kRecord, kTitle,
+      [&](ViewPage& page, const VerifyStability& data) { draw(page, run, data); });
 }
 
 }  // namespace lobelia::gallery

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/html.hpp"
-#include "core/record.hpp"
 
 namespace lobelia::gallery {
 
@@ -18,7 +17,7 @@ struct ViewPage {
   std::string title;
   std::string made_by;  ///< of its records, for the foot
   Html main;            ///< complete without script
-  Json data;            ///< what pageData() of gallery/web gives its script; null: nothing
+  std::string data;     ///< JSON: what pageData() of gallery/web gives its script; empty: nothing
   std::vector<std::string> files;  ///< that it links to, below the run's directory; copied with it
 };
 

@@ -60,11 +60,10 @@ ReferenceResult average(const Scene& scene, Request& request, const ReferenceOpt
         }
         continue;
       }
-      seconds += part.record.at("seconds").at("total").get<double>();
-      passes += part.record.at("passes").get<std::size_t>();
-      cpu_seconds += part.record.value("cpuSeconds", 0.0);
-      peak_memory_bytes =
-          std::max(peak_memory_bytes, part.record.value("peakMemoryBytes", std::uint64_t{0}));
+      seconds += part.record.seconds.total;
+      passes += part.record.passes;
+      cpu_seconds += part.record.cpu_seconds.value_or(0);
+      peak_memory_bytes = std::max(peak_memory_bytes, part.record.peak_memory_bytes.value_or(0));
       ++pictures;
     }
   result.record = request.parts.front().front().record;
@@ -89,20 +88,20 @@ ReferenceResult average(const Scene& scene, Request& request, const ReferenceOpt
     result.image.values()[i] = float(mean);
     result.standard_error.values()[i] = float(std::sqrt(variance / (n - 1)));
   }
-  Json& record = result.record;
-  record["method"] = fmt::format(
+  records::Reference& record = result.record;
+  record.method = fmt::format(
       "{}; the mean of {} pictures in {} independent sets, {} points of each light with a size, of the "
       "lens and of the pixel in all; such lights themselves, where the camera sees them, by Lobelia",
-      record.at("method").get<std::string>(), pictures, kReplicates, options.points);
-  record["passes"] = passes;
-  record["points"] = options.points;
-  record["seed"] = options.seed;
-  record["seconds"] = {{"total", seconds}};
-  if (record.contains("cpuSeconds"))
-    record_cost(record, cpu_seconds, peak_memory_bytes, record.at("threads").get<int>());
+      record.method, pictures, kReplicates, options.points);
+  record.passes = passes;
+  record.points = options.points;
+  record.seed = options.seed;
+  record.seconds = {};
+  record.seconds.total = seconds;
+  if (record.cpu_seconds)
+    record_cost(record, cpu_seconds, peak_memory_bytes, record.threads.value_or(1));
   // All alike but for the names of files.
-  if (record.at("engineCommands").size() > 1)
-    record["engineCommands"] = Json::array({record["engineCommands"].front()});
+  if (record.engine_commands.size() > 1) record.engine_commands.resize(1);
   return result;
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/image.hpp"
-#include "core/record.hpp"
+#include "records/render.hpp"
 #include "reference_scenes/failure.hpp"
 #include "renderer/scene/scene.hpp"
 
@@ -42,10 +42,9 @@ enum class EngineState {
   kBroken,  ///< there is one that cannot be started, does not end, or tells no version that can be driven
   kReady,
 };
-inline constexpr std::string_view kEngineStateNames[] = {"absent", "broken", "ready"};
 
 constexpr std::string_view state_name(EngineState state) {
-  return kEngineStateNames[std::size_t(state)];
+  return records::kEngineStates[std::size_t(state)];
 }
 
 /// What an engine consists of, as far as asking its version showed: its content (engine_content.hpp) is theirs.
@@ -100,9 +99,7 @@ struct ReferenceResult {
   Image standard_error;  ///< of the image where it is an average (replicates.hpp); otherwise empty
   std::string error;     ///< empty on success
   FailureClass failure = FailureClass::kNone;  ///< kNone on success
-  Json
-      record;  ///< kind "reference": engine, version, witness (native, expressed or analytic), command
-               ///< lines, passes, seconds, and of programs what they took (docs/records.md)
+  records::Reference record;  ///< without the command and the name of the picture's file
 };
 
 class Engine {

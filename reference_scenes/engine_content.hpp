@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/content.hpp"
+#include "reference_scenes/content.hpp"
 #include "reference_scenes/engine.hpp"
 
 namespace lobelia {

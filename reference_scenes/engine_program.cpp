@@ -254,15 +254,16 @@ ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b) {
   return {a.writes_limited && b.writes_limited, std::min(a.contained, b.contained)};
 }
 
-void record_limits(Json& record, const ProcessLimits& limits) {
-  record["writesLimited"] = limits.writes_limited;
-  record["contained"] = containment_name(limits.contained);
+void record_limits(records::Reference& record, const ProcessLimits& limits) {
+  record.writes_limited = limits.writes_limited;
+  record.contained = containment_name(limits.contained);
 }
 
-void record_cost(Json& record, double cpu_seconds, std::uint64_t peak_memory_bytes, int threads) {
-  record["cpuSeconds"] = cpu_seconds;
-  record["peakMemoryBytes"] = peak_memory_bytes;
-  record["threads"] = threads;
+void record_cost(records::Reference& record, double cpu_seconds, std::uint64_t peak_memory_bytes,
+                 int threads) {
+  record.cpu_seconds = cpu_seconds;
+  record.peak_memory_bytes = peak_memory_bytes;
+  record.threads = threads;
 }
 
 namespace {
@@ -286,10 +287,11 @@ std::string read_engine_log(const ReferenceOptions& options, const EngineInfo& e
   return text;
 }
 
-Json reference_record(const EngineInfo& engine, const EngineStatus& status, const Scene& scene) {
-  Json record = make_record("reference");
-  record["engine"] = {{"name", engine.name}, {"title", engine.title}, {"version", status.version}};
-  record["image"] = {{"width", scene.film.width}, {"height", scene.film.height}};
+records::Reference reference_record(const EngineInfo& engine, const EngineStatus& status,
+                                    const Scene& scene) {
+  records::Reference record;
+  record.engine = {std::string(engine.name), std::string(engine.title), status.version};
+  record.image = {"", scene.film.width, scene.film.height};
   return record;
 }
 

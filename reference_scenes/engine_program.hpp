@@ -82,11 +82,12 @@ class EngineLog {
 /// What holds for both of two processes.
 ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b);
 
-/// Writes into a record what has held an engine's processes: `writesLimited` and `contained`.
-void record_limits(Json& record, const ProcessLimits& limits);
+/// Writes into a record how an engine's processes were contained.
+void record_limits(records::Reference& record, const ProcessLimits& limits);
 
-/// Writes into a record what a program took: processor time, memory, threads.
-void record_cost(Json& record, double cpu_seconds, std::uint64_t peak_memory_bytes, int threads);
+/// Writes into a record what a program took.
+void record_cost(records::Reference& record, double cpu_seconds, std::uint64_t peak_memory_bytes,
+                 int threads);
 
 /// Writes the engine's own output on scene `index` to ENGINE-INDEX.log in the log directory, if
 /// there is one.
@@ -97,7 +98,8 @@ void write_engine_log(const ReferenceOptions& options, const EngineInfo& engine,
 std::string read_engine_log(const ReferenceOptions& options, const EngineInfo& engine,
                             std::size_t index);
 
-/// The record of kind "reference", as far as both engines fill it alike.
-Json reference_record(const EngineInfo& engine, const EngineStatus& status, const Scene& scene);
+/// The record, as far as all engines fill it alike.
+records::Reference reference_record(const EngineInfo& engine, const EngineStatus& status,
+                                    const Scene& scene);
 
 }  // namespace lobelia

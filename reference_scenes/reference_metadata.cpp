@@ -6,13 +6,11 @@
 
 namespace lobelia {
 
-ImageMetadata reference_metadata(const Scene& scene, const Json& record) {
+ImageMetadata reference_metadata(const Scene& scene, const records::Reference& record) {
   ImageMetadata metadata = render_metadata(scene);
-  const Json& engine = record.at("engine");
   metadata.emplace_back("lobelia:engine",
-                        fmt::format("{} {}", engine.at("title").get<std::string>(),
-                                    engine.at("version").get<std::string>()));
-  metadata.emplace_back("lobelia:witness", record.at("witness").get<std::string>());
+                        fmt::format("{} {}", record.engine.title, record.engine.version));
+  metadata.emplace_back("lobelia:witness", record.witness);
   return metadata;
 }
 

@@ -10,77 +10,75 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-Json model_json(ModelId id) {
+records::Model model_record(ModelId id) {
   const ModelInfo& m = info(id);
-  return {{"name", m.name},
-          {"title", m.title},
-          {"angle", angle_name(m.angle)},
-          {"appliesCosine", m.applies_cosine},
-          {"normalised", name(m.normalised)},
-          {"integral", m.integral},
-          {"coefficient",
-           {{"exact", exact_formula(id)},
-            {"exactCosine", formulas(id).exact_cosine},
-            {"paperCosine", formulas(id).paper_cosine},
-            {"paperCs16", formulas(id).paper_cs16}}},
-          {"operations", to_json(operations(id))},
-          {"source", m.source}};
+  records::Model record;
+  record.name = m.name;
+  record.title = m.title;
+  record.angle = angle_name(m.angle);
+  record.applies_cosine = m.applies_cosine;
+  record.normalised = name(m.normalised);
+  record.integral = m.integral;
+  record.coefficient = {exact_formula(id), std::string(formulas(id).exact_cosine),
+                        std::string(formulas(id).paper_cosine),
+                        std::string(formulas(id).paper_cs16)};
+  record.operations = operations_record(operations(id));
+  record.source = m.source;
+  return record;
 }
 
-Json lobe_json(LobeId id, double exponent) {
+records::Lobe lobe_record(LobeId id, double exponent) {
   const LobeInfo& l = info(id);
   const LobeProperties p = measure(id, exponent);
-  return {{"name", l.name},
-          {"title", l.title},
-          {"formula", l.formula},
-          {"moments", l.moments},
-          {"operations", to_json(operations(id))},
-          {"float32ErrorOfPeak", lobe_float32_error(id, exponent).of_peak},
-          {"halfWidthDegrees", p.half_width / kDegree},
-          {"supportDegrees", p.support / kDegree},
-          {"aboveCosine", p.above_cosine},
-          {"belowCosine", p.below_cosine},
-          {"source", l.source}};
+  records::Lobe record;
+  record.name = l.name;
+  record.title = l.title;
+  record.formula = l.formula;
+  record.moments = l.moments;
+  record.operations = operations_record(operations(id));
+  record.float32_error_of_peak = lobe_float32_error(id, exponent).of_peak;
+  record.half_width_degrees = p.half_width / kDegree;
+  record.support_degrees = p.support / kDegree;
+  record.above_cosine = p.above_cosine;
+  record.below_cosine = p.below_cosine;
+  record.source = l.source;
+  return record;
 }
 
-Json parameter_json(const Parameter& p) {
-  Json json{{"name", p.name}, {"default", p.default_value}};
-  const std::string choices = string_choices(p);
-  if (choices.empty())
-    json.update({{"min", p.min}, {"max", p.max}});
-  else
-    json["allowed"] = choices;
-  json["meaning"] = p.meaning;
-  return json;
+records::Parameter parameter_record(const Parameter& p) {
+  records::Parameter record;
+  record.name = p.name;
+  record.default_value = p.default_value;
+  record.allowed = string_choices(p);
+  if (record.allowed.empty()) {
+    record.min = p.min;
+    record.max = p.max;
+  }
+  record.meaning = p.meaning;
+  return record;
 }
 
-Json to_json(const AlbedoPeak& peak) {
-  Json json{{"largest", peak.albedo}, {"atDegrees", peak.incidence / kDegree}};
-  json["aboveOneFromDegrees"] =
-      peak.above_one_from ? Json(*peak.above_one_from / kDegree) : Json(nullptr);
-  return json;
+records::AlbedoPeak albedo_record(const AlbedoPeak& peak) {
+  records::AlbedoPeak record{peak.albedo, peak.incidence / kDegree, std::nullopt};
+  if (peak.above_one_from) record.above_one_from_degrees = *peak.above_one_from / kDegree;
+  return record;
 }
 
-Json highlight_json(const Highlight& h) {
-  return {{"model", info(h.model).name},
-          {"lobe", info(h.lobe).name},
-          {"normalisation", name(h.normalisation)},
-          {"coefficient", radiance_coefficient(h)},
-          {"energyAtNormalIncidence", directional_albedo(h, 0)},
-          {"albedo", to_json(largest_albedo(h))},
-          {"albedoOfLight", to_json(largest_albedo_of_light(h))},
-          {"reciprocityGap", reciprocity_gap(h)}};
+records::CatalogueHighlight catalogue_highlight(const Highlight& h) {
+  return {std::string(info(h.model).name),
+          std::string(info(h.lobe).name),
+          std::string(name(h.normalisation)),
+          radiance_coefficient(h),
+          directional_albedo(h, 0),
+          albedo_record(largest_albedo(h)),
+          albedo_record(largest_albedo_of_light(h)),
+          reciprocity_gap(h)};
 }
 
 }  // namespace
 
-Json to_json(const OperationCount& c) {
-  return {{"multiply", c.multiply},
-          {"add", c.add},
-          {"divide", c.divide},
-          {"root", c.root},
-          {"transcendental", c.transcendental},
-          {"compare", c.compare}};
+records::Operations operations_record(const OperationCount& c) {
+  return {c.multiply, c.add, c.divide, c.root, c.transcendental, c.compare};
 }
 
 std::string_view angle_name(LobeAngle angle) {
@@ -104,18 +102,18 @@ std::vector<Highlight> all_highlights(double exponent) {
   return all;
 }
 
-Json catalogue_record(double exponent) {
-  Json record = make_record("models");
-  record["measuredAtExponent"] = exponent;
-  for (const ModelId id : all_models()) record["models"].push_back(model_json(id));
-  for (const LobeId id : all_lobes()) record["lobes"].push_back(lobe_json(id, exponent));
-  record["lobeFamilies"] = allowed_lobes();
+records::Models catalogue_record(double exponent) {
+  records::Models record;
+  record.measured_at_exponent = exponent;
+  for (const ModelId id : all_models()) record.models.push_back(model_record(id));
+  for (const LobeId id : all_lobes()) record.lobes.push_back(lobe_record(id, exponent));
+  record.lobe_families = allowed_lobes();
   for (const std::string_view how : normalisation_names())
-    record["normalisations"].push_back(
-        {{"name", how}, {"meaning", meaning(*find_normalisation(how))}});
-  for (const Parameter& p : kHighlightParameters) record["parameters"].push_back(parameter_json(p));
+    record.normalisations.push_back(
+        {std::string(how), std::string(meaning(*find_normalisation(how)))});
+  for (const Parameter& p : kHighlightParameters) record.parameters.push_back(parameter_record(p));
   for (const Highlight& h : all_highlights(exponent))
-    record["highlights"].push_back(highlight_json(h));
+    record.highlights.push_back(catalogue_highlight(h));
   return record;
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/record.hpp"
+#include "records/models.hpp"
 #include "renderer/highlight.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/operation_count.hpp"
@@ -16,9 +16,9 @@ std::string_view meaning(Normalisation normalisation);  ///< in a sentence
 std::vector<Highlight> all_highlights(
     double exponent);  ///< every model, listed lobe and normalisation
 
-Json to_json(const OperationCount& count);
+records::Operations operations_record(const OperationCount& count);
 
 /// Everything, measured at one exponent. Kind "models".
-Json catalogue_record(double exponent);
+records::Models catalogue_record(double exponent);
 
 }  // namespace lobelia

@@ -31,10 +31,10 @@ std::vector<double> angles(double reach, double exponent, int points) {
 
 double logarithm(double value) { return std::log(std::max(value, kLeast)); }
 
-Json multiples(std::span<const double> values, double unit) {
-  Json array = Json::array();
-  for (const double value : values) array.push_back(std::llround(value / unit));
-  return array;
+std::vector<std::int64_t> multiples(std::span<const double> values, double unit) {
+  std::vector<std::int64_t> result;
+  for (const double value : values) result.push_back(std::llround(value / unit));
+  return result;
 }
 
 /// A lobe of a family is a power of its order, so that its root goes straight to its end; of others the
@@ -43,9 +43,13 @@ double straightened(LobeId lobe, double value) {
   return lobe.order > 0 ? std::pow(value, 1.0 / lobe.order) : logarithm(value);
 }
 
-Json lobe_table(LobeId lobe, std::span<const double> exponents) {
-  const double unit = lobe.order > 0 ? kRootUnit : kLogarithmUnit;
-  Json reaches = Json::array(), widths = Json::array(), curves = Json::array();
+records::LobeTable lobe_table(LobeId lobe, std::span<const double> exponents) {
+  records::LobeTable table;
+  table.name = info(lobe).name;
+  table.title = info(lobe).title;
+  table.formula = info(lobe).formula;
+  table.order = lobe.order;
+  table.unit = lobe.order > 0 ? kRootUnit : kLogarithmUnit;
   for (const double n : exponents) {
     const PreparedLobe prepared = prepare(lobe, n);
     const LobeProperties properties = measure(lobe, n);
@@ -54,67 +58,63 @@ Json lobe_table(LobeId lobe, std::span<const double> exponents) {
     std::vector<double> curve;
     for (const double angle : angles(reach, n, kCurvePoints))
       curve.push_back(straightened(lobe, prepared.value(versine(angle * (1 - 1e-9)))));
-    reaches.push_back(reach);
-    widths.push_back(properties.half_width);
-    curves.push_back(multiples(curve, unit));
+    table.reach.push_back(reach);
+    table.half_width.push_back(properties.half_width);
+    table.curves.push_back(multiples(curve, table.unit));
   }
-  return {{"name", info(lobe).name},
-          {"title", info(lobe).title},
-          {"formula", info(lobe).formula},
-          {"order", lobe.order},
-          {"unit", unit},
-          {"reach", reaches},
-          {"halfWidth", widths},
-          {"curves", curves}};
+  return table;
 }
 
-Json model_table(ModelId model) {
+records::ModelTable model_table(ModelId model) {
   const ModelInfo& m = info(model);
-  return {{"name", m.name},
-          {"title", m.title},
-          {"angle", angle_name(m.angle)},
-          {"appliesCosine", m.applies_cosine},
-          {"normalised", name(m.normalised)},
-          {"coefficient", exact_formula(model)}};
+  return {std::string(m.name),
+          std::string(m.title),
+          std::string(angle_name(m.angle)),
+          m.applies_cosine,
+          std::string(name(m.normalised)),
+          exact_formula(model)};
 }
 
 /// Over incidences from grazing to normal.
-Json albedos(ModelId model, LobeId lobe, std::span<const double> exponents,
-             double (*albedo)(const Highlight&, double)) {
-  Json array = Json::array();
+std::vector<std::vector<std::int64_t>> albedos(ModelId model, LobeId lobe,
+                                               std::span<const double> exponents,
+                                               double (*albedo)(const Highlight&, double)) {
+  std::vector<std::vector<std::int64_t>> rows;
   for (const double n : exponents) {
     std::vector<double> values;
     for (const double above : angles(kMostGrazing, n, kAlbedoPoints))
       values.push_back(
           logarithm(albedo({model, lobe, Normalisation::kExact, n}, kMostGrazing - above)));
-    array.push_back(multiples(values, kLogarithmUnit));
+    rows.push_back(multiples(values, kLogarithmUnit));
   }
-  return array;
+  return rows;
 }
 
-Json coefficients(ModelId model, LobeId lobe, Normalisation how,
-                  std::span<const double> exponents) {
-  Json array = Json::array();
-  for (const double n : exponents) array.push_back(radiance_coefficient({model, lobe, how, n}));
-  return array;
+std::vector<double> coefficients(ModelId model, LobeId lobe, Normalisation how,
+                                 std::span<const double> exponents) {
+  std::vector<double> result;
+  for (const double n : exponents) result.push_back(radiance_coefficient({model, lobe, how, n}));
+  return result;
 }
 
-Json highlight_table(ModelId model, LobeId lobe, std::span<const double> exponents) {
+records::HighlightTable highlight_table(ModelId model, LobeId lobe,
+                                        std::span<const double> exponents) {
   constexpr double kSame = 1e-9;
-  Json json{{"model", info(model).name},
-            {"lobe", info(lobe).name},
-            {"exact", coefficients(model, lobe, Normalisation::kExact, exponents)}};
+  records::HighlightTable table;
+  table.model = info(model).name;
+  table.lobe = info(lobe).name;
+  table.exact = coefficients(model, lobe, Normalisation::kExact, exponents);
   if (has_paper_coefficient(lobe))
-    json["paper"] = coefficients(model, lobe, Normalisation::kPaper, exponents);
-  json["unit"] = kLogarithmUnit;
-  json["seen"] = albedos(model, lobe, exponents, directional_albedo);
+    table.paper = coefficients(model, lobe, Normalisation::kPaper, exponents);
+  table.unit = kLogarithmUnit;
+  table.seen = albedos(model, lobe, exponents, directional_albedo);
   // Without what grows without bound: a cubic follows the rest.
   const auto lit_foreshortened = [](const Highlight& h, double incidence) {
     return directional_albedo_of_light(h, incidence) * std::cos(incidence);
   };
   if (reciprocity_gap({model, lobe, Normalisation::kExact, exponents.front()}) > kSame)
-    json["lit"] = albedos(model, lobe, exponents, lit_foreshortened);
-  return json;
+    table.lit = albedos(model, lobe, exponents, lit_foreshortened);
+  return table;
 }
 
 }  // namespace
@@ -126,31 +126,26 @@ std::vector<double> table_exponents() {
   return result;
 }
 
-Json highlight_tables(std::span<const double> exponents) {
+records::HighlightTables highlight_tables(std::span<const double> exponents) {
   const auto lobes = all_lobes();
   const auto models = all_models();
-  std::vector<Json> lobe_tables(lobes.size()), highlight_parts(lobes.size() * models.size());
+  records::HighlightTables record;
+  record.exponents.assign(exponents.begin(), exponents.end());
+  record.per_octave = kExponentsPerOctave;
+  record.most_grazing = kMostGrazing;
+  record.error = {kCurveTableError, kAlbedoTableError, kWidthTableError, kCoefficientTableError};
+  for (const ModelId model : models) record.models.push_back(model_table(model));
+  record.lobes.resize(lobes.size());
+  record.highlights.resize(lobes.size() * models.size());
   std::vector<std::function<void()>> jobs;
   for (std::size_t l = 0; l < lobes.size(); ++l) {
-    jobs.push_back([&, l] { lobe_tables[l] = lobe_table(lobes[l], exponents); });
+    jobs.push_back([&, l] { record.lobes[l] = lobe_table(lobes[l], exponents); });
     for (std::size_t m = 0; m < models.size(); ++m)
       jobs.push_back([&, l, m] {
-        highlight_parts[m * lobes.size() + l] = highlight_table(models[m], lobes[l], exponents);
+        record.highlights[m * lobes.size() + l] = highlight_table(models[m], lobes[l], exponents);
       });
   }
   oneapi::tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) { jobs[i](); });
-
-  Json record = make_record("highlight-tables");
-  record["exponents"] = exponents;
-  record["perOctave"] = kExponentsPerOctave;
-  record["mostGrazing"] = kMostGrazing;
-  record["error"] = {{"curve", kCurveTableError},
-                     {"albedo", kAlbedoTableError},
-                     {"halfWidth", kWidthTableError},
-                     {"coefficient", kCoefficientTableError}};
-  for (const ModelId model : models) record["models"].push_back(model_table(model));
-  record["lobes"] = lobe_tables;
-  record["highlights"] = highlight_parts;
   return record;
 }
 

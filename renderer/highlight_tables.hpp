@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/record.hpp"
+#include "records/models.hpp"
 
 namespace lobelia {
 
@@ -23,8 +23,8 @@ inline constexpr double kCurveTableError = 2e-4, kAlbedoTableError = 2e-3, kWidt
 /// By how much the cubic through four neighbouring incidences may be off between them, of 1 or of an albedo above it.
 inline constexpr double kAlbedoDrawnError = 1e-2;
 
-/// Record of kind highlight-tables (docs/records.md) at these exponents, each at least 1. Computes on all processors;
+/// At these exponents, each at least 1. Computes on all processors;
 /// for table_exponents() a few seconds.
-Json highlight_tables(std::span<const double> exponents);
+records::HighlightTables highlight_tables(std::span<const double> exponents);
 
 }  // namespace lobelia

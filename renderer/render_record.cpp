@@ -11,13 +11,15 @@ namespace {
 constexpr std::size_t kMaxSceneAttribute = 64 << 10;
 
 /// With what each took, where a picture was made.
-Json effects_record(const Plan& plan, const Work* work) {
-  Json effects = Json::array();
+std::vector<records::Effect> effects_record(const Plan& plan, const Work* work) {
+  std::vector<records::Effect> effects;
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     const EffectDecision& effect = plan.effects[i];
-    Json entry{{"name", effect.name}, {"on", effect.on}, {"reason", effect.reason}};
-    if (work) entry["work"] = {{"unit", effect.work}, {"count", work->of_effect[i]}};
-    effects.push_back(std::move(entry));
+    records::Effect& one = effects.emplace_back();
+    one.name = effect.name;
+    one.on = effect.on;
+    one.reason = effect.reason;
+    if (work) one.work = records::Work{std::string(effect.work), work->of_effect[i]};
   }
   return effects;
 }
@@ -35,54 +37,47 @@ ImageMetadata render_metadata(const Scene& scene) {
   return metadata;
 }
 
-Json plan_record(const Plan& plan) {
-  Json record = make_record("plan");
-  record["effects"] = effects_record(plan, nullptr);
-  record["precision"] = plan.precision_reason;
-  record["kernel"] = plan.kernel;
-  record["expectedRays"] = {{"camera", plan.camera_rays},
-                            {"shadowAtMost", plan.max_shadow_rays},
-                            {"mirrorAtMost", plan.max_mirror_rays},
-                            {"scatteredAtMost", plan.max_scattered_rays}};
-  return record;
+records::Plan plan_record(const Plan& plan) {
+  return {effects_record(plan, nullptr),
+          plan.precision_reason,
+          plan.kernel,
+          {plan.camera_rays, plan.max_shadow_rays, plan.max_mirror_rays, plan.max_scattered_rays}};
 }
 
-Json highlight_record(const Highlight& highlight) {
-  Json record{{"model", info(highlight.model).name},
-              {"lobe", info(highlight.lobe).name},
-              {"normalisation", name(highlight.normalisation)},
-              {"exponent", highlight.exponent},
-              {"coefficient", radiance_coefficient(highlight)}};
-  if (const std::string text = warning(highlight); !text.empty()) record["warning"] = text;
-  return record;
+records::Highlight highlight_record(const Highlight& highlight) {
+  return {std::string(info(highlight.model).name),
+          std::string(info(highlight.lobe).name),
+          std::string(name(highlight.normalisation)),
+          highlight.exponent,
+          radiance_coefficient(highlight),
+          warning(highlight)};
 }
 
-Json render_record(const Scene& scene, const RenderResult& result,
-                   const std::vector<std::string>& command, const std::string& image_file) {
-  Json record = make_record("render");
-  record["engine"] = {{"name", "lobelia"}, {"version", kVersion}};
-  record["command"] = command;
-  record["image"] = {
-      {"file", image_file}, {"width", scene.film.width}, {"height", scene.film.height}};
-  record["highlights"] = Json::array();
+records::Rays rays_record(const Work& work) {
+  return {work.camera_rays, work.shadow_rays, work.mirror_rays, work.scattered_rays};
+}
+
+records::Render render_record(const Scene& scene, const RenderResult& result,
+                              const std::vector<std::string>& command,
+                              const std::string& image_file) {
+  records::Render record;
+  record.engine = {"lobelia", "", kVersion};
+  record.command = command;
+  record.image = {image_file, scene.film.width, scene.film.height};
   for (const auto& material : scene.materials)
-    record["highlights"].push_back(highlight_record(material.highlight));
-  record["samples"] = result.samples;
-  record["seed"] = scene.sampler.seed;
-  if (result.error) record["estimatedError"] = *result.error;
-  if (!result.stop_reason.empty()) record["stopped"] = result.stop_reason;
-  if (const auto lines = remarks(scene); !lines.empty()) record["remarks"] = lines;
-  record["plan"] = {{"effects", effects_record(result.plan, &result.work)},
-                    {"precision", result.plan.precision_reason},
-                    {"kernel", result.plan.kernel}};
-  record["rays"] = {{"camera", result.work.camera_rays},
-                    {"shadow", result.work.shadow_rays},
-                    {"mirror", result.work.mirror_rays},
-                    {"scattered", result.work.scattered_rays}};
-  record["instructionSet"] = result.instruction_set;
-  record["seconds"] = {{"plan", result.plan_seconds},
-                       {"render", result.render_seconds},
-                       {"total", result.plan_seconds + result.render_seconds}};
+    record.highlights.push_back(highlight_record(material.highlight));
+  record.samples = result.samples;
+  record.seed = scene.sampler.seed;
+  record.estimated_error = result.error;
+  record.stopped = result.stop_reason;
+  record.remarks = remarks(scene);
+  record.plan = {effects_record(result.plan, &result.work), result.plan.precision_reason,
+                 result.plan.kernel};
+  record.rays = rays_record(result.work);
+  record.instruction_set = result.instruction_set;
+  record.seconds.plan = result.plan_seconds;
+  record.seconds.render = result.render_seconds;
+  record.seconds.total = result.plan_seconds + result.render_seconds;
   return record;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/image.hpp"
-#include "core/record.hpp"
+#include "records/render.hpp"
 #include "renderer/render.hpp"
 
 namespace lobelia {
@@ -15,14 +15,15 @@ namespace lobelia {
 /// rendered again from nothing else. No times and no paths: the same render is the same file.
 ImageMetadata render_metadata(const Scene& scene);
 
-/// Kind "render", see docs/records.md. `command` is what to type to make it again.
-Json render_record(const Scene& scene, const RenderResult& result,
-                   const std::vector<std::string>& command, const std::string& image_file);
+/// `command` is what to type to make it again.
+records::Render render_record(const Scene& scene, const RenderResult& result,
+                              const std::vector<std::string>& command,
+                              const std::string& image_file);
 
-/// Kind "plan": the effects with their reasons, and the rays expected.
-Json plan_record(const Plan& plan);
+/// The effects with their reasons, and the rays expected.
+records::Plan plan_record(const Plan& plan);
 
-/// {"model": ..., "lobe": ..., "normalisation": ..., "exponent": ..., "coefficient": ...}
-Json highlight_record(const Highlight& highlight);
+records::Highlight highlight_record(const Highlight& highlight);
+records::Rays rays_record(const Work& work);
 
 }  // namespace lobelia

@@ -165,11 +165,17 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"ciede2000.mean", Better::kLower, true, "CIEDE2000 colour difference, mean"},
-    {"ciede2000.p50", Better::kLower, true, "half of the pixels do not exceed this"},
-    {"ciede2000.p95", Better::kLower, true, "95 % of the pixels do not exceed this"},
-    {"ciede2000.p99", Better::kLower, true, "99 % of the pixels do not exceed this"},
-    {"ciede2000.max", Better::kLower, true, "the largest of all pixels"}};
+    {"ciede2000.mean", "CIEDE2000, mean", Unit::kPlain, Better::kLower, true,
+     "CIEDE2000 colour difference, mean",
+     "Colour difference as seen on a display at the cell’s exposure; 1 is about just noticeable."},
+    {"ciede2000.p50", "CIEDE2000, median", Unit::kPlain, Better::kLower, true,
+     "half of the pixels do not exceed this", "Half of the pixels differ by no more than this."},
+    {"ciede2000.p95", "CIEDE2000, 95th percentile", Unit::kPlain, Better::kLower, true,
+     "95 % of the pixels do not exceed this", "95 of 100 pixels differ by less than this."},
+    {"ciede2000.p99", "CIEDE2000, 99th percentile", Unit::kPlain, Better::kLower, true,
+     "99 % of the pixels do not exceed this", "99 of 100 pixels differ by no more than this."},
+    {"ciede2000.max", "CIEDE2000, largest", Unit::kPlain, Better::kLower, true,
+     "the largest of all pixels", "The pixel whose colour differs most."}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   PixelDifferences differences = ciede2000_of_pixels(input.shown_a, input.shown_b);

@@ -113,9 +113,13 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"delta_e_itp.mean", Better::kLower, true, "delta E ITP colour difference, mean"},
-    {"delta_e_itp.p95", Better::kLower, true, "95 % of the pixels do not exceed this"},
-    {"delta_e_itp.max", Better::kLower, true, "the largest of all pixels"}};
+    {"delta_e_itp.mean", "Delta E ITP, mean", Unit::kPlain, Better::kLower, true,
+     "delta E ITP colour difference, mean",
+     "Colour difference on a display of high dynamic range, white at 203 cd/m²; 1 is just noticeable at best."},
+    {"delta_e_itp.p95", "Delta E ITP, 95th percentile", Unit::kPlain, Better::kLower, true,
+     "95 % of the pixels do not exceed this", "95 of 100 pixels differ by no more than this."},
+    {"delta_e_itp.max", "Delta E ITP, largest", Unit::kPlain, Better::kLower, true,
+     "the largest of all pixels", "The pixel whose colour differs most."}};
 
 HWY_EXPORT(delta_e_itp_lanes);
 HWY_EXPORT(pq_signal_of_one);

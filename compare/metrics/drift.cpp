@@ -11,10 +11,14 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
-    {"drift", Better::kNearZero, false, "signed mean of a - b over all RGB values"}};
+constexpr MetricOutput kOutputs[] = {{"drift", "Mean difference, with its sign", Unit::kRadiance,
+                                      Better::kNearZero, false,
+                                      "signed mean of a - b over all RGB values",
+                                      "Positive where ours is brighter; noise cancels here."}};
 constexpr MetricOutput kMaskOutputs[] = {
-    {"drift.mask", Better::kNearZero, false, "signed mean of a - b inside the mask"}};
+    {"drift.mask", "Mean difference with its sign, inside the mask", Unit::kRadiance,
+     Better::kNearZero, false, "signed mean of a - b inside the mask",
+     "Of the pixels that see a surface."}};
 
 template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {

@@ -24,8 +24,10 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"flip.hdr.mean", Better::kLower, true, "HDR-FLIP, mean"},
-    {"flip.hdr.max", Better::kLower, true, "HDR-FLIP, the largest of all pixels"}};
+    {"flip.hdr.mean", "HDR-FLIP, mean", Unit::kPlain, Better::kLower, true, "HDR-FLIP, mean",
+     "The same at the exposure that shows each pixel’s difference best."},
+    {"flip.hdr.max", "HDR-FLIP, largest", Unit::kPlain, Better::kLower, true,
+     "HDR-FLIP, the largest of all pixels", "The pixel where a person would notice most."}};
 
 /// As the tool spaces them, in float32.
 std::vector<float> exposure_stops(const HdrExposures& range) {

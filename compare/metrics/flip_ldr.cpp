@@ -24,8 +24,10 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"flip.ldr.mean", Better::kLower, true, "LDR-FLIP, mean"},
-    {"flip.ldr.max", Better::kLower, true, "LDR-FLIP, the largest of all pixels"}};
+    {"flip.ldr.mean", "LDR-FLIP, mean", Unit::kPlain, Better::kLower, true, "LDR-FLIP, mean",
+     "What a person notices on flipping between the two pictures: 0 nothing, 1 everything."},
+    {"flip.ldr.max", "LDR-FLIP, largest", Unit::kPlain, Better::kLower, true,
+     "LDR-FLIP, the largest of all pixels", "The pixel where a person would notice most."}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));

@@ -14,9 +14,12 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"mae", Better::kLower, true, "mean absolute error of all RGB values"}};
+    {"mae", "Mean difference", Unit::kRadiance, Better::kLower, true,
+     "mean absolute error of all RGB values",
+     "Of all pixels and channels without their signs, in radiance."}};
 constexpr MetricOutput kMaskOutputs[] = {
-    {"mae.mask", Better::kLower, true, "mean absolute error inside the mask"}};
+    {"mae.mask", "Mean difference, inside the mask", Unit::kRadiance, Better::kLower, true,
+     "mean absolute error inside the mask", "Of the pixels that see a surface."}};
 
 template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {

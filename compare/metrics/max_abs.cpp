@@ -15,13 +15,16 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"max_abs", Better::kLower, true, "largest error of an RGB value"},
-    {"max_abs.x", Better::kNeither, true, "its column"},
-    {"max_abs.y", Better::kNeither, true, "its row, from the top"}};
+    {"max_abs", "Largest difference", Unit::kRadiance, Better::kLower, true,
+     "largest error of an RGB value",
+     "Of any channel of any pixel, in radiance; and at which pixel."},
+    {"max_abs.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
+    {"max_abs.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"}};
 constexpr MetricOutput kMaskOutputs[] = {
-    {"max_abs.mask", Better::kLower, true, "largest error of an RGB value inside the mask"},
-    {"max_abs.mask.x", Better::kNeither, true, "its column"},
-    {"max_abs.mask.y", Better::kNeither, true, "its row, from the top"}};
+    {"max_abs.mask", "Largest difference, inside the mask", Unit::kRadiance, Better::kLower, true,
+     "largest error of an RGB value inside the mask", "Of the pixels that see a surface."},
+    {"max_abs.mask.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
+    {"max_abs.mask.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"}};
 
 template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {

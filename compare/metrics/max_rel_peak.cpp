@@ -16,8 +16,10 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"peak", Better::kNeither, false, "brightest RGB value of the reference"},
-    {"max_rel_peak", Better::kLower, false, "largest error as a share of that"}};
+    {"peak", "Peak", Unit::kRadiance, Better::kNeither, false,
+     "brightest RGB value of the reference", "The brightest value of the reference picture."},
+    {"max_rel_peak", "Largest difference, of the peak", Unit::kShare, Better::kLower, false,
+     "largest error as a share of that", "The largest difference divided by the peak."}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const std::span<const float> a = input.a.values(), b = input.b.values();

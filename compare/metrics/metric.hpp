@@ -81,6 +81,15 @@ enum class Family : std::uint8_t {
   kVisibility,  ///< what an eye notices at a viewing distance
 };
 
+/// What a number is of, and so how it is printed.
+enum class Unit : std::uint8_t { kPlain, kRadiance, kShare, kCount };
+
+/// "plain", "radiance", "share", "count"
+constexpr std::string_view unit_name(Unit unit) {
+  constexpr std::string_view kNames[] = {"plain", "radiance", "share", "count"};
+  return kNames[std::size_t(unit)];
+}
+
 /// What has to be there for a metric to be measured; otherwise it is left out of the results.
 enum class Needs : std::uint8_t {
   kNothing,
@@ -96,11 +105,14 @@ enum class Needs : std::uint8_t {
 inline constexpr int kSsimSide = 11, kMsSsimSide = 176;
 
 struct MetricOutput {
-  std::string_view id;  ///< "ciede2000.p95": key in the record, name on the command line
+  std::string_view id;     ///< "ciede2000.p95": key in the record, name on the command line
+  std::string_view title;  ///< "CIEDE2000, 95th percentile"; empty: it is shown by its id
+  Unit unit;
   Better better;
   bool symmetric;  ///< does not change when a and b are exchanged
   std::string_view meaning;
-  double best = 0;      ///< the value of equal pictures, unless it is a fact
+  std::string_view explanation = {};  ///< a sentence for those who read the number on a page
+  double best = 0;                    ///< the value of equal pictures, unless it is a fact
   bool square = false;  ///< how far it is from the best grows as the square of a difference does
 };
 

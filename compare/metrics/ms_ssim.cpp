@@ -27,7 +27,9 @@ constexpr int kScales = int(std::size(kWeights));
 static_assert(kSsimWindow << (kScales - 1) == kMsSsimSide);
 
 constexpr MetricOutput kOutputs[] = {
-    {"ms_ssim", Better::kHigher, true, "structural similarity at five scales", 1, true}};
+    {"ms_ssim", "MS-SSIM", Unit::kPlain, Better::kHigher, true,
+     "structural similarity at five scales",
+     "The same at five scales, the coarse ones as from farther away.", 1, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   // Of the pictures themselves no plane is kept: two would be a third of the pictures.

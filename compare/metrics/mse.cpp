@@ -10,8 +10,9 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
-    {"mse", Better::kLower, true, "mean square error of all RGB values", 0, true}};
+constexpr MetricOutput kOutputs[] = {{"mse", "Mean square difference", Unit::kPlain, Better::kLower,
+                                      true, "mean square error of all RGB values",
+                                      "The square of the root mean square difference.", 0, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   values[0] = mean_square_error<Part::kPicture>(input);

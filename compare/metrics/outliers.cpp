@@ -16,8 +16,12 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"outliers", Better::kLower, false, "pixels outside the tolerance"},
-    {"outliers.off_edge", Better::kLower, false, "of these, away from the edges of the scene"}};
+    {"outliers", "Pixels beyond the tolerance", Unit::kCount, Better::kLower, false,
+     "pixels outside the tolerance",
+     "A few pixels may be: on the silhouette and on the terminator rounding decides what a ray hits."},
+    {"outliers.off_edge", "Of these, away from the edges", Unit::kCount, Better::kLower, false,
+     "of these, away from the edges of the scene",
+     "Not on a silhouette, a terminator or a shadow’s edge, where only rounding decides."}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const std::span<const float> a = input.a.values(), b = input.b.values();

@@ -21,7 +21,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 constexpr MetricOutput kOutputs[] = {
-    {"psnr", Better::kHigher, false, "reference's peak over rmse, in decibels", kInfinity}};
+    {"psnr", "Peak signal-to-noise ratio", Unit::kPlain, Better::kHigher, false,
+     "reference's peak over rmse, in decibels",
+     "In decibels, of the reference’s peak; more is better.", kInfinity}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const double error = mean_square_error<Part::kPicture>(input), peak = peak_value(input.b);

@@ -17,7 +17,9 @@ namespace {
 constexpr double kEpsilon = 0.01;
 
 constexpr MetricOutput kOutputs[] = {
-    {"relmse.eps=0.01", Better::kLower, false, "mean of (a - b)^2 / (b^2 + 0.01)", 0, true}};
+    {"relmse.eps=0.01", "Relative mean square difference", Unit::kPlain, Better::kLower, false,
+     "mean of (a - b)^2 / (b^2 + 0.01)",
+     "Each squared difference divided by the reference’s squared value plus 0.01.", 0, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   values[0] = mean_over<Part::kPicture>(

@@ -14,9 +14,11 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"rmse", Better::kLower, true, "root mean square error of all RGB values"}};
+    {"rmse", "Root mean square difference", Unit::kRadiance, Better::kLower, true,
+     "root mean square error of all RGB values", "Over all pixels and channels, in radiance."}};
 constexpr MetricOutput kMaskOutputs[] = {
-    {"rmse.mask", Better::kLower, true, "root mean square error inside the mask"}};
+    {"rmse.mask", "Root mean square difference, inside the mask", Unit::kRadiance, Better::kLower,
+     true, "root mean square error inside the mask", "Of the pixels that see a surface."}};
 
 template <Part part>
 void measure(const MetricInput& input, std::span<double> values) {

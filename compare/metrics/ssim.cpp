@@ -23,7 +23,8 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"ssim", Better::kHigher, true, "structural similarity of the luma, mean", 1, true}};
+    {"ssim", "SSIM", Unit::kPlain, Better::kHigher, true, "structural similarity of the luma, mean",
+     "How alike the structure is, 1 for equal pictures; more is better.", 1, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   values[0] = ssim_means(luma(input.shown_a), luma(input.shown_b)).similarity;

@@ -13,16 +13,27 @@ namespace lobelia {
 namespace {
 
 constexpr MetricOutput kOutputs[] = {
-    {"z.max", Better::kLower, false,
-     "largest difference in units of its noise, as a normal number"},
-    {"z.max.x", Better::kNeither, false, "column of the pixel, or of the region's first"},
-    {"z.max.y", Better::kNeither, false, "its row, from the top"},
-    {"z.max.size", Better::kNeither, false, "pixels a side of the region; 0 where nothing differs"},
-    {"z.critical", Better::kNeither, true, "what is beyond is no chance"},
-    {"z.beyond", Better::kLower, false, "pixels with a value beyond"},
-    {"z.beyond.off_edge", Better::kLower, false, "of these, away from the edges of the scene"},
-    {"z.regions", Better::kLower, false, "regions of 2, 4, 8, ... pixels a side beyond"},
-    {"z.open", Better::kNeither, false, "pixels that are not sure to lie within the tolerance"}};
+    {"z.max", "Largest difference, in units of its noise", Unit::kPlain, Better::kLower, false,
+     "largest difference in units of its noise, as a normal number",
+     "As a standard normal number; beyond the critical one it is no chance."},
+    {"z.max.x", "", Unit::kPlain, Better::kNeither, false,
+     "column of the pixel, or of the region's first"},
+    {"z.max.y", "", Unit::kPlain, Better::kNeither, false, "its row, from the top"},
+    {"z.max.size", "", Unit::kPlain, Better::kNeither, false,
+     "pixels a side of the region; 0 where nothing differs"},
+    {"z.critical", "Critical number of the noise", Unit::kPlain, Better::kNeither, true,
+     "what is beyond is no chance",
+     "What as many pixels and regions as were looked at exceed by chance in few pictures alone."},
+    {"z.beyond", "Pixels beyond the noise", Unit::kCount, Better::kLower, false,
+     "pixels with a value beyond", "Pixels with a value that differs by more than noise explains."},
+    {"z.beyond.off_edge", "Of these, away from the edges", Unit::kCount, Better::kLower, false,
+     "of these, away from the edges of the scene", "Not on an edge of the scene."},
+    {"z.regions", "Regions beyond the noise", Unit::kCount, Better::kLower, false,
+     "regions of 2, 4, 8, ... pixels a side beyond",
+     "Squares of 2, 4, 8, ... pixels whose sum differs by more than noise explains."},
+    {"z.open", "Pixels that noise leaves open", Unit::kCount, Better::kNeither, false,
+     "pixels that are not sure to lie within the tolerance",
+     "Not sure to lie within the tolerance."}};
 
 void measure(const MetricInput& input, std::span<double> values) {
   const ZTest test = z_test(input);

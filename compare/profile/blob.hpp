@@ -37,7 +37,6 @@ struct BlobProfile {
 /// One picture, or two of the same size, of which the second is the reference; else Error(kInput).
 BlobProfile measure_blob(const NamedImages& images);
 
-/// Record of kind "blob", docs/records.md.
-Json blob_record(const BlobProfile& profile);
+records::Blob blob_record(const BlobProfile& profile);
 
 }  // namespace lobelia

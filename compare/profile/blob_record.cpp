@@ -1,7 +1,6 @@
-// A profile without a scene as its record, docs/records.md.
+// A profile without a scene as its record.
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "compare/profile/blob.hpp"
 #include "compare/profile/record_parts.hpp"
@@ -12,50 +11,40 @@ namespace {
 // Standard deviation of a Gaussian over its half-width.
 const double kSigma = 1 / std::sqrt(2 * std::numbers::ln2);
 
-Json pair_json(double major, double minor) {
-  return {{"major", number_or_name(major)}, {"minor", number_or_name(minor)}};
-}
-
-Json blob_json(const BlobFigures& blob) {
-  Json record = {{"peak", peak_json(blob.peak)},
-                 {"background", number_or_name(blob.background)},
-                 {"pixels", blob.pixels},
-                 {"centroid", point_json(blob.axes.centre)},
-                 {"majorAxis", point_json(blob.axes.major)},
-                 {"halfWidthPixels", pair_json(blob.major_half_width, blob.minor_half_width)},
-                 {"gaussianSigmaPixels",
-                  pair_json(kSigma * blob.major_half_width, kSigma * blob.minor_half_width)},
-                 {"energy", number_or_name(blob.energy)},
-                 {"nonfinite", blob.not_finite}};
-  if (!blob.why_not.empty()) record["because"] = blob.why_not;
-  if (!blob.remark.empty()) record["remark"] = blob.remark;
+records::BlobFigures figures_record(const BlobFigures& blob) {
+  records::BlobFigures record;
+  record.peak = peak_record(blob.peak);
+  record.background = blob.background;
+  record.pixels = blob.pixels;
+  record.centroid = point_record(blob.axes.centre);
+  record.major_axis = point_record(blob.axes.major);
+  record.half_width = {blob.major_half_width, blob.minor_half_width};
+  record.gaussian_sigma = {kSigma * blob.major_half_width, kSigma * blob.minor_half_width};
+  record.energy = blob.energy;
+  record.nonfinite = blob.not_finite;
+  record.because = blob.why_not;
+  record.remark = blob.remark;
   return record;
 }
 
 }  // namespace
 
-Json blob_record(const BlobProfile& profile) {
-  Json record = make_record("blob");
-  record["reference"] = profile.names.back();
-  for (const Zone& zone : kZones) record["zones"][zone.name] = zone.lobe;
-  Json images = Json::object(), curves = Json::object();
+records::Blob blob_record(const BlobProfile& profile) {
+  records::Blob record;
+  record.reference = profile.names.back();
+  record.zones = {kZones[0].lobe, kZones[1].lobe, kZones[2].lobe};
   for (std::size_t k = 0; k < profile.names.size(); ++k)
-    images[profile.names[k]] = blob_json(profile.blobs[k]);
+    record.images.emplace_back(profile.names[k], figures_record(profile.blobs[k]));
   for (const BlobCurve& curve : profile.curves) {
-    Json& columns = curves[curve.axis];
-    columns["offsetPixels"] = curve.offset;
-    for (std::size_t k = 0; k < profile.names.size(); ++k) {
-      columns[profile.names[k]] = Json::array();
-      for (const double value : curve.radiance[k])
-        columns[profile.names[k]].push_back(number_or_name(value));
-    }
+    records::BlobCurve& columns =
+        record.curves.emplace_back(curve.axis, records::BlobCurve{}).second;
+    columns.offset = curve.offset;
+    for (std::size_t k = 0; k < profile.names.size(); ++k)
+      columns.radiance.emplace_back(profile.names[k], curve.radiance[k]);
   }
-  record["images"] = std::move(images);
-  record["curves"] = std::move(curves);
-  record["differences"] = Json::object();
   if (profile.difference)
-    record["differences"][profile.names[0] + "-" + profile.names[1]] =
-        zones_json(*profile.difference);
+    record.differences.emplace_back(profile.names[0] + "-" + profile.names[1],
+                                    zones_record(*profile.difference));
   return record;
 }
 

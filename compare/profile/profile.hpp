@@ -16,7 +16,7 @@
 #include "compare/profile/peak.hpp"
 #include "compare/profile/zones.hpp"
 #include "core/image.hpp"
-#include "core/record.hpp"
+#include "records/profile.hpp"
 
 namespace lobelia {
 
@@ -81,7 +81,8 @@ struct Profile {
 Profile measure_profile(const ProfileGeometry& geometry, const NamedImages& images,
                         const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 
-/// As docs/records.md has it; `angle_name` is "reflection" or "half_vector".
-Json profile_record(const Profile& profile, int light, int sphere, const std::string& angle_name);
+/// `angle_name` is "reflection" or "half_vector".
+records::Profile profile_record(const Profile& profile, int light, int sphere,
+                                const std::string& angle_name);
 
 }  // namespace lobelia

@@ -1,8 +1,5 @@
-// A profile as its record, docs/records.md.
-#include <fmt/format.h>
-
+// A profile as its record.
 #include <numbers>
-#include <utility>
 
 #include "compare/profile/profile.hpp"
 #include "compare/profile/record_parts.hpp"
@@ -11,91 +8,82 @@ namespace lobelia {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+static_assert(kZoneCount == 3, "records/profile.hpp names the zones");
 
-Json numbers(const std::vector<double>& values, double scale) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(number_or_name(value * scale));
-  return list;
+std::vector<double> scaled(std::vector<double> values, double scale) {
+  for (double& value : values) value *= scale;
+  return values;
 }
 
-Json zone_json(const ZoneError& zone) {
-  return {{"pixels", zone.pixels},
-          {"maxAbs", number_or_name(zone.max_abs)},
-          {"rms", number_or_name(zone.rms)},
-          {"maxRelPeak", number_or_name(zone.max_rel_peak)}};
+records::ZoneError zone_record(const ZoneError& zone) {
+  return {zone.pixels, zone.max_abs, zone.rms, zone.max_rel_peak};
 }
 
-Json half_width_json(const HalfWidth& width) {
-  return {{"pixels", number_or_name(width.pixels)},
-          {"degrees", number_or_name(width.angle * kDegrees)}};
+records::HalfWidth half_width_record(const HalfWidth& width) {
+  return {width.pixels, width.angle * kDegrees};
 }
 
-Json figures_json(const HighlightFigures& figures) {
-  Json record = {{"peak", peak_json(figures.peak)},
-                 {"centroid", point_json(figures.centroid)},
-                 {"halfWidthAlong", half_width_json(figures.along)},
-                 {"halfWidthAcross", half_width_json(figures.across)},
-                 {"energy", number_or_name(figures.energy)}};
+records::HighlightFigures figures_record(const HighlightFigures& figures) {
+  records::HighlightFigures record;
+  record.peak = peak_record(figures.peak);
+  record.centroid = point_record(figures.centroid);
+  record.along = half_width_record(figures.along);
+  record.across = half_width_record(figures.across);
+  record.energy = figures.energy;
   const CosineFit& cosine = figures.cosine;
-  if (cosine.why_not.empty())
-    record["cosineLobe"] = {{"exponent", number_or_name(cosine.exponent)},
-                            {"standardError", number_or_name(cosine.standard_error)},
-                            {"coefficient", number_or_name(cosine.coefficient)},
-                            {"rmsOfPeak", number_or_name(cosine.residual)},
-                            {"pixels", cosine.pixels}};
-  else
-    record["cosineLobe"] = {{"because", cosine.why_not}};
-  if (!figures.why_not.empty()) record["because"] = figures.why_not;
+  records::CosineLobe& lobe = record.cosine_lobe;
+  lobe.because = cosine.why_not;
+  if (cosine.why_not.empty()) {
+    lobe.exponent = cosine.exponent;
+    lobe.standard_error = cosine.standard_error;
+    lobe.coefficient = cosine.coefficient;
+    lobe.rms_of_peak = cosine.residual;
+    lobe.pixels = cosine.pixels;
+  }
+  record.because = figures.why_not;
   return record;
 }
 
 }  // namespace
 
-Json point_json(FilmPoint point) {
-  return {{"x", number_or_name(point.x)}, {"y", number_or_name(point.y)}};
+records::Point point_record(FilmPoint point) { return {point.x, point.y}; }
+
+records::Peak peak_record(const Peak& peak) {
+  return {peak.place.x, peak.place.y, peak.value, std::string(name(peak.found))};
 }
 
-Json peak_json(const Peak& peak) {
-  Json record = point_json(peak.place);
-  record["radiance"] = number_or_name(peak.value);
-  record["found"] = name(peak.found);
-  return record;
+records::ZoneErrors zones_record(const std::array<ZoneError, kZoneCount>& zones) {
+  return {zone_record(zones[0]), zone_record(zones[1]), zone_record(zones[2])};
 }
 
-Json zones_json(const std::array<ZoneError, kZoneCount>& zones) {
-  Json record;
-  for (std::size_t zone = 0; zone < kZoneCount; ++zone)
-    record[kZones[zone].name] = zone_json(zones[zone]);
-  return record;
-}
-
-Json profile_record(const Profile& profile, int light, int sphere, const std::string& angle_name) {
-  Json record = make_record("profile");
-  record["light"] = light;
-  record["sphere"] = sphere;
-  record["angle"] = angle_name;
-  for (std::size_t zone = 0; zone < kZoneCount; ++zone)
-    record["zones"][fmt::format("{}Degrees", kZones[zone].name)] = Json::array(
-        {zone == 0 ? 0 : profile.ends[zone - 1] * kDegrees, profile.ends[zone] * kDegrees});
-  if (profile.incidence) record["planeOfIncidence"] = point_json(*profile.incidence);
-  Json curve = Json::object(), images = Json::object();
-  curve["angleDegrees"] = numbers(profile.angle, kDegrees);
-  curve["pixels"] = profile.pixels;
+records::Profile profile_record(const Profile& profile, int light, int sphere,
+                                const std::string& angle_name) {
+  records::Profile record;
+  record.light = light;
+  record.sphere = sphere;
+  record.angle = angle_name;
+  const auto range = [&](std::size_t zone) {
+    return std::array{zone == 0 ? 0 : profile.ends[zone - 1] * kDegrees,
+                      profile.ends[zone] * kDegrees};
+  };
+  record.zones = {range(0), range(1), range(2)};
+  if (profile.incidence) record.plane_of_incidence = point_record(*profile.incidence);
+  record.curve.angle_degrees = scaled(profile.angle, kDegrees);
+  record.curve.pixels = profile.pixels;
   for (std::size_t k = 0; k < profile.names.size(); ++k) {
     const HighlightShape& shape = profile.shapes[k];
-    curve[profile.names[k]] = numbers(profile.radiance[k], 1);
-    images[profile.names[k]] = {{"peak", number_or_name(shape.peak)},
-                                {"peakAngleDegrees", number_or_name(shape.peak_angle * kDegrees)},
-                                {"halfWidthDegrees", number_or_name(shape.half_width * kDegrees)},
-                                {"energy", number_or_name(shape.energy)}};
-    if (!profile.figures.empty())
-      images[profile.names[k]]["highlight"] = figures_json(profile.figures[k]);
+    record.curve.radiance.emplace_back(profile.names[k], profile.radiance[k]);
+    records::HighlightShape& one =
+        record.images.emplace_back(profile.names[k], records::HighlightShape{}).second;
+    one.peak = shape.peak;
+    one.peak_angle_degrees = shape.peak_angle * kDegrees;
+    one.half_width_degrees = shape.half_width * kDegrees;
+    one.energy = shape.energy;
+    if (!profile.figures.empty()) one.highlight = figures_record(profile.figures[k]);
   }
-  record["curve"] = std::move(curve);
-  record["images"] = std::move(images);
-  record["differences"] = Json::object();
   for (const ProfileDifference& difference : profile.differences)
-    record["differences"][difference.a + "-" + difference.b] = zones_json(difference.zones);
+    record.differences.emplace_back(difference.a + "-" + difference.b,
+                                    zones_record(difference.zones));
   return record;
 }
 

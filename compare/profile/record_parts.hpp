@@ -1,14 +1,14 @@
-// Parts that the records of profiles with and without a scene share, docs/records.md.
+// Parts that the records of profiles with and without a scene share.
 #pragma once
 
 #include "compare/profile/peak.hpp"
 #include "compare/profile/zones.hpp"
-#include "core/record.hpp"
+#include "records/profile.hpp"
 
 namespace lobelia {
 
-Json point_json(FilmPoint point);
-Json peak_json(const Peak& peak);
-Json zones_json(const std::array<ZoneError, kZoneCount>& zones);
+records::Point point_record(FilmPoint point);
+records::Peak peak_record(const Peak& peak);
+records::ZoneErrors zones_record(const std::array<ZoneError, kZoneCount>& zones);
 
 }  // namespace lobelia

@@ -57,7 +57,7 @@ SetCounts count(const SetReport& report) {
 SetNotCompared not_compared(const SetReport& report) {
   SetNotCompared result;
   for (const PairReport& pair : report.pairs) {
-    if (!pair.layers || pair.layers->not_compared.is_empty()) continue;
+    if (!pair.layers || is_empty(pair.layers->not_compared)) continue;
     ++result.pairs;
     add(pair.layers->not_compared, result.all);
   }

@@ -78,10 +78,9 @@ std::string why_not_pass(const Comparison& comparison, std::string_view file_a,
 /// The same of the picture and its layers.
 std::string why_not_pass(const PairReport& pair);
 
-/// The record of a pair that has a comparison (kind comparison), and of all (kind comparison-set):
-/// docs/records.md.
-Json pair_record(const PairReport& pair);
-Json set_record(const SetReport& report);
+/// The record of a pair that has a comparison, and of all.
+records::Comparison pair_record(const PairReport& pair);
+records::ComparisonSet set_record(const SetReport& report);
 
 /// RFC 4180: a line of names, then one for each pair, missing and extra name and link that was not followed; a
 /// column for each metric that

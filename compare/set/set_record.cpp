@@ -1,48 +1,40 @@
-// A set of comparisons as its record, docs/records.md.
-#include <utility>
-
+// A set of comparisons as its record.
 #include "compare/set/report.hpp"
 
 namespace lobelia {
 
-Json pair_record(const PairReport& pair) {
-  Json record = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
-  if (pair.sources) add_pictures(record, pair.sources->a, pair.sources->b);
+records::Comparison pair_record(const PairReport& pair) {
+  records::Comparison record = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
+  if (pair.sources) record.pictures = pictures_record(pair.sources->a, pair.sources->b);
   if (pair.layers) add_layers(record, pair.verdict(), *pair.layers);
   return record;
 }
 
-Json set_record(const SetReport& report) {
-  Json record = make_record("comparison-set");
-  record["a"] = report.a;
-  record["b"] = report.b;
-  if (!report.c.empty()) record["c"] = report.c;
+records::ComparisonSet set_record(const SetReport& report) {
+  records::ComparisonSet record;
+  record.a = report.a;
+  record.b = report.b;
+  record.c = report.c;
   const SetCounts counts = count(report);
-  record["summary"] = {
-      {"pairs", report.pairs.size()},     {"pass", counts.pass},
-      {"differs", counts.differs},        {"undecided", counts.undecided},
-      {"nonFinite", counts.nonfinite},    {"errors", counts.errors},
-      {"missing", counts.missing},        {"extra", counts.extra},
-      {"passedOver", report.passed_over}, {"linksNotFollowed", counts.not_followed}};
+  record.summary = {report.pairs.size(), counts.pass,        counts.differs, counts.undecided,
+                    counts.nonfinite,    counts.errors,      counts.missing, counts.extra,
+                    report.passed_over,  counts.not_followed};
   const SetNotCompared left = not_compared(report);
-  record["notCompared"] = to_json(left.all);
-  record["notCompared"]["pairs"] = left.pairs;
-  record["worst"] = Json::object();
+  record.not_compared = {left.all.layers, left.all.alpha, left.all.overscan_pixels,
+                         left.all.mip_levels, left.pairs};
   for (const MetricSummary& metric : summarise(report.pairs))
-    record["worst"][std::string(metric.id)] = {{"value", number_or_name(metric.worst)},
-                                               {"pair", metric.worst_at->name},
-                                               {"mean", number_or_name(metric.mean)}};
-  record["missing"] = report.missing;
-  record["extra"] = report.extra;
-  record["linksNotFollowed"] = report.not_followed;
-  record["pairs"] = Json::array();
+    record.worst.emplace_back(
+        metric.id, records::WorstOfSet{metric.worst, metric.worst_at->name, metric.mean});
+  record.missing = report.missing;
+  record.extra = report.extra;
+  record.links_not_followed = report.not_followed;
   for (const PairReport& pair : report.pairs) {
-    Json entry = {{"name", pair.name}};
+    records::PairOfSet& one = record.pairs.emplace_back();
+    one.name = pair.name;
     if (pair.comparison)
-      entry["comparison"] = pair_record(pair);
+      one.comparison = pair_record(pair);
     else
-      entry["error"] = pair.error;
-    record["pairs"].push_back(std::move(entry));
+      one.error = pair.error;
   }
   return record;
 }

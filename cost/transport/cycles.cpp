@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <thread>
 
@@ -9,7 +10,6 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/process.hpp"
-#include "core/record.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 
@@ -20,6 +20,9 @@ extern const std::string_view cycles_jobs_py;
 namespace cost {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+Json to_json(Rgb c) { return Json::array({c.r, c.g, c.b}); }
 /// From our axes to Blender's, so that its pole, +z, is our +y, and its middle column of a sky, +x, is our
 /// -z: then images by latitude and longitude are the same.
 Json in_blender(Vec3 v) { return Json::array({-v.z, -v.x, v.y}); }

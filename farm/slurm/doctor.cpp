@@ -16,12 +16,13 @@
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/interrupt.hpp"
-#include "core/record.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 #include "farm/slurm/lock_file.hpp"
 #include "farm/slurm/slurm_client.hpp"
+#include "records/cluster.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -250,40 +251,35 @@ class Doctor {
   }
 
   void judge(const fs::path& directory, const std::string& token) {
-    Json answer;
+    records::SlurmDoctor answer;
     try {
-      answer = read_record(directory / kAnswer, "slurm-doctor");
-      const auto text = [&](const char* key) {
-        return printable(answer.at(key).get<std::string>(), 300);
-      };
-      const std::string host = text("host");
-      add("a job", Verdict::kOk, fmt::format("it ran on {}", host));
-      const bool same = text("token") == token;
-      add("directory on a node", same ? Verdict::kOk : Verdict::kFailed,
-          same ? "what one writes the other reads" : "the node reads another file of the same name",
-          same ? "" : "results have to be on a file system that the nodes share");
-      const bool version = text("version") == kNameAndVersion;
-      add("program on a node", version ? Verdict::kOk : Verdict::kFailed,
-          fmt::format("{} there, {} here", text("version"), kNameAndVersion),
-          version ? "" : "let both be the same file, or build it the same on all");
-      const auto check = [&](const char* name, const char* key, Verdict verdict,
-                             const char* advice) {
-        const std::string problem = text(key);
-        add(name, problem.empty() ? Verdict::kOk : verdict, problem.empty() ? "they work" : problem,
-            problem.empty() ? "" : advice);
-      };
-      check("renaming on a node", "rename", Verdict::kFailed,
-            "take another file system for the results");
-      check("hard links on a node", "link", Verdict::kFailed,
-            "take another file system for the results");
-      check(
-          "locks across machines", "lock", Verdict::kWarning,
-          "start one client for a directory at a time, or have lockd (NFS) or -o flock (Lustre) turned on");
-    } catch (const Json::exception& error) {
-      add("a job", Verdict::kFailed, fmt::format("its answer is not understood: {}", error.what()));
+      answer = records::read_record<records::SlurmDoctor>(directory / kAnswer);
     } catch (const Error& error) {
       add("a job", Verdict::kFailed, error.what());
+      return;
     }
+    const auto shown = [](const std::string& text) { return printable(text, 300); };
+    add("a job", Verdict::kOk, fmt::format("it ran on {}", shown(answer.host)));
+    const bool same = answer.token == token;
+    add("directory on a node", same ? Verdict::kOk : Verdict::kFailed,
+        same ? "what one writes the other reads" : "the node reads another file of the same name",
+        same ? "" : "results have to be on a file system that the nodes share");
+    const bool version = answer.version == kNameAndVersion;
+    add("program on a node", version ? Verdict::kOk : Verdict::kFailed,
+        fmt::format("{} there, {} here", shown(answer.version), kNameAndVersion),
+        version ? "" : "let both be the same file, or build it the same on all");
+    const auto check = [&](const char* name, const std::string& problem, Verdict verdict,
+                           const char* advice) {
+      add(name, problem.empty() ? Verdict::kOk : verdict,
+          problem.empty() ? "they work" : shown(problem), problem.empty() ? "" : advice);
+    };
+    check("renaming on a node", answer.rename, Verdict::kFailed,
+          "take another file system for the results");
+    check("hard links on a node", answer.link, Verdict::kFailed,
+          "take another file system for the results");
+    check(
+        "locks across machines", answer.lock, Verdict::kWarning,
+        "start one client for a directory at a time, or have lockd (NFS) or -o flock (Lustre) turned on");
   }
 
   const DoctorOptions& options_;
@@ -296,14 +292,10 @@ class Doctor {
 std::vector<DoctorCheck> doctor(const DoctorOptions& options) { return Doctor(options)(); }
 
 void doctor_on_node(const fs::path& directory) {
-  Json answer = make_record("slurm-doctor");
-  answer["host"] = host_name();
-  answer["version"] = kNameAndVersion;
-  answer["token"] = read_file(directory / kToken, 100);
-  answer["rename"] = try_rename(directory);
-  answer["link"] = try_link(directory);
-  answer["lock"] = try_lock(directory);
-  write_record(directory / kAnswer, answer);
+  records::write_record(
+      directory / kAnswer,
+      records::SlurmDoctor{host_name(), kNameAndVersion, read_file(directory / kToken, 100),
+                           try_rename(directory), try_link(directory), try_lock(directory)});
 }
 
 DoctorCheck::Verdict worst_of(const std::vector<DoctorCheck>& checks) {

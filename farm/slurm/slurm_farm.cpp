@@ -11,6 +11,7 @@
 #include "core/host.hpp"
 #include "core/text.hpp"
 #include "farm/farm_session.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -61,15 +62,8 @@ class Missing {
   void give_up(std::span<const std::size_t> places, const std::string& why) const {
     const JobGraph& graph = session_.work().graph;
     for (const JobIndex job : at(places)) {
-      Json record = make_record("failure");
-      record["job"] = graph.name(job);
-      record["key"] = graph[job].key.text();
-      record["failure"] = "no node left";
-      record["message"] = why;
-      record["attempts"] = 0;
-      record["host"] = host_record();
-      record["host"]["name"] = host_name();
-      session_.cache().keep_failure(graph[job].key, record);
+      session_.cache().keep_failure(graph[job].key, {graph.name(job), graph[job].key.text(),
+                                                     "no node left", why, 0, records::this_node()});
     }
   }
 
@@ -116,17 +110,16 @@ class Missing {
 void write_run_record(const fs::path& run_directory, const fs::path& grid_file,
                       const fs::path& directory, const FarmSession& session,
                       const FarmOptions& options) {
-  Json record = make_record("farm-run");
+  records::FarmRun record;
   own_identity().put_into(record);
-  record["grid"] = fs::absolute(grid_file).string();
-  record["directory"] = fs::absolute(directory).string();
-  record["cache"] = session.cache().directory().string();
-  record["command"] = options.command;
-  if (!options.gallery.empty()) record["gallery"] = fs::absolute(options.gallery).string();
-  record["programs"] = Json::object();
+  record.grid = fs::absolute(grid_file).string();
+  record.directory = fs::absolute(directory).string();
+  record.cache = session.cache().directory().string();
+  record.command = options.command;
+  if (!options.gallery.empty()) record.gallery = fs::absolute(options.gallery).string();
   for (const auto& [engine, program] : options.programs)
-    record["programs"][engine] = fs::absolute(program).string();
-  write_record(run_directory / kRunFile, record, AtLink::kReplace);
+    record.programs.emplace_back(engine, fs::absolute(program).string());
+  records::write_record(run_directory / kRunFile, record, AtLink::kReplace);
 }
 
 struct Run {
@@ -135,27 +128,21 @@ struct Run {
 };
 
 Run read_run(const fs::path& run_directory) {
-  const Json record = read_record(run_directory / kRunFile, "farm-run");
-  try {
-    // Here its results would have other names.
-    const auto differences = identity_differences(OwnIdentity::of_record(record), own_identity());
-    if (!differences.empty())
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: a run that cannot go on here: {}", run_directory.string(),
-                              fmt::join(differences, "; ")));
-    Run run;
-    run.grid_file = record.at("grid").get<std::string>();
-    run.directory = record.at("directory").get<std::string>();
-    run.options.cache = record.at("cache").get<std::string>();
-    run.options.command = record.at("command").get<std::vector<std::string>>();
-    run.options.gallery = record.value("gallery", std::string());
-    for (const auto& [engine, program] : record.at("programs").items())
-      run.options.programs[engine] = program.get<std::string>();
-    return run;
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::kInput, fmt::format("{}: not the record of a run: {}",
-                                              run_directory.string(), error.what()));
-  }
+  const auto record = records::read_record<records::FarmRun>(run_directory / kRunFile);
+  // Here its results would have other names.
+  const auto differences = identity_differences(OwnIdentity::of_record(record), own_identity());
+  if (!differences.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: a run that cannot go on here: {}", run_directory.string(),
+                            fmt::join(differences, "; ")));
+  Run run;
+  run.grid_file = record.grid;
+  run.directory = record.directory;
+  run.options.cache = record.cache;
+  run.options.command = record.command;
+  run.options.gallery = record.gallery;
+  for (const auto& [engine, program] : record.programs) run.options.programs[engine] = program;
+  return run;
 }
 
 }  // namespace
@@ -205,8 +192,9 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   write_run_record(work.run_directory, grid_file, directory, session, options);
   work.missing = [&] { return missing(); };
   work.write_chunk = [&](std::size_t number, std::span<const std::size_t> places) {
-    write_record(chunk_file(work.run_directory, number),
-                 chunk_record(session.work(), session.cache(), options, missing.at(places)));
+    records::write_record(
+        chunk_file(work.run_directory, number),
+        chunk_record(session.work(), session.cache(), options, missing.at(places)));
   };
   work.give_up = [&](std::span<const std::size_t> places, const std::string& why) {
     missing.give_up(places, why);

@@ -17,7 +17,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
-#include "core/record.hpp"
 #include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
@@ -25,6 +24,8 @@
 #include "farm/slurm/lock_file.hpp"
 #include "farm/slurm/slurm_client.hpp"
 #include "farm/slurm/slurm_limits.hpp"
+#include "records/cluster.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -47,74 +48,27 @@ std::string ids_text(const std::vector<SlurmJobId>& ids) {
   return fmt::format("{} {}", ids.size() == 1 ? "job" : "jobs", fmt::join(ids, ", "));
 }
 
-/// slurm.json of a run directory.
-struct RunRecord {
-  struct Array {
-    SlurmJobId id = 0;
-    std::size_t first = 0, count = 0;
-    int phase = 0, round = 0;
-    std::string time, memory;  ///< that each element asked for; empty: not asked
-  };
-  std::string name;
-  int round = 0;  ///< of all clients
-  std::size_t next_chunk = 0;
-  std::size_t first_report =
-      0;  ///< chunks before it were another run's: their nodes are tried again
-  std::vector<Array> arrays;
-};
+using records::SlurmArray;
+using records::SlurmRun;
 
 constexpr int kFinishPhase = -1;
 
 fs::path record_path(const fs::path& run_directory) { return run_directory / "slurm.json"; }
 
-/// Nothing if there is none. What is broken is no reason to stop: numbers go on from the chunks that were submitted.
-std::optional<RunRecord> read_run_record(const fs::path& run_directory) {
-  if (!fs::exists(record_path(run_directory))) return {};
-  const Json json = read_record(record_path(run_directory), "slurm-run");
-  RunRecord record;
-  try {
-    record.name = json.at("name").get<std::string>();
-    record.round = json.at("round").get<int>();
-    record.next_chunk = json.at("nextChunk").get<std::size_t>();
-    for (const Json& array : json.at("arrays"))
-      record.arrays.push_back({array.at("job").get<SlurmJobId>(),
-                               array.at("firstChunk").get<std::size_t>(),
-                               array.at("chunks").get<std::size_t>(), array.at("phase").get<int>(),
-                               array.at("round").get<int>(), array.value("time", std::string()),
-                               array.value("memory", std::string())});
-    record.first_report = json.value("firstReport", std::size_t(0));
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: {}", record_path(run_directory).string(), error.what()));
-  }
-  const bool plain = record.name.size() < 100 && record.name.starts_with("lobelia-") &&
-                     std::all_of(record.name.begin(), record.name.end(), [](char c) {
-                       return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
-                     });
-  if (!plain || record.next_chunk > 1'000'000'000 || record.round < 0)
-    throw Error(ExitCode::kInput, fmt::format("{}: its name or numbers are not those of a run",
-                                              record_path(run_directory).string()));
+/// Empty if there is none.
+SlurmRun read_run_record(const fs::path& run_directory) {
+  const fs::path path = record_path(run_directory);
+  if (!fs::exists(path)) return {};
+  auto record = records::read_record<SlurmRun>(path);
+  if (!record.name.starts_with("lobelia-") || !std::ranges::all_of(record.name, [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
+      }))
+    throw Error(ExitCode::kInput, fmt::format("{}: its name is not that of a run", path.string()));
   return record;
 }
 
-void write_run_record(const fs::path& run_directory, const RunRecord& record) {
-  Json json = make_record("slurm-run");
-  json["name"] = record.name;
-  json["round"] = record.round;
-  json["nextChunk"] = record.next_chunk;
-  json["firstReport"] = record.first_report;
-  json["arrays"] = Json::array();
-  for (const auto& array : record.arrays) {
-    Json one = {{"job", array.id},
-                {"firstChunk", array.first},
-                {"chunks", array.count},
-                {"phase", array.phase},
-                {"round", array.round}};
-    if (!array.time.empty()) one["time"] = array.time;
-    if (!array.memory.empty()) one["memory"] = array.memory;
-    json["arrays"].push_back(std::move(one));
-  }
-  write_record(record_path(run_directory), json, AtLink::kReplace);
+void write_run_record(const fs::path& run_directory, const SlurmRun& record) {
+  records::write_record(record_path(run_directory), record, AtLink::kReplace);
 }
 
 /// Of the directory: another client of the same run gives its jobs the same name.
@@ -173,7 +127,7 @@ class Run {
                                                  directory_.string(), lock.holder()));
     if (lock.state() == LockFile::State::kUnsupported)
       say("This file system has no locks: start no second client of this run.");
-    record_ = read_run_record(directory_).value_or(RunRecord{});
+    record_ = read_run_record(directory_);
     if (record_.name.empty()) record_.name = name_of_run(directory_);
     struct Silence {
       ~Silence() { set_last_words(""); }
@@ -309,14 +263,14 @@ class Run {
       std::vector<SlurmJob> part;
       for (const std::size_t i : places) part.push_back(jobs[i]);
       auto chunks = make_chunks(part, chunk_rule);
-      const RunRecord::Array array{
-          0, record_.next_chunk, chunks.size(), phase, record_.round, asked_.time, asked_.memory};
+      const SlurmArray array{0,           record_.next_chunk, chunks.size(), phase, record_.round,
+                             asked_.time, asked_.memory};
       // Recorded first: a number that an element may have is not given away again.
       record_.next_chunk += chunks.size();
       write_run_record(directory_, record_);
       for (std::size_t i = 0; i < chunks.size(); ++i) {
         for (std::size_t& job : chunks[i]) job = places[job];
-        work_.write_chunk(array.first + i, chunks[i]);
+        work_.write_chunk(array.first_chunk + i, chunks[i]);
         throw_if_interrupted();
       }
       std::string refusal;
@@ -341,7 +295,7 @@ class Run {
   }
 
   /// The script is a file, because that is what can be looked at when something is wrong.
-  fs::path write_script(const RunRecord::Array& array, const std::string& title) const {
+  fs::path write_script(const SlurmArray& array, const std::string& title) const {
     const std::string program = shell_quote(fs::absolute(work_.program).string());
     const std::string directory = shell_quote(directory_.string());
     // exec: what Slurm sends reaches the program and no shell before it.
@@ -349,18 +303,18 @@ class Run {
         array.phase == kFinishPhase
             ? fmt::format("exec {} farm finish {}", program, directory)
             : fmt::format("exec {} farm exec-chunk {} $(({} + SLURM_ARRAY_TASK_ID))", program,
-                          directory, array.first);
+                          directory, array.first_chunk);
     const fs::path path = directory_ / "submit" / (title + ".sh");
     write_file(path, fmt::format("#!/bin/sh\n{}\n", line));
     return path;
   }
 
   /// Elements run on none of the nodes `without`. `refusal` is Slurm's word where it has no others.
-  SlurmJobId submit(RunRecord::Array array, const std::vector<SlurmJobId>& after,
-                    const Nodes& without, std::string& refusal) {
+  SlurmJobId submit(SlurmArray array, const std::vector<SlurmJobId>& after, const Nodes& without,
+                    std::string& refusal) {
     const bool last = array.phase == kFinishPhase;
     const std::string title = last ? fmt::format("{}-finish", array.round)
-                                   : fmt::format("{}-{}", array.round, array.first);
+                                   : fmt::format("{}-{}", array.round, array.first_chunk);
     const std::string comment = fmt::format("lobelia {}", title);
     std::string log = directory_.string();
     for (std::size_t at = 0; (at = log.find('%', at)) != log.npos; at += 2) log.insert(at, 1, '%');
@@ -374,7 +328,7 @@ class Run {
         fmt::format("--output={}/log/{}.log", log, last ? "%j" : "%A_%a")};
     if (!last)
       arguments.push_back(fmt::format(
-          "--array=0-{}{}", array.count - 1,
+          "--array=0-{}{}", array.chunks - 1,
           options_.slurm.throttle > 0 ? fmt::format("%{}", options_.slurm.throttle) : ""));
     // afterany: one cell that fails must not cancel or hang what comes after.
     if (!after.empty())
@@ -387,12 +341,12 @@ class Run {
     const fs::path script = write_script(array, title);
     const auto id = submit(arguments, script, comment, !without.empty(), refusal);
     if (!id) return 0;
-    array.id = *id;
+    array.job = *id;
     record_.arrays.push_back(array);
     write_run_record(directory_, record_);
-    note(array.id);
+    note(*id);
     throw_if_interrupted();
-    return array.id;
+    return *id;
   }
 
   std::optional<SlurmJobId> submit(const std::vector<std::string>& arguments,
@@ -518,7 +472,7 @@ class Run {
   /// Of the jobs of an earlier client: what they asked for may have been raised already.
   void take_over_limits(const std::vector<SlurmJobId>& ids) {
     for (const auto& array : record_.arrays) {
-      if (std::find(ids.begin(), ids.end(), array.id) == ids.end()) continue;
+      if (std::find(ids.begin(), ids.end(), array.job) == ids.end()) continue;
       if (parse_slurm_time(array.time) > parse_slurm_time(asked_.time)) asked_.time = array.time;
       if (parse_slurm_memory(array.memory) > parse_slurm_memory(asked_.memory))
         asked_.memory = array.memory;
@@ -771,7 +725,7 @@ class Run {
   SlurmOptions asked_;  ///< for elements; a round may raise it
   const std::vector<std::string> finish_arguments_;
   fs::path directory_;
-  RunRecord record_;
+  SlurmRun record_;
   SlurmOutcome outcome_;
   bool silent_ = false;   ///< Slurm, at the last call
   bool settled_ = false;  ///< nothing is to be cancelled any more
@@ -806,18 +760,18 @@ bool ask_whether_to_cancel() {
 SlurmStatus slurm_status(const fs::path& run_directory, std::chrono::duration<double> call_limit) {
   SlurmStatus status;
   const auto record = read_run_record(run_directory);
-  if (!record) return status;
-  status.name = record->name;
-  status.round = status.elements.round = record->round;
+  if (record.name.empty()) return status;
+  status.name = record.name;
+  status.round = status.elements.round = record.round;
   const SlurmClient client(call_limit);
-  const auto living = client.living_jobs(record->name);
+  const auto living = client.living_jobs(record.name);
   if (!living) {
     status.problem = living.why;
     return status;
   }
   status.living = *living;
   for (const auto& job : status.living) {
-    const auto elements = client.elements(job.id, record->name);
+    const auto elements = client.elements(job.id, record.name);
     if (!elements) {
       status.problem = elements.why;
       continue;

@@ -131,11 +131,11 @@ class Measurement {
 
   void take(std::size_t i, const WitnessKind& witness, ReferenceResult result) {
     const std::string_view asked = kWitnessNames[std::size_t(witness.witness)];
-    if (result.error.empty() && result.record.at("witness") != asked) {
+    if (result.error.empty() && result.record.witness != asked) {
       result.failure = FailureClass::kRefused;
       result.error =
           fmt::format("asked for highlights that are {}, the engine rendered some that are {}",
-                      asked, result.record.at("witness").get<std::string>());
+                      asked, result.record.witness);
     }
     if (!result.error.empty()) {
       result_.rows.push_back({i, witness, {}, Verdict::kFailed, result.error});

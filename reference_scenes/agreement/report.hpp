@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/record.hpp"
+#include "records/agreement.hpp"
 #include "reference_scenes/agreement/agreement.hpp"
 
 namespace lobelia::agreement {
@@ -37,7 +37,8 @@ std::string report_markdown(const Agreement& agreement, std::string_view command
 /// Headings of the page, in their order, and columns of its first table: what a test holds the page to.
 std::vector<std::string> markdown_headings();
 std::string markdown_columns();
-Json report_record(const Agreement& agreement, const std::vector<std::string>& command);
+records::Agreement report_record(const Agreement& agreement,
+                                 const std::vector<std::string>& command);
 /// One line a comparison.
 std::string report_csv(const Agreement& agreement);
 

@@ -3,77 +3,67 @@
 namespace lobelia::agreement {
 namespace {
 
-Json target_json(const Target& target) {
-  return {{target.relative ? "relative" : "ofPeak", target.limit}};
-}
-
-Json row_json(const Agreement& agreement, const Row& row) {
+records::AgreementRow row_record(const Agreement& agreement, const Row& row) {
   const Case& one = agreement.cases[row.index];
-  Json json = {{"group", kGroupNames[std::size_t(one.group)]},
-               {"what", one.what},
-               {"model", one.highlight.model},
-               {"lobe", one.highlight.lobe},
-               {"normalisation", one.highlight.normalisation},
-               {"exponent", one.highlight.exponent},
-               {"view", one.close_up ? "close-up" : "whole"},
-               {"width", one.scene.film.width},
-               {"height", one.scene.film.height},
-               {"witness", row.witness.name}};
+  records::AgreementRow record;
+  record.group = kGroupNames[std::size_t(one.group)];
+  record.what = one.what;
+  record.model = one.highlight.model;
+  record.lobe = one.highlight.lobe;
+  record.normalisation = one.highlight.normalisation;
+  record.exponent = one.highlight.exponent;
+  record.view = one.close_up ? "close-up" : "whole";
+  record.width = one.scene.film.width;
+  record.height = one.scene.film.height;
+  record.witness = row.witness.name;
+  record.why = row.why;
   if (row.why.empty()) {
     const Figures& f = row.figures;
-    json["maxOfPeak"] = number_or_name(f.max_of_peak);
-    json["rmsOfPeak"] = number_or_name(f.rms_of_peak);
-    json["maxRelative"] = number_or_name(f.max_relative);
-    json["ring"] = {{"pixels", f.ring_pixels},
-                    {"over", f.ring_over},
-                    {"allowed", one.ring_allowed},
-                    {"maxOfPeak", number_or_name(f.ring_max_of_peak)}};
-  } else {
-    json["why"] = row.why;
+    record.max_of_peak = f.max_of_peak;
+    record.rms_of_peak = f.rms_of_peak;
+    record.max_relative = f.max_relative;
+    record.ring = records::Ring{f.ring_pixels, f.ring_over, one.ring_allowed, f.ring_max_of_peak};
   }
-  if (const auto target = target_of(row.witness, one.highlight.exponent))
-    json["target"] = target_json(*target);
-  json["verdict"] = kVerdictNames[std::size_t(row.verdict)];
-  return json;
+  if (const auto target = target_of(row.witness, one.highlight.exponent)) {
+    records::Target& asked = record.target.emplace();
+    (target->relative ? asked.relative : asked.of_peak) = target->limit;
+  }
+  record.verdict = kVerdictNames[std::size_t(row.verdict)];
+  return record;
 }
 
-Json soft_json(const SoftRow& row) {
-  Json json = {{"what", row.what}, {"witness", row.witness.name}, {"counts", Json::array()}};
+records::SoftRow soft_record(const SoftRow& row) {
+  records::SoftRow record;
+  record.what = row.what;
+  record.witness = row.witness.name;
   for (const auto& count : row.counts)
-    json["counts"].push_back({{"points", count.points},
-                              {"values", count.statistics.values},
-                              {"beyond", count.statistics.beyond},
-                              {"rmsOfPeak", count.rms_of_peak}});
-  if (!row.why.empty()) json["why"] = row.why;
-  json["verdict"] = kVerdictNames[std::size_t(row.verdict)];
-  return json;
+    record.counts.push_back(
+        {count.points, count.statistics.values, count.statistics.beyond, count.rms_of_peak});
+  record.why = row.why;
+  record.verdict = kVerdictNames[std::size_t(row.verdict)];
+  return record;
 }
 
 }  // namespace
 
-Json report_record(const Agreement& agreement, const std::vector<std::string>& command) {
-  Json record = make_record("agreement");
-  record["command"] = command;
-  record["small"] = agreement.scope.small;
-  record["engines"] = Json::array();
+records::Agreement report_record(const Agreement& agreement,
+                                 const std::vector<std::string>& command) {
+  records::Agreement record;
+  record.command = command;
+  record.small = agreement.scope.small;
   for (const EngineHere& engine : agreement.engines) {
-    Json json = {{"name", engine.info.name},
-                 {"title", engine.info.title},
-                 {"available", engine.status.available()},
-                 {"state", state_name(engine.status.state)}};
-    if (engine.status.available())
-      json["version"] = engine.status.version;
-    else
-      json["why"] = engine.status.why;
-    record["engines"].push_back(std::move(json));
+    records::AgreementEngine& one = record.engines.emplace_back();
+    one.name = engine.info.name;
+    one.title = engine.info.title;
+    one.available = engine.status.available();
+    one.state = state_name(engine.status.state);
+    (one.available ? one.version : one.why) =
+        one.available ? engine.status.version : engine.status.why;
   }
-  record["verdicts"] = Json::object();
   for (std::size_t v = 0; v < std::size(kVerdictNames); ++v)
-    record["verdicts"][std::string(kVerdictNames[v])] = agreement.count(Verdict(v));
-  record["rows"] = Json::array();
-  for (const Row& row : agreement.rows) record["rows"].push_back(row_json(agreement, row));
-  record["soft"] = Json::array();
-  for (const SoftRow& row : agreement.soft) record["soft"].push_back(soft_json(row));
+    record.verdicts.emplace_back(kVerdictNames[v], agreement.count(Verdict(v)));
+  for (const Row& row : agreement.rows) record.rows.push_back(row_record(agreement, row));
+  for (const SoftRow& row : agreement.soft) record.soft.push_back(soft_record(row));
   return record;
 }
 

@@ -70,13 +70,12 @@ class Analytic final : public Engine {
       return result;
     }
     result.image = to_image(picture, scene.film);
-    result.record["witness"] = "analytic";
-    result.record["method"] = fmt::format(
+    result.record.witness = "analytic";
+    result.record.method = fmt::format(
         "textbook formulas in {}, one ray per pixel centre, none of the renderer's kernels",
         options.fine ? "50 digits" : "double precision");
-    result.record["passes"] = 1;
-    result.record["engineCommands"] = Json::array();
-    result.record["seconds"] = {{"total", elapsed().count()}};
+    result.record.passes = 1;
+    result.record.seconds.total = elapsed().count();
     return result;
   }
 

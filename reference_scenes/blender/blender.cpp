@@ -16,6 +16,7 @@
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
+#include "records/record.hpp"
 #include "reference_scenes/blender/blender_input.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"
@@ -71,10 +72,11 @@ std::vector<std::string> blender_arguments(const std::string& program, const fs:
           (directory / kJobFile).string()};
 }
 
-Json job_json(int threads, const ReferenceOptions& options) {
-  return {{"threads", threads},
-          {"secondsPerScene", options.time_limit.count()},
-          {"scenes", Json::array()}};
+BlenderJob empty_job(int threads, const ReferenceOptions& options) {
+  BlenderJob job;
+  job.threads = threads;
+  job.seconds_per_scene = options.time_limit.count();
+  return job;
 }
 
 /// Adds up a scene's passes, and removes them.
@@ -129,11 +131,11 @@ class StageClock {
       end(write_);
     }
   }
-  void report(Json& seconds) const {
-    seconds["start"] = start_;
-    seconds["parse"] = parse_;
-    seconds["trace"] = trace_;
-    seconds["write"] = write_;
+  void report(records::EngineSeconds& seconds) const {
+    seconds.start = start_;
+    seconds.parse = parse_;
+    seconds.trace = trace_;
+    seconds.write = write_;
   }
 
  private:
@@ -200,7 +202,7 @@ class BlenderWorker {
   using Clock = std::chrono::steady_clock;
   struct Given {
     std::size_t index = 0;
-    Json input;
+    BlenderScene input;
   };
   /// Of which Blender says that it is done.
   struct Done {
@@ -228,10 +230,10 @@ class BlenderWorker {
 
   /// Whatever happens, fewer scenes wait afterwards, or this one does again after others were done.
   void run_process_from(const Given& first) {
-    Json job = job_json(shared_.threads, options_);
-    job["scenes"].push_back(first.input);
-    job["goOn"] = true;
-    write_file(directory_.path() / kJobFile, job.dump());
+    BlenderJob job = empty_job(shared_.threads, options_);
+    job.scenes.push_back(first.input);
+    job.go_on = true;
+    write_file(directory_.path() / kJobFile, records::record_line(job));
 
     const std::string program = shared_.status.program.string();
     // The temporary directory is of no use to a reader, and would make every record differ.
@@ -337,7 +339,7 @@ class BlenderWorker {
       line_->end();
       return;
     }
-    write_file(directory_.path() / kNextFile, given_->input.dump());
+    write_file(directory_.path() / kNextFile, records::record_line(given_->input));
     line_->say(std::string(kNextFile) + "\n");
   }
 
@@ -346,7 +348,7 @@ class BlenderWorker {
     if (!done_) return;
     const Done done = std::move(*done_);
     done_.reset();
-    const std::size_t index = done.given.index, passes = done.given.input["passes"].size();
+    const std::size_t index = done.given.index, passes = done.given.input.passes.size();
     const Scene& scene = shared_.scenes[index];
     ReferenceResult result;
     if (const Failure failure =
@@ -355,20 +357,20 @@ class BlenderWorker {
       return;
     }
     result.record = reference_record(kBlenderInfo, shared_.status, scene);
-    result.record["witness"] = shared_.native() ? "native" : "expressed";
-    result.record["method"] =
+    result.record.witness = shared_.native() ? "native" : "expressed";
+    result.record.method =
         shared_.native()
             ? "Cycles' Ashikhmin-Shirley closure, its geometry term taken out by its colour, under a "
               "real lamp, one pass per light and reflection"
             : "shader nodes as the colour of a surface under a real lamp, one pass per light and "
               "reflection";
-    result.record["passes"] = passes;
-    result.record["engineCommands"] = Json::array({command_});
+    result.record.passes = passes;
+    result.record.engine_commands = {command_};
     record_limits(result.record, limits_);
-    result.record["seconds"] = {{"total", done.seconds}};
+    result.record.seconds.total = done.seconds;
     if (done.cost_told)
       record_cost(result.record, done.cpu_seconds, done.peak_memory_bytes, shared_.threads);
-    if (options_.stages) done.clock.report(result.record["seconds"]);
+    if (options_.stages) done.clock.report(result.record.seconds);
     shared_.tell(index, done.log, std::move(result));
   }
 
@@ -455,11 +457,11 @@ std::unique_ptr<Engine> make_blender(const fs::path& program) {
 
 void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
                         const fs::path& directory) {
-  Json job = job_json(threads_of({}), {});
-  job["scenes"].push_back(
+  BlenderJob job = empty_job(threads_of({}), {});
+  job.scenes.push_back(
       blender_input(in_engine_units(scene), "scene0", options.witness == Witness::kNative));
   write_file(directory / kScriptFile, embedded::render_scenes_py);
-  write_file(directory / kJobFile, job.dump(2) + "\n");
+  write_file(directory / kJobFile, records::record_text(job));
   write_file(directory / "blender.sh", shell_join(blender_arguments("blender", "")) + "\n");
 }
 

@@ -27,49 +27,48 @@ void require_known(std::span<const std::string_view> known, std::string_view nam
                 fmt::format("render_scenes.py has no '{}' for Blender to render", name));
 }
 
-Json light_json(const Light& light) {
-  if (const auto* point = std::get_if<PointLight>(&light))
-    return {{"kind", "point"},
-            {"position", to_json(point->position)},
-            {"intensity", to_json(point->intensity)},
-            {"normal", to_json(point->normal)}};
+std::array<double, 3> numbers(Vec3 v) { return {v.x, v.y, v.z}; }
+std::array<double, 3> numbers(Rgb c) { return {c.r, c.g, c.b}; }
+
+BlenderLight light_input(const Light& light) {
+  BlenderLight input;
+  if (const auto* point = std::get_if<PointLight>(&light)) {
+    input.kind = "point";
+    input.position = numbers(point->position);
+    input.intensity = numbers(point->intensity);
+    input.normal = numbers(point->normal);
+    return input;
+  }
   const auto& directional = std::get<DirectionalLight>(light);
-  return {{"kind", "directional"},
-          {"direction", to_json(directional.direction)},
-          {"irradiance", to_json(directional.irradiance)}};
+  input.kind = "directional";
+  input.direction = numbers(directional.direction);
+  input.irradiance = numbers(directional.irradiance);
+  return input;
 }
 
-Json material_json(const Material& material) {
+BlenderMaterial material_input(const Material& material) {
   const Highlight& highlight = material.highlight;
   require_known(kModels, info(highlight.model).name);
   if (highlight.lobe.order == 0) require_known(kLobes, info(highlight.lobe).name);
-  return {{"model", info(highlight.model).name},
-          {"lobe", info(highlight.lobe).name},
-          {"normalisation", name(highlight.normalisation)},
-          {"exponent", highlight.exponent},
-          {"fresnel", name(material.fresnel)},
-          {"specular", to_json(material.specular_reflectance)},
-          {"diffuse", to_json(material.diffuse_reflectance)},
-          {"mirror", to_json(material.mirror_reflectance)}};
+  return {std::string(info(highlight.model).name),    std::string(info(highlight.lobe).name),
+          std::string(name(highlight.normalisation)), highlight.exponent,
+          std::string(name(material.fresnel)),        numbers(material.specular_reflectance),
+          numbers(material.diffuse_reflectance),      numbers(material.mirror_reflectance)};
 }
 
-Json plane_json(const Plane& plane) {
+BlenderPlane plane_input(const Plane& plane) {
   const Tangents along = tangents(plane.normal);
-  return {{"point", to_json(plane.point)},
-          {"u", to_json(along.first)},
-          {"v", to_json(along.second)},
-          {"material", plane.material},
-          {"checkerMaterial", plane.checker_material},
-          {"checkerSize", plane.checker_size}};
+  return {numbers(plane.point), numbers(along.first),   numbers(along.second),
+          plane.material,       plane.checker_material, plane.checker_size};
 }
 
 /// A picture for each light, straight and by each number of mirrors: Cycles would choose at random between
 /// a mirror and what it lies on.
-Json passes_json(const Scene& scene) {
-  Json passes = Json::array();
+std::vector<BlenderPass> passes_of(const Scene& scene) {
+  std::vector<BlenderPass> passes;
   for (std::size_t light = 0; light < scene.lights.size(); ++light)
     for (int mirrors = 0; mirrors <= (has_mirror(scene) ? scene.depth.mirror : 0); ++mirrors)
-      passes.push_back({{"light", light}, {"mirrors", mirrors}});
+      passes.push_back({light, mirrors});
   return passes;
 }
 
@@ -84,39 +83,33 @@ bool is_native_in_blender(const Scene& scene) {
   });
 }
 
-Json blender_input(const Scene& scene, const std::string& name, bool native) {
+BlenderScene blender_input(const Scene& scene, const std::string& name, bool native) {
   if (std::min(scene.film.width, scene.film.height) < kSmallestSide)
     throw Error(ExitCode::kEngine,
                 fmt::format("Blender renders no picture below {0} x {0} pixels", kSmallestSide));
-  Json lights = Json::array(), materials = Json::array(), spheres = Json::array(),
-       planes = Json::array();
+  BlenderScene input;
+  input.name = name;
+  input.width = scene.film.width;
+  input.height = scene.film.height;
+  const Camera& camera = scene.camera;
+  input.camera = {numbers(camera.origin),
+                  numbers(camera.target),
+                  numbers(camera.up),
+                  camera.fov_degrees,
+                  {camera.principal_point_offset_x, camera.principal_point_offset_y}};
   const Contacts contacts = find_contacts(scene);
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    lights.push_back(light_json(scene.lights[l]));
-    if (!contacts[l].empty()) lights.back()["liesOn"] = contacts[l];
+    input.lights.push_back(light_input(scene.lights[l]));
+    input.lights.back().lies_on = contacts[l];
   }
-  for (const Material& material : scene.materials) materials.push_back(material_json(material));
+  for (const Material& material : scene.materials)
+    input.materials.push_back(material_input(material));
   for (const Sphere& sphere : scene.spheres)
-    spheres.push_back({{"center", to_json(sphere.center)},
-                       {"radius", sphere.radius},
-                       {"material", sphere.material}});
-  for (const Plane& plane : scene.planes) planes.push_back(plane_json(plane));
-  const Camera& camera = scene.camera;
-  return {{"name", name},
-          {"width", scene.film.width},
-          {"height", scene.film.height},
-          {"camera",
-           {{"origin", to_json(camera.origin)},
-            {"target", to_json(camera.target)},
-            {"up", to_json(camera.up)},
-            {"fovDegrees", camera.fov_degrees},
-            {"offset", {camera.principal_point_offset_x, camera.principal_point_offset_y}}}},
-          {"lights", lights},
-          {"materials", materials},
-          {"spheres", spheres},
-          {"planes", planes},
-          {"native", native},
-          {"passes", passes_json(scene)}};
+    input.spheres.push_back({numbers(sphere.center), sphere.radius, sphere.material});
+  for (const Plane& plane : scene.planes) input.planes.push_back(plane_input(plane));
+  input.native = native;
+  input.passes = passes_of(scene);
+  return input;
 }
 
 }  // namespace lobelia

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/record.hpp"
+#include "reference_scenes/blender/blender_job.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -14,6 +14,6 @@ bool is_native_in_blender(const Scene& scene);
 
 /// One entry of the job's "scenes". `scene` is in engine units (preparation.hpp); `name` is ours; `native` is
 /// for scenes of which is_native_in_blender. Throws Error(kEngine) for what Blender cannot render.
-Json blender_input(const Scene& scene, const std::string& name, bool native = false);
+BlenderScene blender_input(const Scene& scene, const std::string& name, bool native = false);
 
 }  // namespace lobelia

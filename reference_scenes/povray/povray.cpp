@@ -213,13 +213,13 @@ PassResult Povray::run_pass(const Job& job, const PovrayPass& pass, const std::s
   return result;
 }
 
-ReferenceResult finish(Job& job, const ReferenceOptions& options, Json record) {
+ReferenceResult finish(Job& job, const ReferenceOptions& options, records::Reference record) {
   ReferenceResult result;
   const bool fine = options.fine;
   double seconds = 0, cpu_seconds = 0, parse_seconds = 0, trace_seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
   ProcessLimits limits{true, Containment::kPidNamespace};
-  Json commands = Json::array();
+  std::vector<std::string> commands;
   std::vector<Image> images;
   for (PassResult& pass : job.passes) {
     if (result.error.empty() && pass.failure) {
@@ -235,22 +235,21 @@ ReferenceResult finish(Job& job, const ReferenceOptions& options, Json record) {
     for (const std::string& command : pass.commands) commands.push_back(command);
     images.push_back(std::move(pass.image));
   }
-  record["witness"] = job.input.native ? "native" : "expressed";
-  record["method"] = job.input.native ? "POV-Ray's own highlight under its own lamps"
-                                      : "pattern function under a real lamp, one pass per light";
+  record.witness = job.input.native ? "native" : "expressed";
+  record.method = job.input.native ? "POV-Ray's own highlight under its own lamps"
+                                   : "pattern function under a real lamp, one pass per light";
   if (fine)
-    record["method"] =
-        record["method"].get<std::string>() +
+    record.method +=
         "; twice, the second time less the first picture, for what half floats round off";
-  record["passes"] = job.passes.size();
-  record["engineCommands"] = std::move(commands);
-  record["engineOptions"] = job.options;
+  record.passes = job.passes.size();
+  record.engine_commands = std::move(commands);
+  record.engine_options = job.options;
   record_limits(record, limits);
-  record["seconds"] = {{"total", seconds}};
+  record.seconds.total = seconds;
   record_cost(record, cpu_seconds, peak_memory_bytes, job.threads);
   if (options.stages) {
-    record["seconds"]["parse"] = parse_seconds;
-    record["seconds"]["trace"] = trace_seconds;
+    record.seconds.parse = parse_seconds;
+    record.seconds.trace = trace_seconds;
   }
   result.record = std::move(record);
   if (result.error.empty()) result.image = sum_of(images);

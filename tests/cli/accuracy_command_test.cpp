@@ -3,9 +3,9 @@
 
 #include <fstream>
 
-#include "core/record.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "run_lobelia.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -26,7 +26,7 @@ TEST(RenderAccuracy, SaysWhatItChoseAndWhyAndWhatWasReached) {
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   for (const char* words : {"accuracy 0.1: cs16", "the cheapest of", "so it holds", "formulas"})
     EXPECT_THAT(result.output_tail, HasSubstr(words));
-  const Json record = read_record(directory.path() / "x.json", "render");
+  const Json record = read_json(directory.path() / "x.json");
   const Json& accuracy = record["accuracy"];
   EXPECT_EQ(accuracy["asked"], 0.1);
   EXPECT_EQ(accuracy["chose"]["lobe"], "cs16");
@@ -44,7 +44,7 @@ TEST(RenderAccuracy, CanLeaveOutWhatWasReachedAndSaysNothingIfQuiet) {
                              {"--accuracy", "de2000=1", "--accuracy-check", "none", "-q"});
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_EQ(result.output_tail, "");
-  const Json record = read_record(directory.path() / "x.json", "render");
+  const Json record = read_json(directory.path() / "x.json");
   EXPECT_EQ(record["accuracy"]["unit"], "de2000");
   EXPECT_FALSE(record["accuracy"].contains("reached"));
 }
@@ -54,7 +54,7 @@ TEST(RenderAccuracy, ChoosesSamplesWhereTheSceneIsRandom) {
   const auto result =
       render(directory, "effects/area_light.xml", {"--accuracy", "0.05", "--max-samples", "64"});
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  const Json record = read_record(directory.path() / "x.json", "render");
+  const Json record = read_json(directory.path() / "x.json");
   EXPECT_EQ(record["samples"], record["accuracy"]["chose"]["samples"]);
   EXPECT_LE(record["samples"], 64);
   EXPECT_THAT(record["stopped"].get<std::string>(), HasSubstr("what --accuracy chose"));
@@ -81,7 +81,7 @@ TEST(RenderAccuracy, OfABlackPictureIsThePictureAndThatThereWasNothingToMeasure)
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(result.output_tail, HasSubstr("there was nothing to measure"));
   EXPECT_TRUE(std::filesystem::exists(directory.path() / "x.exr"));
-  const Json record = read_record(directory.path() / "x.json", "render");
+  const Json record = read_json(directory.path() / "x.json");
   EXPECT_EQ(record["accuracy"]["reached"]["value"], 0);
   EXPECT_EQ(record["accuracy"]["reached"]["held"], true);
 }
@@ -105,7 +105,7 @@ TEST(CostCommand, MeasuresItselfAsAProgram) {
       {"cost", "--quick", "--level", "engine", kScenes + "oblique_45.xml", "-q", "-o", "cost"},
       directory.path());
   ASSERT_EQ(result.exit_code, 0) << result.output_tail;
-  const Json record = read_record(directory.path() / "cost" / "cost.json", "cost");
+  const Json record = read_json(directory.path() / "cost" / "cost.json");
   EXPECT_FALSE(record.at("tables").at(0).at("ways").empty());
 }
 

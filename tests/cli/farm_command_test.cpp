@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/record.hpp"
 #include "run_lobelia.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -56,7 +56,7 @@ TEST(FarmCommand, StoppedByCtrlCLeavesNoEngineBehindAndKeepsWhatIsDone) {
       result.output_tail,
       "lobelia: interrupted; what is done is kept, and the same command goes on from there\n");
   const auto out = directory.path() / "out";
-  EXPECT_EQ(read_record(out / "farm.json", "farm")["cells"][0]["status"], "missing");
+  EXPECT_EQ(read_json(out / "farm.json")["cells"][0]["status"], "missing");
   EXPECT_TRUE(std::filesystem::exists(out / "cells/modified_phong/lobelia.exr"));
 }
 
@@ -102,13 +102,13 @@ TEST(FarmCommand, MakesWholeAgainWhatItsGalleryFindsToBeMissingOrChanged) {
   write_file(cells / "n16/lobelia.exr",
              read_file(cells / "n32/lobelia.exr", 1 << 20).substr(0, 700));
   expect_found("damaged", "lobelia.exr cannot be read");
-  Json record = read_record(cells / "n16/cell.json", "cell");
+  Json record = read_json(cells / "n16/cell.json");
   record["axes"]["exponent"] = "17";
-  write_record(cells / "n16/cell.json", record);
+  write_json(cells / "n16/cell.json", record);
   expect_found("changed", "cell.json is not the record that the farm wrote");
   // As an earlier version left it.
   for (const char* key : {"files", "seal"}) record.erase(key);
-  write_record(cells / "n16/cell.json", record);
+  write_json(cells / "n16/cell.json", record);
   expect_found("not sealed", "cell.json has no hashes of its files");
 }
 

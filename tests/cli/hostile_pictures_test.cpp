@@ -8,9 +8,9 @@
 #include <random>
 #include <set>
 
-#include "core/record.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/core/format_samples.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -144,7 +144,7 @@ TEST(HostilePictures, NeverEndAComparisonOfFoldersNorDifferFromThemselves) {
       {"compare", "a", "b", "--json", "set.json", "--junit", "junit.xml"}, directory.path());
   EXPECT_EQ(result.exit_code, 3) << result.output_tail;
   EXPECT_LT(result.peak_memory_bytes, kMostMemory);
-  const Json record = read_record(directory.path() / "set.json", "comparison-set");
+  const Json record = read_json(directory.path() / "set.json");
   int read = 0, refused = 0;
   ASSERT_EQ(record.at("pairs").size(), corpus.pictures().size());
   for (const auto& pair : record.at("pairs")) {

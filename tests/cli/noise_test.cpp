@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/record.hpp"
 #include "run_lobelia.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -48,7 +48,7 @@ TEST(CompareWithNoise, OfHalvesExitsWith0ForSame1ForDifferentAnd1ForUndecided) {
                    "--b-replicate", "other6.exr", "--json", "record.json"},
                   directory.path());
   EXPECT_EQ(different.exit_code, 1) << different.output_tail;
-  const Json record = read_record(directory.path() / "record.json", "comparison");
+  const Json record = read_json(directory.path() / "record.json");
   EXPECT_EQ(record["verdict"], "different");
   EXPECT_EQ(record["uncertainty"]["a"]["freedom"], 1);
   EXPECT_EQ(compare({"--b-replicate", "missing.exr"}).exit_code, 3);

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/record.hpp"
 #include "run_lobelia.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/image_io.hpp"
-#include "core/record.hpp"
 #include "run_lobelia.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -24,7 +24,7 @@ TEST(RenderCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndGoesOn) 
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.output_tail, HasSubstr(std::string("warning: exponent ") + exponent));
     EXPECT_THAT(result.output_tail, HasSubstr("for 16 to 1024"));
-    const Json record = read_record(directory.path() / "out.json", "render");
+    const Json record = read_json(directory.path() / "out.json");
     EXPECT_TRUE(record.at("highlights").at(0).contains("warning"));
     EXPECT_THAT(render(exponent, "exact").output_tail, testing::Not(HasSubstr("warning")));
   }
@@ -47,7 +47,7 @@ TEST(RenderCommand, PutsTimesAndPlanIntoTheRecordBeside) {
                         directory.path())
                 .exit_code,
             0);
-  const Json record = read_record(directory.path() / "x.json", "render");
+  const Json record = read_json(directory.path() / "x.json");
   EXPECT_GT(record["seconds"]["total"], 0);
   EXPECT_EQ(record["highlights"][0]["model"], "modified_phong");
   EXPECT_EQ(record["highlights"][0]["exponent"], 100);

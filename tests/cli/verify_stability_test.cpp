@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/image_io.hpp"
-#include "core/record.hpp"
 #include "run_lobelia.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -24,7 +24,7 @@ TEST(VerifyStability, PrintsATableAndWritesARecordAndPicturesThatShowWhatCareBuy
                                   directory.path());
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(result.output_tail, HasSubstr(" within their bounds, 0 outside,"));
-  const Json record = read_record(directory.path() / "s.json", "verify-stability");
+  const Json record = read_json(directory.path() / "s.json");
   EXPECT_EQ(record["outside"], 0);
   EXPECT_LT(record["notCompared"], 100);
   EXPECT_GT(record["cases"], 2500);

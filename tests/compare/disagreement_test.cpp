@@ -7,6 +7,7 @@
 
 #include "compare/metrics/catalogue.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -76,11 +77,11 @@ TEST(Disagreement, StandsInTheRecordOfTwoPicturesThatOneBrightPixelTellsApart) {
   a.pixel(9, 9)[0] = 1;
   const Comparison comparison = compare(a, b, {});
   EXPECT_EQ(comparison.verdict, Verdict::kDiffers);
-  const Json record = comparison_record(comparison, "a", "b");
+  const Json record = as_json(comparison_record(comparison, "a", "b"));
   ASSERT_EQ(record["disagreement"].size(), 2u);
   EXPECT_THAT(record["disagreement"][0].get<std::string>(),
               ::testing::HasSubstr("max_rel_peak takes up 100 of its limit"));
-  EXPECT_TRUE(comparison_record(compare(b, b, {}), "a", "b")["disagreement"].empty());
+  EXPECT_TRUE(as_json(comparison_record(compare(b, b, {}), "a", "b"))["disagreement"].empty());
 }
 
 }  // namespace

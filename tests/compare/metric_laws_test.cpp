@@ -91,7 +91,7 @@ TEST(MetricCatalogue, IsNotEmptyAndHasUniqueIdsWithMeanings) {
                          "flip.hdr.mean",
                          "flip.hdr.max",
                          "outliers"})
-    EXPECT_TRUE(ids.count(id)) << id << " is promised by docs/records.md";
+    EXPECT_TRUE(ids.count(id)) << id << " is promised by docs/metrics.md";
   EXPECT_EQ(find_metric_output("no such metric"), nullptr);
 }
 
@@ -267,8 +267,10 @@ TEST(Relmse, WeighsEachValueByTheReferences) {
 }
 
 TEST(Limits, PassAsTheDirectionSaysAndNeverANaN) {
-  const MetricOutput error{"", Better::kLower, true, ""}, sign{"", Better::kNearZero, true, ""},
-      likeness{"", Better::kHigher, true, ""}, fact{"", Better::kNeither, true, ""};
+  const MetricOutput error{"", "", Unit::kPlain, Better::kLower, true, ""},
+      sign{"", "", Unit::kPlain, Better::kNearZero, true, ""},
+      likeness{"", "", Unit::kPlain, Better::kHigher, true, ""},
+      fact{"", "", Unit::kPlain, Better::kNeither, true, ""};
   EXPECT_TRUE(is_within(error, 1, 1));
   EXPECT_FALSE(is_within(error, 1.1, 1));
   EXPECT_TRUE(is_within(sign, -1, 1));

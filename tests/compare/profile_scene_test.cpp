@@ -10,6 +10,7 @@
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "tests/compare/profiled_scene.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -41,7 +42,7 @@ TEST(ProfileScene, OfEveryModelHasTheRenderersHighlightOnTheFormula) {
     scene.materials[0].diffuse_reflectance = {0.1, 0.2, 0.3};
     scene.materials[0].fresnel = Fresnel::kSchlick;
     const RenderResult rendered = render(scene, RenderOptions{});
-    const Json record = profile_scene(scene, 0, 0, {{"lobelia", &rendered.image}});
+    const Json record = as_json(profile_scene(scene, 0, 0, {{"lobelia", &rendered.image}}));
     const Json& difference = record["differences"]["lobelia-analytic"];
     for (const char* zone : {"epicentre", "blooming"}) {
       // The picture is float32; its kernels are allowed a few of its roundings.
@@ -56,7 +57,7 @@ TEST(ProfileScene, OfEveryModelHasTheRenderersHighlightOnTheFormula) {
 TEST(ProfileScene, MeasuresTheHalfWidthOfTheLobe) {
   const Scene scene = scene_with("phong_rdf", 32);
   const Image analytic = analytic_image(scene, 0);
-  const Json record = profile_scene(scene, 0, 0, {{"a", &analytic}});
+  const Json record = as_json(profile_scene(scene, 0, 0, {{"a", &analytic}}));
   const double expected = std::acos(std::pow(0.5, 1.0 / 32)) / kDegree;
   EXPECT_NEAR(record["images"]["a"]["halfWidthDegrees"].get<double>(), expected, 0.02 * expected);
   EXPECT_NEAR(record["zones"]["epicentreDegrees"][1].get<double>(), expected, 1e-9);
@@ -68,8 +69,8 @@ TEST(ProfileScene, MeasuresTheHalfWidthOfTheLobe) {
 TEST(ProfileScene, ComparesTheFirstPictureWithTheOthersAndAllWithTheFormula) {
   const Scene scene = scene_with("modified_phong", 16);
   const Image image = analytic_image(scene, 0);
-  const Json record =
-      profile_scene(scene, 0, 0, {{"lobelia", &image}, {"povray", &image}, {"blender", &image}});
+  const Json record = as_json(
+      profile_scene(scene, 0, 0, {{"lobelia", &image}, {"povray", &image}, {"blender", &image}}));
   std::vector<std::string> names;
   for (const auto& [name, difference] : record["differences"].items()) names.push_back(name);
   EXPECT_EQ(names,
@@ -82,7 +83,7 @@ TEST(ProfileScene, OfTwoLightsHasBothInTheFormula) {
   scene.lights.push_back(PointLight{{-4, 3, 4}, {20, 20, 20}});
   const RenderResult rendered = render(scene, RenderOptions{});
   for (const int light : {0, 1}) {
-    const Json record = profile_scene(scene, light, 0, {{"lobelia", &rendered.image}});
+    const Json record = as_json(profile_scene(scene, light, 0, {{"lobelia", &rendered.image}}));
     EXPECT_LT(record["differences"]["lobelia-analytic"]["epicentre"]["maxRelPeak"].get<double>(),
               2e-6)
         << "light " << light;
@@ -138,8 +139,8 @@ TEST(ProfileScene, OfOneLightDoesNotSeeTheHighlightOfTheOther) {
   Scene alone = scene_with("phong_rdf", 64), both = alone;
   both.lights.push_back(DirectionalLight{normalize({0.6, -0.3, -1}), {7, 7, 7}});
   const Image one = render(alone, RenderOptions{}).image, two = render(both, RenderOptions{}).image;
-  const Json expected = profile_scene(alone, 0, 0, {{"lobelia", &one}})["images"];
-  const Json measured = profile_scene(both, 0, 0, {{"lobelia", &two}})["images"];
+  const Json expected = as_json(profile_scene(alone, 0, 0, {{"lobelia", &one}}))["images"];
+  const Json measured = as_json(profile_scene(both, 0, 0, {{"lobelia", &two}}))["images"];
   for (const char* picture : {"analytic", "lobelia"})
     for (const char* figure : {"peak", "halfWidthDegrees", "energy"})
       EXPECT_NEAR(measured[picture][figure].get<double>(), expected[picture][figure].get<double>(),
@@ -148,7 +149,8 @@ TEST(ProfileScene, OfOneLightDoesNotSeeTheHighlightOfTheOther) {
 }
 
 Json highlight_in(const Scene& scene, const Image& picture, int light = 0, int sphere = 0) {
-  return profile_scene(scene, light, sphere, {{"a", &picture}})["images"]["a"]["highlight"];
+  return as_json(
+      profile_scene(scene, light, sphere, {{"a", &picture}}))["images"]["a"]["highlight"];
 }
 
 /// Where on the film the formula is largest, by looking closer and closer; its lobe alone.
@@ -234,17 +236,17 @@ TEST(HighlightOfAScene, KnowsItsPlaneOfIncidence) {
     const Image image = analytic_image(scene, 0);
     return profile_scene(scene, 0, 0, {{"a", &image}});
   };
-  EXPECT_NEAR(plane()["planeOfIncidence"]["x"].get<double>(), 1, 1e-12) << "lit from the right";
-  EXPECT_NEAR(plane()["planeOfIncidence"]["y"].get<double>(), 0, 1e-12);
+  EXPECT_NEAR(plane().plane_of_incidence->x, 1, 1e-12) << "lit from the right";
+  EXPECT_NEAR(plane().plane_of_incidence->y, 0, 1e-12);
   scene.lights[0] = DirectionalLight{normalize({3, -4, -1}), {2, 2, 2}};
-  EXPECT_NEAR(plane()["planeOfIncidence"]["x"].get<double>(), -0.6, 1e-12);
-  EXPECT_NEAR(plane()["planeOfIncidence"]["y"].get<double>(), -0.8, 1e-12)
-      << "from above: y is down";
+  EXPECT_NEAR(plane().plane_of_incidence->x, -0.6, 1e-12);
+  EXPECT_NEAR(plane().plane_of_incidence->y, -0.8, 1e-12) << "from above: y is down";
   // Measured on the picture: from the sphere's middle the highlight lies that way.
-  const Json place = plane()["images"]["a"]["highlight"]["peak"];
-  EXPECT_NEAR((place["y"].get<double>() - 60) / (place["x"].get<double>() - 80), 4.0 / 3, 0.01);
+  const records::Profile seen = plane();
+  const records::Peak& place = records::find(seen.images, "a")->highlight->peak;
+  EXPECT_NEAR((place.y - 60) / (place.x - 80), 4.0 / 3, 0.01);
   scene.lights[0] = DirectionalLight{{0, 0, -1}, {2, 2, 2}};
-  EXPECT_FALSE(plane().contains("planeOfIncidence")) << "light from behind the camera";
+  EXPECT_FALSE(plane().plane_of_incidence) << "light from behind the camera";
 }
 
 TEST(HighlightOfAScene, BesideOneOfAnotherLightIsToldApart) {
@@ -253,7 +255,7 @@ TEST(HighlightOfAScene, BesideOneOfAnotherLightIsToldApart) {
   scene.lights.push_back(DirectionalLight{normalize({-1, 0.2, -0.8}), {5, 5, 5}});
   const Image image = render(scene, RenderOptions{}).image;
   for (const int light : {0, 1}) {
-    const Json profile = profile_scene(scene, light, 0, {{"a", &image}});
+    const Json profile = as_json(profile_scene(scene, light, 0, {{"a", &image}}));
     const Json& h = profile["images"]["a"]["highlight"];
     EXPECT_NEAR(h["cosineLobe"]["exponent"].get<double>(), 64, 1e-4) << light;
     EXPECT_GT(profile["subtracted"]["otherLightsOfPeak"].get<double>(), 0.3) << light;
@@ -266,15 +268,15 @@ TEST(HighlightOfAScene, LeavesOutTheShadowOfAnotherSphere) {
   // Between the light and the left half of the highlight, and beside the view of it.
   scene.spheres.push_back({{2.2, 0, 2.5}, 0.3, 0});
   const Image image = render(scene, RenderOptions{}).image;
-  const Json profile = profile_scene(scene, 0, 0, {{"a", &image}});
+  const Json profile = as_json(profile_scene(scene, 0, 0, {{"a", &image}}));
   EXPECT_NEAR(profile["images"]["a"]["highlight"]["cosineLobe"]["exponent"].get<double>(), 16,
               1e-4);
   EXPECT_LT(profile["differences"]["a-analytic"]["flank"]["maxRelPeak"].get<double>(), 2e-6);
   Scene without = scene;
   without.spheres.pop_back();
   const auto pixels = [&](const Scene& s) {
-    return profile_scene(s, 0, 0,
-                         {{"a", &image}})["images"]["a"]["highlight"]["cosineLobe"]["pixels"]
+    return as_json(profile_scene(
+        s, 0, 0, {{"a", &image}}))["images"]["a"]["highlight"]["cosineLobe"]["pixels"]
         .get<int>();
   };
   EXPECT_LT(pixels(scene), pixels(without) - 50) << "the scene has such a shadow";
@@ -285,7 +287,7 @@ TEST(HighlightOfAScene, IsNotShadedByASphereBehindItsLight) {
   scene.lights[0] = PointLight{{2, 0, 2}, {20, 20, 20}};
   scene.spheres.push_back({{4, 0, 4}, 1, 0});
   const Image image = render(scene, RenderOptions{}).image;
-  const Json record = profile_scene(scene, 0, 0, {{"a", &image}});
+  const Json record = as_json(profile_scene(scene, 0, 0, {{"a", &image}}));
   EXPECT_LT(record["differences"]["a-analytic"]["epicentre"]["maxRelPeak"].get<double>(), 2e-6);
   EXPECT_GT(record["differences"]["a-analytic"]["epicentre"]["pixels"].get<int>(), 100);
 }
@@ -335,7 +337,7 @@ TEST(HighlightOfAScene, OfADullMaterialIsNone) {
   scene.materials[0].specular_reflectance = {};
   const Image image = render(scene, RenderOptions{}).image;
   EXPECT_TRUE(highlights_of(scene).empty());
-  const Json profile = profile_scene(scene, 0, 0, {{"a", &image}});
+  const Json profile = as_json(profile_scene(scene, 0, 0, {{"a", &image}}));
   EXPECT_FALSE(profile.contains("lobe"));
   EXPECT_FALSE(profile["images"]["a"].contains("highlight"));
 }

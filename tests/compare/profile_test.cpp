@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -144,7 +145,7 @@ TEST(Profile, DoesNotHideANaN) {
   EXPECT_TRUE(std::isnan(profile.shapes[1].half_width));
   EXPECT_TRUE(std::isnan(profile.differences[0].zones[0].max_abs));
   EXPECT_EQ(profile.differences[0].zones[2].max_abs, 0);
-  const Json record = profile_record(profile, 0, 0, "reflection");
+  const Json record = as_json(profile_record(profile, 0, 0, "reflection"));
   EXPECT_EQ(record["images"]["broken"]["peak"], "nan");
 }
 
@@ -238,9 +239,9 @@ TEST(ProfileRecord, HasWhatTheDocumentationPromises) {
   const Patch patch;
   const Image image = patch.image([](double angle) { return gaussian_of_width(angle, 10); });
   const Json record =
-      profile_record(measure_profile(patch.geometry(10, 18, 31.5),
-                                     {{"analytic", &image}, {"lobelia", &image}}, {{1, 0}}),
-                     1, 2, "half_vector");
+      as_json(profile_record(measure_profile(patch.geometry(10, 18, 31.5),
+                                             {{"analytic", &image}, {"lobelia", &image}}, {{1, 0}}),
+                             1, 2, "half_vector"));
   EXPECT_EQ(record["kind"], "profile");
   EXPECT_EQ(record["light"], 1);
   EXPECT_EQ(record["sphere"], 2);

@@ -6,6 +6,7 @@
 #include "compare/compare.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -20,8 +21,8 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
   options.mask[7] = options.mask[90] = 1;
   options.limits = {{"rmse", 1}};
   options.tolerance = Tolerance{0.5, 0.25, 7};
-  const Json record = comparison_record(compare(a, b, options), "a.exr", "b.exr");
-  EXPECT_EQ(record["schemaVersion"], kRecordSchemaVersion);
+  const Json record = as_json(comparison_record(compare(a, b, options), "a.exr", "b.exr"));
+  EXPECT_EQ(record["schemaVersion"], records::kRecordSchemaVersion);
   EXPECT_EQ(record["kind"], "comparison");
   EXPECT_EQ(record["verdict"], "pass");
   EXPECT_EQ(record["a"], "a.exr");
@@ -57,7 +58,7 @@ TEST(ComparisonRecord, OfPicturesWithNoiseSaysHowItWasTakenIntoAccount) {
                                .significance = 0.02,
                                .bootstraps = 8,
                                .seed = 5};
-  const Json record = comparison_record(compare(a, b, options), "a.exr", "b.exr");
+  const Json record = as_json(comparison_record(compare(a, b, options), "a.exr", "b.exr"));
   EXPECT_EQ(record["verdict"], "undecided");
   const double tests = 3 * (48 * 48 + 24 * 24 + 12 * 12 + 6 * 6 + 3 * 3 + 2 * 2 + 1);
   EXPECT_EQ(record["uncertainty"]["a"], (Json{{"freedom", 7.0}, {"shared", true}}));
@@ -90,7 +91,7 @@ TEST(ComparisonRecord, OfABrokenPictureHasNoMetricsAndNoPass) {
   const Image good = fixtures::flat(4, 4, 1, 1, 1);
   Image broken = good;
   broken.pixel(1, 1)[0] = std::numeric_limits<float>::quiet_NaN();
-  const Json record = comparison_record(compare(broken, good, {}), "a", "b");
+  const Json record = as_json(comparison_record(compare(broken, good, {}), "a", "b"));
   EXPECT_EQ(record["verdict"], "non-finite");
   EXPECT_EQ(record["nonfinite"]["a"], 1);
   EXPECT_TRUE(record["metrics"].is_object());
@@ -104,8 +105,8 @@ TEST(ComparisonRecord, OfABrokenPictureHasNoMetricsAndNoPass) {
 }
 
 TEST(ComparisonRecord, NamesAnInfinityRatherThanLosingIt) {
-  const Json record = comparison_record(
-      compare(fixtures::flat(4, 4, 1, 1, 1), fixtures::flat(4, 4, 0, 0, 0), {}), "a", "b");
+  const Json record = as_json(comparison_record(
+      compare(fixtures::flat(4, 4, 1, 1, 1), fixtures::flat(4, 4, 0, 0, 0), {}), "a", "b"));
   EXPECT_EQ(record["metrics"]["max_rel_peak"], "inf");
 }
 

@@ -9,6 +9,7 @@
 #include "compare/set/report.hpp"
 #include "core/files.hpp"
 #include "tests/compare/pictures.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -169,7 +170,7 @@ TEST(SetRecord, HoldsEveryPairsRecordAndWhatHadNone) {
       "pixels with a NaN or an infinity: 400 in a, 0 in b; the first is nan in a/n.exr at x 0, "
       "y 0, channel R");
   EXPECT_EQ(why_not_pass(report.pairs[0]), "");
-  const Json record = set_record(report);
+  const Json record = as_json(set_record(report));
   EXPECT_EQ(record["kind"], "comparison-set");
   EXPECT_EQ(record["summary"]["pass"], 1);
   EXPECT_EQ(record["summary"]["errors"], 1);

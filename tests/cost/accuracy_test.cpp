@@ -8,6 +8,7 @@
 #include "cost/lobe_candidates.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -162,7 +163,7 @@ TEST(Accuracy, KeepsHighlightsThatDifferWhereNoLobeStandsForAll) {
   EXPECT_EQ(choice.lobe, std::nullopt);
   EXPECT_EQ(choice.scene.materials[1].highlight.lobe, *find_lobe("gauss"));
   EXPECT_TRUE(measure_reached(s, choice, picture(choice)).held(choice));
-  EXPECT_TRUE(accuracy_record(choice, {})["chose"]["lobe"].is_null());
+  EXPECT_TRUE(as_json(accuracy_record(choice, {}))["chose"]["lobe"].is_null());
 }
 
 TEST(Accuracy, WithoutABoundIsTheScenesOwnLobeInFloat64) {
@@ -220,11 +221,11 @@ TEST(Accuracy, SaysWhetherItWasHeld) {
   const Reached reached = measure_reached(s, other, picture(choice));
   EXPECT_FALSE(reached.held(other));
   EXPECT_THAT(reached_text(other, reached), HasSubstr("does NOT hold"));
-  const Json record = accuracy_record(other, reached);
+  const Json record = as_json(accuracy_record(other, reached));
   EXPECT_EQ(record["reached"]["held"], false);
   EXPECT_EQ(record["unit"], "ofPeak");
   EXPECT_EQ(record["basis"], "bound");
-  EXPECT_FALSE(accuracy_record(choice, {}).contains("reached"));
+  EXPECT_FALSE(as_json(accuracy_record(choice, {})).contains("reached"));
 }
 
 TEST(ParseAccuracy, TakesAShareOfThePeakOrACiede2000) {

@@ -171,12 +171,11 @@ TEST_F(OfEverything, OnlyThatIsWithoutLoss) {
 
 TEST_F(OfEverything, RaysAddUpToWhatIsSaved) {
   const auto all = [](const Way& way) {
-    double sum = 0;
-    for (const auto& [kind, count] : way.facts["rays"].items()) sum += count.get<double>();
-    return sum;
+    const records::Rays& rays = way.facts.value().rays.value();
+    return double(rays.camera + rays.shadow + rays.mirror + rays.scattered);
   };
   for (const Way& way : table().ways)
-    EXPECT_EQ(way.facts["raysSaved"].get<double>(), all(table().ways[0]) - all(way)) << way.name;
+    EXPECT_EQ(way.facts->rays_saved, all(table().ways[0]) - all(way)) << way.name;
   EXPECT_THAT(table().remarks, testing::Contains(HasSubstr("shadows")));
 }
 

@@ -7,6 +7,7 @@
 
 #include "lobelia_paths.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "tests/json.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 
 namespace lobelia::cost {
@@ -48,11 +49,13 @@ TEST(EngineLevel, MeasuresOurselvesAndTheFormulasWhereNoEngineIs) {
 
 TEST(EngineLevel, TellsOurStagesApartAndTheyAreTheWhole) {
   const Table table = measure_engines(without_engines("head_on.xml")).at(0);
-  const Json& stages = table.ways[0].facts.at("stageSeconds");
+  const auto& stages = *table.ways[0].facts->stage_seconds;
   double sum = 0;
   for (const char* stage : {"start", "parse", "trace", "write"}) {
-    EXPECT_GT(stages.at(stage).get<double>(), 0) << stage;
-    sum += stages.at(stage).get<double>();
+    const double* seconds = records::find(stages, stage);
+    ASSERT_TRUE(seconds) << stage;
+    EXPECT_GT(*seconds, 0) << stage;
+    sum += *seconds;
   }
   EXPECT_NEAR(sum, table.ways[0].time.median, 1e-9) << "of one round";
   EXPECT_THAT(table.remarks, Contains(HasSubstr("ours: start ")));
@@ -88,10 +91,10 @@ TEST_F(EngineLevelWithEngines, RanksTheirNumberFormatsByError) {
   EXPECT_LT(fine.errors[0], 1e-5);
   EXPECT_LT(cycles.errors[0], 1e-4);
   EXPECT_GT(cycles.errors[0], 1e-8);
-  EXPECT_TRUE(half.facts.at("stageSeconds").contains("trace"));
-  EXPECT_FALSE(half.facts.at("stageSeconds").contains("start")) << "POV-Ray does not tell";
+  EXPECT_TRUE(records::find(*half.facts->stage_seconds, "trace"));
+  EXPECT_FALSE(records::find(*half.facts->stage_seconds, "start")) << "POV-Ray does not tell";
   for (const char* stage : {"start", "parse", "trace", "write"})
-    EXPECT_GT(cycles.facts.at("stageSeconds").at(stage).get<double>(), 0) << stage;
+    EXPECT_GT(*records::find(*cycles.facts->stage_seconds, stage), 0) << stage;
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ TEST(LobeTable, HasEveryWayWithItsTimeErrorsAndOperations) {
     EXPECT_GT(way.time.median, 0) << way.name;
     EXPECT_EQ(way.errors.size(), table.errors.size()) << way.name;
     for (const double error : way.errors) EXPECT_TRUE(std::isfinite(error)) << way.name;
-    EXPECT_TRUE(way.facts["operations"].contains("multiply")) << way.name;
+    EXPECT_TRUE(way.facts->operations) << way.name;
     EXPECT_EQ(way.settings.size(), 4u) << way.name;
   }
   EXPECT_THAT(table.remarks, Contains(HasSubstr("The shape limits")));

@@ -35,13 +35,14 @@ TEST(PictureLevel, HasAWayForEachLobeAndPrecisionHeldAgainstTheFormulas) {
   for (const Way& way : table.ways) {
     EXPECT_TRUE(names.insert(way.name).second) << way.name;
     EXPECT_EQ(way.errors.size(), table.errors.size());
-    EXPECT_EQ(way.facts["rays"]["camera"], table.ways[0].facts["rays"]["camera"]);
-    EXPECT_GT(way.facts["rays"]["camera"], 0);
+    ASSERT_TRUE(way.facts && way.facts->rays) << way.name;
+    EXPECT_EQ(way.facts->rays->camera, table.ways[0].facts->rays->camera);
+    EXPECT_GT(way.facts->rays->camera, 0);
     EXPECT_GT(way.time.median, 0);
   }
   EXPECT_THAT(table.remarks.back(), HasSubstr("--accuracy goes by"));
-  EXPECT_LT(find(table, "cs16, float32").facts["predictedCost"],
-            find(table, "cosine, float32").facts["predictedCost"]);
+  EXPECT_LT(find(table, "cs16, float32").facts.value().predicted_cost,
+            find(table, "cosine, float32").facts.value().predicted_cost);
   // cs64 is cos^64; the formulas and our float64 differ by roundings at most.
   for (const char* same : {"cosine, float64", "cs64, float64"}) {
     EXPECT_LE(find(table, same).errors[2], 2e-7);
@@ -68,7 +69,7 @@ TEST(PictureLevel, SaysOfARandomPictureWhatItsTruthIs) {
   EXPECT_THAT(table.remarks[1], HasSubstr("noise of 2 samples"));
   // As noisy whatever the precision, and no way is the truth itself.
   EXPECT_GT(find(table, "cosine, float64").errors[2], 1e-3);
-  EXPECT_EQ(find(table, "cosine, float64").facts["samples"], 2);
+  EXPECT_EQ(find(table, "cosine, float64").facts.value().samples, 2);
 }
 
 TEST(WithLobe, KeepsTheCoefficientOfAMaterialThatHasItAlready) {

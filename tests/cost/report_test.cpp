@@ -10,6 +10,7 @@
 #include "core/error_time_chart.hpp"
 #include "core/files.hpp"
 #include "tests/cost/tables.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -20,14 +21,14 @@ using ::testing::Not;
 
 Report report() {
   return {{"lobelia", "cost"},
-          {{"processor", "any"}},
+          {"any", 0, "", ""},
           "AVX2",
           {table({way("cs16", 1e-9, 0.017), way("cosine", 2e-9, 1e-7),
                   way("slow, \"but\"", 9e-9, 0.5), way("exact", 5e-9, 0)})}};
 }
 
 TEST(CostRecord, HoldsEveryWayAndItsFronts) {
-  const Json record = cost_record(report());
+  const Json record = as_json(cost_record(report()));
   EXPECT_EQ(record["kind"], "cost");
   const Json& table = record["tables"][0];
   EXPECT_EQ(table["ways"].size(), 4u);
@@ -54,7 +55,7 @@ TEST(AnErrorThatIsTheLargestOfSome, IsPrintedWithItsBoundWhereTheDigitsDiffer) {
   ways[3].errors_at_most = {std::nan("")};
   const std::string text = cost_text(bracketed, true);
   EXPECT_THAT(text, AllOf(HasSubstr(" 0.017  max"), HasSubstr(" 1e-07..3e-07  max")));
-  const Json table = cost_record(bracketed)["tables"][0];
+  const Json table = as_json(cost_record(bracketed))["tables"][0];
   EXPECT_EQ(table["ways"][1]["errorsAtMost"]["max"], 3e-7);
   EXPECT_FALSE(table["ways"][2].contains("errorsAtMost"));
   EXPECT_FALSE(table["ways"][3].contains("errorsAtMost"));
@@ -80,7 +81,7 @@ TEST(CountedTables, SayWhatTheyCountInEveryForm) {
   Report counted = report();
   counted.tables = {counted_table({way("8 bits", 64, 0.1), way("16 bits", 256, 0.001)})};
   const Table& table = counted.tables[0];
-  const Json record = cost_record(counted);
+  const Json record = as_json(cost_record(counted));
   EXPECT_EQ(record["tables"][0]["unit"], "bit operations");
   EXPECT_EQ(record["tables"][0]["ways"][1]["count"], 256);
   EXPECT_FALSE(record["tables"][0]["ways"][1].contains("seconds"));
@@ -101,7 +102,7 @@ TEST(CountedTables, SayHowFarADrawnErrorIsToBeTrusted) {
 }
 
 TEST(TimedTables, SayThatTheyAreOfSeconds) {
-  EXPECT_EQ(cost_record(report())["tables"][0]["unit"], "s");
+  EXPECT_EQ(as_json(cost_record(report()))["tables"][0]["unit"], "s");
   EXPECT_THAT(cost_csv(report()), HasSubstr(",evaluation,s,1e-09,"));
   EXPECT_THAT(cost_chart(report().tables[0], 0), HasSubstr(">ns per evaluation<"));
 }

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "farm_fixture.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -22,7 +23,7 @@ class ChunkTest : public FarmTest {
       if (work.graph[job].exists && JobFilter(patterns).picks(work.graph.name(job)))
         jobs.push_back(job);
     const fs::path file = directory_.path() / "chunk.json";
-    write_record(file, chunk_record(work, cache, options, jobs));
+    records::write_record(file, chunk_record(work, cache, options, jobs));
     return file;
   }
   Grid two() { return grid("16, 32", "<engine name=\"analytic\"/>"); }
@@ -70,22 +71,22 @@ TEST_F(ChunkTest, ComparesAndDrawsWhatDidNotFail) {
          : rest)
         .push_back(job);
   const fs::path file = directory_.path() / "chunk.json";
-  write_record(file, chunk_record(work, cache, options, pictures));
+  records::write_record(file, chunk_record(work, cache, options, pictures));
   ChunkSummary done = exec_chunk(file, 1);
   EXPECT_EQ(done.done, 2u);
   EXPECT_EQ(done.failed, 1u);
-  write_record(file, chunk_record(work, cache, options, rest));
+  records::write_record(file, chunk_record(work, cache, options, rest));
   done = exec_chunk(file, 1);
   EXPECT_EQ(done.done, 2u) << "one comparison, and a profile without POV-Ray";
 }
 
 TEST_F(ChunkTest, OfAnotherMachineIsHandedBackUndoneAndNotFailed) {
   const fs::path file = chunk(two(), "*");
-  const Json record = read_record(file, "farm-chunk");
+  const Json record = read_json(file);
   const auto because = [&](const std::function<void(Json&)>& change) {
     Json other = record;
     change(other);
-    write_record(file, other);
+    write_json(file, other);
     const ChunkSummary summary = exec_chunk(file, 1);
     EXPECT_EQ(summary.jobs, 8u);
     EXPECT_EQ(summary.done + summary.failed + summary.work.made, 0u);
@@ -107,7 +108,7 @@ TEST_F(ChunkTest, OfAnotherMachineIsHandedBackUndoneAndNotFailed) {
               ElementsAre(StartsWith("kernels: ")));
   EXPECT_THAT(because([](Json& plan) { plan["arithmetic"]["processor"] = "sse2"; }),
               ElementsAre(StartsWith("processor: ")));
-  write_record(file, record);
+  write_json(file, record);
   EXPECT_EQ(exec_chunk(file, 1).done, 8u);
 }
 
@@ -121,10 +122,10 @@ TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
   for (JobIndex job = 0; job < work.graph.size(); ++job)
     if (is_picture(work.graph[job].kind)) pictures.push_back(job);
   const fs::path file = directory_.path() / "chunk.json";
-  const Json record = chunk_record(work, cache, options, pictures);
+  const Json record = as_json(chunk_record(work, cache, options, pictures));
   const auto exec = [&](const Json& plan) {
     fs::remove_all(out() / "cache");
-    write_record(file, plan);
+    write_json(file, plan);
     const ChunkSummary summary = exec_chunk(file, 1);
     EXPECT_EQ(summary.done, 2u) << "ours, and the formula's";
     EXPECT_EQ(summary.failed, 0u);
@@ -147,9 +148,9 @@ TEST_F(ChunkTest, HandsBackThePicturesOfAnotherEngineAndDoesTheRest) {
 
 TEST_F(ChunkTest, ThatIsNoneIsRefused) {
   const fs::path file = chunk(two(), "*");
-  Json record = read_record(file, "farm-chunk");
+  Json record = read_json(file);
   const auto refused = [&](const Json& changed) {
-    write_record(file, changed);
+    write_json(file, changed);
     try {
       exec_chunk(file, 1);
       return std::string("done");
@@ -162,7 +163,8 @@ TEST_F(ChunkTest, ThatIsNoneIsRefused) {
   for (const char* key : {"cells", "engines", "limits", "cache", "libraries", "arithmetic"}) {
     other = record;
     other.erase(key);
-    EXPECT_THAT(refused(other), testing::HasSubstr("not a chunk")) << key;
+    EXPECT_THAT(refused(other),
+                testing::HasSubstr(std::string("chunk.json: ") + key + ": missing"));
   }
   other = record;
   other["cells"][0]["scene"] = "<scene/>";

@@ -5,6 +5,7 @@
 #include "farm/agreement.hpp"
 #include "farm_fixture.hpp"
 #include "reference_scenes/engine.hpp"
+#include "tests/json.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "verify/truth/evaluation.hpp"
 
@@ -33,7 +34,7 @@ TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
   for (const char* id : {"n16", "n1024"})
     for (const char* engine : {"povray", "blender"}) {
       const std::string name = std::string("lobelia-") + engine;
-      const Json record = read_record(in_cell(id, name + ".json"), "comparison");
+      const Json record = read_json(in_cell(id, name + ".json"));
       EXPECT_EQ(record["verdict"], "pass");
       EXPECT_GT(record["metrics"]["peak"], 1) << "a black picture agrees with nothing";
       EXPECT_TRUE(fs::exists(in_cell(id, name + ".png")));

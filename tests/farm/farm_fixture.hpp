@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/files.hpp"
-#include "core/record.hpp"
 #include "farm/farm.hpp"
 #include "lobelia_paths.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 
@@ -29,9 +29,7 @@ class FarmTest : public testing::Test {
   std::filesystem::path in_cell(const std::string& id, const std::string& file) const {
     return out() / "cells" / id / file;
   }
-  Json cell_record(const std::string& id) const {
-    return read_record(in_cell(id, "cell.json"), "cell");
-  }
+  Json cell_record(const std::string& id) const { return read_json(in_cell(id, "cell.json")); }
   /// An executable shell script.
   std::filesystem::path script(const std::string& name, const std::string& text) const {
     const auto path = directory_.path() / name;

@@ -5,11 +5,11 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "core/seal.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm_fixture.hpp"
 #include "lobelia_paths.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -33,7 +33,7 @@ TEST_F(FarmTest, WritesEveryFileThatTheRecordsPromise) {
   EXPECT_EQ(summary.cells, 2u);
   EXPECT_EQ(summary.unchecked, 2u) << "no engine was asked to compare with";
   EXPECT_EQ(summary.rendered, 2u);
-  const Json farm = read_record(out() / "farm.json", "farm");
+  const Json farm = read_json(out() / "farm.json");
   EXPECT_EQ(farm["title"], "A small grid");
   ASSERT_EQ(farm["cells"].size(), 2u);
   for (const auto& cell : farm["cells"]) {
@@ -53,7 +53,7 @@ TEST_F(FarmTest, SealsEveryCellWithTheHashesOfItsFilesAndSealsAnOldOneAgain) {
   run_farm(one, out(), {});
   const std::string sealed = read_file(in_cell("n16", "cell.json"), 1 << 20);
   const Json record = cell_record("n16");
-  EXPECT_EQ(record["seal"], seal_of(record));
+  EXPECT_EQ(record["seal"], records::seal_of(record));
   std::set<std::string> listed{"cell.json"}, there;
   for (const auto& file : record["files"]) {
     const std::string name = file["name"];
@@ -66,7 +66,7 @@ TEST_F(FarmTest, SealsEveryCellWithTheHashesOfItsFilesAndSealsAnOldOneAgain) {
   for (const char* key : {"files", "seal", "status"}) {
     Json other = record;
     other.erase(key);
-    write_record(in_cell("n16", "cell.json"), other);
+    write_json(in_cell("n16", "cell.json"), other);
     EXPECT_EQ(run_farm(one, out(), {}).work.made, 0u);
     EXPECT_EQ(read_file(in_cell("n16", "cell.json"), 1 << 20), sealed) << key;
   }
@@ -76,9 +76,9 @@ TEST_F(FarmTest, HoldsEveryCellToTheFormulasPerPixelWithoutAnyProgram) {
   const WithoutPrograms none;
   const FarmSummary summary = run_farm(grid("16, 1e6", "<engine name=\"analytic\"/>"), out(), {});
   EXPECT_EQ(summary.pass, 2u);
-  const Json profile = read_record(in_cell("n16", "profile.json"), "profile");
+  const Json profile = read_json(in_cell("n16", "profile.json"));
   EXPECT_EQ(profile["curve"].size(), 4u) << "the formula's curve stands there once";
-  EXPECT_EQ(read_record(in_cell("n16", "analytic.json"), "reference")["witness"], "analytic");
+  EXPECT_EQ(read_json(in_cell("n16", "analytic.json"))["witness"], "analytic");
 }
 
 TEST_F(FarmTest, SaysWhyAnEngineCannotShowACellAndJudgesAnAverageByItsNoise) {
@@ -104,13 +104,12 @@ TEST_F(FarmTest, SaysWhyAnEngineCannotShowACellAndJudgesAnAverageByItsNoise) {
               testing::HasSubstr("lamps cannot be seen"));
   EXPECT_EQ(mirrors["notComparable"].size(), 0u);
   EXPECT_EQ(mirrors["status"], "undecided") << "at 16 x 16 pixels every one has an edge in it";
-  const Json compared = read_record(in_cell("mirrors", "lobelia-analytic.json"), "comparison");
+  const Json compared = read_json(in_cell("mirrors", "lobelia-analytic.json"));
   EXPECT_EQ(compared["verdict"], "undecided");
   EXPECT_EQ(compared["uncertainty"]["b"]["shared"], true);
   EXPECT_EQ(compared["metrics"]["z.beyond"], 0);
   for (const char* engine : {"lobelia", "analytic"}) {
-    const Json made = read_record(in_cell("mirrors", std::string(engine) + ".json"),
-                                  engine == std::string("lobelia") ? "render" : "reference");
+    const Json made = read_json(in_cell("mirrors", std::string(engine) + ".json"));
     EXPECT_TRUE(fs::exists(in_cell("mirrors", made["standardError"]))) << engine;
   }
   EXPECT_EQ(mirrors["images"].size(), 2u) << "it is shown all the same";
@@ -316,7 +315,7 @@ TEST_F(FarmTest, AnAbsentEngineIsLeftOutAndNamedWithTheWayToGetIt) {
   EXPECT_EQ(summary.unchecked, 1u);
   ASSERT_EQ(summary.absent_engines.size(), 2u);
   EXPECT_THAT(summary.absent_engines[0], testing::HasSubstr("apt-get install povray"));
-  const Json farm = read_record(out() / "farm.json", "farm");
+  const Json farm = read_json(out() / "farm.json");
   EXPECT_EQ(farm["engines"][1]["available"], false);
   EXPECT_EQ(farm["engines"][2]["install"], "sudo apt-get install blender");
 }

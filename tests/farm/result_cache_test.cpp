@@ -6,12 +6,18 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/seal.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
+
+records::Result a_result() {
+  records::Result result;
+  result.job = "render";
+  return result;
+}
 
 class ResultCacheTest : public testing::Test {
  protected:
@@ -21,7 +27,7 @@ class ResultCacheTest : public testing::Test {
     ResultDraft draft = cache.draft();
     write_file(draft.file("a.exr"), picture);
     write_file(draft.file("a.json"), "{}");
-    return cache.publish(draft, key, make_record("result"));
+    return cache.publish(draft, key, a_result());
   }
   std::size_t drafts() const {
     return std::size_t(std::distance(fs::directory_iterator(path() / "making"), {}));
@@ -36,8 +42,8 @@ TEST_F(ResultCacheTest, GivesBackWhatWasPublishedAndNothingElse) {
   EXPECT_EQ(publish(cache, key_, "pixels"), Publication::kNew);
   const auto record = cache.find(key_);
   ASSERT_TRUE(record);
-  EXPECT_EQ(record->at("key"), key_.text());
-  EXPECT_EQ(record->at("files").size(), 2u);
+  EXPECT_EQ(record->key, key_.text());
+  EXPECT_EQ(record->files.size(), 2u);
   EXPECT_EQ(read_file(cache.file(key_, "a.exr"), 100), "pixels");
   EXPECT_FALSE(cache.find(other_));
   EXPECT_EQ(cache.list(), std::vector<ResultKey>{key_});
@@ -99,27 +105,24 @@ TEST_F(ResultCacheTest, ALookInsideFindsWhatTheAgeDoesNotTell) {
 TEST_F(ResultCacheTest, BelievesNoRecordThatPointsElsewhere) {
   const ResultCache cache(path());
   publish(cache, key_, "pixels");
-  const Json good = *cache.find(key_);
+  const Json good = as_json(*cache.find(key_));
   write_file(directory_.path() / "secret", "pixels");
   for (const char* name : {"../../../../secret", "/etc/passwd", "", ".", ".."}) {
     Json bad = good;
     bad["files"][0]["name"] = name;
-    bad["seal"] = seal_of(bad);
     fs::permissions(cache.file(key_, kManifestFile), fs::perms::owner_all);
-    write_record(cache.file(key_, kManifestFile), bad);
+    write_json(cache.file(key_, kManifestFile), sealed(bad));
     EXPECT_FALSE(cache.find(key_)) << name;
   }
   Json swapped = good;
   swapped["key"] = other_.text();
-  swapped["seal"] = seal_of(swapped);
-  write_record(cache.file(key_, kManifestFile), swapped);
+  write_json(cache.file(key_, kManifestFile), sealed(swapped));
   EXPECT_FALSE(cache.find(key_));
   Json altered = good;
   altered["files"][0]["modified"] = 7;
-  write_record(cache.file(key_, kManifestFile), altered);
+  write_json(cache.file(key_, kManifestFile), altered);
   EXPECT_FALSE(cache.find(key_)) << "not as it was sealed";
-  altered["seal"] = seal_of(altered);
-  write_record(cache.file(key_, kManifestFile), altered);
+  write_json(cache.file(key_, kManifestFile), sealed(altered));
   EXPECT_TRUE(cache.find(key_));
   for (const char* text : {"", "{", "[]", "{\"schemaVersion\":1,\"kind\":\"result\"}"}) {
     write_file(cache.file(key_, kManifestFile), text);
@@ -146,7 +149,7 @@ TEST_F(ResultCacheTest, PublishesNothingThatHasLostAFile) {
     write_file(draft.file("a.exr"), "x");
     write_file(draft.file("b.json"), "{}");
     fs::remove(draft.directory() / lost);
-    EXPECT_THROW(cache.publish(draft, key_, make_record("result")), Error) << lost;
+    EXPECT_THROW(cache.publish(draft, key_, a_result()), Error) << lost;
     EXPECT_FALSE(cache.has(key_)) << lost;
   }
 }
@@ -185,7 +188,7 @@ TEST_F(ResultCacheTest, ManyMayUseItAtOnceAndWhoeverClearsItIsAlone) {
 TEST_F(ResultCacheTest, KeepsAFailureUntilItIsForgotten) {
   const ResultCache cache(path());
   EXPECT_FALSE(cache.failure(key_));
-  cache.keep_failure(key_, make_record("failure"));
+  cache.keep_failure(key_, {});
   EXPECT_TRUE(cache.failure(key_));
   EXPECT_EQ(cache.failures(), std::vector<ResultKey>{key_});
   cache.forget_failure(key_);

@@ -8,6 +8,7 @@
 #include "farm/failed_jobs.hpp"
 #include "farm/result_cache.hpp"
 #include "farm_fixture.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -51,7 +52,9 @@ TEST_F(UpkeepTest, VerifyOpensWhatItsHashSaysIsWhole) {
   ResultDraft draft = results.draft();
   write_file(draft.file("a.exr"), "no picture");
   write_file(draft.file("b.json"), "{");
-  results.publish(draft, result_key({"rubbish"}), make_record("result"));
+  records::Result rubbish;
+  rubbish.job = "render";
+  results.publish(draft, result_key({"rubbish"}), rubbish);
   const VerifyReport report = verify_cache(cache(), false, {});
   ASSERT_EQ(report.damaged.size(), 1u);
   EXPECT_THAT(report.damaged[0], HasSubstr("is not JSON"));
@@ -93,7 +96,7 @@ TEST_F(UpkeepTest, TakesNothingAwayUnderAFarmThatIsAtWork) {
   const auto in_use = results.try_use(true);
   EXPECT_THROW(collect_garbage(cache(), 0), Error);
   EXPECT_EQ(results.list().size(), 8u);
-  EXPECT_EQ(farm_status(out()).at("atWork"), true);
+  EXPECT_EQ(as_json(farm_status(out())).at("atWork"), true);
 }
 
 TEST_F(UpkeepTest, CleanTakesAwayWhatIsNotOfTheGridAndNothingElse) {
@@ -132,7 +135,7 @@ TEST_F(UpkeepTest, CleanTakesAwayWhatFailedJobsLeft) {
 }
 
 TEST_F(UpkeepTest, StatusTellsWhatHasBecomeOfEachCell) {
-  Json status = farm_status(out());
+  Json status = as_json(farm_status(out()));
   EXPECT_EQ(status.at("cells"), 2);
   EXPECT_EQ(status.at("status").at("pass"), 2);
   EXPECT_EQ(status.at("atWork"), false);
@@ -141,7 +144,7 @@ TEST_F(UpkeepTest, StatusTellsWhatHasBecomeOfEachCell) {
   options.attempts = 2;
   options.programs = {{"povray", failing_povray()}};
   run_farm(grid("16", "<engine name=\"povray\"/>"), out(), options);
-  status = farm_status(out());
+  status = as_json(farm_status(out()));
   EXPECT_EQ(status.at("status").at("failed"), 1);
   ASSERT_EQ(status.at("failures").size(), 1u);
   EXPECT_EQ(status.at("failures")[0].at("failure"), "exit code");

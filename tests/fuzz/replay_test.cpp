@@ -11,7 +11,7 @@
 #include "farm/grid.hpp"
 #include "fuzz/bundle.hpp"
 #include "fuzz/checks.hpp"
-#include "gallery/farm_data.hpp"
+#include "gallery/checked_cell.hpp"
 #include "lobelia_paths.hpp"
 #include "renderer/scene/scene_io.hpp"
 

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "gallery/gallery.hpp"
+#include "records/cost.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 
@@ -14,41 +17,44 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-Json way(const std::string& name, double median, const Json& error) {
-  return {
-      {"name", name},
-      {"settings", {{"lobe", name}}},
-      {"seconds",
-       {{"median", median}, {"spread", 0.05}, {"least", median}, {"most", median}, {"rounds", 5}}},
-      {"errors", {{"max", error}}}};
+records::CostWay way(const std::string& name, double median, double error) {
+  records::CostWay way;
+  way.name = name;
+  way.settings = {{"lobe", name}};
+  way.errors = {{"max", error}};
+  way.seconds = {median, 0.05, median, median, 5};
+  return way;
 }
 
-Json cost_record() {
-  Json record = make_record("cost");
-  record["command"] = {"lobelia", "cost", "a b.xml"};
-  record["host"] = {{"processor", "any"}, {"threads", 2}};
-  record["tables"] = Json::array(
-      {{{"id", "lobe-n64"},
-        {"level", "lobe"},
-        {"title", "A lobe, n = 64"},
-        {"per", "evaluation"},
-        {"errors", Json::array({{{"id", "max"}, {"meaning", "largest error of the lobe"}}})},
-        {"ways",
-         Json::array({way("cs16", 1e-9, 0.017), way("cosine", 2e-9, 1e-7),
-                      way("<img src=x onerror=alert(1)>", 9e-9, "nan"), way("slow", 7e-9, 0.5)})},
-        {"fronts",
-         {{"max",
-           {{"ways", {"cs16", "cosine"}},
-            {"inWords", {"from cs16 to cosine: 2.0 times the time, 170000 times less error"}}}}}},
-        {"remarks", {"a remark & more"}}}});
+records::Cost cost_record() {
+  records::CostTable table;
+  table.id = "lobe-n64";
+  table.level = "lobe";
+  table.title = "A lobe, n = 64";
+  table.unit = "s";
+  table.per = "evaluation";
+  table.errors = {{"max", "largest error of the lobe"}};
+  table.ways = {way("cs16", 1e-9, 0.017), way("cosine", 2e-9, 1e-7),
+                way("<img src=x onerror=alert(1)>", 9e-9, std::nan("")), way("slow", 7e-9, 0.5)};
+  table.fronts = {{"max",
+                   {{"cs16", "cosine"},
+                    {},
+                    {"from cs16 to cosine: 2.0 times the time, 170000 times less error"},
+                    "lobe-n64-max.svg"}}};
+  table.remarks = {"a remark & more"};
+  records::Cost record;
+  record.command = {"lobelia", "cost", "a b.xml"};
+  record.host = {"any", 2, "Debian", ""};
+  record.tables = {table};
   return record;
 }
 
 class CostPage : public ::testing::Test {
  protected:
-  std::filesystem::path put(const Json& record) {
+  std::filesystem::path put(const records::Cost& record) { return put(record_text(record)); }
+  std::filesystem::path put(const std::string& record) {
     std::filesystem::create_directories(farm_.directory() / "cost");
-    write_record(farm_.directory() / "cost/cost.json", record);
+    write_file(farm_.directory() / "cost/cost.json", record);
     write_file(farm_.directory() / "cost/cost.csv", "x");
     write_gallery(farm_.directory());
     return farm_.directory() / "cost.html";
@@ -79,12 +85,11 @@ TEST_F(CostPage, SaysWhatTheFrontSaysAndHowItWasMeasured) {
 }
 
 TEST_F(CostPage, ShowsWhatIsCountedWhereThereIsNothingToTime) {
-  Json record = cost_record();
-  Json& table = record["tables"][0];
-  table["unit"] = "bit operations";
-  for (Json& one : table["ways"]) {
-    one.erase("seconds");
-    one["count"] = 1408;
+  records::Cost record = cost_record();
+  record.tables[0].unit = "bit operations";
+  for (records::CostWay& one : record.tables[0].ways) {
+    one.seconds.reset();
+    one.count = 1408;
   }
   const std::string text = read_file(put(record), 1 << 20);
   EXPECT_THAT(text, HasSubstr("bit operations per evaluation"));
@@ -99,29 +104,31 @@ TEST_F(CostPage, IsNotThereWhereNothingWasMeasured) {
 }
 
 TEST_F(CostPage, OfABrokenRecordSaysSoAndTheGalleryIsThere) {
-  const auto broken = [&](auto change) {
-    Json record = cost_record();
-    change(record);
-    const std::string text = read_file(put(record), 1 << 20);
-    EXPECT_THAT(text, HasSubstr("It cannot be shown")) << record.dump(1);
+  const std::string whole = record_text(cost_record());
+  const std::pair<const char*, const char*> changes[] = {
+      {R"("kind": "cost")", R"("kind": "farm")"},
+      {R"("tables": [)", R"("tables": 3, "others": [)"},
+      {R"("name": "cs16")", R"("name": 3)"},
+      {R"("median": 1e-09)", R"("median": "fast")"}};
+  for (const auto& [from, to] : changes) {
+    std::string broken = whole;
+    ASSERT_NE(whole.find(from), whole.npos) << from;
+    broken.replace(whole.find(from), std::string(from).size(), to);
+    EXPECT_THAT(read_file(put(broken), 1 << 20), HasSubstr("It cannot be shown")) << to;
     EXPECT_TRUE(std::filesystem::exists(farm_.directory() / "index.html"));
-  };
-  broken([](Json& r) { r["kind"] = "farm"; });
-  broken([](Json& r) { r["tables"] = 3; });
-  broken([](Json& r) { r["tables"][0]["ways"][0]["name"] = 3; });
-  broken([](Json& r) { r["tables"][0]["ways"][0]["seconds"]["median"] = "fast"; });
+  }
 }
 
 TEST_F(CostPage, SurvivesNumbersOfAnySize) {
-  Json record = cost_record();
-  Json& ways = record["tables"][0]["ways"];
+  records::Cost record = cost_record();
+  std::vector<records::CostWay>& ways = record.tables[0].ways;
   ways.push_back(way("huge", 1e300, 1e300));
   ways.push_back(way("tiny", 1e-300, 1e-300));
-  ways.push_back(way("negative", -1, -1));
-  ways.push_back(way("endless", 1, "inf"));
+  ways.push_back(way("negative", -1, 0));
+  ways.push_back(way("endless", 1, std::numeric_limits<double>::infinity()));
   put(record);
   EXPECT_THAT(Site(farm_.directory()).bad_links(), IsEmpty());
-  record["tables"][0]["ways"] = Json::array();
+  ways.clear();
   put(record);
   EXPECT_EQ(Site(farm_.directory()).page("cost.html").select_nodes("//g[@class='point']").size(),
             0u);

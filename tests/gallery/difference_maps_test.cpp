@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "gallery/gallery.hpp"
+#include "records/comparison.hpp"
 #include "tests/gallery/fake_farm.hpp"
 
 namespace lobelia::gallery {
@@ -41,6 +42,10 @@ class DifferenceMaps : public ::testing::Test {
     write_exr(path, image, {});
     farm_.seal(FakeFarm::kPass);
   }
+  void change_viewing(void (*change)(records::Viewing& viewing)) const {
+    farm_.change<records::Comparison>(FakeFarm::kPass, "lobelia-povray.json",
+                                      [&](records::Comparison& record) { change(record.viewing); });
+  }
   std::string cell_data() const {
     return read_file(options_.site / "cells" / FakeFarm::kPass / "data.js", 1 << 20);
   }
@@ -57,9 +62,7 @@ class DifferenceMaps : public ::testing::Test {
 };
 
 TEST_F(DifferenceMaps, AreOfEachComparisonUnderItsViewingCondition) {
-  farm_.change(FakeFarm::kPass, "lobelia-povray.json", "comparison", [](Json& record) {
-    record["viewing"] = {{"exposureStops", -2.5}, {"pixelsPerDegree", 40}};
-  });
+  change_viewing([](records::Viewing& viewing) { viewing = {-2.5, 40, {}, {}}; });
   publish();
   EXPECT_THAT(cell_data(), HasSubstr("povray.map.probe.js"));
   EXPECT_THAT(read_file(script(), 1 << 20), HasSubstr(R"("width":3,"height":2)"));
@@ -76,8 +79,7 @@ TEST_F(DifferenceMaps, AreMadeAgainOnlyWhereAPictureOrTheViewingIsAnother) {
   write_picture("povray", flat(3, 2, 0.5f));
   publish();
   EXPECT_EQ(measured_, first + 1);
-  farm_.change(FakeFarm::kPass, "lobelia-povray.json", "comparison",
-               [](Json& record) { record["viewing"]["exposureStops"] = 3; });
+  change_viewing([](records::Viewing& viewing) { viewing.exposure_stops = 3; });
   publish();
   EXPECT_EQ(measured_, first + 2);
 }
@@ -91,12 +93,11 @@ TEST_F(DifferenceMaps, AreNotThereWhereTheyWouldSayNothingTrue) {
            cell_data().find("povray.map") == std::string::npos;
   };
   // Seen through a display that is not known here.
-  farm_.change(FakeFarm::kPass, "lobelia-povray.json", "comparison", [](Json& record) {
-    record["viewing"]["display"] = {{"view", "Film"}};
+  change_viewing([](records::Viewing& viewing) {
+    viewing.display = {"a.ocio", "1", "sRGB", "Film", "lin_srgb", "sRGB"};
   });
   EXPECT_TRUE(is_gone());
-  farm_.change(FakeFarm::kPass, "lobelia-povray.json", "comparison",
-               [](Json& record) { record["viewing"].erase("display"); });
+  change_viewing([](records::Viewing& viewing) { viewing.display.reset(); });
   EXPECT_FALSE(is_gone());
   write_picture("povray", flat(2, 2, 1));  // not of the size of ours
   EXPECT_TRUE(is_gone());

@@ -1,105 +1,131 @@
 #include "tests/gallery/fake_farm.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "core/seal.hpp"
 #include "core/sha256.hpp"
+#include "records/comparison.hpp"
+#include "records/profile.hpp"
+#include "records/render.hpp"
 
 namespace lobelia::gallery {
 namespace fs = std::filesystem;
 namespace {
 
-void write_images(const fs::path& cell, const std::string& engine, const std::string& kind) {
+records::EngineUsed used(const std::string& engine) { return {engine, "", "1.2.3"}; }
+records::ImageFile picture_of(const std::string& engine) { return {engine + ".exr", 2, 2}; }
+
+void write_pictures(const fs::path& cell, const std::string& engine) {
   write_file(cell / (engine + ".exr"), "v/1\x01");
   write_file(cell / (engine + ".png"), tiny_png());
   write_file(cell / (engine + ".log"), "rendered\n");
-  Json record = make_record(kind);
-  record["engine"] = {{"name", engine}, {"version", "1.2.3"}};
-  record["command"] = {"lobelia", kind, "scene with space.xml"};
-  record["seconds"] = {{"total", 0.25}};
-  record["image"] = {{"file", engine + ".exr"}, {"width", 2}, {"height", 2}};
-  if (kind == "render") {
-    record["rays"] = {{"camera", 4}, {"shadow", 0}};
-    record["plan"]["effects"] =
-        Json::array({{{"name", "shadows"}, {"on", false}, {"reason", "one convex body"}}});
-  } else {
-    record["witness"] = "native";
-    record["engineCommands"] = {"povray +Iscene.pov"};
-  }
-  write_record(cell / (engine + ".json"), record);
+}
+
+void write_ours(const fs::path& cell) {
+  write_pictures(cell, "lobelia");
+  records::Render record;
+  record.engine = used("lobelia");
+  record.command = {"lobelia", "render", "scene with space.xml"};
+  record.image = picture_of("lobelia");
+  record.samples = 1;
+  record.plan.effects = {{"shadows", false, "one convex body", std::nullopt}};
+  record.rays.camera = 4;
+  record.seconds.total = 0.25;
+  records::write_record(cell / "lobelia.json", record);
+}
+
+void write_reference(const fs::path& cell) {
+  write_pictures(cell, "povray");
+  records::Reference record;
+  record.engine = used("povray");
+  record.command = {"lobelia", "reference", "scene with space.xml"};
+  record.image = picture_of("povray");
+  record.witness = "native";
+  record.method = "one pass";
+  record.passes = 1;
+  record.engine_commands = {"povray +Iscene.pov"};
+  record.seconds.total = 0.25;
+  records::write_record(cell / "povray.json", record);
 }
 
 void write_comparison(const fs::path& cell, bool pass) {
   write_file(cell / "lobelia-povray.png", tiny_png());
-  Json record = make_record("comparison");
-  record["verdict"] = pass ? "pass" : "differs";
-  record["a"] = "lobelia.exr";
-  record["b"] = "povray.exr";
-  record["nonfinite"] = {{"a", 0}, {"b", 0}};
-  record["viewing"] = {{"exposureStops", -1.5}, {"pixelsPerDegree", 67.0}};
-  record["metrics"] = {{"rmse", 1e-5},       {"max_abs", 2e-3},      {"max_abs.x", 1},
-                       {"max_abs.y", 0},     {"max_rel_peak", 4e-4}, {"outliers", pass ? 1 : 9},
-                       {"some.new.one", 0.5}};
-  record["limits"] = Json::array(
-      {{{"metric", "outliers"}, {"limit", 3}, {"value", pass ? 1 : 9}, {"pass", pass}}});
-  record["tolerance"] = {{"relative", 6e-4}, {"ofPeak", 1e-8}, {"allowedOutliers", 3}};
-  write_record(cell / "lobelia-povray.json", record);
+  const double outliers = pass ? 1 : 9;
+  records::Comparison record;
+  record.verdict = pass ? "pass" : "differs";
+  record.a = "lobelia.exr";
+  record.b = "povray.exr";
+  record.viewing.exposure_stops = -1.5;
+  record.viewing.pixels_per_degree = 67.0;
+  record.metrics = {{"rmse", 1e-5},       {"max_abs", 2e-3},      {"max_abs.x", 1},
+                    {"max_abs.y", 0},     {"max_rel_peak", 4e-4}, {"outliers", outliers},
+                    {"some.new.one", 0.5}};
+  record.limits = {{"outliers", 3, outliers, pass, "", std::nullopt}};
+  record.tolerance = {6e-4, 1e-8, 3, false};
+  records::write_record(cell / "lobelia-povray.json", record);
+}
+
+records::HighlightShape shape() {
+  records::HighlightShape shape;
+  shape.peak = 2.7;
+  shape.half_width_degrees = 11.8;
+  shape.energy = 0.01;
+  auto& lobe = shape.highlight.emplace().cosine_lobe;
+  shape.highlight->peak.found = "fitted";
+  lobe.exponent = 16.25;
+  lobe.standard_error = 0.125;
+  lobe.coefficient = 2.7;
+  lobe.rms_of_peak = 1e-6;
+  lobe.pixels = 60;
+  return shape;
 }
 
 void write_profile(const fs::path& cell) {
-  Json record = make_record("profile");
-  record["light"] = 0;
-  record["sphere"] = 0;
-  record["angle"] = "reflection";
-  record["zones"] = {
-      {"epicentreDegrees", {0, 10}}, {"flankDegrees", {10, 20}}, {"bloomingDegrees", {20, 40}}};
-  Json& curve = record["curve"];
+  records::Profile record;
+  record.angle = "reflection";
+  record.zones = {{0, 10}, {10, 20}, {20, 40}};
+  std::vector<double> analytic, lobelia, povray;
   for (int i = 0; i < 60; ++i) {
     const double value = 2.7 * std::exp(-i * i / 200.0);
-    curve["angleDegrees"].push_back(i + 0.5);
-    curve["pixels"].push_back(3);
-    curve["analytic"].push_back(value);
-    curve["lobelia"].push_back(value * (1 + 1e-7));
-    curve["povray"].push_back(value * (1 + 3e-4 * std::cos(i)));
+    record.curve.angle_degrees.push_back(i + 0.5);
+    record.curve.pixels.push_back(3);
+    analytic.push_back(value);
+    lobelia.push_back(value * (1 + 1e-7));
+    povray.push_back(value * (1 + 3e-4 * std::cos(i)));
   }
-  for (const char* engine : {"lobelia", "povray"}) {
-    record["images"][engine] = {{"peak", 2.7}, {"halfWidthDegrees", 11.8}, {"energy", 0.01}};
-    record["images"][engine]["highlight"]["cosineLobe"] = {{"exponent", 16.25},
-                                                           {"standardError", 0.125}};
-  }
-  const Json zone = {{"maxAbs", 1e-3}, {"rms", 2e-4}, {"maxRelPeak", 4e-4}};
-  record["differences"]["lobelia-povray"] = {
-      {"epicentre", zone}, {"flank", zone}, {"blooming", zone}};
-  write_record(cell / "profile.json", record);
+  record.curve.radiance = {{"analytic", analytic}, {"lobelia", lobelia}, {"povray", povray}};
+  record.images = {{"lobelia", shape()}, {"povray", shape()}};
+  const records::ZoneError zone{3, 1e-3, 2e-4, 4e-4};
+  record.differences = {{"lobelia-povray", {zone, zone, zone}}};
+  records::write_record(cell / "profile.json", record);
+}
+
+records::CellImage image_of(const std::string& engine) {
+  return {engine, engine + ".exr", engine + ".png", engine + ".json", ""};
 }
 
 }  // namespace
 
 FakeFarm::FakeFarm() {
-  farm_ = make_record("farm");
-  farm_["title"] = "A small farm";
-  farm_["grid"] = "small.xml";
-  farm_["command"] = "lobelia farm small.xml -o out";
-  farm_["host"] = {{"processor", "abacus"}, {"threads", 2}, {"system", "Debian"}};
-  const auto value = [](const char* name, const char* label) {
-    return Json{{"value", name}, {"label", label}};
+  farm_.title = "A small farm";
+  farm_.grid = "small.xml";
+  farm_.command = "lobelia farm small.xml -o out";
+  farm_.host = {"abacus", 2, "Debian", ""};
+  farm_.axes = {{"model", {{"phong_rdf", "Phong (RDF)"}, {"ndf", "Blinn (NDF)"}}},
+                {"exponent", {{"16", "n = 16"}, {"128", "128"}}}};
+  const auto add_engine = [&](const char* name, const char* title, const char* version) {
+    records::FarmEngine& engine = farm_.engines.emplace_back();
+    engine.name = name;
+    engine.title = title;
+    engine.version = version;
+    engine.available = !engine.version.empty();
   };
-  farm_["axes"] = Json::array();
-  farm_["axes"].push_back(
-      {{"name", "model"},
-       {"values", Json::array({value("phong_rdf", "Phong (RDF)"), value("ndf", "Blinn (NDF)")})}});
-  farm_["axes"].push_back({{"name", "exponent"},
-                           {"values", Json::array({value("16", "n = 16"), value("128", "128")})}});
-  farm_["engines"] = Json::array(
-      {{{"name", "lobelia"}, {"title", "Lobelia"}, {"version", "0.1.0"}, {"available", true}},
-       {{"name", "povray"}, {"title", "POV-Ray"}, {"version", "3.7"}, {"available", true}},
-       {{"name", "blender"},
-        {"title", "Blender Cycles"},
-        {"available", false},
-        {"why", "no program 'blender' in $PATH"},
-        {"install", "sudo apt-get install blender"}}});
-  farm_["cells"] = Json::array();
+  add_engine("lobelia", "Lobelia", "0.1.0");
+  add_engine("povray", "POV-Ray", "3.7");
+  add_engine("blender", "Blender Cycles", "");
+  farm_.engines.back().why = "no program 'blender' in $PATH";
+  farm_.engines.back().install = "sudo apt-get install blender";
   add_cell(kPass, "pass", {{"model", "phong_rdf"}, {"exponent", "16"}});
   add_cell(kDiffers, "differs", {{"model", "phong_rdf"}, {"exponent", "128"}});
   add_cell(kFailed, "failed", {{"model", "ndf"}, {"exponent", "16"}});
@@ -110,50 +136,44 @@ fs::path FakeFarm::cell_directory(const std::string& id) const {
   return directory() / "cells" / id;
 }
 
-void FakeFarm::write() const { write_record(directory() / "farm.json", farm_); }
+void FakeFarm::write() const { records::write_record(directory() / "farm.json", farm_); }
 
-void FakeFarm::add_cell(const std::string& id, const std::string& status, const Json& axes) {
-  farm_["cells"].push_back({{"id", id}, {"status", status}, {"axes", axes}});
+void FakeFarm::leave_out(const std::vector<std::string>& ids) {
+  std::erase_if(farm_.cells, [&](const records::FarmCell& cell) {
+    return std::ranges::find(ids, cell.id) != ids.end();
+  });
+  write();
+}
+
+void FakeFarm::add_cell(const std::string& id, const std::string& status,
+                        const records::Named<std::string>& axes) {
+  farm_.cells.push_back({id, status, axes});
   write();
   if (status == "missing") return;
   const bool failed = status == "failed";
   const fs::path cell = cell_directory(id);
   make_directories(cell);
   write_file(cell / "scene.xml", "<scene/>");
-  write_images(cell, "lobelia", "render");
-  if (!failed) {
-    write_images(cell, "povray", "reference");
+  write_ours(cell);
+  records::Cell record;
+  record.id = id;
+  record.axes = axes;
+  record.status = status;
+  record.highlight = {"phong_rdf", "cosine", "exact", 16, 2.7056, ""};
+  record.exposure_stops = -1.5;
+  record.images = {image_of("lobelia")};
+  if (failed) {
+    record.problems = {{"povray", "stopped after 600 s", "timed out", 3}};
+  } else {
+    write_reference(cell);
     write_comparison(cell, status == "pass");
     write_profile(cell);
+    record.images.push_back(image_of("povray"));
+    record.comparisons = {
+        {"lobelia", "povray", "lobelia-povray.json", "lobelia-povray.png", {0.0016, 6e-4}}};
+    record.profile = "profile.json";
   }
-  Json record = make_record("cell");
-  record["id"] = id;
-  record["axes"] = axes;
-  record["status"] = status;
-  record["highlight"] = {{"model", "phong_rdf"}, {"exponent", 16}, {"coefficient", 2.7056}};
-  record["exposureStops"] = -1.5;
-  record["images"] = Json::array();
-  for (const std::string engine : {"lobelia", "povray"}) {
-    if (failed && engine == "povray") continue;
-    record["images"].push_back({{"engine", engine},
-                                {"exr", engine + ".exr"},
-                                {"png", engine + ".png"},
-                                {"record", engine + ".json"}});
-  }
-  record["comparisons"] = Json::array();
-  record["problems"] = Json::array();
-  if (failed) {
-    record["problems"].push_back({{"engine", "povray"}, {"message", "stopped after 600 s"}});
-  } else {
-    record["comparisons"].push_back(
-        {{"a", "lobelia"},
-         {"b", "povray"},
-         {"record", "lobelia-povray.json"},
-         {"png", "lobelia-povray.png"},
-         {"difference", {{"whiteAt", 0.0016}, {"relativeToPeak", 6e-4}}}});
-    record["profile"] = "profile.json";
-  }
-  write_record(cell / "cell.json", record);
+  records::write_record(cell / kCellRecord, record);
   seal(id);
 }
 
@@ -163,17 +183,22 @@ void FakeFarm::seal(const std::string& id) const {
   for (const auto& entry : fs::directory_iterator(cell)) {
     const std::string name = entry.path().filename().string();
     // Files that a gallery put there are not the farm's.
-    if (entry.is_regular_file() && name != "cell.json" && name != "index.html" &&
+    if (entry.is_regular_file() && name != kCellRecord && name != "index.html" &&
         !name.ends_with(".js"))
       names.insert(name);
   }
-  Json record = read_record(cell / "cell.json", "cell");
-  record["files"] = Json::array();
+  auto record = records::read_record<records::Cell>(cell / kCellRecord);
+  record.files.clear();
   for (const std::string& name : names)
-    record["files"].push_back({{"name", name}, {"sha256", hex(sha256_of_file(cell / name))}});
-  record = Json::parse(record_text(record));
-  record["seal"] = seal_of(record);
-  write_record(cell / "cell.json", record);
+    record.files.push_back({name, hex(sha256_of_file(cell / name))});
+  records::write_record(cell / kCellRecord, record);
+}
+
+std::vector<MetricInfo> some_metrics() {
+  return {{"outliers", "Pixels beyond the tolerance", "A few pixels may be.", "count", false},
+          {"max_rel_peak", "Largest difference, of the peak", "", "share", false},
+          {"psnr", "Peak signal-to-noise ratio", "", "plain", true},
+          {"ssim", "SSIM", "", "plain", true}};
 }
 
 std::string tiny_png() {

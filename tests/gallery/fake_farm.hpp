@@ -1,11 +1,14 @@
-// A farm's directory without a farm: records as docs/records.md lays them out, and tiny pictures.
+// A farm's directory without a farm: records as a farm writes them, and tiny pictures.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/files.hpp"
-#include "core/record.hpp"
+#include "gallery/metrics.hpp"
+#include "records/farm.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::gallery {
 
@@ -17,34 +20,40 @@ class FakeFarm {
 
   const std::filesystem::path& directory() const { return temporary_.path(); }
   std::filesystem::path cell_directory(const std::string& id) const;
-  Json& farm() { return farm_; }
+  records::Farm& farm() { return farm_; }
   /// Writes farm.json again after a change of farm().
   void write() const;
   /// One record of a cell: read, changed by `change`, written again as if the farm had written it so.
-  template <class Change>
-  void change(const std::string& id, const std::string& file, const std::string& kind,
-              Change change) const {
+  template <class T, class Change>
+  void change(const std::string& id, const std::string& file, Change change) const {
     const auto path = cell_directory(id) / file;
-    Json record = read_record(path, kind);
+    T record = records::read_record<T>(path);
     change(record);
-    write_record(path, record);
-    seal(id);
+    records::write_record(path, record);
+    if (file != kCellRecord) seal(id);
   }
   /// Puts the hashes of the files that are there now into cell.json.
   void seal(const std::string& id) const;
   /// Adds a cell to farm.json, with records and pictures; its engine's pictures and comparisons
   /// too.
-  void add_cell(const std::string& id, const std::string& status, const Json& axes);
+  void add_cell(const std::string& id, const std::string& status,
+                const records::Named<std::string>& axes);
+  /// Takes cells out of farm.json; their directories stay.
+  void leave_out(const std::vector<std::string>& ids);
 
   static inline const std::string kPass = "phong_rdf-n16";
   static inline const std::string kDiffers = "phong_rdf-n128";
   static inline const std::string kFailed = "blinn_phong_ndf-n16";
   static inline const std::string kMissing = "blinn_phong_ndf-n128";
+  static inline const std::string kCellRecord = "cell.json";
 
  private:
   TemporaryDirectory temporary_;
-  Json farm_;
+  records::Farm farm_;
 };
+
+/// What the command line hands over of a few metrics.
+std::vector<MetricInfo> some_metrics();
 
 /// A complete PNG of 2 x 2 pixels.
 std::string tiny_png();

@@ -7,12 +7,12 @@
 namespace lobelia::gallery {
 namespace {
 
-FarmData farm_of(const std::vector<int>& sizes) {
-  FarmData farm;
+ShownFarm farm_of(const std::vector<int>& sizes) {
+  ShownFarm farm;
   for (const int size : sizes) {
-    GridAxis axis{"axis" + std::to_string(farm.axes.size()), {}};
+    records::Axis axis{"axis" + std::to_string(farm.record.axes.size()), {}};
     for (int i = 0; i < size; ++i) axis.values.push_back({std::to_string(i), std::to_string(i)});
-    farm.axes.push_back(std::move(axis));
+    farm.record.axes.push_back(std::move(axis));
   }
   return farm;
 }
@@ -25,7 +25,7 @@ TEST(GridLayout, shows_every_place_of_any_number_of_axes_exactly_once) {
                                                                      {2, 3, 2, 3, 2},
                                                                      {2, 9, 8, 2},
                                                                      {1, 1, 1, 1, 1, 1}}) {
-    const FarmData farm = farm_of(sizes);
+    const ShownFarm farm = farm_of(sizes);
     const GridLayout layout = lay_out(farm);
     std::set<std::vector<int>> places;
     std::size_t shown = 0, expected = 1;
@@ -49,7 +49,7 @@ TEST(GridLayout, shows_every_place_of_any_number_of_axes_exactly_once) {
 }
 
 TEST(GridLayout, four_axes_are_rows_column_groups_columns_and_sections) {
-  const FarmData farm = farm_of({6, 3, 4, 2});
+  const ShownFarm farm = farm_of({6, 3, 4, 2});
   const GridLayout layout = lay_out(farm);
   EXPECT_EQ(layout.rows, 0);
   EXPECT_EQ(layout.groups, 1);
@@ -59,8 +59,8 @@ TEST(GridLayout, four_axes_are_rows_column_groups_columns_and_sections) {
 }
 
 TEST(GridLayout, lights_are_sections_wherever_the_grid_names_them) {
-  FarmData farm = farm_of({2, 6, 3, 3});
-  farm.axes[0].name = "light";
+  ShownFarm farm = farm_of({2, 6, 3, 3});
+  farm.record.axes[0].name = "light";
   const GridLayout layout = lay_out(farm);
   EXPECT_EQ(layout.section_axes, std::vector<int>{0});
   EXPECT_EQ(layout.rows, 1);
@@ -68,7 +68,7 @@ TEST(GridLayout, lights_are_sections_wherever_the_grid_names_them) {
 }
 
 TEST(GridLayout, columns_that_would_be_too_many_are_not_grouped) {
-  const FarmData farm = farm_of({2, 6, 3});
+  const ShownFarm farm = farm_of({2, 6, 3});
   const GridLayout layout = lay_out(farm);
   EXPECT_EQ(layout.groups, -1);
   EXPECT_EQ(layout.columns, 2);
@@ -76,7 +76,7 @@ TEST(GridLayout, columns_that_would_be_too_many_are_not_grouped) {
 }
 
 TEST(GridLayout, cells_off_the_axes_and_cells_on_a_taken_place_are_not_lost) {
-  FarmData farm = farm_of({2, 2});
+  ShownFarm farm = farm_of({2, 2});
   const auto add = [&](const std::string& id, const std::vector<int>& at) {
     farm.cells.push_back({id, CellStatus::kPass, at, id});
     farm.cell_at.emplace(at, farm.cells.size() - 1);
@@ -91,7 +91,7 @@ TEST(GridLayout, cells_off_the_axes_and_cells_on_a_taken_place_are_not_lost) {
 }
 
 TEST(GridLayout, a_grid_with_holes_keeps_every_cell_in_its_place) {
-  FarmData farm = farm_of({3, 2, 2, 2});
+  ShownFarm farm = farm_of({3, 2, 2, 2});
   const std::vector<std::vector<int>> there = {{0, 0, 0, 0}, {0, 1, 1, 0}, {2, 0, 1, 1}};
   for (const auto& at : there) {
     farm.cells.push_back({"c" + std::to_string(farm.cells.size()), CellStatus::kPass, at, ""});

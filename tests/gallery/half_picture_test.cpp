@@ -29,10 +29,10 @@ std::string from_base64(const std::string& text) {
 }
 
 /// The reader of gallery/web/src/half_picture.ts, written again.
-std::vector<double> decoded(const HalfPicture& picture) {
+std::vector<double> decoded(const records::PackedPicture& picture) {
   const std::size_t width = picture.width, pixels = width * picture.height;
   std::string bytes(6 * pixels, '\0');
-  const std::string packed = from_base64(picture.base64);
+  const std::string packed = from_base64(picture.planes);
   uLongf size = bytes.size();
   EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
                        reinterpret_cast<const Bytef*>(packed.data()), packed.size()),
@@ -47,7 +47,7 @@ std::vector<double> decoded(const HalfPicture& picture) {
       const int left = column0 ? (row0 ? 0 : plane[i - width]) : plane[i - 1];
       const int above = row0 ? left : plane[i - width];
       const int corner = column0 || row0 ? left : plane[i - width - 1];
-      const int guess = !picture.is_predicted             ? 0
+      const int guess = !picture.predicted                ? 0
                         : corner >= std::max(left, above) ? std::min(left, above)
                         : corner <= std::min(left, above) ? std::max(left, above)
                                                           : left + above - corner;
@@ -117,7 +117,7 @@ TEST(HalfPicture, KeepsWhatIsNotFinite) {
 
 TEST(HalfPicture, LeavesOutWhatIsUnderTheLeastThatItNames) {
   const Image image = noise(64, 64, 6);
-  const HalfPicture coarse = half_picture(image, -2);
+  const records::PackedPicture coarse = half_picture(image, -2);
   EXPECT_NEAR(coarse.least, std::ldexp(1, -10), 2e-5);
   const auto values = decoded(coarse);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -127,20 +127,20 @@ TEST(HalfPicture, LeavesOutWhatIsUnderTheLeastThatItNames) {
 
 TEST(HalfPicture, IsShorterTheCoarserItIsAndShortWhereThePictureIsSmooth) {
   const Image rough = noise(128, 128, 5);
-  std::size_t before = half_picture(rough, kFinest).base64.size();
+  std::size_t before = half_picture(rough, kFinest).planes.size();
   for (int precision = kFinest - 1; precision >= kCoarsest; --precision) {
-    const std::size_t size = half_picture(rough, precision).base64.size();
+    const std::size_t size = half_picture(rough, precision).planes.size();
     EXPECT_LT(double(size), 1.05 * double(before)) << precision;
     before = size;
   }
-  EXPECT_LT(4 * before, half_picture(rough, kFinest).base64.size());
+  EXPECT_LT(4 * before, half_picture(rough, kFinest).planes.size());
   Image smooth(128, 128);
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x)
       for (float& value : smooth.pixel(x, y))
         value = static_cast<float>(std::exp(-(x * x + y * y) / 3000.0));
-  EXPECT_LT(half_picture(smooth, kFinest).base64.size() * 6,
-            half_picture(rough, kFinest).base64.size());
+  EXPECT_LT(half_picture(smooth, kFinest).planes.size() * 6,
+            half_picture(rough, kFinest).planes.size());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "gallery/gallery.hpp"
 #include "lobelia_paths.hpp"
+#include "records/typescript.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 
@@ -126,7 +127,9 @@ TEST(GalleryPages, what_is_missing_is_said_in_words_in_its_place) {
 
 TEST(GalleryPages, cells_that_need_a_look_are_listed_with_their_reason) {
   const FakeFarm farm;
-  write_gallery(farm.directory());
+  GalleryOptions options;
+  options.metrics = some_metrics();
+  write_gallery(farm.directory(), options);
   const Site site(farm.directory());
   const std::string list =
       text_of(site.page("index.html").select_node("//section[@class='attention']").node());
@@ -164,10 +167,7 @@ TEST(GalleryPages, a_directory_without_a_farm_is_an_input_error_that_says_what_t
 
 TEST(GalleryPages, a_cell_that_the_grid_excludes_leaves_an_empty_place) {
   FakeFarm farm;
-  auto& cells = farm.farm()["cells"];
-  for (std::size_t i = cells.size(); i-- > 0;)
-    if (cells[i]["id"] == FakeFarm::kDiffers) cells.erase(i);
-  farm.write();
+  farm.leave_out({FakeFarm::kDiffers});
   write_gallery(farm.directory());
   const Site site(farm.directory());
   const auto& index = site.page("index.html");
@@ -207,10 +207,7 @@ TEST(GalleryPages, a_cell_that_is_gone_leaves_nothing_behind_but_what_others_put
   options.site = scratch.path();
   write_gallery(farm.directory(), options);
   write_file(scratch.path() / "cells" / FakeFarm::kDiffers / "mine.txt", std::string_view("mine"));
-  auto& cells = farm.farm()["cells"];
-  for (std::size_t i = cells.size(); i-- > 0;)
-    if (cells[i]["id"] == FakeFarm::kDiffers || cells[i]["id"] == FakeFarm::kFailed) cells.erase(i);
-  farm.write();
+  farm.leave_out({FakeFarm::kDiffers, FakeFarm::kFailed});
   write_gallery(farm.directory(), options);
   EXPECT_FALSE(std::filesystem::exists(scratch.path() / "cells" / FakeFarm::kFailed));
   const auto left = contents(scratch.path() / "cells" / FakeFarm::kDiffers);
@@ -227,6 +224,12 @@ TEST(GalleryPages, script_and_style_are_those_that_were_built) {
         std::filesystem::path(LOBELIA_SOURCE_DIR) / "gallery/web/dist" / file;
     EXPECT_EQ(read_file(farm.directory() / file, 1 << 20), read_file(built, 1 << 20)) << file;
   }
+}
+
+TEST(GalleryPages, the_script_was_compiled_with_the_types_of_the_tables) {
+  const auto types = std::filesystem::path(LOBELIA_SOURCE_DIR) / "gallery/web/src/records.ts";
+  EXPECT_EQ(read_file(types, 1 << 20), records::typescript_text())
+      << "lobelia records --typescript > gallery/web/src/records.ts, and build the script anew";
 }
 
 }  // namespace

@@ -3,12 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "gallery/gallery.hpp"
 #include "gallery/views.hpp"
+#include "records/models.hpp"
+#include "records/paper.hpp"
+#include "records/stability.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -16,126 +22,97 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::string kHostileTitle = "<img src=x onerror=alert(1)>";
 
-Json explorer_record() {
-  Json record = make_record("highlight-tables");
-  record["exponents"] = {1, 2, 4};
-  record["perOctave"] = 1;
-  record["mostGrazing"] = 1.5706;
-  record["error"] = {{"curve", 2e-4}};
-  record["models"] = Json::array({{{"name", "modified_phong"},
-                                   {"title", kHostileTitle},
-                                   {"angle", "L and R"},
-                                   {"appliesCosine", true},
-                                   {"normalised", "radiance"},
-                                   {"coefficient", "1/M0"}}});
-  const Json rows = Json::array({{0, -5, -10}, {0, -6, -12}, {0, -7, -14}});
-  record["lobes"] = Json::array({{{"name", "cosine"},
-                                  {"title", "cosine"},
-                                  {"formula", "(1 - s)^n"},
-                                  {"order", 0},
-                                  {"unit", 0.1},
-                                  {"reach", {1.57, 1.57, 1.57}},
-                                  {"halfWidth", {0.5, 0.4, 0.3}},
-                                  {"curves", rows}}});
-  record["highlights"] = Json::array({{{"model", "modified_phong"},
-                                       {"lobe", "cosine"},
-                                       {"exact", {0.5, 0.6, 0.9}},
-                                       {"paper", {0.5, 0.6, 0.8}},
-                                       {"unit", 0.01},
-                                       {"seen", rows},
-                                       {"lit", rows}}});
+records::HighlightTables explorer_record() {
+  const std::vector<std::vector<std::int64_t>> rows = {{0, -5, -10}, {0, -6, -12}, {0, -7, -14}};
+  records::HighlightTables record;
+  record.exponents = {1, 2, 4};
+  record.per_octave = 1;
+  record.most_grazing = 1.5706;
+  record.error.curve = 2e-4;
+  record.models = {{"modified_phong", kHostileTitle, "L and R", true, "radiance", "1/M0"}};
+  record.lobes = {
+      {"cosine", "cosine", "(1 - s)^n", 0, 0.1, {1.57, 1.57, 1.57}, {0.5, 0.4, 0.3}, rows}};
+  record.highlights = {
+      {"modified_phong", "cosine", {0.5, 0.6, 0.9}, {0.5, 0.6, 0.8}, 0.01, rows, rows}};
   return record;
 }
 
-Json summary(const char* group, const char* key, const char* name, const Json& naive) {
-  return {{"group", group},
-          {key, name},
-          {"cases", 3},
-          {"outside", 0},
-          {"naive", {{"ofPeak", naive}, {"ulp", naive}, {"wrongPixels", 0}}},
-          {"ours", {{"ofPeak", 1e-8}, {"ulp", 1}, {"wrongPixels", 0}}},
-          {"ofBound", 0.5}};
+records::StabilityOfCase case_of(const std::string& name, const std::string& meaning,
+                                 double naive) {
+  return {"lobe", name, meaning, 3, 0, 0, {naive, naive, 0}, {1e-8, 1, 0}, 0.5};
 }
 
-Json stability_record() {
-  Json record = make_record("verify-stability");
-  record["command"] = {"lobelia", "verify", "stability"};
-  record["cases"] = 12;
-  record["outside"] = 0;
-  record["notCompared"] = 5;
-  record["groups"] = Json::array({{{"name", "lobe"}, {"meaning", "The lobe " + kHostileTitle}}});
-  record["byCase"] = Json::array({summary("lobe", "case", "angle 0", "inf"),
-                                  summary("lobe", "case", kHostileTitle.c_str(), 0.5)});
-  record["byCase"][0]["meaning"] = "hard because & why";
-  record["byExponent"] = Json::array();
+records::VerifyStability stability_record() {
+  records::VerifyStability record;
+  record.command = {"lobelia", "verify", "stability"};
+  record.cases = 12;
+  record.not_compared = 5;
+  record.groups = {{"lobe", "The lobe " + kHostileTitle}};
+  record.by_case = {case_of("angle 0", "hard because & why", kInfinity),
+                    case_of(kHostileTitle, "", 0.5)};
   for (const double n : {1.0, 100.0, 1e4}) {
-    record["byExponent"].push_back(
-        summary("lobe", "lobe", "cosine", n > 10 ? Json("inf") : Json(1e-7)));
-    record["byExponent"].back()["exponent"] = n;
+    const double naive = n > 10 ? kInfinity : 1e-7;
+    record.by_exponent.push_back(
+        {"lobe", "cosine", n, 3, 0, 0, {naive, naive, 0}, {1e-8, 1, 0}, 0.5});
   }
-  record["curves"] = Json::array({{{"exponent", 1e6},
-                                   {"model", "modified_phong"},
-                                   {"lobe", "cosine"},
-                                   {"degrees", {0, 0.1, 0.2}},
-                                   {"truth", {0.9, 0.4, 0.1}},
-                                   {"naive", {1.3, "inf", "nan"}},
-                                   {"ours", {0.9, 0.4, 0.1}}}});
-  const Json picture = {
-      {"png", "./a-picture.png"}, {"error", "missing.png"}, {"largestErrorOfPeak", 0.5}};
-  record["pictures"] = Json::array({{{"exponent", 1000}, {"naive", picture}, {"ours", picture}}});
+  record.curves = {{1e6,
+                    "modified_phong",
+                    "cosine",
+                    {0, 0.1, 0.2},
+                    {0.9, 0.4, 0.1},
+                    {1.3, kInfinity, std::nan("")},
+                    {0.9, 0.4, 0.1}}};
+  const records::StabilityPicture picture{"a.exr", "./a-picture.png", "missing.png", 0.5};
+  record.pictures = {{1000, picture, picture}};
   return record;
 }
 
-Json paper_record() {
-  Json record = make_record("verify-paper");
-  record["command"] = {"lobelia", "verify", "paper"};
-  const auto claim = [](const char* name, const char* verdict) {
-    return Json{
-        {"name", name},
-        {"where", "eq. (1)"},
-        {"statement", std::string("it is so, ") + name},
-        {"printed", "1.7e-2"},
-        {"measured",
-         Json::array(
-             {{{"what", "largest"}, {"value", 0.017}, {"text", "1.70e-2"}, {"at", "n = 16"}}})},
-        {"definition", "by a scan"},
-        {"verdict", verdict},
-        {"reason", "because " + kHostileTitle}};
-  };
-  record["claims"] = Json::array({claim("one", "confirmed"), claim("two", "not reproduced"),
-                                  claim(kHostileTitle.c_str(), "found")});
-  record["figures"] = Json::array(
-      {{{"id", "bad id \""},
-        {"title", "A figure"},
-        {"description", "what it shows"},
-        {"x",
-         {{"label", "n"}, {"from", 16}, {"to", 1024}, {"logarithmic", true}, {"ticks", {16, 1e9}}}},
-        {"y", {{"label", "energy"}, {"from", -1}, {"to", 1}}},
-        {"bands", Json::array()},
-        {"series",
-         Json::array(
-             {{{"name", "line"}, {"style", 99}, {"x", {16, 64, 1024}}, {"y", {0, "nan", 0.5}}}})},
-        {"claims", {"two"}}}});
+records::Claim claim(const std::string& name, const std::string& verdict) {
+  return {name,
+          "eq. (1)",
+          "it is so, " + name,
+          "1.7e-2",
+          {{"largest", 0.017, "1.70e-2", "n = 16"}},
+          "by a scan",
+          verdict,
+          "because " + kHostileTitle};
+}
+
+records::VerifyPaper paper_record() {
+  records::VerifyPaper record;
+  record.command = {"lobelia", "verify", "paper"};
+  record.claims = {claim("one", "confirmed"), claim("two", "not reproduced"),
+                   claim(kHostileTitle, "found")};
+  record.figures = {{"bad id \"",
+                     "A figure",
+                     "what it shows",
+                     {"n", 16, 1024, true, {16, 1e9}},
+                     {"energy", -1, 1, {}, {}},
+                     {},
+                     {{"line", 99, {16, 64, 1024}, {0, std::nan(""), 0.5}}},
+                     {"two"}}};
   return record;
 }
 
 struct ViewCase {
   const char *name, *file;
-  Json (*record)();
+  std::string (*record)();
 };
-const ViewCase kViews[] = {{"explorer", "explorer/tables.json", explorer_record},
-                           {"stability", "stability/stability.json", stability_record},
-                           {"paper", "paper/paper.json", paper_record}};
+const ViewCase kViews[] = {
+    {"explorer", "explorer/tables.json", [] { return record_text(explorer_record()); }},
+    {"stability", "stability/stability.json", [] { return record_text(stability_record()); }},
+    {"paper", "paper/paper.json", [] { return record_text(paper_record()); }}};
 
 class RecordViews : public ::testing::TestWithParam<ViewCase> {
  protected:
   /// The text of the page, from a gallery of this record.
-  std::string put(const Json& record) {
+  std::string put(const std::string& record) {
     const auto path = farm_.directory() / GetParam().file;
     std::filesystem::create_directories(path.parent_path());
-    write_record(path, record);
+    write_file(path, record);
     if (std::string(GetParam().name) == "stability")
       write_file(path.parent_path() / "a-picture.png", tiny_png());
     write_gallery(farm_.directory());
@@ -163,8 +140,8 @@ TEST_P(RecordViews, AreNotThereWithoutTheirRecord) {
 
 TEST_P(RecordViews, OfABrokenRecordSaySoAndTheGalleryIsThere) {
   // Every member in turn of another type, and gone.
-  const Json whole = GetParam().record();
-  put(whole);
+  const Json whole = Json::parse(GetParam().record());
+  put(GetParam().record());
   const std::filesystem::path path = farm_.directory() / GetParam().file;
   const auto view = std::ranges::find(views(), GetParam().name, &View::name);
   int said = 0;
@@ -174,7 +151,7 @@ TEST_P(RecordViews, OfABrokenRecordSaySoAndTheGalleryIsThere) {
       for (const Json& other : {Json(-1e300), Json("text"), Json::array(), Json(nullptr)}) {
         Json broken = whole;
         broken[here] = other;
-        write_record(path, broken);
+        write_json(path, broken);
         const std::string text = "<main>" + view->draw(farm_.directory())->main.str() + "</main>";
         said += text.find("It cannot be shown") != text.npos;
         pugi::xml_document document;
@@ -194,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(All, RecordViews, ::testing::ValuesIn(kViews),
 
 class StabilityView : public RecordViews {};
 TEST_P(StabilityView, ShowsNumbersMeaningsAndWhatIsNoNumber) {
-  const std::string text = put(stability_record());
+  const std::string text = put(GetParam().record());
   EXPECT_THAT(text, HasSubstr("hard because &amp; why"));
   EXPECT_THAT(text, HasSubstr("no number"));
   EXPECT_THAT(text, HasSubstr("<strong>5</strong> not compared"));
@@ -206,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(One, StabilityView, ::testing::Values(kViews[1]));
 
 class PaperView : public RecordViews {};
 TEST_P(PaperView, TellsEachClaimWithItsNumberAndItsFigure) {
-  put(paper_record());
+  put(GetParam().record());
   const Site site(farm_.directory());
   const auto& page_of = site.page(page());
   EXPECT_EQ(page_of.select_nodes("//article").size(), 3u);

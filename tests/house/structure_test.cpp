@@ -29,17 +29,18 @@ std::string place(const fs::path& file, std::size_t line) {
 /// What each room may see besides itself. tests, bench and fuzz may see everything.
 const std::map<std::string, std::set<std::string>> kMaySee = {
     {"core", {}},
-    {"renderer", {"core"}},
-    {"compare", {"core"}},
-    {"verify", {"core", "renderer"}},
+    {"records", {"core"}},
+    {"renderer", {"core", "records"}},
+    {"compare", {"core", "records"}},
+    {"verify", {"core", "records", "renderer"}},
     {"shaders", {"core", "renderer"}},
-    {"reference_scenes", {"core", "renderer", "shaders", "verify"}},
-    {"farm", {"core", "renderer", "compare", "verify", "reference_scenes"}},
-    {"cost", {"core", "renderer", "compare", "verify", "reference_scenes"}},
-    {"gallery", {"core"}},
+    {"reference_scenes", {"core", "records", "renderer", "shaders", "verify"}},
+    {"farm", {"core", "records", "renderer", "compare", "verify", "reference_scenes"}},
+    {"cost", {"core", "records", "renderer", "compare", "verify", "reference_scenes"}},
+    {"gallery", {"core", "records"}},
     {"cli",
-     {"core", "renderer", "shaders", "compare", "verify", "reference_scenes", "farm", "cost",
-      "gallery"}},
+     {"core", "records", "renderer", "shaders", "compare", "verify", "reference_scenes", "farm",
+      "cost", "gallery"}},
 };
 
 /// Who alone may include a heavy library.
@@ -191,6 +192,31 @@ Problems loose_removals(const fs::path& root) {
   return lines_with(root, pattern, [](const fs::path& file) {
     return is_cpp(file) && file != "core/removal.cpp" && *file.begin() != "tests";
   });
+}
+
+/// Keys of JSON outside of records/: by the library, in the text of a string, or in a table.
+Problems loose_keys(const fs::path& root) {
+  static const std::regex pattern(R"re(#\s*include\s*<nlohmann/|\\"[A-Za-z_]+\\"\s*:|\.key<&)re");
+  return lines_with(root, pattern, [](const fs::path& file) {
+    const std::string room = file.begin()->string(), name = file.generic_string();
+    if (!is_cpp(file) || room == "records" || !kMaySee.contains(room)) return false;
+    // What Blender's own script is told is part of that engine.
+    return !name.starts_with("reference_scenes/blender/blender_job") &&
+           name != "cost/transport/cycles.cpp";
+  });
+}
+
+TEST(Records, alone_spell_their_keys) { EXPECT_THAT(loose_keys(kRoot), IsEmpty()); }
+
+TEST(Records, keys_that_others_spell_are_found) {
+  Scratch tree;
+  write(tree / "records/a.cpp", "#include <nlohmann/json.hpp>\nt.key<&A::b>(\"b\");\n");
+  write(tree / "tests/a.cpp", "#include <nlohmann/json.hpp>\n");
+  write(tree / "farm/a.cpp", "record.status = \"pass\";\nfmt::print(\"\\\"{}\\\": x\", y);\n");
+  ASSERT_THAT(loose_keys(tree.path()), IsEmpty());
+  write(tree / "farm/b.cpp",
+        "#include <nlohmann/json_fwd.hpp>\ntext += \"\\\"status\\\": \";\nt.key<&A::b>(\"b\");\n");
+  EXPECT_EQ(loose_keys(tree.path()).size(), 3u);
 }
 
 TEST(Words, nothing_is_removed_but_by_core_removal) {

@@ -5,10 +5,10 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
-#include "core/record.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/agreement/cases.hpp"
 #include "reference_scenes/agreement/witness.hpp"
+#include "tests/json.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 
 namespace lobelia::agreement {
@@ -55,7 +55,7 @@ TEST_F(AgreementCommand, FindsEveryWitnessWithinItsTargetButWhereTheDocumentatio
   options.working_directory = directory.path();
   const auto result = run_process(
       {LOBELIA_PROGRAM, "verify", "references", "--small", "-q", "-o", "table"}, options);
-  const Json record = read_record(directory.path() / "table" / "agreement.json", "agreement");
+  const Json record = read_json(directory.path() / "table" / "agreement.json");
   EXPECT_EQ(record["verdicts"]["failed"], 0) << result.output_tail;
   EXPECT_EQ(result.exit_code, record["verdicts"]["missed"] > 0 ? 1 : 0) << result.output_tail;
   std::map<std::string, int> pictures, refused;

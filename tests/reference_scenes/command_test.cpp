@@ -6,9 +6,9 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
-#include "core/record.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
+#include "tests/json.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 
 namespace lobelia {
@@ -87,7 +87,7 @@ TEST_F(ReferenceCommand, FormulasPerPixelNeedNoProgramAndTakeNone) {
   EXPECT_EQ(run({"--engine", "analytic", "--program", "/bin/true", "-o", "a.exr"}).exit_code, 2);
   EXPECT_THAT(files(), IsEmpty());
   ASSERT_EQ(run({"--engine", "analytic", "-o", "picture.exr"}).exit_code, 0);
-  const Json record = read_record(directory_.path() / "picture.json", "reference");
+  const Json record = read_json(directory_.path() / "picture.json");
   EXPECT_EQ(record.at("witness"), "analytic");
   EXPECT_EQ(record.at("engineCommands").size(), 0u);
 }
@@ -107,13 +107,13 @@ TEST_P(RealReferenceCommand, WritesTheSameFileEveryTimeAndARecordBesideIt) {
     one = read_file(directory_.path() / "picture.exr", 1 << 20);
   }
   EXPECT_TRUE(bytes[0] == bytes[1]);  // not EXPECT_EQ, which would print both
-  const Json record = read_record(directory_.path() / "picture.json", "reference");
+  const Json record = read_json(directory_.path() / "picture.json");
   EXPECT_EQ(record.at("witness"), "expressed");
   EXPECT_EQ(record.at("passes"), 2);
   EXPECT_EQ(record.at("engineCommands").size(), GetParam() == "povray" ? 2u : 1u);
   EXPECT_EQ(record.at("image").at("file"), "picture.exr");
   EXPECT_GT(record.at("seconds").at("total").get<double>(), 0);
-  EXPECT_THAT(record_text(record), testing::Not(HasSubstr(fs::temp_directory_path() / "lobelia-")));
+  EXPECT_THAT(record.dump(), testing::Not(HasSubstr(fs::temp_directory_path() / "lobelia-")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, RealReferenceCommand, testing::Values("povray", "blender"),

@@ -6,9 +6,9 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
-#include "core/record.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {

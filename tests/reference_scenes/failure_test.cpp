@@ -335,7 +335,7 @@ TEST_P(FakeEngine, RunsInNoMoreProcessesThanItMay) {
     const auto began = std::chrono::steady_clock::now();
     engine->render(plain_scenes(6), options, [&](std::size_t, ReferenceResult result) {
       ++count;
-      if (result.record.contains("threads")) threads.insert(result.record.at("threads").get<int>());
+      if (result.record.threads) threads.insert(*result.record.threads);
     });
     EXPECT_EQ(count, 6u);
     // That many sleeps, one after the other, cannot take less.
@@ -355,7 +355,7 @@ TEST_P(FakeEngine, WritesNothingOutsideItsOwnDirectory) {
   bool limited = false;
   engine->render(std::span(&scene, 1), {}, [&](std::size_t, ReferenceResult result) {
     ASSERT_EQ(result.error, "") << "its own directory is free";
-    limited = result.record.at("writesLimited");
+    limited = *result.record.writes_limited;
   });
   const bool can_limit = WriteLimit(directory_.path()).ruleset() >= 0;
   EXPECT_EQ(limited, can_limit) << "what the record says";
@@ -426,13 +426,13 @@ TEST_P(FakeBlender, RendersManyScenesInFewProcessesAndTellsWhatEachTook) {
   std::size_t first_ones = 0;
   for (const auto& [scene, result] : results) {
     ASSERT_EQ(result.error, "") << scene;
-    const double cpu = result.record.at("cpuSeconds"), peak = result.record.at("peakMemoryBytes");
+    const double cpu = *result.record.cpu_seconds, peak = double(*result.record.peak_memory_bytes);
     if (cpu == 3.5)
       ++first_ones;  // with what it took to start
     else
       EXPECT_EQ(cpu, 3) << scene;
     EXPECT_EQ(peak == 1000, cpu == 3.5);
-    EXPECT_EQ(result.record.at("threads"), std::max(1, threads_of({}) / 2));
+    EXPECT_EQ(result.record.threads, std::max(1, threads_of({}) / 2));
     const std::string log =
         read_file(directory_.path() / fmt::format("blender-{}.log", scene), 9999);
     EXPECT_THAT(log, HasSubstr(fmt::format("begin scene{}\n", scene)));

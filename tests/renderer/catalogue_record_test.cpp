@@ -6,6 +6,7 @@
 #include <set>
 
 #include "renderer/catalogue_record.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -27,7 +28,7 @@ const Json& find(const Json& list, std::string_view name) {
 }
 
 TEST(CatalogueRecord, HasEveryModelLobeAndTheirCombinationsMeasured) {
-  const Json record = catalogue_record(64);
+  const Json record = as_json(catalogue_record(64));
   EXPECT_EQ(record.at("models").size(), all_models().size());
   EXPECT_EQ(record.at("lobes").size(), all_lobes().size());
   // Two lobes have a coefficient of the paper beside the exact one.
@@ -38,7 +39,7 @@ TEST(CatalogueRecord, HasEveryModelLobeAndTheirCombinationsMeasured) {
 }
 
 TEST(CatalogueRecord, MeasuresThePaperMisprintAsTwiceTheEnergy) {
-  const Json record = catalogue_record(64);
+  const Json record = as_json(catalogue_record(64));
   int found = 0;
   for (const Json& h : record.at("highlights"))
     if (h.at("model") == "modified_blinn_phong" && h.at("lobe") == "cosine") {
@@ -50,7 +51,7 @@ TEST(CatalogueRecord, MeasuresThePaperMisprintAsTwiceTheEnergy) {
 }
 
 TEST(CatalogueRecord, KnowsTheHalfWidthAndTheSupportOfALobe) {
-  const Json record = catalogue_record(100);
+  const Json record = as_json(catalogue_record(100));
   const double degree = std::numbers::pi / 180;
   // cos^n is a half at arccos(2^(-1/n)); cs_k is 0 from 1 - cos = k/n on.
   EXPECT_NEAR(find(record.at("lobes"), "cosine").at("halfWidthDegrees").get<double>(),

@@ -8,6 +8,7 @@
 
 #include "lobelia_paths.hpp"
 #include "tests/cli/run_lobelia.hpp"
+#include "tests/json.hpp"
 #include "tests/verify/measured_claims.hpp"
 #include "verify/paper/errata.hpp"
 #include "verify/paper/plots.hpp"
@@ -94,14 +95,14 @@ TEST(PaperCommand, exits_with_0_and_writes_record_and_plots) {
                                   directory.path());
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(result.output_tail, HasSubstr("not reproduced"));
-  const Json record = read_record(directory.path() / "paper.json", "verify-paper");
+  const Json record = read_json(directory.path() / "paper.json");
   EXPECT_EQ(record["claims"].size(), measured_claims().size());
   EXPECT_EQ(record["notReproduced"], 13);
   const auto& drawn = drawn_plots();
-  EXPECT_EQ(record,
-            paper_record(measured_claims(),
-                         {"lobelia", "verify", "paper", "--json", "paper.json", "--plots", "plots"},
-                         drawn));
+  EXPECT_EQ(record, as_json(paper_record(
+                        measured_claims(),
+                        {"lobelia", "verify", "paper", "--json", "paper.json", "--plots", "plots"},
+                        drawn)));
   EXPECT_EQ(files_in(directory.path() / "plots"), drawn.size());
   for (const auto& plot : drawn)
     EXPECT_EQ(read_file(directory.path() / "plots" / plot.file, 1 << 20),

@@ -1,4 +1,5 @@
 // The tables and the record, on a report made by hand.
+#include "tests/json.hpp"
 #include "verify/stability/report.hpp"
 
 #include <gmock/gmock.h>
@@ -70,7 +71,7 @@ TEST(AReport, CountsWhatIsNotComparedAndPassesItNowhere) {
   const std::string text = report_text(report, false);
   EXPECT_THAT(text, HasSubstr("2 cases: 1 within their bounds, 0 outside, 1 not compared\n"));
   EXPECT_THAT(text, HasSubstr("0.00  1 not compared\n"));
-  const Json record = report_record(report, {"lobelia"}, "", true);
+  const Json record = as_json(report_record(report, {"lobelia"}, "", true));
   EXPECT_EQ(record["notCompared"], 1);
   EXPECT_EQ(record["byCase"][0]["notCompared"], 1);
   EXPECT_EQ(record["rows"][1]["outcome"], "not compared");
@@ -85,7 +86,7 @@ TEST(AReport, RecordsTheWorstOfEachExponentAndWhatIsHardAboutACase) {
   EXPECT_EQ(summaries[0].exponent, 16);
   EXPECT_EQ(summaries[0].naive.of_peak, 0.5);
   EXPECT_EQ(summaries[1].exponent, 1e6);
-  const Json record = report_record(report, {"lobelia"}, "", false);
+  const Json record = as_json(report_record(report, {"lobelia"}, "", false));
   ASSERT_EQ(record["groups"].size(), 1u);
   EXPECT_THAT(record["groups"][0]["meaning"].get<std::string>(), HasSubstr("as vectors"));
   EXPECT_THAT(record["byCase"][0]["meaning"].get<std::string>(), HasSubstr("One width"));
@@ -124,12 +125,12 @@ TEST(AReport, ShowsTheWorstOfEachLobeAndCaseAndSaysWhatIsOutside) {
   report.rows.push_back(row("b", "cs16", 1, 1, 2));
   EXPECT_EQ(report.count(Outcome::kOutside), 1u);
   EXPECT_THAT(report_text(report, false), HasSubstr("4 cases: 3 within their bounds, 1 outside,"));
-  const Json record = report_record(report, {"lobelia"}, "", false);
+  const Json record = as_json(report_record(report, {"lobelia"}, "", false));
   EXPECT_EQ(record["outside"], 1);
   ASSERT_EQ(record["rows"].size(), 1u);  // what is outside is recorded in any case
   EXPECT_EQ(record["rows"][0]["ours"]["value"], 2);
   EXPECT_EQ(record["rows"][0]["outcome"], "outside");
-  EXPECT_EQ(report_record(report, {"lobelia"}, "", true)["rows"].size(), 4u);
+  EXPECT_EQ(as_json(report_record(report, {"lobelia"}, "", true))["rows"].size(), 4u);
 }
 
 }  // namespace

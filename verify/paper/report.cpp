@@ -3,15 +3,56 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "core/chart_record.hpp"
+#include <cmath>
+#include <cstdlib>
 
 namespace lobelia::paper {
 namespace {
 
-long count(std::span<const Claim> claims, Verdict verdict) {
-  return std::count_if(claims.begin(), claims.end(),
-                       [verdict](const Claim& claim) { return claim.verdict == verdict; });
+std::size_t count(std::span<const Claim> claims, Verdict verdict) {
+  return std::size_t(std::ranges::count(claims, verdict, &Claim::verdict));
+}
+
+/// More digits than a drawing shows would only make the record long.
+std::vector<double> rounded(std::vector<double> values) {
+  for (double& value : values)
+    if (std::isfinite(value)) value = std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+  return values;
+}
+
+records::ChartAxis axis_record(const ChartAxis& axis) {
+  return {axis.label, axis.from, axis.to, axis.logarithmic ? std::optional(true) : std::nullopt,
+          axis.ticks};
+}
+
+records::PaperFigure figure_record(const Plot& plot) {
+  const Chart& chart = plot.chart;
+  records::PaperFigure record;
+  record.id = chart.id;
+  record.title = chart.title;
+  record.description = chart.description;
+  record.x = axis_record(chart.x);
+  record.y = axis_record(chart.y);
+  for (const ChartBand& band : chart.bands)
+    record.bands.push_back({band.label, band.from, band.to});
+  for (const ChartSeries& series : chart.series)
+    record.series.push_back({series.label, series.style, rounded(series.x), rounded(series.y)});
+  record.claims.assign(plot.claims.begin(), plot.claims.end());
+  return record;
+}
+
+records::Claim claim_record(const Claim& claim) {
+  records::Claim record;
+  record.name = claim.name;
+  record.where = claim.where;
+  record.statement = claim.statement;
+  record.printed = claim.printed;
+  for (const Figure& figure : claim.measured)
+    record.measured.push_back({figure.what, figure.value, figure.text, figure.at});
+  record.definition = claim.definition;
+  record.verdict = name(claim.verdict);
+  record.reason = claim.reason;
+  return record;
 }
 
 }  // namespace
@@ -38,35 +79,16 @@ std::string table_text(std::span<const Claim> claims) {
   return text + "\n" + counts_text(claims) + "\n";
 }
 
-Json paper_record(std::span<const Claim> claims, const std::vector<std::string>& command,
-                  std::span<const Plot> plots) {
-  Json record = make_record("verify-paper");
-  if (!command.empty()) record["command"] = command;
-  record["confirmed"] = count(claims, Verdict::kConfirmed);
-  record["notReproduced"] = count(claims, Verdict::kNotReproduced);
-  record["found"] = count(claims, Verdict::kFound);
-  record["claims"] = Json::array();
-  for (const Claim& claim : claims) {
-    Json measured = Json::array();
-    for (const Figure& figure : claim.measured) {
-      Json one = {{"what", figure.what}, {"value", figure.value}, {"text", figure.text}};
-      if (!figure.at.empty()) one["at"] = figure.at;
-      measured.push_back(one);
-    }
-    record["claims"].push_back({{"name", claim.name},
-                                {"where", claim.where},
-                                {"statement", claim.statement},
-                                {"printed", claim.printed},
-                                {"measured", measured},
-                                {"definition", claim.definition},
-                                {"verdict", name(claim.verdict)},
-                                {"reason", claim.reason}});
-  }
-  for (const Plot& plot : plots) {
-    Json figure = chart_record(plot.chart);
-    figure["claims"] = plot.claims;
-    record["figures"].push_back(figure);
-  }
+records::VerifyPaper paper_record(std::span<const Claim> claims,
+                                  const std::vector<std::string>& command,
+                                  std::span<const Plot> plots) {
+  records::VerifyPaper record;
+  record.command = command;
+  record.confirmed = count(claims, Verdict::kConfirmed);
+  record.not_reproduced = count(claims, Verdict::kNotReproduced);
+  record.found = count(claims, Verdict::kFound);
+  for (const Claim& claim : claims) record.claims.push_back(claim_record(claim));
+  for (const Plot& plot : plots) record.figures.push_back(figure_record(plot));
   return record;
 }
 

@@ -1,11 +1,11 @@
-// The measured claims for people (a table) and for programs (a record of kind verify-paper).
+// The measured claims for people (a table) and for programs (a record).
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/record.hpp"
+#include "records/paper.hpp"
 #include "verify/paper/claim.hpp"
 #include "verify/paper/plots.hpp"
 
@@ -17,8 +17,9 @@ std::string text_of(const Figure& figure);
 std::string counts_text(std::span<const Claim> claims);
 /// One line a claim: verdict, name, printed, measured; then the counts.
 std::string table_text(std::span<const Claim> claims);
-/// `command` is what made it. "figures" are the plots' charts; missing where none were drawn.
-Json paper_record(std::span<const Claim> claims, const std::vector<std::string>& command = {},
-                  std::span<const Plot> plots = {});
+/// `command` is what made it. Its figures are the charts of the plots.
+records::VerifyPaper paper_record(std::span<const Claim> claims,
+                                  const std::vector<std::string>& command = {},
+                                  std::span<const Plot> plots = {});
 
 }  // namespace lobelia::paper

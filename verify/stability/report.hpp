@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/record.hpp"
+#include "records/stability.hpp"
 #include "verify/stability/error_curves.hpp"
 #include "verify/stability/pictures.hpp"
 #include "verify/stability/row.hpp"
@@ -42,7 +42,8 @@ std::vector<Summary> by_exponent(const Rows& rows);
 /// `all`: every row, instead of the worst for each lobe and case.
 std::string report_text(const Report& report, bool all);
 /// With `all` or not, every row that is outside. `pictures` is the way from the record to their directory.
-Json report_record(const Report& report, const std::vector<std::string>& command,
-                   const std::filesystem::path& pictures, bool all);
+records::VerifyStability report_record(const Report& report,
+                                       const std::vector<std::string>& command,
+                                       const std::filesystem::path& pictures, bool all);
 
 }  // namespace lobelia::stability

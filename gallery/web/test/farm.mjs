@@ -105,12 +105,14 @@ function writeCell(cell, id, axes, status, size, pictures, noise) {
   for (const [engine] of isFull ? kEngines : pictures ? kEngines.slice(0, 1) : []) {
     const value = (x, y) => ours(x, y, size).map((v, c) => (v + 0.2) * (1 + noise * dither(x, y, c, engine.length)) - 0.2 + v * (errorOf[engine] ?? 0));
     writeFileSync(path.join(cell, `${engine}.png`), png(size, size, (x, y) => value(x, y).map((v) => encode(v / kPeak))));
-    images.push({ engine, ...(isFull ? { exr: `${engine}.exr` } : {}), png: `${engine}.png`, record: `${engine}.json` });
+    images.push({ engine, ...(isFull ? { exr: `${engine}.exr` } : {}), png: `${engine}.png`, record: `${engine}.json`, sha256: '' });
     if (isFull) writeFileSync(path.join(cell, `${engine}.exr`), exr(size, size, value));
-    json(path.join(cell, `${engine}.json`), made(engine === 'lobelia' ? 'render' : 'reference', {
-      engine: { name: engine, version: '1.2.3' }, command: ['lobelia', 'render', 'scene.xml'], seconds: { total: 0.25 },
-      rays: { camera: 4 }, plan: { effects: [{ name: 'shadows', on: false, reason: 'one convex body' }] }, witness: 'native',
-    }));
+    const both = { engine: { name: engine, version: '1.2.3' }, command: ['lobelia', 'render', 'scene.xml'], image: { file: `${engine}.exr`, width: size, height: size } };
+    json(path.join(cell, `${engine}.json`), engine === 'lobelia'
+      ? made('render', { ...both, highlights: [], samples: 1, seed: 0, rays: { camera: 4, shadow: 0, mirror: 0, scattered: 0 },
+        plan: { effects: [{ name: 'shadows', on: false, reason: 'one convex body' }], precision: 'float64', kernel: 'plain' },
+        instructionSet: 'AVX2', seconds: { plan: 0.05, render: 0.2, total: 0.25 } })
+      : made('reference', { ...both, witness: 'native', method: 'one pass', passes: 1, engineCommands: [], seconds: { total: 0.25 } }));
   }
   const comparisons = [];
   for (const [engine] of isFull ? kEngines.slice(1) : []) {
@@ -119,7 +121,7 @@ function writeCell(cell, id, axes, status, size, pictures, noise) {
       verdict: differs ? 'differs' : 'pass', a: 'lobelia.exr', b: `${engine}.exr`, nonfinite: { a: 0, b: 0 },
       viewing: { exposureStops: -1.3, pixelsPerDegree: 67 },
       metrics: { rmse: worst * 0.1, max_abs: worst * kPeak, 'max_abs.x': size / 2, 'max_abs.y': Math.round(size / 3), max_rel_peak: worst, ssim: 1 - worst, drift: engine === 'povray' ? -2e-7 : 1e-7 },
-      limits: [{ metric: 'max_rel_peak', limit, value: worst, pass: !differs }],
+      limits: [{ metric: 'max_rel_peak', limit, value: worst, pass: !differs }], disagreement: [],
     }));
     writeFileSync(path.join(cell, `lobelia-${engine}.png`), png(size, size, (x, y) => ours(x, y, size).map((v) => encode(v / kPeak))));
     comparisons.push({ a: 'lobelia', b: engine, record: `lobelia-${engine}.json`, png: `lobelia-${engine}.png`,
@@ -131,12 +133,15 @@ function writeCell(cell, id, axes, status, size, pictures, noise) {
     zones: { epicentreDegrees: [0, 10], flankDegrees: [10, 20], bloomingDegrees: [20, 40] },
     curve: { angleDegrees: degrees, pixels: degrees.map(() => 3), analytic: curve,
       ...Object.fromEntries(['lobelia', 'povray', 'blender'].map((e) => [e, curve.map((v, i) => v * (1 + (errorOf[e] ?? 0) * Math.cos(i)))])) },
-    images: { lobelia: { peak: 2.5, halfWidthDegrees: 11.8, energy: 0.01 } },
-    differences: { 'lobelia-povray': { epicentre: { maxAbs: 1e-3 } } },
+    images: { lobelia: { peak: 2.5, peakAngleDegrees: 0, halfWidthDegrees: 11.8, energy: 0.01 } },
+    differences: { 'lobelia-povray': Object.fromEntries(['epicentre', 'flank', 'blooming'].map((zone) => [zone, { pixels: 3, maxAbs: 1e-3, rms: 1e-3, maxRelPeak: 1e-3 }])) },
   }));
   json(path.join(cell, 'cell.json'), made('cell', { id, axes, status, exposureStops: Math.log2(1 / kPeak),
-    highlight: { model: 'phong_rdf', exponent: 16 }, images, comparisons, ...(isFull ? { profile: 'profile.json' } : {}),
-    problems: status === 'failed' ? [{ engine: 'blender', message: 'stopped after 600 s' }] : [] }));
+    highlight: { model: 'phong_rdf', lobe: 'cosine', normalisation: 'exact', exponent: 16, coefficient: 2.7 }, images, comparisons,
+    ...(isFull ? { profile: 'profile.json' } : {}), notComparable: [],
+    problems: status === 'failed' ? [{ engine: 'blender', message: 'stopped after 600 s', failure: 'timed out', attempts: 3 }] : [],
+    madeFrom: { program: '', libraries: '', arithmetic: { libm: '', kernels: '', processor: '' }, scene: '', contents: {}, engines: {} },
+    results: {}, files: [] }));
   seal(cell);
 }
 
@@ -151,7 +156,7 @@ export function writeFarm(directory, { title = 'A small farm', axes, size = 64, 
   const cells = places.map((place, i) => ({ id: Object.values(place).join('-'), status: 'pass', axes: place, pictures: true, ...cell(i, place) }));
   mkdirSync(path.join(directory, 'cells'), { recursive: true });
   json(path.join(directory, 'farm.json'), made('farm', {
-    title, grid: 'small.xml', command: 'lobelia farm small.xml -o out', host: { processor: 'abacus', threads: 2 },
+    title, grid: 'small.xml', command: 'lobelia farm small.xml -o out', host: { processor: 'abacus', threads: 2, system: 'Debian' },
     axes: names.map((name) => ({ name, values: axes[name].map((value) => ({ value, label: value })) })),
     engines: kEngines.map(([name, engineTitle]) => ({ name, title: engineTitle, version: '1.2.3', available: true })),
     cells: cells.map(({ id, status, axes: at }) => ({ id, status, axes: at })),

@@ -20,11 +20,11 @@ function put(file, record) {
 }
 
 const errors = (ofPeak) => ({ ofPeak, ulp: ofPeak === 'inf' ? 'inf' : ofPeak * 1e7, wrongPixels: 0 });
-const summary = (rest, naive) => ({ group: 'lobe', ...rest, cases: 3, outside: 0, naive: errors(naive), ours: errors(1e-8), ofBound: 0.5 });
-const curve = (exponent) => ({ exponent, degrees: [0, 1, 2], truth: [1, 0.5, 0.1], naive: [1.2, 0.4, 'inf'], ours: [1, 0.5, 0.1] });
+const summary = (rest, naive) => ({ group: 'lobe', ...rest, cases: 3, outside: 0, notCompared: 0, naive: errors(naive), ours: errors(1e-8), ofBound: 0.5 });
+const curve = (exponent) => ({ exponent, model: 'modified_phong', lobe: 'cosine', degrees: [0, 1, 2], truth: [1, 0.5, 0.1], naive: [1.2, 0.4, 'inf'], ours: [1, 0.5, 0.1] });
 const claim = (name, verdict) => ({ name, where: 'eq. (1)', statement: `it is so: ${name}`, printed: '1.7e-2', verdict,
   measured: [{ what: 'largest', value: 0.017, text: '1.70e-2', at: 'n = 16' }], definition: 'by a scan', reason: '' });
-const way = (name, median, max) => ({ name, settings: {}, seconds: { median, spread: 0.05 }, errors: { max } });
+const way = (name, median, max) => ({ name, settings: {}, seconds: { median, spread: 0.05, least: median, most: median, rounds: 5 }, errors: { max } });
 
 before(async () => {
   writeFarm(run, { axes: { model: ['phong'] }, size: 8, cell: () => ({}) });
@@ -32,20 +32,20 @@ before(async () => {
   lobelia('models', '--tables', path.join(run, 'explorer/tables.json'));
   tables = JSON.parse(readFileSync(path.join(run, 'explorer/tables.json'), 'utf8'));
   put('stability/stability.json', made('verify-stability', {
-    command: ['lobelia', 'verify', 'stability'], cases: 9, outside: 0, groups: [{ name: 'lobe', meaning: kHostile }],
+    command: ['lobelia', 'verify', 'stability'], instructionSet: 'AVX2', cases: 9, outside: 0, notCompared: 0, byLobe: [], groups: [{ name: 'lobe', meaning: kHostile }],
     byCase: [summary({ case: kHostile }, 'inf')],
     byExponent: ['cosine', 'cs16'].flatMap((lobe) => [1, 100, 1e4].map((n) => summary({ lobe, exponent: n }, lobe === 'cs16' && n > 100 ? 'inf' : n * 1e-6))),
     curves: [curve(1e3), curve(1e6)],
   }));
   put('paper/paper.json', made('verify-paper', {
-    command: ['lobelia', 'verify', 'paper'], claims: [claim('first', 'confirmed'), claim('second', 'not reproduced'), claim(kHostile, 'found')],
+    command: ['lobelia', 'verify', 'paper'], confirmed: 1, notReproduced: 1, found: 1, claims: [claim('first', 'confirmed'), claim('second', 'not reproduced'), claim(kHostile, 'found')],
     figures: [{ id: 'a"b', title: 'A figure', description: 'shown', x: { label: 'n', from: 16, to: 1024, logarithmic: true, ticks: [16, 1024] },
       y: { label: 'energy', from: 0, to: 1 }, bands: [], series: [{ name: 'line', style: 1, x: [16, 128, 1024], y: [0, 0.25, 0.5] }], claims: ['second'] }],
   }));
-  put('cost/cost.json', made('cost', { command: ['lobelia', 'cost'], host: { threads: 2 }, tables: [{
-    level: 'lobe', title: 'A lobe', per: 'evaluation', errors: [{ id: 'max', meaning: 'largest error' }],
+  put('cost/cost.json', made('cost', { command: ['lobelia', 'cost'], host: { processor: 'abacus', threads: 2, system: 'Debian' }, instructionSet: 'AVX2', tables: [{
+    id: 'lobe', unit: 's', level: 'lobe', title: 'A lobe', per: 'evaluation', errors: [{ id: 'max', meaning: 'largest error' }],
     ways: [way('quick', 1e-9, 0.1), way('middling', 2e-9, 0.05), way('slow', 8e-9, 1e-7), way(kHostile, 9e-9, 0.2), way('unknown', 1e-9, 'nan')],
-    fronts: { max: { ways: ['quick', 'middling', 'slow'], inWords: ['quick to slow'] } }, remarks: [] }] }));
+    fronts: { max: { ways: ['quick', 'middling', 'slow'], dominatedBy: {}, inWords: ['quick to slow'], chart: 'lobe-max.svg' } }, remarks: [] }] }));
   lobelia('gallery', run, '-o', site);
   [browser, server] = await Promise.all([launch(), serve(site)]);
 });

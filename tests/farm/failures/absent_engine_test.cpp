@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include "failing_farm.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -45,7 +46,7 @@ class AbsentEngine : public FailingFarm {
     fs::rename(program, root() / "bin" / "povray");
   }
   void uninstall() const { fs::remove(root() / "bin" / "povray"); }
-  Json engine() const { return read_record(out() / "farm.json", "farm").at("engines")[1]; }
+  Json engine() const { return read_json(out() / "farm.json").at("engines")[1]; }
 };
 
 TEST_F(AbsentEngine, KeepsWhatItMadeBeforeInCellsAndInTheFarmsRecord) {
@@ -87,7 +88,7 @@ TEST_F(AbsentEngine, MakesNothingNewAndTheCellSaysSo) {
   EXPECT_EQ(wider.exit_code, 0) << wider.output;
   EXPECT_THAT(wider.output, HasSubstr("0 differ, 2 pass, 1 not compared; 1 pictures rendered"));
   const auto cell = [&](const std::string& id) {
-    return read_record(out() / "cells" / id / "cell.json", "cell");
+    return read_json(out() / "cells" / id / "cell.json");
   };
   EXPECT_EQ(cell("n24").at("missingEngines"), Json::array({"povray"}));
   EXPECT_FALSE(cell("n16").contains("missingEngines"));

@@ -8,6 +8,7 @@
 #include "failing_farm.hpp"
 #include "farm/chunk.hpp"
 #include "reference_scenes/failure.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -102,11 +103,8 @@ TEST_F(OddEngine, ThatFailsAtFirstIsTriedAgainAndTheRecordSaysHowOften) {
   fake_povray("if [ $cell = n16 ] && " + first_times("failures", 2) + "; then kill -SEGV $$; fi");
   const FarmRun only = run();
   expect_mended(only, pictures());
-  EXPECT_EQ(
-      read_record(result_of("n16", "reference-povray") / "result.json", "result").at("attempts"),
-      3);
-  EXPECT_EQ(
-      read_record(result_of("n8", "reference-povray") / "result.json", "result").at("attempts"), 1);
+  EXPECT_EQ(read_json(result_of("n16", "reference-povray") / "result.json").at("attempts"), 3);
+  EXPECT_EQ(read_json(result_of("n8", "reference-povray") / "result.json").at("attempts"), 1);
 }
 
 TEST_F(OddEngine, ThatIsKilledWhenItIsAskedItsVersionIsAskedAgain) {
@@ -263,9 +261,7 @@ TEST_F(OddEngine, ThatNeedsMoreMemoryGetsTwiceAsMuchOnce) {
       "/dev/null");
   const FarmRun done = run({"--memory", "50M"});
   expect_mended(done, pictures());
-  EXPECT_EQ(
-      read_record(result_of("n16", "reference-povray") / "result.json", "result").at("attempts"),
-      2);
+  EXPECT_EQ(read_json(result_of("n16", "reference-povray") / "result.json").at("attempts"), 2);
 }
 
 TEST_F(OddEngine, IsNotNeededForAPictureOfOursThatIsTooLarge) {
@@ -313,7 +309,7 @@ TEST_F(OddEngine, ThatFailsAtEverythingOnANodeLeavesTheRestToAnother) {
   std::vector<JobIndex> jobs;
   for (JobIndex job = 0; job < work.graph.size(); ++job)
     if (work.graph[job].exists) jobs.push_back(job);
-  write_record(root() / "chunk.json", chunk_record(work, results, options, jobs));
+  records::write_record(root() / "chunk.json", chunk_record(work, results, options, jobs));
   const ChunkSummary first = exec_chunk(root() / "chunk.json", 1);
   EXPECT_GE(first.failed, 5u);
   EXPECT_GT(first.undone, 0u);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "failing_farm.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {

@@ -18,6 +18,7 @@
 #include "reference_scenes/povray/povray_input.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/render.hpp"
+#include "tests/json.hpp"
 
 extern char** environ;
 
@@ -338,20 +339,20 @@ std::size_t FailingFarm::cached_pictures() const {
   if (!fs::exists(cache() / "results")) return 0;
   for (const auto& entry : fs::recursive_directory_iterator(cache() / "results")) {
     if (entry.path().filename() != "result.json") continue;
-    const std::string job = read_record(entry.path(), "result").at("job");
+    const std::string job = read_json(entry.path()).at("job");
     count += job == "render" || job == "reference" ? 1 : 0;
   }
   return count;
 }
 
 fs::path FailingFarm::result_of(const std::string& cell, const std::string& job) const {
-  const Json record = read_record(out() / "cells" / cell / "cell.json", "cell");
+  const Json record = read_json(out() / "cells" / cell / "cell.json");
   const std::string key = record.at("results").at(job);
   return cache() / "results" / key.substr(0, 2) / key;
 }
 
 Json FailingFarm::failure_of(const std::string& cell) const {
-  const Json record = read_record(out() / "cells" / cell / "cell.json", "cell");
+  const Json record = read_json(out() / "cells" / cell / "cell.json");
   return record.at("problems").empty() ? Json::object() : record.at("problems")[0];
 }
 

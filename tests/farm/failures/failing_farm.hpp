@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/files.hpp"
-#include "core/record.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 

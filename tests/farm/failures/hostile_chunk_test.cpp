@@ -7,6 +7,7 @@
 #include "farm/chunk.hpp"
 #include "farm/job_graph.hpp"
 #include "lobelia_paths.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -14,19 +15,17 @@ namespace {
 class HostileChunk : public testing::Test {
  protected:
   HostileChunk() {
-    good_ = make_record("farm-chunk");
-    own_identity().put_into(good_);
-    good_["cache"] = (directory_.path() / "cache").string();
-    good_["limits"] = {{"timeLimit", 60}, {"noProgressLimit", 60}, {"attempts", 1}, {"memory", 0},
-                       {"disk", 0},       {"giveUpAfter", 5}};
-    good_["failed"] = (directory_.path() / "failed").string();
-    good_["engines"] = Json::array();
-    good_["cells"] = {
-        {{"id", "a"},
-         {"engines", Json::array()},
-         {"scene",
-          read_file(LOBELIA_SOURCE_DIR "/reference_scenes/scenes/oblique_45.xml", 1 << 20)},
-         {"jobs", {"a/render"}}}};
+    records::FarmChunk chunk;
+    own_identity().put_into(chunk);
+    chunk.cache = (directory_.path() / "cache").string();
+    chunk.limits = {60, 60, 1, 0, 0, 5};
+    chunk.failed = (directory_.path() / "failed").string();
+    chunk.cells = {
+        {"a",
+         {},
+         read_file(LOBELIA_SOURCE_DIR "/reference_scenes/scenes/oblique_45.xml", 1 << 20),
+         {"a/render"}}};
+    good_ = as_json(chunk);
   }
   ChunkSummary exec(const std::string& text) const {
     write_file(directory_.path() / "chunk.json", text);
@@ -51,10 +50,11 @@ TEST_F(HostileChunk, IsRefusedWithOneSentenceWhateverIsWrongInIt) {
     if (key == "madeBy" || key == "program" || key == "libraries") continue;
     Json without = good_;
     without.erase(key);
-    if (key != "failed") texts.push_back(without.dump());  // without it nothing is kept
+    if (key != "failed") texts.push_back(without.dump());  // without it, or empty, nothing is kept
     for (const Json& other : others) {
       // Without cells, or engines, there is nothing to be done, and a cache may have any name.
       if (other.type() == value.type() && (other.empty() || key == "cache")) continue;
+      if (key == "failed" && other == "") continue;
       Json chunk = good_;
       chunk[key] = other;
       texts.push_back(chunk.dump());

@@ -3,6 +3,7 @@
 
 #include "core/text.hpp"
 #include "failing_farm.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -26,7 +27,7 @@ constexpr char kWithoutFma[] = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA";
 class Key : public FailingFarm {
  protected:
   Json results(const std::string& cell) const {
-    return read_record(out() / "cells" / cell / "cell.json", "cell").at("results");
+    return read_json(out() / "cells" / cell / "cell.json").at("results");
   }
   FarmRun explain(const std::vector<std::string>& more,
                   const std::vector<std::string>& environment = {}) const {
@@ -178,18 +179,18 @@ TEST_F(Key, OfACellThatDoesNotLieInTheFarmIsNotExplained) {
   }
   EXPECT_EQ(explain({"n16", "no-job"}).exit_code, 3);
   const fs::path file = out() / "cells" / "n16" / "cell.json";
-  Json record = read_record(file, "cell");
+  Json record = read_json(file);
   for (const char* key : {"results", "madeFrom", "problems", "status"}) {
     Json other = record;
     other[key] = Json::array({1, "../../x"});
-    write_record(file, other);
+    write_json(file, other);
     EXPECT_THAT(explain({"n16"}).exit_code, testing::AnyOf(0, 3)) << key;
     other.erase(key);
-    write_record(file, other);
+    write_json(file, other);
     EXPECT_EQ(explain({"n16"}).exit_code, 3) << key;
   }
   record["results"]["render"] = "../../../outside";
-  write_record(file, record);
+  write_json(file, record);
   EXPECT_EQ(explain({"n16"}).exit_code, 3);
 }
 

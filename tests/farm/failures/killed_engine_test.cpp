@@ -9,6 +9,7 @@
 
 #include "failing_farm.hpp"
 #include "farm/farm_engines.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -46,7 +47,7 @@ TEST_F(KilledEngine, IsStartedAgainAndTheRecordSaysSo) {
   std::size_t again = 0;
   for (const char* cell : {"n8", "n16", "n32", "n64"})
     for (const char* job : {"reference-povray", "reference-blender"})
-      if (read_record(result_of(cell, job) / "result.json", "result").at("attempts") > 1) ++again;
+      if (read_json(result_of(cell, job) / "result.json").at("attempts") > 1) ++again;
   EXPECT_GE(again, 1u);
   expect_as_alone();
   EXPECT_EQ(run().rendered, 0u);
@@ -142,7 +143,7 @@ TEST_P(ClingingEngine, LeavesNothingWhenItHasMadeItsPictures) {
   meet(farm);
   EXPECT_EQ(farm.wait(), 0) << farm.output();
   EXPECT_TRUE(is_over(true));
-  const Json made = read_record(out() / "cells" / "n8" / "povray.json", "reference");
+  const Json made = read_json(out() / "cells" / "n8" / "povray.json");
   EXPECT_NE(made.at("contained"), *GetParam() == '\0' ? "none" : "pid namespace");
 }
 

@@ -126,7 +126,7 @@ TEST_F(LostCache, VerifyReadsTheFilesUnderCellsToo) {
   EXPECT_EQ(verify.exit_code, 1) << verify.output;
   for (const char* line : {"damaged: cells/n16/povray.exr has another content",
                            "damaged: cells/n8/lobelia.png is missing",
-                           "damaged: cells/n32/cell.json is not a cell's record"})
+                           "damaged: cells/n32/cell.json is damaged: not a record of kind 'cell'"})
     EXPECT_THAT(verify.output, HasSubstr(line));
   EXPECT_EQ(run_command({"farm", "verify", "out", "-q", "--remove"}).exit_code, 0);
   expect_mended(run(), 0);

@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/record.hpp"
 #include "tests/farm/slurm/fake_slurm.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -130,7 +130,7 @@ TEST_F(Doctor, OnANodeSeesALockThatIsGivenAwayTwice) {
   fs::create_directories(in("shared"));
   write_file(in("shared") / "token", "t");
   doctor_on_node(in("shared"));  // nobody holds it
-  const Json answer = read_record(in("shared") / "node.json", "slurm-doctor");
+  const Json answer = read_json(in("shared") / "node.json");
   EXPECT_THAT(answer["lock"].get<std::string>(), HasSubstr("given away again"));
   EXPECT_EQ(answer["rename"], "");
   EXPECT_EQ(answer["link"], "");

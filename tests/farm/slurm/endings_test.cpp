@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/record.hpp"
 #include "farm/chunk_report.hpp"
 #include "tests/farm/slurm/fake_slurm.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -52,7 +52,7 @@ TEST_F(FakeSlurmEndings, AtTheTimeLimitGetTwiceTheTime) {
                                     "2:00:00 instead of 1:00:00.\n")));
   ASSERT_THAT(arrays(), SizeIs(2));
   EXPECT_THAT(lines("submitted").back(), HasSubstr("--time=1:00:00")) << "the last has no more";
-  const Json record = read_record(toy.run_directory() / "slurm.json", "slurm-run");
+  const Json record = read_json(toy.run_directory() / "slurm.json");
   EXPECT_EQ(record["arrays"][2]["time"], "2:00:00");
 }
 

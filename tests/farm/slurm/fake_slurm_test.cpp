@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/record.hpp"
 #include "farm/slurm/slurm_client.hpp"
 #include "tests/farm/slurm/fake_slurm.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -89,7 +89,7 @@ TEST_F(FakeSlurm, IsAskedForAnArrayOfPicturesThenForOneOfWhatReadsThemThenForThe
               AllOf(HasSubstr("--array=0-0%3 "), HasSubstr("--dependency=afterany:100 ")));
   EXPECT_THAT(submitted[2],
               AllOf(Not(HasSubstr("--array")), HasSubstr("--dependency=afterany:100:101 ")));
-  const Json record = read_record(toy.run_directory() / "slurm.json", "slurm-run");
+  const Json record = read_json(toy.run_directory() / "slurm.json");
   EXPECT_EQ(record["nextChunk"], 7);
   ASSERT_EQ(record["arrays"].size(), 3u);
   EXPECT_EQ(record["arrays"][1]["job"], 101);

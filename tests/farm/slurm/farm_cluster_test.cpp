@@ -5,6 +5,7 @@
 
 #include "tests/farm/failures/failing_farm.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -126,8 +127,8 @@ TEST_F(FarmOnCluster, AJobThatFailsCostsOnlyItself) {
   EXPECT_EQ(farm.exit_code, 4) << farm.output;
   EXPECT_THAT(farm.output, HasSubstr("n20: povray"));
   EXPECT_EQ(cached_pictures(), kFarmPictures - 1);
-  EXPECT_EQ(read_record(out() / "cells" / "n20" / "cell.json", "cell").at("status"), "failed");
-  EXPECT_EQ(read_record(out() / "cells" / "n18" / "cell.json", "cell").at("status"), "pass");
+  EXPECT_EQ(read_json(out() / "cells" / "n20" / "cell.json").at("status"), "failed");
+  EXPECT_EQ(read_json(out() / "cells" / "n18" / "cell.json").at("status"), "pass");
 }
 
 /// Where Slurm kills what uses more memory than it asked for.

@@ -6,6 +6,7 @@
 
 #include "renderer/albedo.hpp"
 #include "renderer/highlight_tables.hpp"
+#include "tests/json.hpp"
 
 namespace lobelia {
 namespace {
@@ -41,7 +42,7 @@ double curve_value(const Json& lobe, double stored) {
 
 class HighlightTables : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { table_ = new Json(highlight_tables(table_exponents())); }
+  static void SetUpTestSuite() { table_ = new Json(as_json(highlight_tables(table_exponents()))); }
   static void TearDownTestSuite() { delete table_; }
   static std::vector<double> random_exponents(int count) {
     std::mt19937 random(20);
@@ -56,7 +57,7 @@ Json* HighlightTables::table_ = nullptr;
 
 TEST_F(HighlightTables, GiveBetweenTheirExponentsWhatTheRendererGives) {
   const std::vector<double> exponents = random_exponents(12);
-  const Json truth = highlight_tables(exponents);
+  const Json truth = as_json(highlight_tables(exponents));
   for (std::size_t e = 0; e < exponents.size(); ++e) {
     const double n = exponents[e];
     for (std::size_t l = 0; l < truth["lobes"].size(); ++l) {

@@ -1,23 +1,10 @@
 // Reads what gallery/half_picture.cpp and float_pictures.cpp wrote.
 import { load } from '../lib/data';
+import type { PackedPicture } from '../records';
 
-export interface FloatPicture {
-  readonly width: number;
-  readonly height: number;
+export interface FloatPicture extends Omit<PackedPicture, 'planes' | 'predicted'> {
   /** Values, or where `fromOurs` their difference from ours: three to a pixel, row 0 on top. */
   readonly values: Float32Array;
-  readonly fromOurs: boolean;
-  /** Each pixel stands for so many of the cell's in either direction. */
-  readonly block: number;
-  readonly scaleLog2: number;
-  readonly mantissaBits: number;
-  /** What is smaller was taken for 0. */
-  readonly least: number;
-}
-
-interface Packed {
-  width: number; height: number; fromOurs: boolean; block: number; scaleLog2: number; mantissaBits: number; least: number;
-  predicted: boolean; planes: string;
 }
 
 async function inflated(base64: string): Promise<Uint8Array> {
@@ -37,7 +24,7 @@ function halfValues(scaleLog2: number): Float64Array {
   return table;
 }
 
-function unpacked(bytes: Uint8Array, packed: Packed): Float32Array {
+function unpacked(bytes: Uint8Array, packed: PackedPicture): Float32Array {
   const { width, height } = packed, pixels = width * height;
   const values = new Float32Array(3 * pixels);
   const table = halfValues(packed.scaleLog2), shift = 10 - packed.mantissaBits;
@@ -81,7 +68,7 @@ export function loadFloatPicture(source: string): Promise<FloatPicture> {
 }
 
 async function loadOne(source: string): Promise<FloatPicture> {
-  const packed = await load<Packed>('float picture', source);
+  const packed = await load<PackedPicture>('float picture', source);
   const bytes = await inflated(packed.planes);
   if (bytes.length !== 6 * packed.width * packed.height) throw new Error(source + ' is damaged');
   return { ...packed, values: unpacked(bytes, packed) };

@@ -1,15 +1,8 @@
 // Where two pictures look different, by a metric: made by the program, of pairs that it compared.
 import { loadFloatPicture, type FloatPicture } from './half_picture';
+import type { ShownMap } from '../records';
 
-/** What gallery/cell_json.cpp writes of one. */
-export interface DifferenceMap {
-  readonly id: string;
-  readonly title: string;
-  readonly meaning: string;
-  readonly script: string;
-}
-
-export interface LoadedMap extends DifferenceMap {
+export interface LoadedMap extends ShownMap {
   readonly picture: FloatPicture;
   readonly worst: { readonly value: number; readonly x: number; readonly y: number };
 }
@@ -20,7 +13,7 @@ export function valueOfMap(map: LoadedMap, x: number, y: number): number | undef
   return column < 0 || row < 0 || column >= width || row >= height ? undefined : values[3 * (row * width + column)];
 }
 
-function withWorst(map: DifferenceMap, picture: FloatPicture): LoadedMap {
+function withWorst(map: ShownMap, picture: FloatPicture): LoadedMap {
   let value = 0, at = 0;
   for (let i = 0; i < picture.values.length; i += 3) {
     const one = picture.values[i]!;
@@ -36,7 +29,7 @@ export class DifferenceMaps {
   constructor(private readonly repaint: () => void, private readonly tell: (words: string) => void) {}
 
   /** Undefined until it is there; the first time it is asked for it is on its way. */
-  of(map: DifferenceMap): LoadedMap | undefined {
+  of(map: ShownMap): LoadedMap | undefined {
     if (!this.asked.has(map.script)) {
       this.asked.add(map.script);
       loadFloatPicture(map.script).then((picture) => {

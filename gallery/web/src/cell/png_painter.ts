@@ -1,11 +1,11 @@
 // Where there are no float pictures, or no WebGL 2: the 8-bit pictures, at the one exposure that they have.
-import type { CellData, PictureFile } from './data';
+import type { CellPage, ShownPicture } from '../records';
 import type { Painter, Pane, Viewport } from './painter';
 
 export class PngPainter implements Painter {
   private readonly images = new Map<string, HTMLImageElement>();
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly data: CellData,
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly data: CellPage,
               private readonly repaint: () => void, private readonly isWaiting: () => boolean) {}
 
   paint(width: number, height: number, panes: readonly Pane[]): void {
@@ -41,7 +41,7 @@ export class PngPainter implements Painter {
     this.draw(context, second?.picture, at, view);
   }
 
-  private draw(context: CanvasRenderingContext2D, file: PictureFile | null | undefined,
+  private draw(context: CanvasRenderingContext2D, file: ShownPicture | null | undefined,
                at: Pane['at'], view: Viewport): void {
     if (!file) return;
     // The whole picture only where no float picture is to come.

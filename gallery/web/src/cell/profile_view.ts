@@ -3,7 +3,7 @@ import { Chart, rangeOf, type Band, type Series } from '../lib/chart';
 import { h, select } from '../lib/dom';
 import { toNumber } from '../lib/numbers';
 import type { HashState } from '../lib/state';
-import type { CellData, Profile } from './data';
+import type { CellPage, ShownProfile } from '../records';
 
 const kScales = [
   { value: 'linear', label: 'Radiance, linear' },
@@ -13,7 +13,7 @@ const kScales = [
 ] as const;
 const kFormula = 'analytic';
 
-function curves(data: CellData, profile: Profile): Series[] {
+function curves(data: CellPage, profile: ShownProfile): Series[] {
   const x = profile.degrees.map(toNumber);
   const order = [kFormula, ...data.engines.map((e) => e.name).filter((name) => name !== kFormula)];
   return order.flatMap((name) => {
@@ -27,7 +27,7 @@ function curves(data: CellData, profile: Profile): Series[] {
   });
 }
 
-export function profileView(data: CellData, state: HashState<'scale'>): HTMLElement | undefined {
+export function profileView(data: CellPage, state: HashState<'scale'>): HTMLElement | undefined {
   const profile = data.profile;
   if (!profile || profile.degrees.length === 0) return undefined;
   const all = curves(data, profile);

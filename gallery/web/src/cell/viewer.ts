@@ -5,7 +5,7 @@ import { announce, button, h, isTyping, select, svg } from '../lib/dom';
 import { clamp, numberText, percentText, shortText, toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import { cssGradient } from './colours';
-import type { CellData } from './data';
+import type { CellPage } from '../records';
 import { GlPainter } from './gl_painter';
 import { loadFloatPicture, roundingAt, type FloatPicture } from './half_picture';
 import { lineAcross, sampled } from './line';
@@ -69,7 +69,7 @@ export class Viewer {
   private pending = false;
   private readonly largest = new Map<string, { value: number; x: number; y: number }>();
 
-  constructor(private readonly data: CellData, private readonly state: ViewerState) {
+  constructor(private readonly data: CellPage, private readonly state: ViewerState) {
     this.isWaiting = Boolean(data.engines[0]?.floatScript);
     const first = data.engines.find((e) => e.picture);
     if (first?.picture) ({ width: this.width, height: this.height } = first.picture);
@@ -348,7 +348,7 @@ export class Viewer {
     return found;
   }
 
-  private comparisonOf(a: number, b: number): CellData['comparisons'][number] | undefined {
+  private comparisonOf(a: number, b: number): CellPage['comparisons'][number] | undefined {
     const names = [this.data.engines[a]?.name, this.data.engines[b]?.name];
     return a === b ? undefined : this.data.comparisons.find((c) => names.includes(c.a) && names.includes(c.b) && c.a !== c.b);
   }

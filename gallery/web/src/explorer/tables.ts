@@ -1,26 +1,7 @@
 // Tables that the library wrote (docs/records.md, highlight-tables; gallery/explorer_page.cpp), interpolated over the
 // exponent. What a lobe or a model is stands nowhere here.
 
-export interface LobeTable {
-  readonly name: string; readonly title: string; readonly formula: string;
-  readonly order: number; readonly unit: number;
-  readonly reach: readonly number[]; readonly halfWidth: readonly number[];
-  readonly curves: readonly (readonly number[])[];
-}
-export interface ModelTable {
-  readonly name: string; readonly title: string; readonly angle: string; readonly appliesCosine: boolean;
-  readonly coefficient: string;
-}
-export interface HighlightTable {
-  readonly model: string; readonly lobe: string; readonly unit: number;
-  readonly exact: readonly number[]; readonly paper?: readonly number[];
-  readonly seen: readonly (readonly number[])[]; readonly lit?: readonly (readonly number[])[];
-}
-export interface Tables {
-  readonly exponents: readonly number[]; readonly perOctave: number; readonly mostGrazing: number;
-  readonly models: readonly ModelTable[]; readonly lobes: readonly LobeTable[];
-  readonly highlights: readonly HighlightTable[];
-}
+import type { HighlightTable, HighlightTables, LobeTable } from '../records';
 
 export interface Curve { readonly x: number[]; readonly y: number[] }
 
@@ -53,7 +34,7 @@ export function refined(values: readonly number[]): number[] {
   return result;
 }
 
-export function unpacked(packed: Tables): Tables {
+export function unpacked(packed: HighlightTables): HighlightTables {
   return {
     ...packed,
     lobes: packed.lobes.map((l) => ({ ...l, curves: summed(l.curves) })),
@@ -72,7 +53,7 @@ export class AtExponent {
   private readonly first: number;
   private readonly weights: number[];
 
-  constructor(private readonly tables: Tables, readonly n: number) {
+  constructor(private readonly tables: HighlightTables, readonly n: number) {
     const { exponents, perOctave } = tables;
     const octaves = (exponents.length - 1) / perOctave;
     const at = Math.log2(n / exponents[0]!), octave = Math.max(0, Math.min(octaves - 1, Math.floor(at)));

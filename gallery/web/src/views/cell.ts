@@ -1,5 +1,5 @@
 // The page of a cell: a viewer in place of the row of pictures, and curves that can be read.
-import type { CellData } from '../cell/data';
+import type { CellPage } from '../records';
 import { profileView } from '../cell/profile_view';
 import { Viewer, viewerState } from '../cell/viewer';
 import { pageData } from '../lib/data';
@@ -14,7 +14,7 @@ function takeStateAlong(main: HTMLElement): void {
 }
 
 export function cell(main: HTMLElement): void {
-  const data = pageData<CellData>();
+  const data = pageData<CellPage>();
   if (!data) return;
   takeStateAlong(main);
   const state = viewerState();

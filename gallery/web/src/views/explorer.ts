@@ -1,10 +1,11 @@
 // One highlight, or two laid over each other: curve, coefficient, peak, width and energy, as the exponent moves.
-import { AtExponent, unpacked, type HighlightTable, type LobeTable, type ModelTable, type Tables } from '../explorer/tables';
+import { AtExponent, unpacked } from '../explorer/tables';
 import { Chart, rangeOf, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
 import { h, select } from '../lib/dom';
 import { clamp, numberText } from '../lib/numbers';
 import { HashState } from '../lib/state';
+import type { HighlightTable, HighlightTables, LobeTable, ModelTable } from '../records';
 
 type Field = 'lobe' | 'model' | 'norm' | 'n';
 type Key = Field | `${Field}2` | 'two' | 'scale' | 'unit';
@@ -17,7 +18,7 @@ interface Chosen {
 }
 
 export function explorer(main: HTMLElement): void {
-  const data = pageData<Tables>(), place = main.querySelector('#explorer');
+  const data = pageData<HighlightTables>(), place = main.querySelector('#explorer');
   if (data && place) new Explorer(unpacked(data), place);
 }
 
@@ -33,7 +34,7 @@ class Explorer {
   private readonly unit;
   private readonly note = h('p', { class: 'stage-note' });
 
-  constructor(private readonly tables: Tables, place: Element) {
+  constructor(private readonly tables: HighlightTables, place: Element) {
     const middle = tables.exponents.includes(64) ? '64' : String(tables.exponents[0]);
     const model = tables.models[1]?.name ?? '', lobe = tables.lobes[0]?.name ?? '';
     const other = tables.lobes.find((l) => l.name === 'cs16')?.name ?? lobe;

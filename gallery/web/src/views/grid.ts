@@ -1,10 +1,10 @@
 // The grid: any two axes as rows and columns, coloured by any metric, filtered, failures first.
 import { colourAt, cssGradient } from '../cell/colours';
-import type { GridCell, GridData, GridMetric } from '../grid_data';
 import { pageData } from '../lib/data';
 import { announce, button, h, isTyping, select } from '../lib/dom';
 import { numberText, percentText, toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
+import type { GridCell, GridMetric, GridPage } from '../records';
 
 /** Worst first: what a reader has to look at. */
 const kFlaws = ['damaged', 'lost', 'changed'];
@@ -14,7 +14,7 @@ const kNone = '-1';
 const kAll = '*';
 
 export function grid(main: HTMLElement): void {
-  const data = pageData<GridData>();
+  const data = pageData<GridPage>();
   const first = main.querySelector('.grid-section');
   if (data && first && data.cells.length > 0) new GridView(main, first, data);
 }
@@ -38,7 +38,7 @@ class GridView {
   private readonly made = new Map<GridCell, { element: HTMLElement; value: HTMLElement; swatch: HTMLElement }>();
   private readonly haystack = new Map<GridCell, string>();
 
-  constructor(main: HTMLElement, first: Element, private readonly data: GridData) {
+  constructor(main: HTMLElement, first: Element, private readonly data: GridPage) {
     const { rows, groups, columns } = data.layout;
     this.state = new HashState({
       rows: String(rows), cols: String(columns), group: String(groups), find: '', status: '', order: 'grid',

@@ -1,17 +1,13 @@
 // The paper's claims: filtered by verdict and words, and curves that can be read.
-import { Chart, type Axis, type Band, type Series } from '../lib/chart';
+import { Chart, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
 import { h, select } from '../lib/dom';
-import { toNumber, type RecordNumber } from '../lib/numbers';
+import { toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
-
-interface RecordChart {
-  id: string; title: string; x: Axis; y: Axis; bands: Band[];
-  series: { name: string; style: number; x: RecordNumber[]; y: RecordNumber[] }[];
-}
+import type { PaperFigure, PaperPage } from '../records';
 
 export function paper(main: HTMLElement): void {
-  drawCharts(main, pageData<{ charts: RecordChart[] }>()?.charts ?? []);
+  drawCharts(main, pageData<PaperPage>()?.charts ?? []);
   const claims = [...main.querySelectorAll<HTMLElement>('.claim')];
   const section = main.querySelector('.claims h2');
   if (!section || claims.length === 0) return;
@@ -52,7 +48,7 @@ export function paper(main: HTMLElement): void {
   refresh();
 }
 
-function drawCharts(main: HTMLElement, charts: readonly RecordChart[]): void {
+function drawCharts(main: HTMLElement, charts: readonly PaperFigure[]): void {
   for (const content of charts) {
     const drawing = main.querySelector(`[data-chart="${CSS.escape(content.id)}"] > svg`);
     if (!drawing) continue;

@@ -4,11 +4,7 @@ import { pageData } from '../lib/data';
 import { h, select } from '../lib/dom';
 import { numberText, toNumber, type RecordNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
-
-interface Data {
-  summaries: { group: string; lobe: string; exponent: RecordNumber; naive: RecordNumber[]; ours: RecordNumber[] }[];
-  curves: { exponent: RecordNumber; degrees: RecordNumber[]; truth: RecordNumber[]; naive: RecordNumber[]; ours: RecordNumber[] }[];
-}
+import type { StabilityPage } from '../records';
 
 const kLabels = ['largest error, of the peak', 'largest error, units in the last place'];
 const kNoNumber = [10, 1e10];  // where it is drawn
@@ -16,7 +12,7 @@ const kNaive = 2, kOurs = 1;  // styles, as the page's static charts have them
 type State = HashState<'group' | 'lobe' | 'kind' | 'n' | 'show'>;
 
 export function stability(main: HTMLElement): void {
-  const data = pageData<Data>();
+  const data = pageData<StabilityPage>();
   if (!data) return;
   const exponents = data.curves.map((c) => String(toNumber(c.exponent)));
   const state: State = new HashState({
@@ -37,7 +33,7 @@ function replace(main: HTMLElement, id: string, content: HTMLElement): void {
   drawing.after(content);
 }
 
-function overExponent(data: Data, state: State): HTMLElement {
+function overExponent(data: StabilityPage, state: State): HTMLElement {
   const unique = (values: string[]): { value: string; label: string }[] => [...new Set(values)].map((value) => ({ value, label: value }));
   const chart = new Chart('Error over exponent', 380);
   const change = (changes: Record<string, string>): void => { state.set(changes); draw(); };
@@ -74,7 +70,7 @@ function overExponent(data: Data, state: State): HTMLElement {
     h('p', { class: 'note' }, 'Against a reference of 50 digits. A line at the top edge means that the textbook gave no number.'));
 }
 
-function overAngle(data: Data, exponents: string[], state: State): HTMLElement {
+function overAngle(data: StabilityPage, exponents: string[], state: State): HTMLElement {
   const chart = new Chart('A highlight over the angle', 380);
   const change = (changes: Record<string, string>): void => { state.set(changes); draw(); };
   const exponent = select('Exponent n', exponents.map((n) => ({ value: n, label: numberText(Number(n), 4) })), '', (v) => change({ n: v }), 'exponent');

@@ -1,0 +1,214 @@
+#include "gallery/checked_cell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "gallery/judgement.hpp"
+#include "records/record.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// Messages name files with the path we opened; a page that may be moved must not.
+std::string without_directory(std::string message, const fs::path& directory) {
+  const std::string prefix = directory.string() + "/";
+  for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix, at)) {
+    message.erase(at, prefix.size());
+  }
+  return message;
+}
+
+/// Reads what cell.json names, as far as it is as the farm wrote it; notes every flaw in the cell.
+class CellReader {
+ public:
+  CellReader(fs::path directory, CheckedCell& cell)
+      : directory_(std::move(directory)), evidence_(directory_, cell.record.files), cell_(cell) {
+    cell_.flaws = evidence_.flaws();
+  }
+
+  void read();
+
+ private:
+  EnginePicture read_image(const records::CellImage& entry);
+  CheckedComparison read_comparison(const records::CellComparison& entry);
+  const Flaw* flaw_of(const std::string& file) const;
+  /// `file` if it is there and as it was, otherwise nothing.
+  std::string use(const std::string& file);
+  Picture picture(const std::string& file);
+  /// Returns why it cannot be read; empty if it can.
+  template <class T>
+  std::string read_named(const std::string& file, T& record, std::string* made_by = nullptr);
+
+  fs::path directory_;
+  Evidence evidence_;
+  CheckedCell& cell_;
+};
+
+const Flaw* CellReader::flaw_of(const std::string& file) const {
+  const auto at = std::ranges::find(cell_.flaws, file, &Flaw::file);
+  return at == cell_.flaws.end() ? nullptr : &*at;
+}
+
+std::string CellReader::use(const std::string& file) {
+  if (file.empty() || flaw_of(file)) return "";
+  if (evidence_.has(file)) return file;
+  if (is_file(directory_ / file)) {
+    cell_.is_sealed = false;
+    return file;
+  }
+  cell_.flaws.push_back({file, CellStatus::kLost, file + " is missing."});
+  return "";
+}
+
+Picture CellReader::picture(const std::string& file) {
+  const std::string whole = use(file);
+  if (whole.empty() && !file.empty()) return {file, 0, 0, flaw_of(file)->message};
+  Picture picture = look_at_picture(directory_, whole);
+  if (!whole.empty() && !picture.shown())
+    cell_.flaws.push_back({file, CellStatus::kDamaged, picture.why_not});
+  return picture;
+}
+
+template <class T>
+std::string CellReader::read_named(const std::string& file, T& record, std::string* made_by) {
+  if (use(file).empty()) return flaw_of(file)->message;
+  try {
+    records::Origin origin;
+    record = records::read_record<T>(directory_ / file, &origin);
+    if (made_by) *made_by = origin.made_by;
+    return "";
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    cell_.flaws.push_back(
+        {file, CellStatus::kDamaged, without_directory(error.what(), directory_)});
+    return cell_.flaws.back().message;
+  }
+}
+
+EnginePicture CellReader::read_image(const records::CellImage& entry) {
+  EnginePicture image;
+  image.engine = entry.engine;
+  image.png = picture(entry.png);
+  image.exr = use(entry.exr);
+  if (!image.exr.empty()) image.exr_sha256 = evidence_.hash_of(image.exr);
+  const std::string log = image.engine + ".log";
+  if (is_file(directory_ / log) && !flaw_of(log)) image.log = log;
+  // Ours is a render, everybody else's a reference.
+  image.problem = image.engine == kOurEngine
+                      ? read_named(entry.record, image.render.emplace(), &image.made_by)
+                      : read_named(entry.record, image.reference.emplace(), &image.made_by);
+  if (image.problem.empty())
+    image.record = entry.record;
+  else
+    image.render.reset(), image.reference.reset();
+  return image;
+}
+
+CheckedComparison CellReader::read_comparison(const records::CellComparison& entry) {
+  CheckedComparison comparison;
+  comparison.entry = entry;
+  comparison.png = picture(entry.png);
+  comparison.problem = read_named(entry.record, comparison.record);
+  comparison.verdict = comparison.record.verdict;
+  return comparison;
+}
+
+void CellReader::read() {
+  const records::Cell& record = cell_.record;
+  if (record.id != cell_.id)
+    throw Error(ExitCode::kInput,
+                fmt::format("cell.json: id: '{}' is not the name of the cell's directory",
+                            printable(record.id)));
+  cell_.status = *find_status(record.status);
+  for (const auto& image : record.images) cell_.images.push_back(read_image(image));
+  for (const auto& comparison : record.comparisons)
+    cell_.comparisons.push_back(read_comparison(comparison));
+  if (!record.profile.empty()) {
+    cell_.profile_problem = read_named(record.profile, cell_.profile.emplace());
+    if (!cell_.profile_problem.empty()) cell_.profile.reset();
+  }
+  if (flaw_of("scene.xml")) cell_.has_scene = false;
+}
+
+}  // namespace
+
+std::optional<double> CheckedComparison::metric(const std::string& id) const {
+  const double* value = records::find(record.metrics, id);
+  return value ? std::optional(*value) : std::nullopt;
+}
+
+const EnginePicture* CheckedCell::find_image(const std::string& engine) const {
+  const auto at = std::ranges::find(images, engine, &EnginePicture::engine);
+  return at == images.end() ? nullptr : &*at;
+}
+
+const CheckedComparison* CheckedCell::find_comparison(const std::string& b) const {
+  const auto at = std::ranges::find(comparisons, b, [](const auto& one) { return one.entry.b; });
+  return at == comparisons.end() ? nullptr : &*at;
+}
+
+CheckedCell check_cell(const fs::path& directory, const CellEntry& entry, const Metrics& metrics) {
+  const fs::path here = directory / "cells" / entry.id;
+  CheckedCell cell;
+  cell.id = entry.id;
+  cell.status = entry.status;
+  cell.has_scene = is_file(here / "scene.xml");
+  // A cell that was never begun, or that failed before it had anything to say, has no record.
+  const bool may_be_absent =
+      entry.status == CellStatus::kMissing || entry.status == CellStatus::kFailed;
+  const bool is_there = is_file(here / "cell.json");
+  if (may_be_absent && !is_there) return cell;
+  records::Origin origin;
+  try {
+    CheckedCell whole = cell;
+    whole.record = records::read_record<records::Cell>(here / "cell.json", &origin);
+    if (origin.seal != records::Origin::Seal::kBroken) {
+      whole.is_sealed = origin.seal == records::Origin::Seal::kFits;
+      whole.made_by = origin.made_by;
+      CellReader(here, whole).read();
+      whole.has_record = true;
+      judge_cell(whole, metrics);
+      return whole;
+    }
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    cell.status = is_there ? CellStatus::kDamaged : CellStatus::kLost;
+    cell.unreadable = without_directory(error.what(), here);
+  }
+  if (origin.seal == records::Origin::Seal::kBroken) {
+    cell.status = CellStatus::kChanged;
+    cell.unreadable = "cell.json is not the record that the farm wrote: its seal does not fit.";
+  }
+  return cell;
+}
+
+std::vector<std::string> files_of(const CheckedCell& cell) {
+  std::vector<std::string> files;
+  const auto add = [&](const std::string& file) {
+    if (!file.empty()) files.push_back(file);
+  };
+  if (cell.has_scene) add("scene.xml");
+  if (cell.has_record) add("cell.json");
+  for (const EnginePicture& image : cell.images) {
+    for (const std::string& file : {image.exr, image.record, image.log}) add(file);
+    if (image.png.shown() && image.png.is_published) add(image.png.file);
+  }
+  for (const CheckedComparison& comparison : cell.comparisons) {
+    if (comparison.problem.empty()) add(comparison.entry.record);
+    if (comparison.png.shown() && comparison.png.is_published) add(comparison.png.file);
+  }
+  if (cell.profile) add(cell.record.profile);
+  return files;
+}
+
+}  // namespace lobelia::gallery

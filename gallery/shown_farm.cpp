@@ -1,0 +1,96 @@
+#include "gallery/shown_farm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "records/record.hpp"
+
+namespace lobelia::gallery {
+namespace {
+
+constexpr char kFile[] = "farm.json";
+
+void fill_titles(records::Farm& farm) {
+  if (farm.title.empty()) farm.title = "Sphere grid";
+  for (records::Axis& axis : farm.axes)
+    for (records::AxisValue& value : axis.values)
+      if (value.label.empty()) value.label = value.value;
+  for (records::FarmEngine& engine : farm.engines)
+    if (engine.title.empty()) engine.title = engine.name;
+}
+
+/// A bare number says nothing without its axis: "exponent 16", but "Phong (RDF)".
+std::string titled(const records::Axis& axis, const std::string& label) {
+  const bool is_number = !label.empty() && label.front() >= '0' && label.front() <= '9';
+  return is_number ? axis.name + " " + label : label;
+}
+
+CellEntry entry_of(const records::FarmCell& record, const std::vector<records::Axis>& axes) {
+  CellEntry cell{record.id, *find_status(record.status), {}, ""};
+  for (const records::Axis& axis : axes) {
+    const std::string* named = records::find(record.axes, axis.name);
+    const std::string value = named ? *named : "";
+    const auto at = std::ranges::find(axis.values, value, &records::AxisValue::value);
+    const bool known = at != axis.values.end();
+    cell.at.push_back(known ? static_cast<int>(at - axis.values.begin()) : -1);
+    if (!cell.label.empty()) cell.label += " · ";
+    cell.label += titled(axis, known ? at->label : value);
+  }
+  return cell;
+}
+
+std::string first_word(const std::string& title) { return title.substr(0, title.find(' ')); }
+
+}  // namespace
+
+std::string ShownFarm::engine_title(const std::string& name) const {
+  const auto at = std::ranges::find(record.engines, name, &records::FarmEngine::name);
+  return at == record.engines.end() ? name : at->title;
+}
+
+std::string ShownFarm::short_title(const records::FarmEngine& engine) const {
+  const std::string word = first_word(engine.title);
+  const bool is_unique = std::ranges::count(record.engines, word, [](const auto& other) {
+                           return first_word(other.title);
+                         }) == 1;
+  return is_unique ? word : engine.title;
+}
+
+const CellEntry* ShownFarm::find_cell(const std::vector<int>& at) const {
+  const auto found = cell_at.find(at);
+  return found == cell_at.end() ? nullptr : &cells[found->second];
+}
+
+ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics) {
+  const auto path = directory / kFile;
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: no such file; a gallery is made of a directory that 'lobelia farm' "
+                    "wrote",
+                    path.string()));
+  }
+  records::Origin origin;
+  ShownFarm farm;
+  farm.record = records::read_record<records::Farm>(path, &origin);
+  farm.made_by = origin.made_by;
+  farm.metrics = metrics;
+  fill_titles(farm.record);
+  std::set<std::string> ids;
+  for (const records::FarmCell& cell : farm.record.cells) {
+    if (!ids.insert(cell.id).second)
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: cells[{}].id: '{}' stands there twice", path.string(),
+                              farm.cells.size(), printable(cell.id)));
+    farm.cells.push_back(entry_of(cell, farm.record.axes));
+    farm.cell_at.emplace(farm.cells.back().at, farm.cells.size() - 1);
+  }
+  return farm;
+}
+
+}  // namespace lobelia::gallery

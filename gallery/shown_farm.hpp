@@ -1,0 +1,44 @@
+// farm.json with what pages add to it: labels, and the place of each cell.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gallery/metrics.hpp"
+#include "gallery/status.hpp"
+#include "records/farm.hpp"
+
+namespace lobelia::gallery {
+
+/// The engine whose pictures are ours; all others are its references.
+inline constexpr char kOurEngine[] = "lobelia";
+
+struct CellEntry {
+  std::string id;  ///< a plain name
+  CellStatus status = CellStatus::kMissing;
+  std::vector<int> at;  ///< index of its value on each axis; -1 where the axis does not know it
+  /// "Phong (RDF) · cosine, exact · exponent 16": its labels in the order of the axes.
+  std::string label;
+};
+
+struct ShownFarm {
+  records::Farm record;  ///< every title and label has words
+  std::string made_by;
+  Metrics metrics;
+  std::vector<CellEntry> cells;                     ///< in the record's order
+  std::map<std::vector<int>, std::size_t> cell_at;  ///< the first cell at each position
+
+  /// The engine's title, or its name if farm.json does not know it.
+  std::string engine_title(const std::string& name) const;
+  /// The title's first word where that tells the engines apart.
+  std::string short_title(const records::FarmEngine& engine) const;
+  /// The cell at these indices, or null.
+  const CellEntry* find_cell(const std::vector<int>& at) const;
+};
+
+/// Throws Error(kInput), naming the file and the key.
+ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics = {});
+
+}  // namespace lobelia::gallery

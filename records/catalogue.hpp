@@ -1,0 +1,29 @@
+// Every kind of record, by name.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "records/struct_type.hpp"
+
+namespace lobelia::records {
+
+struct Kind {
+  const Struct& (*type)();
+  /// Reads the text of a record of this kind and writes it again. Throws as parse_record().
+  std::string (*reread)(std::string_view text, const std::string& where);
+};
+
+/// In the order of their names.
+std::span<const Kind> kinds();
+
+/// The JSON Schema (draft 7) of a kind: docs/reference/NAME.schema.json.
+std::string schema_text(const Kind& kind);
+/// The reference page of a kind, in Markdown.
+std::string reference_page(const Kind& kind);
+/// The list of all kinds, in Markdown: docs/reference/README.md.
+std::string reference_index();
+
+}  // namespace lobelia::records

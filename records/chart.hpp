@@ -1,0 +1,38 @@
+// A chart as numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "records/struct_type.hpp"
+
+namespace lobelia::records {
+
+struct ChartAxis {
+  std::string label;
+  double from = 0;
+  double to = 0;
+  std::optional<bool> logarithmic;
+  std::vector<double> ticks;
+  static const Struct& type();
+};
+
+struct ChartBand {
+  std::string title;
+  double from = 0;
+  double to = 0;
+  static const Struct& type();
+};
+
+struct ChartSeries {
+  std::string name;
+  int style = 0;
+  std::vector<double> x;
+  std::vector<double> y;
+  static const Struct& type();
+};
+
+}  // namespace lobelia::records

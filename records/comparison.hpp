@@ -1,0 +1,215 @@
+// Comparisons: of two pictures, and of a set of pairs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "records/struct_type.hpp"
+
+namespace lobelia::records {
+
+/// Pixels x to x + width - 1, y to y + height - 1; y down.
+struct Window {
+  int x = 0, y = 0, width = 0, height = 0;
+  static const Struct& type();
+};
+
+/// How a file was read.
+struct PictureRead {
+  std::string format, layer;
+  std::vector<std::string> channels;
+  std::string value_type, transfer;
+  bool multiplied_by_alpha = false;
+  Window data, display;
+  std::vector<double> chromaticities;
+  std::string icc_profile;
+  std::optional<bool> icc_is_srgb;
+  static const Struct& type();
+};
+
+struct PicturesRead {
+  PictureRead a, b;
+  static const Struct& type();
+};
+
+struct NonfinitePlace {
+  int x = 0, y = 0;
+  std::string channel;
+  double value = 0;
+  static const Struct& type();
+};
+
+struct NonfinitePlaces {
+  std::optional<NonfinitePlace> a, b;
+  static const Struct& type();
+};
+
+struct Nonfinite {
+  std::int64_t a = 0, b = 0;
+  std::optional<NonfinitePlaces> first;
+  std::optional<std::int64_t> equal_allowed;
+  static const Struct& type();
+};
+
+struct HdrExposures {
+  double start_stops = 0, stop_stops = 0;
+  int count = 2;
+  bool automatic = false;
+  std::string tone_curve = "aces";
+  static const Struct& type();
+};
+
+struct Display {
+  std::string config, config_id, display, view, input_space, decoded_by;
+  static const Struct& type();
+};
+
+struct Viewing {
+  double exposure_stops = 0, pixels_per_degree = 0;
+  std::optional<HdrExposures> hdr_exposures;
+  std::optional<Display> display;
+  static const Struct& type();
+};
+
+struct Mask {
+  std::int64_t pixels = 0;
+  static const Struct& type();
+};
+
+struct NotMeasured {
+  std::string metric, because;
+  static const Struct& type();
+};
+
+struct Limit {
+  std::string metric;
+  double limit = 0, value = 0;
+  bool pass = false;
+  std::string standing;  ///< "holds", "broken", "open"; empty without noise
+  std::optional<double> more_samples;
+  static const Struct& type();
+};
+
+struct PictureNoise {
+  double freedom = 0;
+  bool shared = false;
+  static const Struct& type();
+};
+
+struct Uncertainty {
+  std::optional<PictureNoise> a, b;
+  double significance = 0, tests = 0, each = 0;
+  int bootstraps = 0;
+  std::uint64_t seed = 0;
+  static const Struct& type();
+};
+
+struct ErrorBar {
+  double standard_error = 0, noise_floor = 0, noise_floor_most = 0, low = 0, high = 0;
+  static const Struct& type();
+};
+
+struct Tolerance {
+  double relative = 0, of_peak = 0;
+  std::int64_t allowed_outliers = 0;
+  bool on_edges_only = false;
+  static const Struct& type();
+};
+
+struct ReferenceFloor {
+  std::string c;
+  std::int64_t nonfinite = 0;
+  Named<double> metrics;
+  static const Struct& type();
+};
+
+/// Another layer of both files.
+struct LayerComparison {
+  std::string layer, verdict, problem;
+  std::optional<bool> identical;
+  std::optional<Window> overscan;
+  std::optional<Nonfinite> nonfinite;
+  std::optional<Named<double>> metrics;
+  std::vector<NotMeasured> not_measured;
+  std::optional<std::vector<Limit>> limits;
+  std::optional<std::vector<std::string>> disagreement;
+  PicturesRead pictures;
+  static const Struct& type();
+};
+
+struct NotCompared {
+  std::vector<std::string> layers;
+  bool alpha = false;
+  std::int64_t overscan_pixels = 0;
+  int mip_levels = 0;
+  static const Struct& type();
+};
+
+struct LayersInOne {
+  std::vector<std::string> a, b;
+  static const Struct& type();
+};
+
+struct Comparison {
+  std::string verdict, a, b;
+  Nonfinite nonfinite;
+  Viewing viewing;
+  std::optional<Mask> mask;
+  Named<double> metrics;
+  std::vector<NotMeasured> not_measured;
+  std::vector<Limit> limits, warnings;
+  std::vector<std::string> disagreement;
+  std::optional<Uncertainty> uncertainty;
+  std::optional<Named<ErrorBar>> error_bars;
+  std::optional<Tolerance> tolerance;
+  std::optional<ReferenceFloor> reference_floor;
+  std::optional<PicturesRead> pictures;
+  std::optional<std::vector<LayerComparison>> layers;
+  std::optional<NotCompared> not_compared;
+  std::optional<LayersInOne> layers_in_one;
+  static const Struct& type();
+};
+
+struct SetSummary {
+  std::size_t pairs = 0, pass = 0, differs = 0, undecided = 0, nonfinite = 0, errors = 0,
+              missing = 0, extra = 0, passed_over = 0, links_not_followed = 0;
+  static const Struct& type();
+};
+
+struct SetNotCompared {
+  std::vector<std::string> layers;
+  bool alpha = false;
+  std::int64_t overscan_pixels = 0;
+  int mip_levels = 0;
+  std::size_t pairs = 0;
+  static const Struct& type();
+};
+
+struct WorstOfSet {
+  double value = 0;
+  std::string pair;
+  double mean = 0;
+  static const Struct& type();
+};
+
+struct PairOfSet {
+  std::string name;
+  std::optional<Comparison> comparison;
+  std::string error;
+  static const Struct& type();
+};
+
+struct ComparisonSet {
+  std::string a, b, c;
+  SetSummary summary;
+  SetNotCompared not_compared;
+  Named<WorstOfSet> worst;
+  std::vector<std::string> missing, extra, links_not_followed;
+  std::vector<PairOfSet> pairs;
+  static const Struct& type();
+};
+
+}  // namespace lobelia::records

@@ -1,0 +1,155 @@
+// What lies in a farm's directory, and what `lobelia farm` prints of it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "records/highlight.hpp"
+#include "records/result.hpp"
+#include "records/struct_type.hpp"
+
+namespace lobelia::records {
+
+struct AxisValue {
+  std::string value, label;
+  static const Struct& type();
+};
+
+struct Axis {
+  std::string name;
+  std::vector<AxisValue> values;
+  static const Struct& type();
+};
+
+struct FarmEngine {
+  std::string name, title;
+  bool available = false;
+  std::string state, version, content, why, install;
+  std::optional<std::size_t> refused_cells;
+  static const Struct& type();
+};
+
+struct FarmCell {
+  std::string id, status;
+  Named<std::string> axes;
+  static const Struct& type();
+};
+
+struct Locks {
+  bool shared = false;
+  std::string why;
+  static const Struct& type();
+};
+
+struct Farm {
+  std::string title, grid, command;
+  std::optional<Host> host;
+  std::string cache;
+  std::optional<Locks> locks;
+  std::vector<Axis> axes;
+  std::vector<FarmEngine> engines;
+  std::vector<FarmCell> cells;
+  static const Struct& type();
+};
+
+struct CellImage {
+  std::string engine, exr, png, record, sha256;
+  static const Struct& type();
+};
+
+struct NotComparable {
+  std::string engine, because;
+  static const Struct& type();
+};
+
+struct CellProblem {
+  std::string engine, message, failure;
+  int attempts = 0;
+  static const Struct& type();
+};
+
+struct MadeFrom {
+  std::string program, libraries;
+  Arithmetic arithmetic;
+  std::string scene;
+  Named<std::string> contents, engines;
+  bool operator==(const MadeFrom&) const = default;
+  static const Struct& type();
+};
+
+struct CellFile {
+  std::string name, sha256;
+  bool operator==(const CellFile&) const = default;
+  static const Struct& type();
+};
+
+struct Cell {
+  std::string id;
+  Named<std::string> axes;
+  std::string status;
+  std::optional<Highlight> highlight;
+  std::optional<double> exposure_stops;
+  std::vector<CellImage> images;
+  std::vector<CellComparison> comparisons;
+  std::string profile;
+  std::vector<NotComparable> not_comparable;
+  std::vector<std::string> missing_engines;
+  std::vector<CellProblem> problems;
+  MadeFrom made_from;
+  Named<std::string> results;
+  std::vector<CellFile> files;
+  static const Struct& type();
+};
+
+struct StatusCounts {
+  std::size_t failed = 0, differs = 0, undecided = 0, missing = 0, unchecked = 0, pass = 0;
+  static const Struct& type();
+};
+
+struct FailureOfCell {
+  std::string cell, engine, failure;
+  int attempts = 0;
+  std::string message;
+  static const Struct& type();
+};
+
+struct FarmStatus {
+  std::string title;
+  std::size_t cells = 0;
+  StatusCounts status;
+  std::string cache;
+  bool cache_is_there = false, at_work = false;
+  std::vector<FailureOfCell> failures;
+  static const Struct& type();
+};
+
+struct ExplainedPart {
+  std::string part, was, now;
+  bool same = false;
+  std::vector<std::string> files;
+  static const Struct& type();
+};
+
+struct ExplainedJob {
+  std::string job, key;
+  bool in_cache = false;
+  std::string why;
+  std::vector<ExplainedPart> parts;
+  static const Struct& type();
+};
+
+struct FarmExplanation {
+  std::string cell, status;
+  std::vector<ExplainedJob> jobs;
+  std::vector<std::string> without;
+  static const Struct& type();
+};
+
+struct GalleryList {
+  std::vector<std::string> files;
+  Named<std::string> made_of;
+  static const Struct& type();
+};
+
+}  // namespace lobelia::records

@@ -1,0 +1,112 @@
+// What lies in a cache: results, failures, what programs are made of. Also the hashes that a user's machine remembers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "records/highlight.hpp"
+#include "records/struct_type.hpp"
+
+namespace lobelia::records {
+
+struct Arithmetic {
+  std::string libm, kernels, processor;
+  bool operator==(const Arithmetic&) const = default;
+  static const Struct& type();
+};
+
+struct ResultInputs {
+  std::string program, libraries;
+  Arithmetic arithmetic;
+  std::string scene;
+  std::string engine_version, engine_content;
+  Named<std::string> pictures;  ///< keys of the results that it was made from
+  static const Struct& type();
+};
+
+struct ResultSeconds {
+  double wall = 0, cpu = 0;
+  static const Struct& type();
+};
+
+struct ResultFile {
+  std::string name;
+  std::uint64_t bytes = 0;
+  std::string sha256;
+  std::int64_t modified = 0;
+  static const Struct& type();
+};
+
+struct Difference {
+  double white_at = 0, relative_to_peak = 0;
+  static const Struct& type();
+};
+
+/// A comparison as a cell shows it.
+struct CellComparison {
+  std::string a, b, record, png;
+  Difference difference;
+  static const Struct& type();
+};
+
+struct Result {
+  std::string job, engine, first_made_for;
+  ResultInputs inputs;
+  Host host;
+  int attempts = 0;
+  // Of a render:
+  std::vector<std::string> command;
+  std::optional<double> exposure_stops;
+  std::optional<Highlight> highlight;
+  std::optional<std::vector<std::string>> warnings;
+  // Of a reference:
+  std::optional<std::vector<std::string>> engine_commands;
+  std::string witness;
+  // Of a comparison:
+  std::string verdict;
+  std::optional<CellComparison> entry;
+  std::string not_comparable;
+  // Of a comparison and a profile: the hash of each picture by engine.
+  std::optional<Named<std::string>> from;
+  int threads = 1;
+  ResultSeconds seconds;
+  std::uint64_t peak_memory_bytes = 0;
+  std::string key;
+  std::vector<ResultFile> files;
+  static const Struct& type();
+
+  /// Of one of its files; empty without such a file.
+  std::string hash_of(const std::string& file) const;
+  std::uint64_t bytes() const;  ///< of all files
+};
+
+struct Failure {
+  std::string job, key, failure, message;
+  int attempts = 0;
+  Host host;
+  static const Struct& type();
+};
+
+struct ContentFile {
+  std::string path;
+  std::uint64_t bytes = 0;
+  std::string sha256;
+  static const Struct& type();
+};
+
+struct Content {
+  std::string sha256;
+  std::size_t file_count = 0;
+  std::vector<ContentFile> files;
+  static const Struct& type();
+};
+
+struct KnownHashes {
+  std::vector<std::array<std::string, 3>> files;  ///< path, identity, SHA-256
+  static const Struct& type();
+};
+
+}  // namespace lobelia::records

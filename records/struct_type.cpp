@@ -1,0 +1,137 @@
+#include "records/struct_type.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "core/version.hpp"
+#include "records/record.hpp"
+
+namespace lobelia::records {
+namespace {
+
+/// "width; pixels": the meaning and the unit, for a schema.
+std::string description(const Field& field) {
+  std::string text(field.meaning);
+  if (!field.unit_name.empty())
+    text += fmt::format("{}{}", text.empty() ? "" : "; ", field.unit_name);
+  return text;
+}
+
+}  // namespace
+
+Json Struct::write(const void* value) const {
+  Json object = Json::object();
+  if (!kind_.empty())
+    object = {
+        {"schemaVersion", kRecordSchemaVersion}, {"kind", kind_}, {"madeBy", kNameAndVersion}};
+  for (const Field& field : fields_) {
+    // A record is not changed by being written; reading needs the same accessor.
+    const void* member = field.member(const_cast<void*>(value));
+    const bool is_empty = field.presence != Presence::kAlways && field.type->is_empty(member);
+    if (is_empty && field.presence == Presence::kIfAny) continue;
+    if (field.is_rest()) {
+      object.update(field.type->write(member));
+      continue;
+    }
+    object[std::string(field.key)] = is_empty ? Json(nullptr) : field.type->write(member);
+  }
+  return object;
+}
+
+void Struct::read(const Json& json, const Bounds&, const Place& place, void* value) const {
+  if (!json.is_object()) place.fail("not an object");
+  if (!kind_.empty()) require_kind(json, kind_, place);
+  for (const Field& field : fields_) {
+    if (field.is_rest()) {
+      field.type->read(others(json), field.bounds, place, field.member(value));
+      continue;
+    }
+    const auto found = json.find(field.key);
+    const bool is_missing =
+        found == json.end() || (field.presence == Presence::kOrNull && found->is_null());
+    if (is_missing) {
+      if (found == json.end() && field.is_required()) Place(place, field.key).fail("missing");
+      continue;
+    }
+    field.type->read(*found, field.bounds, Place(place, field.key), field.member(value));
+  }
+  if (contradiction_)
+    if (const std::string sentence = contradiction_(value); !sentence.empty()) place.fail(sentence);
+}
+
+Json Struct::others(const Json& json) const {
+  Json others = Json::object();
+  for (const auto& [key, value] : json.items())
+    if (std::ranges::find(fields_, key, &Field::key) == fields_.end()) others[key] = value;
+  return others;
+}
+
+Json Struct::schema(const Bounds&) const {
+  return {{"$ref", fmt::format("#/definitions/{}", name_)}};
+}
+
+std::string Struct::typescript(const Bounds&) const { return std::string(name_); }
+
+Json Struct::definition() const {
+  Json required = Json::array(), properties = Json::object(), rest;
+  if (!kind_.empty()) {
+    required = {"schemaVersion", "kind", "madeBy"};
+    properties = {{"schemaVersion", {{"const", kRecordSchemaVersion}}},
+                  {"kind", {{"const", kind_}}},
+                  {"madeBy", {{"type", "string"}}}};
+  }
+  for (const Field& field : fields_) {
+    if (field.is_required()) required.push_back(field.key);
+    Json schema = field.type->schema(field.bounds);
+    if (field.is_rest()) {
+      rest = schema["additionalProperties"];
+      continue;
+    }
+    if (field.presence == Presence::kOrNull)
+      schema = {{"anyOf", Json::array({std::move(schema), Json{{"type", "null"}}})}};
+    // Draft 7 ignores what stands beside $ref.
+    const std::string text = description(field);
+    if (!text.empty() && schema.contains("$ref"))
+      schema = {{"allOf", Json::array({std::move(schema)})}};
+    if (!text.empty()) schema["description"] = text;
+    properties[std::string(field.key)] = std::move(schema);
+  }
+  if (is_sealed_) {
+    required.push_back(kSealKey);
+    properties[kSealKey] = {{"type", "string"},
+                            {"description", "SHA-256 of the record without this key"}};
+  }
+  Json schema{{"type", "object"},
+              {"description", meaning_},
+              {"required", std::move(required)},
+              {"properties", std::move(properties)}};
+  if (!rest.is_null()) schema["additionalProperties"] = std::move(rest);
+  return schema;
+}
+
+std::string Struct::interface() const {
+  std::string text = fmt::format("/** {} */\nexport interface {} {{\n", meaning_, name_);
+  if (!kind_.empty())
+    text += fmt::format("  schemaVersion: {};\n  kind: \"{}\";\n  madeBy: string;\n",
+                        kRecordSchemaVersion, kind_);
+  for (const Field& field : fields_) {
+    if (const std::string meaning = description(field); !meaning.empty())
+      text += fmt::format("  /** {} */\n", meaning);
+    if (field.is_rest()) {
+      // Wide enough for the keys above it, as TypeScript asks.
+      text += "  [name: string]: unknown;\n";
+      continue;
+    }
+    text += fmt::format("  {}{}: {}{};\n", field.key, field.is_required() ? "" : "?",
+                        field.type->typescript(field.bounds),
+                        field.presence == Presence::kOrNull ? " | null" : "");
+  }
+  if (is_sealed_) text += fmt::format("  {}: string;\n", kSealKey);
+  return text + "}\n";
+}
+
+}  // namespace lobelia::records

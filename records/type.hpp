@@ -1,0 +1,289 @@
+// The types that keys of a record have: how a value is written, read again and described.
+//
+// A record is a plain struct. Its table (Struct, struct_type.hpp) names each member's key, meaning and bounds, and
+// everything else comes from it: the writer, the strict reader, the JSON Schema, the TypeScript types and the
+// reference pages. docs/decisions/0023 says why.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lobelia::records {
+
+/// Keys stay in the order they were written, so that a person can read a record from the top.
+using Json = nlohmann::ordered_json;
+
+/// A JSON object with keys that are data: engines, metrics, axes. In order.
+template <class T>
+using Named = std::vector<std::pair<std::string, T>>;
+
+/// The way to a value inside a record, for error messages: "images[2].sha256".
+class Place {
+ public:
+  Place() = default;
+  Place(const Place& above, std::string_view key) : above_(&above), key_(key) {}
+  Place(const Place& above, std::size_t index) : above_(&above), index_(index) {}
+  std::string text() const;
+  /// Throws Error(kInput): "images[2].sha256: not a string".
+  [[noreturn]] void fail(std::string_view what) const;
+
+ private:
+  const Place* above_ = nullptr;
+  std::string_view key_ = {};
+  std::size_t index_ = 0;
+};
+
+/// The value of that name; null if there is none.
+template <class T>
+const T* find(const Named<T>& values, std::string_view name) {
+  for (const auto& [key, value] : values)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
+/// Longest text and list of a record, unless its table says otherwise.
+inline constexpr std::size_t kMaxText = 1u << 20, kMaxItems = 10'000'000;
+
+/// What a table allows beyond the C++ type. Applies to the numbers and texts at the bottom of lists and objects,
+/// `least_items` and `most_items` to the outermost list or object.
+struct Bounds {
+  double least = -kNoBound, most = kNoBound;
+  bool nonfinite = false;                      ///< "nan", "inf" and "-inf" are numbers too
+  std::span<const std::string_view> one_of{};  ///< all texts that are allowed; empty: any
+  bool plain_name = false;                     ///< is_plain_name() holds for a text
+  std::size_t most_text = kMaxText;            ///< bytes
+  std::size_t least_items = 0, most_items = kMaxItems;
+  Bounds of_items() const;  ///< those of each item of a list with these
+};
+
+class Struct;
+
+/// Structs that a schema or a TypeScript file has to define, each after what it is made of.
+class Definitions {
+ public:
+  void add(const Struct& type);
+  const std::vector<const Struct*>& all() const { return all_; }
+
+ private:
+  std::vector<const Struct*> all_;
+};
+
+/// One C++ type of values. `value` points to such a value.
+class Type {
+ public:
+  virtual ~Type() = default;
+  virtual Json write(const void* value) const = 0;
+  /// Throws Error(kInput) with the place.
+  virtual void read(const Json& json, const Bounds& bounds, const Place& place,
+                    void* value) const = 0;
+  /// Whether there is nothing to write: an optional without a value, an empty list or text.
+  virtual bool is_empty(const void* value) const = 0;
+  /// Whether an empty item of a list is written as null.
+  virtual bool may_be_null() const { return false; }
+  virtual Json schema(const Bounds& bounds) const = 0;
+  virtual std::string typescript(const Bounds& bounds) const = 0;
+  virtual void define(Definitions& definitions) const = 0;
+};
+
+/// The type of T: bool, integers, double, std::string, std::array, std::vector, Named, std::optional and structs
+/// with a static type().
+template <class T>
+const Type& type_of();
+
+namespace detail {
+
+const Type& bool_type();
+const Type& string_type();
+const Type& double_type();
+/// `size` bytes, with a sign or without.
+const Type& integer_type(std::size_t size, bool is_signed);
+
+/// Lists, objects and optionals, without the C++ type of what they hold.
+class ListType : public Type {
+ public:
+  Json write(const void* value) const final;
+  void read(const Json& json, const Bounds& bounds, const Place& place, void* value) const final;
+  bool is_empty(const void* value) const final { return size(value) == 0; }
+  Json schema(const Bounds& bounds) const final;
+  std::string typescript(const Bounds& bounds) const final;
+  void define(Definitions& definitions) const final { item().define(definitions); }
+
+ protected:
+  virtual const Type& item() const = 0;
+  virtual std::size_t size(const void* list) const = 0;
+  virtual std::size_t fixed_size() const { return 0; }  ///< 0: any
+  virtual const void* at(const void* list, std::size_t index) const = 0;
+  virtual void* append(void* list, std::size_t index) const = 0;
+  virtual void clear(void* list) const = 0;
+};
+
+class NamedType : public Type {
+ public:
+  Json write(const void* value) const final;
+  void read(const Json& json, const Bounds& bounds, const Place& place, void* value) const final;
+  bool is_empty(const void* value) const final { return size(value) == 0; }
+  Json schema(const Bounds& bounds) const final;
+  std::string typescript(const Bounds& bounds) const final;
+  void define(Definitions& definitions) const final { item().define(definitions); }
+
+ protected:
+  virtual const Type& item() const = 0;
+  virtual std::size_t size(const void* object) const = 0;
+  virtual std::pair<const std::string*, const void*> at(const void* object,
+                                                        std::size_t index) const = 0;
+  virtual void* append(void* object, const std::string& name) const = 0;
+  virtual void clear(void* object) const = 0;
+};
+
+class OptionalType : public Type {
+ public:
+  Json write(const void* value) const final;
+  void read(const Json& json, const Bounds& bounds, const Place& place, void* value) const final;
+  bool is_empty(const void* value) const final { return !get(value); }
+  bool may_be_null() const final { return true; }
+  Json schema(const Bounds& bounds) const final;
+  std::string typescript(const Bounds& bounds) const final { return item().typescript(bounds); }
+  void define(Definitions& definitions) const final { item().define(definitions); }
+
+ protected:
+  virtual const Type& item() const = 0;
+  virtual const void* get(const void* optional) const = 0;
+  virtual void* emplace(void* optional) const = 0;
+  virtual void reset(void* optional) const = 0;
+};
+
+template <class T>
+class VectorType final : public ListType {
+  using List = std::vector<T>;
+  const Type& item() const override { return type_of<T>(); }
+  std::size_t size(const void* list) const override {
+    return static_cast<const List*>(list)->size();
+  }
+  const void* at(const void* list, std::size_t index) const override {
+    return &(*static_cast<const List*>(list))[index];
+  }
+  void* append(void* list, std::size_t) const override {
+    return &static_cast<List*>(list)->emplace_back();
+  }
+  void clear(void* list) const override { static_cast<List*>(list)->clear(); }
+};
+
+template <class T, std::size_t N>
+class ArrayType final : public ListType {
+  using List = std::array<T, N>;
+  const Type& item() const override { return type_of<T>(); }
+  std::size_t size(const void*) const override { return N; }
+  std::size_t fixed_size() const override { return N; }
+  const void* at(const void* list, std::size_t index) const override {
+    return &(*static_cast<const List*>(list))[index];
+  }
+  void* append(void* list, std::size_t index) const override {
+    return &(*static_cast<List*>(list))[index];
+  }
+  void clear(void*) const override {}
+};
+
+template <class T>
+class NamedTypeOf final : public NamedType {
+  using Object = Named<T>;
+  const Type& item() const override { return type_of<T>(); }
+  std::size_t size(const void* object) const override {
+    return static_cast<const Object*>(object)->size();
+  }
+  std::pair<const std::string*, const void*> at(const void* object,
+                                                std::size_t index) const override {
+    const auto& one = (*static_cast<const Object*>(object))[index];
+    return {&one.first, &one.second};
+  }
+  void* append(void* object, const std::string& name) const override {
+    return &static_cast<Object*>(object)->emplace_back(name, T{}).second;
+  }
+  void clear(void* object) const override { static_cast<Object*>(object)->clear(); }
+};
+
+template <class T>
+class OptionalTypeOf final : public OptionalType {
+  using Optional = std::optional<T>;
+  const Type& item() const override { return type_of<T>(); }
+  const void* get(const void* optional) const override {
+    const auto& held = *static_cast<const Optional*>(optional);
+    return held ? &*held : nullptr;
+  }
+  void* emplace(void* optional) const override {
+    return &static_cast<Optional*>(optional)->emplace();
+  }
+  void reset(void* optional) const override { static_cast<Optional*>(optional)->reset(); }
+};
+
+template <class>
+inline constexpr bool kIsOptional = false;
+template <class T>
+inline constexpr bool kIsOptional<std::optional<T>> = true;
+
+template <class T>
+struct TypeOf {
+  static const Type& get() { return T::type(); }
+};
+template <>
+struct TypeOf<bool> {
+  static const Type& get() { return bool_type(); }
+};
+template <>
+struct TypeOf<double> {
+  static const Type& get() { return double_type(); }
+};
+template <>
+struct TypeOf<std::string> {
+  static const Type& get() { return string_type(); }
+};
+template <std::integral T>
+struct TypeOf<T> {
+  static const Type& get() { return integer_type(sizeof(T), std::is_signed_v<T>); }
+};
+template <class T>
+struct TypeOf<std::vector<T>> {
+  static const Type& get() {
+    static const VectorType<T> type;
+    return type;
+  }
+};
+template <class T, std::size_t N>
+struct TypeOf<std::array<T, N>> {
+  static const Type& get() {
+    static const ArrayType<T, N> type;
+    return type;
+  }
+};
+template <class T>
+struct TypeOf<std::vector<std::pair<std::string, T>>> {
+  static const Type& get() {
+    static const NamedTypeOf<T> type;
+    return type;
+  }
+};
+template <class T>
+struct TypeOf<std::optional<T>> {
+  static const Type& get() {
+    static const OptionalTypeOf<T> type;
+    return type;
+  }
+};
+
+}  // namespace detail
+
+template <class T>
+const Type& type_of() {
+  return detail::TypeOf<T>::get();
+}
+
+}  // namespace lobelia::records

@@ -1,0 +1,49 @@
+// Records as JSON, for tests that look at their keys or spoil them.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "core/files.hpp"
+#include "core/version.hpp"
+#include "records/record.hpp"
+
+namespace lobelia {
+
+using records::Json;
+
+template <class T>
+Json as_json(const T& record) {
+  return Json::parse(records::record_text(record));
+}
+
+/// A record from JSON that may lack anything that its reader does not ask for.
+template <class T>
+T from_json(const Json& json) {
+  return records::parse_record<T>(json.dump(), "a test");
+}
+
+inline Json read_json(const std::filesystem::path& path) {
+  return Json::parse(read_file(path, records::kMaxRecordBytes));
+}
+
+inline void write_json(const std::filesystem::path& path, const Json& json) {
+  write_file(path, json.dump(2) + "\n");
+}
+
+/// With the right hash in its `seal`.
+inline Json sealed(Json json) {
+  json[records::kSealKey] = records::seal_of(json);
+  return json;
+}
+
+/// A record with nothing but its kind and version.
+inline Json json_record(const std::string& kind) {
+  return {{"schemaVersion", records::kRecordSchemaVersion},
+          {"kind", kind},
+          {"madeBy", kNameAndVersion}};
+}
+
+}  // namespace lobelia

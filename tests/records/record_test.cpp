@@ -1,0 +1,153 @@
+#include "records/record.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "records/result.hpp"
+#include "tests/json.hpp"
+
+namespace lobelia::records {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr std::string_view kColours[] = {"red", "green"};
+
+struct Part {
+  int count = 0;
+  std::optional<double> size;
+  static const Struct& type() {
+    return define<Part>("Part", "A part.", [](Struct& t) {
+      t.key<&Part::count>("count").at_least(0);
+      t.key<&Part::size>("size").within(0, 1);
+    });
+  }
+};
+
+struct Sample {
+  std::string name, colour = "red", file = "a.png";
+  double any = 0;
+  std::vector<Part> parts;
+  Named<std::array<double, 2>> pairs;
+  std::optional<int> nothing;
+  std::uint64_t seed = 0;
+  static const Struct& type() {
+    return define<Sample>("Sample", "A sample.", [](Struct& t) {
+      t.kind("sample");
+      t.key<&Sample::name>("name").most_text(8);
+      t.key<&Sample::colour>("colour").one_of(kColours);
+      t.key<&Sample::file>("file").plain_name();
+      t.key<&Sample::any>("any").may_be_nonfinite();
+      t.key<&Sample::parts>("parts").items(0, 3);
+      t.key<&Sample::pairs>("pairs");
+      t.key<&Sample::nothing>("nothing").or_null();
+      t.key<&Sample::seed>("seed");
+      t.check<contradiction>();
+    });
+  }
+  static std::string contradiction(const Sample& sample) {
+    return sample.name == "none" && !sample.parts.empty() ? "none has parts" : "";
+  }
+};
+
+Sample sample() {
+  Sample made;
+  made.name = "x";
+  made.parts = {{3, 0.5}, {0, std::nullopt}};
+  made.pairs = {{"zebra", {1, 2}}, {"ant", {0.1, -1e300}}};
+  made.seed = std::numeric_limits<std::uint64_t>::max();
+  return made;
+}
+
+/// What is said of the sample with another value at a place.
+std::string refusal(const std::string& pointer, const Json& value) {
+  Json json = as_json(sample());
+  json[Json::json_pointer(pointer)] = value;
+  try {
+    parse_record<Sample>(json.dump(), "r.json");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInput);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Records, ReadBackAsWrittenInTheSameOrder) {
+  const std::string text = record_text(sample());
+  const Sample back = parse_record<Sample>(text, "r.json");
+  EXPECT_EQ(record_text(back), text);
+  EXPECT_EQ(back.parts[0].size, 0.5);
+  EXPECT_EQ(back.seed, sample().seed);
+  EXPECT_EQ(back.pairs[0].first, "zebra");
+}
+
+TEST(Records, NameNumbersThatJsonDoesNotHave) {
+  Sample made = sample();
+  for (const auto& [value, name] : {std::pair(std::numeric_limits<double>::quiet_NaN(), "nan"),
+                                    {kNoBound, "inf"},
+                                    {-kNoBound, "-inf"}}) {
+    made.any = value;
+    EXPECT_EQ(as_json(made)["any"], name);
+    const double back = parse_record<Sample>(record_text(made), "").any;
+    EXPECT_TRUE(std::isnan(value) ? std::isnan(back) : back == value) << name;
+  }
+}
+
+TEST(Records, SayWhereSomethingIsWrongAndWhatIsAllowed) {
+  EXPECT_EQ(refusal("/parts/1/count", "3"), "r.json: parts[1].count: not an integer");
+  EXPECT_EQ(refusal("/parts/1/count", 0.5), "r.json: parts[1].count: not an integer");
+  EXPECT_EQ(refusal("/parts/0/count", -1), "r.json: parts[0].count: -1; allowed: at least 0");
+  EXPECT_EQ(refusal("/parts/0/count", 1e18), "r.json: parts[0].count: 1e+18 is out of range");
+  EXPECT_EQ(refusal("/parts/0/size", 2), "r.json: parts[0].size: 2; allowed: 0 to 1");
+  EXPECT_EQ(refusal("/parts/0/size", "nan"), "r.json: parts[0].size: not a number");
+  EXPECT_EQ(refusal("/parts/0", 7), "r.json: parts[0]: not an object");
+  EXPECT_EQ(refusal("/parts", 7), "r.json: parts: not a list");
+  EXPECT_EQ(refusal("/pairs/ant/1", nullptr), "r.json: pairs.ant[1]: not a number");
+  EXPECT_EQ(refusal("/pairs/ant", {1, 2, 3}), "r.json: pairs.ant: 3 items; allowed: 2");
+  EXPECT_EQ(refusal("/colour", "blue"), "r.json: colour: 'blue'; allowed: red, green");
+  EXPECT_EQ(refusal("/file", "../a.png"), "r.json: file: '../a.png' is no plain name of a file");
+  EXPECT_EQ(refusal("/name", "much too long"), "r.json: name: 13 bytes; allowed: at most 8");
+  EXPECT_EQ(refusal("/name", "none"), "r.json: none has parts");
+  EXPECT_EQ(refusal("/kind", "cell"), "r.json: not a record of kind 'sample'");
+  EXPECT_EQ(refusal("/schemaVersion", 2), "r.json: its schemaVersion is not 1");
+  EXPECT_EQ(refusal("/madeOfTomorrow", {}), "") << "keys may be added";
+  EXPECT_EQ(refusal("/parts/1/count", 3.0), "") << "a program may have no integers";
+}
+
+TEST(Records, OfAnyOtherTextAreRefused) {
+  for (const char* text : {"", "{", "[]", "7", "null", R"({"kind":"sample"})", "{}{}"})
+    EXPECT_THROW(parse_record<Sample>(text, "r.json"), Error) << text;
+  std::string deep(100'000, '[');
+  EXPECT_THROW(parse_record<Sample>(deep, "r.json"), Error);
+}
+
+TEST(Records, WithBytesThatAreNotUtf8AreStillWritten) {
+  Sample made = sample();
+  made.name = "caf\xe9";
+  EXPECT_EQ(as_json(made)["name"], "caf\\xe9");
+}
+
+TEST(SealedRecords, ShowEveryChange) {
+  KnownHashes made;
+  made.files = {{"/bin/sh", "1 2 3", "abc"}};
+  const std::string text = record_text(made);
+  EXPECT_EQ(parse_record<KnownHashes>(text, "").files, made.files);
+  Json changed = Json::parse(text);
+  changed["files"][0][2] = "abd";
+  EXPECT_THROW(parse_record<KnownHashes>(changed.dump(), ""), Error);
+  EXPECT_NO_THROW(parse_record<KnownHashes>(sealed(changed).dump(), ""));
+  changed.erase("seal");
+  EXPECT_THROW(parse_record<KnownHashes>(changed.dump(), ""), Error);
+}
+
+}  // namespace
+}  // namespace lobelia::records

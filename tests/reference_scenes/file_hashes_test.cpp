@@ -1,0 +1,137 @@
+#include "reference_scenes/file_hashes.hpp"
+#include "records/record.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/sha256.hpp"
+#include "reference_scenes/content.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileHashesTest : public testing::Test {
+ protected:
+  /// A file that has long been there: what has just changed is not remembered, and ctime cannot be set. Files of the
+  /// system are old enough.
+  const fs::path old_ = fs::canonical("/bin/sh");
+  fs::path memory() const { return directory_.path() / "memory" / "hashes.json"; }
+  /// How many files were read for the old one's hash.
+  std::size_t reads() const {
+    FileHashes hashes(memory());
+    EXPECT_EQ(hashes.hash(old_).sha256, hex(sha256_of_file(old_)));
+    hashes.save();
+    return hashes.read_count();
+  }
+  const TemporaryDirectory directory_;
+};
+
+TEST_F(FileHashesTest, ReadsAFileOnceForAllRuns) {
+  EXPECT_EQ(reads(), 1u);
+  EXPECT_EQ(reads(), 0u);
+  // Damaged, cut off, of another writer, or a link: as if it were not there.
+  const std::string whole = read_file(memory(), 1 << 20);
+  for (std::string text : {std::string(), whole.substr(0, whole.size() / 2), whole}) {
+    if (text == whole) text[text.find("\"files\"") + 400 % (text.size() / 2)] ^= 1;
+    write_file(memory(), text);
+    EXPECT_EQ(reads(), 1u) << text;
+    EXPECT_EQ(reads(), 0u);
+  }
+  fs::permissions(memory(), fs::perms::others_write, fs::perm_options::add);
+  EXPECT_EQ(reads(), 1u);
+  fs::rename(memory(), directory_.path() / "elsewhere");
+  fs::create_symlink(directory_.path() / "elsewhere", memory());
+  EXPECT_EQ(reads(), 1u);
+}
+
+TEST_F(FileHashesTest, SeesEveryChange) {
+  FileHashes hashes(memory());
+  const fs::path file = directory_.path() / "file";
+  for (const char* text : {"one", "two", "six", "three", "one"}) {
+    write_file(file, std::string_view(text));
+    EXPECT_EQ(hashes.hash(file).sha256, hex(sha256(text)));
+    EXPECT_EQ(hashes.hash(file).bytes, std::string_view(text).size());
+  }
+  // In place, with the time of change set back.
+  struct stat before {};
+  ::stat(file.c_str(), &before);
+  const int fd = ::open(file.c_str(), O_WRONLY);
+  ASSERT_EQ(::pwrite(fd, "two", 3, 0), 3);
+  const timespec times[2] = {before.st_atim, before.st_mtim};
+  ::futimens(fd, times);
+  ::close(fd);
+  EXPECT_EQ(hashes.hash(file).sha256, hex(sha256("two")));
+}
+
+TEST_F(FileHashesTest, RefusesWhatIsNoFileAndDoesWithoutAMemory) {
+  FileHashes hashes("/proc/no/such/place/hashes.json");
+  EXPECT_THROW(hashes.hash(directory_.path()), Error);
+  EXPECT_THROW(hashes.hash("/no/such/file"), Error);
+  EXPECT_THROW(hashes.hash("/dev/zero"), Error);
+  EXPECT_EQ(hashes.hash(old_).sha256, hex(sha256_of_file(old_)));
+  hashes.save();
+}
+
+class ContentTest : public FileHashesTest {
+ protected:
+  fs::path file(const std::string& name, const std::string& text) const {
+    const fs::path path = directory_.path() / name;
+    fs::create_directories(path.parent_path());
+    write_file(path, text);
+    return path;
+  }
+};
+
+TEST_F(ContentTest, IsOfContentAndNamesAndNotOfPlacesAndOrder) {
+  FileHashes hashes{fs::path()};
+  const auto content = [&](const std::vector<std::pair<std::string, fs::path>>& libraries) {
+    ContentReader reader(hashes);
+    for (const auto& [name, path] : libraries) reader.add("library", name, path);
+    return reader.content().sha256;
+  };
+  const fs::path a = file("a/liba", "A"), b = file("b/libb", "B"), moved = file("c/liba", "A");
+  const std::string both = content({{"liba", a}, {"libb", b}});
+  EXPECT_EQ(content({{"libb", b}, {"liba", moved}, {"libb", b}}), both);
+  EXPECT_NE(content({{"liba", b}, {"libb", a}}), both);
+  EXPECT_NE(content({{"liba", a}}), both);
+  EXPECT_NE(content({{"liba", a}, {"libb", directory_.path() / "gone"}}), both);
+  EXPECT_EQ(content({}), "");
+}
+
+TEST_F(ContentTest, OfADirectoryIsOfAllFilesButPythonsCaches) {
+  FileHashes hashes{fs::path()};
+  const auto content = [&] {
+    ContentReader reader(hashes);
+    reader.add_directory(directory_.path() / "d");
+    return reader.content();
+  };
+  EXPECT_EQ(content().sha256, "");
+  file("d/x.py", "x");
+  file("d/deep/er/y", "y");
+  const Content before = content();
+  EXPECT_EQ(before.files.size(), 2u);
+  file("d/__pycache__/x.pyc", "compiled");
+  fs::create_directory_symlink("/", directory_.path() / "d" / "root");
+  EXPECT_EQ(content().sha256, before.sha256);
+  file("d/deep/er/y", "z");
+  file("d/new", "n");
+  const Content after = content();
+  EXPECT_NE(after.sha256, before.sha256);
+  const std::string d = (directory_.path() / "d").string();
+  EXPECT_THAT(file_changes(before, after, 5),
+              testing::ElementsAre(d + "/deep/er/y changed", d + "/new is new"));
+  EXPECT_THAT(file_changes(after, before, 1),
+              testing::ElementsAre(d + "/deep/er/y changed", "and 1 files more"));
+  const Content read = records::parse_record<Content>(records::record_text(after), "after");
+  EXPECT_EQ(read.sha256, after.sha256);
+  EXPECT_THAT(file_changes(read, after, 5), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace lobelia
