@@ -175,11 +175,11 @@ constexpr AxisKind kAxisKinds[] = {
 
 std::string picture_of(const Scene& scene) {
   for (const Light& light : scene.lights)
-    if (const auto* sky = std::get_if<EnvironmentLight>(&light); sky && sky->image)
+    if (const std::string file = picture_file(light); !file.empty())
       return fmt::format(
           "the scene takes light from the picture '{}', and a cell keeps nothing but its scene file; "
           "allowed in a grid: every other light",
-          printable(sky->file));
+          printable(file));
   return "";
 }
 

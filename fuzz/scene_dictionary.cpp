@@ -58,7 +58,7 @@ std::set<std::string> words() {
     }
   };
   for (const auto& format : {kPerspective, kThinLens, kFilm, kSampler, kIntegrator}) add(format);
-  for (const auto& format : kEmitters) add(format);
+  for (const auto& format : emitter_formats()) add(format);
   for (const auto& format : kShapes) add(format);
   for (const auto& format : filter_formats()) add(format);
   for (const auto& format : material_formats()) add(format);

@@ -18,22 +18,22 @@ namespace {
 constexpr double kMaxExtent = 1e5;
 
 /// Whether the lamp lights nothing beneath a surface that it stands above in the unit direction `up`.
-bool faces_away(const PointLight& lamp, Vec3 up) {
-  return has_normal(lamp) && dot(lamp.normal, up) > 1 - 1e-9;
+bool faces_away(const Lamp& lamp, Vec3 up) {
+  return lamp.has_normal() && dot(lamp.normal, up) > 1 - 1e-9;
 }
 
-/// f(light, lamp, surface) for each point light and each surface that it lies on.
+/// f(light, lamp, surface) for each near lamp and each surface that it lies on.
 template <class F>
 void for_lamps_on_surfaces(const Scene& scene, const F& f) {
   const Contacts contacts = find_contacts(scene);
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
-    if (const auto* lamp = std::get_if<PointLight>(&scene.lights[l]))
+    if (const auto lamp = find_near_lamp(scene.lights[l]))
       for (const int surface : contacts[l]) f(l, *lamp, std::size_t(surface));
 }
 
 std::string lamp_on_sphere(const Scene& scene, bool though_it_faces_away) {
   std::string found;
-  for_lamps_on_surfaces(scene, [&](std::size_t l, const PointLight& lamp, std::size_t surface) {
+  for_lamps_on_surfaces(scene, [&](std::size_t l, const Lamp& lamp, std::size_t surface) {
     if (!found.empty() || surface >= scene.spheres.size()) return;
     if (though_it_faces_away ||
         !faces_away(lamp, normalize(lamp.position - scene.spheres[surface].center)))
@@ -44,18 +44,19 @@ std::string lamp_on_sphere(const Scene& scene, bool though_it_faces_away) {
 
 /// Takes what the change of units has put beside a surface back to it.
 void lay_on_surfaces(const Scene& before, Scene& scene) {
-  for_lamps_on_surfaces(before, [&](std::size_t l, const PointLight&, std::size_t surface) {
-    auto& lamp = std::get<PointLight>(scene.lights[l]);
+  for_lamps_on_surfaces(before, [&](std::size_t l, const Lamp&, std::size_t surface) {
+    Light& light = scene.lights[l];
+    Lamp lamp = lamp_of(light);
     if (surface >= scene.spheres.size()) {
       const Plane& plane = scene.planes[surface - scene.spheres.size()];
-      if (!lies_on(lamp, plane, closeness(scene)))
-        lamp.position =
-            lamp.position - dot(lamp.position - plane.point, plane.normal) * plane.normal;
-      return;
-    }
-    const Sphere& sphere = scene.spheres[surface];
-    if (!lies_on(lamp, sphere, closeness(scene)))
+      if (lies_on(light, plane, closeness(scene))) return;
+      lamp.position = lamp.position - dot(lamp.position - plane.point, plane.normal) * plane.normal;
+    } else {
+      const Sphere& sphere = scene.spheres[surface];
+      if (lies_on(light, sphere, closeness(scene))) return;
       lamp.position = sphere.center + sphere.radius * normalize(lamp.position - sphere.center);
+    }
+    light = light_of(lamp);
   });
 }
 
@@ -112,7 +113,8 @@ std::string lamp_close_to_surface(const Scene& given, double distance) {
   const Scene scene = in_engine_units(given);
   const double close = closeness(scene);
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    const auto* lamp = std::get_if<PointLight>(&scene.lights[l]);
+    const Light& light = scene.lights[l];
+    const auto lamp = find_near_lamp(light);
     if (!lamp) continue;
     const auto found = [&](const char* what, std::size_t k) {
       return fmt::format("light {} is nearer than {:.2g} to {} {} and does not lie on it", l,
@@ -121,14 +123,14 @@ std::string lamp_close_to_surface(const Scene& given, double distance) {
     for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
       const Sphere& sphere = scene.spheres[k];
       const Vec3 way = lamp->position - sphere.center;
-      if (std::abs(length(way) - sphere.radius) < distance && !lies_on(*lamp, sphere, close) &&
+      if (std::abs(length(way) - sphere.radius) < distance && !lies_on(light, sphere, close) &&
           !faces_away(*lamp, normalize(way)))
         return found("sphere", k);
     }
     for (std::size_t k = 0; k < scene.planes.size(); ++k) {
       const Plane& plane = scene.planes[k];
       const double height = dot(lamp->position - plane.point, plane.normal);
-      if (std::abs(height) < distance && !lies_on(*lamp, plane, close) &&
+      if (std::abs(height) < distance && !lies_on(light, plane, close) &&
           !faces_away(*lamp, height > 0 ? plane.normal : -plane.normal))
         return found("plane", k);
     }
@@ -148,9 +150,10 @@ Scene in_engine_units(Scene scene) {
     sphere.radius *= scale;
   }
   for (Light& light : scene.lights)
-    if (auto* point = std::get_if<PointLight>(&light)) {
-      point->position = place(point->position);
-      point->intensity = scale * scale * point->intensity;  // irradiance stays as it was
+    if (auto lamp = find_near_lamp(light)) {
+      lamp->position = place(lamp->position);
+      lamp->strength = scale * scale * lamp->strength;  // irradiance stays as it was
+      light = light_of(*lamp);
     }
   for (Plane& plane : scene.planes) {
     plane.point = place(plane.point);
@@ -166,8 +169,8 @@ double extent(const Scene& scene) {
   for (const Sphere& sphere : scene.spheres)
     farthest = std::max(farthest, length(sphere.center) + sphere.radius);
   for (const Light& light : scene.lights)
-    if (const auto* point = std::get_if<PointLight>(&light))
-      farthest = std::max(farthest, length(point->position));
+    if (const auto lamp = find_near_lamp(light))
+      farthest = std::max(farthest, length(lamp->position));
   return farthest;
 }
 

@@ -6,14 +6,12 @@
 #include <memory>
 #include <numbers>
 
-#include "renderer/lights/environment.hpp"
 #include "renderer/pixel_ray.hpp"
+#include "renderer/scene/lights/prepared_light.hpp"
 #include "renderer/sobol.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// The points of one replicate.
 class Points {
@@ -31,37 +29,9 @@ class Points {
   std::uint32_t replicate_, index_ = ~0u, dimension_ = 0;
 };
 
-Vec3 on_unit_sphere(double u, double v) {
-  const double z = 1 - 2 * u, r = std::sqrt(std::max(0.0, 1 - z * z)), turn = 2 * kPi * v;
-  return {r * std::cos(turn), r * std::sin(turn), z};
-}
-
-/// A point of the light as a lamp that, on the average over all points, is the light.
-Light lamp(const Light& light, const Environment* environment, Points& points) {
-  if (is_delta(light)) return light;
+Lamp random_lamp(const PreparedLight& light, Points& points) {
   const auto [u, v] = points();
-  if (const auto* ball = std::get_if<SphereLight>(&light)) {
-    const Vec3 normal = on_unit_sphere(u, v);
-    const double area = 4 * kPi * ball->radius * ball->radius;
-    return PointLight{ball->center + ball->radius * normal, area * ball->radiance, normal};
-  }
-  if (const auto* r = std::get_if<RectangleLight>(&light)) {
-    const Vec3 normal = cross(r->half_u, r->half_v);  // a quarter of the area long
-    return PointLight{r->center + (2 * u - 1) * r->half_u + (2 * v - 1) * r->half_v,
-                      4 * length(normal) * r->radiance, normalize(normal)};
-  }
-  const LightSample sample = environment->sample(u, v);
-  if (!(sample.pdf > 0)) return DirectionalLight{{0, 0, -1}, {}};
-  return DirectionalLight{-sample.to_light, 1 / sample.pdf * sample.radiance};
-}
-
-std::vector<std::unique_ptr<Environment>> environments(const Scene& scene) {
-  std::vector<std::unique_ptr<Environment>> result;
-  for (const Light& light : scene.lights) {
-    const auto* e = std::get_if<EnvironmentLight>(&light);
-    result.push_back(e ? std::make_unique<Environment>(*e) : nullptr);
-  }
-  return result;
+  return light.lamp(u, v);
 }
 
 bool camera_varies(const Scene& scene) {
@@ -71,7 +41,8 @@ bool camera_varies(const Scene& scene) {
 /// A pinhole at a point of the lens, its film moved so that the plane of focus stays where it is.
 void look_through(const Scene& scene, Points& points, Camera& camera) {
   const auto [u, v] = points();
-  const double radius = scene.camera.aperture_radius * std::sqrt(u), turn = 2 * kPi * v;
+  const double radius = scene.camera.aperture_radius * std::sqrt(u),
+               turn = 2 * std::numbers::pi * v;
   const double x = radius * std::cos(turn), y = radius * std::sin(turn);
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
   const Vec3 aside = x * frame.right + y * frame.up;
@@ -104,13 +75,6 @@ Scene without_softness(const Scene& scene) {
   return simple;
 }
 
-Light dimmed(Light light, double factor) {
-  auto* point = std::get_if<PointLight>(&light);
-  Rgb& strength = point ? point->intensity : std::get<DirectionalLight>(light).irradiance;
-  strength = factor * strength;
-  return light;
-}
-
 }  // namespace
 
 bool needs_replicates(const Scene& scene) {
@@ -119,7 +83,7 @@ bool needs_replicates(const Scene& scene) {
 }
 
 std::vector<Replicate> replicates(const Scene& scene, int count, int points, std::uint64_t seed) {
-  const auto skies = environments(scene);
+  const auto lights = prepare(scene.lights);
   const FilterSampler filter(scene.film.filter);
   std::vector<Replicate> result;
   for (int r = 0; r < count; ++r) {
@@ -133,7 +97,9 @@ std::vector<Replicate> replicates(const Scene& scene, int count, int points, std
         if (scene.sampler.sample_count > 1)
           simple.weight = move_film(scene.film, filter, next, simple.scene.camera);
         for (std::size_t l = 0; l < scene.lights.size(); ++l)
-          simple.scene.lights.push_back(lamp(scene.lights[l], skies[l].get(), next));
+          simple.scene.lights.push_back(is_delta(scene.lights[l])
+                                            ? scene.lights[l]
+                                            : light_of(random_lamp(*lights[l], next)));
         replicate.push_back(std::move(simple));
       }
       continue;
@@ -143,10 +109,12 @@ std::vector<Replicate> replicates(const Scene& scene, int count, int points, std
       if (is_delta(light)) simple.scene.lights.push_back(light);
     for (int p = 0; p < points; ++p) {
       next.next();
-      for (std::size_t l = 0; l < scene.lights.size(); ++l)
-        if (!is_delta(scene.lights[l]))
-          simple.scene.lights.push_back(
-              dimmed(lamp(scene.lights[l], skies[l].get(), next), 1.0 / points));
+      for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        if (is_delta(scene.lights[l])) continue;
+        Lamp lamp = random_lamp(*lights[l], next);
+        lamp.strength = 1.0 / points * lamp.strength;
+        simple.scene.lights.push_back(light_of(lamp));
+      }
     }
     replicate.push_back(std::move(simple));
   }
@@ -173,31 +141,10 @@ SeenSurface first_surface(const Scene& scene, Vec3 origin, Vec3 direction) {
   return nearest;
 }
 
-constexpr double kNowhere = std::numeric_limits<double>::infinity();
-
-/// Distance to where a ray enters the ball or crosses the rectangle from its bright side.
-double distance_to_light(const Light& light, Vec3 origin, Vec3 direction) {
-  if (const auto* ball = std::get_if<SphereLight>(&light)) {
-    const Vec3 way = ball->center - origin;
-    const double b = dot(way, direction), c = dot(way, way) - ball->radius * ball->radius;
-    const double discriminant = b * b - c;
-    return c > 0 && b > 0 && discriminant > 0 ? b - std::sqrt(discriminant) : kNowhere;
-  }
-  const auto& r = std::get<RectangleLight>(light);
-  const Vec3 normal = cross(r.half_u, r.half_v);
-  const double against = -dot(direction, normal);
-  if (!(against > 0)) return kNowhere;
-  const double t = dot(origin - r.center, normal) / against;
-  const Vec3 from = origin + t * direction - r.center;
-  const bool within = std::abs(dot(from, r.half_u)) <= dot(r.half_u, r.half_u) &&
-                      std::abs(dot(from, r.half_v)) <= dot(r.half_v, r.half_v);
-  return t > 0 && within ? t : kNowhere;
-}
-
 }  // namespace
 
 SizedLights::SizedLights(const Scene& scene)
-    : lights_(scene.lights), contacts_(find_contacts(scene)), skies_(environments(scene)) {}
+    : lights_(scene.lights), contacts_(find_contacts(scene)), prepared_(prepare(scene.lights)) {}
 SizedLights::~SizedLights() = default;
 
 Image SizedLights::seen_in(const Scene& simple) const {
@@ -210,14 +157,14 @@ Image SizedLights::seen_in(const Scene& simple) const {
       const SeenSurface surface = first_surface(simple, frame.origin, direction);
       Rgb sum;
       for (std::size_t l = 0; l < lights_.size(); ++l) {
-        const Environment* sky = skies_[l].get();
-        if (is_delta(lights_[l])) continue;
-        const double distance =
-            sky ? kNowhere : distance_to_light(lights_[l], frame.origin, direction);
-        const bool lies_on_it = std::ranges::count(contacts_[l], surface.index) > 0;
-        if (sky ? surface.index < 0
-                : distance < surface.distance || (lies_on_it && distance < kNowhere))
-          sum = sum + (sky ? sky->radiance(direction) : strength(lights_[l]));
+        if (is_environment(lights_[l])) {
+          if (surface.index < 0) sum = sum + prepared_[l]->look(direction).radiance;
+        } else if (is_area(lights_[l])) {
+          const double distance = prepared_[l]->distance(frame.origin, direction);
+          const bool lies_on_it = std::ranges::count(contacts_[l], surface.index) > 0;
+          if (distance < surface.distance || (lies_on_it && std::isfinite(distance)))
+            sum = sum + strength(lights_[l]);
+        }
       }
       const auto pixel = image.pixel(x, y);
       pixel[0] = float(sum.r);

@@ -12,7 +12,7 @@
 
 namespace lobelia {
 
-class Environment;
+class PreparedLight;
 
 /// Whether a single ray through each pixel's centre under lamps without a size does not tell it all.
 bool needs_replicates(const Scene& scene);
@@ -44,7 +44,7 @@ class SizedLights {
  private:
   std::vector<Light> lights_;
   Contacts contacts_;
-  std::vector<std::unique_ptr<Environment>> skies_;  ///< by light; null for others
+  std::vector<std::unique_ptr<const PreparedLight>> prepared_;
 };
 
 }  // namespace lobelia

@@ -35,12 +35,10 @@ FusedSphere prepare(const Scene& scene, const Plan& plan, std::size_t index) {
   const Rgb grazing = coefficient * Rgb{1 - f0.r, 1 - f0.g, 1 - f0.b};
   const Rgb diffuse = std::numbers::inv_pi * material.diffuse_reflectance;
   for (const Light& light : scene.lights) {
-    const auto* directional = std::get_if<DirectionalLight>(&light);
-    const Rgb emitted = strength(light);
-    result.lights.push_back(
-        {directional != nullptr,
-         directional ? -directional->direction : std::get<PointLight>(light).position,
-         emitted * specular, emitted * grazing, emitted * diffuse});
+    const Lamp lamp = lamp_of(light);
+    result.lights.push_back({lamp.is_distant, lamp.is_distant ? -lamp.direction : lamp.position,
+                             lamp.strength * specular, lamp.strength * grazing,
+                             lamp.strength * diffuse});
   }
   return result;
 }
@@ -52,8 +50,7 @@ bool FusedRenderer::can_render(const Scene& scene, const Plan& plan) {
       scene.spheres.size() > kMostSpheres || !beyond_delta_lights(scene).empty())
     return false;
   for (const Light& light : scene.lights)
-    if (const auto* point = std::get_if<PointLight>(&light); point && has_normal(*point))
-      return false;
+    if (lamp_of(light).has_normal()) return false;
   for (const auto& by_sphere : plan.occluders)
     for (const auto& occluders : by_sphere)
       if (!occluders.empty()) return false;

@@ -9,15 +9,16 @@
 
 namespace lobelia {
 
-double nearest_surface(const PointLight& light, const Scene& scene) {
+double nearest_surface(const Lamp& lamp, const Scene& scene) {
+  const Light light = light_of(lamp);
   double nearest = std::numeric_limits<double>::infinity();
   const double close = closeness(scene);
   for (const Sphere& sphere : scene.spheres) {
-    const double distance = length(light.position - sphere.center) - sphere.radius;
+    const double distance = length(lamp.position - sphere.center) - sphere.radius;
     if (distance > 0 && !lies_on(light, sphere, close)) nearest = std::min(nearest, distance);
   }
   for (const Plane& plane : scene.planes) {
-    const double distance = std::abs(dot(light.position - plane.point, plane.normal));
+    const double distance = std::abs(dot(lamp.position - plane.point, plane.normal));
     if (distance > 0 && !lies_on(light, plane, close)) nearest = std::min(nearest, distance);
   }
   return std::isfinite(nearest) ? nearest : 1.0;
@@ -41,9 +42,9 @@ double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
   }
   double irradiance = 0;
   for (const Light& light : lights) {
-    if (const auto* point = std::get_if<PointLight>(&light)) {
-      const double distance = nearest_surface(*point, scene);
-      irradiance += max_component(point->intensity) / (distance * distance);
+    if (const auto lamp = find_near_lamp(light)) {
+      const double distance = nearest_surface(*lamp, scene);
+      irradiance += max_component(lamp->strength) / (distance * distance);
     } else {
       irradiance += max_component(strength(light));
     }

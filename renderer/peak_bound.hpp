@@ -5,8 +5,8 @@
 
 namespace lobelia {
 
-/// Distance from `light` to the nearest surface that it can light; 1 if it can light none.
-double nearest_surface(const PointLight& light, const Scene& scene);
+/// Distance from a near lamp to the nearest surface that it can light; 1 if it can light none.
+double nearest_surface(const Lamp& lamp, const Scene& scene);
 
 /// Greatest radiance that the given lights can bring to the picture, straight or by mirrors, from above.
 double peak_bound(const Scene& scene, const std::vector<Light>& lights);

@@ -57,7 +57,7 @@ class Render {
       tiles_.reset();
     });
     throw_if_interrupted();
-    for (auto& workspace : workspaces_) result_.work += WaveRenderer::work_of(*workspace);
+    for (auto& workspace : workspaces_) result_.work += workspace->work;
     result_.render_seconds = seconds_since(started_);
     return std::move(result_);
   }
@@ -134,7 +134,7 @@ class Render {
     std::vector<Spread> spread(across * std::size_t((height() + kTileSide - 1) / kTileSide));
     std::atomic<std::int64_t> pixels{0};
     in_bands([&](int y0, int y1, float* rgb) {
-      for_tiles(y0, y1, [&](const Tile& tile, WaveRenderer::Workspace& workspace) {
+      for_tiles(y0, y1, [&](const Tile& tile, Workspace& workspace) {
         spread[std::size_t(tile.y / kTileSide) * across + std::size_t(tile.x / kTileSide)] =
             tiles_->render(tile, samples, rgb, y0, workspace);
         report(double(pixels += std::int64_t{tile.width} * tile.height) /
@@ -165,7 +165,7 @@ class Render {
         }
         next = std::min(next, done + affordable);
       }
-      for_tiles(0, height(), [&](const Tile& tile, WaveRenderer::Workspace& workspace) {
+      for_tiles(0, height(), [&](const Tile& tile, Workspace& workspace) {
         tiles_->add(tile, done, next, frame, workspace);
       });
       if (done > 0) result_.error = frame.error(done, next);
@@ -228,8 +228,8 @@ class Render {
   const RowSink* sink_;
   Clock::time_point started_;
   std::unique_ptr<TileRenderer> tiles_;
-  oneapi::tbb::enumerable_thread_specific<WaveRenderer::WorkspacePointer> workspaces_{
-      [] { return WaveRenderer::make_workspace(); }};
+  oneapi::tbb::enumerable_thread_specific<std::unique_ptr<Workspace>> workspaces_{
+      [] { return std::make_unique<Workspace>(); }};
   RenderResult result_;
 };
 

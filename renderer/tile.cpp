@@ -117,7 +117,7 @@ TileRenderer::TileRenderer(const Scene& scene, const Plan& plan, const WaveRende
 /// Samples first..last - 1 of all pixels, a chunk at a time; take_result(pixel, sample, result).
 template <class Take>
 void TileRenderer::take(std::span<const PixelSample> pixels, int first, int last,
-                        WaveRenderer::Workspace& workspace, const Take& take_result) const {
+                        Workspace& workspace, const Take& take_result) const {
   std::array<PixelSample, kChunk> samples;
   std::array<SampleResult, kChunk> results;
   const std::size_t each = std::size_t(last - first), all = pixels.size() * each;
@@ -135,7 +135,7 @@ void TileRenderer::take(std::span<const PixelSample> pixels, int first, int last
 }
 
 Spread TileRenderer::render(const Tile& tile, int samples, float* rgb, int first_row,
-                            WaveRenderer::Workspace& workspace) const {
+                            Workspace& workspace) const {
   if (plan_.first_samples >= samples)
     return render_everywhere(tile, samples, rgb, first_row, workspace);
   render_where_needed(tile, samples, rgb, first_row, workspace);
@@ -143,7 +143,7 @@ Spread TileRenderer::render(const Tile& tile, int samples, float* rgb, int first
 }
 
 Spread TileRenderer::render_everywhere(const Tile& tile, int samples, float* rgb, int first_row,
-                                       WaveRenderer::Workspace& workspace) const {
+                                       Workspace& workspace) const {
   std::vector<PixelSample> pixels;
   for (int y = 0; y < tile.height; ++y)
     for (int x = 0; x < tile.width; ++x) pixels.push_back({tile.x + x, tile.y + y, 0});
@@ -171,7 +171,7 @@ Spread TileRenderer::render_everywhere(const Tile& tile, int samples, float* rgb
 /// A few samples of every pixel, and of those around the tile; then the rest where these, of all pixels that
 /// the filter reaches, show more than an even surface.
 void TileRenderer::render_where_needed(const Tile& tile, int samples, float* rgb, int first_row,
-                                       WaveRenderer::Workspace& workspace) const {
+                                       Workspace& workspace) const {
   const Film& film = scene_.film;
   const PixelRange columns = looked_at({tile.x, tile.x + tile.width}, film.width, film.filter);
   const PixelRange rows = looked_at({tile.y, tile.y + tile.height}, film.height, film.filter);
@@ -213,7 +213,7 @@ void TileRenderer::render_where_needed(const Tile& tile, int samples, float* rgb
 }
 
 void TileRenderer::add(const Tile& tile, int first, int last, Frame& frame,
-                       WaveRenderer::Workspace& workspace) const {
+                       Workspace& workspace) const {
   frame.keep(tile, first);
   std::vector<PixelSample> pixels;
   for (int y = 0; y < tile.height; ++y)

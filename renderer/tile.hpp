@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/image.hpp"
-#include "renderer/wave_renderer.hpp"
+#include "renderer/waves/wave_renderer.hpp"
 
 namespace lobelia {
 
@@ -65,10 +65,9 @@ class TileRenderer {
 
   /// All samples; row y of the picture goes to `rgb` + 3 * width * (y - first_row).
   Spread render(const Tile& tile, int samples, float* rgb, int first_row,
-                WaveRenderer::Workspace& workspace) const;
+                Workspace& workspace) const;
   /// Samples first..last - 1 of every pixel.
-  void add(const Tile& tile, int first, int last, Frame& frame,
-           WaveRenderer::Workspace& workspace) const;
+  void add(const Tile& tile, int first, int last, Frame& frame, Workspace& workspace) const;
 
   /// Whether more samples give another picture, apart from antialiasing.
   bool is_random() const { return random_; }
@@ -78,12 +77,12 @@ class TileRenderer {
 
  private:
   template <class Take>
-  void take(std::span<const PixelSample> pixels, int first, int last,
-            WaveRenderer::Workspace& workspace, const Take& take_result) const;
+  void take(std::span<const PixelSample> pixels, int first, int last, Workspace& workspace,
+            const Take& take_result) const;
   Spread render_everywhere(const Tile& tile, int samples, float* rgb, int first_row,
-                           WaveRenderer::Workspace& workspace) const;
+                           Workspace& workspace) const;
   void render_where_needed(const Tile& tile, int samples, float* rgb, int first_row,
-                           WaveRenderer::Workspace& workspace) const;
+                           Workspace& workspace) const;
 
   const Scene& scene_;
   const Plan& plan_;

@@ -23,7 +23,7 @@ Scene everything() {
   scene.sampler = {64, 0};
   scene.depth = {3, 2};
   scene.lights = {RectangleLight{{1, 3.2, 1.4}, {0.9, 0, 0}, {0, 0, 0.5}, {5, 5, 5}},
-                  EnvironmentLight{{0.12, 0.15, 0.2}, nullptr, ""}};
+                  ConstantLight{{0.12, 0.15, 0.2}}};
   scene.materials = {material("varnish", 96, {0.04, 0.04, 0.04}, {0.6, 0.15, 0.1}),
                      material("mirror", 256, {0.2, 0.2, 0.2}, {}),
                      material("metal", 48, {0.5, 0.4, 0.2}, {0.1, 0.08, 0.04}),

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
@@ -15,17 +14,10 @@ void each_material(Without& w, void (*change)(Material&)) {
   std::for_each(w.scene.materials.begin(), w.scene.materials.end(), change);
 }
 
-/// A lamp without a size that sends the same power the same way; others stay.
+/// Of the same power; others stay.
 Light as_point(const Light& light) {
-  if (const auto* ball = std::get_if<SphereLight>(&light))
-    return PointLight{
-        ball->center, std::numbers::pi * ball->radius * ball->radius * ball->radiance, {}};
-  if (const auto* rectangle = std::get_if<RectangleLight>(&light)) {
-    const Vec3 normal = cross(rectangle->half_u, rectangle->half_v);  // a quarter of the area long
-    return PointLight{rectangle->center, 4 * length(normal) * rectangle->radiance,
-                      normalize(normal)};
-  }
-  return light;
+  const auto lamp = lamp_of_same_power(light);
+  return lamp ? light_of(*lamp) : light;
 }
 
 struct Switch {
@@ -48,11 +40,7 @@ constexpr Switch kSwitches[] = {
                       as_point);
      }},
     {effects::Environment::kName, "black where no surface is",
-     [](Without& w) {
-       std::erase_if(w.scene.lights, [](const Light& light) {
-         return std::holds_alternative<EnvironmentLight>(light);
-       });
-     }},
+     [](Without& w) { std::erase_if(w.scene.lights, is_environment); }},
     {effects::Mirror::kName, "no mirrors",
      [](Without& w) { each_material(w, [](Material& m) { m.mirror_reflectance = {}; }); }},
     {effects::Glossy::kName, "direct light and mirrors alone",

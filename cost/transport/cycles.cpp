@@ -28,14 +28,16 @@ Json to_json(Rgb c) { return Json::array({c.r, c.g, c.b}); }
 Json in_blender(Vec3 v) { return Json::array({-v.z, -v.x, v.y}); }
 
 Json light_json(const Light& light, const std::filesystem::path& directory) {
-  if (const auto* sky = std::get_if<EnvironmentLight>(&light))
-    return {{"kind", "environment"}, {"file", (directory / sky->file).string()}};
-  const auto& lamp = std::get<RectangleLight>(light);
+  if (is_environment(light))
+    return {{"kind", "environment"}, {"file", (directory / picture_file(light)).string()}};
+  const auto vector = [&](const char* name) {
+    return in_blender(std::get<Vec3>(value_of(light, name)));
+  };
   return {{"kind", "rectangle"},
-          {"center", in_blender(lamp.center)},
-          {"halfU", in_blender(lamp.half_u)},
-          {"halfV", in_blender(lamp.half_v)},
-          {"radiance", lamp.radiance.r}};
+          {"center", vector("center")},
+          {"halfU", vector("half_u")},
+          {"halfV", vector("half_v")},
+          {"radiance", strength(light).r}};
 }
 
 Json job_json(const Scene& scene, const std::filesystem::path& directory,

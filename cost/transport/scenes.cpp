@@ -59,7 +59,7 @@ Scene below_rectangle(int side) {
 
 Scene below_sky(int side, const std::filesystem::path& directory) {
   Scene scene = sphere_on_plane(side);
-  EnvironmentLight light{{1, 1, 1}, std::make_shared<Image>(sky()), "sky.exr"};
+  EnvmapLight light{{1, 1, 1}, std::make_shared<Image>(sky()), "sky.exr"};
   write_exr(directory / light.file, *light.image, {});
   scene.lights = {light};
   return scene;

@@ -93,7 +93,7 @@ inline std::vector<NamedScene> soft_scenes(const HighlightChoice& choice, int si
   const Light sun = directional_at(50, {2, 1.5, 1});
   const Light ball = SphereLight{{2, 2.5, 2.5}, 0.6, {20, 16, 12}};
   const Light window = RectangleLight{{-2, 2, 2}, {0.5, 0, 0.5}, {0, -0.6, 0}, {9, 12, 15}};
-  const Light sky = EnvironmentLight{{0.5, 0.7, 1}, {}, {}};
+  const Light sky = ConstantLight{{0.5, 0.7, 1}};
   std::vector<NamedScene> scenes = {{"a ball of light", ground_scene(choice, {ball}, size)},
                                     {"a window", ground_scene(choice, {window, sun}, size)},
                                     {"the sky", ground_scene(choice, {sky}, size)},

@@ -30,19 +30,18 @@ void require_known(std::span<const std::string_view> known, std::string_view nam
 std::array<double, 3> numbers(Vec3 v) { return {v.x, v.y, v.z}; }
 std::array<double, 3> numbers(Rgb c) { return {c.r, c.g, c.b}; }
 
-BlenderLight light_input(const Light& light) {
+BlenderLight light_input(const Lamp& lamp) {
   BlenderLight input;
-  if (const auto* point = std::get_if<PointLight>(&light)) {
-    input.kind = "point";
-    input.position = numbers(point->position);
-    input.intensity = numbers(point->intensity);
-    input.normal = numbers(point->normal);
+  if (lamp.is_distant) {
+    input.kind = "directional";
+    input.direction = numbers(lamp.direction);
+    input.irradiance = numbers(lamp.strength);
     return input;
   }
-  const auto& directional = std::get<DirectionalLight>(light);
-  input.kind = "directional";
-  input.direction = numbers(directional.direction);
-  input.irradiance = numbers(directional.irradiance);
+  input.kind = "point";
+  input.position = numbers(lamp.position);
+  input.intensity = numbers(lamp.strength);
+  input.normal = numbers(lamp.normal);
   return input;
 }
 
@@ -99,7 +98,7 @@ BlenderScene blender_input(const Scene& scene, const std::string& name, bool nat
                   {camera.principal_point_offset_x, camera.principal_point_offset_y}};
   const Contacts contacts = find_contacts(scene);
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    input.lights.push_back(light_input(scene.lights[l]));
+    input.lights.push_back(light_input(lamp_of(scene.lights[l])));
     input.lights.back().lies_on = contacts[l];
   }
   for (const Material& material : scene.materials)

@@ -47,20 +47,19 @@ bool by_itself(const Material& material, bool expressed) {
   return !has_highlight(material) || (!expressed && is_native(material));
 }
 
-std::string light_text(const Light& light, const Scene& scene) {
-  if (const auto* point = std::get_if<PointLight>(&light)) {
-    const double nearest = nearest_surface(*point, scene);
-    if (has_normal(*point))
-      return fmt::format("Lobelia_Surface_Light({}, {}, {}, {})\n", sdl(point->position),
-                         sdl(point->normal), sdl(point->intensity), sdl(nearest));
-    return fmt::format("Lobelia_Point_Light({}, {}, {})\n", sdl(point->position),
-                       sdl(point->intensity), sdl(nearest));
+std::string lamp_text(const Lamp& lamp, const Scene& scene) {
+  if (lamp.is_distant) {
+    // In front of all that is seen of an endless plane, and not beyond POV-Ray's farthest ray, 1e7.
+    const double far = scene.planes.empty() ? 1000 * extent(scene) : 1e6;
+    return fmt::format("Lobelia_Directional_Light({}, {}, {})\n", sdl(lamp.direction),
+                       sdl(lamp.strength), sdl(far));
   }
-  const auto& directional = std::get<DirectionalLight>(light);
-  // In front of all that is seen of an endless plane, and not beyond POV-Ray's farthest ray, 1e7.
-  const double far = scene.planes.empty() ? 1000 * extent(scene) : 1e6;
-  return fmt::format("Lobelia_Directional_Light({}, {}, {})\n", sdl(directional.direction),
-                     sdl(directional.irradiance), sdl(far));
+  const double nearest = nearest_surface(lamp, scene);
+  if (lamp.has_normal())
+    return fmt::format("Lobelia_Surface_Light({}, {}, {}, {})\n", sdl(lamp.position),
+                       sdl(lamp.normal), sdl(lamp.strength), sdl(nearest));
+  return fmt::format("Lobelia_Point_Light({}, {}, {})\n", sdl(lamp.position), sdl(lamp.strength),
+                     sdl(nearest));
 }
 
 std::string native_texture(const Material& material) {
@@ -151,7 +150,7 @@ PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const P
       "Lobelia_Camera({}, {}, {}, {}, {}/{}, {}, {})\n", sdl(camera.origin), sdl(camera.target),
       sdl(camera.up), sdl(camera.fov_degrees), scene.film.width, scene.film.height,
       sdl(camera.principal_point_offset_x), sdl(camera.principal_point_offset_y));
-  for (const Light& light : lights) pass.surfaces += light_text(light, scene);
+  for (const Light& light : lights) pass.surfaces += lamp_text(lamp_of(light), scene);
   pass.surfaces += surfaces_text(scene, expressed);
   return pass;
 }

@@ -1,8 +1,5 @@
 #include "renderer/kernels/kernels.hpp"
 
-#include <limits>
-#include <variant>
-
 // Without optimisation Highway's functions are not inlined, and GCC 12 hands wide registers through
 // memory that it aligns to 16 bytes only: a debug build keeps to the baseline.
 #ifndef __OPTIMIZE__
@@ -23,30 +20,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace {
-
-void light(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Chunk& to_light,
-           double* falloff, double* distance) {
-  if (const auto* directional = std::get_if<DirectionalLight>(&light)) {
-    for (std::size_t i = 0; i < count; i += Lanes::count()) {
-      store(broadcast(-directional->direction), to_light, i);
-      Lanes(1.0).store(falloff + i);
-      Lanes(std::numeric_limits<double>::infinity()).store(distance + i);
-    }
-    return;
-  }
-  const auto& source = std::get<PointLight>(light);
-  const Lanes3 position = broadcast(source.position), normal = broadcast(source.normal);
-  const bool falls_with_cosine = has_normal(source);
-  for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    Lanes3 l;
-    Lanes weight, length;
-    to_point_light(position, load(point, i), l, weight, length);
-    store(l, to_light, i);
-    if (falls_with_cosine) weight = weight * positive_part(Lanes(0.0) - dot(normal, l));
-    weight.store(falloff + i);
-    length.store(distance + i);
-  }
-}
 
 void visibility(const std::vector<Sphere>& spheres, const std::vector<int>& occluders,
                 std::size_t count, const Vec3Chunk& point, const Vec3Chunk& to_light,
@@ -172,8 +145,8 @@ KernelTable::LobeValue find_lobe32(LobeId lobe) {
 }  // namespace
 
 const KernelTable& kernel_table() {
-  static const KernelTable table{
-      light, visibility, find_shade, find_lobe32, fresnel, cosine, hwy::TargetName(HWY_TARGET)};
+  static const KernelTable table{visibility, find_shade, find_lobe32,
+                                 fresnel,    cosine,     hwy::TargetName(HWY_TARGET)};
   return table;
 }
 

@@ -22,10 +22,6 @@ struct Vec3Chunk {
 /// Kernels run over whole registers: lanes from `count` up to the next multiple of 16 are computed too,
 /// from whatever stands there, and are to be ignored.
 struct KernelTable {
-  /// to_light, and the factor on the light's irradiance or intensity (1, or 1/distance^2).
-  void (*light)(const Light& light, std::size_t count, const Vec3Chunk& point, Vec3Chunk& to_light,
-                double* falloff, double* distance);
-
   /// 1 where no sphere of `occluders` stands between point and light, else 0.
   void (*visibility)(const std::vector<Sphere>& spheres, const std::vector<int>& occluders,
                      std::size_t count, const Vec3Chunk& point, const Vec3Chunk& to_light,

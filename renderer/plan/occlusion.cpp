@@ -11,34 +11,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A hair wider than the geometry, so that rounding never rules out a grazing occluder.
 constexpr double kWider = 1 + 1e-9;
 
-/// Where a light is: a ball that holds it, infinitely far away in one direction, or everywhere.
-struct Place {
-  enum { kBall, kFar, kEverywhere } kind;
-  Vec3 at;  ///< centre of the ball, or unit direction to it
-  double radius = 0;
-};
-
-Place place(const Light& light) {
-  struct Visitor {
-    Place operator()(const DirectionalLight& l) const { return {Place::kFar, -l.direction}; }
-    Place operator()(const PointLight& l) const { return {Place::kBall, l.position}; }
-    Place operator()(const SphereLight& l) const { return {Place::kBall, l.center, l.radius}; }
-    Place operator()(const RectangleLight& l) const {
-      return {Place::kBall, l.center, length(l.half_u + l.half_v)};
-    }
-    Place operator()(const EnvironmentLight&) const { return {Place::kEverywhere, {}}; }
-  };
-  return std::visit(Visitor{}, light);
-}
-
 /// What lies between a ball and a sphere is within the larger one's radius of the line between their
 /// centres: the occluder must reach it.
-bool may_occlude(const Place& light, const Sphere& receiver, const Sphere& occluder) {
-  if (light.kind == Place::kEverywhere) return true;
+bool may_occlude(const LightBounds& light, const Sphere& receiver, const Sphere& occluder) {
+  if (light.kind == LightBounds::kEverywhere) return true;
   const Vec3 to_occluder = occluder.center - receiver.center;
   Vec3 axis = light.at;
   double axis_length = kInfinity, tube = receiver.radius;
-  if (light.kind == Place::kBall) {
+  if (light.kind == LightBounds::kBall) {
     const Vec3 way = light.at - receiver.center;
     axis_length = length(way);
     if (axis_length <= receiver.radius + light.radius) return true;  // they meet: rule nothing out
@@ -57,27 +37,28 @@ double side(const Plane& plane, Vec3 center, double radius) {
 }
 
 /// Which side of the plane all of the light is on: 1, -1, or 0 where it is on both.
-int side(const Plane& plane, const Place& light) {
+int side(const Plane& plane, const LightBounds& light) {
   double height = 0;
-  if (light.kind == Place::kBall) height = side(plane, light.at, light.radius);
-  if (light.kind == Place::kFar) {
+  if (light.kind == LightBounds::kBall) height = side(plane, light.at, light.radius);
+  if (light.kind == LightBounds::kFar) {
     height = dot(light.at, plane.normal);
     if (std::abs(height) < 1e-12) height = 0;
   }
   return (height > 0) - (height < 0);
 }
 
-bool may_occlude(const Place& light, const Sphere& receiver, const Plane& occluder) {
+bool may_occlude(const LightBounds& light, const Sphere& receiver, const Plane& occluder) {
   const int lit = side(occluder, light);
   return lit == 0 || lit * side(occluder, receiver.center, receiver.radius) <= 0;
 }
 
-bool may_occlude(const Place& light, const Plane& receiver, const Sphere& occluder) {
+bool may_occlude(const LightBounds& light, const Plane& receiver, const Sphere& occluder) {
   const int lit = side(receiver, light);
   return lit == 0 || lit * side(receiver, occluder.center, occluder.radius) >= 0;
 }
 
-Occluders occluders_of(const Scene& scene, const Place& light, std::size_t surface, bool all) {
+Occluders occluders_of(const Scene& scene, const LightBounds& light, std::size_t surface,
+                       bool all) {
   Occluders found;
   const std::size_t spheres = scene.spheres.size();
   const bool is_sphere = surface < spheres;
@@ -122,7 +103,7 @@ std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, const Con
     } else {
       found[l].resize(surfaces);
       if (is_black(strength(scene.lights[l])) && !all) continue;
-      const Place light = place(scene.lights[l]);
+      const LightBounds light = bounds(scene.lights[l]);
       for (std::size_t s = 0; s < surfaces; ++s) found[l][s] = occluders_of(scene, light, s, all);
     }
     for (const int touched : contacts[l])

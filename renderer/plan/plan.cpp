@@ -27,7 +27,7 @@ EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
 
 /// A lower bound of |L + V| over the points of a sphere that are seen and lit: from the centre's
 /// directions, each widened by the angle that the sphere fills. 0 where there is none.
-double min_half_length(const Scene& scene, const Light& light, const Sphere& sphere) {
+double min_half_length(const Scene& scene, const Lamp& lamp, const Sphere& sphere) {
   const auto widening = [&](Vec3 from) {
     const double distance = length(from - sphere.center);
     return distance > sphere.radius ? std::asin(sphere.radius / distance) : std::numbers::pi;
@@ -36,12 +36,11 @@ double min_half_length(const Scene& scene, const Light& light, const Sphere& sph
   if (length(to_eye) == 0) return 0;
   double angle = widening(scene.camera.origin);
   Vec3 to_light;
-  if (const auto* directional = std::get_if<DirectionalLight>(&light)) {
-    to_light = -directional->direction;
+  if (lamp.is_distant) {
+    to_light = -lamp.direction;
   } else {
-    const Vec3 position = std::get<PointLight>(light).position;
-    angle += widening(position);
-    to_light = position - sphere.center;
+    angle += widening(lamp.position);
+    to_light = lamp.position - sphere.center;
     if (length(to_light) == 0) return 0;
   }
   angle += std::acos(std::clamp(dot(normalize(to_eye), normalize(to_light)), -1.0, 1.0));
@@ -59,14 +58,15 @@ void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& 
       scene.spheres.size() <= kMaxPairwiseSpheres && scene.camera.aperture_radius == 0;
   for (const Light& light : scene.lights) {
     auto& row = plan.precision.emplace_back();
+    const auto lamp = find_lamp(light);
     for (const Sphere& sphere : scene.spheres) {
-      if (!one_by_one || !is_delta(light)) {
+      if (!one_by_one || !lamp) {
         ++pairs[std::size_t(plan.any_direction_precision[std::size_t(sphere.material)])];
         continue;
       }
       Precision precision = asked.value_or(Precision::kFloat64);
       if (!asked) {
-        const double least = min_half_length(scene, light, sphere);
+        const double least = min_half_length(scene, *lamp, sphere);
         constexpr int kShortest = -32;
         const int quarters =
             least > 0 ? std::max(kShortest, int(std::floor(4 * std::log2(least)))) : kShortest;
@@ -105,9 +105,9 @@ LightStrategy strategy_of(const Light& light, const Material& material, EffectPo
   if (is_delta(light) || asked == Directions::kLight) return LightStrategy::kLight;
   if (asked != Directions::kPlanned) return LightStrategy::kSurface;
   if (policy == EffectPolicy::kAll) return LightStrategy::kBoth;
-  const auto* environment = std::get_if<EnvironmentLight>(&light);
-  if (environment && !environment->image) return LightStrategy::kSurface;
-  return has_highlight(material) || environment ? LightStrategy::kBoth : LightStrategy::kLight;
+  if (!is_environment(light))
+    return has_highlight(material) ? LightStrategy::kBoth : LightStrategy::kLight;
+  return info(light).varies ? LightStrategy::kBoth : LightStrategy::kSurface;
 }
 
 /// Pixels along one axis that are looked at, tile by tile.
@@ -201,10 +201,11 @@ std::vector<double> min_half_lengths(const Scene& scene) {
   };
   const bool any_direction =
       scene.camera.aperture_radius > 0 || scene.depth.mirror > 0 || scene.depth.glossy > 0;
-  for (const Light& light : scene.lights)
+  for (const Light& light : scene.lights) {
+    const auto lamp = find_lamp(light);
     for (const Sphere& sphere : scene.spheres)
-      bound(sphere.material,
-            any_direction || !is_delta(light) ? 0 : min_half_length(scene, light, sphere));
+      bound(sphere.material, any_direction || !lamp ? 0 : min_half_length(scene, *lamp, sphere));
+  }
   for (const Plane& plane : scene.planes) {
     bound(plane.material, 0);
     bound(plane.checker_material, 0);

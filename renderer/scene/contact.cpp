@@ -9,25 +9,16 @@ namespace {
 /// Thousands of roundings of a coordinate, so that none decides.
 constexpr double kCloseness = 1e-12;
 
-/// A ball that holds the light; none where it is infinitely far away.
-struct Ball {
-  Vec3 center;
-  double radius = 0;
-  bool is_all = false;  ///< the light is the ball
+/// The ball that holds the light; none where it is infinitely far away.
+std::optional<LightBounds> ball_of(const Light& light) {
+  const LightBounds b = bounds(light);
+  return b.kind == LightBounds::kBall ? std::optional(b) : std::nullopt;
+}
 
-  bool lies_on(const Sphere& sphere, double closeness) const {
-    const double distance = length(center - sphere.center);
-    return std::abs(distance - sphere.radius) + radius <= closeness ||
-           (is_all && distance + std::abs(radius - sphere.radius) <= closeness);
-  }
-};
-std::optional<Ball> ball_of(const Light& light) {
-  if (const auto* point = std::get_if<PointLight>(&light)) return Ball{point->position};
-  if (const auto* ball = std::get_if<SphereLight>(&light))
-    return Ball{ball->center, ball->radius, true};
-  if (const auto* r = std::get_if<RectangleLight>(&light))
-    return Ball{r->center, length(r->half_u + r->half_v)};
-  return std::nullopt;
+bool lies_on(const LightBounds& ball, const Sphere& sphere, double closeness) {
+  const double distance = length(ball.at - sphere.center);
+  return std::abs(distance - sphere.radius) + ball.radius <= closeness ||
+         (ball.is_ball && distance + std::abs(ball.radius - sphere.radius) <= closeness);
 }
 
 double reach(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -40,27 +31,26 @@ double closeness(const Scene& scene) {
   for (const Plane& plane : scene.planes) farthest = std::max(farthest, reach(plane.point));
   for (const Light& light : scene.lights)
     if (const auto ball = ball_of(light))
-      farthest = std::max(farthest, reach(ball->center) + ball->radius);
+      farthest = std::max(farthest, reach(ball->at) + ball->radius);
   return kCloseness * farthest;
 }
 
 bool lies_on(const Light& light, const Sphere& sphere, double closeness) {
   const auto ball = ball_of(light);
-  return ball && ball->lies_on(sphere, closeness);
+  return ball && lies_on(*ball, sphere, closeness);
 }
 
 bool lies_on(const Light& light, const Plane& plane, double closeness) {
-  const auto height = [&](Vec3 way) { return std::abs(dot(way, plane.normal)); };
-  if (const auto* r = std::get_if<RectangleLight>(&light))
-    return height(r->center - plane.point) + height(r->half_u) + height(r->half_v) <= closeness;
   const auto ball = ball_of(light);
-  return ball && height(ball->center - plane.point) + ball->radius <= closeness;
+  return ball &&
+         std::abs(dot(ball->at - plane.point, plane.normal)) + reach_along(light, plane.normal) <=
+             closeness;
 }
 
 std::optional<Horizon> horizon_of(const Light& light, const Sphere& sphere) {
   const auto ball = ball_of(light);
   if (!ball || ball->radius > sphere.radius / 2) return std::nullopt;
-  return Horizon{ball->center, ball->center - sphere.center};
+  return Horizon{ball->at, ball->at - sphere.center};
 }
 
 Contacts find_contacts(const Scene& scene) {
@@ -74,7 +64,7 @@ Contacts find_contacts(const Scene& scene) {
     if (!ball) continue;
     // In a loop that is tight: there may be millions of spheres.
     for (std::size_t k = 0; k < scene.spheres.size(); ++k)
-      if (ball->lies_on(scene.spheres[k], close)) found[l].push_back(int(k));
+      if (lies_on(*ball, scene.spheres[k], close)) found[l].push_back(int(k));
     for (std::size_t k = 0; k < scene.planes.size(); ++k)
       if (lies_on(light, scene.planes[k], close)) found[l].push_back(int(scene.spheres.size() + k));
   }

@@ -28,10 +28,6 @@ std::string allowed_range(const Parameter& p) {
 
 }  // namespace
 
-Vec3 unit(Vec3 direction) {
-  return std::abs(length(direction) - 1) < 1e-15 ? direction : normalize(direction);
-}
-
 std::vector<std::string> split_numbers(std::string_view text) {
   if (text.size() > 1024) return {};  // megabytes of commas would be gigabytes of parts
   return split(text, ", \t\n\r");
@@ -192,14 +188,9 @@ bool ElementReader::once(pugi::xml_node node, int& count) {
 
 Vec3 ElementReader::direction(pugi::xml_node element, const Values& values, std::string_view name) {
   const Vec3 vector = values.vec3(name);
-  if (length(vector) > 0) return unit(vector);
+  if (length(vector) > 0) return as_unit(vector);
   source_.error(element, fmt::format("{} is zero; allowed: any other vector", name));
   return {0, 0, 1};
-}
-
-Vec3 ElementReader::direction_or_none(const Values& values, std::string_view name) {
-  const Vec3 vector = values.vec3(name);
-  return length(vector) > 0 ? unit(vector) : Vec3{};
 }
 
 }  // namespace lobelia

@@ -52,10 +52,6 @@ class Values {
   std::vector<std::pair<std::string_view, Value>> values_;  ///< few: a search in order is fastest
 };
 
-/// Normalised, but left alone where it is a unit vector already: a scene that is written and read
-/// again stays the same to the last bit.
-Vec3 unit(Vec3 direction);
-
 /// The parts between commas and spaces; none of a text too long for three numbers.
 std::vector<std::string> split_numbers(std::string_view text);
 
@@ -79,8 +75,6 @@ class ElementReader {
   bool once(pugi::xml_node node, int& count);
   /// A vector that must have a direction, as a unit vector.
   Vec3 direction(pugi::xml_node element, const Values& values, std::string_view name);
-  /// The same of one that may be zero, and stays so.
-  static Vec3 direction_or_none(const Values& values, std::string_view name);
 
   /// What `find` knows by the value's name.
   template <class Id, class Find>

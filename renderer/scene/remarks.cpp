@@ -20,8 +20,6 @@ std::optional<std::size_t> holder(const Scene& scene, Vec3 point, const Limit& l
   return std::nullopt;
 }
 
-bool is_environment(const Light& light) { return std::holds_alternative<EnvironmentLight>(light); }
-
 /// Whether some part of the sphere may be in the picture: by the cone of the picture's corners.
 bool may_be_seen(const Scene& scene, const CameraFrame& frame, const Sphere& sphere) {
   const Vec3 way = sphere.center - frame.origin;
@@ -45,11 +43,10 @@ std::vector<std::string> remarks(const Scene& scene) {
     found.push_back(scene.lights.empty() ? "the scene has no light: the picture is black"
                                          : "no light shines: the picture is black");
   const bool sky = std::any_of(scene.lights.begin(), scene.lights.end(), is_environment);
-  const bool lamp = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                [](const Light& l) { return !is_delta(l) && !is_environment(l); });
+  const bool area = std::any_of(scene.lights.begin(), scene.lights.end(), is_area);
   if (scene.spheres.empty() && scene.planes.empty())
     found.push_back(fmt::format("the scene has no shape: the picture shows {}",
-                                sky || lamp ? "its lights alone" : "nothing"));
+                                sky || area ? "its lights alone" : "nothing"));
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
   if (const auto k = holder(scene, scene.camera.origin, inner_radius))
     found.push_back(fmt::format(
@@ -57,7 +54,7 @@ std::vector<std::string> remarks(const Scene& scene) {
   else if (const auto on = holder(scene, scene.camera.origin, outer_radius))
     found.push_back(fmt::format(
         "the camera is on sphere {}, and does not see it: spheres have no inside", *on));
-  else if (!scene.spheres.empty() && scene.planes.empty() && !sky && !lamp &&
+  else if (!scene.spheres.empty() && scene.planes.empty() && !sky && !area &&
            std::none_of(scene.spheres.begin(), scene.spheres.end(),
                         [&](const Sphere& s) { return may_be_seen(scene, frame, s); }))
     found.push_back("the camera looks away from every sphere: the picture is black");
@@ -65,8 +62,8 @@ std::vector<std::string> remarks(const Scene& scene) {
     return std::min(inner_radius(sphere), sphere.radius - close);
   };
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
-    if (const auto* point = std::get_if<PointLight>(&scene.lights[l]))
-      if (const auto k = holder(scene, point->position, inside_by_more))
+    if (const auto lamp = find_near_lamp(scene.lights[l]))
+      if (const auto k = holder(scene, lamp->position, inside_by_more))
         found.push_back(fmt::format(
             "light {} is inside sphere {}, which hides it: it lights nothing outside", l, *k));
   return found;

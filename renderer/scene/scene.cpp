@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -41,28 +39,6 @@ double inner_radius(const Sphere& sphere) {
 }
 double outer_radius(const Sphere& sphere) { return sphere.radius + rounding_of_points(sphere); }
 
-Rgb strength(const Light& light) {
-  struct Strength {
-    Rgb operator()(const DirectionalLight& l) const { return l.irradiance; }
-    Rgb operator()(const PointLight& l) const { return l.intensity; }
-    Rgb operator()(const SphereLight& l) const { return l.radiance; }
-    Rgb operator()(const RectangleLight& l) const { return l.radiance; }
-    Rgb operator()(const EnvironmentLight& l) const { return l.radiance; }
-  };
-  return std::visit(Strength{}, light);
-}
-
-Illumination illuminate(const Light& light, Vec3 point) {
-  if (const auto* directional = std::get_if<DirectionalLight>(&light))
-    return {-directional->direction, directional->irradiance,
-            std::numeric_limits<double>::infinity()};
-  const auto* source = std::get_if<PointLight>(&light);
-  if (!source) throw Error(ExitCode::kInternal, "a light with a size has no single direction");
-  const Vec3 way = source->position - point, to_light = normalize(way);
-  const double towards = has_normal(*source) ? std::max(0.0, -dot(source->normal, to_light)) : 1;
-  return {to_light, towards / dot(way, way) * source->intensity, length(way)};
-}
-
 std::string beyond_delta_lights(const Scene& scene) {
   std::vector<std::string_view> found;
   const auto add = [&](bool is_there, const char* what) {
@@ -71,12 +47,8 @@ std::string beyond_delta_lights(const Scene& scene) {
   const auto any_light = [&](auto is_kind) {
     return std::any_of(scene.lights.begin(), scene.lights.end(), is_kind);
   };
-  add(any_light([](const Light& l) { return std::holds_alternative<EnvironmentLight>(l); }),
-      "an environment light");
-  add(any_light([](const Light& l) {
-        return !is_delta(l) && !std::holds_alternative<EnvironmentLight>(l);
-      }),
-      "an area light");
+  add(any_light(is_environment), "an environment light");
+  add(any_light(is_area), "an area light");
   add(!scene.planes.empty(), "a ground plane");
   const auto any_material = [&](auto has) {
     return std::any_of(scene.materials.begin(), scene.materials.end(), has);

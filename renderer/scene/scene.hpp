@@ -2,17 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "core/image.hpp"
 #include "core/vec.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/highlight.hpp"
+#include "renderer/scene/lights/lights.hpp"
 
 namespace lobelia {
 
@@ -36,57 +34,6 @@ struct Sampler {
   int sample_count = 1;    ///< rays per pixel, 1..65536; 1 means the pixel's centre
   std::uint64_t seed = 0;  ///< used only where sample_count > 1
 };
-
-/// Parallel light. `direction` is where the light travels (as in Mitsuba), unit length.
-struct DirectionalLight {
-  Vec3 direction;
-  Rgb irradiance;  ///< on a plane normal to the beam, W/m^2, >= 0
-};
-
-struct PointLight {
-  Vec3 position;
-  Rgb intensity;  ///< W/sr, >= 0; irradiance falls with the square of the distance
-  /// Unit vector: of a point of a surface, whose intensity falls with the cosine to it, 0 behind. Zero: the
-  /// same in every direction.
-  Vec3 normal = {};
-};
-
-inline bool has_normal(const PointLight& light) { return dot(light.normal, light.normal) > 0; }
-
-/// A ball of light, the same radiance from every point of it, seen from outside. Lamps with a size are
-/// no bodies: light passes through them, and a ray that crosses one takes up its radiance.
-struct SphereLight {
-  Vec3 center;
-  double radius = 1;  ///< > 0
-  Rgb radiance;       ///< W/(m^2 sr), >= 0
-};
-
-/// A rectangle with the corners center +- half_u +- half_v that shines to the side of
-/// half_u x half_v, the same radiance in every direction. half_u and half_v are perpendicular.
-struct RectangleLight {
-  Vec3 center, half_u, half_v;
-  Rgb radiance;  ///< W/(m^2 sr), >= 0
-};
-
-/// Light from everywhere, infinitely far away. An image holds it by latitude and longitude: the top row
-/// is +y, the middle column -z, and +x a quarter of the width to the right of it.
-struct EnvironmentLight {
-  Rgb radiance;                        ///< W/(m^2 sr), >= 0; scales the image if there is one
-  std::shared_ptr<const Image> image;  ///< scene-linear, finite, >= 0; null where it is constant
-  std::string file;                    ///< the image's, as the scene file names it
-};
-
-using Light =
-    std::variant<DirectionalLight, PointLight, SphereLight, RectangleLight, EnvironmentLight>;
-
-/// Whether light comes from a single direction at each point, so that one ray tells all.
-inline bool is_delta(const Light& light) {
-  return std::holds_alternative<DirectionalLight>(light) ||
-         std::holds_alternative<PointLight>(light);
-}
-
-/// What the light is as bright as: irradiance, intensity or radiance, by its kind.
-Rgb strength(const Light& light);
 
 struct Material {
   std::string id;            ///< from the file: untrusted text, for people only
@@ -153,16 +100,6 @@ struct CameraFrame {
   double film_v(double y) const { return (1 - 2 * y / height) * half_height + shift_v; }
 };
 CameraFrame camera_frame(const Camera& camera, const Film& film);
-
-/// Unit vector from `point` to the light, the irradiance it brings on a plane normal to that
-/// vector, and the distance to it (infinite for a directional light).
-struct Illumination {
-  Vec3 to_light;
-  Rgb irradiance;
-  double distance = 0;
-};
-/// Of a directional or a point light; Error(kInternal) for one with a size.
-Illumination illuminate(const Light& light, Vec3 point);
 
 /// What of the scene only a renderer of areas of light, several reflections or lenses can show, in
 /// words ("an area light, a ground plane"); empty where every engine and every analysis can.

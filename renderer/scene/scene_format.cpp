@@ -7,6 +7,7 @@
 #include "core/text.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/fresnel.hpp"
+#include "renderer/scene/lights/lights.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
 
 namespace lobelia {
@@ -48,7 +49,23 @@ struct FilterTables {
   }
 };
 
+template <class L>
+ElementFormat format_of_light() {
+  static const auto parameters = [] {
+    std::vector<Parameter> all;
+    for (const LightParameter<L>& p : L::parameters()) all.push_back(p.parameter);
+    return all;
+  }();
+  return {"emitter", L::kInfo.type, L::kInfo.meaning, parameters};
+}
+
 }  // namespace
+
+std::span<const ElementFormat> emitter_formats() {
+  static const auto formats =
+      map_types<ElementFormat>(Lights{}, []<class L>() { return format_of_light<L>(); });
+  return formats;
+}
 
 std::span<const ElementFormat> filter_formats() {
   static const FilterTables tables;
@@ -134,11 +151,10 @@ std::string scene_format_document() {
       "\nWithout this element `mirror_depth` is {} where a material has a `mirror_reflectance`,\n"
       "and else 0.\n",
       kDefaultMirrorDepth);
-  for (const auto& format : kEmitters) text += table(format);
-  text +=
-      "\nSeveral of the last two add up. The picture of an envmap lies in the directory of the scene\n"
-      "file or below it; its values are finite and not negative. It has at most 16777216 pixels, and 16\n"
-      "more for each byte of its file.\n";
+  for (const auto& format : emitter_formats()) text += table(format);
+  for (const std::string_view note :
+       map_types<std::string_view>(Lights{}, []<class L>() { return L::kInfo.note; }))
+    if (!note.empty()) text += fmt::format("\n{}", note);
   for (const auto& format : kShapes) text += table(format);
   text += "\n" + lattice_rule();
   text += table({"bsdf", "MODEL", "a material: a mirror over a highlight over a diffuse base",

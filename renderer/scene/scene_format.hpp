@@ -9,6 +9,7 @@
 #include "core/image.hpp"
 #include "core/parameter.hpp"
 #include "renderer/highlight.hpp"
+#include "renderer/scene/ranges.hpp"
 
 namespace lobelia {
 
@@ -21,10 +22,6 @@ inline constexpr int kMaxMaterials = 1024;
 inline constexpr int kMaxDepth = 64;
 /// Of reflections by mirrors, where a scene has a mirror and does not say how often.
 inline constexpr int kDefaultMirrorDepth = 8;
-
-inline constexpr double kFar = 1e9;        ///< bound of every coordinate and length
-inline constexpr double kNear = 1e-9;      ///< the least length of what has a size
-inline constexpr double kBrightest = 1e9;  ///< bound of every irradiance, intensity and radiance
 
 inline constexpr Parameter kFieldOfView{"fov",     ParameterType::kFloat,          "", 1e-3, 179,
                                         "degrees", "full horizontal angle of view"};
@@ -63,38 +60,9 @@ inline constexpr Parameter kSamplerParameters[] = {
     {"seed", ParameterType::kInteger, "0", 0, 9007199254740992.0, "",
      "chooses the positions where sample_count is over 1"},
 };
-inline constexpr Parameter kDirectionalParameters[] = {
-    {"direction", ParameterType::kVector, "", -kFar, kFar, "", "where the light travels"},
-    {"irradiance", ParameterType::kRgb, "1", 0, kBrightest, "W/m^2",
-     "on a plane normal to the direction"},
-};
-inline constexpr Parameter kPointParameters[] = {
-    {"position", ParameterType::kPoint, "", -kFar, kFar, "", "where the light stands"},
-    {"intensity", ParameterType::kRgb, "1", 0, kBrightest, "W/sr",
-     "irradiance is intensity / distance^2"},
-    {"normal", ParameterType::kVector, "0, 0, 0", -kFar, kFar, "",
-     "of a point of a surface: the intensity falls with the cosine to it; 0, 0, 0 shines everywhere"},
-};
-inline constexpr Parameter kRadiance{"radiance",   ParameterType::kRgb,          "1", 0, kBrightest,
-                                     "W/(m^2 sr)", "the same in every direction"};
 inline constexpr Parameter kSphereParameters[] = {
     {"center", ParameterType::kPoint, "0, 0, 0", -kFar, kFar, "", "its centre"},
     {"radius", ParameterType::kFloat, "1", kNear, kFar, "", "its radius"},
-};
-inline constexpr Parameter kSphereLightParameters[] = {kSphereParameters[0], kSphereParameters[1],
-                                                       kRadiance};
-inline constexpr Parameter kRectangleParameters[] = {
-    {"center", ParameterType::kPoint, "0, 0, 0", -kFar, kFar, "", "its centre"},
-    {"half_u", ParameterType::kVector, "", -kFar, kFar, "", "from the centre to a side"},
-    {"half_v", ParameterType::kVector, "", -kFar, kFar, "",
-     "to the next side; perpendicular to half_u; it shines to the side of half_u x half_v"},
-    kRadiance,
-};
-inline constexpr Parameter kConstantParameters[] = {kRadiance};
-inline constexpr Parameter kEnvmapParameters[] = {
-    {"filename", ParameterType::kString, "", 0, 0, "",
-     "by latitude and longitude: the top row is +y, the middle column -z, +x to the right of it"},
-    {"radiance", ParameterType::kRgb, "1", 0, kBrightest, "W/(m^2 sr)", "scales the picture"},
 };
 inline constexpr Parameter kIntegratorParameters[] = {
     {"mirror_depth", ParameterType::kInteger, "0", 0, kMaxDepth, "",
@@ -149,21 +117,6 @@ inline constexpr ElementFormat kFilm{"film", "hdrfilm", "size of the picture; in
                                      kFilmParameters};
 inline constexpr ElementFormat kSampler{"sampler", "independent", "rays a pixel; inside the sensor",
                                         kSamplerParameters};
-inline constexpr ElementFormat kDirectional{"emitter", "directional", "parallel light",
-                                            kDirectionalParameters};
-inline constexpr ElementFormat kPoint{"emitter", "point", "a light in a point", kPointParameters};
-inline constexpr ElementFormat kSphereLight{"emitter", "sphere",
-                                            "a ball of light, which other light passes through",
-                                            kSphereLightParameters};
-inline constexpr ElementFormat kRectangle{
-    "emitter", "rectangle", "a rectangle that shines to one side", kRectangleParameters};
-inline constexpr ElementFormat kConstant{"emitter", "constant",
-                                         "the same light from everywhere, infinitely far away",
-                                         kConstantParameters};
-inline constexpr ElementFormat kEnvmap{"emitter", "envmap", "light from everywhere, by a picture",
-                                       kEnvmapParameters};
-inline constexpr ElementFormat kEmitters[] = {kDirectional, kPoint,    kSphereLight,
-                                              kRectangle,   kConstant, kEnvmap};
 inline constexpr ElementFormat kSphere{"shape", "sphere", "a sphere", kSphereParameters};
 inline constexpr ElementFormat kPlane{"shape", "plane", "an infinite plane, plain or a checker",
                                       kPlaneParameters};
@@ -173,6 +126,8 @@ inline constexpr ElementFormat kShapes[] = {kSphere, kPlane, kLattice};
 inline constexpr ElementFormat kIntegrator{"integrator", "path", "how far light is followed",
                                            kIntegratorParameters};
 
+/// <emitter type="..."> for every light, in the order of their catalogue.
+std::span<const ElementFormat> emitter_formats();
 /// <rfilter type="FILTER"> for every filter of the catalogue; its radius defaults to its source's.
 std::span<const ElementFormat> filter_formats();
 /// <bsdf type="MODEL"> for every model.

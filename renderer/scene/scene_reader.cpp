@@ -9,7 +9,7 @@
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "renderer/scene/element_reader.hpp"
-#include "renderer/scene/light_reader.hpp"
+#include "renderer/scene/lights/light_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
 

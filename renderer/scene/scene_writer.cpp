@@ -16,60 +16,15 @@ std::string text(Rgb c) {
                                   : fmt::format("{}, {}, {}", c.r, c.g, c.b);
 }
 
-std::string emitter(const DirectionalLight& light) {
-  return fmt::format(
-      "  <emitter type=\"directional\">\n"
-      "    <vector name=\"direction\" value=\"{}\"/>\n"
-      "    <rgb name=\"irradiance\" value=\"{}\"/>\n"
-      "  </emitter>\n",
-      text(light.direction), text(light.irradiance));
-}
+std::string text(double value) { return fmt::format("{}", value); }
+std::string text(const std::string& value) { return escape_markup(value); }
 
-std::string emitter(const PointLight& light) {
-  return fmt::format(
-      "  <emitter type=\"point\">\n"
-      "    <point name=\"position\" value=\"{}\"/>\n"
-      "    <rgb name=\"intensity\" value=\"{}\"/>\n"
-      "{}"
-      "  </emitter>\n",
-      text(light.position), text(light.intensity),
-      has_normal(light)
-          ? fmt::format("    <vector name=\"normal\" value=\"{}\"/>\n", text(light.normal))
-          : "");
-}
-
-std::string emitter(const SphereLight& light) {
-  return fmt::format(
-      "  <emitter type=\"sphere\">\n"
-      "    <point name=\"center\" value=\"{}\"/>\n"
-      "    <float name=\"radius\" value=\"{}\"/>\n"
-      "    <rgb name=\"radiance\" value=\"{}\"/>\n"
-      "  </emitter>\n",
-      text(light.center), light.radius, text(light.radiance));
-}
-
-std::string emitter(const RectangleLight& light) {
-  return fmt::format(
-      "  <emitter type=\"rectangle\">\n"
-      "    <point name=\"center\" value=\"{}\"/>\n"
-      "    <vector name=\"half_u\" value=\"{}\"/>\n"
-      "    <vector name=\"half_v\" value=\"{}\"/>\n"
-      "    <rgb name=\"radiance\" value=\"{}\"/>\n"
-      "  </emitter>\n",
-      text(light.center), text(light.half_u), text(light.half_v), text(light.radiance));
-}
-
-std::string emitter(const EnvironmentLight& light) {
-  const std::string picture =
-      light.image
-          ? fmt::format("    <string name=\"filename\" value=\"{}\"/>\n", escape_markup(light.file))
-          : "";
-  return fmt::format(
-      "  <emitter type=\"{}\">\n"
-      "{}"
-      "    <rgb name=\"radiance\" value=\"{}\"/>\n"
-      "  </emitter>\n",
-      light.image ? kEnvmap.type : kConstant.type, picture, text(light.radiance));
+std::string emitter(const Light& light) {
+  std::string xml = fmt::format("  <emitter type=\"{}\">\n", info(light).type);
+  for (const auto& [parameter, value] : written_parameters(light))
+    xml += fmt::format("    <{} name=\"{}\" value=\"{}\"/>\n", parameter_tag(parameter.type),
+                       parameter.name, std::visit([](const auto& v) { return text(v); }, value));
+  return xml + "  </emitter>\n";
 }
 
 std::string bsdf(const Material& material, std::size_t index) {
@@ -176,8 +131,7 @@ std::string scene_to_xml(const Scene& scene) {
       text(scene.camera.target), text(scene.camera.up), scene.film.width, scene.film.height,
       filter(scene.film.filter), scene.sampler.sample_count, scene.sampler.seed);
   xml += integrator(scene);
-  for (const auto& light : scene.lights)
-    xml += std::visit([](const auto& l) { return emitter(l); }, light);
+  for (const Light& light : scene.lights) xml += emitter(light);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) xml += bsdf(scene.materials[i], i);
   for (const auto& sphere : scene.spheres)
     xml += fmt::format(

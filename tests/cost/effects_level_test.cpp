@@ -103,7 +103,7 @@ TEST(LeavingOutShadows, MakesNoPixelDarkerWhereLightIsDirect) {
 
 TEST(LeavingOutShadows, LeavesTheAlbedoBelowAnEvenSkyWhicheverWayItsDirectionsAreDrawn) {
   Scene scene = sphere_on_plane(24);
-  scene.lights = {EnvironmentLight{{1, 1, 1}, nullptr, ""}};
+  scene.lights = {ConstantLight{{1, 1, 1}}};
   const auto least = [](const Image& image) { return *std::ranges::min_element(image.values()); };
   EXPECT_LT(least(render(scene, {}).image), 0.4) << "the sphere's shadow";
   const Image lit = picture(without("shadows", scene)).image;

@@ -69,7 +69,7 @@ TEST(Replicates, WhereOnlyLightsVaryAreOnePictureEachWithAllLamps) {
 
 TEST(Replicates, ShowTheLightsThemselvesOnlyWhereNothingIsBefore) {
   Scene scene = sphere_scene({"phong_rdf", "cosine", "exact", 8}, {}, 32);
-  scene.lights = {SphereLight{{0, 0, -3}, 2.5, {3, 3, 3}}, EnvironmentLight{{1, 0, 0}, {}, {}}};
+  scene.lights = {SphereLight{{0, 0, -3}, 2.5, {3, 3, 3}}, ConstantLight{{1, 0, 0}}};
   const Image seen = SizedLights(scene).seen_in(scene);
   EXPECT_EQ(seen.pixel(16, 16)[0], 0) << "the ball";
   EXPECT_EQ(seen.pixel(0, 0)[0], 1) << "the sky alone";

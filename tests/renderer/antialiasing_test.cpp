@@ -54,7 +54,7 @@ TEST(EveryFilter, LeavesAnEvenSkyExactlyAsItIs) {
   Scene scene;
   scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 28};
   scene.film = {16, 16};
-  scene.lights = {EnvironmentLight{{1, 1, 1}, nullptr, ""}};
+  scene.lights = {ConstantLight{{1, 1, 1}}};
   for (const Filter filter : all_filters())
     for (const int samples : {2, 3, 4, 5, 8, 16, 17, 31, 64}) {
       scene.film.filter = filter;

@@ -127,9 +127,9 @@ std::vector<Named> scenes() {
   all.push_back({"sphere light", scene, true});
   scene.lights = {RectangleLight{{0, 4, 2}, {1, 0, 0}, {0, 0, 1}, {5, 5, 5}}};
   all.push_back({"rectangle light", scene, true});
-  scene.lights = {EnvironmentLight{{0.5, 0.6, 0.7}, nullptr, ""}};
+  scene.lights = {ConstantLight{{0.5, 0.6, 0.7}}};
   all.push_back({"environment", scene, true});
-  scene.lights = {EnvironmentLight{
+  scene.lights = {EnvmapLight{
       {1, 1, 1},
       sky([](int x, int y) { return x > 40 && x < 44 && y > 8 && y < 11 ? 50.f : 0.1f; }),
       ""}};
@@ -363,7 +363,7 @@ TEST(SoftShadows, AreDarkInTheMiddleAndFadeOutwards) {
 
 TEST(WhiteFurnace, AMattSphereUnderAnEvenSkyIsItsAlbedoTimesTheSky) {
   Scene scene = one_sphere(matt(0.7));
-  scene.lights = {EnvironmentLight{{2, 2, 2}, nullptr, ""}};
+  scene.lights = {ConstantLight{{2, 2, 2}}};
   for (const int samples : {1, 16}) {
     scene.sampler.sample_count = samples;
     const Image image = render(scene, {}).image;
@@ -378,7 +378,7 @@ TEST(WhiteFurnace, WithInterReflectionIsWhiteBetweenWhiteSpheresToo) {
   scene.spheres.push_back({{1.5, 0.5, 1}, 1, 0});
   scene.spheres.push_back({{-1.5, 0, 1}, 1, 0});
   scene.planes = {{{0, -1, 0}, {0, 1, 0}}};
-  scene.lights = {EnvironmentLight{{1, 1, 1}, nullptr, ""}};
+  scene.lights = {ConstantLight{{1, 1, 1}}};
   scene.sampler.sample_count = 64;
   scene.depth.glossy = 64;
   EXPECT_NEAR(mean(render(scene, {}).image), 1, 5e-3);
@@ -393,10 +393,10 @@ TEST(WhiteFurnace, WithInterReflectionIsWhiteBetweenWhiteSpheresToo) {
   EXPECT_LT(last, 0.9);
 }
 
-TEST(EnvironmentLight, IsSeenBesideTheSphereAndInAMirror) {
+TEST(Environment, IsSeenBesideTheSphereAndInAMirror) {
   Scene scene = one_sphere(matt(0));
   scene.camera.fov_degrees = 40;
-  scene.lights = {EnvironmentLight{{0.25, 0.5, 1}, nullptr, ""}};
+  scene.lights = {ConstantLight{{0.25, 0.5, 1}}};
   Image image = render(scene, {}).image;
   EXPECT_EQ(image.pixel(0, 0)[1], 0.5f);
   EXPECT_EQ(image.pixel(8, 8)[1], 0.0f);
@@ -405,16 +405,16 @@ TEST(EnvironmentLight, IsSeenBesideTheSphereAndInAMirror) {
   EXPECT_EQ(image.pixel(8, 8)[2], 0.5f);
 }
 
-TEST(EnvironmentLight, WithAnImageOfOneColourIsAnEvenOne) {
+TEST(Environment, WithAnImageOfOneColourIsAnEvenOne) {
   Scene scene = on_the_ground();
   scene.sampler.sample_count = 64;
-  scene.lights = {EnvironmentLight{{0.5, 0.5, 0.5}, nullptr, ""}};
+  scene.lights = {ConstantLight{{0.5, 0.5, 0.5}}};
   const double even = mean(render(scene, {}).image);
-  scene.lights = {EnvironmentLight{{1, 1, 1}, sky([](int, int) { return 0.5f; }), ""}};
+  scene.lights = {EnvmapLight{{1, 1, 1}, sky([](int, int) { return 0.5f; }), ""}};
   EXPECT_NEAR(mean(render(scene, {}).image) / even, 1, 5e-3);
 }
 
-TEST(EnvironmentLight, WithASmallSunIsADirectionalLight) {
+TEST(Environment, WithASmallSunIsADirectionalLight) {
   // One bright pixel around the direction to the sun; what is interpolated beside it adds to its size.
   Scene scene = one_sphere(matt(0.5));
   scene.camera.fov_degrees = 28;
@@ -422,7 +422,7 @@ TEST(EnvironmentLight, WithASmallSunIsADirectionalLight) {
   const double turn = 2 * kPi * (40.5 / 64 - 0.5), down = kPi * 10.5 / 32;
   const Vec3 to_sun{std::sin(down) * std::sin(turn), std::cos(down),
                     -std::sin(down) * std::cos(turn)};
-  scene.lights = {EnvironmentLight{
+  scene.lights = {EnvmapLight{
       {1, 1, 1}, sky([](int x, int y) { return x == 40 && y == 10 ? 100.f : 0.f; }), ""}};
   scene.camera.origin = 5 * to_sun;
   scene.sampler.sample_count = 256;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "renderer/kernels/lights.hpp"
-#include "renderer/lights/environment.hpp"
+#include "renderer/scene/lights/envmap_table.hpp"
+#include "renderer/scene/lights/prepared_light.hpp"
 #include "renderer/sobol.hpp"
 
 namespace lobelia {
@@ -24,53 +24,47 @@ struct LightHit {
   double distance = 0, pdf = 0;  ///< 0 where it is missed
 };
 
-// One at a time, by the kernels.
-void look(const SphereLight& light, const Vec3Chunk& point, const Vec3Chunk& to_eye,
-          MetChunk& met) {
-  light_kernels().meet_sphere(light, 1, point, to_eye, true, met);
-}
-void look(const RectangleLight& light, const Vec3Chunk& point, const Vec3Chunk& to_eye,
-          MetChunk& met) {
-  light_kernels().meet_rectangle(PreparedRectangle(light), 1, point, to_eye, true, met);
-}
-
-struct Buffers {
-  Vec3Chunk point{}, to_eye{};
-  DrawnChunk drawn;
-  MetChunk met;
+struct LightDraw {
+  Vec3 to_light;
+  double distance = 0, pdf = 0;  ///< 0 where there is nothing to draw
 };
-Buffers& buffers() {
-  static const std::unique_ptr<Buffers> all = std::make_unique<Buffers>();
-  return *all;
-}
-void put(Vec3 v, Vec3Chunk& to) { to.x[0] = v.x, to.y[0] = v.y, to.z[0] = v.z; }
 
-template <class L>
-LightSample sample(const L& light, Vec3 point, double u, double v) {
-  Buffers& b = buffers();
-  put(point, b.point);
-  // A whole register is read.
-  alignas(64) double us[16]{u}, vs[16]{v};
-  if constexpr (std::is_same_v<L, SphereLight>)
-    light_kernels().sample_sphere(light, 1, b.point, us, vs, b.drawn);
-  else
-    light_kernels().sample_rectangle(PreparedRectangle(light), 1, b.point, us, vs, b.drawn);
-  const double inverse = b.drawn.inverse_pdf[0];
-  return {{b.drawn.to_light.x[0], b.drawn.to_light.y[0], b.drawn.to_light.z[0]},
-          b.drawn.distance[0],
-          inverse > 0 ? 1 / inverse : 0,
-          light.radiance};
-}
+/// A light, one ray at a time.
+class OneByOne {
+ public:
+  explicit OneByOne(const Light& light) : light_(prepare(light)) {}
 
-template <class L>
-LightHit meet(const L& light, Vec3 point, Vec3 direction) {
-  Buffers& b = buffers();
-  put(point, b.point);
-  put(-direction, b.to_eye);
-  look(light, b.point, b.to_eye, b.met);
-  if (std::isinf(b.met.distance[0])) return {};
-  return {b.met.distance[0], b.met.pdf[0]};
-}
+  LightDraw sample(Vec3 point, double u, double v) const {
+    put(point, buffers_->point);
+    buffers_->u[0] = u, buffers_->v[0] = v;
+    LightSamples& drawn = buffers_->drawn;
+    light_->sample(1, buffers_->point, buffers_->u, buffers_->v, drawn);
+    const double inverse = drawn.factor[0];
+    return {{drawn.to_light.x[0], drawn.to_light.y[0], drawn.to_light.z[0]},
+            drawn.distance[0],
+            inverse > 0 ? 1 / inverse : 0};
+  }
+
+  LightHit meet(Vec3 point, Vec3 direction) const {
+    put(point, buffers_->point);
+    put(-direction, buffers_->to_eye);
+    light_->meet(1, buffers_->point, buffers_->to_eye, true, buffers_->met);
+    if (std::isinf(buffers_->met.distance[0])) return {};
+    return {buffers_->met.distance[0], buffers_->met.pdf[0]};
+  }
+
+ private:
+  struct Buffers {
+    Vec3Chunk point{}, to_eye{};
+    alignas(64) double u[16]{}, v[16]{};  // a whole register is read
+    LightSamples drawn;
+    LightMeetings met;
+  };
+  static void put(Vec3 v, Vec3Chunk& to) { to.x[0] = v.x, to.y[0] = v.y, to.z[0] = v.z; }
+
+  std::unique_ptr<const PreparedLight> light_;
+  std::unique_ptr<Buffers> buffers_ = std::make_unique<Buffers>();
+};
 
 /// The mean of (1, x, y, z, xy, yz, zx) over the light's solid angle, by its own draws and by looking in
 /// every direction.
@@ -83,17 +77,16 @@ struct Moments {
   }
 };
 
-template <class L>
-void expect_same_light(const L& light, Vec3 point, double allowed) {
+void expect_same_light(const OneByOne& light, Vec3 point, double allowed) {
   constexpr std::uint32_t kDraws = 1 << 14, kLooks = 1 << 21;
   Moments drawn, seen;
   for (std::uint32_t k = 0; k < kDraws; ++k) {
     const auto [u, v] = sobol::pair(1, k, 0);
-    const LightSample s = sample(light, point, u, v);
+    const LightDraw s = light.sample(point, u, v);
     if (s.pdf == 0) continue;
     drawn.add(s.to_light, 1 / s.pdf / kDraws);
     EXPECT_NEAR(length(s.to_light), 1, 1e-14);
-    const LightHit met = meet(light, point, s.to_light);
+    const LightHit met = light.meet(point, s.to_light);
     if (met.pdf == 0) continue;  // at the very rim rounding may decide
     EXPECT_NEAR(met.pdf / s.pdf, 1, 1e-9);
     EXPECT_NEAR(met.distance / s.distance, 1, 1e-6);
@@ -101,27 +94,27 @@ void expect_same_light(const L& light, Vec3 point, double allowed) {
   for (std::uint32_t k = 0; k < kLooks; ++k) {
     const auto [u, v] = sobol::pair(2, k, 0);
     const Vec3 direction = evenly(u, v);
-    if (meet(light, point, direction).pdf > 0) seen.add(direction, 4 * kPi / kLooks);
+    if (light.meet(point, direction).pdf > 0) seen.add(direction, 4 * kPi / kLooks);
   }
   EXPECT_NEAR(drawn.solid_angle, seen.solid_angle, allowed);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(drawn.of[i], seen.of[i], allowed) << i;
 }
 
 TEST(RectangleLight, DrawsEvenlyFromTheSolidAngleThatItIsSeenUnder) {
-  const RectangleLight light{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}};
+  const OneByOne light(RectangleLight{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}});
   for (const Vec3 point : {Vec3{0, 0, 1}, {3, 1, 0.2}, {0.3, 0.3, 1e-2}, {-2, 5, 1}, {1, 1, 1}})
     expect_same_light(light, point, 3e-3);
 }
 
 TEST(RectangleLight, FarAwayIsItsAreaTimesTheCosine) {
-  const RectangleLight light{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}};
+  const OneByOne light(RectangleLight{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}});
   for (const double distance : {1e2, 1e4, 1e8}) {
     const Vec3 point = distance * normalize(Vec3{1, 2, 3});
     double sum = 0;
     constexpr std::uint32_t kDraws = 1024;
     for (std::uint32_t k = 0; k < kDraws; ++k) {
       const auto [u, v] = sobol::pair(1, k, 0);
-      sum += 1 / sample(light, point, u, v).pdf / kDraws;
+      sum += 1 / light.sample(point, u, v).pdf / kDraws;
     }
     const double expected = 8 * normalize(Vec3{1, 2, 3}).z / (distance * distance);
     EXPECT_NEAR(sum / expected, 1, 2 / distance);
@@ -129,15 +122,15 @@ TEST(RectangleLight, FarAwayIsItsAreaTimesTheCosine) {
 }
 
 TEST(RectangleLight, ShinesToOneSideOnly) {
-  const RectangleLight light{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}};
-  EXPECT_EQ(sample(light, {0, 0, -1}, 0.5, 0.5).pdf, 0);
-  EXPECT_EQ(meet(light, {0, 0, -1}, {0, 0, 1}).pdf, 0);
-  EXPECT_GT(meet(light, {0, 0, 1}, {0, 0, -1}).pdf, 0);
-  EXPECT_EQ(sample(light, {0, 0, 0}, 0.5, 0.5).pdf, 0);  // in its plane
+  const OneByOne light(RectangleLight{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}});
+  EXPECT_EQ(light.sample({0, 0, -1}, 0.5, 0.5).pdf, 0);
+  EXPECT_EQ(light.meet({0, 0, -1}, {0, 0, 1}).pdf, 0);
+  EXPECT_GT(light.meet({0, 0, 1}, {0, 0, -1}).pdf, 0);
+  EXPECT_EQ(light.sample({0, 0, 0}, 0.5, 0.5).pdf, 0);  // in its plane
 }
 
 TEST(SphereLight, DrawsEvenlyFromTheConeThatItFills) {
-  const SphereLight light{{0, 1, 0}, 1, {1, 1, 1}};
+  const OneByOne light(SphereLight{{0, 1, 0}, 1, {1, 1, 1}});
   for (const Vec3 point : {Vec3{0, 0, 2}, {0, 2.01, 0}, {4, 1, 0}})
     expect_same_light(light, point, 3e-3);
 }
@@ -145,9 +138,9 @@ TEST(SphereLight, DrawsEvenlyFromTheConeThatItFills) {
 TEST(SphereLight, OfAnySizeAndDistanceFillsItsSolidAngle) {
   for (const double radius : {1e-9, 1e-3, 1.0, 1e6})
     for (const double ratio : {1 + 1e-9, 1.5, 1e3, 1e7}) {
-      const SphereLight light{{0, 0, 0}, radius, {1, 1, 1}};
+      const OneByOne light(SphereLight{{0, 0, 0}, radius, {1, 1, 1}});
       const double distance = ratio * radius;
-      const LightSample s = sample(light, {distance, 0, 0}, 0.5, 0.25);
+      const LightDraw s = light.sample({distance, 0, 0}, 0.5, 0.25);
       const double sine_squared = 1 / (ratio * ratio);
       const double solid_angle = 2 * kPi * sine_squared / (1 + std::sqrt(1 - sine_squared));
       EXPECT_NEAR(s.pdf * solid_angle, 1, 1e-9) << radius << ' ' << ratio;
@@ -157,49 +150,48 @@ TEST(SphereLight, OfAnySizeAndDistanceFillsItsSolidAngle) {
 }
 
 TEST(SphereLight, IsDarkFromInside) {
-  const SphereLight light{{0, 0, 0}, 1, {1, 1, 1}};
-  EXPECT_EQ(sample(light, {0, 0.5, 0}, 0.5, 0.5).pdf, 0);
-  EXPECT_EQ(meet(light, {0, 0.5, 0}, {0, 1, 0}).pdf, 0);
+  const OneByOne light(SphereLight{{0, 0, 0}, 1, {1, 1, 1}});
+  EXPECT_EQ(light.sample({0, 0.5, 0}, 0.5, 0.5).pdf, 0);
+  EXPECT_EQ(light.meet({0, 0.5, 0}, {0, 1, 0}).pdf, 0);
 }
 
-EnvironmentLight with_image(int width, int height, const std::function<float(int, int)>& value) {
+EnvmapTable with_image(int width, int height, const std::function<float(int, int)>& value) {
   auto image = std::make_shared<Image>(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (float& c : image->pixel(x, y)) c = value(x, y);
-  return {{1, 1, 1}, image, ""};
+  return {image, {1, 1, 1}};
 }
 
 TEST(EnvironmentImage, IsWhereTheConventionSays) {
   // A bright pixel in each place that the convention names.
   const auto brightest_direction = [](int x, int y) {
-    return Environment(
-        with_image(64, 32, [=](int u, int v) { return u == x && v == y ? 1.0f : 0.0f; }));
+    return with_image(64, 32, [=](int u, int v) { return u == x && v == y ? 1.0f : 0.0f; });
   };
   const double half_pixel = kPi / 64;
   const Vec3 middle{std::sin(half_pixel), 0, -std::cos(half_pixel)};
-  EXPECT_GT(brightest_direction(32, 16).radiance(middle).r, 0.4);
-  EXPECT_GT(brightest_direction(48, 16).radiance({1, 0, 0}).r, 0.2);
-  EXPECT_GT(brightest_direction(16, 16).radiance({-1, 0, 0}).r, 0.2);
-  EXPECT_GT(brightest_direction(0, 16).radiance({0, 0, 1}).r, 0.2);
-  EXPECT_GT(brightest_direction(5, 0).radiance(normalize({-0.03, 1, 0.05})).r, 0.2);
-  EXPECT_GT(brightest_direction(5, 31).radiance(normalize({-0.03, -1, 0.05})).r, 0.2);
+  EXPECT_GT(brightest_direction(32, 16).look(middle).radiance.r, 0.4);
+  EXPECT_GT(brightest_direction(48, 16).look({1, 0, 0}).radiance.r, 0.2);
+  EXPECT_GT(brightest_direction(16, 16).look({-1, 0, 0}).radiance.r, 0.2);
+  EXPECT_GT(brightest_direction(0, 16).look({0, 0, 1}).radiance.r, 0.2);
+  EXPECT_GT(brightest_direction(5, 0).look(normalize({-0.03, 1, 0.05})).radiance.r, 0.2);
+  EXPECT_GT(brightest_direction(5, 31).look(normalize({-0.03, -1, 0.05})).radiance.r, 0.2);
 }
 
 TEST(EnvironmentImage, DrawsItsBrightDirectionsWithoutBias) {
-  const Environment environment(with_image(64, 32, [](int x, int y) {
+  const EnvmapTable environment = with_image(64, 32, [](int x, int y) {
     return x == 10 && y == 5 ? 100.0f : x < 20 ? 0.1f : 0.0f;
-  }));
+  });
   Rgb by_draws, by_looks;
   double solid_angle = 0;
   constexpr std::uint32_t kDraws = 1 << 20;
   for (std::uint32_t k = 0; k < kDraws; ++k) {
     const auto [u, v] = sobol::pair(3, k, 0);
-    const LightSample s = environment.sample(u, v);
+    const DirectionSample s = environment.sample(u, v);
     ASSERT_GT(s.pdf, 0);
-    ASSERT_NEAR(environment.pdf(s.to_light) / s.pdf, 1, 1e-9);
+    ASSERT_NEAR(environment.look(s.to_light).pdf / s.pdf, 1, 1e-9);
     by_draws = by_draws + 1 / s.pdf / kDraws * s.radiance;
-    by_looks = by_looks + 4 * kPi / kDraws * environment.radiance(evenly(u, v));
+    by_looks = by_looks + 4 * kPi / kDraws * environment.look(evenly(u, v)).radiance;
     solid_angle += 1 / s.pdf / kDraws;
   }
   EXPECT_NEAR(by_draws.r, by_looks.r, 2e-3 * by_looks.r);
@@ -208,10 +200,10 @@ TEST(EnvironmentImage, DrawsItsBrightDirectionsWithoutBias) {
 }
 
 TEST(EnvironmentImage, OfOnePixelOrBlackIsNoSpecialCase) {
-  const Environment one(with_image(1, 1, [](int, int) { return 2.0f; }));
-  EXPECT_NEAR(one.radiance({0.6, 0.8, 0}).g, 2, 1e-6);
-  EXPECT_NEAR(one.pdf({0.6, 0.8, 0}), 1 / (4 * kPi), 1e-12);
-  const Environment black(with_image(8, 4, [](int, int) { return 0.0f; }));
+  const EnvmapTable one = with_image(1, 1, [](int, int) { return 2.0f; });
+  EXPECT_NEAR(one.look({0.6, 0.8, 0}).radiance.g, 2, 1e-6);
+  EXPECT_NEAR(one.look({0.6, 0.8, 0}).pdf, 1 / (4 * kPi), 1e-12);
+  const EnvmapTable black = with_image(8, 4, [](int, int) { return 0.0f; });
   EXPECT_GT(black.sample(0.3, 0.7).pdf, 0);
   EXPECT_EQ(black.sample(0.3, 0.7).radiance.r, 0);
 }

@@ -87,8 +87,8 @@ Light light(Random& random, const Scene& scene, SceneKind kind, bool simple) {
     return RectangleLight{place, random.log_between(0.01, 2) * t.first,
                           random.log_between(0.01, 2) * t.second, radiance};
   }
-  if (which == 8) return EnvironmentLight{radiance, nullptr, ""};
-  return EnvironmentLight{radiance, sky(), kSkyFile};
+  if (which == 8) return ConstantLight{radiance};
+  return EnvmapLight{radiance, sky(), kSkyFile};
 }
 
 Camera camera(Random& random, const Scene& scene) {
@@ -141,16 +141,12 @@ void scale(Scene& scene, double by) {
 Scene as_written(Scene scene) {
   std::vector<bool> pictures;
   for (Light& any : scene.lights) {
-    auto* environment = std::get_if<EnvironmentLight>(&any);
-    pictures.push_back(environment && environment->image);
-    if (pictures.back()) environment->image = nullptr, environment->file.clear();
+    pictures.push_back(!picture_file(any).empty());
+    if (pictures.back()) any = ConstantLight{strength(any)};
   }
   Scene read = parse_scene(scene_to_xml(scene), "random scene");
   for (std::size_t l = 0; l < pictures.size(); ++l)
-    if (pictures[l]) {
-      auto& environment = std::get<EnvironmentLight>(read.lights[l]);
-      environment.image = sky(), environment.file = kSkyFile;
-    }
+    if (pictures[l]) read.lights[l] = EnvmapLight{strength(read.lights[l]), sky(), kSkyFile};
   return read;
 }
 

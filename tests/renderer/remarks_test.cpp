@@ -52,7 +52,7 @@ TEST(Remarks, OfASceneWithoutShapesSayWhatIsLeftToSee) {
   scene.spheres.clear();
   EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("shows nothing")));
   EXPECT_EQ(brightest(scene), 0);
-  scene.lights = {EnvironmentLight{{0.5, 0.5, 0.5}, nullptr, ""}};
+  scene.lights = {ConstantLight{{0.5, 0.5, 0.5}}};
   EXPECT_THAT(remarks(scene), ElementsAre(HasSubstr("its lights alone")));
   EXPECT_EQ(brightest(scene), 0.5f);
 }

@@ -450,7 +450,7 @@ TEST(Evaluation, RefusesWhatItDoesNotKnowInWords) {
     EXPECT_THROW(truth::edge_ring(scene), Error) << word;
   };
   refuses("light with a size", [](Scene& s) { s.lights.emplace_back(SphereLight{}); });
-  refuses("light with a size", [](Scene& s) { s.lights.emplace_back(EnvironmentLight{}); });
+  refuses("light with a size", [](Scene& s) { s.lights.emplace_back(ConstantLight{}); });
   refuses("lens", [](Scene& s) { s.camera.aperture_radius = 0.1; });
   refuses("4 samples", [](Scene& s) { s.sampler.sample_count = 4; });
   refuses("inter-reflection", [](Scene& s) { s.depth.glossy = 1; });

@@ -51,10 +51,11 @@ struct Tracer {
           Float3 to_eye) const {
     Float3 to_light;
     float distance = 0, falloff = 1;
-    if (const auto* directional = std::get_if<DirectionalLight>(&light)) {
-      to_light = -1.0f * Float3(directional->direction);
+    const Lamp lamp = lamp_of(light);
+    if (lamp.is_distant) {
+      to_light = -1.0f * Float3(lamp.direction);
     } else {
-      const Float3 way = Float3(std::get<PointLight>(light).position) - point;
+      const Float3 way = Float3(lamp.position) - point;
       distance = std::sqrt(dot(way, way));
       falloff = 1 / (distance * distance);
       to_light = 1 / distance * way;
@@ -66,7 +67,7 @@ struct Tracer {
     const Material& material = scene.materials[sphere.material];
     const float value = coefficients[sphere.material] *
                         unit_shape(material.highlight, normal, to_eye, to_light) * falloff;
-    return double(value) * (strength(light) * material.specular_reflectance);
+    return double(value) * (lamp.strength * material.specular_reflectance);
   }
 };
 

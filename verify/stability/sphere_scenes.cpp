@@ -65,7 +65,7 @@ std::vector<HardScene> hard_scenes() {
       with_light(plain, "light just above the surface", PointLight{{0, 0.6, 0.801}, {1, 1, 1}}),
       with_light(plain, "light at a right angle", DirectionalLight{{1, 0, 0}, {1, 1, 1}}),
       with_light(plain, "light behind the sphere, all but",
-                 DirectionalLight{{0, 1e-3, 1}, {1, 1, 1}}),
+                 DirectionalLight{normalize({0, 1e-3, 1}), {1, 1, 1}}),
   };
   HardScene inside = plain;
   inside.name = "camera inside";
@@ -81,9 +81,6 @@ std::vector<HardScene> hard_scenes() {
     tangent.scene.spheres[0] = {{1, 0, 0}, radius, 0};
     scenes.push_back(tangent);
   }
-  for (HardScene& hard : scenes)
-    if (auto* light = std::get_if<DirectionalLight>(&hard.scene.lights[0]))
-      light->direction = normalize(light->direction);
   return scenes;
 }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 #include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "renderer/scene/scene.hpp"
@@ -90,10 +89,10 @@ class Tracer {
       return slope == 0 ? Real(0) : Real(dot(point - origin, normal) / slope);
     }
   };
-  /// A point light, and where it is to each surface.
-  struct Lamp {
-    PointLight light;
-    V position;
+  /// A near lamp, and where it is to each surface.
+  struct NearLamp {
+    V position, normal;
+    bool has_normal = false;
     std::vector<bool> lies_on;  ///< by surface: spheres first, then planes
     std::vector<Real> heights;  ///< over each plane; 0 over one that it lies on
   };
@@ -112,7 +111,7 @@ class Tracer {
   /// From light out of one direction.
   bool is_hidden(const Met<Real>& at, const V& to_light) const;
   /// From a lamp at a place.
-  bool is_hidden(const Met<Real>& at, const Lamp& lamp, const V& to_light,
+  bool is_hidden(const Met<Real>& at, const NearLamp& lamp, const V& to_light,
                  const Real& distance) const;
   /// The greatest coordinate of camera, surfaces and lamps.
   Real reach() const;
@@ -122,7 +121,7 @@ class Tracer {
   Real half_width_, half_height_, shift_u_, shift_v_;
   std::vector<Ball> balls_;
   std::vector<Ground> grounds_;
-  std::vector<Lamp> lamps_;  ///< by light; unused where it has no place
+  std::vector<NearLamp> lamps_;  ///< by light; unused where it has no place
 };
 
 /// A plane is met up to here; beyond is its horizon.
@@ -165,11 +164,12 @@ Tracer<Real>::Tracer(const Scene& scene) : scene_(scene), origin_(scene.camera.o
   for (const Plane& plane : scene.planes) grounds_.emplace_back(plane);
   const Real closeness = kCloseness * reach();
   for (const Light& light : scene.lights) {
-    const auto* point = std::get_if<PointLight>(&light);
-    Lamp& lamp = lamps_.emplace_back();
-    if (!point) continue;
-    lamp.light = *point;
-    lamp.position = V(point->position);
+    const auto given = find_near_lamp(light);
+    NearLamp& lamp = lamps_.emplace_back();
+    if (!given) continue;
+    lamp.position = V(given->position);
+    lamp.normal = V(given->normal);
+    lamp.has_normal = given->has_normal();
     const auto is_close = [&](const Real& height) {
       return height <= closeness && -height <= closeness;
     };
@@ -196,7 +196,7 @@ Real Tracer<Real>::reach() const {
   for (const Sphere& sphere : scene_.spheres) reach_to(sphere.center, sphere.radius);
   for (const Plane& plane : scene_.planes) reach_to(plane.point, 0);
   for (const Light& light : scene_.lights)
-    if (const auto* point = std::get_if<PointLight>(&light)) reach_to(point->position, 0);
+    if (const auto lamp = find_near_lamp(light)) reach_to(lamp->position, 0);
   return farthest;
 }
 
@@ -255,18 +255,17 @@ std::optional<Arrival<Real>> Tracer<Real>::arrival(std::size_t light, const Met<
   using std::sqrt;
   Arrival<Real> arrival;
   arrival.falloff = 1;
-  if (const auto* directional = std::get_if<DirectionalLight>(&scene_.lights[light])) {
-    arrival.to_light = normalize(-V(directional->direction));
+  if (const Lamp given = lamp_of(scene_.lights[light]); given.is_distant) {
+    arrival.to_light = normalize(-V(given.direction));
     arrival.n_dot_l = dot(at.normal, arrival.to_light);
     if (arrival.n_dot_l <= 0 || is_hidden(at, arrival.to_light)) return std::nullopt;
     return arrival;
   }
-  const Lamp& lamp = lamps_[light];
+  const NearLamp& lamp = lamps_[light];
   const V way = lamp.position - at.point;
   const Real square = dot(way, way), distance = sqrt(square);
   arrival.to_light = Real(1 / distance) * way;
-  const Real towards =
-      has_normal(lamp.light) ? Real(-dot(V(lamp.light.normal), arrival.to_light)) : Real(1);
+  const Real towards = lamp.has_normal ? Real(-dot(lamp.normal, arrival.to_light)) : Real(1);
   if (towards <= 0) return std::nullopt;
   arrival.falloff = towards / square;
   arrival.n_dot_l = dot(at.normal, arrival.to_light);
@@ -290,7 +289,7 @@ bool Tracer<Real>::is_hidden(const Met<Real>& at, const V& to_light) const {
 }
 
 template <class Real>
-bool Tracer<Real>::is_hidden(const Met<Real>& at, const Lamp& lamp, const V& to_light,
+bool Tracer<Real>::is_hidden(const Met<Real>& at, const NearLamp& lamp, const V& to_light,
                              const Real& distance) const {
   using std::sqrt;
   if (lamp.lies_on[at.surface]) return true;

@@ -14,13 +14,9 @@ struct AreaLights {
                                     kHides =
                                         "a shadow's edge may be missed by all of a few samples";
 
-  static bool is_one(const Light& light) {
-    return !is_delta(light) && !std::holds_alternative<EnvironmentLight>(light);
-  }
-
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     const auto lights = std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
-      return is_one(l) && !is_black(strength(l));
+      return is_area(l) && !is_black(strength(l));
     });
     return {kName, kWork, policy == EffectPolicy::kAll || lights > 0,
             lights > 0 ? fmt::format("{} of {} lights have a size", lights, scene.lights.size())

@@ -15,9 +15,8 @@ struct Environment {
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     std::size_t constant = 0, images = 0;
     for (const Light& light : scene.lights) {
-      const auto* environment = std::get_if<EnvironmentLight>(&light);
-      if (!environment || is_black(environment->radiance)) continue;
-      ++(environment->image ? images : constant);
+      if (!is_environment(light) || is_black(strength(light))) continue;
+      ++(info(light).varies ? images : constant);
     }
     const bool on = constant + images > 0;
     return {kName, kWork, policy == EffectPolicy::kAll || on,

@@ -116,12 +116,12 @@ const std::vector<Idle>& idle_changes() {
        }},
       {"an environment of 1e-300",
        [](Scene& s, Random&) {
-         s.lights.push_back(EnvironmentLight{faint, nullptr, ""});
+         s.lights.push_back(ConstantLight{faint});
          return true;
        }},
       {"an environment's picture of 1e-300",
        [](Scene& s, Random&) {
-         s.lights.push_back(EnvironmentLight{faint, sky(), "sky.exr"});
+         s.lights.push_back(EnvmapLight{faint, sky(), "sky.exr"});
          return true;
        }},
       {"a lamp of every kind that does not shine",
@@ -130,7 +130,7 @@ const std::vector<Idle>& idle_changes() {
          s.lights.push_back(PointLight{random.vector(), {}});
          s.lights.push_back(SphereLight{random.vector(), 1, {}});
          s.lights.push_back(RectangleLight{random.vector(), {1, 0, 0}, {0, 0, 1}, {}});
-         s.lights.push_back(EnvironmentLight{{}, sky(), "sky.exr"});
+         s.lights.push_back(EnvmapLight{{}, sky(), "sky.exr"});
          return true;
        }},
       {"a lens of radius 1e-300",

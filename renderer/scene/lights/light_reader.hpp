@@ -1,12 +1,13 @@
-// The emitters of a scene file.
+// The emitters of a scene file, read by the tables of the lights.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "renderer/scene/element_reader.hpp"
 #include "renderer/scene/environment_map.hpp"
-#include "renderer/scene/scene.hpp"
+#include "renderer/scene/lights/lights.hpp"
 
 namespace lobelia {
 
@@ -15,13 +16,10 @@ class LightReader {
   LightReader(ElementReader& reader, const std::filesystem::path& directory)
       : reader_(reader), maps_(directory) {}
 
-  /// None after an error that leaves nothing to go on with.
+  /// None where the element's type is no light.
   std::optional<Light> read(pugi::xml_node node);
 
  private:
-  std::optional<Light> rectangle(pugi::xml_node node, const Values& values);
-  std::optional<Light> envmap(const Values& values);
-
   ElementReader& reader_;
   EnvironmentMaps maps_;
 };

@@ -1,15 +1,14 @@
-#include "renderer/lights/environment.hpp"
+#include "renderer/scene/lights/envmap_table.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <span>
 
 namespace lobelia {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kEverywhere = 1 / (4 * kPi);
 
 double luminance(std::span<const float, 3> p) {
   return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
@@ -36,10 +35,12 @@ void normalise(std::span<double> cumulative) {
 
 }  // namespace
 
-Environment::Environment(const EnvironmentLight& light) : light_(light) {
-  if (!light.image) return;
-  const Image& image = *light.image;
-  width_ = image.width(), height_ = image.height();
+EnvmapTable::EnvmapTable(std::shared_ptr<const Image> picture, Rgb scale)
+    : image_(std::move(picture)),
+      scale_(scale),
+      width_(image_->width()),
+      height_(image_->height()) {
+  const Image& image = *image_;
   const std::size_t stride = std::size_t(width_) + 1;
   columns_.assign(stride * std::size_t(height_), 0);
   rows_.assign(std::size_t(height_) + 1, 0);
@@ -62,23 +63,19 @@ Environment::Environment(const EnvironmentLight& light) : light_(light) {
 }
 
 /// Of one pixel in it.
-double Environment::row_solid_angle(int row) const {
+double EnvmapTable::row_solid_angle(int row) const {
   return 2 * kPi / width_ * (cosines_[std::size_t(row)] - cosines_[std::size_t(row) + 1]);
 }
 
-Environment::Place Environment::place(Vec3 d) const {
+EnvmapTable::Place EnvmapTable::place(Vec3 d) const {
   const double turn = 0.5 + std::atan2(d.x, -d.z) / (2 * kPi);
   // Near the poles it is off by 1e-8, far less than a pixel.
   const double down = std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi;
   return {turn * width_, down * height_};
 }
 
-Rgb Environment::radiance(Vec3 direction) const {
-  return light_.image ? at(place(direction)) : light_.radiance;
-}
-
 /// Interpolated.
-Rgb Environment::at(Place p) const {
+Rgb EnvmapTable::at(Place p) const {
   const double x = p.column - 0.5, y = p.row - 0.5, fx = x - std::floor(x), fy = y - std::floor(y);
   const auto column = [&](double c) {
     const int i = int(c);
@@ -86,36 +83,28 @@ Rgb Environment::at(Place p) const {
   };
   const auto row = [&](double r) { return std::clamp(int(r), 0, height_ - 1); };
   const auto pixel_at = [&](double c, double r) {
-    const auto pixel = light_.image->pixel(column(c), row(r));
+    const auto pixel = image_->pixel(column(c), row(r));
     return Rgb{pixel[0], pixel[1], pixel[2]};
   };
   const double x0 = std::floor(x), y0 = std::floor(y);
-  return light_.radiance * ((1 - fy) * ((1 - fx) * pixel_at(x0, y0) + fx * pixel_at(x0 + 1, y0)) +
-                            fy * ((1 - fx) * pixel_at(x0, y0 + 1) + fx * pixel_at(x0 + 1, y0 + 1)));
+  return scale_ * ((1 - fy) * ((1 - fx) * pixel_at(x0, y0) + fx * pixel_at(x0 + 1, y0)) +
+                   fy * ((1 - fx) * pixel_at(x0, y0 + 1) + fx * pixel_at(x0 + 1, y0 + 1)));
 }
 
-double Environment::pdf(Vec3 direction) const { return look(direction).pdf; }
-
-Environment::Look Environment::look(Vec3 direction) const {
-  if (!light_.image) return {light_.radiance, kEverywhere};
+EnvironmentLook EnvmapTable::look(Vec3 direction) const {
   const Place p = place(direction);
   return {at(p), pdf(std::size_t(std::clamp(int(p.column), 0, width_ - 1)),
                      std::size_t(std::clamp(int(p.row), 0, height_ - 1)))};
 }
 
 /// Even within a pixel.
-double Environment::pdf(std::size_t column, std::size_t row) const {
+double EnvmapTable::pdf(std::size_t column, std::size_t row) const {
   const double* cumulative = columns_.data() + (std::size_t(width_) + 1) * row;
   return (rows_[row + 1] - rows_[row]) * (cumulative[column + 1] - cumulative[column]) /
          row_solid_angle(int(row));
 }
 
-LightSample Environment::sample(double u, double v) const {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  if (!light_.image) {
-    const double c = 1 - 2 * u, s = std::sqrt(std::max(0.0, 1 - c * c)), turn = 2 * kPi * v;
-    return {{s * std::cos(turn), c, s * std::sin(turn)}, kFar, kEverywhere, light_.radiance};
-  }
+DirectionSample EnvmapTable::sample(double u, double v) const {
   const Draw row = draw(rows_, v);
   const std::size_t stride = std::size_t(width_) + 1;
   const Draw column = draw({columns_.data() + stride * row.step, stride}, u);
@@ -126,7 +115,7 @@ LightSample Environment::sample(double u, double v) const {
   const double turn = 2 * kPi * (x / width_ - 0.5);
   const Vec3 direction{s * std::sin(turn), c, -s * std::cos(turn)};
   const Place place{x, std::acos(std::clamp(c, -1.0, 1.0)) / kPi * height_};
-  return {direction, kFar, pdf(column.step, row.step), at(place)};
+  return {direction, pdf(column.step, row.step), at(place)};
 }
 
 }  // namespace lobelia

@@ -1,0 +1,111 @@
+#include "renderer/scene/lights/lights.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace lobelia {
+namespace {
+
+/// f(light, parameter) for each parameter of the table.
+template <class F>
+void for_each_parameter(const Light& light, const F& f) {
+  std::visit(
+      [&]<class L>(const L& l) {
+        for (const LightParameter<L>& parameter : L::parameters())
+          std::visit([&](auto member) { f(parameter, LightValue(l.*member)); }, parameter.member);
+      },
+      light);
+}
+
+}  // namespace
+
+const LightInfo& info(const Light& light) {
+  return std::visit([]<class L>(const L&) -> const LightInfo& { return L::kInfo; }, light);
+}
+
+Rgb strength(const Light& light) {
+  return std::visit([](const auto& l) { return l.strength(); }, light);
+}
+
+LightBounds bounds(const Light& light) {
+  return std::visit([](const auto& l) { return l.bounds(); }, light);
+}
+
+double reach_along(const Light& light, Vec3 axis) {
+  return std::visit(
+      [&]<class L>(const L& l) -> double {
+        if constexpr (AreaLight<L>)
+          return l.reach_along(axis);
+        else
+          return 0;
+      },
+      light);
+}
+
+std::optional<Lamp> find_lamp(const Light& light) {
+  return std::visit(
+      []<class L>(const L& l) -> std::optional<Lamp> {
+        if constexpr (DeltaLight<L>)
+          return l.lamp();
+        else
+          return std::nullopt;
+      },
+      light);
+}
+
+std::optional<Lamp> find_near_lamp(const Light& light) {
+  auto lamp = find_lamp(light);
+  if (lamp && lamp->is_distant) lamp.reset();
+  return lamp;
+}
+
+Lamp lamp_of(const Light& light) {
+  if (const auto lamp = find_lamp(light)) return *lamp;
+  throw Error(ExitCode::kInternal, "a light with a size has no single direction");
+}
+
+std::optional<Lamp> lamp_of_same_power(const Light& light) {
+  return std::visit(
+      []<class L>(const L& l) -> std::optional<Lamp> {
+        if constexpr (AreaLight<L>)
+          return l.whole_lamp();
+        else
+          return std::nullopt;
+      },
+      light);
+}
+
+Light light_of(const Lamp& lamp) {
+  if (lamp.is_distant) return DirectionalLight{lamp.direction, lamp.strength};
+  return PointLight{lamp.position, lamp.strength, lamp.normal};
+}
+
+std::vector<WrittenParameter> written_parameters(const Light& light) {
+  std::vector<WrittenParameter> written;
+  for_each_parameter(light, [&](const auto& parameter, const LightValue& value) {
+    if (!parameter.is_optional || value != LightValue(Vec3{}))
+      written.push_back({parameter.parameter, value});
+  });
+  return written;
+}
+
+LightValue value_of(const Light& light, std::string_view name) {
+  std::optional<LightValue> found;
+  for_each_parameter(light, [&](const auto& parameter, const LightValue& value) {
+    if (parameter.parameter.name == name) found = value;
+  });
+  if (found) return *found;
+  throw Error(ExitCode::kInternal,
+              fmt::format("a {} light has no parameter {}", info(light).type, name));
+}
+
+std::string picture_file(const Light& light) {
+  std::string file;
+  for_each_parameter(light, [&](const auto&, const LightValue& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) file = *text;
+  });
+  return file;
+}
+
+}  // namespace lobelia
