@@ -94,7 +94,7 @@ records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
                    options.memory,
                    options.disk,
                    options.give_up_after};
-  record.failed = options.failed_directory.string();
+  if (!options.failed_directory.empty()) record.failed = options.failed_directory.string();
   for (const auto& here : work.engines) {
     const auto given = options.programs.find(here.name);
     record.engines.push_back(
@@ -123,8 +123,8 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
   options.disk = chunk.limits.disk;
   options.give_up_after = chunk.limits.give_up_after;
   options.leave_undone = true;
-  options.failed_directory = chunk.failed;
-  if (!chunk.failed.empty() && !options.failed_directory.is_absolute())
+  options.failed_directory = chunk.failed.value_or("");
+  if (chunk.failed && !options.failed_directory.is_absolute())
     throw Error(ExitCode::kInput, fmt::format("{}: 'failed' is no absolute path", file.string()));
   const std::vector<FarmEngine> engines = planned_engines(chunk);
   for (const auto& planned : chunk.engines)

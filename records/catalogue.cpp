@@ -86,6 +86,8 @@ std::string type_text(const Json& schema) {
   };
   bound("minimum", "at least");
   bound("maximum", "at most");
+  bound("exclusiveMinimum", "over");
+  bound("exclusiveMaximum", "below");
   bound("minItems", "at least");
   bound("maxItems", "at most");
   return text;

@@ -41,8 +41,7 @@ const Struct& FarmChunk::type() {
         t.key<&FarmChunk::cache>("cache");
         t.key<&FarmChunk::limits>("limits");
         t.key<&FarmChunk::failed>("failed",
-                                  "absolute path of the directory for inputs of failed jobs")
-            .if_any();
+                                  "absolute path of the directory for inputs of failed jobs");
         t.key<&FarmChunk::engines>("engines");
         t.key<&FarmChunk::cells>("cells");
       });

@@ -45,7 +45,7 @@ struct FarmChunk {
   Arithmetic arithmetic;
   std::string cache;
   ChunkLimits limits;
-  std::string failed;
+  std::optional<std::string> failed;
   std::vector<ChunkEngine> engines;
   std::vector<ChunkCell> cells;
   static const Struct& type();

@@ -10,13 +10,6 @@ constexpr std::string_view kNonfiniteValues[] = {"nan", "inf", "-inf"};
 constexpr std::string_view kDecoders[] = {"XYZ", "sRGB"};
 constexpr std::string_view kToneCurves[] = {"aces"};
 
-std::string layer_contradiction(const LayerComparison& layer) {
-  const bool measured = layer.nonfinite && layer.metrics && layer.limits;
-  return measured || layer.identical || !layer.problem.empty()
-             ? ""
-             : "neither measured, nor identical, nor with a problem";
-}
-
 std::string contradiction_of_pair(const PairOfSet& pair) {
   return pair.comparison.has_value() != pair.error.empty() ? "needs either a comparison or an error"
                                                            : "";
@@ -181,9 +174,9 @@ const Struct& Uncertainty::type() {
       "Uncertainty", "How the noise of the pictures was taken into account.", [](Struct& t) {
         t.key<&Uncertainty::a>("a");
         t.key<&Uncertainty::b>("b");
-        t.key<&Uncertainty::significance>("significance").within(0, 1);
+        t.key<&Uncertainty::significance>("significance").between(0, 1);
         t.key<&Uncertainty::tests>("tests", "values and regions that were tested").at_least(0);
-        t.key<&Uncertainty::each>("each", "significance level of one test").within(0, 1);
+        t.key<&Uncertainty::each>("each", "significance level of one test").between(0, 1);
         t.key<&Uncertainty::bootstraps>("bootstraps").at_least(4);
         t.key<&Uncertainty::seed>("seed");
       });
@@ -237,6 +230,7 @@ const Struct& LayerComparison::type() {
              "problem",
              "in place of what is measured: their sizes differ, or one alone has data outside of "
              "the display window")
+            .not_empty()
             .if_any();
         t.key<&LayerComparison::nonfinite>("nonfinite");
         t.key<&LayerComparison::metrics>("metrics").may_be_nonfinite();
@@ -244,7 +238,7 @@ const Struct& LayerComparison::type() {
         t.key<&LayerComparison::disagreement>("disagreement");
         t.key<&LayerComparison::not_measured>("notMeasured").if_any();
         t.key<&LayerComparison::pictures>("pictures");
-        t.check<layer_contradiction>();
+        t.needs({{"nonfinite", "metrics", "limits"}, {"identical"}, {"problem"}});
       });
 }
 
@@ -341,7 +335,8 @@ const Struct& PairOfSet::type() {
   return define<PairOfSet>("PairOfSet", "A pair of files of one name.", [](Struct& t) {
     t.key<&PairOfSet::name>("name", "the path within both folders");
     t.key<&PairOfSet::comparison>("comparison");
-    t.key<&PairOfSet::error>("error", "why there is no comparison").if_any();
+    t.key<&PairOfSet::error>("error", "why there is no comparison").not_empty().if_any();
+    t.needs({{"comparison"}, {"error"}});
     t.check<contradiction_of_pair>();
   });
 }

@@ -8,12 +8,6 @@ namespace {
 constexpr std::string_view kAngles[] = {"reflection", "half_vector"};
 constexpr std::string_view kFound[] = {"fitted", "pixel", "plateau", "edge", "none"};
 
-std::string lobe_contradiction(const CosineLobe& lobe) {
-  const bool all =
-      lobe.exponent && lobe.standard_error && lobe.coefficient && lobe.rms_of_peak && lobe.pixels;
-  return all || !lobe.because.empty() ? "" : "needs all figures, or because";
-}
-
 std::string contradiction_of_curve(const ProfileCurve& curve) {
   const auto has_length = [&](const auto& values) {
     return values.size() == curve.angle_degrees.size();
@@ -53,13 +47,13 @@ const Struct& HalfWidth::type() {
 
 const Struct& CosineLobe::type() {
   return define<CosineLobe>("CosineLobe", "The power of a cosine that fits best.", [](Struct& t) {
-    t.key<&CosineLobe::exponent>("exponent").may_be_nonfinite();
-    t.key<&CosineLobe::standard_error>("standardError").at_least(0).may_be_nonfinite();
-    t.key<&CosineLobe::coefficient>("coefficient").may_be_nonfinite();
-    t.key<&CosineLobe::rms_of_peak>("rmsOfPeak").at_least(0).may_be_nonfinite();
+    t.key<&CosineLobe::exponent>("exponent").within(0.001, 1e8);
+    t.key<&CosineLobe::standard_error>("standardError").at_least(0);
+    t.key<&CosineLobe::coefficient>("coefficient").between(0, kNoBound);
+    t.key<&CosineLobe::rms_of_peak>("rmsOfPeak").at_least(0);
     t.key<&CosineLobe::pixels>("pixels", "that were fitted");
-    t.key<&CosineLobe::because>("because", "why there are no figures").if_any();
-    t.check<lobe_contradiction>();
+    t.key<&CosineLobe::because>("because", "why there are no figures").not_empty().if_any();
+    t.needs({{"exponent", "standardError", "coefficient", "rmsOfPeak", "pixels"}, {"because"}});
   });
 }
 
@@ -195,8 +189,8 @@ const Struct& BlobFigures::type() {
         t.key<&BlobFigures::gaussian_sigma>("gaussianSigmaPixels", "of the same half-width");
         t.key<&BlobFigures::energy>("energy", "radiance times pixels").may_be_nonfinite();
         t.key<&BlobFigures::nonfinite>("nonfinite").unit("pixels");
-        t.key<&BlobFigures::because>("because", "why there is no blob").if_any();
-        t.key<&BlobFigures::remark>("remark", "what makes it doubtful").if_any();
+        t.key<&BlobFigures::because>("because", "why there is no blob").not_empty().if_any();
+        t.key<&BlobFigures::remark>("remark", "what makes it doubtful").not_empty().if_any();
       });
 }
 

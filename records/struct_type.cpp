@@ -59,6 +59,15 @@ void Struct::read(const Json& json, const Bounds&, const Place& place, void* val
     }
     field.type->read(*found, field.bounds, Place(place, field.key), field.member(value));
   }
+  const auto is_there = [&](std::string_view key) { return json.contains(key); };
+  if (!needs_.empty() && std::ranges::none_of(needs_, [&](const auto& keys) {
+        return std::ranges::all_of(keys, is_there);
+      })) {
+    std::string lists;
+    for (const auto& keys : needs_)
+      lists += fmt::format("{}{}", lists.empty() ? "" : ", or ", fmt::join(keys, " and "));
+    place.fail("needs " + lists);
+  }
   if (contradiction_)
     if (const std::string sentence = contradiction_(value); !sentence.empty()) place.fail(sentence);
 }
@@ -109,6 +118,7 @@ Json Struct::definition() const {
               {"description", meaning_},
               {"required", std::move(required)},
               {"properties", std::move(properties)}};
+  for (const auto& keys : needs_) schema["anyOf"].push_back({{"required", keys}});
   if (!rest.is_null()) schema["additionalProperties"] = std::move(rest);
   return schema;
 }

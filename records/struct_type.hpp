@@ -35,11 +35,16 @@ struct Field {
   Field& at_least(double least) { return bounds.least = least, *this; }
   Field& at_most(double most) { return bounds.most = most, *this; }
   Field& within(double least, double most) { return at_least(least).at_most(most); }
+  /// Neither `least` nor `most` itself.
+  Field& between(double least, double most) {
+    return bounds.without_ends = true, within(least, most);
+  }
   /// A number that is not finite is allowed, and is the text "nan", "inf" or "-inf".
   Field& may_be_nonfinite() { return bounds.nonfinite = true, *this; }
   Field& one_of(std::span<const std::string_view> texts) { return bounds.one_of = texts, *this; }
   /// A file beside the record: see is_plain_name().
   Field& plain_name() { return bounds.plain_name = true, *this; }
+  Field& not_empty() { return bounds.least_text = 1, *this; }
   Field& most_text(std::size_t bytes) { return bounds.most_text = bytes, *this; }
   Field& items(std::size_t least, std::size_t most = kMaxItems) {
     bounds.least_items = least, bounds.most_items = most;
@@ -80,6 +85,8 @@ class Struct final : public Type {
     kind_ = kind;
     is_sealed_ = seal == Seal::kYes;
   }
+  /// All keys of one of these lists are there, whatever else is.
+  void needs(std::vector<std::vector<std::string_view>> lists) { needs_ = std::move(lists); }
   /// Finds what contradicts itself where every key is right by itself: a sentence; empty if nothing does.
   template <auto kCheck>
   void check() {
@@ -125,6 +132,7 @@ class Struct final : public Type {
   std::string_view name_, meaning_, kind_;
   bool is_sealed_ = false;
   std::vector<Field> fields_;
+  std::vector<std::vector<std::string_view>> needs_;
   std::string (*contradiction_)(const void* record) = nullptr;
 };
 

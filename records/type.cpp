@@ -23,19 +23,24 @@ Json nonfinite_names(const Bounds& bounds) {
 }
 
 std::string allowed_text(const Bounds& bounds) {
+  if (bounds.without_ends)
+    return fmt::format("over {:g} and below {:g}", bounds.least, bounds.most);
   if (bounds.most == kNoBound) return fmt::format("at least {:g}", bounds.least);
   if (bounds.least == -kNoBound) return fmt::format("at most {:g}", bounds.most);
   return fmt::format("{:g} to {:g}", bounds.least, bounds.most);
 }
 
 void require_within(double value, const Bounds& bounds, const Place& place) {
-  if (!std::isnan(value) && (value < bounds.least || value > bounds.most))
+  const bool is_end = bounds.without_ends && (value == bounds.least || value == bounds.most);
+  if (!std::isnan(value) && (value < bounds.least || value > bounds.most || is_end))
     place.fail(fmt::format("{:g}; allowed: {}", value, allowed_text(bounds)));
 }
 
 void add_bounds(const Bounds& bounds, Json& schema) {
-  if (bounds.least != -kNoBound) schema["minimum"] = bounds.least;
-  if (bounds.most != kNoBound) schema["maximum"] = bounds.most;
+  if (bounds.least != -kNoBound)
+    schema[bounds.without_ends ? "exclusiveMinimum" : "minimum"] = bounds.least;
+  if (bounds.most != kNoBound)
+    schema[bounds.without_ends ? "exclusiveMaximum" : "maximum"] = bounds.most;
 }
 
 class BoolType final : public Type {
@@ -58,6 +63,7 @@ class StringType final : public Type {
             void* value) const override {
     if (!json.is_string()) place.fail("not a text");
     const auto& text = json.get_ref<const std::string&>();
+    if (text.size() < bounds.least_text) place.fail("empty");
     if (text.size() > bounds.most_text)
       place.fail(fmt::format("{} bytes; allowed: at most {}", text.size(), bounds.most_text));
     if (!bounds.one_of.empty() && std::ranges::find(bounds.one_of, text) == bounds.one_of.end())
@@ -73,6 +79,7 @@ class StringType final : public Type {
     if (!bounds.one_of.empty()) return {{"enum", bounds.one_of}};
     Json schema{{"type", "string"}};
     if (bounds.plain_name) schema["pattern"] = "^[^./][^/]*$";
+    if (bounds.least_text > 0) schema["minLength"] = bounds.least_text;
     if (bounds.most_text != kMaxText) schema["maxLength"] = bounds.most_text;
     return schema;
   }

@@ -58,10 +58,11 @@ inline constexpr std::size_t kMaxText = 1u << 20, kMaxItems = 10'000'000;
 /// `least_items` and `most_items` to the outermost list or object.
 struct Bounds {
   double least = -kNoBound, most = kNoBound;
-  bool nonfinite = false;                      ///< "nan", "inf" and "-inf" are numbers too
-  std::span<const std::string_view> one_of{};  ///< all texts that are allowed; empty: any
-  bool plain_name = false;                     ///< is_plain_name() holds for a text
-  std::size_t most_text = kMaxText;            ///< bytes
+  bool without_ends = false;                         ///< least and most themselves are not allowed
+  bool nonfinite = false;                            ///< "nan", "inf" and "-inf" are numbers too
+  std::span<const std::string_view> one_of{};        ///< all texts that are allowed; empty: any
+  bool plain_name = false;                           ///< is_plain_name() holds for a text
+  std::size_t least_text = 0, most_text = kMaxText;  ///< bytes
   std::size_t least_items = 0, most_items = kMaxItems;
   Bounds of_items() const;  ///< those of each item of a list with these
 };

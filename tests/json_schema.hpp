@@ -46,11 +46,15 @@ class JsonSchema {
   valijson::Schema parsed_;
 };
 
+template <class T>
+JsonSchema schema_of() {
+  return JsonSchema(records::schema_text({T::type, nullptr}));
+}
+
 /// What is wrong with a record by the schema of its kind.
 template <class T>
 std::string schema_problems(const T& record) {
-  const records::Kind kind{T::type, nullptr};
-  return JsonSchema(records::schema_text(kind)).problems(as_written(record));
+  return schema_of<T>().problems(as_written(record));
 }
 
 }  // namespace lobelia

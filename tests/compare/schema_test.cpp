@@ -1,6 +1,7 @@
 // The JSON Schemas of comparisons and profiles against the records that the program writes.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "compare/metrics/catalogue.hpp"
 #include "compare/profile/blob.hpp"
 #include "compare/set/report.hpp"
+#include "core/error.hpp"
 #include "farm/profile_scene.hpp"
 #include "lobelia_paths.hpp"
 #include "renderer/render.hpp"
@@ -21,6 +23,16 @@ namespace {
 
 records::Comparison record(const Image& a, const Image& b, const ComparisonOptions& options) {
   return comparison_record(compare(a, b, options), "a.exr", "b.exr");
+}
+
+/// With a change that neither the reader of its kind nor the schema takes.
+template <class T>
+void expect_refused(const Plain& good, const std::function<void(Plain&)>& change) {
+  Plain changed = good;
+  change(changed);
+  const std::string what = Plain::diff(good, changed).dump();
+  EXPECT_NE(schema_of<T>().problems(changed), "") << what;
+  EXPECT_THROW(records::parse_record<T>(changed.dump(), "a test"), Error) << what;
 }
 
 ComparisonOptions everything(const Image& image) {
@@ -146,13 +158,16 @@ TEST(ComparisonSchema, HoldsForARecordWithASecondReference) {
   }
 }
 
-TEST(ComparisonSetSchema, HoldsForASet) {
+/// A pair that is compared, and one that cannot be.
+records::ComparisonSet record_of_set() {
   const Image a = fixtures::highlight(32, 32, 10, 1), b = fixtures::highlight(32, 32, 11, 1);
   SetReport set{"one", "other", "", {}, {"gone.exr"}, {"new.exr"}, 2, {"one/out"}};
   set.pairs.push_back({"x.exr", "one/x.exr", "other/x.exr", "", compare(a, b, {}), "", 0.1});
   set.pairs.push_back({"y.exr", "one/y.exr", "other/y.exr", "", {}, "not a picture", 0});
-  EXPECT_EQ(schema_problems(set_record(set)), "");
+  return set_record(set);
 }
+
+TEST(ComparisonSetSchema, HoldsForASet) { EXPECT_EQ(schema_problems(record_of_set()), ""); }
 
 Image broken(int width, int height) {
   Image image(width, height);
@@ -191,6 +206,131 @@ TEST(MetricsDocument, IsWhatTheProgramPrints) {
   EXPECT_EQ(read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/metrics.md", 1 << 20),
             metrics_document())
       << "run: lobelia compare --list-metrics > docs/metrics.md";
+}
+
+TEST(BrokenRecords, OfComparisonsAreRefused) {
+  const Image image = fixtures::highlight(32, 32, 10, 1);
+  const Plain good = as_written(record(image, image, everything(image)));
+  const auto broken = [&](const auto& change) {
+    expect_refused<records::Comparison>(good, change);
+  };
+  for (const auto& [key, value] : good.items())
+    if (key != "tolerance" && key != "mask" && key != "disagreement" && key != "warnings" &&
+        key != "notMeasured" && key != "madeBy")
+      broken([&](Plain& r) { r.erase(key); });
+  broken([](Plain& r) { r["verdict"] = "fine"; });
+  broken([](Plain& r) { r["kind"] = "render"; });
+  broken([](Plain& r) { r["schemaVersion"] = 2; });
+  broken([](Plain& r) { r["metrics"]["rmse"] = "small"; });
+  broken([](Plain& r) { r["metrics"]["new"] = nullptr; });
+  broken([](Plain& r) { r["limits"] = Plain::array(); });
+  broken([](Plain& r) { r["limits"][0].erase("pass"); });
+  broken([](Plain& r) { r["viewing"]["hdrExposures"]["count"] = 1; });
+  broken([](Plain& r) { r["viewing"]["display"].erase("view"); });
+  broken([](Plain& r) { r["viewing"]["display"]["decodedBy"] = "guess"; });
+  broken([](Plain& r) { r["disagreement"] = "none"; });
+  broken([](Plain& r) { r["tolerance"].erase("ofPeak"); });
+  broken([](Plain& r) { r["notMeasured"][0].erase("because"); });
+  broken([](Plain& r) { r["notMeasured"][0]["metric"] = 3; });
+}
+
+TEST(BrokenRecords, OfNoiseAreRefused) {
+  const Image image = fixtures::highlight(32, 32, 10, 1);
+  const Plain good = as_written(record(image, image, with_noise({}, image, 0.1f)));
+  const auto broken = [&](const auto& change) {
+    expect_refused<records::Comparison>(good, change);
+  };
+  broken([](Plain& r) { r["uncertainty"].erase("each"); });
+  broken([](Plain& r) { r["uncertainty"]["a"].erase("shared"); });
+  broken([](Plain& r) { r["uncertainty"]["significance"] = 1; });
+  broken([](Plain& r) { r["errorBars"]["rmse"].erase("low"); });
+  broken([](Plain& r) { r["errorBars"]["rmse"]["standardError"] = -1; });
+  broken([](Plain& r) { r["limits"][0]["standing"] = "maybe"; });
+}
+
+TEST(BrokenRecords, OfFilesAreRefused) {
+  const Plain good = as_written(record_of_files());
+  const auto broken = [&](const auto& change) {
+    expect_refused<records::Comparison>(good, change);
+  };
+  for (const auto& [key, value] : good["pictures"]["a"].items())
+    if (!key.starts_with("iccProfile") && key != "chromaticities")
+      broken([&](Plain& r) { r["pictures"]["a"].erase(key); });
+  for (const char* key : {"layer", "verdict", "pictures", "metrics"})
+    broken([&](Plain& r) { r["layers"][0].erase(key); });
+  broken([](Plain& r) { r["layers"][3].erase("problem"); });
+  broken([](Plain& r) { r["layers"][4].erase("identical"); });
+  broken([](Plain& r) { r["layers"][4]["overscan"].erase("width"); });
+  for (const char* key : {"layers", "alpha", "overscanPixels", "mipLevels"})
+    broken([&](Plain& r) { r["notCompared"].erase(key); });
+  broken([](Plain& r) { r["pictures"]["a"]["chromaticities"].erase(0); });
+  broken([](Plain& r) { r["layersInOne"].erase("a"); });
+  broken([](Plain& r) { r["pictures"]["b"]["displayWindow"]["width"] = 0; });
+  broken([](Plain& r) { r["pictures"]["b"]["channels"] = Plain::array(); });
+}
+
+TEST(BrokenRecords, OfNonfinitePlacesAreRefused) {
+  Image a = fixtures::highlight(32, 32, 10, 1), b = a;
+  a.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
+  b.pixel(5, 6)[2] = std::numeric_limits<float>::quiet_NaN();
+  Comparison comparison = compare(a, b, {});
+  comparison.equal_nonfinite = 7;
+  const Plain good = as_written(comparison_record(comparison, "a", "b"));
+  const auto broken = [&](const auto& change) {
+    expect_refused<records::Comparison>(good, change);
+  };
+  broken([](Plain& r) { r["nonfinite"]["first"]["a"].erase("channel"); });
+  Plain finite = good;
+  finite["nonfinite"]["first"]["b"]["value"] = 1;
+  EXPECT_THROW(records::parse_record<records::Comparison>(finite.dump(), "a test"), Error);
+  broken([](Plain& r) { r["nonfinite"]["equalAllowed"] = -1; });
+}
+
+TEST(BrokenRecords, OfASecondReferenceAreRefused) {
+  const Image a = fixtures::highlight(32, 32, 10, 1), c = fixtures::highlight(32, 32, 11, 1);
+  Comparison comparison = compare(a, c, {});
+  comparison.reference_floor = measure_reference_floor(a, c, {});
+  expect_refused<records::Comparison>(as_written(comparison_record(comparison, "a", "b", "c.exr")),
+                                      [](Plain& r) { r["referenceFloor"].erase("metrics"); });
+}
+
+TEST(BrokenRecords, OfSetsAreRefused) {
+  const Plain good = as_written(record_of_set());
+  for (const auto& [key, value] : good.items())
+    if (key != "madeBy")
+      expect_refused<records::ComparisonSet>(good, [&](Plain& r) { r.erase(key); });
+  expect_refused<records::ComparisonSet>(
+      good, [](Plain& r) { r["pairs"][0]["comparison"].erase("metrics"); });
+  expect_refused<records::ComparisonSet>(good, [](Plain& r) { r["pairs"][1].erase("error"); });
+}
+
+TEST(BrokenRecords, OfProfilesAreRefused) {
+  const Scene scene = scene_with("phong_rdf", 64);
+  const Image picture = render(scene, RenderOptions{}).image;
+  const Plain good = as_written(profile_scene(scene, 0, 0, {{"a", &picture}}));
+  const auto broken = [&](const auto& change) { expect_refused<records::Profile>(good, change); };
+  for (const auto& [key, value] : good.items())
+    if (key != "planeOfIncidence" && key != "lobe" && key != "subtracted" && key != "madeBy")
+      broken([&](Plain& r) { r.erase(key); });
+  for (const auto& [key, value] : good["images"]["a"]["highlight"].items())
+    broken([&](Plain& r) { r["images"]["a"]["highlight"].erase(key); });
+  for (const auto& [key, value] : good["zones"].items())
+    broken([&](Plain& r) { r["zones"].erase(key); });
+  broken([](Plain& r) { r["kind"] = "blob"; });
+  broken([](Plain& r) { r["images"]["a"]["highlight"]["peak"]["found"] = "guessed"; });
+  broken([](Plain& r) { r["images"]["a"]["highlight"]["cosineLobe"]["exponent"] = "nan"; });
+  broken([](Plain& r) { r["differences"]["a-analytic"]["flank"].erase("rms"); });
+  broken([](Plain& r) { r["curve"]["a"][0] = "many"; });
+  broken([](Plain& r) { r["zones"]["flankDegrees"].push_back(3); });
+}
+
+TEST(BrokenRecords, OfBlobsAreRefused) {
+  const Image picture = render(scene_with("phong_rdf", 64), RenderOptions{}).image;
+  const Plain good = as_written(blob_record(measure_blob({{"a", &picture}, {"b", &picture}})));
+  for (const auto& [key, value] : good.items())
+    if (key != "madeBy") expect_refused<records::Blob>(good, [&](Plain& r) { r.erase(key); });
+  expect_refused<records::Blob>(good, [](Plain& r) { r["images"]["a"]["pixels"] = -1; });
+  expect_refused<records::Blob>(good, [](Plain& r) { r["images"]["a"]["remark"] = ""; });
 }
 
 }  // namespace

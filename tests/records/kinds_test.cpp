@@ -65,10 +65,12 @@ class RandomRecords {
   Json text(const Json& schema) {
     constexpr const char* kTexts[] = {"x", "", "ä → b", "a \"b\" \\ c\n", "</script><b>"};
     if (schema.contains("pattern")) return "file.png";
-    return kTexts[below(std::size(kTexts))];
+    const Json text = kTexts[below(std::size(kTexts))];
+    return text == "" && schema.contains("minLength") ? "x" : text;
   }
 
   Json number(const Json& schema, bool is_integer) {
+    if (schema.contains("exclusiveMinimum")) return 0.5;
     const double least = schema.value("minimum", is_integer ? -1000.0 : -1e300),
                  most = schema.value("maximum", is_integer ? least + 2000 : 1e300);
     const double at = std::uniform_real_distribution<double>(0, 1)(random_);
