@@ -9,8 +9,9 @@
 
 namespace lobelia {
 
-/// Of a cell, or of one of its jobs ("reference-povray"; empty: all). Engines are
-/// looked for in $PATH, or at `programs`. Writes nothing. Throws Error(kInput) if there is no such farm, cell or job.
+/// What the key of each result of a cell was made of, and what has changed since. With `job` ("reference-povray") only
+/// that result. Engines are looked for in $PATH, or at `programs`. Writes nothing. Throws Error(kInput) if there is no
+/// such farm, cell or job.
 records::FarmExplanation explain_cell(const std::filesystem::path& directory,
                                       const std::string& cell, const std::string& job,
                                       const std::map<std::string, std::filesystem::path>& programs);

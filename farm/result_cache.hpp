@@ -131,8 +131,8 @@ class ResultCache {
   void forget_failure(const ResultKey& key) const;
   void forget_failure(const ResultKey& key, Removal& removal) const;
 
-  /// What programs are made of (reference_scenes/content.hpp), by its hash; results name it. Without it they can be less well
-  /// explained, so a cache that may only be read is no error.
+  /// Keeps the list of files that a program consists of (reference_scenes/content.hpp) under its hash, which results name.
+  /// Only explanations need it, so a read-only cache is not an error.
   void keep_content(const Content& content) const;
   std::optional<Content> content(const std::string& sha256) const;
 

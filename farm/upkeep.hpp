@@ -73,7 +73,7 @@ struct CleanReport {
 CleanReport clean_farm(const std::filesystem::path& directory, bool all,
                        const RemovalOptions& options = {});
 
-/// What has become of every cell so far, also while a farm is at work there.
+/// The state of every cell. May be called while a farm is running there.
 records::FarmStatus farm_status(const std::filesystem::path& directory);
 
 }  // namespace lobelia

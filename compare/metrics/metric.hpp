@@ -81,7 +81,7 @@ enum class Family : std::uint8_t {
   kVisibility,  ///< what an eye notices at a viewing distance
 };
 
-/// What a number is of, and so how it is printed.
+/// The unit of a metric's values, which decides how they are printed.
 enum class Unit : std::uint8_t { kPlain, kRadiance, kShare, kCount };
 
 /// "plain", "radiance", "share", "count"

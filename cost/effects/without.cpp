@@ -14,7 +14,7 @@ void each_material(Without& w, void (*change)(Material&)) {
   std::for_each(w.scene.materials.begin(), w.scene.materials.end(), change);
 }
 
-/// Of the same power; others stay.
+/// A light with a size becomes a lamp of the same power; any other light is returned as it is.
 Light as_point(const Light& light) {
   const auto lamp = lamp_of_same_power(light);
   return lamp ? light_of(*lamp) : light;
