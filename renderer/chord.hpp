@@ -31,6 +31,12 @@ inline bool is_outside(const Sphere& sphere, Vec3 origin) {
   return dot(to_center, to_center) > outer_radius(sphere) * outer_radius(sphere);
 }
 
+/// Whether a point lies in the sphere, where no light comes.
+inline bool is_inside(const Sphere& sphere, Vec3 point) {
+  const Vec3 to_center = sphere.center - point;
+  return dot(to_center, to_center) < inner_radius(sphere) * inner_radius(sphere);
+}
+
 /// Whether the sphere is between the point and what is at `distance` in the direction `to_light`.
 inline bool blocks(const Sphere& sphere, double inner_radius, Vec3 point, Vec3 to_light,
                    double distance) {

@@ -6,26 +6,10 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "renderer/chord.hpp"
 #include "renderer/scene/contact.hpp"
 
 namespace lobelia {
-namespace {
-
-/// Where a ray of unit direction is nearest to a sphere's centre, and half of the chord, squared.
-struct Chord {
-  double along;
-  Vec3 off_axis;
-  double half_squared;
-};
-
-Chord chord_of(const Sphere& sphere, Vec3 origin, Vec3 direction) {
-  const Vec3 to_center = sphere.center - origin;
-  const double along = dot(to_center, direction);
-  const Vec3 off_axis = to_center - along * direction;
-  return {along, off_axis, sphere.radius * sphere.radius - dot(off_axis, off_axis)};
-}
-
-}  // namespace
 
 std::string beyond_single_rays(const Scene& scene) {
   std::string found = beyond_delta_lights(scene);
@@ -53,11 +37,10 @@ std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) 
     const Sphere& sphere = scene.spheres[k];
     const Chord chord = chord_of(sphere, origin, direction);
     if (!(chord.half_squared > 0)) continue;
-    const double half = std::sqrt(chord.half_squared), t = chord.along - half;
-    if (!(t > 0 && t < nearest_t) || length(sphere.center - origin) <= outer_radius(sphere))
-      continue;
+    const double t = chord.entry();
+    if (!(t > 0 && t < nearest_t) || !is_outside(sphere, origin)) continue;
     nearest_t = t;
-    const Vec3 normal = normalize(-(chord.off_axis + half * direction));
+    const Vec3 normal = normalize(-(chord.off_axis + chord.half() * direction));
     nearest = Hit{k, sphere.center + sphere.radius * normal, normal};
   }
   return nearest;
@@ -82,6 +65,8 @@ std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& h
   const Light& lamp = scene.lights.at(std::size_t(light));
   const Illumination here = illuminate(lamp, hit.point);
   if (!(dot(hit.normal, here.to_light) > 0)) return std::nullopt;
+  for (int k = 0; k < int(scene.spheres.size()); ++k)
+    if (k != hit.sphere && is_inside(scene.spheres[std::size_t(k)], hit.point)) return std::nullopt;
   // Above the horizon the sphere itself is behind the ray and never met.
   const auto before = nearest_hit(scene, hit.point, here.to_light);
   if (!before || !(length(before->point - hit.point) < here.distance)) return here;

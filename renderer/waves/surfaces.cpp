@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/chord.hpp"
 #include "renderer/waves/waves.hpp"
 
 namespace lobelia::waves {
@@ -40,6 +41,16 @@ void hide_behind_planes(const PreparedScene& prepared, std::size_t light, Worksp
     for (std::size_t i = 0; i < hits.count; ++i)
       if (hits.surface[i] != own) work.drawn.factor[i] *= work.visible[i];
     work.work.of<effects::Ground>() += hits.count;
+  }
+}
+
+/// No light comes into a sphere, whichever way it is looked for. Only a camera that is in one sees what else is.
+void darken_insides(const PreparedScene& prepared, Wave& wave) {
+  for (const int k : prepared.around_camera) {
+    const Sphere& sphere = prepared.scene.spheres[std::size_t(k)];
+    for (std::size_t i = 0; i < wave.count; ++i)
+      if (wave.surface[i] >= 0 && wave.surface[i] != k && is_inside(sphere, get(wave.point, i)))
+        wave.weight[i] = {};
   }
 }
 
@@ -102,6 +113,7 @@ void trace(const PreparedScene& prepared, Wave& wave, Workspace& work) {
   for (std::size_t k = 0; k < prepared.scene.planes.size(); ++k)
     kernels.plane_surface(prepared.scene.planes[k], double(spheres + k), count, wave.origin,
                           wave.to_eye, wave.surface, wave.distance, wave.point, wave.normal);
+  if (wave.level == 0) darken_insides(prepared, wave);
 }
 
 int material_at(const PreparedScene& prepared, const Wave& wave, std::size_t ray) {

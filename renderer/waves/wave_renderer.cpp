@@ -28,6 +28,10 @@ PreparedScene::PreparedScene(const Scene& s, const Plan& p)
       materials[m].scatters_to_light |=
           !is_delta(s.lights[l]) && p.strategy[l][m] != LightStrategy::kLight;
   for (const Plane& plane : s.planes) checkers.push_back(tangents(plane.normal));
+  for (std::size_t k = 0; k < s.spheres.size(); ++k)
+    if (length(s.spheres[k].center - s.camera.origin) <=
+        outer_radius(s.spheres[k]) + s.camera.aperture_radius)
+      around_camera.push_back(int(k));
   if (s.spheres.size() > kMaxLoopSpheres) accelerator = std::make_unique<Accelerator>(s.spheres);
 }
 

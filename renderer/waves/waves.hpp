@@ -71,6 +71,7 @@ struct PreparedScene {
   std::vector<std::unique_ptr<const PreparedLight>> lights;
   bool any_sized;                            ///< rays may meet a light
   std::vector<Tangents> checkers;            ///< by plane
+  std::vector<int> around_camera;            ///< spheres that some camera rays may start in
   std::unique_ptr<Accelerator> accelerator;  ///< null where a loop is faster
   /// Then each surface is shaded by itself, so that each has its own occluders.
   bool one_by_one() const { return !accelerator; }

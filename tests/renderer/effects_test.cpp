@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
@@ -202,6 +203,30 @@ TEST(Effects, ForcedGiveTheSamePictureBitForBitWhereNothingIsRandom) {
     ++checked;
   }
   EXPECT_GE(checked, 10);
+}
+
+TEST(TheInsideOfASphere, IsDarkWhicheverWayALightIsLookedFor) {
+  // A camera in the sphere does not see it, but sees the half of another that it holds.
+  for (const bool mirror : {false, true}) {
+    Material material = shiny(16);
+    if (mirror) material.mirror_reflectance = {0.5, 0.5, 0.5};
+    Scene scene = one_sphere(material);
+    scene.spheres.push_back({scene.camera.origin, 4.5, 0});
+    scene.depth.mirror = 2;
+    scene.sampler.sample_count = 4;
+    scene.lights = {ConstantLight{{1, 1, 1}}, DirectionalLight{{0, 0, -1}, {1, 1, 1}},
+                    SphereLight{{0, 3, 3}, 0.5, {1, 1, 1}}};
+    for (const EffectPolicy policy : {EffectPolicy::kAsCalledFor, EffectPolicy::kAll}) {
+      RenderOptions options;
+      options.effects = policy;
+      const Image image = render(scene, options).image;
+      for (const float v : image.values()) ASSERT_EQ(v, 0);
+    }
+    EXPECT_FALSE(light_at(scene, 1, {0, {0, 0, 1}, {0, 0, 1}}));
+    scene.spheres.pop_back();
+    EXPECT_TRUE(light_at(scene, 1, {0, {0, 0, 1}, {0, 0, 1}}));
+    EXPECT_GT(mean(render(scene, {}).image), 0.1);
+  }
 }
 
 TEST(Effects, ForcedGiveTheSamePictureWithinTheNoiseWhereSomethingIs) {

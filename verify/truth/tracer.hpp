@@ -49,7 +49,9 @@ class Tracer {
       const auto met = meet(origin, direction, leaves);
       if (!met) return;
       visit(*met);
-      if (left == 0 || is_black(scene_.materials[met->material].mirror_reflectance)) return;
+      if (left == 0 || is_black(scene_.materials[met->material].mirror_reflectance) ||
+          is_enclosed(*met))
+        return;
       origin = met->point;
       direction = normalize(2 * dot(met->normal, met->to_eye) * met->normal - met->to_eye);
       leaves = met->surface;
@@ -108,6 +110,8 @@ class Tracer {
     }
   };
 
+  /// In a sphere, where no light comes.
+  bool is_enclosed(const Met<Real>& at) const;
   /// From light out of one direction.
   bool is_hidden(const Met<Real>& at, const V& to_light) const;
   /// From a lamp at a place.
@@ -271,6 +275,15 @@ std::optional<Arrival<Real>> Tracer<Real>::arrival(std::size_t light, const Met<
   arrival.n_dot_l = dot(at.normal, arrival.to_light);
   if (arrival.n_dot_l <= 0 || is_hidden(at, lamp, arrival.to_light, distance)) return std::nullopt;
   return arrival;
+}
+
+template <class Real>
+bool Tracer<Real>::is_enclosed(const Met<Real>& at) const {
+  for (int k = 0; k < int(balls_.size()); ++k) {
+    const V way = balls_[k].center - at.point;
+    if (k != at.surface && dot(way, way) < balls_[k].inside_squared) return true;
+  }
+  return false;
 }
 
 template <class Real>
