@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <atomic>
 #include <chrono>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "core/at_once.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "lobelia_paths.hpp"
@@ -34,9 +36,7 @@ int argument(int argc, char** argv, int place, int otherwise) {
 void measure(int argc, char** argv) {
   const auto engine = make_engine(argc > 1 ? argv[1] : "", {});
   ReferenceOptions options;
-#ifndef BASELINE
   options.processes = argument(argc, argv, 2, 0);
-#endif
   const int count = argument(argc, argv, 3, 200);
   std::vector<Scene> scenes(
       std::size_t(count), read_scene(LOBELIA_SOURCE_DIR "/reference_scenes/scenes/oblique_45.xml"));
@@ -45,9 +45,11 @@ void measure(int argc, char** argv) {
   engine->status();
   const double cpu_before = children_cpu();
   const auto began = std::chrono::steady_clock::now();
-  int failed = 0;
-  engine->render(scenes, options, [&](std::size_t, const ReferenceResult& result) {
-    if (!result.error.empty()) ++failed;
+  std::atomic<int> failed = 0;
+  options.scenes = scenes.size();
+  Session session(*engine, options);
+  for_each_at_once(scenes.size(), session.at_once(), [&](std::size_t i) {
+    if (!session.render(scenes[i]).error.empty()) ++failed;
   });
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -56,7 +58,7 @@ void measure(int argc, char** argv) {
   fmt::print(
       "{}, {} pictures of {} x {}: {:.1f} s, {:.1f} s of processors, {:.0f} % of {}; {} failed\n",
       engine->info().title, count, scenes[0].film.width, scenes[0].film.height, wall, cpu,
-      100 * cpu / wall / cores, cores, failed);
+      100 * cpu / wall / cores, cores, failed.load());
 }
 
 }  // namespace

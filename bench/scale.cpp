@@ -182,14 +182,14 @@ std::vector<SlurmJob> jobs_of(std::size_t cells) {
   scene.film = {256, 256};
   std::vector<SlurmJob> jobs;
   jobs.reserve(cells * 8);
-  const auto add = [&](JobKind kind, const char* engine, int phase) {
-    jobs.push_back({"", phase, estimated_seconds(kind, engine, scene), engine});
+  const auto add = [&](JobKind kind, std::string_view engine, int phase) {
+    jobs.push_back({"", phase, estimated_seconds(kind, engine, scene), std::string(engine)});
   };
   for (std::size_t i = 0; i < cells; ++i) {
     add(JobKind::kRender, "", 0);
-    for (const char* engine : {"analytic", "povray", "blender"}) {
-      add(JobKind::kReference, engine, 0);
-      add(JobKind::kCompare, engine, 1);
+    for (const EngineInfo& engine : engine_infos()) {
+      add(JobKind::kReference, engine.name, 0);
+      add(JobKind::kCompare, engine.name, 1);
     }
     add(JobKind::kProfile, "", 1);
   }
@@ -201,10 +201,10 @@ void simulation(std::size_t cells) {
   double work = 0;
   for (const auto& job : jobs) work += job.seconds;
   fmt::print(
-      "\nSimulated: {} cells of 256 x 256 with three engines, {} jobs, {:.0f} core hours by the estimates that chunks "
+      "\nSimulated: {} cells of 256 x 256 with {} engines, {} jobs, {:.0f} core hours by the estimates that chunks "
       "are cut by; nodes of 32 cores, 3 s until an element runs, 20000 operations on names a second, a node dies "
       "every 100 days and what it had is back after 300 s\n\n",
-      cells, jobs.size(), work / 3600);
+      cells, engine_infos().size(), jobs.size(), work / 3600);
   fmt::print(
       "| nodes | threads of an element | elements | time, s | cores busy | names a second | lost elements |\n"
       "|---|---|---|---|---|---|---|\n");

@@ -22,8 +22,8 @@
 #include "core/text.hpp"
 #include "core/threads.hpp"
 #include "records/record.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/scene/scene_io.hpp"
-#include "verify/truth/evaluation.hpp"
 
 namespace lobelia::cli {
 namespace {

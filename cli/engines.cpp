@@ -27,7 +27,7 @@ records::EngineFound engine_record(const EngineInfo& engine, const EngineStatus&
   record.version = status.version;
   if (!status.available()) record.why = status.why;
   record.supported_versions = engine.supported_versions;
-  record.witness = engine.witness;
+  record.witness = engine.shading;
   record.precision = engine.precision;
   record.effects = engine.effects;
   record.install = engine.install_hint;
@@ -50,7 +50,7 @@ void print_engine(const EngineInfo& engine, const EngineStatus& status) {
     row("to install", engine.install_hint);
     row("versions", engine.supported_versions);
   }
-  row("witness", engine.witness);
+  row("witness", engine.shading);
   row("precision", engine.precision);
   row("effects", engine.effects);
 }

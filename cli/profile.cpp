@@ -34,8 +34,8 @@ std::pair<std::string, std::string> picture_names(const ProfileArguments& option
   };
   const std::string a = stem(options.a), b = stem(options.b);
   const auto reserved = [](const std::string& name) {
-    return name.empty() || name == kAnalyticName || name == "angleDegrees" || name == "pixels" ||
-           name == "offsetPixels";
+    return name.empty() || name == records::kAnalytic || name == "angleDegrees" ||
+           name == "pixels" || name == "offsetPixels";
   };
   if (a != b && !reserved(a) && (options.b.empty() || !reserved(b))) return {a, b};
   return {"a", "b"};

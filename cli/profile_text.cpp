@@ -196,7 +196,7 @@ std::string profile_svg(const records::Profile& profile) {
                  {zones.blooming[0], zones.blooming[1], "blooming zone"}};
   std::size_t line = 0;
   for (const auto& [name, column] : profile.curve.radiance) {
-    const bool formula = name == "analytic";
+    const bool formula = name == records::kAnalytic;
     chart.series.push_back(
         {formula ? "formula" : name, angle, column, formula ? 0 : style_of(line++)});
   }

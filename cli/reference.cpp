@@ -32,7 +32,7 @@ struct ReferenceArguments {
   double time_limit = 600;
   int points = ReferenceOptions{}.points;
   std::uint64_t point_seed = 0;
-  std::string precision, witness{kWitnessNames[0]}, standard_error;
+  std::string precision, shading{kShadingNames[0]}, standard_error;
   bool quiet = false;
   EnginePrograms programs;
   SceneOverrides overrides;
@@ -60,20 +60,12 @@ ReferenceOptions reference_options(const EngineInfo& engine, const ReferenceArgu
   if (!options.precision.empty())
     reference.fine = chosen_place(options.precision, fmt::format("--precision of {}", engine.name),
                                   precisions(engine)) == 1;
-  reference.witness = Witness(chosen_place(options.witness, "--witness", kWitnessNames));
+  reference.shading = Shading(chosen_place(options.shading, "--shading", kShadingNames));
   reference.threads = options.threads;
   reference.time_limit = std::chrono::duration<double>(options.time_limit);
-  reference.log_directory = options.log_directory;
   reference.points = options.points;
   reference.seed = options.point_seed;
   return reference;
-}
-
-ReferenceResult render_one(Engine& engine, const Scene& scene, const ReferenceOptions& options) {
-  ReferenceResult result;
-  engine.render(std::span(&scene, 1), options,
-                [&](std::size_t, ReferenceResult done) { result = std::move(done); });
-  return result;
 }
 
 void run_reference(const ReferenceArguments& options) {
@@ -94,8 +86,12 @@ void run_reference(const ReferenceArguments& options) {
   const EngineInfo& engine_info = engine->info();
   ProgressLine progress(!options.quiet);
   progress.show(0, fmt::format("{} at work", engine_info.title));
-  ReferenceResult result = render_one(*engine, scene, reference);
+  ReferenceResult result = Session(*engine, reference).render(scene);
   progress.clear();
+  if (!options.log_directory.empty() && !result.log.empty())
+    write_file(
+        std::filesystem::path(options.log_directory) / fmt::format("{}-0.log", engine_info.name),
+        result.log);
   if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
 
   FilesTogether files;
@@ -141,7 +137,7 @@ std::string precision_list() {
 std::string engine_words() {
   std::string words;
   for (const EngineInfo& engine : engine_infos())
-    words += fmt::format("{}\n  {}\n  {}\n", engine.title, engine.witness, engine.precision);
+    words += fmt::format("{}\n  {}\n  {}\n", engine.title, engine.shading, engine.precision);
   return words;
 }
 
@@ -174,9 +170,10 @@ void add_reference(CLI::App& app, ExitCode&) {
       "--precision", options->precision,
       fmt::format("Number format of the engine: {}; the first if not given", precision_list()));
   command
-      ->add_option("--witness", options->witness,
-                   "Whose highlights: the engine's own (native), formulas in the engine's language "
-                   "(expressed), or what is usual (any)")
+      ->add_option(
+          "--shading,--witness", options->shading,
+          "Who shades a highlight: the engine itself (native), our formula in the engine's "
+          "language (expressed), or whichever is usual (any)")
       ->capture_default_str();
   command
       ->add_option(

@@ -13,7 +13,6 @@
 #include "core/files.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/agreement/report.hpp"
-#include "reference_scenes/engine_program.hpp"
 
 namespace lobelia::cli {
 namespace {

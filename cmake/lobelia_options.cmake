@@ -46,7 +46,7 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lobelia_paths.hpp @ONLY CONTENT
 
 # The presets of the sanitizers optimise nothing, which compiles fastest, except what computes most. And several files of
 # a room or a test are compiled as one, but for those that its CMakeLists.txt says have names in common.
-set(LOBELIA_COMPUTING_ROOMS renderer compare truth verify cost)
+set(LOBELIA_COMPUTING_ROOMS renderer compare formulas verify cost)
 function(lobelia_compile_for_sanitizers target room)
   if(LOBELIA_SANITIZE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON)

@@ -5,7 +5,7 @@
 #include "compare/metrics/peak.hpp"
 #include "cost/accuracy.hpp"
 #include "cost/picture_truth.hpp"
-#include "verify/truth/evaluation.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 
 namespace lobelia::cost {
 namespace {

@@ -17,14 +17,14 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/process.hpp"
+#include "core/text.hpp"
 #include "cost/engine_program.hpp"
 #include "cost/film_size.hpp"
 #include "cost/report.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
-#include "reference_scenes/engine_program.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/scene/scene_io.hpp"
-#include "verify/truth/evaluation.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -56,8 +56,8 @@ Made run_lobelia(const std::filesystem::path& program, std::vector<std::string> 
   const ProcessResult ended = run_process(arguments, {});
   if (ended.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
   if (ended.exit_code != 0)
-    throw Error(ExitCode::kEngine,
-                fmt::format("lobelia {} failed: {}", arguments[1], last_words(ended.output_tail)));
+    throw Error(ExitCode::kEngine, fmt::format("lobelia {} failed: {}", arguments[1],
+                                               printable(ended.output_tail, 300)));
   return {read_image(picture), ended.seconds};
 }
 
@@ -87,29 +87,26 @@ Made make_built_in(const std::filesystem::path& program, std::string_view engine
 
 /// From the call to the picture in memory.
 Made make_theirs(Engine& engine, const Scene& scene, const ReferenceOptions& options) {
-  Made made;
-  std::string error;
-  made.seconds = seconds_of([&] {
-    engine.render(std::span(&scene, 1), options, [&](std::size_t, ReferenceResult result) {
-      error = result.error;
-      made.image = std::move(result.image);
-      const records::EngineSeconds& took = result.record.seconds;
-      for (const auto& [stage, seconds] : {std::pair("start", took.start),
-                                           {"parse", took.parse},
-                                           {"trace", took.trace},
-                                           {"write", took.write}})
-        if (seconds) made.stages.emplace_back(stage, *seconds);
-    });
-  });
-  if (!error.empty()) throw Error(ExitCode::kEngine, error);
+  ReferenceResult result;
+  const double seconds = seconds_of([&] { result = Session(engine, options).render(scene); });
+  if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
+  Made made{std::move(result.image), seconds};
+  const records::EngineSeconds& took = result.record.seconds;
+  for (const auto& [stage, of_stage] : {std::pair("start", took.start),
+                                        {"parse", took.parse},
+                                        {"trace", took.trace},
+                                        {"write", took.write}})
+    if (of_stage) made.stages.emplace_back(stage, *of_stage);
   return made;
 }
 
-/// By the formulas in 50 digits.
+/// By the formulas in 50 digits: the engine that is part of our program, in its finer format.
 Made make_truth(const Scene& scene) {
+  const auto infos = engine_infos();
+  const auto formulas = std::ranges::find(infos, false, &EngineInfo::is_program);
   ReferenceOptions how;
   how.fine = true;
-  return make_theirs(*make_engine("analytic", {}), scene, how);
+  return make_theirs(*make_engine(formulas->name, {}), scene, how);
 }
 
 /// With the truth where two programs that are both right may differ by the whole of a pixel.

@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "cost/quad.hpp"
-#include "verify/definition.hpp"
-#include "verify/truth/truth.hpp"
+#include "reference_scenes/engines/analytic/formulas/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 
 namespace lobelia::cost {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/colour.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
-#include "verify/truth/evaluation.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 
 namespace lobelia::cost {
 namespace {

@@ -4,7 +4,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <limits>
 
-#include "verify/truth/number_limits.hpp"
+#include "reference_scenes/engines/analytic/formulas/number_limits.hpp"
 
 namespace lobelia::cost {
 

@@ -1,5 +1,5 @@
 // Light that comes from areas and by other surfaces: error over samples and over time, with importance
-// sampling and without, by us and by Cycles.
+// sampling and without, by us and by an engine.
 #include "cost/transport_level.hpp"
 #include "core/error_time_chart.hpp"
 
@@ -17,7 +17,6 @@
 #include "cost/film_size.hpp"
 #include "cost/report.hpp"
 #include "cost/transport/convergence.hpp"
-#include "cost/transport/cycles.hpp"
 #include "cost/transport/measure.hpp"
 #include "cost/transport/scenes.hpp"
 #include "reference_scenes/engine.hpp"
@@ -92,34 +91,74 @@ void measure_ours(const Scene& scene, int seed, const Converged& truth, Directio
   }
 }
 
-/// Several seeds in one process.
-void measure_cycles(const std::filesystem::path& blender, const Scene& scene,
-                    const std::vector<int>& seeds, const std::filesystem::path& directory,
-                    const Converged& truth, Series& series) {
-  // What a call costs without a picture to speak of; the first of a process costs more than the others.
-  std::vector<CyclesPicture> pictures(2, {8, 8, 1, 1, 0, {}});
-  for (const int seed : seeds)
-    for (const Point& point : series.points)
-      pictures.push_back(
-          {scene.film.width, scene.film.height, point.samples, std::uint64_t(seed), 0, {}});
-  run_cycles(blender, scene, directory, pictures);
-  for (std::size_t i = 2; i < pictures.size(); ++i) {
-    Point& point = series.points[(i - 2) % series.points.size()];
-    require_picture(pictures[i].image, "Cycles");
-    point.seconds.push_back(pictures[i].seconds);
-    point.errors.push_back(rms_of_difference(pictures[i].image, truth.image));
-    point.facts.seconds_of_tiny_call = pictures[1].seconds;
-  }
+/// An engine that traces light by itself; null if there is none here.
+struct TransportEngine {
+  std::unique_ptr<Engine> engine;
+  std::string title;  ///< "Cycles"
+  std::string why;    ///< where it is not here
+  explicit operator bool() const { return engine != nullptr; }
+};
+
+/// The first engine of the catalogue that has a light transport of its own.
+TransportEngine find_transport_engine(const Options& options) {
+  const auto infos = engine_infos();
+  const auto info =
+      std::ranges::find_if(infos, [](const EngineInfo& i) { return !i.transport.empty(); });
+  if (info == infos.end()) return {nullptr, "an engine", "no engine traces light by itself"};
+  auto engine = make_engine(info->name, named_program(options, info->name));
+  const EngineStatus& status = engine->status();
+  TransportEngine found{nullptr, std::string(info->transport), status.why};
+  if (status.available()) found.engine = std::move(engine);
+  return found;
 }
 
-Converged converged_cycles(const std::filesystem::path& blender, const Scene& scene, int samples,
-                           const std::filesystem::path& directory) {
-  std::vector<CyclesPicture> pictures;
-  for (const std::uint64_t seed : kTruthSeeds)
-    pictures.push_back({scene.film.width, scene.film.height, samples, seed, 0, {}});
-  run_cycles(blender, scene, directory, pictures);
-  for (const CyclesPicture& picture : pictures) require_picture(picture.image, "Cycles");
-  return {pictures[0].image, pictures[1].image};
+/// Pictures one after the other, all processors for each.
+class TransportSession {
+ public:
+  explicit TransportSession(const TransportEngine& by)
+      : title_(by.title), session_(*by.engine, options()) {}
+
+  ReferenceResult render(Scene scene, int samples, std::uint64_t seed) {
+    scene.sampler.sample_count = samples;
+    scene.sampler.seed = seed;
+    ReferenceResult result = session_.render(scene);
+    if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
+    require_picture(result.image, title_.c_str());
+    return result;
+  }
+
+ private:
+  static ReferenceOptions options() {
+    ReferenceOptions options;
+    options.processes = 1;
+    options.own_transport = true;
+    options.no_progress_limit = std::chrono::minutes(5);
+    return options;
+  }
+  const std::string title_;
+  Session session_;
+};
+
+void measure_engine(const TransportEngine& by, const Scene& scene, const std::vector<int>& seeds,
+                    const Converged& truth, Series& series) {
+  TransportSession session(by);
+  // What a call costs without a picture to speak of; the first of a process costs more than the others.
+  const Scene tiny = with_film(scene, 8);
+  session.render(tiny, 1, 1);
+  const double tiny_seconds = session.render(tiny, 1, 1).record.seconds.total;
+  for (const int seed : seeds)
+    for (Point& point : series.points) {
+      const ReferenceResult result = session.render(scene, point.samples, std::uint64_t(seed));
+      point.seconds.push_back(result.record.seconds.total);
+      point.errors.push_back(rms_of_difference(result.image, truth.image));
+      point.facts.seconds_of_tiny_call = tiny_seconds;
+    }
+}
+
+Converged converged_picture(const TransportEngine& by, const Scene& scene, int samples) {
+  TransportSession session(by);
+  return {session.render(scene, samples, kTruthSeeds[0]).image,
+          session.render(scene, samples, kTruthSeeds[1]).image};
 }
 
 /// Relative to the picture; what the converged picture is off by itself is taken out.
@@ -198,28 +237,23 @@ void add_series(const Series& series, const Converged& truth, Table& table) {
 /// that ends; beyond this one of them is wrong.
 constexpr double kMostApart = 0.03;
 
-std::string agreement(const Converged& ours, const Converged& theirs) {
+std::string agreement(const Converged& ours, const Converged& theirs, const std::string& title) {
   const double scale = rms(theirs.image);
   const double apart = rms_of_difference(ours.image, theirs.image) / scale;
   const double noise = std::hypot(ours.error, theirs.error) / scale;
   if (apart > kMostApart + 2 * noise)
-    throw Error(ExitCode::kInternal,
-                fmt::format("light transport: our converged picture and Cycles' are {:.2g} apart "
-                            "(relative RMS), their noise is {:.2g}",
-                            apart, noise));
+    throw Error(
+        ExitCode::kInternal,
+        fmt::format("light transport: our converged picture and that of {} are {:.2g} apart "
+                    "(relative RMS), their noise is {:.2g}",
+                    title, apart, noise));
   return fmt::format(
-      "the converged pictures of ours and Cycles are {:.1e} apart (relative RMS), their noise is {:.1e}",
-      apart, noise);
+      "the converged pictures of ours and {} are {:.1e} apart (relative RMS), their noise is {:.1e}",
+      title, apart, noise);
 }
 
-struct Cycles {
-  std::filesystem::path program;  ///< empty: not here
-  std::string why;
-};
-
 Table measure_scene(const std::string& id, const std::string& title, const Scene& scene,
-                    const std::filesystem::path& directory, const std::optional<Cycles>& cycles,
-                    const Options& options) {
+                    const TransportEngine& by, const Options& options) {
   const std::vector<int> counts = sample_counts(options);
   const int most = kTruthFactor * counts.back();
   Table table;
@@ -234,15 +268,16 @@ Table measure_scene(const std::string& id, const std::string& title, const Scene
   options.progress(id + ": converged pictures");
   const Converged ours(render_timed(scene, most, kTruthSeeds[0]).result.image,
                        render_timed(scene, most, kTruthSeeds[1]).result.image);
-  const bool both = cycles && !cycles->program.empty();
-  const Converged theirs =
-      both ? converged_cycles(cycles->program, scene, most, directory) : Converged();
+  const bool both = bool(by);
+  const Converged theirs = both ? converged_picture(by, scene, most) : Converged();
   std::vector<Series> series;
   for (const Sampling& sampling : kSamplings)
     series.emplace_back(sampling.name, "lobelia", sampling.setting, counts);
-  if (both) series.emplace_back("Cycles", "cycles", "light and surface, Cycles' own", counts);
+  if (both)
+    series.emplace_back(by.title, std::string(by.engine->info().name),
+                        fmt::format("light and surface, by {} itself", by.title), counts);
 
-  // Blender takes a second to start: too long for a look.
+  // A program takes a second to start: too long for a quick look.
   const bool at_once = options.effort == Effort::kQuick;
   // In turn, so that a change in the machine's speed meets all.
   const int rounds = options.rounds(2, 3, 7);
@@ -250,30 +285,27 @@ Table measure_scene(const std::string& id, const std::string& title, const Scene
     options.progress(fmt::format("{}: round {} of {}", id, seed, rounds));
     for (std::size_t s = 0; s < std::size(kSamplings); ++s)
       measure_ours(scene, seed, ours, kSamplings[s].directions, series[s]);
-    if (both && !at_once)
-      measure_cycles(cycles->program, scene, {seed}, directory, theirs, series.back());
+    if (both && !at_once) measure_engine(by, scene, {seed}, theirs, series.back());
   }
   if (both && at_once) {
     std::vector<int> seeds(std::size_t(rounds), 1);
     std::iota(seeds.begin(), seeds.end(), 1);
-    measure_cycles(cycles->program, scene, seeds, directory, theirs, series.back());
+    measure_engine(by, scene, seeds, theirs, series.back());
   }
-  for (const Series& one : series) add_series(one, one.engine == "cycles" ? theirs : ours, table);
+  for (const Series& one : series) add_series(one, one.engine == "lobelia" ? ours : theirs, table);
   table.remarks.push_back(fmt::format(
       "errors of the picture: of {} seeds each, against {} samples of two others, whose own error is "
       "taken out (ours {:.1e}{})",
       rounds, most, ours.error / rms(ours.image),
-      both ? fmt::format(", Cycles {:.1e}", theirs.error / rms(theirs.image)) : ""));
+      both ? fmt::format(", {} {:.1e}", by.title, theirs.error / rms(theirs.image)) : ""));
   if (both) {
-    table.remarks.push_back(agreement(ours, theirs));
-    table.remarks.emplace_back(
-        "times of Cycles are of the render call, with the hand-over of the scene and the file; ours are of "
-        "plan and picture");
-  } else if (cycles) {
-    table.remarks.push_back("without Cycles: " + cycles->why);
+    table.remarks.push_back(agreement(ours, theirs, by.title));
+    table.remarks.push_back(fmt::format(
+        "times of {} are of a running program that is given the scene, with setting it up and the file; ours "
+        "are of plan and picture",
+        by.title));
   } else {
-    table.remarks.emplace_back(
-        "without Cycles: only the built-in scenes are told to it in this way (see the level engine)");
+    table.remarks.push_back(fmt::format("without {}: {}", by.title, by.why));
   }
   return table;
 }
@@ -288,23 +320,22 @@ bool has_transport(const Scene& scene) {
 
 std::vector<Table> measure_transport(const Options& options) {
   const int side = options.rounds(48, 96, 192);
-  const TemporaryDirectory directory;
-  const auto engine = make_engine("blender", named_program(options, "blender"));
-  const EngineStatus& status = engine->status();
-  const Cycles cycles{status.available() ? status.program : "", status.why};
+  const TransportEngine by = find_transport_engine(options);
   std::vector<Table> tables;
   const auto add = [&](const char* id, const char* title, const Scene& scene) {
-    tables.push_back(measure_scene(id, title, scene, directory.path(), cycles, options));
+    tables.push_back(measure_scene(id, title, scene, by, options));
   };
   add("rectangle_light", "A sphere on a plane below a rectangle of light", below_rectangle(side));
-  add("environment", "A sphere on a plane below a sky with a small sun",
-      below_sky(side, directory.path()));
+  add("environment", "A sphere on a plane below a sky with a small sun", below_sky(side));
   add("inter_reflection", "Below the rectangle, with light that goes from surface to surface",
       with_inter_reflection(below_rectangle(side)));
+  const TransportEngine not_told{
+      nullptr, by.title,
+      "only the built-in scenes are told to it in this way (see the level engine)"};
   for (const NamedScene& given : options.scenes)
     if (has_transport(given.scene))
-      tables.push_back(measure_scene(given.name, given.name, with_film(given.scene, side),
-                                     directory.path(), {}, options));
+      tables.push_back(
+          measure_scene(given.name, given.name, with_film(given.scene, side), not_told, options));
   return tables;
 }
 

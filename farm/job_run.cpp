@@ -17,6 +17,7 @@
 #include <set>
 #include <thread>
 
+#include "core/at_once.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
@@ -30,7 +31,6 @@
 #include "farm/failed_jobs.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
-#include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/replicates.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -40,8 +40,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-/// Scenes that an engine is given at a time: enough for its processes, and no burden on the memory.
-constexpr std::size_t kScenesAtATime = 1024;
 /// Between two looks at what somebody else is making.
 constexpr auto kLookAgain = std::chrono::milliseconds(50);
 
@@ -219,7 +217,7 @@ struct JobRun::Impl {
   }
 
   /// Keeps what an engine was given, so that somebody can look for the reason. Returns "failed/CELL/JOB", or "".
-  std::string keep_input(JobIndex job, const fs::path& log) {
+  std::string keep_input(JobIndex job, const std::string& log) {
     const std::string& engine = graph.engines()[graph[job].engine].name;
     const auto [cell, name] = parts_of_name(job);
     return failed.keep(cell, name, [&](const fs::path& directory) {
@@ -231,8 +229,7 @@ struct JobRun::Impl {
         again.insert(again.end(), {"--" + engine, given->second.string()});
       write_file(directory / "again.sh", shell_join(again) + "\n");
       constexpr std::uint64_t kMostLog = FailedJobs::kMostBytes / 2;
-      if (std::error_code none; !log.empty() && fs::file_size(log, none) <= kMostLog && !none)
-        write_file(directory / (engine + ".log"), read_file(log, kMostLog));
+      if (!log.empty() && log.size() <= kMostLog) write_file(directory / (engine + ".log"), log);
       // Of an average the first of its pictures stands for all.
       keep_engine_input(engine,
                         needs_replicates(scene) ? replicates(scene, 1, 1, 0)[0][0].scene : scene,
@@ -240,7 +237,7 @@ struct JobRun::Impl {
     });
   }
 
-  void settle_failed(JobIndex job, JobFailure failure, const fs::path& log) {
+  void settle_failed(JobIndex job, JobFailure failure, const std::string& log) {
     if (!is_kernel(job) && worth_retrying(failure.kind)) {
       const std::string kept = keep_input(job, log);
       replace_all(failure.message, kEngineDirectory, kept.empty() ? "." : kept);
@@ -381,10 +378,9 @@ struct JobRun::Impl {
     const FarmEngine& here = graph.engines()[graph[job].engine];
     ReferenceOptions reference;
     reference.threads = 1;
-    here.engine->render({&scene, 1}, reference, [&](std::size_t, ReferenceResult result) {
-      if (!result.error.empty()) throw ResultFailure(result.failure, result.error);
-      make_reference(scene, here, "", std::move(result), {}, draft, record);
-    });
+    ReferenceResult result = Session(*here.engine, reference).render(scene);
+    if (!result.error.empty()) throw ResultFailure(result.failure, result.error);
+    make_reference(scene, here, "", std::move(result), draft, record);
   }
 
   /// Whether it has been settled; false: somebody else is at work on it.
@@ -526,9 +522,7 @@ struct JobRun::Impl {
         if (fresh.begin() == todo.begin()) state.losses.attempts = 0;
         const bool more_memory = state.short_of_memory.contains(todo.front());
         auto end = todo.begin();
-        while (end != todo.end() && std::size_t(end - todo.begin()) < kScenesAtATime &&
-               state.short_of_memory.contains(*end) == more_memory)
-          ++end;
+        while (end != todo.end() && state.short_of_memory.contains(*end) == more_memory) ++end;
         const std::vector<JobIndex> batch(todo.begin(), end);
         todo.erase(todo.begin(), end);
         const std::size_t before = todo.size();
@@ -609,89 +603,94 @@ struct JobRun::Impl {
                 : options.memory;
   }
 
-  /// Returns what is to be tried again.
-  std::vector<JobIndex> render_batch(std::size_t e, const std::vector<JobIndex>& jobs,
+  /// Several at a time. Returns what is to be tried again.
+  std::vector<JobIndex> render_batch(std::size_t e, const std::vector<JobIndex>& batch,
                                      EngineState& state, bool more_memory) {
-    const FarmEngine& here = graph.engines()[e];
     ReferenceOptions reference;
     reference.threads = options.threads;
     reference.time_limit = options.time_limit;
     reference.no_progress_limit = options.no_progress_limit;
     reference.memory_limit = memory_of_job(more_memory);
     reference.disk_limit = options.disk;
-    std::vector<JobIndex> batch;
-    std::vector<Scene> scenes;
-    for (const JobIndex job : jobs) {
-      Scene scene = graph.cells().scene(graph.cell_of(job));
-      const std::uint64_t needed = memory_to_average(scene, reference);
-      if (reference.memory_limit > 0 && needed > memory_of_job(true)) {
-        settle_failed(job, too_large(needed), {});
-        continue;
-      }
-      batch.push_back(job);
-      scenes.push_back(std::move(scene));
-    }
-    std::vector<JobIndex> again;
-    std::vector<std::unique_ptr<Claim>> claims(batch.size());
-    std::vector<Clock::time_point> begun(batch.size());
-    std::mutex begin_mutex;  // also of `state`
+    reference.scenes = batch.size();
+    Session session(*graph.engines()[e].engine, reference);
+    EngineBatch at_work{e, more_memory, reference, session, state};
+    for_each_at_once(
+        batch.size(), session.at_once(), [&](std::size_t k) { render_one(batch[k], at_work); },
+        [&] { session.stop(); });
+    return std::move(at_work.again);
+  }
 
-    const TemporaryDirectory logs;
-    reference.log_directory = logs.path();
-    reference.begin = [&](std::size_t k) {
-      const std::scoped_lock one_at_a_time(begin_mutex);
-      begun[k] = Clock::now();
-      {
-        const std::scoped_lock lock(mutex);
-        if (over()) return false;
+  struct EngineBatch {
+    std::size_t engine;
+    bool more_memory;
+    const ReferenceOptions& options;
+    Session& session;
+    EngineState& state;
+    std::vector<JobIndex> again = {};
+    std::mutex mutex = {};     ///< of the two above
+    std::mutex averages = {};  ///< one of them keeps the engine busy, and is enough for the memory
+  };
+
+  void render_one(JobIndex job, EngineBatch& batch) {
+    const Scene scene = graph.cells().scene(graph.cell_of(job));
+    const std::uint64_t needed = memory_to_average(scene, batch.options);
+    if (batch.options.memory_limit > 0 && needed > memory_of_job(true)) {
+      settle_failed(job, too_large(needed), {});
+      return settle_cells();
+    }
+    std::unique_lock average(batch.averages, std::defer_lock);
+    if (needs_replicates(scene)) average.lock();
+    const std::unique_ptr<Claim> claim = claim_for(job, batch);
+    if (!claim) return;
+    ReferenceResult result = batch.session.render(scene);
+    const double wall = std::chrono::duration<double>(Clock::now() - result.begun).count();
+    const std::string log = std::move(result.log);
+    JobFailure failure{result.failure, result.error, 0};
+    {
+      const std::scoped_lock lock(batch.mutex);
+      failure.attempts = ++batch.state.attempts[job];
+    }
+    if (result.error.empty()) {
+      try {
+        result.log = log;
+        keep_reference(job, scene, graph.engines()[batch.engine], std::move(result),
+                       failure.attempts, wall);
+      } catch (const ResultFailure& what) {
+        failure = {what.kind(), what.what(), failure.attempts};
       }
+    }
+    bool is_for_again = false;
+    {
+      const std::scoped_lock lock(batch.mutex);
+      is_for_again = is_for_another_attempt(job, failure, batch.more_memory, batch.state);
+      if (is_for_again) batch.again.push_back(job);
+    }
+    if (!failure.message.empty() && !is_for_again) settle_failed(job, std::move(failure), log);
+    settle_cells();
+  }
+
+  /// To make it now; null if it is not to be made, or only later.
+  std::unique_ptr<Claim> claim_for(JobIndex job, EngineBatch& batch) {
+    {
+      const std::scoped_lock lock(mutex);
+      if (over()) return nullptr;
+    }
+    {
+      const std::scoped_lock lock(batch.mutex);
       // After many failures those that have failed are tried again before any other.
       const bool doubtful =
-          options.give_up_after > 0 && state.losses.attempts >= options.give_up_after;
-      if (state.given_up || (doubtful && !state.attempts.contains(batch[k]))) {
-        again.push_back(batch[k]);
-        return false;
+          options.give_up_after > 0 && batch.state.losses.attempts >= options.give_up_after;
+      if (batch.state.given_up || (doubtful && !batch.state.attempts.contains(job))) {
+        batch.again.push_back(job);
+        return nullptr;
       }
-      auto claim = claim_of(graph[batch[k]].key);
-      if (!claim) {
-        again.push_back(batch[k]);
-        return false;
-      }
-      if (is_there(batch[k])) return false;
-      claims[k] = std::move(claim);
-      return true;
-    };
-    here.engine->render(scenes, reference, [&](std::size_t k, ReferenceResult result) {
-      const JobIndex job = batch[k];
-      int attempt = 0;
-      {
-        const std::scoped_lock one_at_a_time(begin_mutex);
-        attempt = ++state.attempts[job];
-      }
-      const fs::path log = logs.path() / fmt::format("{}-{}.log", here.name, k);
-      const double wall = std::chrono::duration<double>(Clock::now() - begun[k]).count();
-      JobFailure failure{result.failure, result.error, attempt};
-      if (result.error.empty()) {
-        try {
-          keep_reference(job, scenes[k], here, std::move(result), log, attempt, wall);
-        } catch (const ResultFailure& what) {
-          failure = {what.kind(), what.what(), attempt};
-        }
-      }
-      bool is_for_again = false;
-      {
-        const std::scoped_lock one_at_a_time(begin_mutex);
-        is_for_again = is_for_another_attempt(job, failure, more_memory, state);
-        if (is_for_again) again.push_back(job);
-      }
-      if (!failure.message.empty() && !is_for_again) settle_failed(job, std::move(failure), log);
-      {
-        const std::scoped_lock one_at_a_time(begin_mutex);
-        claims[k].reset();
-      }
-      settle_cells();
-    });
-    return again;
+    }
+    auto claim = claim_of(graph[job].key);
+    if (claim) return is_there(job) ? nullptr : std::move(claim);
+    const std::scoped_lock lock(batch.mutex);
+    batch.again.push_back(job);
+    return nullptr;
   }
 
   JobFailure too_large(std::uint64_t needed) const {
@@ -702,7 +701,7 @@ struct JobRun::Impl {
   }
 
   void keep_reference(JobIndex job, const Scene& scene, const FarmEngine& here,
-                      ReferenceResult result, const fs::path& log, int attempt, double wall) {
+                      ReferenceResult result, int attempt, double wall) {
     const auto given = options.programs.find(here.name);
     const std::string program = given == options.programs.end() ? "" : given->second.string();
     records::Result record = result_record(job, attempt);
@@ -713,7 +712,7 @@ struct JobRun::Impl {
     ResultDraft draft = cache.draft();
     try {
       const double cpu_before = thread_cpu_seconds();
-      make_reference(scene, here, program, std::move(result), log, draft, record);
+      make_reference(scene, here, program, std::move(result), draft, record);
       count_kernel(thread_cpu_seconds() - cpu_before);
       publish(job, draft, std::move(record));
     } catch (const Error&) {

@@ -1,13 +1,12 @@
 #include "compare/compare.hpp"
 #include "core/colour.hpp"
 #include "core/image_io.hpp"
-#include "farm/agreement.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/render_error.hpp"
-#include "verify/truth/evaluation.hpp"
 
 namespace lobelia {
 namespace {
@@ -29,6 +28,12 @@ NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
 
 }  // namespace
 
+Tolerance tolerance_of(std::string_view engine, std::vector<std::uint8_t> edges) {
+  constexpr std::int64_t kAllowedOutliers = 3;
+  const EngineTolerance tolerance = engine_info(engine).tolerance;
+  return {tolerance.of_value, tolerance.of_peak, kAllowedOutliers, std::move(edges)};
+}
+
 void make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
                      ResultDraft& draft, records::Result& record) {
   const std::string& engine = theirs.engine;
@@ -48,7 +53,7 @@ void make_comparison(const Scene& scene, const MadePicture& ours, const MadePict
   ComparisonOptions options;
   options.viewing.exposure_stops = exposure;
   options.tolerance =
-      agreement(engine, exact ? truth::edge_ring(scene) : std::vector<std::uint8_t>());
+      tolerance_of(engine, exact ? truth::edge_ring(scene) : std::vector<std::uint8_t>());
   if (!exact) {
     options.limits.assign(default_limits().begin(), default_limits().end());
     options.noise = noise_of(ours, theirs);

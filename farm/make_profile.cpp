@@ -11,7 +11,7 @@ void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
   NamedImages named;
   for (const auto& picture : pictures) {
     // The profile draws the formula under that name already.
-    if (picture.engine == kAnalyticName) continue;
+    if (picture.engine == records::kAnalytic) continue;
     images.push_back(read_whole_picture(picture.directory / picture_file(picture.engine), scene));
     named.emplace_back(picture.engine, &images.back());
   }

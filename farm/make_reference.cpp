@@ -1,5 +1,3 @@
-#include <system_error>
-
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "farm/make_result.hpp"
@@ -7,13 +5,8 @@
 #include "reference_scenes/reference_metadata.hpp"
 
 namespace lobelia {
-namespace {
-constexpr std::uint64_t kMaxEngineLogBytes = 1 << 30;  // each pass and sample of a scene adds to it
-}
-
 void make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
-                    ReferenceResult result, const std::filesystem::path& log, ResultDraft& draft,
-                    records::Result& made) {
+                    ReferenceResult result, ResultDraft& draft, records::Result& made) {
   records::Reference& record = result.record;
   const std::string file = picture_file(engine.name);
   record.command = {"lobelia", "reference", "scene.xml", "--engine", engine.name, "-o", file};
@@ -28,8 +21,7 @@ void make_reference(const Scene& scene, const FarmEngine& engine, const std::str
   read_whole_picture(draft.file(file), scene);
   records::write_record(draft.file(engine.name + ".json"), record);
   // An engine may have had nothing to say.
-  if (std::error_code none; !log.empty() && std::filesystem::exists(log, none))
-    write_file(draft.file(engine.name + ".log"), read_file(log, kMaxEngineLogBytes));
+  if (!result.log.empty()) write_file(draft.file(engine.name + ".log"), result.log);
   made.command = record.command;
   made.engine_commands = record.engine_commands;
   made.witness = record.witness;

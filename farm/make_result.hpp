@@ -15,6 +15,8 @@
 
 namespace lobelia {
 
+struct Tolerance;
+
 /// What is wrong with one result, and with nothing else.
 class ResultFailure : public Error {
  public:
@@ -43,14 +45,17 @@ std::string comparison_name(const std::string& engine);
 void make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<double> time_limit,
                  std::uint64_t memory_limit, records::Result& record);
 
-/// An engine's picture: ENGINE.exr, .json, .log and ENGINE-error.exr. `result` has no error; `log` may not be there.
+/// An engine's picture: ENGINE.exr, .json, .log and ENGINE-error.exr. `result` has no error.
 void make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
-                    ReferenceResult result, const std::filesystem::path& log, ResultDraft& draft,
-                    records::Result& record);
+                    ReferenceResult result, ResultDraft& draft, records::Result& record);
 
 /// ENGINE.png at our picture's exposure, and unless its noise is not known, lobelia-ENGINE.json and .png.
 void make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
                      ResultDraft& draft, records::Result& record);
+
+/// The engine's (reference_scenes/engine.hpp). Up to three pixels may be farther off, all of them in `edges`
+/// (truth::edge_ring): a silhouette or a terminator may fall on the other side of a pixel's centre.
+Tolerance tolerance_of(std::string_view engine, std::vector<std::uint8_t> edges);
 
 /// profile.json.
 void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures, ResultDraft& draft);

@@ -106,7 +106,7 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere,
             float(double(values[i]) - (double(with_all.values()[i]) - analytic.values()[i]));
     }
   }
-  NamedImages all{{kAnalyticName, &analytic}};
+  NamedImages all{{records::kAnalytic, &analytic}};
   for (std::size_t k = 0; k < images.size(); ++k)
     all.emplace_back(images[k].first, single.empty() ? images[k].second : &single[k]);
   std::vector<std::pair<std::size_t, std::size_t>> pairs;

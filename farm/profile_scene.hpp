@@ -3,12 +3,10 @@
 
 #include "compare/profile/profile.hpp"
 #include "core/image.hpp"
+#include "records/profile.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
-
-/// Name of the formula among the pictures of a profile.
-inline constexpr char kAnalyticName[] = "analytic";
 
 /// The formula at the centre of every pixel that sees `sphere`: all lights with their shadows, diffuse base
 /// included; 0 elsewhere. Evaluated in double, apart from the renderer's kernels.

@@ -372,13 +372,12 @@ ByteLocks::Claim ResultCache::use() const {
 }
 
 void ResultCache::keep_failure(const ResultKey& key, const records::Failure& record,
-                               const fs::path& log) const {
+                               const std::string& log) const {
   ResultDraft made = draft();
   const HeldDirectory to = shelf("failures", key);
-  std::error_code ignored;
   records::write_record(made.file("json"), record);
-  if (!log.empty() && fs::file_size(log, ignored) <= kMaxLogBytes && !ignored) {
-    write_file(made.file("log"), read_file(log, kMaxLogBytes));
+  if (!log.empty() && log.size() <= kMaxLogBytes) {
+    write_file(made.file("log"), log);
     move(made.file("log"), to, key.text() + ".log");
   } else {
     forget_failure(key);

@@ -121,9 +121,9 @@ class ResultCache {
   /// Shared; Error(kOutput) while somebody takes results away.
   ByteLocks::Claim use() const;
 
-  /// With the log of whoever failed, unless that is not there.
+  /// With the log of whoever failed, unless that is empty.
   void keep_failure(const ResultKey& key, const records::Failure& record,
-                    const std::filesystem::path& log = {}) const;
+                    const std::string& log = {}) const;
   /// Where that log is, if there is one; otherwise empty.
   std::filesystem::path failure_log(const ResultKey& key) const;
   std::optional<records::Failure> failure(const ResultKey& key) const;

@@ -57,7 +57,7 @@ void write_counts(Html& html, const std::vector<CellSummary>& cells) {
 
 bool has_formulas(const ShownFarm& farm) {
   return std::ranges::any_of(farm.record.engines, [](const records::FarmEngine& e) {
-    return e.name == "analytic" && e.available;
+    return e.name == records::kAnalytic && e.available;
   });
 }
 

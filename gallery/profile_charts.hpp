@@ -10,8 +10,7 @@
 
 namespace lobelia::gallery {
 
-/// The curve that the formula itself gives, as the record calls it.
-inline constexpr char kAnalytic[] = "analytic";
+using records::kAnalytic;
 
 /// From the middle outward.
 std::vector<records::ShownZone> zones_of(const records::Profile& profile);

@@ -11,6 +11,9 @@
 
 namespace lobelia::records {
 
+/// The formula's name among curves and pictures; also of the engine that evaluates it.
+inline constexpr char kAnalytic[] = "analytic";
+
 struct Point {
   double x = 0, y = 0;
   static const Struct& type();

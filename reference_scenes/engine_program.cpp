@@ -238,11 +238,12 @@ Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::pat
 
 ReferenceResult failed_result(const EngineInfo& engine, const EngineStatus& status,
                               const Scene& scene, const Failure& failure) {
-  return {{}, {}, failure.message, failure.kind, reference_record(engine, status, scene)};
-}
-
-bool may_begin(const ReferenceOptions& options, std::size_t index) {
-  return !options.begin || options.begin(index);
+  ReferenceResult result;
+  result.error = failure.message;
+  result.failure = failure.kind;
+  result.begun = std::chrono::steady_clock::now();
+  result.record = reference_record(engine, status, scene);
+  return result;
 }
 
 int threads_of(const ReferenceOptions& options) {
@@ -264,27 +265,6 @@ void record_cost(records::Reference& record, double cpu_seconds, std::uint64_t p
   record.cpu_seconds = cpu_seconds;
   record.peak_memory_bytes = peak_memory_bytes;
   record.threads = threads;
-}
-
-namespace {
-std::filesystem::path log_file(const ReferenceOptions& options, const EngineInfo& engine,
-                               std::size_t index) {
-  return options.log_directory / fmt::format("{}-{}.log", engine.name, index);
-}
-}  // namespace
-
-void write_engine_log(const ReferenceOptions& options, const EngineInfo& engine, std::size_t index,
-                      const std::string& text) {
-  if (!options.log_directory.empty()) write_file(log_file(options, engine, index), text);
-}
-
-std::string read_engine_log(const ReferenceOptions& options, const EngineInfo& engine,
-                            std::size_t index) {
-  const std::filesystem::path file = log_file(options, engine, index);
-  if (!std::filesystem::exists(file)) return {};
-  std::string text = read_file(file, std::numeric_limits<std::uint32_t>::max());
-  remove_in_temporary_directory(file);
-  return text;
 }
 
 records::Reference reference_record(const EngineInfo& engine, const EngineStatus& status,

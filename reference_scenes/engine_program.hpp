@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,23 @@ struct EngineProbe {
 EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
                           const std::filesystem::path& program);
 
-/// Error(kEngine) with the reason and how to install it, unless it is available.
-void require_available(const EngineInfo& engine, const EngineStatus& status);
+/// An engine that is a program. Both references must outlive it.
+class ProgramEngine : public Engine {
+ public:
+  ProgramEngine(const EngineInfo& info, const EngineProbe& probe, std::filesystem::path program)
+      : info_(info), probe_(probe), program_(std::move(program)) {}
+  const EngineInfo& info() const final { return info_; }
+  const EngineStatus& status() final {
+    if (!status_) status_ = probe_engine(info_, probe_, program_);
+    return *status_;
+  }
+
+ private:
+  const EngineInfo& info_;
+  const EngineProbe& probe_;
+  const std::filesystem::path program_;
+  std::optional<EngineStatus> status_;
+};
 
 /// All that an engine gets of our environment: other variables could change its pictures (CYCLES_*, OCIO, PYTHON*) or how it
 /// runs (LD_PRELOAD, GLIBC_TUNABLES, MALLOC_*, OMP_*).
@@ -44,9 +60,6 @@ std::string last_words(const std::string& output_tail);
 Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
                         const ReferenceOptions& options);
 
-/// Stands in messages for the temporary directory that an engine works in.
-inline constexpr std::string_view kEngineDirectory = "<its directory>";
-
 /// run_process in `process.environment` and nothing else; one that cannot be started is a failure. Throws
 /// Error(kInterrupted).
 Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arguments,
@@ -59,9 +72,6 @@ Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::pat
 /// A scene's result where there is no picture.
 ReferenceResult failed_result(const EngineInfo& engine, const EngineStatus& status,
                               const Scene& scene, const Failure& failure);
-
-/// Whether work on the scene may begin.
-bool may_begin(const ReferenceOptions& options, std::size_t index);
 
 /// As many as were asked for, or one for each processor.
 int threads_of(const ReferenceOptions& options);
@@ -88,15 +98,6 @@ void record_limits(records::Reference& record, const ProcessLimits& limits);
 /// Writes into a record what a program took.
 void record_cost(records::Reference& record, double cpu_seconds, std::uint64_t peak_memory_bytes,
                  int threads);
-
-/// Writes the engine's own output on scene `index` to ENGINE-INDEX.log in the log directory, if
-/// there is one.
-void write_engine_log(const ReferenceOptions& options, const EngineInfo& engine, std::size_t index,
-                      const std::string& text);
-
-/// What write_engine_log wrote, and takes it away; empty if nothing.
-std::string read_engine_log(const ReferenceOptions& options, const EngineInfo& engine,
-                            std::size_t index);
 
 /// The record, as far as all engines fill it alike.
 records::Reference reference_record(const EngineInfo& engine, const EngineStatus& status,

@@ -12,7 +12,6 @@
 #include <string_view>
 
 #include "bench/light/sections.hpp"
-#include "core/files.hpp"
 #include "cost/report.hpp"
 #include "cost/transport/scenes.hpp"
 #include "cost/transport_level.hpp"
@@ -25,13 +24,12 @@ void measure_light() {
   report.tables = cost::measure_transport({});
   fmt::print("{}", cost::cost_text(report, true));
   constexpr int kSide = 96;
-  const TemporaryDirectory directory;
   fmt::print(
       "\nAn error of 1e-2 asked: what is estimated and what it is, and the time beside that of as "
       "many samples at once\n{:<24} {:>8} {:>12} {:>12} {:>12} {:>10} {:>10}\n",
       "", "samples", "estimated", "real", "ratio", "s", "at once s");
   measure_target_error("rectangle of light", cost::below_rectangle(kSide));
-  measure_target_error("sky with a small sun", cost::below_sky(kSide, directory.path()));
+  measure_target_error("sky with a small sun", cost::below_sky(kSide));
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 #include <memory>
 #include <numbers>
 
-#include "core/image_io.hpp"
-
 namespace lobelia::cost {
 namespace {
 
@@ -57,11 +55,9 @@ Scene below_rectangle(int side) {
   return scene;
 }
 
-Scene below_sky(int side, const std::filesystem::path& directory) {
+Scene below_sky(int side) {
   Scene scene = sphere_on_plane(side);
-  EnvmapLight light{{1, 1, 1}, std::make_shared<Image>(sky()), "sky.exr"};
-  write_exr(directory / light.file, *light.image, {});
-  scene.lights = {light};
+  scene.lights = {EnvmapLight{{1, 1, 1}, std::make_shared<Image>(sky()), "sky.exr"}};
   return scene;
 }
 

@@ -1,8 +1,5 @@
-// Scenes whose light comes from areas, which Cycles shows as well (cost/transport/cycles.hpp).
+// Scenes whose light comes from areas, which engines show by their own light transport.
 #pragma once
-
-#include <filesystem>
-#include <string>
 
 #include "renderer/scene/scene.hpp"
 
@@ -13,8 +10,8 @@ namespace lobelia::cost {
 Scene sphere_on_plane(int side);
 /// The same below a rectangle of light: a soft shadow.
 Scene below_rectangle(int side);
-/// The same below a sky with a small sun, an image of 1024 x 512 that is written to `directory`.
-Scene below_sky(int side, const std::filesystem::path& directory);
+/// The same below a sky with a small sun, an image of 1024 x 512.
+Scene below_sky(int side);
 
 /// Light goes so many times from surface to surface.
 inline constexpr int kBounces = 3;

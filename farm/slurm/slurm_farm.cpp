@@ -166,10 +166,10 @@ double estimated_seconds(JobKind kind, std::string_view engine, const Scene& sce
   switch (kind) {
     case JobKind::kRender:
       return 0.02 + 5e-7 * rays;
-    case JobKind::kReference:
-      if (engine == "povray") return 0.3 + 5e-6 * rays;
-      if (engine == "blender") return 0.15 + 2e-6 * rays;
-      return 0.02 + 2e-6 * rays;
+    case JobKind::kReference: {
+      const EngineSeconds& seconds = engine_info(engine).seconds;
+      return seconds.start + seconds.per_ray * rays;
+    }
     case JobKind::kCompare:
       return 0.05 + 2e-6 * pixels;
     case JobKind::kProfile:

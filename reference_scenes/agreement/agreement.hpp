@@ -1,4 +1,4 @@
-// The measurement behind the table of agreement: every witness, every case.
+// The measurement behind the table of agreement: every variant, every case.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 #include "reference_scenes/agreement/cases.hpp"
 #include "reference_scenes/agreement/figures.hpp"
-#include "reference_scenes/agreement/witness.hpp"
+#include "reference_scenes/agreement/variants.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/replicate_statistics.hpp"
 
@@ -21,7 +21,7 @@ inline constexpr std::string_view kVerdictNames[] = {"met", "missed", "no target
 
 struct Row {
   std::size_t index = 0;  ///< of the case
-  WitnessKind witness;
+  Variant variant;
   Figures figures;  ///< where there is a picture
   Verdict verdict = Verdict::kNoTarget;
   std::string why;  ///< not comparable, or failed
@@ -30,7 +30,7 @@ struct Row {
 /// An engine's average at two numbers of points against what our own samples converge to.
 struct SoftRow {
   std::string_view what;
-  WitnessKind witness;
+  Variant variant;
   struct Count {
     int points = 0;
     ReplicateStatistics statistics;

@@ -8,12 +8,12 @@
 namespace lobelia::agreement {
 namespace {
 
-bool relative_counts(const WitnessKind& witness) {
-  const auto target = target_of(witness, 1);
+bool relative_counts(const Variant& variant) {
+  const auto target = target_of(variant, 1);
   return target && target->relative;
 }
 
-/// By witness, then by what `name_of` says of a case; a column for each exponent.
+/// By variant, then by what `name_of` says of a case; a column for each exponent.
 Table worst_table(const Agreement& agreement, const std::string& title, const std::string& what,
                   const std::function<std::string(const Case&)>& name_of) {
   std::vector<double> exponents;
@@ -22,24 +22,24 @@ Table worst_table(const Agreement& agreement, const std::string& title, const st
   std::ranges::sort(exponents);
   exponents.erase(std::ranges::unique(exponents).begin(), exponents.end());
 
-  Ordered<Ordered<std::map<double, Worst>>> by_witness;
+  Ordered<Ordered<std::map<double, Worst>>> by_variant;
   std::map<std::string, bool> relative;
   for (const Row& row : agreement.rows) {
     const Case& one = agreement.cases[row.index];
     if (one.group != Group::kHighlight || !is_shown(row)) continue;
-    const std::string witness(row.witness.title);
-    by_witness[witness][name_of(one)][one.highlight.exponent].add(row);
-    relative[witness] = relative_counts(row.witness);
+    const std::string variant(row.variant.title);
+    by_variant[variant][name_of(one)][one.highlight.exponent].add(row);
+    relative[variant] = relative_counts(row.variant);
   }
   Table table{title,
               "The largest difference over all lights: of the value where the target is of the "
               "value, otherwise of the peak.",
-              {"witness", what, "of the"},
+              {"variant", what, "of the"},
               {}};
   for (const double n : exponents) table.head.push_back("n = " + exponent_text(n));
-  for (auto& [witness, by_name] : by_witness.entries)
+  for (auto& [variant, by_name] : by_variant.entries)
     for (auto& [name, by_exponent] : by_name.entries) {
-      std::vector<std::string> words{witness, name, relative[witness] ? "value" : "peak"};
+      std::vector<std::string> words{variant, name, relative[variant] ? "value" : "peak"};
       for (const double n : exponents) {
         const auto found = by_exponent.find(n);
         if (found == by_exponent.end()) {
@@ -51,7 +51,7 @@ Table worst_table(const Agreement& agreement, const std::string& title, const st
           words.push_back("FAILED");
           continue;
         }
-        words.push_back(short_number(relative[witness] ? worst.figures.max_relative
+        words.push_back(short_number(relative[variant] ? worst.figures.max_relative
                                                        : worst.figures.max_of_peak) +
                         (worst.missed > 0 ? " MISSED" : ""));
       }
@@ -69,7 +69,7 @@ std::string lobe_words(const HighlightChoice& h) {
 Table headline_table(const Agreement& agreement) {
   Table table{"Highlights",
               "The worst over models, lobes and lights; max, RMS and ring max are of the peak.",
-              {"witness", "n"},
+              {"variant", "n"},
               {}};
   append(table.head, kFigureHead);
   append(table.head, {"target", "verdict"});
@@ -81,14 +81,14 @@ Table headline_table(const Agreement& agreement) {
   for (const Row& row : agreement.rows) {
     const Case& one = agreement.cases[row.index];
     if (one.group != Group::kHighlight || !is_shown(row)) continue;
-    Line& line = lines[std::string(row.witness.title)][range_of(one.highlight.exponent)];
+    Line& line = lines[std::string(row.variant.title)][range_of(one.highlight.exponent)];
     line.worst.add(row);
-    if (const auto target = target_of(row.witness, one.highlight.exponent))
+    if (const auto target = target_of(row.variant, one.highlight.exponent))
       line.target = target_text(*target);
   }
-  for (const auto& [witness, by_range] : lines.entries)
+  for (const auto& [variant, by_range] : lines.entries)
     for (const auto& [range, line] : by_range) {
-      std::vector<std::string> words{witness, range_text(range)};
+      std::vector<std::string> words{variant, range_text(range)};
       append(words, figure_words(line.worst));
       append(words, {line.target, verdict_text(line.worst, !line.target.empty())});
       table.rows.push_back(std::move(words));

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <mutex>
 
+#include "core/at_once.hpp"
 #include "core/interrupt.hpp"
 #include "reference_scenes/agreement/agreement.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/render.hpp"
-#include "verify/truth/evaluation.hpp"
 
 namespace lobelia::agreement {
 namespace {
@@ -15,22 +17,22 @@ namespace {
 /// From here on double itself would be a part of what is measured.
 constexpr double kFiftyDigitsFrom = 1e5;
 
-ReferenceOptions options_of(const WitnessKind& witness) {
+ReferenceOptions options_of(const Variant& variant) {
   ReferenceOptions options;
-  options.fine = witness.fine;
-  options.witness = witness.witness;
+  options.fine = variant.fine;
+  options.shading = variant.shading;
   return options;
 }
 
-Verdict verdict_of(const WitnessKind& witness, const Case& one, const Figures& figures) {
-  const auto target = target_of(witness, one.highlight.exponent);
+Verdict verdict_of(const Variant& variant, const Case& one, const Figures& figures) {
+  const auto target = target_of(variant, one.highlight.exponent);
   if (!target) return Verdict::kNoTarget;
   const double value = target->relative ? figures.max_relative : figures.max_of_peak;
   return value <= target->limit && figures.ring_over <= one.ring_allowed ? Verdict::kMet
                                                                          : Verdict::kMissed;
 }
 
-/// All about one case that does not depend on the witness.
+/// All about one case that does not depend on the variant.
 struct Truth {
   std::string why_not;
   Picture picture;
@@ -58,35 +60,35 @@ class Measurement {
     result_.soft =
         measure_soft(result_.scope, engines_, [this](std::string_view what) { one_done(what); });
     std::ranges::stable_sort(result_.rows, {}, [](const Row& row) {
-      return std::pair(rank_of(row.witness), row.index);
+      return std::pair(rank_of(row.variant), row.index);
     });
     return std::move(result_);
   }
 
  private:
   struct Work {
-    WitnessKind witness;
+    Variant variant;
     Engine* engine;
     std::vector<std::size_t> cases;
   };
 
-  static std::ptrdiff_t rank_of(const WitnessKind& witness) {
-    if (witness.name == kOurs.name) return -1;
-    return std::ranges::find(witnesses(), witness.name, &WitnessKind::name) - witnesses().begin();
+  static std::ptrdiff_t rank_of(const Variant& variant) {
+    if (variant.name == ours().name) return -1;
+    return std::ranges::find(variants(), variant.name, &Variant::name) - variants().begin();
   }
 
   void plan() {
-    for (const WitnessKind& witness : witnesses())
+    for (const Variant& variant : variants())
       for (const auto& engine : engines_) {
-        if (engine->info().name != witness.engine || !engine->status().available()) continue;
-        Work work{witness, engine.get(), {}};
+        if (engine->info().name != variant.engine || !engine->status().available()) continue;
+        Work work{variant, engine.get(), {}};
         for (std::size_t i = 0; i < result_.cases.size(); ++i) {
           const Case& one = result_.cases[i];
-          std::string why = engine->why_not(one.scene, options_of(witness));
+          std::string why = engine->why_not(one.scene, options_of(variant));
           if (why.empty())
             work.cases.push_back(i);
           else
-            result_.rows.push_back({i, witness, {}, Verdict::kNotComparable, std::move(why)});
+            result_.rows.push_back({i, variant, {}, Verdict::kNotComparable, std::move(why)});
         }
         total_ += work.cases.size();
         work_.push_back(std::move(work));
@@ -112,25 +114,33 @@ class Measurement {
   void compare_ours() {
     for (std::size_t i = 0; i < result_.cases.size(); ++i) {
       if (truths_[i].why_not.empty())
-        add(i, kOurs, render(result_.cases[i].scene, {}).image);
+        add(i, ours(), render(result_.cases[i].scene, {}).image);
       else
-        result_.rows.push_back({i, kOurs, {}, Verdict::kNotComparable, truths_[i].why_not});
-      one_done(kOurs.title);
+        result_.rows.push_back({i, ours(), {}, Verdict::kNotComparable, truths_[i].why_not});
+      one_done(ours().title);
     }
   }
 
   void compare_engine(const Work& work) {
-    std::vector<Scene> scenes;
-    for (const std::size_t i : work.cases) scenes.push_back(result_.cases[i].scene);
-    work.engine->render(scenes, options_of(work.witness),
-                        [&](std::size_t index, ReferenceResult result) {
-                          take(work.cases[index], work.witness, std::move(result));
-                          one_done(work.witness.title);
-                        });
+    if (work.cases.empty()) return;
+    ReferenceOptions options = options_of(work.variant);
+    options.scenes = work.cases.size();
+    Session session(*work.engine, options);
+    std::mutex mutex;
+    for_each_at_once(
+        work.cases.size(), session.at_once(),
+        [&](std::size_t k) {
+          const std::size_t i = work.cases[k];
+          ReferenceResult result = session.render(result_.cases[i].scene);
+          const std::scoped_lock lock(mutex);
+          take(i, work.variant, std::move(result));
+          one_done(work.variant.title);
+        },
+        [&] { session.stop(); });
   }
 
-  void take(std::size_t i, const WitnessKind& witness, ReferenceResult result) {
-    const std::string_view asked = kWitnessNames[std::size_t(witness.witness)];
+  void take(std::size_t i, const Variant& variant, ReferenceResult result) {
+    const std::string_view asked = kShadingNames[std::size_t(variant.shading)];
     if (result.error.empty() && result.record.witness != asked) {
       result.failure = FailureClass::kRefused;
       result.error =
@@ -138,32 +148,39 @@ class Measurement {
                       asked, result.record.witness);
     }
     if (!result.error.empty()) {
-      result_.rows.push_back({i, witness, {}, Verdict::kFailed, result.error});
+      result_.rows.push_back({i, variant, {}, Verdict::kFailed, result.error});
       return;
     }
-    add(i, witness, result.image);
-    // The finer format comes later and stays.
-    if (witness.witness == Witness::kExpressed)
-      told_[i].insert_or_assign(std::string(witness.engine), std::move(result.image));
+    add(i, variant, result.image);
+    if (variant.shading == Shading::kReimplemented)
+      keep_reimplemented(i, variant, std::move(result.image));
   }
 
-  void add(std::size_t i, const WitnessKind& witness, const Image& image) {
+  void add(std::size_t i, const Variant& variant, const Image& image) {
     const Figures figures = difference_from(truths_[i].picture, image, truths_[i].ring);
     result_.rows.push_back(
-        {i, witness, figures, verdict_of(witness, result_.cases[i], figures), {}});
+        {i, variant, figures, verdict_of(variant, result_.cases[i], figures), {}});
   }
 
+  /// The finer format comes later and stays.
+  void keep_reimplemented(std::size_t i, const Variant& variant, Image image) {
+    auto& pictures = reimplemented_[i];
+    const auto found = std::ranges::find(pictures, variant.engine, &EnginePicture::engine);
+    if (found == pictures.end())
+      pictures.push_back({variant.engine, std::move(image)});
+    else
+      found->image = std::move(image);
+  }
+
+  /// The first engine that was told our formulas, in its finest format, against each other one.
   void compare_directly() {
-    for (const auto& [i, pictures] : told_) {
-      const auto povray = pictures.find("povray"), blender = pictures.find("blender");
-      if (povray == pictures.end() || blender == pictures.end()) continue;
-      result_.rows.push_back(
-          {i,
-           kDirect,
-           difference_from(picture_of(povray->second), blender->second, truths_[i].ring),
-           Verdict::kNoTarget,
-           {}});
-    }
+    for (const auto& [i, pictures] : reimplemented_)
+      for (std::size_t k = 1; k < pictures.size(); ++k) {
+        const Figures figures =
+            difference_from(picture_of(pictures[0].image), pictures[k].image, truths_[i].ring);
+        result_.rows.push_back(
+            {i, pair_of(pictures[0].engine, pictures[k].engine), figures, Verdict::kNoTarget, {}});
+      }
   }
 
   void one_done(std::string_view what) {
@@ -175,7 +192,11 @@ class Measurement {
   Agreement result_;
   std::vector<Work> work_;
   std::vector<Truth> truths_;
-  std::map<std::size_t, std::map<std::string, Image>> told_;  ///< by case and engine
+  struct EnginePicture {
+    std::string_view engine;
+    Image image;
+  };
+  std::map<std::size_t, std::vector<EnginePicture>> reimplemented_;  ///< by case
   std::size_t done_ = 0, total_ = 0;
 };
 

@@ -8,7 +8,7 @@ namespace lobelia::agreement {
 Table effect_table(const Agreement& agreement) {
   Table table{"Effects",
               "One picture each, n = 30; targets are those of n up to 1024.",
-              {"effect", "witness"},
+              {"effect", "variant"},
               {}};
   append(table.head, {kFigureHead.begin() + 1, kFigureHead.end()});
   append(table.head, {"target", "verdict"});
@@ -18,9 +18,9 @@ Table effect_table(const Agreement& agreement) {
       if (row.index != i || !is_shown(row)) continue;
       Worst worst;
       worst.add(row);
-      const auto target = target_of(row.witness, agreement.cases[i].highlight.exponent);
+      const auto target = target_of(row.variant, agreement.cases[i].highlight.exponent);
       std::vector<std::string> words{std::string(agreement.cases[i].what),
-                                     std::string(row.witness.title)};
+                                     std::string(row.variant.title)};
       const auto figures = figure_words(worst);
       append(words, {figures.begin() + 1, figures.end()});
       append(words, {target ? target_text(*target) : "", verdict_text(worst, target.has_value())});
@@ -40,11 +40,11 @@ Table soft_table(const Agreement& agreement) {
           "values may be. All pixels share their points, so RMS is a single draw and its ratio scatters: "
           "from 0.6 to 15 over five seeds, for four times the points.",
           kReplicates, kBeyondAllowed),
-      {"effect", "witness", "points", "beyond", "RMS of peak", "points", "beyond", "RMS of peak",
+      {"effect", "variant", "points", "beyond", "RMS of peak", "points", "beyond", "RMS of peak",
        "RMS ratio", "verdict"},
       {}};
   for (const SoftRow& row : agreement.soft) {
-    std::vector<std::string> words{std::string(row.what), std::string(row.witness.title)};
+    std::vector<std::string> words{std::string(row.what), std::string(row.variant.title)};
     for (const auto& count : row.counts)
       append(words, {std::to_string(count.points),
                      fmt::format("{}/{}", count.statistics.beyond, count.statistics.values),
@@ -63,8 +63,8 @@ Table soft_table(const Agreement& agreement) {
 
 Table refusal_table(const Agreement& agreement) {
   Table table{"Not comparable",
-              "What a witness was not asked for.",
-              {"witness", "of", "pictures", "not comparable, because"},
+              "What a variant was not asked for.",
+              {"variant", "of", "pictures", "not comparable, because"},
               {}};
   for (const EngineHere& engine : agreement.engines)
     if (!engine.status.available())
@@ -73,19 +73,19 @@ Table refusal_table(const Agreement& agreement) {
     int pictures = 0;
     Ordered<bool> of;
   };
-  Ordered<Ordered<Line>> by_witness;
+  Ordered<Ordered<Line>> by_variant;
   for (const Row& row : agreement.rows) {
     if (row.verdict != Verdict::kNotComparable) continue;
     const Case& one = agreement.cases[row.index];
-    Line& line = by_witness[std::string(row.witness.title)][row.why];
+    Line& line = by_variant[std::string(row.variant.title)][row.why];
     ++line.pictures;
     line.of[one.group == Group::kHighlight ? "highlights" : std::string(one.what)] = true;
   }
-  for (const auto& [witness, by_reason] : by_witness.entries)
+  for (const auto& [variant, by_reason] : by_variant.entries)
     for (const auto& [why, line] : by_reason.entries) {
       std::string of;
       for (const auto& [name, is_there] : line.of.entries) of += (of.empty() ? "" : ", ") + name;
-      table.rows.push_back({witness, of, std::to_string(line.pictures), why});
+      table.rows.push_back({variant, of, std::to_string(line.pictures), why});
     }
   return table;
 }
@@ -94,28 +94,28 @@ Table miss_table(const Agreement& agreement) {
   Table table{"Missed",
               "The worst of what is not within its target, or is none; agreement.csv has every "
               "picture. 'over' is the most in one.",
-              {"witness", "n", "light or effect", "pictures", "max", "relative", "over", "target"},
+              {"variant", "n", "light or effect", "pictures", "max", "relative", "over", "target"},
               {}};
-  Ordered<std::map<double, Ordered<Worst>>> by_witness;
+  Ordered<std::map<double, Ordered<Worst>>> by_variant;
   std::map<std::pair<std::string, double>, std::string> targets;
   for (const Row& row : agreement.rows) {
     if (row.verdict != Verdict::kMissed && row.verdict != Verdict::kFailed) continue;
     const Case& one = agreement.cases[row.index];
-    const std::string witness(row.witness.title);
+    const std::string variant(row.variant.title);
     const double range = range_of(one.highlight.exponent);
-    by_witness[witness][range][std::string(one.what)].add(row);
+    by_variant[variant][range][std::string(one.what)].add(row);
     if (row.verdict == Verdict::kFailed)
-      targets[{witness, range}] = "FAILED: " + row.why;
-    else if (const auto target = target_of(row.witness, one.highlight.exponent))
-      targets.try_emplace({witness, range}, target_text(*target));
+      targets[{variant, range}] = "FAILED: " + row.why;
+    else if (const auto target = target_of(row.variant, one.highlight.exponent))
+      targets.try_emplace({variant, range}, target_text(*target));
   }
-  for (const auto& [witness, by_range] : by_witness.entries)
+  for (const auto& [variant, by_range] : by_variant.entries)
     for (const auto& [range, by_what] : by_range)
       for (const auto& [what, worst] : by_what.entries)
         table.rows.push_back(
-            {witness, range_text(range), what, std::to_string(worst.pictures + worst.failed),
+            {variant, range_text(range), what, std::to_string(worst.pictures + worst.failed),
              short_number(worst.figures.max_of_peak), short_number(worst.figures.max_relative),
-             std::to_string(worst.figures.ring_over), targets[{witness, range}]});
+             std::to_string(worst.figures.ring_over), targets[{variant, range}]});
   return table;
 }
 

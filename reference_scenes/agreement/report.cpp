@@ -50,13 +50,13 @@ std::string report_csv(const Agreement& agreement) {
     const Case& one = agreement.cases[row.index];
     const HighlightChoice& h = one.highlight;
     const Figures& f = row.figures;
-    const auto target = target_of(row.witness, h.exponent);
+    const auto target = target_of(row.variant, h.exponent);
     const bool none = row.verdict == Verdict::kNotComparable || row.verdict == Verdict::kFailed;
     text += fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", kGroupNames[std::size_t(one.group)],
         csv_field(one.what), h.model, h.lobe, h.normalisation, h.exponent,
         one.close_up ? "close-up" : "whole", one.scene.film.width, one.scene.film.height,
-        row.witness.name,
+        row.variant.name,
         none ? ",,,,,"
              : fmt::format("{},{},{},{},{},{}", f.max_of_peak, f.rms_of_peak, f.max_relative,
                            f.ring_pixels, f.ring_over, f.ring_max_of_peak),

@@ -16,9 +16,9 @@ struct Table {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;
 };
-/// The worst of each witness by the sharpness of the highlight, with what was asked of it.
+/// The worst of each variant by the sharpness of the highlight, with what was asked of it.
 Table headline_table(const Agreement& agreement);
-/// The worst over lights, by witness, lobe and exponent; and by witness, model and exponent.
+/// The worst over lights, by variant, lobe and exponent; and by variant, model and exponent.
 Table lobe_table(const Agreement& agreement);
 Table model_table(const Agreement& agreement);
 Table effect_table(const Agreement& agreement);

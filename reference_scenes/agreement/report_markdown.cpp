@@ -11,13 +11,16 @@ constexpr char kHead[] = R"(# The references, compared
 
 <!-- Made by `lobelia verify references --markdown`; `make references` makes it again. -->
 
-How far every witness is from the analytic picture: the formulas of [conventions](conventions.md) evaluated
-pixel by pixel in double, in 50 digits from n = 1e5 on, with geometry of their own
-([decision 9](decisions/0009-the-formulas-are-an-engine.md)). *Lobelia* is `lobelia render`. An engine is a
-witness in two ways: *native*, its own shading of a model; *expressed*, the formula in its language. POV-Ray
-writes half floats; *float* is the same with a second pass for what they round off. *POV-Ray against Blender* are
-the two told the same formula, Blender from POV-Ray in float: the floor below which no disagreement with
-us would mean anything to them.
+How far each reference is from the analytic picture. The analytic picture is the formulas of
+[conventions](conventions.md), evaluated pixel by pixel in double, in 50 digits from n = 1e5 on, with geometry of
+their own ([decision 9](decisions/0009-the-formulas-are-an-engine.md)).
+
+- *Lobelia* is `lobelia render`.
+- *Native*: the engine shades the model itself.
+- *Expressed*: the model is reimplemented in the engine's language.
+- *Half*: POV-Ray writes half floats. *Float*: a second pass adds what they round off.
+- *POV-Ray against Blender Cycles*: both were told the same formula, POV-Ray in float. Smaller differences from us
+  are not meaningful.
 
 )";
 
@@ -40,20 +43,20 @@ std::string section(const Table& table) {
   return text;
 }
 
-/// Of each witness with something that missed its target.
+/// Of each variant with something that missed its target.
 std::string reasons(const Agreement& agreement) {
   std::string text;
-  const auto add = [&](const WitnessKind& witness) {
+  const auto add = [&](const Variant& variant) {
     const bool missed = std::ranges::any_of(agreement.rows, [&](const Row& row) {
-      return row.witness.name == witness.name && row.verdict == Verdict::kMissed;
+      return row.variant.name == variant.name && row.verdict == Verdict::kMissed;
     });
-    const std::string_view why = known_reason(witness);
+    const std::string_view why = variant.why_off;
     if (missed)
-      text += fmt::format("\n*{}*: {}\n", witness.title,
+      text += fmt::format("\n*{}*: {}\n", variant.title,
                           why.empty() ? "the reason is not known." : why);
   };
-  add(kOurs);
-  for (const WitnessKind& witness : witnesses()) add(witness);
+  add(ours());
+  for (const Variant& variant : variants()) add(variant);
   return text;
 }
 

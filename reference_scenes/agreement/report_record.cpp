@@ -15,7 +15,7 @@ records::AgreementRow row_record(const Agreement& agreement, const Row& row) {
   record.view = one.close_up ? "close-up" : "whole";
   record.width = one.scene.film.width;
   record.height = one.scene.film.height;
-  record.witness = row.witness.name;
+  record.witness = row.variant.name;
   record.why = row.why;
   if (row.why.empty()) {
     const Figures& f = row.figures;
@@ -24,7 +24,7 @@ records::AgreementRow row_record(const Agreement& agreement, const Row& row) {
     record.max_relative = f.max_relative;
     record.ring = records::Ring{f.ring_pixels, f.ring_over, one.ring_allowed, f.ring_max_of_peak};
   }
-  if (const auto target = target_of(row.witness, one.highlight.exponent)) {
+  if (const auto target = target_of(row.variant, one.highlight.exponent)) {
     records::Target& asked = record.target.emplace();
     (target->relative ? asked.relative : asked.of_peak) = target->limit;
   }
@@ -35,7 +35,7 @@ records::AgreementRow row_record(const Agreement& agreement, const Row& row) {
 records::SoftRow soft_record(const SoftRow& row) {
   records::SoftRow record;
   record.what = row.what;
-  record.witness = row.witness.name;
+  record.witness = row.variant.name;
   for (const auto& count : row.counts)
     record.counts.push_back(
         {count.points, count.statistics.values, count.statistics.beyond, count.rms_of_peak});

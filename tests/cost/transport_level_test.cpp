@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/files.hpp"
 #include "cost/effects/everything.hpp"
 #include "cost/transport/measure.hpp"
 #include "cost/transport/scenes.hpp"
@@ -107,8 +106,7 @@ TEST(Directions, ByTheLightAloneScatterNoRaysAndBySurfaceAloneCastNoShadowRays) 
   EXPECT_EQ(surface.shadow_rays, 0u);
   EXPECT_GT(surface.scattered_rays, 0u);
   how.experiment.directions = Directions::kLight;
-  const TemporaryDirectory directory;
-  const Work light = render_timed(below_sky(16, directory.path()), 4, 1, how).result.work;
+  const Work light = render_timed(below_sky(16), 4, 1, how).result.work;
   EXPECT_GT(light.shadow_rays, 0u);
   EXPECT_EQ(light.scattered_rays, 0u);
 }

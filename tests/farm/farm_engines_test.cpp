@@ -1,13 +1,14 @@
 // The farm with the real engines.
 #include <algorithm>
 
+#include "compare/compare.hpp"
 #include "core/image_io.hpp"
-#include "farm/agreement.hpp"
+#include "farm/make_result.hpp"
 #include "farm_fixture.hpp"
 #include "reference_scenes/engine.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "tests/json.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
-#include "verify/truth/evaluation.hpp"
 
 namespace lobelia {
 namespace {
@@ -51,7 +52,7 @@ TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
   }
   for (const char* engine : {"povray", "blender"}) {
     ComparisonOptions options;
-    options.tolerance = agreement(engine, truth::edge_ring(scene));
+    options.tolerance = tolerance_of(engine, truth::edge_ring(scene));
     const Image reference = read_image(in_cell("n16", std::string(engine) + ".exr"));
     const Comparison comparison = compare(broken, reference, options);
     EXPECT_EQ(comparison.value("outliers"), 3) << engine;

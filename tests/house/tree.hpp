@@ -83,6 +83,11 @@ inline bool is_cpp(const fs::path& file) {
   return file.extension() == ".cpp" || file.extension() == ".hpp" || file.extension() == ".h";
 }
 
+/// "farm/farm.cpp:12: "
+inline std::string place(const fs::path& file, std::size_t line) {
+  return file.string() + ":" + std::to_string(line) + ": ";
+}
+
 /// Lines of `text`, numbered from 1.
 inline std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> result(1);

@@ -57,10 +57,7 @@ Image by_engine(const char* name, bool fine = false) {
   if (!engine->status().available()) throw Error(ExitCode::kEngine, engine->status().why);
   ReferenceOptions options;
   options.fine = fine;
-  ReferenceResult result;
-  const Scene one = usual();
-  engine->render(std::span(&one, 1), options,
-                 [&](std::size_t, ReferenceResult made) { result = std::move(made); });
+  ReferenceResult result = Session(*engine, options).render(usual());
   if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
   return std::move(result.image);
 }

@@ -7,7 +7,7 @@
 #include "core/process.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/agreement/cases.hpp"
-#include "reference_scenes/agreement/witness.hpp"
+#include "reference_scenes/agreement/variants.hpp"
 #include "tests/json.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 
@@ -77,8 +77,8 @@ TEST_F(AgreementCommand, FindsEveryWitnessWithinItsTargetButWhereTheDocumentatio
   for (const auto* witness : {"ours", "povray_expressed_half", "povray_expressed_float",
                               "blender_expressed", "povray_blender"})
     EXPECT_GT(pictures[witness], int(highlights)) << witness;
-  for (const WitnessKind& witness : witnesses())
-    EXPECT_GE(pictures[std::string(witness.name)], 3) << witness.name;
+  for (const Variant& variant : variants())
+    EXPECT_GE(pictures[std::string(variant.name)], 3) << variant.name;
   EXPECT_GE(refused["glossy inter-reflection"], 6);
   EXPECT_GE(refused["light with a size in a mirror"], 6);
   EXPECT_EQ(refused["mirrors of a highlight that an engine is told"], 5)

@@ -11,9 +11,9 @@
 #include "core/files.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/agreement/report.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/highlight.hpp"
 #include "tests/cli/run_lobelia.hpp"
-#include "verify/truth/evaluation.hpp"
 
 namespace lobelia::agreement {
 namespace {
@@ -102,7 +102,7 @@ TEST(AgreementTable, HasOursWithinItsTargetWithoutAnyEngine) {
   EXPECT_EQ(agreement.count(Verdict::kFailed), 0u);
   EXPECT_EQ(agreement.count(Verdict::kNotComparable), 2u) << "a sized light, inter-reflection";
   EXPECT_EQ(agreement.rows.size(), agreement.cases.size());
-  for (const Row& row : agreement.rows) EXPECT_EQ(row.witness.name, kOurs.name);
+  for (const Row& row : agreement.rows) EXPECT_EQ(row.variant.name, ours().name);
 }
 
 TEST(AgreementTable, SaysMissedWhereATargetIsMissedAndWhyIfThatIsKnown) {
@@ -110,8 +110,8 @@ TEST(AgreementTable, SaysMissedWhereATargetIsMissedAndWhyIfThatIsKnown) {
   agreement.cases = highlight_cases(kSmall);
   Figures far;
   far.max_of_peak = 0.01;
-  const WitnessKind& blender = witnesses().back();
-  agreement.rows = {{0, kOurs, {}, Verdict::kMet, {}}, {0, blender, far, Verdict::kMissed, {}}};
+  const Variant& blender = variants().back();
+  agreement.rows = {{0, ours(), {}, Verdict::kMet, {}}, {0, blender, far, Verdict::kMissed, {}}};
   const std::string page = report_markdown(agreement, "lobelia");
   EXPECT_THAT(page, HasSubstr("2 comparisons, 1 MISSED their targets"));
   EXPECT_THAT(page, HasSubstr(" | 1/1 MISSED |"));
@@ -133,8 +133,8 @@ TEST(AgreementPage, OfTheDocumentationHasTheSectionsAndColumnsThatTheProgramWrit
     at = found;
   }
   EXPECT_THAT(page, HasSubstr(markdown_columns()));
-  for (const WitnessKind& witness : witnesses())
-    EXPECT_THAT(page, HasSubstr(fmt::format("\n| {} | 1e6 |", witness.title)));
+  for (const Variant& variant : variants())
+    EXPECT_THAT(page, HasSubstr(fmt::format("\n| {} | 1e6 |", variant.title)));
 }
 
 TEST(AgreementCommand, RefusesWhatItCannotDoBeforeItWorks) {

@@ -9,6 +9,7 @@
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/ourselves.hpp"
+#include "tests/reference_scenes/render_all.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 
@@ -48,7 +49,7 @@ class Agreement : public testing::TestWithParam<std::string> {
     std::vector<Scene> scenes;
     for (const NamedScene& one : named) scenes.push_back(one.scene);
     std::size_t results = 0;
-    engine_->render(scenes, options, [&](std::size_t index, ReferenceResult result) {
+    render_all(*engine_, scenes, options, [&](std::size_t index, ReferenceResult result) {
       ++results;
       SCOPED_TRACE(named[index].name);
       ASSERT_EQ(result.error, "");
@@ -70,11 +71,11 @@ class Agreement : public testing::TestWithParam<std::string> {
     std::vector<Scene> scenes;
     for (const NamedScene& one : named) scenes.push_back(one.scene);
     std::vector<ReferenceResult> ours(scenes.size());
-    OurselvesAsAnEngine().render(scenes, options, [&](std::size_t i, ReferenceResult result) {
-      ours[i] = std::move(result);
-    });
+    OurselvesAsAnEngine ourselves;
+    render_all(ourselves, scenes, options,
+               [&](std::size_t i, ReferenceResult result) { ours[i] = std::move(result); });
     std::size_t results = 0;
-    engine_->render(scenes, options, [&](std::size_t index, ReferenceResult result) {
+    render_all(*engine_, scenes, options, [&](std::size_t index, ReferenceResult result) {
       ++results;
       SCOPED_TRACE(named[index].name);
       ASSERT_EQ(result.error, "");
@@ -205,11 +206,11 @@ TEST_P(Agreement, OfTheCanonicalScenes) {
   expect_agreement(scenes);
 }
 
-TEST_P(Agreement, OfTheOtherWitnessToTheSameModel) {
+TEST_P(Agreement, ShadedTheOtherWay) {
   ReferenceOptions options;
   std::vector<NamedScene> scenes;
   const bool povray = GetParam() == "povray";
-  options.witness = povray ? Witness::kExpressed : Witness::kNative;
+  options.shading = povray ? Shading::kReimplemented : Shading::kNative;
   for (const ModelInfo& model : models())
     for (const double exponent : {16.0, 1024.0}) {
       Scene scene =
@@ -344,7 +345,7 @@ TEST_P(Agreement, OfTheSmallestPictureAndOfWideOnes) {
 TEST_P(Agreement, SceneWithoutLightIsBlack) {
   const Scene scene = sphere_scene({"modified_phong", "cosine", "exact", 8}, {}, 16);
   int results = 0;
-  engine_->render(std::span(&scene, 1), {}, [&](std::size_t, ReferenceResult result) {
+  render_all(*engine_, std::span(&scene, 1), {}, [&](std::size_t, ReferenceResult result) {
     ++results;
     EXPECT_EQ(result.error, "");
     EXPECT_EQ(result.image.pixel_count(), 16u * 16);
@@ -358,8 +359,8 @@ TEST_P(Agreement, WhatNoEngineShowsIsRefusedAndTheNextSceneIsRendered) {
       2, sphere_scene({"modified_phong", "cosine", "exact", 8}, {directional_at(20)}, 16));
   scenes[0].depth.glossy = 1;
   std::vector<std::string> errors(2, "no result");
-  engine_->render(scenes, {},
-                  [&](std::size_t index, ReferenceResult result) { errors[index] = result.error; });
+  render_all(*engine_, scenes, {},
+             [&](std::size_t index, ReferenceResult result) { errors[index] = result.error; });
   EXPECT_NE(errors[0].find("glossy_depth of 0 is comparable"), std::string::npos) << errors[0];
   EXPECT_EQ(errors[1], "");
 }

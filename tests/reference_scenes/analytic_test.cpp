@@ -1,5 +1,5 @@
 // Formulas per pixel against our renderer, and the engine that they are.
-#include "reference_scenes/analytic/analytic.hpp"
+#include "reference_scenes/engines/analytic/analytic.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,11 +9,11 @@
 #include "core/files.hpp"
 #include "core/version.hpp"
 #include "lobelia_paths.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
 #include "verify/stability/sphere_scenes.hpp"
-#include "verify/truth/evaluation.hpp"
 
 namespace lobelia {
 namespace {
@@ -23,10 +23,7 @@ using testing::HasSubstr;
 constexpr HighlightChoice kChoice{"modified_phong", "cs16", "exact", 64};
 
 ReferenceResult evaluated(const Scene& scene, const ReferenceOptions& options = {}) {
-  ReferenceResult result;
-  make_analytic({})->render(std::span(&scene, 1), options,
-                            [&](std::size_t, ReferenceResult done) { result = std::move(done); });
-  return result;
+  return Session(*make_analytic({}), options).render(scene);
 }
 
 /// Of many scenes, the worst pixel away from the edges of each and how many on them are no better.
@@ -172,11 +169,10 @@ TEST(Analytic, InItsFinerArithmeticRoundsToTheSamePictureButForLastDigits) {
 TEST(Analytic, RefusesASceneInWordsAndEvaluatesTheNext) {
   std::vector<Scene> scenes(2, hall_scene(kChoice, 8));
   scenes[0].depth.glossy = 1;
-  std::vector<std::string> errors(2, "no result");
-  make_analytic({})->render(
-      scenes, {}, [&](std::size_t index, ReferenceResult result) { errors[index] = result.error; });
-  EXPECT_THAT(errors[0], HasSubstr("a glossy_depth of 0 is comparable"));
-  EXPECT_EQ(errors[1], "");
+  const auto engine = make_analytic({});
+  Session session(*engine, {});
+  EXPECT_THAT(session.render(scenes[0]).error, HasSubstr("a glossy_depth of 0 is comparable"));
+  EXPECT_EQ(session.render(scenes[1]).error, "");
 }
 
 TEST(Analytic, IsStoppedByTheTimeLimit) {

@@ -40,7 +40,7 @@ TEST_F(EnginesCommand, SaysOfEveryMissingEngineHowToGetItAndEndsWithExitCode5) {
   const auto result = run({});
   EXPECT_EQ(result.exit_code, 5);
   for (const EngineInfo& engine : engine_infos()) {
-    for (const auto text : {engine.title, engine.witness, engine.precision, engine.effects})
+    for (const auto text : {engine.title, engine.shading, engine.precision, engine.effects})
       EXPECT_THAT(result.output_tail, HasSubstr(std::string(text)));
     if (!engine.is_program) continue;
     for (const auto text : {engine.install_hint, engine.supported_versions})

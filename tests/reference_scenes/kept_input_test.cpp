@@ -9,9 +9,9 @@
 #include "core/image_io.hpp"
 #include "core/process.hpp"
 #include "reference_scenes/engine.hpp"
+#include "reference_scenes/engines/povray/povray_input.hpp"
+#include "reference_scenes/engines/povray/povray_options.hpp"
 #include "reference_scenes/keep_input.hpp"
-#include "reference_scenes/povray/povray_input.hpp"
-#include "reference_scenes/povray/povray_options.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
@@ -52,9 +52,7 @@ TEST_P(KeptInput, RendersToOurOwnRunsPictureBitForBit) {
                                         {"modified_phong", "cs16", "paper", 64}}) {
     SCOPED_TRACE(choice.model);
     const Scene scene = sphere_scene(choice, {directional_at(45), point_light()}, 64);
-    ReferenceResult ours;
-    engine_->render(std::span(&scene, 1), {},
-                    [&](std::size_t, ReferenceResult result) { ours = std::move(result); });
+    const ReferenceResult ours = Session(*engine_, {}).render(scene);
     ASSERT_EQ(ours.error, "");
     const TemporaryDirectory directory;
     keep_engine_input(GetParam(), scene, {}, directory.path());

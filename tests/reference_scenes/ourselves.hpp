@@ -21,19 +21,28 @@ class OurselvesAsAnEngine final : public Engine {
 
  protected:
   std::string why_not_simple(const Scene&, const ReferenceOptions&) const override { return {}; }
-  void render_simple(std::span<const Scene> scenes, const ReferenceOptions&,
-                     const OnResult& on_result) override {
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      ReferenceResult result;
-      result.image = lobelia::render(scenes[i], {}).image;
-      result.record = reference_record(info(), status_, scenes[i]);
-      result.record.method = "ours";
-      result.record.passes = 1;
-      on_result(i, std::move(result));
-    }
+  std::unique_ptr<SimpleSession> open_simple(const ReferenceOptions&) override {
+    return std::make_unique<OurSession>(*this);
   }
 
  private:
+  class OurSession final : public SimpleSession {
+   public:
+    explicit OurSession(const OurselvesAsAnEngine& engine) : engine_(engine) {}
+    int at_once(std::size_t) const override { return 1; }
+    void stop() override {}
+    ReferenceResult render(const Scene& scene, std::size_t) override {
+      ReferenceResult result;
+      result.image = lobelia::render(scene, {}).image;
+      result.record = reference_record(engine_.info(), engine_.status_, scene);
+      result.record.method = "ours";
+      result.record.passes = 1;
+      return result;
+    }
+
+   private:
+    const OurselvesAsAnEngine& engine_;
+  };
   EngineStatus status_;
 };
 

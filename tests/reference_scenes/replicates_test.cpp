@@ -14,10 +14,8 @@ namespace {
 ReferenceResult average(const Scene& scene, int points) {
   ReferenceOptions options;
   options.points = points;
-  ReferenceResult result;
-  OurselvesAsAnEngine().render(
-      std::span(&scene, 1), options,
-      [&](std::size_t, ReferenceResult done) { result = std::move(done); });
+  OurselvesAsAnEngine ourselves;
+  ReferenceResult result = Session(ourselves, options).render(scene);
   EXPECT_EQ(result.error, "");
   return result;
 }

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reference_scenes/povray/povray_input.hpp"
+#include "reference_scenes/engines/povray/povray_input.hpp"
 #include "shaders/export.hpp"
 #include "shaders/povray.hpp"
 #include "tests/cli/run_lobelia.hpp"

@@ -1,6 +1,6 @@
 // A whole scene by formulas per pixel: held against numbers that are known without it, and double against 50
 // digits.
-#include "verify/truth/evaluation.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

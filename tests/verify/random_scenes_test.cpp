@@ -7,10 +7,10 @@
 #include <cmath>
 #include <vector>
 
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+#include "reference_scenes/engines/analytic/formulas/tracer.hpp"
 #include "renderer/render.hpp"
 #include "tests/renderer/random_scene.hpp"
-#include "verify/truth/evaluation.hpp"
-#include "verify/truth/tracer.hpp"
 
 namespace lobelia {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <map>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/precision.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/naive.hpp"
 #include "verify/stability/random_vectors.hpp"
 #include "verify/stability/sphere_scenes.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

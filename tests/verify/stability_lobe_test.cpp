@@ -7,9 +7,9 @@
 #include <limits>
 #include <random>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "verify/stability/cases.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

@@ -1,5 +1,5 @@
 // The reference is itself held against numbers that are known without it.
-#include "verify/truth/truth.hpp"
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 //          the integral over to_light of radiance per unit irradiance. The paper normalises this.
 #pragma once
 
-#include "verify/paper/printed.hpp"
+#include "reference_scenes/engines/analytic/formulas/printed.hpp"
 
 namespace lobelia::paper {
 

@@ -2,7 +2,7 @@
 // integral that it is to make 1, by Gauss-Kronrod quadrature in long double.
 #pragma once
 
-#include "verify/paper/printed.hpp"
+#include "reference_scenes/engines/analytic/formulas/printed.hpp"
 
 namespace lobelia::paper {
 

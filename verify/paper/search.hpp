@@ -4,7 +4,7 @@
 
 #include <boost/math/tools/minima.hpp>
 
-#include "verify/paper/printed.hpp"
+#include "reference_scenes/engines/analytic/formulas/printed.hpp"
 
 namespace lobelia::paper {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <limits>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/naive.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 

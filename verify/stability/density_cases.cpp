@@ -1,10 +1,10 @@
 #include <cmath>
 #include <limits>
 
-#include "verify/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/naive.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 

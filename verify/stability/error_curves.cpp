@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "verify/stability/by_kernel.hpp"
 #include "verify/stability/naive.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

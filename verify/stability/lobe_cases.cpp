@@ -5,10 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/naive.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

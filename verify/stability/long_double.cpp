@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "verify/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/definition.hpp"
 
 namespace lobelia::stability {
 namespace {

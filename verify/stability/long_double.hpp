@@ -1,5 +1,5 @@
 // A highlight in long double (64 binary digits on x86), to find the worst of many cases with. What is
-// found is then judged by verify/truth/.
+// found is then judged by reference_scenes/engines/analytic/formulas/.
 #pragma once
 
 #include "verify/stability/random_vectors.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "verify/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "verify/stability/float3.hpp"
 
 namespace lobelia::stability::naive {

@@ -8,10 +8,10 @@
 
 #include "core/colour.hpp"
 #include "core/image_io.hpp"
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/render.hpp"
 #include "verify/stability/naive.hpp"
 #include "verify/stability/sphere_scenes.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

@@ -3,11 +3,11 @@
 #include <limits>
 #include <memory>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/naive.hpp"
 #include "verify/stability/vector_chunk.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

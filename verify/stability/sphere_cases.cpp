@@ -2,11 +2,11 @@
 #include <cmath>
 #include <limits>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/render.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/naive.hpp"
 #include "verify/stability/sphere_scenes.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <memory>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <limits>
 
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/reflector.hpp"
 #include "verify/stability/by_kernel.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/long_double.hpp"
 #include "verify/stability/naive.hpp"
-#include "verify/truth/truth.hpp"
 
 namespace lobelia::stability {
 namespace {

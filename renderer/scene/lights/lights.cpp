@@ -108,4 +108,15 @@ std::string picture_file(const Light& light) {
   return file;
 }
 
+std::shared_ptr<const Image> picture_of(const Light& light) {
+  return std::visit(
+      [](const auto& l) -> std::shared_ptr<const Image> {
+        if constexpr (requires { l.image; })
+          return l.image;
+        else
+          return nullptr;
+      },
+      light);
+}
+
 }  // namespace lobelia

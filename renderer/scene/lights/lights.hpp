@@ -59,5 +59,7 @@ LightValue value_of(const Light& light, std::string_view parameter);
 
 /// The file that the light takes its radiance from, as the scene file names it; empty if there is none.
 std::string picture_file(const Light& light);
+/// That picture; null if there is none.
+std::shared_ptr<const Image> picture_of(const Light& light);
 
 }  // namespace lobelia

@@ -15,7 +15,7 @@
 #include "core/text.hpp"
 #include "farm/grid.hpp"
 #include "lobelia_paths.hpp"
-#include "reference_scenes/povray/povray_input.hpp"
+#include "reference_scenes/engines/povray/povray_input.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/render.hpp"
 #include "tests/json.hpp"

@@ -1,8 +1,8 @@
 // Helmholtz reciprocity: f_r(L, V) = f_r(V, L), looked for in pairs of directions.
 #include <fmt/format.h>
 
+#include "reference_scenes/engines/analytic/formulas/printed.hpp"
 #include "verify/paper/catalogue.hpp"
-#include "verify/paper/printed.hpp"
 
 namespace lobelia::paper {
 namespace {

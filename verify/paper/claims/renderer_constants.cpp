@@ -1,9 +1,9 @@
 // The one place where the renderer is asked: whether its normalisation "paper" is what is printed.
 #include <stdexcept>
 
+#include "reference_scenes/engines/analytic/formulas/printed.hpp"
 #include "renderer/highlight.hpp"
 #include "verify/paper/catalogue.hpp"
-#include "verify/paper/printed.hpp"
 
 namespace lobelia::paper {
 

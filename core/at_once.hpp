@@ -1,0 +1,47 @@
+// Things that mostly wait, several at a time: each on a thread of its own, whatever the processors are.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace lobelia {
+
+/// f(0) to f(count - 1), up to `most` at once, the calling thread's among them; fewer where the system starts no more
+/// threads. What one of them throws is thrown again here once the others have ended, which `stop` may hasten; what has
+/// not begun by then does not.
+inline void for_each_at_once(std::size_t count, int most, const std::function<void(std::size_t)>& f,
+                             const std::function<void()>& stop = {}) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr first;
+  const auto work = [&] {
+    try {
+      for (std::size_t i; (i = next++) < count;) f(i);
+    } catch (...) {
+      next = count;
+      const std::scoped_lock lock(mutex);
+      if (first) return;
+      first = std::current_exception();
+      if (stop) stop();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (std::size_t i = 1; i < std::min(count, std::size_t(std::max(most, 1))); ++i)
+        others.emplace_back(work);
+    } catch (const std::system_error&) {  // no more threads
+    }
+    work();
+  }
+  if (first) std::rethrow_exception(first);
+}
+
+}  // namespace lobelia

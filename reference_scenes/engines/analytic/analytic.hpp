@@ -1,0 +1,37 @@
+// The formulas themselves as a reference engine: every pixel computed by reference_scenes/engines/analytic/formulas/, which has its own
+// geometry, visibility, mirrors and coefficients, and none of the renderer's kernels.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "reference_scenes/engine.hpp"
+
+namespace lobelia {
+
+inline constexpr EngineInfo kAnalyticInfo{
+    .name = "analytic",
+    .title = "Analytic",
+    .install_hint = "nothing: it is part of lobelia",
+    .supported_versions = "this one",
+    .shading = "analytic: the formulas of all models, pixel by pixel",
+    .precision = "double throughout, or 50 digits; float32 pictures",
+    .effects =
+        "spheres, planes and checkers, directional and point lights, shadows, mirrors; as averages: lights "
+        "with a size, the sky, depth of field, antialiasing",
+    .plain = "double",
+    .fine = "fifty_digits",
+    .is_program = false,
+    .tolerance =
+        {0, 1e-5},  // what the renderer's choice of precision allows itself (docs/numerics.md)
+    .seconds = {0.02, 2e-6},
+};
+
+/// Throws Error(kUsage) if a program is named: there is none.
+std::unique_ptr<Engine> make_analytic(const std::filesystem::path& program);
+
+/// Writes the scene and the command that evaluates it into `directory`, which exists.
+void keep_analytic_input(const Scene& scene, const ReferenceOptions& options,
+                         const std::filesystem::path& directory);
+
+}  // namespace lobelia

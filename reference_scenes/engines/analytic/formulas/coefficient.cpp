@@ -1,0 +1,90 @@
+// 1 / (2 pi integral of lobe times cosines times sin x, x = 0..pi/2), in pieces: about the lobe's width
+// where it is high, then ever longer ones. The lobe of a cs_k ends in a corner, where a piece ends too.
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <map>
+#include <mutex>
+#include <tuple>
+#include <vector>
+
+#include "reference_scenes/engines/analytic/formulas/big.hpp"
+#include "reference_scenes/engines/analytic/formulas/highlight.hpp"
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
+
+namespace lobelia::truth {
+namespace {
+
+/// From where a lobe is this small its tail adds nothing: the whole is more than 1/n.
+constexpr double kNothing = 1e-40;
+
+/// Ends of the pieces, from 0 to a right angle.
+std::vector<Big> pieces(const ModelRow& model, LobeId lobe, double exponent) {
+  const Big right_angle = boost::math::constants::half_pi<Big>();
+  const Big unit = (model.lobe_of_half_angle ? 2 : 1) / sqrt(Big(exponent));
+  std::vector<Big> ends{0, right_angle, right_angle / 2};
+  for (const double factor : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0})
+    ends.push_back(factor * unit);
+  for (Big end = 16 * unit; end < right_angle; end *= 2) ends.push_back(end);
+  if (lobe.order > 0 && exponent > lobe.order / 2.0) {
+    const Big corner = acos(1 - Big(lobe.order) / exponent);
+    ends.push_back(model.lobe_of_half_angle ? 2 * corner : corner);
+  }
+  std::erase_if(ends, [&](const Big& end) { return end > right_angle; });
+  std::sort(ends.begin(), ends.end());
+  return ends;
+}
+
+double integrate(const ModelRow& model, LobeId lobe, double exponent) {
+  const auto integrand = [&](const Big& cos_x, const Big& sin_x, const Big& cosine) {
+    const Big value = lobe_of_cosine(lobe, cosine, exponent) * sin_x;
+    return model.integral_has_cosine ? Big(value * cos_x) : value;
+  };
+  const auto of_angle = [&](const Big& x) {
+    const Big c = cos(x);
+    return integrand(c, sin(x), model.lobe_of_half_angle ? Big(cos(x / 2)) : c);
+  };
+  const auto normalised = [&](const Big& sum) {
+    return double(1 / (2 * boost::math::constants::pi<Big>() * sum * model.parts));
+  };
+  const std::vector<Big> ends = pieces(model, lobe, exponent);
+  Big sum = 0;
+  for (std::size_t i = 1; i + 1 < ends.size(); ++i) {
+    const Big& begin = ends[i - 1];
+    const Big highest =
+        lobe_of_cosine(lobe, cos(model.lobe_of_half_angle ? Big(begin / 2) : begin), exponent);
+    if (highest * exponent < kNothing) return normalised(sum);
+    sum += boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
+  }
+  // cos^n of a small n rises steeply from the right angle: the last piece from there, with points that
+  // crowd at its end.
+  thread_local boost::math::quadrature::tanh_sinh<Big> corner;
+  // In parts of the piece: over less than 1, Boost's least step underflows.
+  const Big piece = ends.back() - ends[ends.size() - 2];
+  const auto from_right_angle = [&](const Big& part) {
+    const Big right_angle = boost::math::constants::half_pi<Big>(), y = piece * part;
+    const Big c = sin(y);
+    return integrand(c, cos(y), model.lobe_of_half_angle ? Big(cos((right_angle - y) / 2)) : c);
+  };
+  sum += piece * corner.integrate(from_right_angle, Big(0), Big(1), Big(1e-22));
+  return normalised(sum);
+}
+
+}  // namespace
+
+double coefficient(ModelId model, LobeId lobe, double exponent) {
+  // Pictures ask for the same few again and again, and each takes hundredths of a second.
+  static std::mutex mutex;
+  static std::map<std::tuple<int, int, int, double>, double> known;
+  const std::tuple key(model.index, lobe.index, lobe.order, exponent);
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto found = known.find(key); found != known.end()) return found->second;
+  }
+  const double value = integrate(model_row(model), lobe, exponent);
+  const std::lock_guard lock(mutex);
+  return known[key] = value;
+}
+
+}  // namespace lobelia::truth

@@ -1,0 +1,43 @@
+// The distribution that the draws of a lobe follow, over its integral in pieces of s that grow from the lobe's width on.
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/tanh_sinh.hpp>
+
+#include "reference_scenes/engines/analytic/formulas/big.hpp"
+#include "reference_scenes/engines/analytic/formulas/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/highlight.hpp"
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
+
+namespace lobelia::truth {
+namespace {
+
+Big followed(LobeId lobe, const Big& cosine, double exponent) {
+  if (cosine <= 0) return 0;
+  return lobe_of_cosine(lobe, cosine, exponent) * draw_factor(lobe, cosine);
+}
+
+/// The integral over the cosine from where the lobe ends to 1.
+Big whole(LobeId lobe, double exponent) {
+  const Big end = lobe.order > 0 ? std::min(Big(1), Big(lobe.order / Big(exponent))) : Big(1);
+  Big sum = 0, from = 0, to = 1 / (2 * Big(exponent));
+  for (; to < end; from = to, to *= 2)
+    sum += boost::math::quadrature::gauss<Big, 30>::integrate(
+        [&](const Big& s) { return followed(lobe, 1 - s, exponent); }, from, to);
+  // cos^n of a small n rises steeply from the right angle: points that crowd there.
+  thread_local boost::math::quadrature::tanh_sinh<Big> corner;
+  const Big piece = end - from, lowest = 1 - end;
+  const auto from_end = [&](const Big& part) {
+    return followed(lobe, lowest + piece * part, exponent);
+  };
+  return sum + piece * corner.integrate(from_end, Big(0), Big(1), Big(1e-22));
+}
+
+}  // namespace
+
+std::function<double(double s)> density(LobeId lobe, double exponent) {
+  return [=, integral = whole(lobe, exponent)](double s) {
+    return double(followed(lobe, 1 - Big(s), exponent) / integral);
+  };
+}
+
+}  // namespace lobelia::truth

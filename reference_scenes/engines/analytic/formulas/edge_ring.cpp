@@ -1,0 +1,66 @@
+#include <oneapi/tbb/parallel_for.h>
+
+#include <bit>
+
+#include "core/error.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+#include "reference_scenes/engines/analytic/formulas/tracer.hpp"
+
+namespace lobelia::truth {
+namespace {
+
+/// What decides a pixel's shading but for smooth change, as one number: two different ones are the same by a
+/// chance of 2^-64.
+class Situation {
+ public:
+  void note(std::uint64_t value) {
+    // The finaliser of SplitMix64.
+    state_ += 0x9e3779b97f4a7c15 + value;
+    state_ = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9;
+    state_ = (state_ ^ (state_ >> 27)) * 0x94d049bb133111eb;
+    state_ ^= state_ >> 31;
+  }
+  void note(double value) { note(std::bit_cast<std::uint64_t>(value + 0.0)); }  // -0 is 0
+  std::uint64_t number() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0;
+};
+
+std::uint64_t situation(const Scene& scene, const Tracer<double>& tracer, double x, double y) {
+  Situation situation;
+  tracer.follow(x, y, [&](const Met<double>& met) {
+    situation.note(std::uint64_t(met.surface));
+    situation.note(met.square_u);
+    situation.note(met.square_v);
+    for (std::size_t light = 0; light < scene.lights.size(); ++light)
+      situation.note(std::uint64_t(tracer.arrival(light, met).has_value()));
+  });
+  return situation.number();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> edge_ring(const Scene& scene) {
+  if (const std::string why = why_not_evaluated(scene); !why.empty())
+    throw Error(ExitCode::kInput, why);
+  const Tracer<double> tracer(scene);
+  // The neighbours' centres are the rays around each pixel, so that one ray a pixel does; and a frame of one
+  // pixel around the picture.
+  const int width = scene.film.width, height = scene.film.height, stride = width + 2;
+  std::vector<std::uint64_t> seen(std::size_t(stride) * (height + 2));
+  oneapi::tbb::parallel_for(0, height + 2, [&](int y) {
+    for (int x = 0; x < stride; ++x)
+      seen[std::size_t(y) * stride + x] = situation(scene, tracer, x - 0.5, y - 0.5);
+  });
+  std::vector<std::uint8_t> ring(std::size_t(width) * height, 0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int v = y; v <= y + 2; ++v)
+        for (int u = x; u <= x + 2; ++u)
+          if (seen[std::size_t(v) * stride + u] != seen[std::size_t(y + 1) * stride + x + 1])
+            ring[std::size_t(y) * width + x] = 1;
+  return ring;
+}
+
+}  // namespace lobelia::truth

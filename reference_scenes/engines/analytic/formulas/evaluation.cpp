@@ -1,0 +1,89 @@
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "reference_scenes/engines/analytic/formulas/big.hpp"
+#include "reference_scenes/engines/analytic/formulas/highlight.hpp"
+#include "reference_scenes/engines/analytic/formulas/tracer.hpp"
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
+
+namespace lobelia::truth {
+namespace {
+
+/// F0 + (F90 - F0) (1 - cosine)^5 where the material asks for it, else F0.
+template <class Real>
+Rgb reflected(Fresnel fresnel, Rgb f0, double f90, const Real& cosine) {
+  if (fresnel == Fresnel::kNone) return f0;
+  const Real rest = 1 - cosine;
+  const double weight(rest * rest * rest * rest * rest);
+  return f0 + weight * Rgb{f90 - f0.r, f90 - f0.g, f90 - f0.b};
+}
+
+/// A mirror's F90: 50 times its largest component, until that is 1.
+double mirror_f90(Rgb f0) { return std::min(50 * std::max({f0.r, f0.g, f0.b}), 1.0); }
+
+/// A material with what is the same in every pixel.
+struct Finish {
+  const Material& material;
+  const ModelRow& model;
+  double in_front = 0;  ///< the coefficient; 0 where there is no highlight
+
+  explicit Finish(const Material& m) : material(m), model(model_row(m.highlight.model)) {
+    if (has_highlight(m)) in_front = coefficient(m.highlight);
+  }
+  /// Radiance per irradiance normal to the beam.
+  template <class Real>
+  Rgb reflectance(const Met<Real>& at, const Arrival<Real>& light) const {
+    const double n_dot_l(light.n_dot_l);
+    const Rgb diffuse = n_dot_l * std::numbers::inv_pi * material.diffuse_reflectance;
+    if (in_front == 0) return diffuse;
+    const Highlight& highlight = material.highlight;
+    const Real cosine = lobe_cosine(model.angle, at.normal, at.to_eye, light.to_light);
+    const double lobe(lobe_of_cosine(highlight.lobe, cosine, highlight.exponent));
+    const Real v_dot_h = dot(at.to_eye, normalize(light.to_light + at.to_eye));
+    return in_front * lobe * (model.radiance_has_cosine ? n_dot_l : 1) *
+               reflected(material.fresnel, material.specular_reflectance, 1, v_dot_h) +
+           diffuse;
+  }
+};
+
+template <class Real>
+std::vector<Rgb> evaluate_in(const Scene& scene, const std::function<bool()>& stop) {
+  const Tracer<Real> tracer(scene);
+  const std::vector<Finish> finishes(scene.materials.begin(), scene.materials.end());
+  const int width = scene.film.width;
+  std::vector<Rgb> picture(std::size_t(width) * scene.film.height);
+  oneapi::tbb::parallel_for(0, scene.film.height, [&](int y) {
+    if (stop && stop()) return;
+    for (int x = 0; x < width; ++x) {
+      Rgb sum, weight{1, 1, 1};
+      tracer.follow(x + Real(0.5), y + Real(0.5), [&](const Met<Real>& met) {
+        const Finish& finish = finishes[met.material];
+        for (std::size_t light = 0; light < scene.lights.size(); ++light)
+          if (const auto arrival = tracer.arrival(light, met))
+            sum = sum + weight * (double(arrival->falloff) * strength(scene.lights[light])) *
+                            finish.reflectance(met, *arrival);
+        const Rgb mirror = finish.material.mirror_reflectance;
+        weight = weight * reflected(finish.material.fresnel, mirror, mirror_f90(mirror),
+                                    dot(met.normal, met.to_eye));
+      });
+      picture[std::size_t(y) * width + x] = sum;
+    }
+  });
+  return picture;
+}
+
+}  // namespace
+
+std::vector<Rgb> evaluate(const Scene& scene, Digits digits, const std::function<bool()>& stop) {
+  if (const std::string why = why_not_evaluated(scene); !why.empty())
+    throw Error(ExitCode::kInput, why);
+  return digits == Digits::kFifty ? evaluate_in<Big>(scene, stop)
+                                  : evaluate_in<double>(scene, stop);
+}
+
+}  // namespace lobelia::truth

@@ -1,0 +1,35 @@
+// Lobes and models for any type of number, for the .cpp files of reference_scenes/engines/analytic/formulas/.
+#pragma once
+
+#include "reference_scenes/engines/analytic/formulas/vector.hpp"
+#include "renderer/highlight.hpp"
+
+namespace lobelia::truth {
+
+/// The lobe's textbook definition of the cosine of its angle; 0 from a right angle on. Of double and of 50
+/// digits.
+template <class Real>
+Real lobe_of_cosine(LobeId lobe, const Real& cosine, double exponent);
+
+/// A model as its row of the paper's table says it, written out again.
+struct ModelRow {
+  std::string_view name;
+  LobeAngle angle;
+  bool radiance_has_cosine;  ///< N.L
+  bool lobe_of_half_angle;   ///< in the integral: lobe(x/2), else lobe(x)
+  bool integral_has_cosine;  ///< cos x
+  int parts;                 ///< radiance has this part of D: 4 for a distribution of normals
+};
+/// Throws Error(kInternal) for a model whose row is missing.
+const ModelRow& model_row(ModelId model);
+
+/// Cosine of the angle that the model's lobe sees, for unit vectors.
+template <class Real>
+Real lobe_cosine(LobeAngle angle, const Vector<Real>& normal, const Vector<Real>& to_eye,
+                 const Vector<Real>& to_light) {
+  if (angle == LobeAngle::kReflection)
+    return 2 * dot(normal, to_eye) * dot(normal, to_light) - dot(to_eye, to_light);
+  return dot(normal, normalize(to_light + to_eye));
+}
+
+}  // namespace lobelia::truth

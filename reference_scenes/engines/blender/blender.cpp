@@ -1,0 +1,105 @@
+#include "reference_scenes/engines/blender/blender.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
+#include "records/record.hpp"
+#include "reference_scenes/engine_program.hpp"
+#include "reference_scenes/engines/blender/blender_session.hpp"
+#include "reference_scenes/preparation.hpp"
+
+namespace lobelia {
+namespace embedded {
+extern const std::string_view render_scenes_py, blender_formulas_py, blender_surfaces_py,
+    blender_scene_py;
+}
+namespace {
+namespace fs = std::filesystem;
+
+/// Of a release as it is unpacked, and of a package: "3.4" beside the program, or ../share/blender. The Python of a
+/// release is none of it: what our script uses of that decides no pixel.
+std::vector<fs::path> blender_directories(const fs::path& program, std::string_view version) {
+  std::error_code ignored;
+  const fs::path place = fs::weakly_canonical(program, ignored).parent_path();
+  const auto minor = version.find('.', version.find('.') + 1);
+  const std::string series(version.substr(0, minor));
+  std::vector<fs::path> directories;
+  for (const fs::path& base : {place / series, place.parent_path() / "share" / "blender",
+                               place.parent_path() / "share" / "blender" / series})
+    for (const char* part : {"scripts", "datafiles"}) directories.push_back(base / part);
+  return directories;
+}
+
+/// From 3.4 there are the node groups' and point primitives' interfaces that render_scenes.py uses.
+constexpr EngineProbe kProbe{
+    "blender", "Blender ",
+    [](int major, int minor) { return major == 4 || (major == 3 && minor >= 4); },
+    blender_directories};
+
+class Blender final : public ProgramEngine {
+ public:
+  explicit Blender(const fs::path& program) : ProgramEngine(kBlenderInfo, kProbe, program) {}
+
+ protected:
+  std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const override {
+    if (options.shading == Shading::kNative && !is_native_in_blender(scene))
+      return "Cycles has highlights of its own only with the distribution of Ashikhmin and Shirley: cos^n "
+             "of the half-vector angle, here on spheres";
+    if (const std::string lamp = lamp_below_horizon(scene); !lamp.empty())
+      return lamp + ", and in Cycles a rounding decides whether the sphere hides it";
+    return why_not_for_programs(scene);
+  }
+  std::string why_not_transport(const Scene& scene) const override {
+    return why_not_for_cycles_transport(scene);
+  }
+  std::unique_ptr<SimpleSession> open_simple(const ReferenceOptions& options) override {
+    return open_blender(status(), options);
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> blender_arguments(const std::string& program, const fs::path& directory) {
+  return {program,
+          "-b",
+          "--factory-startup",
+          "-noaudio",
+          "--python-exit-code",
+          "9",
+          "--python",
+          (directory / kBlenderScriptFile).string(),
+          "--",
+          (directory / kBlenderJobFile).string()};
+}
+
+void write_blender_scripts(const fs::path& directory) {
+  write_file(directory / kBlenderScriptFile, embedded::render_scenes_py);
+  write_file(directory / "blender_formulas.py", embedded::blender_formulas_py);
+  write_file(directory / "blender_surfaces.py", embedded::blender_surfaces_py);
+  write_file(directory / "blender_scene.py", embedded::blender_scene_py);
+}
+
+BlenderJob empty_blender_job(int threads, const ReferenceOptions& options) {
+  BlenderJob job;
+  job.threads = threads;
+  job.seconds_per_scene = options.time_limit.count();
+  return job;
+}
+
+std::unique_ptr<Engine> make_blender(const fs::path& program) {
+  return std::make_unique<Blender>(program);
+}
+
+void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
+                        const fs::path& directory) {
+  BlenderJob job = empty_blender_job(threads_of({}), {});
+  job.scenes.push_back(
+      blender_input(in_engine_units(scene), "scene0", options.shading == Shading::kNative));
+  write_blender_scripts(directory);
+  write_file(directory / kBlenderJobFile, records::record_text(job));
+  write_file(directory / "blender.sh", shell_join(blender_arguments("blender", "")) + "\n");
+}
+
+}  // namespace lobelia

@@ -1,0 +1,204 @@
+#include "reference_scenes/engines/povray/povray_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "reference_scenes/preparation.hpp"
+#include "renderer/frame.hpp"
+#include "renderer/peak_bound.hpp"
+#include "shaders/povray.hpp"
+
+namespace lobelia {
+namespace embedded {
+extern const std::string_view lobelia_scene_inc;
+}
+namespace {
+
+/// The largest half float is 65504; half of it leaves room for the bound's own rounding.
+constexpr double kHighestHalf = 3e4;
+/// POV-Ray's shadows have tolerances up to 1e-3, and the brightest point beside a lamp sets the gain. At 1e-2
+/// every pixel was right, at 1e-3 one in ten off, at 1e-4 light came through planes.
+constexpr double kNearestLamp = 5e-3;
+/// Keeps lamp colours, which POV-Ray has in float32, within its range.
+constexpr int kMaxGainStops = 60;
+
+std::string sdl(double value) { return exact_text(value); }
+std::string sdl(Vec3 v) { return fmt::format("<{}, {}, {}>", sdl(v.x), sdl(v.y), sdl(v.z)); }
+std::string sdl(Rgb c) { return fmt::format("<{}, {}, {}>", sdl(c.r), sdl(c.g), sdl(c.b)); }
+
+bool is_grey(Rgb c) { return c.r == c.g && c.g == c.b; }
+
+/// POV-Ray's highlights are these two with the lobe cos^n, in the colour of the lamp. (Of these two
+/// the paper prints the exact coefficient.) They have no Fresnel factor.
+bool is_native(const Material& material) {
+  if (!has_highlight(material)) return true;
+  const std::string_view model = info(material.highlight.model).name;
+  return (model == "phong_rdf" || model == "blinn_phong_rdf") &&
+         info(material.highlight.lobe).name == "cosine" && material.fresnel == Fresnel::kNone &&
+         is_grey(material.specular_reflectance);
+}
+
+/// Whether POV-Ray's own shading is used; `expressed` leaves it only what has no highlight at all.
+bool by_itself(const Material& material, bool expressed) {
+  return !has_highlight(material) || (!expressed && is_native(material));
+}
+
+std::string lamp_text(const Lamp& lamp, const Scene& scene) {
+  if (lamp.is_distant) {
+    // In front of all that is seen of an endless plane, and not beyond POV-Ray's farthest ray, 1e7.
+    const double far = scene.planes.empty() ? 1000 * extent(scene) : 1e6;
+    return fmt::format("Lobelia_Directional_Light({}, {}, {})\n", sdl(lamp.direction),
+                       sdl(lamp.strength), sdl(far));
+  }
+  const double nearest = nearest_surface(lamp, scene);
+  if (lamp.has_normal())
+    return fmt::format("Lobelia_Surface_Light({}, {}, {}, {})\n", sdl(lamp.position),
+                       sdl(lamp.normal), sdl(lamp.strength), sdl(nearest));
+  return fmt::format("Lobelia_Point_Light({}, {}, {})\n", sdl(lamp.position), sdl(lamp.strength),
+                     sdl(nearest));
+}
+
+std::string native_texture(const Material& material) {
+  const char* which = !has_highlight(material) ? "Lobelia_Native_None"
+                      : info(material.highlight.model).angle == LobeAngle::kReflection
+                          ? "Lobelia_Native_Phong"
+                          : "Lobelia_Native_Specular";
+  return fmt::format("Lobelia_Native_Texture({}, {}, {}, {}, {})", which,
+                     sdl(material.highlight.exponent), sdl(material.specular_reflectance.r),
+                     sdl(material.diffuse_reflectance), sdl(material.mirror_reflectance));
+}
+
+std::string expressed_texture(const Material& material) {
+  const PovrayNames names = povray_names(material.highlight);
+  const std::string exponent = sdl(material.highlight.exponent);
+  return fmt::format("Lobelia_Texture({}, {}({}), {}, {}, {}, {}, {})", names.pattern,
+                     names.coefficient, exponent, exponent, names.brilliance,
+                     material.fresnel == Fresnel::kSchlick ? 1 : 0,
+                     sdl(material.specular_reflectance), sdl(material.diffuse_reflectance));
+}
+
+/// Declares a texture for the surface whose normal was declared last; returns its name.
+std::string declare_texture(std::string& scene, const Material& material, bool expressed,
+                            int& count) {
+  const std::string name = fmt::format("Lobelia_Texture_{}", count++);
+  scene += fmt::format(
+      "#declare {} = {}\n", name,
+      by_itself(material, expressed) ? native_texture(material) : expressed_texture(material));
+  return name;
+}
+
+std::string surfaces_text(const Scene& scene, bool expressed) {
+  std::string text;
+  int textures = 0;
+  const auto texture = [&](int material) {
+    return declare_texture(text, scene.materials.at(std::size_t(material)), expressed, textures);
+  };
+  for (const Sphere& sphere : scene.spheres) {
+    const std::string place = fmt::format("{}, {}", sdl(sphere.center), sdl(sphere.radius));
+    text += fmt::format("Lobelia_Sphere_Normal({})\n", place);
+    text += fmt::format("Lobelia_Sphere({}, {})\n", place, texture(sphere.material));
+  }
+  for (const Plane& plane : scene.planes) {
+    const std::string place = fmt::format("{}, {}", sdl(plane.point), sdl(plane.normal));
+    text += fmt::format("Lobelia_Plane_Normal({})\n", place);
+    const std::string first = texture(plane.material);
+    if (plane.checker_material == plane.material) {
+      text += fmt::format("Lobelia_Plane({}, {})\n", place, first);
+      continue;
+    }
+    const std::string second = texture(plane.checker_material);
+    const Tangents along = tangents(plane.normal);
+    text += fmt::format("Lobelia_Checker({}, {}, {}, {}, {}, {})\n", place, sdl(along.first),
+                        sdl(along.second), sdl(plane.checker_size), first, second);
+  }
+  return text;
+}
+
+/// The materials of all surfaces.
+std::vector<const Material*> materials_in_use(const Scene& scene) {
+  std::vector<const Material*> used;
+  const auto add = [&](int material) {
+    used.push_back(&scene.materials.at(std::size_t(material)));
+  };
+  for (const Sphere& sphere : scene.spheres) add(sphere.material);
+  for (const Plane& plane : scene.planes) {
+    add(plane.material);
+    add(plane.checker_material);
+  }
+  return used;
+}
+
+PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const PovrayInput& input,
+                   bool expressed) {
+  PovrayPass pass;
+  const double bound = peak_bound(scene, lights);
+  if (bound > 0)
+    pass.gain = std::exp2(std::clamp(std::floor(std::log2(kHighestHalf / bound)),
+                                     -double(kMaxGainStops), double(kMaxGainStops)));
+  // What is not said in the scene itself would be rounded to six digits by the command line.
+  pass.view = "#version 3.7;\n";
+  for (const auto& include : input.includes)
+    pass.view += fmt::format("#include \"{}\"\n", include.first);
+  pass.view += fmt::format("Lobelia_Begin({}, {})\n", sdl(pass.gain),
+                           has_mirror(scene) ? scene.depth.mirror : 0);
+  const Camera& camera = scene.camera;
+  pass.view += fmt::format(
+      "Lobelia_Camera({}, {}, {}, {}, {}/{}, {}, {})\n", sdl(camera.origin), sdl(camera.target),
+      sdl(camera.up), sdl(camera.fov_degrees), scene.film.width, scene.film.height,
+      sdl(camera.principal_point_offset_x), sdl(camera.principal_point_offset_y));
+  for (const Light& light : lights) pass.surfaces += lamp_text(lamp_of(light), scene);
+  pass.surfaces += surfaces_text(scene, expressed);
+  return pass;
+}
+
+bool all_by_itself(const Scene& scene, bool expressed) {
+  return std::ranges::all_of(materials_in_use(scene),
+                             [&](const Material* m) { return by_itself(*m, expressed); });
+}
+
+}  // namespace
+
+std::string PovrayPass::rest(const std::string& coarse) const {
+  return fmt::format("{}Lobelia_Take_Away(\"{}\")\n{}", view, coarse, surfaces);
+}
+
+std::string why_not_in_povray(const Scene& scene, const ReferenceOptions& options) {
+  if (std::string why = why_not_for_programs(scene); !why.empty()) return why;
+  if (const std::string lamp = lamp_on_sphere(scene); !lamp.empty())
+    return lamp + ", and in POV-Ray a rounding decides whether the sphere hides it";
+  if (const std::string lamp = lamp_close_to_surface(scene, kNearestLamp); !lamp.empty())
+    return lamp + ", and POV-Ray's shadows do not tell the two apart";
+  if (options.shading == Shading::kNative && !all_by_itself(scene, false))
+    return "POV-Ray has itself only the highlights of Phong (RDF) and Blinn-Phong (RDF) with cos^n, grey "
+           "and without Fresnel";
+  if (!has_mirror(scene)) return {};
+  if (options.fine)
+    return "what POV-Ray's half floats round off in a mirror it cannot take away again";
+  if (!all_by_itself(scene, options.shading == Shading::kReimplemented))
+    return "a highlight that POV-Ray does not have itself is a function of the camera's place there, "
+           "and a mirror shows it from another";
+  return {};
+}
+
+PovrayInput povray_input(const Scene& scene, const ReferenceOptions& options) {
+  const bool expressed = options.shading == Shading::kReimplemented;
+  PovrayInput input;
+  input.native = all_by_itself(scene, expressed);
+  input.includes["lobelia_scene.inc"] = embedded::lobelia_scene_inc;
+  for (const Material* material : materials_in_use(scene))
+    if (!by_itself(*material, expressed))
+      input.includes[povray_names(material->highlight).file] =
+          povray_text(std::span(&material->highlight, 1));
+  if (input.native)
+    input.passes.push_back(pass_of(scene, scene.lights, input, expressed));
+  else
+    for (const Light& light : scene.lights)
+      input.passes.push_back(pass_of(scene, {light}, input, expressed));
+  return input;
+}
+
+}  // namespace lobelia
