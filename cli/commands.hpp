@@ -10,20 +10,14 @@
 
 namespace lobelia::cli {
 
-void add_render(CLI::App& app, ExitCode& exit_code);
-void add_plan(CLI::App& app, ExitCode& exit_code);
-void add_models(CLI::App& app, ExitCode& exit_code);
-void add_scene_format(CLI::App& app, ExitCode& exit_code);
-void add_export(CLI::App& app, ExitCode& exit_code);
-void add_engines(CLI::App& app, ExitCode& exit_code);
-void add_reference(CLI::App& app, ExitCode& exit_code);
-void add_compare(CLI::App& app, ExitCode& exit_code);
-void add_profile(CLI::App& app, ExitCode& exit_code);
-void add_cost(CLI::App& app, ExitCode& exit_code);
-void add_farm(CLI::App& app, ExitCode& exit_code);
-void add_gallery(CLI::App& app, ExitCode& exit_code);
-void add_verify(CLI::App& app, ExitCode& exit_code);
-void add_records(CLI::App& app, ExitCode& exit_code);
+/// In the order of --help. A command is add_NAME() in a file of this folder, and its name here.
+#define LOBELIA_COMMANDS(command)                                                         \
+  command(render) command(plan) command(models) command(scene_format) command(export)     \
+      command(engines) command(reference) command(compare) command(profile) command(cost) \
+          command(farm) command(gallery) command(verify) command(records)
+#define LOBELIA_DECLARE(name) void add_##name(CLI::App& app, ExitCode& exit_code);
+LOBELIA_COMMANDS(LOBELIA_DECLARE)
+#undef LOBELIA_DECLARE
 
 /// What the user typed, program name first; for records.
 const std::vector<std::string>& command_line();

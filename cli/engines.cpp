@@ -50,7 +50,7 @@ void print_engine(const EngineInfo& engine, const EngineStatus& status) {
     row("to install", engine.install_hint);
     row("versions", engine.supported_versions);
   }
-  row("witness", engine.shading);
+  row("shading", engine.shading);
   row("precision", engine.precision);
   row("effects", engine.effects);
 }

@@ -88,10 +88,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kFooter);
   ExitCode exit_code = ExitCode::kSuccess;
-  for (const auto add :
-       {add_render, add_plan, add_models, add_scene_format, add_export, add_engines, add_reference,
-        add_compare, add_profile, add_cost, add_farm, add_gallery, add_verify, add_records})
-    add(app, exit_code);
+#define LOBELIA_ADD(name) add_##name(app, exit_code);
+  LOBELIA_COMMANDS(LOBELIA_ADD)
   if (const std::string error = unknown_subcommand(app, argc, argv); !error.empty())
     return fail(ExitCode::kUsage, error);
   try {

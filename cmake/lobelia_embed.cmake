@@ -25,3 +25,30 @@ ${literal};
 ")
   target_sources(${target} PRIVATE ${out})
 endfunction()
+
+# lobelia_embed_folder(TARGET FOLDER PATTERN NAME): all such files of a folder, by their names without the ending, as
+# `extern const std::span<const lobelia::EmbeddedText> lobelia::embedded::NAME` (core/embedded.hpp).
+function(lobelia_embed_folder target folder pattern name)
+  file(GLOB files RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${folder}/${pattern})
+  set(declarations "")
+  set(rows "")
+  foreach(file ${files})
+    get_filename_component(stem ${file} NAME_WE)
+    lobelia_embed(${target} ${file} ${name}_${stem})
+    string(APPEND declarations "extern const std::string_view ${name}_${stem};\n")
+    string(APPEND rows "    {\"${stem}\", ${name}_${stem}},\n")
+  endforeach()
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded_${name}.cpp)
+  file(CONFIGURE OUTPUT ${out} @ONLY NEWLINE_STYLE UNIX CONTENT
+"// Made from ${folder}/ by cmake/lobelia_embed.cmake.
+#include \"core/embedded.hpp\"
+namespace lobelia::embedded {
+${declarations}
+static const EmbeddedText ${name}_texts[] = {
+${rows}};
+extern const std::span<const EmbeddedText> ${name};
+const std::span<const EmbeddedText> ${name} = ${name}_texts;
+}
+")
+  target_sources(${target} PRIVATE ${out})
+endfunction()

@@ -44,24 +44,36 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lobelia_paths.hpp @ONLY CONTENT
 #define LOBELIA_PROGRAM R\"lobelia(@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/lobelia)lobelia\"
 ")
 
-# The presets of the sanitizers optimise nothing, which compiles fastest, except what computes most. And several files of
-# a room or a test are compiled as one, but for those that its CMakeLists.txt says have names in common.
+# The presets of the sanitizers optimise nothing, which compiles fastest, except what computes most. There, and with
+# LOBELIA_UNITY, several files of a target are compiled as one.
 set(LOBELIA_COMPUTING_ROOMS renderer compare formulas verify cost)
-function(lobelia_compile_for_sanitizers target room)
-  if(LOBELIA_SANITIZE)
+function(lobelia_compile_quickly target room)
+  if(LOBELIA_SANITIZE OR LOBELIA_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-    if(room IN_LIST LOBELIA_COMPUTING_ROOMS)
-      target_compile_options(${target} PRIVATE -O1)
-    endif()
+  endif()
+  if(LOBELIA_SANITIZE AND room IN_LIST LOBELIA_COMPUTING_ROOMS)
+    target_compile_options(${target} PRIVATE -O1)
   endif()
 endfunction()
 
-# One library per room: lobelia_room(core SOURCES a.cpp b.cpp LINK fmt::fmt).
+# One library per room, of all .cpp files of its folder: lobelia_room(core LINK fmt::fmt). FOLDER is another one than that
+# of the CMakeLists.txt. EXCEPT and ALONE are regular expressions of paths: what is no part of the room, and what has names
+# in common with other files and is compiled by itself.
 function(lobelia_room name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
-  add_library(lobelia_${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "FOLDER;EXCEPT;ALONE" "LINK;PRIVATE_LINK" ${ARGN})
+  set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER})
+  file(GLOB_RECURSE sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${folder}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "node_modules/")
+  if(ARG_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "${ARG_EXCEPT}")
+  endif()
+  add_library(lobelia_${name} STATIC ${sources})
   add_library(lobelia::${name} ALIAS lobelia_${name})
   set_target_properties(lobelia_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(lobelia_${name} PUBLIC lobelia_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
-  lobelia_compile_for_sanitizers(lobelia_${name} ${name})
+  if(ARG_ALONE)
+    list(FILTER sources INCLUDE REGEX "${ARG_ALONE}")
+    set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+  lobelia_compile_quickly(lobelia_${name} ${name})
 endfunction()

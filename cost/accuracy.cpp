@@ -39,7 +39,7 @@ bool is_noisy(const Scene& scene) {
          !std::all_of(scene.lights.begin(), scene.lights.end(), is_delta);
 }
 
-struct LobeWay {
+struct LobeVariant {
   std::optional<LobeId> lobe;  ///< none: every highlight's own
   Precision precision;
   bool is_own;
@@ -60,16 +60,16 @@ double cost_of(const Scene& scene, std::optional<LobeId> lobe, Precision precisi
 
 /// From the cheapest; the scene's own lobe before others that cost as much, the wider precision before the
 /// narrower.
-std::vector<LobeWay> ways_of(const Scene& scene, const CostModel& model) {
+std::vector<LobeVariant> ways_of(const Scene& scene, const CostModel& model) {
   const auto own = own_lobe(scene);
   std::vector<std::optional<LobeId>> lobes;
   for (const LobeId lobe : lobe_candidates(scene)) lobes.push_back(lobe);
   if (!own) lobes.push_back(std::nullopt);
-  std::vector<LobeWay> ways;
+  std::vector<LobeVariant> ways;
   for (const auto& lobe : lobes)
     for (const Precision p : {Precision::kFloat64, Precision::kMixed, Precision::kFloat32})
       ways.push_back({lobe, p, lobe == own, cost_of(scene, lobe, p, model)});
-  std::stable_sort(ways.begin(), ways.end(), [](const LobeWay& a, const LobeWay& b) {
+  std::stable_sort(ways.begin(), ways.end(), [](const LobeVariant& a, const LobeVariant& b) {
     return a.cost != b.cost ? a.cost < b.cost : a.is_own && !b.is_own;
   });
   return ways;
@@ -88,7 +88,7 @@ class Bounds {
   /// may be larger in the picture.
   double scale() const { return scale_; }
 
-  double of(const LobeWay& way) const {
+  double of(const LobeVariant& way) const {
     double most = 0;
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
       if (!has_highlight(scene_.materials[i])) continue;
@@ -132,7 +132,7 @@ class Look {
 
   bool is_black() const { return !(peak() > 0); }
   double peak() const { return peak_value(truth_); }
-  double error(const LobeWay& way, int samples) const {
+  double error(const LobeVariant& way, int samples) const {
     RenderOptions options = noisy_ ? with_samples(samples) : RenderOptions();
     options.precision = way.precision;
     const Image image = render(way.of(scene_), options).image;
@@ -150,7 +150,7 @@ class Look {
 };
 
 /// Fills in what a way makes of a choice.
-Choice chosen(Choice choice, const Scene& scene, const LobeWay& way, double predicted) {
+Choice chosen(Choice choice, const Scene& scene, const LobeVariant& way, double predicted) {
   choice.scene = way.of(scene);
   choice.lobe = way.lobe;
   choice.precision = way.precision;
@@ -161,9 +161,9 @@ Choice chosen(Choice choice, const Scene& scene, const LobeWay& way, double pred
 
 /// The first of the ways, from the cheapest, whose error is small enough; counts those before it.
 template <class Error>
-const LobeWay* first_that_holds(const std::vector<LobeWay>& ways, const Error& error,
-                                Choice& choice) {
-  for (const LobeWay& way : ways) {
+const LobeVariant* first_that_holds(const std::vector<LobeVariant>& ways, const Error& error,
+                                    Choice& choice) {
+  for (const LobeVariant& way : ways) {
     choice.predicted = error(way);
     if (choice.predicted <= choice.asked.value) return &way;
     ++choice.others;
@@ -171,14 +171,14 @@ const LobeWay* first_that_holds(const std::vector<LobeWay>& ways, const Error& e
   return nullptr;
 }
 
-const LobeWay& own_way(const std::vector<LobeWay>& ways) {
-  return *std::find_if(ways.begin(), ways.end(), [](const LobeWay& way) {
+const LobeVariant& own_way(const std::vector<LobeVariant>& ways) {
+  return *std::find_if(ways.begin(), ways.end(), [](const LobeVariant& way) {
     return way.is_own && way.precision == Precision::kFloat64;
   });
 }
 
 /// The choice after a look that saw nothing, and so cannot tell variants apart.
-Choice choose_black(Choice choice, const Scene& scene, const std::vector<LobeWay>& ways) {
+Choice choose_black(Choice choice, const Scene& scene, const std::vector<LobeVariant>& ways) {
   choice.basis = Basis::kLook;
   choice.why =
       "every pixel that was looked at is black, where all ways do alike: the scene's own lobe in float64, with "
@@ -186,13 +186,13 @@ Choice choose_black(Choice choice, const Scene& scene, const std::vector<LobeWay
   return chosen(choice, scene, own_way(ways), kStorage);
 }
 
-Choice choose_quiet(Choice choice, const Scene& scene, const std::vector<LobeWay>& ways) {
+Choice choose_quiet(Choice choice, const Scene& scene, const std::vector<LobeVariant>& ways) {
   const Look look(scene, choice.measure, 1);
   if (look.is_black()) return choose_black(std::move(choice), scene, ways);
   if (choice.measure == Measure::kCiede2000P99) {
     choice.basis = Basis::kLook;
-    const LobeWay* way = first_that_holds(
-        ways, [&](const LobeWay& w) { return look.error(w, 1); }, choice);
+    const LobeVariant* way = first_that_holds(
+        ways, [&](const LobeVariant& w) { return look.error(w, 1); }, choice);
     choice.why = fmt::format(
         "the cheapest of {} ways whose error, in a look at every few pixels and with a quarter added, is "
         "within what was asked; {} cheaper ones are not",
@@ -200,8 +200,8 @@ Choice choose_quiet(Choice choice, const Scene& scene, const std::vector<LobeWay
     return chosen(choice, scene, *way, choice.predicted);
   }
   const Bounds bounds(scene, look.peak());
-  const LobeWay* way = first_that_holds(
-      ways, [&](const LobeWay& w) { return bounds.of(w); }, choice);
+  const LobeVariant* way = first_that_holds(
+      ways, [&](const LobeVariant& w) { return bounds.of(w); }, choice);
   if (way) {
     choice.why = fmt::format(
         "the cheapest of {} ways whose bound is within what was asked; {} cheaper ones are not. The "
@@ -216,12 +216,12 @@ Choice choose_quiet(Choice choice, const Scene& scene, const std::vector<LobeWay
   return chosen(choice, scene, own_way(ways), kStorage);
 }
 
-Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeWay>& ways,
+Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVariant>& ways,
                     int most_samples) {
   choice.basis = Basis::kLook;
   const Look look(scene, choice.measure, most_samples);
   if (look.is_black()) return choose_black(std::move(choice), scene, ways);
-  const LobeWay& own = own_way(ways);
+  const LobeVariant& own = own_way(ways);
   int samples = 1;
   double error = look.error(own, samples), best = error;
   while (error > choice.asked.value && samples < most_samples) {
@@ -240,8 +240,9 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeWay
             std::ceil(best / std::pow(10, std::floor(std::log10(best)) - 1)) *
                 std::pow(10, std::floor(std::log10(best)) - 1)));
   choice.samples = samples;
-  const LobeWay* way = first_that_holds(
-      ways, [&](const LobeWay& w) { return w.cost > own.cost ? INFINITY : look.error(w, samples); },
+  const LobeVariant* way = first_that_holds(
+      ways,
+      [&](const LobeVariant& w) { return w.cost > own.cost ? INFINITY : look.error(w, samples); },
       choice);
   choice.why = fmt::format(
       "with {} samples the scene's own lobe is within what was asked, in a look at every few pixels and "
@@ -268,7 +269,7 @@ Choice choose(const Scene& scene, const Accuracy& asked, int most_samples, const
                    : noisy                                  ? Measure::kRmsOfPeak
                                                             : Measure::kMaxOfPeak;
   choice.own_cost = cost_of(scene, std::nullopt, Precision::kFloat64, model);
-  const std::vector<LobeWay> ways = ways_of(scene, model);
+  const std::vector<LobeVariant> ways = ways_of(scene, model);
   return noisy ? choose_noisy(std::move(choice), scene, ways,
                               std::clamp(most_samples, 1, kMostChosenSamples))
                : choose_quiet(std::move(choice), scene, ways);

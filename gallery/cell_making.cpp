@@ -53,7 +53,7 @@ void write_facts(Html& html, const records::FarmEngine& engine, const EnginePict
   if (const auto& made = image.reference) {
     const std::vector<std::string_view> options(made->engine_options.begin(),
                                                 made->engine_options.end());
-    write_fact(html, "Witness", made->witness);
+    write_fact(html, "Shading", made->witness);
     write_fact(html, "Time", seconds_words(made->seconds));
     write_fact(html, "Method", made->method);
     write_fact(html, "Passes", count_text(double(made->passes)));

@@ -1,5 +1,4 @@
-#include "gallery/cost_page.hpp"
-
+// The page of what accuracy costs in time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "core/text.hpp"
 #include "gallery/page.hpp"
 #include "gallery/record_page.hpp"
+#include "gallery/views.hpp"
 #include "records/cost.hpp"
 #include "records/words.hpp"
 
@@ -188,9 +188,8 @@ void write_cost(Html& html, const records::Cost& cost) {
   }
 }
 
-}  // namespace
-
-std::optional<ViewPage> cost_view(const std::filesystem::path& run) {
+/// Of RUN/cost/cost.json; empty where there is none.
+std::optional<ViewPage> cost_page(const std::filesystem::path& run) {
   return record_page<records::Cost>(run, kRecord, kTitle,
                                     [&](ViewPage& page, const records::Cost& record) {
                                       write_cost(page.main, record);
@@ -198,5 +197,10 @@ std::optional<ViewPage> cost_view(const std::filesystem::path& run) {
                                         page.files.push_back(kCsv);
                                     });
 }
+
+}  // namespace
+
+extern const View cost_view;
+const View cost_view{"cost", "Cost", "cost.html", cost_page};
 
 }  // namespace lobelia::gallery

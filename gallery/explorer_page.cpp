@@ -1,5 +1,4 @@
-#include "gallery/explorer_page.hpp"
-
+// The page on which a highlight can be chosen and looked at.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "gallery/highlight_curves.hpp"
 #include "gallery/page.hpp"
 #include "gallery/record_page.hpp"
+#include "gallery/views.hpp"
 #include "records/pages.hpp"
 #include "records/words.hpp"
 
@@ -215,10 +215,14 @@ void draw(ViewPage& page, const HighlightTables& tables) {
   page.data = records::record_line(page_data(tables));
 }
 
-}  // namespace
-
-std::optional<ViewPage> explorer_view(const std::filesystem::path& run) {
+/// Of RUN/explorer/tables.json; empty where there is none.
+std::optional<ViewPage> explorer_page(const std::filesystem::path& run) {
   return record_page<HighlightTables>(run, kRecord, kTitle, draw);
 }
+
+}  // namespace
+
+extern const View explorer_view;
+const View explorer_view{"explorer", "Explorer", "explorer.html", explorer_page};
 
 }  // namespace lobelia::gallery

@@ -97,10 +97,10 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
   publisher.write(kScriptFile, embedded::gallery_script);
 
   std::vector<std::pair<const View*, ViewPage>> pages;
-  for (const View& view : views()) {
-    if (auto page = view.draw(run)) {
-      site.pages.push_back({std::string(view.file), std::string(view.title)});
-      pages.emplace_back(&view, std::move(*page));
+  for (const View* view : views()) {
+    if (auto page = view->draw(run)) {
+      site.pages.push_back({std::string(view->file), std::string(view->title)});
+      pages.emplace_back(view, std::move(*page));
     }
   }
   for (const auto& [view, page] : pages) {

@@ -156,12 +156,11 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
     html.element(
         "p",
         std::string(
-            "A picture is a witness of the model where the engine has it as its own shading; "
-            "elsewhere the formula was written in the engine’s language by hand, and geometry, "
-            "camera, light, visibility and arithmetic are the witness. Each cell says which.") +
+            "Native: the engine shades the model itself. Expressed: the model is reimplemented by hand in "
+            "the engine’s language, and the picture tests geometry, camera, light, visibility and "
+            "arithmetic. Each cell says which.") +
             (has_formulas(farm)
-                 ? " Analytic is the formula itself, evaluated for each pixel by code of "
-                   "its own."
+                 ? " Analytic: the formula itself, evaluated for each pixel by separate code."
                  : ""));
     html.element("p",
                  "The small print is the worst difference against each engine: the largest "

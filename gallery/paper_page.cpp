@@ -1,5 +1,4 @@
-#include "gallery/paper_page.hpp"
-
+// The page of the paper's claims, measured.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include "core/text.hpp"
 #include "gallery/page.hpp"
 #include "gallery/record_page.hpp"
+#include "gallery/views.hpp"
 #include "records/pages.hpp"
 
 namespace lobelia::gallery {
@@ -205,10 +205,14 @@ void draw(ViewPage& page, const VerifyPaper& record) {
   write_source(html, shell_join(record.command), kRecord);
 }
 
-}  // namespace
-
-std::optional<ViewPage> paper_view(const std::filesystem::path& run) {
+/// Of RUN/paper/paper.json; empty where there is none.
+std::optional<ViewPage> paper_page(const std::filesystem::path& run) {
   return record_page<VerifyPaper>(run, kRecord, kTitle, draw);
 }
+
+}  // namespace
+
+extern const View paper_view;
+const View paper_view{"paper", "Paper", "paper.html", paper_page};
 
 }  // namespace lobelia::gallery

@@ -1,5 +1,4 @@
-#include "gallery/stability_page.hpp"
-
+// The page of the hard cases: the textbook's float32 beside ours.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "gallery/page.hpp"
 #include "gallery/picture.hpp"
 #include "gallery/record_page.hpp"
+#include "gallery/views.hpp"
 #include "records/pages.hpp"
 
 namespace lobelia::gallery {
@@ -278,12 +278,16 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStabilit
   page.data = records::record_line(page_data(data));
 }
 
-}  // namespace
-
-std::optional<ViewPage> stability_view(const std::filesystem::path& run) {
+/// Of RUN/stability/stability.json; empty where there is none.
+std::optional<ViewPage> stability_page(const std::filesystem::path& run) {
   return record_page<VerifyStability>(
       run, kRecord, kTitle,
       [&](ViewPage& page, const VerifyStability& data) { draw(page, run, data); });
 }
+
+}  // namespace
+
+extern const View stability_view;
+const View stability_view{"stability", "Stability", "stability.html", stability_page};
 
 }  // namespace lobelia::gallery

@@ -1,19 +1,18 @@
 #include "gallery/views.hpp"
 
-#include "gallery/cost_page.hpp"
-#include "gallery/explorer_page.hpp"
-#include "gallery/paper_page.hpp"
-#include "gallery/stability_page.hpp"
+// In the order of the navigation. NAME_page.cpp defines `const View NAME_view`.
+#define LOBELIA_VIEWS(VIEW) VIEW(explorer) VIEW(stability) VIEW(paper) VIEW(cost)
 
 namespace lobelia::gallery {
 
-std::span<const View> views() {
-  static constexpr View kViews[] = {
-      {"explorer", "Explorer", "explorer.html", explorer_view},
-      {"stability", "Stability", "stability.html", stability_view},
-      {"paper", "Paper", "paper.html", paper_view},
-      {"cost", "Cost", "cost.html", cost_view},
-  };
+#define LOBELIA_DECLARE(name) extern const View name##_view;
+LOBELIA_VIEWS(LOBELIA_DECLARE)
+#undef LOBELIA_DECLARE
+
+std::span<const View* const> views() {
+#define LOBELIA_ADDRESS(name) &name##_view,
+  static constexpr const View* kViews[] = {LOBELIA_VIEWS(LOBELIA_ADDRESS)};
+#undef LOBELIA_ADDRESS
   return kViews;
 }
 

@@ -29,6 +29,6 @@ struct View {
   std::optional<ViewPage> (*draw)(const std::filesystem::path& run);
 };
 
-std::span<const View> views();
+std::span<const View* const> views();
 
 }  // namespace lobelia::gallery

@@ -1,4 +1,4 @@
-// What a program is made of: the files that it runs and loads, and one hash of all of them.
+// The content of a program: the files that it runs and loads, and one hash of all of them.
 #pragma once
 
 #include <filesystem>
@@ -32,8 +32,8 @@ class ContentReader {
   std::vector<records::ContentFile> files_;
 };
 
-/// What is not the same file in both: "/usr/bin/povray changed", "... is new", "... is gone"; at most `most`, then how many
-/// more there are.
+/// The files that differ: "/usr/bin/povray changed", "... is new", "... is gone". At most `most`, then the number of the
+/// others.
 std::vector<std::string> file_changes(const Content& before, const Content& now, std::size_t most);
 
 }  // namespace lobelia

@@ -33,19 +33,21 @@ struct ExponentTarget {
   Target target;
 };
 
-/// One of an engine's ways to render a highlight, as `lobelia verify references` measures them.
+/// A shading in a number format, as `lobelia verify references` measures it.
 struct EngineVariant {
   std::string_view name;   ///< "povray_native_half"
   std::string_view title;  ///< "POV-Ray native, half"
   bool fine = false;       ///< in the finer number format
   Shading shading = Shading::kAny;
-  std::span<const ExponentTarget> targets =
-      {};                         ///< by exponent; the first that reaches far enough counts
-  std::string_view why_off = {};  ///< why it misses its target where it does, as far as it is known
-  double rounding = 0;  ///< as a share of the value, of averages; 0: no averages of it are measured
+  /// The first whose exponent is high enough counts.
+  std::span<const ExponentTarget> targets = {};
+  /// Why it misses a target, as far as that is known.
+  std::string_view why_off = {};
+  /// The rounding of an average's values, as a share. 0: no averages are measured.
+  double rounding = 0;
 };
 
-/// Its pictures agree with ours if no value differs by more.
+/// A value of its pictures agrees with ours within a share of itself plus a share of the peak.
 struct EngineTolerance {
   double of_value = 0, of_peak = 0;
 };
@@ -63,9 +65,9 @@ struct EngineInfo {
   std::string_view shading;    ///< which models it shades itself, and which are reimplemented in it
   std::string_view precision;  ///< of its pictures
   std::string_view effects;    ///< that scenes for it may have
-  std::string_view plain,
-      fine = {};           ///< names of its number formats; `fine` empty: it has one only
-  bool is_program = true;  ///< to be looked for
+  std::string_view plain;      ///< name of its number format
+  std::string_view fine = {};  ///< name of the finer one; empty if there is none
+  bool is_program = true;      ///< false: part of ours
   EngineTolerance tolerance = {};
   EngineSeconds seconds = {};
   std::span<const EngineVariant> variants = {};
@@ -84,7 +86,7 @@ constexpr std::string_view state_name(EngineState state) {
   return records::kEngineStates[std::size_t(state)];
 }
 
-/// What an engine consists of, as far as asking its version showed: its content (engine_content.hpp) is theirs.
+/// The files of an engine, as far as asking its version showed them; engine_content.hpp hashes them.
 struct EngineFiles {
   std::vector<std::filesystem::path>
       programs;  ///< that ran; a wrapper is one script and several programs

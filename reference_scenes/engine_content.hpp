@@ -1,4 +1,4 @@
-// What an engine is beyond its version: the files that it runs, loads and reads.
+// The content of an engine beyond its version: the files that it runs, loads and reads.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +17,14 @@ class LoaderTrace {
   /// `directory` is private, and there as long as the processes run.
   explicit LoaderTrace(std::filesystem::path directory) : directory_(std::move(directory)) {}
   std::vector<std::string> environment() const;
-  /// What was told so far, without what keeps the processes. Bounded, whatever was written there.
+  /// The files that the loader has named so far, without our own keeper. Their number is bounded.
   EngineFiles files() const;
 
  private:
   std::filesystem::path directory_;
 };
 
-/// Of an engine that is ready. Empty for one that is no program: it is a part of ours. Reads only what `hashes` does
-/// not know.
+/// The content of an engine that is ready. Empty if it is part of ours. Reads only files that `hashes` does not know.
 Content engine_content(const EngineStatus& status, FileHashes& hashes);
 
 }  // namespace lobelia

@@ -137,7 +137,7 @@ std::string last_words(const std::string& output_tail) {
   std::erase_if(lines, [](const std::string& line) {
     return line.starts_with("lobelia: ") || line.starts_with("Fra:");
   });
-  // What follows the first error explains it; without one, the last lines are all there is.
+  // The lines after the first error explain it. Without an error, take the last lines.
   std::size_t first = lines.size() - std::min<std::size_t>(lines.size(), 3);
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (lines[i].find("Error") != std::string::npos ||

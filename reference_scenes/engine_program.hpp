@@ -13,7 +13,7 @@
 
 namespace lobelia {
 
-/// Of an engine, for the probe.
+/// How to find an engine's program and ask its version.
 struct EngineProbe {
   std::string_view program;         ///< as in $PATH
   std::string_view version_prefix;  ///< what stands before the version in `--version`: "Blender "
@@ -53,7 +53,7 @@ inline constexpr const char* kPassedOn[] = {"PATH", "LD_LIBRARY_PATH"};
 /// user's home, where it finds no settings and leaves its caches and temporary files.
 std::vector<std::string> engine_environment(const std::filesystem::path& directory);
 
-/// Of an engine's output the words that say most about a failure, in one line.
+/// The most telling words of an engine's output about a failure, in one line.
 std::string last_words(const std::string& output_tail);
 
 /// Why a process failed: "POV-Ray stopped with exit code 1: ...". Nothing if it ended as it should.
@@ -89,7 +89,7 @@ class EngineLog {
   std::string text_;
 };
 
-/// What holds for both of two processes.
+/// The limits that hold for both of two processes.
 ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b);
 
 /// Writes into a record how an engine's processes were contained.

@@ -40,7 +40,7 @@ constexpr bool worth_retrying(FailureClass failure) {
          failure != FailureClass::kRefused && failure != FailureClass::kGivenUp;
 }
 
-/// What went wrong with one picture; `kind` is kNone where nothing did.
+/// Why a picture could not be made. `kind` is kNone on success.
 struct Failure {
   FailureClass kind = FailureClass::kNone;
   std::string message;  ///< one line

@@ -19,8 +19,8 @@ class FileHashes {
  public:
   /// Reads what `file` remembers. What is damaged, too large, not ours or not there is the same as nothing.
   explicit FileHashes(std::filesystem::path file);
-  /// Of the user's on this machine, for this process: $XDG_CACHE_HOME/lobelia/file-hashes-HOST.json, else below ~/.cache.
-  /// Remembers nothing if there is neither.
+  /// The user's hashes on this machine: $XDG_CACHE_HOME/lobelia/file-hashes-HOST.json, or below ~/.cache. Remembers nothing if
+  /// neither folder exists.
   static FileHashes& of_user();
 
   /// Throws Error(kInput) if it cannot be read or is no regular file.

@@ -1,4 +1,4 @@
-// What an engine is given, for someone who wants to see or render it without Lobelia.
+// An engine's input files, to look at or to render without Lobelia.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What every engine needs of a scene before it is written down for it.
+// Preparation of a scene for any engine.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a reference picture says of itself.
+// The metadata of a reference picture.
 #pragma once
 
 #include "core/image.hpp"

@@ -15,7 +15,7 @@
 namespace lobelia {
 namespace {
 
-/// Of one scene, from many parts; the rest says the same again.
+/// Bytes of log for one scene. Its many parts repeat themselves.
 constexpr std::size_t kMostLog = 1 << 20;
 
 /// The results of each part of each replicate.

@@ -22,7 +22,7 @@ constexpr double kMargin = 0x1p-20;
 float below(double x) { return std::nextafter(float(x), -std::numeric_limits<float>::infinity()); }
 float above(double x) { return std::nextafter(float(x), std::numeric_limits<float>::infinity()); }
 
-/// What a ray looks for; Embree hands it to the callbacks.
+/// A ray's search. Embree hands it to the callbacks.
 struct Search : RTCIntersectContext {
   Vec3 origin, direction;
   double start;  ///< of the ray that Embree traces, along ours
@@ -72,7 +72,7 @@ struct Accelerator::State {
     search.distance = t;
     search.found = index;
     auto* ray = reinterpret_cast<RTCRayHit*>(a->rayhit);
-    // What is nearer by less than the margin is still looked at.
+    // Spheres that are farther by less than the margin are still tried.
     ray->ray.tfar = above(t - search.start + kMargin * state.extent);
     ray->hit.geomID = a->geomID;
     ray->hit.primID = a->primID;

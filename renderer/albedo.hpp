@@ -17,7 +17,7 @@ inline constexpr double kMostGrazing = 89.99 / 180 * std::numbers::pi;
 /// radiance 1: the integral of eval over to_light. To about 1e-10 of itself, in some 50 microseconds.
 double directional_albedo(const Highlight& highlight, double incidence);
 
-/// What leaves, of a beam that arrives `incidence` radians off the normal: the integral of
+/// The share of a beam that is reflected if it arrives `incidence` radians off the normal: the integral of
 /// eval (N.V) over to_eye, over N.L. The same number as directional_albedo for a reciprocal model; an
 /// RDF's grows without bound towards grazing, where little light arrives but the highlight is as bright.
 double directional_albedo_of_light(const Highlight& highlight, double incidence);

@@ -12,7 +12,7 @@ struct Tangents {
   Vec3 first, second;  ///< unit; first x second = axis. Of +y they are +x and -z
 };
 
-/// Of a unit vector, without a square root or a special case but for -z (Duff et al. 2017).
+/// Tangents of a unit vector, without a square root, and with -z as the only special case (Duff et al. 2017).
 inline Tangents tangents(Vec3 axis) {
   const double sign = std::copysign(1.0, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
   return {{1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x},

@@ -32,7 +32,7 @@ class FusedRenderer {
   /// The rows y0..y1 - 1, 3 * width floats each, all of them written. From any thread.
   void render_rows(int y0, int y1, float* rgb) const;
 
-  /// What was done so far; pixels that no sphere can cover took nothing.
+  /// The work so far. Pixels that no sphere can cover take none.
   Work work() const;
   /// In words, for the plan.
   static std::string kernel_text();

@@ -38,7 +38,7 @@ constexpr auto kModelUses = map_types<ModelUse>(Models{}, []<class M>() {
                   M::paper_cs16, M::kEnergy, M::kShare};
 });
 
-/// What is asked of one lobe, for code that meets lobes by id.
+/// The functions of one lobe, for code that has its id.
 struct LobeUse {
   double (*value)(LobeParameters, double s);
   PreparedLobe (*prepare)(LobeParameters);

@@ -40,7 +40,7 @@ enum class LobeAngle : std::uint8_t {
   kHalfVector,  ///< between the normal and the half vector (Blinn family)
 };
 
-/// What the exact coefficient makes 1; not at all the same thing (docs/conventions.md).
+/// The integral that the exact coefficient makes 1. Models differ in it (docs/conventions.md).
 enum class NormalisedQuantity : std::uint8_t {
   kRadiance,          ///< what is reflected at normal incidence, over all directions
   kNormals,           ///< the integral of a distribution D of normals over their hemisphere
@@ -113,7 +113,7 @@ double radiance_coefficient(const Highlight& highlight);
 /// Whether the paper prints a coefficient for the lobe at all: it does for cosine and cs16.
 bool has_paper_coefficient(LobeId lobe);
 
-/// What the user ought to know of this highlight though it is allowed, or "".
+/// A warning about a highlight that is allowed but odd, or "".
 std::string warning(const Highlight& highlight);
 
 /// The lobe at s = 1 - cos(angle), s in [0, 2], in double precision: in [0, 1], value 1 at s = 0.

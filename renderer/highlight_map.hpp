@@ -14,8 +14,8 @@ struct HighlightMap {
                                 ///< see the sphere, or the light does not reach it: it is below the
                                 ///< horizon (N.L <= 0), or another sphere stands before it
   std::vector<double> n_dot_l;  ///< cosine at the light's side; NaN as above
-  /// What coefficient * lobe is multiplied by to give radiance, as the mean of R, G and B: irradiance,
-  /// reflectance with its Fresnel factor, and foreshortening; NaN as above.
+  /// Radiance over coefficient * lobe, as the mean of R, G and B: irradiance, reflectance with its Fresnel factor, and
+  /// foreshortening. NaN as above.
   std::vector<double> scale;
   std::vector<double> solid_angle;  ///< of the pixel as seen from the camera, steradian; never NaN
 };

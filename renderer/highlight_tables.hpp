@@ -1,5 +1,4 @@
-// What every highlight of the catalogues looks like over the exponent, as numbers that a page can interpolate:
-// a program that cannot run the formulas shows what they gave.
+// Tables of all highlights over the exponent. A page interpolates them, so its script need not know the formulas.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// What a lobe looks like at one exponent, measured on the lobe itself.
+// The shape of a lobe at one exponent, measured on the lobe itself.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a lobe or a model costs in arithmetic, counted by running it on numbers that count.
+// Counts the arithmetic of a lobe or a model, by running it on numbers that count.
 #pragma once
 
 #include "renderer/highlight.hpp"

@@ -19,7 +19,7 @@ struct Hit {
 /// Every sphere is looked at for every ray: with more of them it would take hours.
 inline constexpr std::size_t kMaxSpheresByRay = 1024;
 
-/// What of the scene a single ray through each pixel does not tell, in words; empty if it tells all.
+/// The parts of a scene that single rays through the pixels' centres cannot show, in words; empty if there are none.
 std::string beyond_single_rays(const Scene& scene);
 /// Throws Error(kInput) where there is such a thing; `what`, "edges", is what was asked for.
 void require_single_rays(const Scene& scene, std::string_view what);
@@ -35,8 +35,8 @@ void for_each_pixel_of(
     const Scene& scene, int sphere,
     const std::function<void(std::size_t i, const Hit& hit, Vec3 to_eye)>& visit);
 
-/// What a directional or a point light brings to a point of a sphere; nothing where it is below the horizon
-/// or another sphere stands before it. (A lamp that lies on a sphere is hidden by it below its horizon.)
+/// The light from a directional or point light at a point of a sphere. Nothing if it is below the horizon or hidden by
+/// another sphere. (A sphere hides a lamp that lies on it below the lamp's horizon.)
 std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& hit);
 
 }  // namespace lobelia

@@ -14,8 +14,8 @@ namespace {
 constexpr std::string_view kNames[] = {"float32", "mixed", "float64"};
 constexpr double kUnit32 = 0x1p-24, kUnit64 = 0x1p-53;  ///< largest relative error of one rounding
 
-/// What roundings may add to the difference of the two unit vectors whose angle the lobe sees, in
-/// units of one rounding. Counted in docs/numerics.md.
+/// The rounding error of the difference of the two unit vectors whose angle the lobe sees, in units of one rounding.
+/// docs/numerics.md counts it.
 double roundings(LobeAngle angle, double min_half_length) {
   return angle == LobeAngle::kReflection ? 20 : 5 + 4 / min_half_length;
 }

@@ -24,8 +24,8 @@ std::span<const std::string_view> precision_names();
 std::string_view name(Precision precision);
 std::optional<Precision> find_precision(std::string_view name);
 
-/// What a precision may add to a picture, relative to the highlight's peak. A tenth of a step of a
-/// half float at the peak, and a third of what Cycles' own float32 leaves.
+/// The largest error that a precision may add to a picture, relative to the highlight's peak. It is a tenth of a half
+/// float's step at the peak, and a third of the error of Cycles' float32.
 inline constexpr double kAllowedShadingError = 1e-5;
 
 /// Upper bound of |shaded - true| / peak, for unit vectors whose sum L + V is at least

@@ -1,5 +1,5 @@
-// What a surface does with light, one direction at a time: eval, sample, pdf. The kernels do the same
-// for many points of a picture; this is for samplers, quadratures and whoever wants a single value.
+// Reflection at a surface, one direction at a time: eval, sample, pdf. Samplers and quadratures use it. The kernels do the
+// same for many points of a picture.
 #pragma once
 
 #include <optional>

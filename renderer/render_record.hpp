@@ -1,4 +1,4 @@
-// What a render says of itself: the attributes in its picture and the record beside it.
+// The attributes in a rendered picture, and the record beside it.
 #pragma once
 
 #include <filesystem>

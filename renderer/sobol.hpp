@@ -62,7 +62,7 @@ constexpr Pair pair(std::uint32_t pixel, std::uint32_t index, std::uint32_t dime
   return {reverse_bits(x) * 0x1p-32, reverse_bits(y) * 0x1p-32};
 }
 
-/// Of a pixel by its place in the picture and the scene's seed.
+/// A pixel's hash, from its place in the picture and the scene's seed.
 constexpr std::uint32_t pixel_hash(std::uint64_t pixel, std::uint64_t seed) {
   const std::uint32_t high = hash(std::uint32_t(pixel >> 32) ^ hash(std::uint32_t(seed >> 32)));
   return hash(std::uint32_t(pixel) ^ hash(std::uint32_t(seed) ^ high));

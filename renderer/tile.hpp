@@ -25,7 +25,7 @@ struct Spread {
   double error() const;
 };
 
-/// What a pixel's samples add up to.
+/// The sum of a pixel's samples.
 struct PixelSum {
   struct Part {
     Rgb radiance;

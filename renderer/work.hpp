@@ -1,4 +1,4 @@
-// What a picture took, counted while it was made.
+// The work of a picture, counted while it is rendered.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace lobelia {
 
 struct Work {
-  /// Of each effect, in its own unit of work; zero where it is off.
+  /// By effect, in its own unit; zero where it is off.
   std::array<std::uint64_t, Effects::kSize> of_effect{};
   std::uint64_t camera_rays = 0, shadow_rays = 0, mirror_rays = 0, scattered_rays = 0;
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/embedded.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "shaders/names.hpp"
@@ -10,43 +13,24 @@
 namespace lobelia {
 namespace embedded {
 extern const std::string_view povray_usage, povray_geometry, povray_quadrature, povray_highlight;
-extern const std::string_view povray_model_phong_rdf, povray_model_modified_phong,
-    povray_model_blinn_phong_rdf, povray_model_modified_blinn_phong, povray_model_blinn_phong_ndf,
-    povray_model_blinn_phong_heightfield;
-extern const std::string_view povray_lobe_cosine, povray_lobe_cs, povray_lobe_spherical_gaussian,
-    povray_lobe_gauss, povray_lobe_schlick;
+extern const std::span<const EmbeddedText> povray_models, povray_lobes;
 }  // namespace embedded
 namespace {
 
-struct Formula {
-  std::string_view name;
-  const std::string_view& text;
-};
-const Formula kModels[] = {
-    {"phong_rdf", embedded::povray_model_phong_rdf},
-    {"modified_phong", embedded::povray_model_modified_phong},
-    {"blinn_phong_rdf", embedded::povray_model_blinn_phong_rdf},
-    {"modified_blinn_phong", embedded::povray_model_modified_blinn_phong},
-    {"blinn_phong_ndf", embedded::povray_model_blinn_phong_ndf},
-    {"blinn_phong_heightfield", embedded::povray_model_blinn_phong_heightfield}};
-/// A family by its name without the order.
-const Formula kLobes[] = {{"cosine", embedded::povray_lobe_cosine},
-                          {"cs", embedded::povray_lobe_cs},
-                          {"spherical_gaussian", embedded::povray_lobe_spherical_gaussian},
-                          {"gauss", embedded::povray_lobe_gauss},
-                          {"schlick", embedded::povray_lobe_schlick}};
-
-std::string_view formula(std::span<const Formula> formulas, std::string_view name) {
-  for (const Formula& one : formulas)
-    if (one.name == name) return one.text;
-  throw Error(ExitCode::kInternal, fmt::format("shaders/povray has no '{}'", name));
+/// A formula in POV-Ray's language: a file of models/ or lobes/.
+std::string_view formula(std::span<const EmbeddedText> formulas, std::string_view name) {
+  const auto found = std::ranges::find(formulas, name, &EmbeddedText::name);
+  if (found == formulas.end())
+    throw Error(ExitCode::kInternal, fmt::format("shaders/povray has no '{}'", name));
+  return found->text;
 }
 
+/// Of a family, whose file has its name without the order.
 std::string lobe_text(LobeId lobe) {
   std::string name(info(lobe).name);
   const std::string order = std::to_string(lobe.order);
   if (lobe.order != 0) name.resize(name.size() - order.size());
-  return fill(formula(kLobes, name), {{"K", order}});
+  return fill(formula(embedded::povray_lobes, name), {{"K", order}});
 }
 
 /// For cos^n both columns are closed forms, and so is what the paper has for cs16.
@@ -107,7 +91,7 @@ std::string povray_text(std::span<const Highlight> highlights) {
     parts.add("Quadrature", embedded::povray_quadrature);
     parts.add(capitalised(info(highlight.lobe).name), lobe_text(highlight.lobe));
     const std::string_view model = info(highlight.model).name;
-    parts.add(capitalised(model), formula(kModels, model));
+    parts.add(capitalised(model), formula(embedded::povray_models, model));
     parts.add(capitalised(function_name(highlight)), highlight_text(highlight));
   }
   return (highlights.empty() ? "" : usage_text(highlights.front())) + parts.text();

@@ -122,12 +122,12 @@ void write_run_record(const fs::path& run_directory, const fs::path& grid_file,
   records::write_record(run_directory / kRunFile, record, AtLink::kReplace);
 }
 
-struct Run {
+struct RecordedRun {
   fs::path grid_file, directory;
   FarmOptions options;
 };
 
-Run read_run(const fs::path& run_directory) {
+RecordedRun read_run(const fs::path& run_directory) {
   const auto record = records::read_record<records::FarmRun>(run_directory / kRunFile);
   // Here its results would have other names.
   const auto differences = identity_differences(OwnIdentity::of_record(record), own_identity());
@@ -135,7 +135,7 @@ Run read_run(const fs::path& run_directory) {
     throw Error(ExitCode::kInput,
                 fmt::format("{}: a run that cannot go on here: {}", run_directory.string(),
                             fmt::join(differences, "; ")));
-  Run run;
+  RecordedRun run;
   run.grid_file = record.grid;
   run.directory = record.directory;
   run.options.cache = record.cache;
@@ -227,7 +227,7 @@ ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number)
 }
 
 SlurmEnd finish_slurm_run(const fs::path& run_directory) {
-  Run run = read_run(run_directory);
+  RecordedRun run = read_run(run_directory);
   run.options.engines_as_recorded = true;
   const Grid grid = read_grid(run.grid_file);
   FarmSession session(grid, run.directory, run.options);
@@ -236,7 +236,7 @@ SlurmEnd finish_slurm_run(const fs::path& run_directory) {
 }
 
 SlurmFarmSummary attach_to_slurm_run(const fs::path& directory, const SlurmRunOptions& slurm) {
-  const Run run = read_run(slurm_run_directory(directory));
+  const RecordedRun run = read_run(slurm_run_directory(directory));
   return run_farm_on_slurm(read_grid(run.grid_file), run.grid_file, run.directory, run.options,
                            slurm);
 }

@@ -1,5 +1,4 @@
-// What the table of agreement compares: highlights of every kind, each effect that engines share, and effects
-// that are averages.
+// The cases of the agreement study: highlights of every kind, each effect that engines share, and effects that are averages.
 #pragma once
 
 #include <string_view>
@@ -50,7 +49,7 @@ struct SoftCase {
   Scene converged;
 };
 std::vector<SoftCase> soft_cases(const Scope& scope);
-/// Of both estimates of each.
+/// The numbers of points of both estimates.
 std::vector<int> soft_points(const Scope& scope);
 
 }  // namespace lobelia::agreement

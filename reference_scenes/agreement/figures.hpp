@@ -10,14 +10,14 @@
 
 namespace lobelia::agreement {
 
-/// Of all channels. What is infinite or no number is infinitely far off.
+/// Over all channels. Values that are not finite are infinitely far off.
 struct Figures {
-  // Of pixels that are not in the ring.
+  // Pixels outside the ring:
   double max_of_peak = 0;  ///< of the peak of the reference
   double rms_of_peak = 0;  ///< over pixels where either picture is not black
   double max_relative =
       0;  ///< of the reference's value where that is above kRelativeFrom of the peak
-  // Of those in it.
+  // Pixels in the ring:
   double ring_max_of_peak = 0;
   int ring_pixels = 0, ring_over = 0;  ///< all; those that are off by more than kRingOfPeak
 };

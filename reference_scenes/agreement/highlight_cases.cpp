@@ -11,17 +11,17 @@ namespace {
 constexpr double kExponents[] = {1, 16, 64, 256, 1024, 1e5, 1e6};
 constexpr double kSmallExponents[] = {16, 1024, 1e5};
 
-struct Variant {
+struct CaseVariant {
   std::string_view lobe, normalisation;
 };
 /// The first has every light at every exponent, the others take turns.
-constexpr Variant kVariants[] = {{"cosine", "exact"},
-                                 {"cosine", "paper"},
-                                 {"cs16", "exact"},
-                                 {"cs16", "paper"},
-                                 {"schlick", "exact"},
-                                 {"gauss", "exact"},
-                                 {"spherical_gaussian", "exact"}};
+constexpr CaseVariant kVariants[] = {{"cosine", "exact"},
+                                     {"cosine", "paper"},
+                                     {"cs16", "exact"},
+                                     {"cs16", "paper"},
+                                     {"schlick", "exact"},
+                                     {"gauss", "exact"},
+                                     {"spherical_gaussian", "exact"}};
 
 /// Where a sphere is brightest by a light: its normal halfway between light and eye.
 Vec3 highlight_place(const Sphere& sphere, const Light& light, Vec3 eye) {

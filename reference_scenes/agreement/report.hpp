@@ -23,7 +23,7 @@ Table lobe_table(const Agreement& agreement);
 Table model_table(const Agreement& agreement);
 Table effect_table(const Agreement& agreement);
 Table soft_table(const Agreement& agreement);
-/// What cannot be compared, and why.
+/// Pictures that cannot be compared, and why.
 Table refusal_table(const Agreement& agreement);
 /// Every picture that missed its target or failed.
 Table miss_table(const Agreement& agreement);

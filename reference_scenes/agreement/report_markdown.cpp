@@ -43,7 +43,7 @@ std::string section(const Table& table) {
   return text;
 }
 
-/// Of each variant with something that missed its target.
+/// Why each variant misses its targets, if it misses one.
 std::string reasons(const Agreement& agreement) {
   std::string text;
   const auto add = [&](const Variant& variant) {

@@ -1,4 +1,4 @@
-// What tables of agreement are put together from, for the .cpp files of reference_scenes/agreement/.
+// Parts of the tables of agreement, for the .cpp files of this folder.
 #pragma once
 
 #include <fmt/format.h>

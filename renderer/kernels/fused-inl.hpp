@@ -35,7 +35,7 @@ namespace fused {
 /// round of it. All that is kept between the loops stays in the first-level cache.
 constexpr int kStretch = 128;
 
-/// Of a stretch's pixels. A cache line longer, so that no two begin at the same place in a page.
+/// A value for each pixel of a stretch. A cache line longer, so that no two begin at the same place in a page.
 struct Values {
   HWY_ALIGN double at[kStretch + 8];
   HWY_INLINE Lanes load(int i) const { return Lanes::load(at + i); }

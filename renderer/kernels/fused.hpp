@@ -16,7 +16,7 @@ namespace lobelia {
 /// Pixels are computed in blocks of as many: a multiple of every register's lanes.
 inline constexpr int kFusedBlock = 16;
 
-/// What of the light depends on no pixel.
+/// The part of a light that is the same for all pixels.
 struct FusedLight {
   bool is_directional = true;
   Vec3 vector;    ///< to the light, or where it stands

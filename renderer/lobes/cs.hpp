@@ -35,7 +35,7 @@ struct CsLobe {
         support(std::min(1.0, k / n)),
         smallest64(smallest_base<double>(k)),
         smallest32(smallest_base<float>(k)) {
-    // Of u^(k+1) from where the lobe ends to its middle, u = 1 - n s / k.
+    // The integral of u^(k+1) from the lobe's end to its middle, u = 1 - n s / k.
     mass = n > k ? 1 : -std::expm1((k + 1) * std::log1p(-slope));
   }
 

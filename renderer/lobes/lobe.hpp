@@ -1,4 +1,4 @@
-// What a lobe is: the shape of a highlight, a function of (s, n), value 1 at s = 0, 0 where s >= 1.
+// A lobe is the shape of a highlight: a function of (s, n) that is 1 at s = 0, and 0 where s >= 1.
 //
 // s = 1 - cos(angle), computed by the caller as |a - b|^2 / 2 for unit a, b, which does not cancel.
 // A value too small for a normal number of its precision is 0, so that no processor stalls on it.
@@ -20,7 +20,7 @@
 
 namespace lobelia {
 
-/// What a lobe is made from.
+/// The parameters of a lobe.
 struct LobeParameters {
   double exponent;  ///< n
   int order;        ///< k of a family of lobes; 0 otherwise
@@ -28,11 +28,11 @@ struct LobeParameters {
 
 /// A lobe in the language that GLSL, HLSL and OSL have in common, for `lobelia export`.
 struct LobeText {
-  /// Of a function of `s` in [0, 1) and `n` that returns the value; it may call the functions of
-  /// shaders/gpu/geometry.txt. In float32.
+  /// The body of a float32 function of `s` in [0, 1) and `n` that returns the value. It may call the functions of
+  /// shaders/gpu/geometry.txt.
   std::string body;
-  /// Of a lobe (1 - slope s)^(n / slope), from which the energy of every model follows: the slope, in
-  /// terms of n. Empty where there is no such form, and for cos^n, whose coefficients the models have.
+  /// The slope in terms of n, if the lobe is (1 - slope s)^(n / slope). The energy of every model follows from it. Empty
+  /// for other lobes, and for cos^n, because the models have its coefficients.
   std::string slope;
 };
 

@@ -1,5 +1,5 @@
-// What a model is: the angle its lobe sees, where the cosine stands, and the coefficient that makes
-// the reflected energy 1 at normal incidence.
+// A model is the angle that its lobe sees, the place of the cosine, and the coefficient that makes the reflected energy 1
+// at normal incidence.
 //
 //   radiance per unit irradiance normal to the beam
 //     = kShare * coefficient * lobe(s, n) * foreshortening(N.L),   0 where N.L <= 0

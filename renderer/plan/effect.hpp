@@ -23,8 +23,8 @@ struct EffectDecision {
   std::string_view hides = {};  ///< E::kHides; set by the planner
 };
 
-/// What an effect's file offers. decide() says whether the scene calls for the effect, and why, and
-/// notes in the plan what is to be done for it; with EffectPolicy::kAll, as if it always did.
+/// The interface of an effect. decide() says whether the scene calls for it and why, and writes into the plan what to do for
+/// it. With EffectPolicy::kAll every scene calls for it.
 template <class E>
 concept EffectOfLight = requires(const Scene& scene, EffectPolicy policy, Plan& plan) {
   { E::kName } -> std::convertible_to<std::string_view>;

@@ -11,8 +11,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A hair wider than the geometry, so that rounding never rules out a grazing occluder.
 constexpr double kWider = 1 + 1e-9;
 
-/// What lies between a ball and a sphere is within the larger one's radius of the line between their
-/// centres: the occluder must reach it.
+/// An occluder must reach the tube around the line between the two centres, as wide as the larger of light and sphere.
 bool may_occlude(const LightBounds& light, const Sphere& receiver, const Sphere& occluder) {
   if (light.kind == LightBounds::kEverywhere) return true;
   const Vec3 to_occluder = occluder.center - receiver.center;

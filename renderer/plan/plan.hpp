@@ -22,15 +22,14 @@ inline constexpr std::size_t kMaxLoopSpheres = 24;
 /// Pictures are made in squares of so many pixels.
 inline constexpr int kTileSide = 32;
 
-/// Who draws the directions towards a light with a size.
+/// How directions to a light with a size are drawn.
 enum class LightStrategy : std::uint8_t {
   kLight,    ///< the light: the surface scatters evenly
   kBoth,     ///< light and surface, weighted by the power heuristic (Veach 1997, section 9.2.4)
   kSurface,  ///< the surface: the light is the same from everywhere
 };
 
-/// What is done otherwise than the plan finds best, to see what that is worth. Nothing but measurements
-/// asks for it.
+/// Deviations from the best plan, to measure their effect. Only studies ask for them.
 struct Experiment {
   /// How directions to lights with a size are drawn, and those of inter-reflection.
   enum class Directions : std::uint8_t {
@@ -43,7 +42,7 @@ struct Experiment {
   bool shadows = true;  ///< false: nothing stands between a surface and a light
 };
 
-/// What may stand between a surface and a light.
+/// The surfaces that may hide a light from a surface.
 struct Occluders {
   bool any_sphere = false;   ///< too many to say which
   std::vector<int> spheres;  ///< else these

@@ -76,7 +76,7 @@ class ElementReader {
   /// A vector that must have a direction, as a unit vector.
   Vec3 direction(pugi::xml_node element, const Values& values, std::string_view name);
 
-  /// What `find` knows by the value's name.
+  /// Looks up the value's name with `find`.
   template <class Id, class Find>
   void choose(const Values::Value& value, pugi::xml_node element, std::string_view what,
               std::span<const std::string_view> names, const std::string& allowed, Find find,

@@ -18,7 +18,7 @@ namespace {
   throw Error(ExitCode::kInput, fmt::format("filename '{}' {}", printable(file), why));
 }
 
-/// Of a sky twenty bytes a pixel are kept. 16384 x 8192 pixels are read of 7 MB and more, 4096 x 2048 of any file.
+/// A sky takes twenty bytes a pixel in memory. Files of 7 MB and more may have 16384 x 8192 pixels, any file 4096 x 2048.
 constexpr PictureLimit kSkyLimit{std::uint64_t{1} << 24, 16};
 constexpr std::string_view kAllowed =
     "; allowed: a relative path to a picture in the scene file's directory or below it";

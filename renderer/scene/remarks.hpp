@@ -1,4 +1,4 @@
-// What is odd about a scene, though it can be rendered.
+// Warnings about a scene that can be rendered but is probably not meant that way.
 #pragma once
 
 #include <string>

@@ -101,8 +101,8 @@ struct CameraFrame {
 };
 CameraFrame camera_frame(const Camera& camera, const Film& film);
 
-/// What of the scene only a renderer of areas of light, several reflections or lenses can show, in
-/// words ("an area light, a ground plane"); empty where every engine and every analysis can.
+/// The parts of a scene that need more than direct light from delta lights on spheres, in words: "an area light, a ground
+/// plane". Empty if there are none; then every engine and every analysis can take the scene.
 std::string beyond_delta_lights(const Scene& scene);
 
 }  // namespace lobelia

@@ -20,7 +20,7 @@ inline constexpr int kMaxSpheres = 1 << 22;  ///< with those of lattices
 inline constexpr int kMaxPlanes = 16;
 inline constexpr int kMaxMaterials = 1024;
 inline constexpr int kMaxDepth = 64;
-/// Of reflections by mirrors, where a scene has a mirror and does not say how often.
+/// The depth of mirrors, where a scene with a mirror does not give one.
 inline constexpr int kDefaultMirrorDepth = 8;
 
 inline constexpr Parameter kFieldOfView{"fov",     ParameterType::kFloat,          "", 1e-3, 179,
@@ -133,7 +133,7 @@ std::span<const ElementFormat> filter_formats();
 /// <bsdf type="MODEL"> for every model.
 std::span<const ElementFormat> material_formats();
 
-/// What a string parameter may be, as a message or a table lists it; "" for a number.
+/// The allowed values of a string parameter, as messages and tables list them; "" for a number.
 std::string string_choices(const Parameter& parameter);
 
 /// docs/scene_format.md, whole; a test keeps the file the same as this.

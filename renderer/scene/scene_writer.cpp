@@ -63,7 +63,7 @@ std::string plane_shape(const Plane& plane) {
           : fmt::format("    <ref id=\"material_{}\"/>\n", plane.checker_material));
 }
 
-// What a scene does without is not written: the text of a plain scene names only what it has.
+// Defaults are not written, so the text of a plain scene is short.
 
 std::string lens(const Camera& camera) {
   if (camera.aperture_radius == 0 && camera.focus_distance == Camera{}.focus_distance) return "";

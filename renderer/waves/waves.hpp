@@ -24,7 +24,7 @@ struct PixelSample {
   std::uint32_t index = 0;
 };
 
-/// What a camera ray found.
+/// The result of a camera ray.
 struct SampleResult {
   Rgb radiance;      ///< not weighted
   bool negative;     ///< drawn from the filter's negative part
@@ -93,7 +93,7 @@ struct Wave {
   Vec3Chunk point{}, normal{};                               ///< of a surface that is met
   std::array<Rgb, kChunk> weight;
   std::array<int, kChunk> slot;  ///< the camera ray that a ray descends from
-  /// Of scattered rays: their density and material, to weigh them against the lights' own draws.
+  /// The density and material of scattered rays, to weigh them against the lights' own draws.
   std::array<double, kChunk> pdf;
   std::array<int, kChunk> material;
 };

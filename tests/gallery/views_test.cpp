@@ -143,7 +143,7 @@ TEST_P(RecordViews, OfABrokenRecordSaySoAndTheGalleryIsThere) {
   const Json whole = Json::parse(GetParam().record());
   put(GetParam().record());
   const std::filesystem::path path = farm_.directory() / GetParam().file;
-  const auto view = std::ranges::find(views(), GetParam().name, &View::name);
+  const View* const view = *std::ranges::find(views(), GetParam().name, &View::name);
   int said = 0;
   const auto walk = [&](auto&& self, const Json& at, const Json::json_pointer& place) -> void {
     for (const auto& [key, value] : at.items()) {

@@ -197,7 +197,7 @@ Problems loose_keys(const fs::path& root) {
     const std::string room = file.begin()->string(), name = file.generic_string();
     if (!is_cpp(file) || room == "records" || !kMaySee.contains(room)) return false;
     // What Blender's own script is told is part of that engine.
-    return !name.starts_with("reference_scenes/engines/blender/blender_job");
+    return !name.starts_with("reference_scenes/engines/blender/blender_input");
   });
 }
 

@@ -149,6 +149,17 @@ std::vector<double> naive_errors(double n) {
   return errors;
 }
 
+TEST(TheNaiveFormula, IsThatOfItsOwnModelForEveryLobe) {
+  for (const ModelInfo& model : models())
+    for (const char* lobe : {"cosine", "cs16", "gauss"}) {
+      const Highlight highlight{*find_model(model.name), *find_lobe(lobe), {}, 20};
+      EXPECT_NEAR(
+          naive::coefficient(highlight) / truth::coefficient(highlight.model, highlight.lobe, 20),
+          1, 1e-4)
+          << model.name << ", " << lobe;
+    }
+}
+
 TEST(TheNaiveFormula, LosesItsDigitsAsTheExponentGrowsUntilNoneIsLeft) {
   // Medians measured: 1.3e-6, 6e-4, 6e-2, 1; a tenth is off by more than 7e-6, 2e-3, 0.23, 2e10.
   EXPECT_LT(naive_errors(16)[500], 1e-5);

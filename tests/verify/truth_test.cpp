@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
+#include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "renderer/render.hpp"
 
 namespace lobelia {
@@ -169,6 +171,17 @@ TEST(TheReference, AFilmAsideShowsThePictureMovedByWholePixels) {
   for (int y = 3; y < 30; ++y)
     for (int x = 0; x < 35; ++x)
       EXPECT_NEAR(moved.pixel(x + 5, y - 3)[1], straight.pixel(x, y)[1], 1e-6) << x << ", " << y;
+}
+
+TEST(ModelRows, RefuseAModelThatTheyDoNotHaveByItsName) {
+  for (const ModelInfo& model : models()) EXPECT_EQ(truth::model_row(model.name).name, model.name);
+  try {
+    truth::model_row("phong_rdff");
+    FAIL() << "it took another model";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kInternal);
+    EXPECT_NE(std::string(error.what()).find("'phong_rdff'"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "verify/stability/float3.hpp"
 
 namespace lobelia::stability::naive {
@@ -12,31 +13,31 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 
 /// The paper's table, first column.
-float closed_form(std::string_view model, float n) {
-  if (model == "phong_rdf") return (n + 1) / (2 * kPi);
-  if (model == "modified_phong") return (n + 2) / (2 * kPi);
-  if (model == "blinn_phong_rdf") return (n + 2) / (4 * kPi * (2 - std::pow(2.0f, -n / 2)));
-  if (model == "modified_blinn_phong")
-    return (n + 2) * (n + 4) / (8 * kPi * (std::pow(2.0f, -n / 2) + n));
-  return model == "blinn_phong_ndf" ? (n + 1) / (8 * kPi) : (n + 2) / (8 * kPi);
-}
+struct ClosedForm {
+  std::string_view model;
+  float (*coefficient)(float n);
+};
+constexpr ClosedForm kClosedForms[] = {
+    {"phong_rdf", [](float n) { return (n + 1) / (2 * kPi); }},
+    {"modified_phong", [](float n) { return (n + 2) / (2 * kPi); }},
+    {"blinn_phong_rdf", [](float n) { return (n + 2) / (4 * kPi * (2 - std::pow(2.0f, -n / 2))); }},
+    {"modified_blinn_phong",
+     [](float n) { return (n + 2) * (n + 4) / (8 * kPi * (std::pow(2.0f, -n / 2) + n)); }},
+    {"blinn_phong_ndf", [](float n) { return (n + 1) / (8 * kPi); }},
+    {"blinn_phong_heightfield", [](float n) { return (n + 2) / (8 * kPi); }},
+};
 
-float by_quadrature(const Highlight& h) {
+float by_quadrature(const Highlight& h, const truth::ModelRow& model) {
   constexpr int kSteps = 1024;
-  const std::string_view model = info(h.model).name;
-  const bool halved = model == "blinn_phong_rdf" || model == "modified_blinn_phong";
-  const bool cosine = halved ? model == "modified_blinn_phong"
-                             : model == "modified_phong" || model == "blinn_phong_heightfield";
   const float step = kPi / 2 / kSteps;
   float sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const float x = (float(i) + 0.5f) * step;
-    const float value = lobe(h.lobe, std::cos(halved ? x / 2 : x), h.exponent) * std::sin(x);
-    sum += cosine ? value * std::cos(x) : value;
+    const float value =
+        lobe(h.lobe, std::cos(model.lobe_of_half_angle ? x / 2 : x), h.exponent) * std::sin(x);
+    sum += model.integral_has_cosine ? value * std::cos(x) : value;
   }
-  const float parts =
-      model == "blinn_phong_ndf" || model == "blinn_phong_heightfield" ? 4.0f : 1.0f;
-  return 1 / (2 * kPi * sum * step * parts);
+  return 1 / (2 * kPi * sum * step * float(model.parts));
 }
 
 }  // namespace
@@ -61,9 +62,11 @@ float shape(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light)
 }
 
 float coefficient(const Highlight& highlight) {
-  return info(highlight.lobe).name == "cosine"
-             ? closed_form(info(highlight.model).name, float(highlight.exponent))
-             : by_quadrature(highlight);
+  const truth::ModelRow& model = truth::model_row(highlight.model);
+  if (info(highlight.lobe).name != "cosine") return by_quadrature(highlight, model);
+  const auto* const form = std::ranges::find(kClosedForms, model.name, &ClosedForm::model);
+  return form == std::end(kClosedForms) ? by_quadrature(highlight, model)
+                                        : form->coefficient(float(highlight.exponent));
 }
 
 }  // namespace lobelia::stability::naive

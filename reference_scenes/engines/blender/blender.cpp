@@ -5,7 +5,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
-#include "records/record.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/blender/blender_session.hpp"
 #include "reference_scenes/preparation.hpp"
@@ -18,8 +17,8 @@ extern const std::string_view render_scenes_py, blender_formulas_py, blender_sur
 namespace {
 namespace fs = std::filesystem;
 
-/// Of a release as it is unpacked, and of a package: "3.4" beside the program, or ../share/blender. The Python of a
-/// release is none of it: what our script uses of that decides no pixel.
+/// The scripts and data of Blender: "3.4" beside the program in an unpacked release, ../share/blender in a package. Without
+/// the release's Python, which decides no pixel.
 std::vector<fs::path> blender_directories(const fs::path& program, std::string_view version) {
   std::error_code ignored;
   const fs::path place = fs::weakly_canonical(program, ignored).parent_path();
@@ -81,24 +80,16 @@ void write_blender_scripts(const fs::path& directory) {
   write_file(directory / "blender_scene.py", embedded::blender_scene_py);
 }
 
-BlenderJob empty_blender_job(int threads, const ReferenceOptions& options) {
-  BlenderJob job;
-  job.threads = threads;
-  job.seconds_per_scene = options.time_limit.count();
-  return job;
-}
-
 std::unique_ptr<Engine> make_blender(const fs::path& program) {
   return std::make_unique<Blender>(program);
 }
 
 void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
                         const fs::path& directory) {
-  BlenderJob job = empty_blender_job(threads_of({}), {});
-  job.scenes.push_back(
-      blender_input(in_engine_units(scene), "scene0", options.shading == Shading::kNative));
+  const BlenderScene input =
+      blender_input(in_engine_units(scene), "scene0", options.shading == Shading::kNative);
   write_blender_scripts(directory);
-  write_file(directory / kBlenderJobFile, records::record_text(job));
+  write_file(directory / kBlenderJobFile, blender_job(threads_of({}), {}, input, false));
   write_file(directory / "blender.sh", shell_join(blender_arguments("blender", "")) + "\n");
 }
 

@@ -1,63 +1,70 @@
-"""The coefficients and lobes, written from their formulas and not from Lobelia's source, so that a mistake there
-shows as a difference of pictures."""
+"""The models and lobes, written from their formulas and not from Lobelia's source, so that a mistake there shows as a
+difference of pictures. A model or a lobe is one entry here."""
 
 import math
 import re
+from collections import namedtuple
 
-REFLECTION_MODELS = ("phong_rdf", "modified_phong")
-HALF_VECTOR_MODELS = ("blinn_phong_rdf", "modified_blinn_phong",
-                      "blinn_phong_ndf", "blinn_phong_heightfield")
-RDF_MODELS = ("phong_rdf", "blinn_phong_rdf")  # their radiance has no factor N.L
+# is_rdf: its radiance has no factor N.L. part: the lobe's angle is so much of the angle x that is integrated over.
+# by_cosine: cos x is a weight. factor: a microfacet distribution D reflects D/4. cosine: the coefficient of cos^n, in
+# closed form, with tail = 2^(-n/2). cs16: the one that the paper prints. misprint: of the paper's coefficient of cos^n.
+Model = namedtuple("Model", "half_vector is_rdf part by_cosine factor cosine cs16 misprint",
+                   defaults=(1,))
+MODELS = {
+    "phong_rdf": Model(False, True, 1.0, False, 1,
+                       lambda n, tail: (n + 1) / (2 * math.pi),
+                       lambda n: 1.063 * n / (2 * math.pi)),
+    "modified_phong": Model(False, False, 1.0, True, 1,
+                            lambda n, tail: (n + 2) / (2 * math.pi),
+                            lambda n: (1.063 * n + 1) / (2 * math.pi)),
+    "blinn_phong_rdf": Model(True, True, 0.5, False, 1,
+                             lambda n, tail: (n + 2) / (4 * math.pi * (2 - tail)),
+                             lambda n: (1.068 * n + 0.96) / (8 * math.pi)),
+    # The paper prints 4 pi instead of 8 pi, and so twice the energy.
+    "modified_blinn_phong": Model(True, False, 0.5, True, 1,
+                                  lambda n, tail: (n + 2) * (n + 4) / (8 * math.pi * (tail + n)),
+                                  lambda n: (1.027 * n + 4.8) / (8 * math.pi), misprint=2),
+    "blinn_phong_ndf": Model(True, False, 1.0, False, 4,
+                             lambda n, tail: (n + 1) / (8 * math.pi),
+                             lambda n: 1.063 * n / (8 * math.pi)),
+    "blinn_phong_heightfield": Model(True, False, 1.0, True, 4,
+                                     lambda n, tail: (n + 2) / (8 * math.pi),
+                                     lambda n: (1.063 * n + 1) / (8 * math.pi)),
+}
+
+# At s = 1 - cos(angle) below 1: its value; the same as shader nodes; and the s where it ends or has fallen to 4e-18. k is
+# the order of a family.
+Lobe = namedtuple("Lobe", "value node reach")
+LOBES = {
+    "cosine": Lobe(None, lambda nodes, s, n, k: nodes.cosine_lobe(s, n), None),
+    # cos^k for another s.
+    "cs": Lobe(lambda s, n, k: max(0.0, 1 - n * s / k) ** k,
+               lambda nodes, s, n, k: nodes.cosine_lobe(nodes.math("MULTIPLY", n / k, s), k),
+               lambda n, k: k / n),
+    "spherical_gaussian": Lobe(
+        lambda s, n, k: math.exp(-n * s),
+        lambda nodes, s, n, k: nodes.math("EXPONENT", nodes.math("MULTIPLY", -n, s)),
+        lambda n, k: 40 / n),
+    "gauss": Lobe(
+        lambda s, n, k: math.exp(-2 * n * math.asin(math.sqrt(s / 2)) ** 2),
+        lambda nodes, s, n, k: nodes.math(
+            "EXPONENT", nodes.math("MULTIPLY", -n, nodes.half_square_of_angle(s))),
+        lambda n, k: 40 / n),
+    "schlick": Lobe(lambda s, n, k: (1 - s) / (1 - s + n * s),
+                    lambda nodes, s, n, k: schlick_node(nodes, s, n),
+                    lambda n, k: 1.0),
+}
 
 
-def cosine_exact(model, n):
-    """1 over the integral, times 2 pi, of cos^n with the weight that the model has; a microfacet
-    distribution D (the last two) reflects D/4."""
-    tail = 2.0 ** (-n / 2)
-    return {
-        "phong_rdf": (n + 1) / (2 * math.pi),
-        "modified_phong": (n + 2) / (2 * math.pi),
-        "blinn_phong_rdf": (n + 2) / (4 * math.pi * (2 - tail)),
-        "modified_blinn_phong": (n + 2) * (n + 4) / (8 * math.pi * (tail + n)),
-        "blinn_phong_ndf": (n + 1) / (8 * math.pi),
-        "blinn_phong_heightfield": (n + 2) / (8 * math.pi),
-    }[model]
+def schlick_node(nodes, s, n):
+    c = nodes.math("MAXIMUM", nodes.math("SUBTRACT", 1.0, s), 0.0)
+    return nodes.math("DIVIDE", c, nodes.math("ADD", c, nodes.math("MULTIPLY", n, s)))
 
 
-def cosine_paper(model, n):
-    """The paper prints 4 pi instead of 8 pi in one row, and so twice the energy."""
-    misprint = 2 if model == "modified_blinn_phong" else 1
-    return misprint * cosine_exact(model, n)
-
-
-def cs16_paper(model, n):
-    return {
-        "phong_rdf": 1.063 * n / (2 * math.pi),
-        "modified_phong": (1.063 * n + 1) / (2 * math.pi),
-        "blinn_phong_rdf": (1.068 * n + 0.96) / (8 * math.pi),
-        "modified_blinn_phong": (1.027 * n + 4.8) / (8 * math.pi),
-        "blinn_phong_ndf": 1.063 * n / (8 * math.pi),
-        "blinn_phong_heightfield": (1.063 * n + 1) / (8 * math.pi),
-    }[model]
-
-
-def order_of(lobe):
-    """The k of a lobe cs_k, or None."""
-    return int(lobe[2:]) if re.fullmatch("cs[0-9]+", lobe) else None
-
-
-def lobe_value(lobe, s, n):
-    """Of s = 1 - cos(angle) below 1."""
-    k = order_of(lobe)
-    if k:
-        return max(0.0, 1 - n * s / k) ** k
-    if lobe == "spherical_gaussian":
-        return math.exp(-n * s)
-    if lobe == "gauss":
-        return math.exp(-2 * n * math.asin(math.sqrt(s / 2)) ** 2)
-    if lobe == "schlick":
-        return (1 - s) / (1 - s + n * s)
-    raise KeyError(lobe)
+def find_lobe(name):
+    """The lobe and its order; cs16 is the family cs with k = 16."""
+    family = re.fullmatch("(cs)([0-9]+)", name)
+    return (LOBES[family[1]], int(family[2])) if family else (LOBES[name], None)
 
 
 def integral(f, end):
@@ -71,32 +78,28 @@ def integral(f, end):
     return total * end * step
 
 
-def exact(model, lobe, n):
-    """1 over 2 pi times the integral of the lobe over the angle x = 0..pi/2, with the model's weight; a
-    microfacet distribution D (the last two) reflects D/4."""
-    if lobe == "cosine":
-        return cosine_exact(model, n)
-    part, cosine, factor = {   # the lobe's angle in terms of x; whether cos x is a weight
-        "phong_rdf": (1.0, False, 1),
-        "modified_phong": (1.0, True, 1),
-        "blinn_phong_rdf": (0.5, False, 1),
-        "modified_blinn_phong": (0.5, True, 1),
-        "blinn_phong_ndf": (1.0, False, 4),
-        "blinn_phong_heightfield": (1.0, True, 4),
-    }[model]
-    # Where the lobe ends or has fallen to 4e-18, in s; Schlick's reaches to the horizon.
-    reach = {"schlick": 1.0}.get(lobe, (order_of(lobe) or 40) / n)
-    end = min(math.pi / 2, 2 * math.asin(math.sqrt(min(1.0, reach) / 2)) / part)
+def coefficient(model, lobe_name, n):
+    """1 over 2 pi times the integral of the lobe over the angle x = 0..pi/2, with the model's weight."""
+    if lobe_name == "cosine":
+        return model.cosine(n, 2.0 ** (-n / 2))
+    lobe, k = find_lobe(lobe_name)
+    end = min(math.pi / 2,
+              2 * math.asin(math.sqrt(min(1.0, lobe.reach(n, k)) / 2)) / model.part)
 
     def integrand(x):
-        s = 2 * math.sin(part * x / 2) ** 2
-        return lobe_value(lobe, s, n) * math.sin(x) * (math.cos(x) if cosine else 1)
+        s = 2 * math.sin(model.part * x / 2) ** 2
+        weight = math.cos(x) if model.by_cosine else 1
+        return lobe.value(s, n, k) * math.sin(x) * weight
 
-    return 1 / (2 * math.pi * factor * integral(integrand, end))
+    return 1 / (2 * math.pi * model.factor * integral(integrand, end))
 
 
 def coefficient_of(material):
-    model, lobe, n = material["model"], material["lobe"], material["exponent"]
-    if material["normalisation"] == "paper":
-        return {"cosine": cosine_paper, "cs16": cs16_paper}[lobe](model, n)
-    return exact(model, lobe, n)
+    model, lobe, n = MODELS[material["model"]], material["lobe"], material["exponent"]
+    if material["normalisation"] != "paper":
+        return coefficient(model, lobe, n)
+    if lobe == "cs16":
+        return model.cs16(n)
+    if lobe == "cosine":
+        return model.misprint * coefficient(model, lobe, n)
+    raise KeyError(lobe)

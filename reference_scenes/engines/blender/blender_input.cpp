@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -11,59 +12,62 @@
 #include "renderer/scene/contact.hpp"
 
 namespace lobelia {
+namespace embedded {
+extern const std::string_view blender_formulas_py;
+}
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kMostSeed = 0x7fffffff;  // of Blender
 constexpr int kSmallestSide = 4;  // Blender's own limit; it would render a larger picture instead
 
-/// What render_scenes.py has formulas for, besides cs_k for every k.
-constexpr std::string_view kModels[] = {"phong_rdf",       "modified_phong",
-                                        "blinn_phong_rdf", "modified_blinn_phong",
-                                        "blinn_phong_ndf", "blinn_phong_heightfield"};
-constexpr std::string_view kLobes[] = {"cosine", "spherical_gaussian", "gauss", "schlick"};
-
-void require_known(std::span<const std::string_view> known, std::string_view name) {
-  if (std::ranges::find(known, name) == known.end())
+/// Its tables of models and lobes are keyed by their names, and so tell what it has.
+void require_formula(const std::string& name) {
+  if (embedded::blender_formulas_py.find(fmt::format("\n    \"{}\": ", name)) ==
+      std::string_view::npos)
     throw Error(ExitCode::kEngine,
-                fmt::format("render_scenes.py has no '{}' for Blender to render", name));
+                fmt::format("blender_formulas.py has no '{}' for Blender to render", name));
 }
 
-std::array<double, 3> numbers(Vec3 v) { return {v.x, v.y, v.z}; }
-std::array<double, 3> numbers(Rgb c) { return {c.r, c.g, c.b}; }
+Json json(Vec3 v) { return {v.x, v.y, v.z}; }
+Json json(Rgb c) { return {c.r, c.g, c.b}; }
 
-BlenderLight light_input(const Lamp& lamp) {
-  BlenderLight input;
-  if (lamp.is_distant) {
-    input.kind = "directional";
-    input.direction = numbers(lamp.direction);
-    input.irradiance = numbers(lamp.strength);
-    return input;
-  }
-  input.kind = "point";
-  input.position = numbers(lamp.position);
-  input.intensity = numbers(lamp.strength);
-  input.normal = numbers(lamp.normal);
-  return input;
+Json light_json(const Lamp& lamp) {
+  if (lamp.is_distant)
+    return {{"kind", "directional"},
+            {"direction", json(lamp.direction)},
+            {"irradiance", json(lamp.strength)}};
+  return {{"kind", "point"},
+          {"position", json(lamp.position)},
+          {"intensity", json(lamp.strength)},
+          {"normal", json(lamp.normal)}};
 }
 
-BlenderMaterial material_input(const Material& material) {
+Json material_json(const Material& material) {
   const Highlight& highlight = material.highlight;
-  require_known(kModels, info(highlight.model).name);
-  if (highlight.lobe.order == 0) require_known(kLobes, info(highlight.lobe).name);
-  return {std::string(info(highlight.model).name),    std::string(info(highlight.lobe).name),
-          std::string(name(highlight.normalisation)), highlight.exponent,
-          std::string(name(material.fresnel)),        numbers(material.specular_reflectance),
-          numbers(material.diffuse_reflectance),      numbers(material.mirror_reflectance)};
+  const std::string model(info(highlight.model).name), lobe(info(highlight.lobe).name);
+  require_formula(model);
+  // A family's has no order.
+  require_formula(lobe.substr(0, lobe.find_last_not_of("0123456789") + 1));
+  return {{"model", model},
+          {"lobe", lobe},
+          {"normalisation", name(highlight.normalisation)},
+          {"exponent", highlight.exponent},
+          {"fresnel", name(material.fresnel)},
+          {"specular", json(material.specular_reflectance)},
+          {"diffuse", json(material.diffuse_reflectance)},
+          {"mirror", json(material.mirror_reflectance)}};
 }
 
-BlenderPlane plane_input(const Plane& plane) {
+Json plane_json(const Plane& plane) {
   const Tangents along = tangents(plane.normal);
-  return {numbers(plane.point), numbers(along.first),   numbers(along.second),
-          plane.material,       plane.checker_material, plane.checker_size};
-}
-
-std::array<double, 3> vector_of(const Light& light, std::string_view parameter) {
-  return numbers(std::get<Vec3>(value_of(light, parameter)));
+  return {{"point", json(plane.point)},
+          {"u", json(along.first)},
+          {"v", json(along.second)},
+          {"material", plane.material},
+          {"checkerMaterial", plane.checker_material},
+          {"checkerSize", plane.checker_size}};
 }
 
 bool is_rectangle(const Light& light) {
@@ -72,54 +76,55 @@ bool is_rectangle(const Light& light) {
   });
 }
 
-BlenderLight rectangle_input(const Light& light) {
-  BlenderLight input;
-  input.kind = "rectangle";
-  input.center = vector_of(light, "center");
-  input.half_u = vector_of(light, "half_u");
-  input.half_v = vector_of(light, "half_v");
-  input.radiance = numbers(strength(light));
-  return input;
+Json rectangle_json(const Light& light) {
+  const auto vector = [&](const char* name) { return json(std::get<Vec3>(value_of(light, name))); };
+  return {{"kind", "rectangle"},
+          {"center", vector("center")},
+          {"halfU", vector("half_u")},
+          {"halfV", vector("half_v")},
+          {"radiance", json(strength(light))}};
 }
 
-BlenderLight sky_input(const Light& light, const std::string& scene) {
-  BlenderLight input;
-  input.kind = "environment";
-  input.radiance = numbers(strength(light));
-  if (picture_of(light)) input.file = sky_file(scene);
-  return input;
+Json sky_json(const Light& light, const std::string& scene) {
+  Json sky{{"kind", "environment"}, {"radiance", json(strength(light))}};
+  if (picture_of(light)) sky["file"] = sky_file(scene);
+  return sky;
 }
 
 /// All but the lights and passes.
-BlenderScene common_input(const Scene& scene, const std::string& name) {
+Json scene_json(const Scene& scene, const std::string& name) {
   if (std::min(scene.film.width, scene.film.height) < kSmallestSide)
     throw Error(ExitCode::kEngine,
                 fmt::format("Blender renders no picture below {0} x {0} pixels", kSmallestSide));
-  BlenderScene input;
-  input.name = name;
-  input.width = scene.film.width;
-  input.height = scene.film.height;
   const Camera& camera = scene.camera;
-  input.camera = {numbers(camera.origin),
-                  numbers(camera.target),
-                  numbers(camera.up),
-                  camera.fov_degrees,
-                  {camera.principal_point_offset_x, camera.principal_point_offset_y}};
+  Json result{{"name", name},
+              {"width", scene.film.width},
+              {"height", scene.film.height},
+              {"camera",
+               {{"origin", json(camera.origin)},
+                {"target", json(camera.target)},
+                {"up", json(camera.up)},
+                {"fovDegrees", camera.fov_degrees},
+                {"offset", {camera.principal_point_offset_x, camera.principal_point_offset_y}}}}};
+  for (const char* list : {"lights", "materials", "spheres", "planes"})
+    result[list] = Json::array();
   for (const Material& material : scene.materials)
-    input.materials.push_back(material_input(material));
+    result["materials"].push_back(material_json(material));
   for (const Sphere& sphere : scene.spheres)
-    input.spheres.push_back({numbers(sphere.center), sphere.radius, sphere.material});
-  for (const Plane& plane : scene.planes) input.planes.push_back(plane_input(plane));
-  return input;
+    result["spheres"].push_back({{"center", json(sphere.center)},
+                                 {"radius", sphere.radius},
+                                 {"material", sphere.material}});
+  for (const Plane& plane : scene.planes) result["planes"].push_back(plane_json(plane));
+  return result;
 }
 
 /// A picture for each light, straight and by each number of mirrors: Cycles would choose at random between
 /// a mirror and what it lies on.
-std::vector<BlenderPass> passes_of(const Scene& scene) {
-  std::vector<BlenderPass> passes;
+Json passes_json(const Scene& scene) {
+  Json passes = Json::array();
   for (std::size_t light = 0; light < scene.lights.size(); ++light)
     for (int mirrors = 0; mirrors <= (has_mirror(scene) ? scene.depth.mirror : 0); ++mirrors)
-      passes.push_back({light, mirrors});
+      passes.push_back({{"light", light}, {"mirrors", mirrors}});
   return passes;
 }
 
@@ -148,25 +153,36 @@ std::string why_not_for_cycles_transport(const Scene& scene) {
 }
 
 BlenderScene blender_input(const Scene& scene, const std::string& name, bool native) {
-  BlenderScene input = common_input(scene, name);
+  Json input = scene_json(scene, name);
   const Contacts contacts = find_contacts(scene);
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    input.lights.push_back(light_input(lamp_of(scene.lights[l])));
-    input.lights.back().lies_on = contacts[l];
+    Json& light = input["lights"].emplace_back(light_json(lamp_of(scene.lights[l])));
+    if (!contacts[l].empty()) light["liesOn"] = contacts[l];
   }
-  input.native = native;
-  input.passes = passes_of(scene);
-  return input;
+  input["native"] = native;
+  input["passes"] = passes_json(scene);
+  return {name, input["passes"].size(), input.dump()};
 }
 
 BlenderScene cycles_transport_input(const Scene& scene, const std::string& name) {
-  BlenderScene input = common_input(scene, name);
+  Json input = scene_json(scene, name);
   for (const Light& light : scene.lights)
-    input.lights.push_back(is_environment(light) ? sky_input(light, name) : rectangle_input(light));
-  input.passes = {{}};
-  input.transport =
-      BlenderTransport{scene.sampler.sample_count, scene.sampler.seed, scene.depth.glossy};
-  return input;
+    input["lights"].push_back(is_environment(light) ? sky_json(light, name)
+                                                    : rectangle_json(light));
+  input["passes"] = {{{"light", 0}, {"mirrors", 0}}};
+  input["transport"] = {{"samples", scene.sampler.sample_count},
+                        {"seed", scene.sampler.seed},
+                        {"bounces", scene.depth.glossy}};
+  return {name, 1, input.dump()};
+}
+
+std::string blender_job(int threads, const ReferenceOptions& options, const BlenderScene& scene,
+                        bool go_on) {
+  Json job{{"threads", threads},
+           {"secondsPerScene", options.time_limit.count()},
+           {"scenes", Json::array({Json::parse(scene.json)})}};
+  if (go_on) job["goOn"] = true;
+  return job.dump(go_on ? -1 : 2) + "\n";
 }
 
 }  // namespace lobelia

@@ -21,7 +21,6 @@
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
-#include "records/record.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/blender/blender.hpp"
 #include "reference_scenes/preparation.hpp"
@@ -54,23 +53,22 @@ Failure read_passes(const fs::path& directory, const std::string& name, const Sc
   return {};
 }
 
-/// Two ends of a line: ours, and that which a program has as its stdin.
-class Line {
+/// Our end, and the one that a program has as its stdin.
+class SocketPair {
  public:
-  Line() {
+  SocketPair() {
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends_) != 0)
       throw Error(ExitCode::kEngine, fmt::format("no socket: {}", std::strerror(errno)));
   }
-  ~Line() {
+  ~SocketPair() {
     for (const int end : ends_) ::close(end);
   }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-  int theirs() const { return ends_[1]; }
-  /// A few words, which never have to wait for anyone to read them. One who has gone will be missed soon.
-  void say(std::string_view words) { ::send(ends_[0], words.data(), words.size(), MSG_NOSIGNAL); }
-  /// Nothing more to say.
-  void end() { ::shutdown(ends_[0], SHUT_WR); }
+  SocketPair(const SocketPair&) = delete;
+  SocketPair& operator=(const SocketPair&) = delete;
+  int program_end() const { return ends_[1]; }
+  /// Few enough bytes that it never waits. A program that has ended is noticed elsewhere.
+  void send(std::string_view words) { ::send(ends_[0], words.data(), words.size(), MSG_NOSIGNAL); }
+  void close() { ::shutdown(ends_[0], SHUT_WR); }
 
  private:
   int ends_[2];
@@ -207,7 +205,7 @@ class Worker {
   }
 
  private:
-  /// Of which Blender says that it is done.
+  /// A scene that Blender has rendered.
   struct Done {
     OrderPointer order;
     EngineLog log;
@@ -220,11 +218,9 @@ class Worker {
   /// Whatever happens, fewer scenes wait afterwards, or the given one does again after others were done.
   void run_process() {
     write_sky();
-    BlenderJob job = empty_blender_job(given_->threads, options_);
     threads_ = given_->threads;
-    job.scenes.push_back(given_->input);
-    job.go_on = true;
-    write_file(directory_.path() / kBlenderJobFile, records::record_line(job));
+    write_file(directory_.path() / kBlenderJobFile,
+               blender_job(threads_, options_, given_->input, true));
 
     const std::string program = queue_.status.program.string();
     // The temporary directory is of no use to a reader, and would make every record differ.
@@ -234,7 +230,7 @@ class Worker {
     begun_ = false;
     started_ = Clock::now();
     cpu_told_ = 0;
-    Line line;
+    SocketPair line;
     line_ = &line;
     ProcessOptions process;
     process.working_directory = process.writable = process.progress_directory = directory_.path();
@@ -245,7 +241,7 @@ class Worker {
     process.timeout = 2 * options_.time_limit;
     process.no_progress_limit = options_.no_progress_limit;
     process.stop = &queue_.stop;
-    process.input = line.theirs();
+    process.input = line.program_end();
     process.on_line = [&](std::string_view text) { take_line(text); };
     ProcessResult ended;
     Failure failure = run_engine(kBlenderInfo, blender_arguments(program, directory_.path()),
@@ -280,7 +276,7 @@ class Worker {
         write_exr(directory_.path() / sky_file(given_->input.name), *picture, {});
   }
 
-  /// What it throws (a full disk, say) ends Blender and comes out of run_process.
+  /// An exception from here (a full disk, say) ends Blender and comes out of run_process.
   void take_line(std::string_view line) {
     log_.add(line);
     clock_.take(line);
@@ -341,10 +337,10 @@ class Worker {
       }
       if (given_) {
         write_sky();
-        write_file(directory_.path() / kNextFile, records::record_line(given_->input));
-        line_->say(std::string(kNextFile) + "\n");
+        write_file(directory_.path() / kNextFile, given_->input.json);
+        line_->send(std::string(kNextFile) + "\n");
       } else {
-        line_->end();
+        line_->close();
       }
     }
     report_done();
@@ -355,7 +351,7 @@ class Worker {
     if (!done_) return;
     const Done& done = *done_;
     const Scene& scene = done.order->scene;
-    const std::size_t passes = done.order->input.passes.size();
+    const std::size_t passes = done.order->input.passes;
     remove_in_temporary_directory(directory_.path() / sky_file(done.order->input.name));
     ReferenceResult result;
     if (const Failure failure =
@@ -406,12 +402,12 @@ class Worker {
   OrderPointer given_;        ///< to the process, and not done
   bool current_ = false;      ///< it has begun that one
   std::optional<Done> done_;  ///< not yet read
-  // Of the process at work:
+  // The process at work:
   bool begun_ = false;  ///< any scene
   int threads_ = 0;
   Clock::time_point started_;
   double cpu_told_ = 0;
-  Line* line_ = nullptr;
+  SocketPair* line_ = nullptr;
   std::string command_;
   ProcessLimits limits_;
   // Since its last scene:

@@ -21,8 +21,6 @@ std::vector<std::string> blender_arguments(const std::string& program,
                                            const std::filesystem::path& directory);
 /// render_scenes.py and the modules that it imports.
 void write_blender_scripts(const std::filesystem::path& directory);
-/// Without scenes.
-BlenderJob empty_blender_job(int threads, const ReferenceOptions& options);
 
 std::unique_ptr<SimpleSession> open_blender(const EngineStatus& status,
                                             const ReferenceOptions& options);

@@ -4,8 +4,7 @@ import math
 
 import bpy
 
-from blender_formulas import (HALF_VECTOR_MODELS, RDF_MODELS, REFLECTION_MODELS, coefficient_of,
-                              order_of)
+from blender_formulas import MODELS, coefficient_of, find_lobe
 
 
 class Nodes:
@@ -71,20 +70,8 @@ class Nodes:
         return self.math("MULTIPLY", 2.0, self.math("MULTIPLY", half, half))
 
     def lobe(self, name, s, n):
-        k = order_of(name)
-        if name == "cosine":
-            value = self.cosine_lobe(s, n)
-        elif k:  # (1 - n s / k)^k is cos^k for another s
-            value = self.cosine_lobe(self.math("MULTIPLY", n / k, s), k)
-        elif name == "spherical_gaussian":
-            value = self.math("EXPONENT", self.math("MULTIPLY", -n, s))
-        elif name == "gauss":
-            value = self.math("EXPONENT", self.math("MULTIPLY", -n, self.half_square_of_angle(s)))
-        elif name == "schlick":
-            c = self.math("MAXIMUM", self.math("SUBTRACT", 1.0, s), 0.0)
-            value = self.math("DIVIDE", c, self.math("ADD", c, self.math("MULTIPLY", n, s)))
-        else:
-            raise KeyError(name)
+        lobe, order = find_lobe(name)
+        value = lobe.node(self, s, n, order)
         # Every lobe ends at 90 degrees.
         return self.math("MULTIPLY", value, self.math("LESS_THAN", s, 1.0))
 
@@ -138,21 +125,19 @@ class Surface(Nodes):
 
     def highlight(self, material):
         """The colour of a diffuse surface that looks like the material's highlight and base."""
-        model, n = material["model"], material["exponent"]
-        if model in REFLECTION_MODELS:
+        model, n = MODELS[material["model"]], material["exponent"]
+        if not model.half_vector:
             twice = self.math("MULTIPLY", 2.0, self.vector("DOT_PRODUCT", self.normal, self.to_eye))
             mirrored = self.vector("SUBTRACT", self.vector("SCALE", self.normal, scale=twice),
                                    self.to_eye)
             s = self.one_minus_cos(mirrored, self.to_light)
-        elif model in HALF_VECTOR_MODELS:
+        else:
             half = self.vector("NORMALIZE", self.vector("ADD", self.to_light, self.to_eye))
             s = self.one_minus_cos(self.normal, half)
-        else:
-            raise KeyError(model)
 
         # Radiance = (specular lobe + diffuse/pi) N.L E, where an RDF's lobe is without the N.L.
         weight = self.lobe(material["lobe"], s, n)
-        if model in RDF_MODELS:
+        if model.is_rdf:
             # What Cycles multiplies is divided out; where N.L <= 0 it shows black in any case.
             n_dot_l = self.vector("DOT_PRODUCT", self.normal, self.to_light)
             weight = self.math("DIVIDE", weight, self.math("MAXIMUM", n_dot_l, 1e-7))
@@ -169,9 +154,9 @@ class Surface(Nodes):
         of the half-vector angle. Under a unit sun it shows
             (n + 1)/(8 pi) (N.H)^n N.L / ((H.V) max(N.L, N.V)):
         its colour takes out that geometry term, and puts in what the model has."""
-        model, n = material["model"], material["exponent"]
-        if model not in HALF_VECTOR_MODELS or material["lobe"] != "cosine":
-            raise KeyError(model + " " + material["lobe"])
+        model, n = MODELS[material["model"]], material["exponent"]
+        if not model.half_vector or material["lobe"] != "cosine":
+            raise KeyError(material["model"] + " " + material["lobe"])
         glossy = self.new("ShaderNodeBsdfGlossy")
         glossy.distribution = "ASHIKHMIN_SHIRLEY"
         glossy.inputs["Roughness"].default_value = (2/(n + 2))**0.25
@@ -180,7 +165,7 @@ class Surface(Nodes):
         both = self.vector("LENGTH", self.vector("ADD", self.to_light, self.to_eye))
         h_dot_v = self.math("MULTIPLY", 0.5, both)
         weight = self.math("MULTIPLY", h_dot_v, self.math("MAXIMUM", n_dot_l, n_dot_v))
-        if model in RDF_MODELS:
+        if model.is_rdf:
             weight = self.math("DIVIDE", weight, self.math("MAXIMUM", n_dot_l, 1e-7))
         weight = self.math("MULTIPLY", coefficient_of(material)*8*math.pi/(n + 1), weight)
         color = self.fresnel(material["fresnel"], material["specular"], h_dot_v)

@@ -69,7 +69,7 @@ double seconds_in(std::string_view line, std::string_view what) {
 /// Lets in so many processes that the processors are busy though each of them mostly sleeps.
 class Gate {
  public:
-  /// Of `most` processes at once.
+  /// For at most `most` processes at once.
   Gate(int processors, int most) : processors_(processors), most_(most) {}
   /// One process after the other. Those of large pictures keep the processors busy by themselves.
   class Visit {
@@ -204,7 +204,7 @@ void PovraySession::run_pov(PassResult& result, const Job& job, const PovrayPass
       result.failure.kind == FailureClass::kNoOutput && !words.empty())
     result.failure.message += ": " + words;
   if (result.failure) return;
-  // Of two passes the second shows half of what the first has left out.
+  // The second of two passes shows half of the first one's rounding.
   const bool first = result.image.pixel_count() == 0;
   if (first) result.image = Image(image.width(), image.height());
   for (std::size_t i = 0; i < image.values().size(); ++i) {

@@ -139,7 +139,7 @@ PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const P
   if (bound > 0)
     pass.gain = std::exp2(std::clamp(std::floor(std::log2(kHighestHalf / bound)),
                                      -double(kMaxGainStops), double(kMaxGainStops)));
-  // What is not said in the scene itself would be rounded to six digits by the command line.
+  // In the scene, because the command line rounds to six digits.
   pass.view = "#version 3.7;\n";
   for (const auto& include : input.includes)
     pass.view += fmt::format("#include \"{}\"\n", include.first);

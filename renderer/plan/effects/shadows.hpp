@@ -1,4 +1,4 @@
-// What stands between a surface and a light.
+// Surfaces between a surface and a light.
 #pragma once
 
 #include <fmt/format.h>

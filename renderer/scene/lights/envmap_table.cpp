@@ -62,7 +62,7 @@ EnvmapTable::EnvmapTable(std::shared_ptr<const Image> picture, Rgb scale)
   normalise(rows_);
 }
 
-/// Of one pixel in it.
+/// The solid angle of one pixel of the row.
 double EnvmapTable::row_solid_angle(int row) const {
   return 2 * kPi / width_ * (cosines_[std::size_t(row)] - cosines_[std::size_t(row) + 1]);
 }

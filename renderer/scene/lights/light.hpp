@@ -1,4 +1,4 @@
-// What the file of a light offers. Each light is one file in this folder and one line in catalogue.hpp.
+// The interface of a light. Each light is one file in this folder and one line in catalogue.hpp.
 //
 // A light is a plain structure of its parameters. Its file has the table of these parameters, which drives the
 // reader, the writer and the page of the scene format; where the light is; the lamps that stand for it in the
@@ -77,7 +77,7 @@ struct DirectionSample {
   Rgb radiance;    ///< that arrives along it
 };
 
-/// What an environment looks like in a direction, and the density with which it draws that direction.
+/// An environment's radiance in a direction, and the density with which it draws that direction.
 struct EnvironmentLook {
   Rgb radiance;
   double pdf;

@@ -1,4 +1,4 @@
-// What may be asked of any light. Nothing outside this folder asks which light it is.
+// Questions to any light. No code outside this folder asks which type it is.
 #pragma once
 
 #include <optional>

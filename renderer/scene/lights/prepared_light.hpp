@@ -15,12 +15,12 @@ namespace lobelia {
 struct LightSamples {
   Vec3Chunk to_light{};
   alignas(64) double distance[kChunk]{}, factor[kChunk]{};
-  /// What arrives instead of the light's strength, if that varies.
+  /// The radiance that arrives, if the light's varies.
   std::array<Rgb, kChunk> radiance;
 };
 
-/// What rays meet: the distance (infinite where they miss), and the density with which the light would
-/// have drawn their direction.
+/// Where rays meet a light: the distance (infinite if they miss it), and the density with which the light draws their
+/// direction.
 struct LightMeetings {
   alignas(64) double distance[kChunk]{}, pdf[kChunk]{};
 };
@@ -33,15 +33,15 @@ class PreparedLight {
   /// One direction for each point and pair (u, v) in [0, 1).
   virtual void sample(std::size_t count, const Vec3Chunk& point, const double* u, const double* v,
                       LightSamples& drawn) const = 0;
-  /// Of an area light. Rays run opposite to `to_eye`. Without `densities` only distances are computed.
+  /// For area lights. Rays run opposite to `to_eye`. Without `densities` only distances are computed.
   virtual void meet(std::size_t count, const Vec3Chunk& origin, const Vec3Chunk& to_eye,
                     bool densities, LightMeetings& met) const;
-  /// Of an environment.
+  /// For environments.
   virtual EnvironmentLook look(Vec3 direction) const;
 
   /// A random lamp. The average of such lamps is the light.
   virtual Lamp lamp(double u, double v) const = 0;
-  /// Of an area light: as AreaLight. Without the kernels above, for the references.
+  /// For area lights, as AreaLight. Without the kernels above, for the references.
   virtual double distance(Vec3 origin, Vec3 direction) const;
 };
 

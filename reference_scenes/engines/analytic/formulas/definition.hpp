@@ -6,7 +6,7 @@
 
 namespace lobelia {
 
-/// Of the cosine of the lobe's angle, in (0, 1].
+/// The lobe by its textbook definition. `cosine` of its angle is in (0, 1].
 template <class Number>
 Number lobe_definition(LobeId lobe, const Number& cosine, double exponent) {
   using Definition = Number (*)(LobeParameters, const Number&);

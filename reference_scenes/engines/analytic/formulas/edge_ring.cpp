@@ -9,8 +9,8 @@
 namespace lobelia::truth {
 namespace {
 
-/// What decides a pixel's shading but for smooth change, as one number: two different ones are the same by a
-/// chance of 2^-64.
+/// A hash of everything that makes a pixel's shading jump: surface, checker square, lights in sight. Two different situations
+/// have the same hash with a probability of 2^-64.
 class Situation {
  public:
   void note(std::uint64_t value) {

@@ -20,8 +20,9 @@ struct ModelRow {
   bool integral_has_cosine;  ///< cos x
   int parts;                 ///< radiance has this part of D: 4 for a distribution of normals
 };
-/// Throws Error(kInternal) for a model whose row is missing.
-const ModelRow& model_row(ModelId model);
+/// Throws Error(kInternal) for a model that has no row.
+const ModelRow& model_row(std::string_view model);
+inline const ModelRow& model_row(ModelId model) { return model_row(info(model).name); }
 
 /// Cosine of the angle that the model's lobe sees, for unit vectors.
 template <class Real>

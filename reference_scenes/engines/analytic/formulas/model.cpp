@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -19,14 +21,11 @@ constexpr ModelRow kRows[] = {
 
 }  // namespace
 
-const ModelRow& model_row(ModelId model) {
-  const std::string name(info(model).name);
-  const auto* const row =
-      std::find_if(std::begin(kRows), std::end(kRows), [&](auto& r) { return r.name == name; });
+const ModelRow& model_row(std::string_view model) {
+  const auto* const row = std::ranges::find(kRows, model, &ModelRow::name);
   if (row == std::end(kRows))
-    throw Error(
-        ExitCode::kInternal,
-        "reference_scenes/engines/analytic/formulas/model.cpp has no row for the model " + name);
+    throw Error(ExitCode::kInternal,
+                fmt::format("formulas/model.cpp has no row for the model '{}'", model));
   return *row;
 }
 

@@ -14,7 +14,7 @@
 
 namespace lobelia::truth {
 
-/// What a ray meets. The normal is on the ray's side.
+/// The surface that a ray meets. The normal is on the ray's side.
 template <class Real>
 struct Met {
   int surface = -1;  ///< spheres first, then planes
@@ -36,7 +36,7 @@ class Tracer {
  public:
   using V = Vector<Real>;
 
-  /// Of a scene that lives longer, without what why_not_evaluated() names.
+  /// `scene` must outlive it, and why_not_evaluated() must be empty for it.
   explicit Tracer(const Scene& scene);
 
   /// Calls visit(met) for what the ray through (x, y) of the film, in pixels from its upper left corner,

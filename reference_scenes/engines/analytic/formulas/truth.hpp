@@ -1,6 +1,5 @@
-// What a highlight is, in 50 digits and by other means than the renderer's: textbook formulas of the cosine
-// itself, the paper's integrals over the angle by quadrature, rays meeting spheres by the quadratic
-// formula. Slow, and rounded to double at the very end.
+// Ground truth for highlights, in 50 digits and by other means than the renderer's: textbook formulas of the cosine, the
+// paper's integrals by quadrature, and the quadratic formula for rays and spheres. Slow, and rounded to double at the end.
 #pragma once
 
 #include <functional>

@@ -1,0 +1,298 @@
+// Adds a throw-away lobe, model, metric, light, effect, engine, view and command to a copy of the tree, by exactly the
+// files that CONTRIBUTING.md names, builds it and sees each of them work. What is added is a copy of a neighbour under
+// another name, so that this test need not know the interfaces.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <regex>
+#include <set>
+
+#include "lobelia_paths.hpp"
+#include "tests/house/tree.hpp"
+
+namespace house {
+namespace {
+
+using ::testing::HasSubstr;
+
+const fs::path kRoot = LOBELIA_SOURCE_DIR;
+
+/// Text in place of text, in a file that is copied or in one that gets a line more.
+using Renames = std::vector<std::pair<std::string, std::string>>;
+
+std::string renamed(std::string text, const Renames& renames) {
+  for (const auto& [from, to] : renames) {
+    std::size_t at = 0;
+    while ((at = text.find(from, at)) != text.npos) {
+      text.replace(at, from.size(), to);
+      at += to.size();
+    }
+  }
+  return text;
+}
+
+/// One thing more in a copy of the tree.
+class Addition {
+ public:
+  Addition(const fs::path& tree, std::string what) : tree_(tree), what_(std::move(what)) {}
+
+  /// NAME in CONTRIBUTING.md stands for the added one.
+  void copy(const std::string& from, const std::string& name, const Renames& renames) {
+    std::string to = name;
+    while (to.find("NAME") != to.npos) to.replace(to.find("NAME"), 4, "throwaway");
+    ASSERT_FALSE(fs::exists(tree_ / to)) << to;
+    write(tree_ / to, renamed(read(tree_ / from), renames));
+    files_.insert(name);
+  }
+  /// Puts `more` behind a text of the file, which CONTRIBUTING.md may name as one of many.
+  void list(const std::string& file, const std::string& after, const std::string& more,
+            const std::string& named = "") {
+    std::string text = read(tree_ / file);
+    const std::size_t at = text.find(after);
+    ASSERT_NE(at, text.npos) << file << ": " << after;
+    text.insert(at + after.size(), more);
+    write(tree_ / file, text);
+    files_.insert(named.empty() ? file : named);
+  }
+  /// The files of the row in CONTRIBUTING.md, "| a lobe | `...`, `...` |".
+  void expect_as_documented() const {
+    for (const std::string& line : lines(read(tree_ / "CONTRIBUTING.md"))) {
+      if (!line.starts_with("| " + what_ + " |")) continue;
+      static const std::regex span("`([^`]+)`");
+      std::set<std::string> named;
+      for (std::sregex_iterator it(line.begin(), line.end(), span), end; it != end; ++it)
+        named.insert((*it)[1]);
+      EXPECT_EQ(files_, named) << what_;
+      return;
+    }
+    ADD_FAILURE() << "CONTRIBUTING.md has no row for " << what_;
+  }
+
+ private:
+  const fs::path& tree_;
+  std::string what_;
+  std::set<std::string> files_;
+};
+
+void add_lobe(const fs::path& tree) {
+  const Renames renames{
+      {"schlick", "throwaway"}, {"Schlick", "Throwaway"}, {"SCHLICK", "THROWAWAY"}};
+  Addition lobe(tree, "a lobe");
+  lobe.copy("renderer/lobes/schlick.hpp", "renderer/lobes/NAME.hpp", renames);
+  lobe.list("renderer/lobes/catalogue.hpp", "schlick.hpp\"\n",
+            "#include \"renderer/lobes/throwaway.hpp\"\n");
+  lobe.list("renderer/lobes/catalogue.hpp", "SchlickLobe", ", ThrowawayLobe");
+  lobe.copy("shaders/povray/lobes/schlick.inc", "shaders/povray/lobes/NAME.inc", renames);
+  lobe.list("reference_scenes/engines/blender/blender_formulas.py", "LOBES = {\n",
+            "    \"throwaway\": Lobe(lambda s, n, k: (1 - s) / (1 - s + n * s),\n"
+            "                      lambda nodes, s, n, k: schlick_node(nodes, s, n),\n"
+            "                      lambda n, k: 1.0),\n");
+  lobe.expect_as_documented();
+}
+
+void add_model(const fs::path& tree) {
+  const Renames renames{{"modified_phong", "throwaway"},
+                        {"ModifiedPhong", "Throwaway"},
+                        {"Modified_Phong", "Throwaway"},
+                        {"MODIFIED_PHONG", "THROWAWAY"}};
+  Addition model(tree, "a model");
+  model.copy("renderer/models/modified_phong.hpp", "renderer/models/NAME.hpp", renames);
+  model.list("renderer/models/catalogue.hpp", "modified_phong.hpp\"\n",
+             "#include \"renderer/models/throwaway.hpp\"\n");
+  model.list("renderer/models/catalogue.hpp", "TypeList<PhongRdf, ModifiedPhong", ", Throwaway");
+  model.copy("shaders/povray/models/modified_phong.inc", "shaders/povray/models/NAME.inc", renames);
+  model.list("reference_scenes/engines/blender/blender_formulas.py", "MODELS = {\n",
+             "    \"throwaway\": Model(False, False, 1.0, True, 1,\n"
+             "                       lambda n, tail: (n + 2) / (2 * math.pi),\n"
+             "                       lambda n: (1.063 * n + 1) / (2 * math.pi)),\n");
+  model.list("reference_scenes/engines/analytic/formulas/model.cpp", "kRows[] = {\n",
+             "    {\"throwaway\", kR, true, false, true, 1},\n");
+  model.expect_as_documented();
+}
+
+void add_metric(const fs::path& tree) {
+  Addition metric(tree, "a metric");
+  metric.copy("compare/metrics/relmse.cpp", "compare/metrics/NAME.cpp", {{"relmse", "throwaway"}});
+  metric.list("compare/metrics/catalogue.cpp", "#define LOBELIA_METRICS(METRIC) ",
+              "METRIC(throwaway) ");
+  metric.expect_as_documented();
+}
+
+void add_light(const fs::path& tree) {
+  Addition light(tree, "a light");
+  light.copy("renderer/scene/lights/constant.hpp", "renderer/scene/lights/NAME.hpp",
+             {{"\"constant\"", "\"throwaway\""},
+              {"ConstantLight", "ThrowawayLight"},
+              {"_CONSTANT_", "_THROWAWAY_"}});
+  light.list("renderer/scene/lights/catalogue.hpp", "sphere.hpp\"\n",
+             "#include \"renderer/scene/lights/throwaway.hpp\"\n");
+  light.list("renderer/scene/lights/catalogue.hpp", "ConstantLight", ", ThrowawayLight");
+  light.expect_as_documented();
+}
+
+void add_effect(const fs::path& tree) {
+  Addition effect(tree, "an effect of light");
+  effect.copy("renderer/plan/effects/ground.hpp", "renderer/plan/effects/NAME.hpp",
+              {{"struct Ground", "struct Throwaway"}, {"\"ground\"", "\"throwaway\""}});
+  effect.list("renderer/plan/effects/catalogue.hpp", "shadows.hpp\"\n",
+              "#include \"renderer/plan/effects/throwaway.hpp\"\n");
+  effect.list("renderer/plan/effects/catalogue.hpp", "effects::Ground", ", effects::Throwaway");
+  // What it does to rays is in one of the files there.
+  effect.list("renderer/waves/surfaces.cpp", "static constexpr Sphere kAnySphere{};\n",
+              "  if (prepared.plan.on<effects::Throwaway>())\n"
+              "    work.work.of<effects::Throwaway>() += wave.count;\n",
+              "renderer/waves/");
+  effect.list("cost/effects/without.cpp", "constexpr Switch kSwitches[] = {\n",
+              "    {effects::Throwaway::kName, \"nothing\", [](Without&) {}},\n");
+  effect.expect_as_documented();
+}
+
+void add_engine(const fs::path& tree) {
+  const Renames renames{{"engines/analytic/analytic.hpp", "engines/throwaway/throwaway.hpp"},
+                        {"Analytic", "Throwaway"},
+                        {"analytic_", "throwaway_"},
+                        {"make_analytic", "make_throwaway"},
+                        {"to_image", "throwaway_image"},
+                        {"\"analytic", "\"throwaway"},
+                        {"'analytic'", "'throwaway'"}};
+  const std::string folder = "reference_scenes/engines/";
+  Addition engine(tree, "an engine");
+  for (const std::string ending : {".hpp", ".cpp"})
+    engine.copy(folder + "analytic/analytic" + ending, folder + "NAME/NAME" + ending, renames);
+  engine.list(folder + "catalogue.cpp", "analytic.hpp\"\n",
+              "#include \"reference_scenes/engines/throwaway/throwaway.hpp\"\n");
+  engine.list(folder + "catalogue.cpp", "keep_analytic_input},\n",
+              "    {kThrowawayInfo, make_throwaway, keep_throwaway_input},\n");
+  engine.expect_as_documented();
+}
+
+void add_command(const fs::path& tree) {
+  Addition command(tree, "a command");
+  command.copy("cli/scene_format.cpp", "cli/NAME.cpp",
+               {{"add_scene_format", "add_throwaway"}, {"\"scene-format\"", "\"throwaway\""}});
+  command.list("cli/commands.hpp", "command(scene_format)", " command(throwaway)");
+  command.expect_as_documented();
+}
+
+void add_view(const fs::path& tree) {
+  Addition view(tree, "a view of the gallery");
+  view.copy("gallery/paper_page.cpp", "gallery/NAME_page.cpp",
+            {{"paper_view", "throwaway_view"},
+             {"paper_page", "throwaway_page"},
+             {"\"paper\", \"Paper\", \"paper.html\"",
+              "\"throwaway\", \"Throwaway\", \"throwaway.html\""}});
+  view.list("gallery/views.cpp", "VIEW(paper)", " VIEW(throwaway)");
+  view.expect_as_documented();
+}
+
+struct Ran {
+  int exit_code;
+  std::string output;
+};
+Ran run(const std::string& command) {
+  std::string output;
+  FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return {-1, "no pipe"};
+  char part[4096];
+  while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) output.append(part, size);
+  const int status = ::pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::move(output)};
+}
+
+class Adding : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const fs::path& file : project_files(kRoot)) {
+      if (*file.begin() == "tests" || *file.begin() == "docs") continue;
+      fs::create_directories((tree / file).parent_path());
+      fs::copy(kRoot / file, tree / file);
+    }
+  }
+  /// Not optimised, several files as one, and for a single instruction set: as quick as it gets.
+  void build() {
+    const std::string at = quoted(tree.path());
+    const Ran made =
+        run("cd " + at + " && export CCACHE_BASEDIR=" + at +
+            " CCACHE_NOHASHDIR=1 && cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Debug "
+            "-DCMAKE_CXX_FLAGS=-O0 -DLOBELIA_UNITY=ON -DLOBELIA_TESTS=OFF -DLOBELIA_BENCH=OFF && "
+            "cmake --build build --target lobelia lobelia_image_io");
+    ASSERT_EQ(made.exit_code, 0) << made.output.substr(
+        made.output.size() - std::min<std::size_t>(made.output.size(), 4000));
+  }
+  Ran lobelia(const std::string& arguments) {
+    return run("cd " + quoted(tree.path()) + " && build/bin/lobelia " + arguments);
+  }
+  void expect_output(const std::string& arguments, const std::string& part) {
+    const Ran ran = lobelia(arguments);
+    EXPECT_EQ(ran.exit_code, 0) << arguments << "\n" << ran.output;
+    EXPECT_THAT(ran.output, HasSubstr(part)) << arguments;
+  }
+
+  Scratch tree;
+};
+
+TEST_F(Adding, OneOfEachTakesTheFilesThatContributingNamesAndWorks) {
+  add_lobe(tree.path());
+  add_model(tree.path());
+  add_metric(tree.path());
+  add_light(tree.path());
+  add_effect(tree.path());
+  add_engine(tree.path());
+  add_command(tree.path());
+  add_view(tree.path());
+  if (HasFailure()) return;
+  build();
+  if (HasFatalFailure()) return;
+
+  const std::string scene = "reference_scenes/scenes/head_on.xml ";
+  const std::string small = scene + "--width 32 --height 32 --exponent 20 ";
+  expect_output("models", "throwaway");
+  // By our own kernels and by the formulas, which know the lobe and the model in their own words.
+  for (const std::string which : {"--lobe throwaway ", "--model throwaway "}) {
+    expect_output("render " + small + which + "-o ours.exr", "ours.exr");
+    expect_output("reference " + small + which + "--engine analytic -o formulas.exr",
+                  "formulas.exr");
+    expect_output("compare ours.exr formulas.exr --fail max_rel_peak=1e-5", "throwaway");
+    expect_output("reference " + small + which + "--engine throwaway -o engine.exr", "engine.exr");
+    expect_output("compare formulas.exr engine.exr --fail max_abs=0", "throwaway");
+    // Where the programs are here, they have been told it right.
+    for (const std::string engine : {"povray", "blender"}) {
+      const Ran ran =
+          lobelia("reference " + small + which + "--engine " + engine + " -o " + engine + ".exr");
+      if (ran.exit_code == 5) continue;
+      EXPECT_EQ(ran.exit_code, 0) << ran.output;
+      expect_output("compare " + engine + ".exr formulas.exr --fail max_rel_peak=1e-3",
+                    "throwaway");
+    }
+  }
+  expect_output("export --language povray modified_phong --lobe throwaway",
+                "Lobelia_Throwaway_Lobe");
+  expect_output("export --language povray throwaway", "Lobelia_Throwaway_S");
+  expect_output("compare --list-metrics", "throwaway.eps=0.01");
+  expect_output("engines", "(--engine throwaway)");
+  expect_output("throwaway", "<emitter type=\"throwaway\">");
+  write(
+      tree / "lit.xml",
+      renamed(
+          read(tree / "reference_scenes/scenes/head_on.xml"),
+          {{"</scene>",
+            "<emitter type=\"throwaway\"><rgb name=\"radiance\" value=\"1\"/></emitter></scene>"}}));
+  expect_output("plan lit.xml", "throwaway");
+  expect_output("render lit.xml --width 32 --height 32 --samples 16 -o lit.exr", "lit.exr");
+  EXPECT_EQ(lobelia("compare lit.exr ours.exr").exit_code, 1) << "the light shines";
+
+  // The view's record is none, which its page says.
+  write(tree / "grid.xml",
+        "<grid version=\"1\" title=\"One\"><scene file=\"reference_scenes/scenes/head_on.xml\"/>"
+        "<film width=\"16\" height=\"16\"/><axis name=\"exponent\" values=\"16\"/></grid>");
+  expect_output("farm grid.xml -o out", "1 cells: 0 failed");
+  write(tree / "out/paper/paper.json", "{}");
+  lobelia("gallery out");
+  EXPECT_THAT(read(tree / "out/throwaway.html"), HasSubstr("paper/paper.json"));
+  EXPECT_THAT(read(tree / "out/index.html"), HasSubstr("throwaway.html"));
+}
+
+}  // namespace
+}  // namespace house
