@@ -67,8 +67,10 @@ std::string figures_table(const Table& table, const records::Profile& profile) {
     places +=
         table.row(name, {shown(h.peak.radiance), three_digits(h.peak.x), three_digits(h.peak.y),
                          three_digits(h.centroid.x), three_digits(h.centroid.y), shown(h.energy)});
-    widths += table.row(name, {three_digits(h.along.pixels), three_digits(h.along.degrees),
-                               three_digits(h.across.pixels), three_digits(h.across.degrees)});
+    widths += table.row(
+        name,
+        {three_digits(h.half_width_along.pixels), three_digits(h.half_width_along.degrees),
+         three_digits(h.half_width_across.pixels), three_digits(h.half_width_across.degrees)});
     const records::CosineLobe& cosine = h.cosine_lobe;
     if (!cosine.because.empty())
       remarks += fmt::format("{}: no power of a cosine can be told: {}\n", name, cosine.because);
@@ -149,10 +151,11 @@ std::string profile_text(const records::Profile& profile) {
   if (const auto& formula = profile.images.front().second.highlight;
       profile.lobe && formula && formula->peak.found == "none")
     return text + fmt::format("  no highlight to measure: {}\n", formula->because);
-  text += fmt::format("epicentre to {} degrees, flank to {}, blooming zone to {} ({} angle)\n",
-                      shown(profile.zones.epicentre[1]), shown(profile.zones.flank[1]),
-                      shown(profile.zones.blooming[1]),
-                      profile.angle == "reflection" ? "reflection" : "half-vector");
+  text +=
+      fmt::format("epicentre to {} degrees, flank to {}, blooming zone to {} ({} angle)\n",
+                  shown(profile.zones.epicentre_degrees[1]), shown(profile.zones.flank_degrees[1]),
+                  shown(profile.zones.blooming_degrees[1]),
+                  profile.angle == "reflection" ? "reflection" : "half-vector");
   if (profile.lobe) {
     const auto& plane = profile.plane_of_incidence;
     text += plane
@@ -191,9 +194,9 @@ std::string profile_svg(const records::Profile& profile) {
                                            : "angle between normal and half vector (degrees)",
              0, angle.empty() ? 90 : angle.back()};
   const records::ZoneRanges& zones = profile.zones;
-  chart.bands = {{zones.epicentre[0], zones.epicentre[1], "epicentre"},
-                 {zones.flank[0], zones.flank[1], "flank"},
-                 {zones.blooming[0], zones.blooming[1], "blooming zone"}};
+  chart.bands = {{zones.epicentre_degrees[0], zones.epicentre_degrees[1], "epicentre"},
+                 {zones.flank_degrees[0], zones.flank_degrees[1], "flank"},
+                 {zones.blooming_degrees[0], zones.blooming_degrees[1], "blooming zone"}};
   std::size_t line = 0;
   for (const auto& [name, column] : profile.curve.radiance) {
     const bool formula = name == records::kAnalytic;
@@ -216,15 +219,15 @@ std::string blob_text(const records::Blob& blob) {
                                                   "background", "energy"});
   std::string remarks;
   for (const auto& [name, b] : blob.images) {
-    text += table.row(name, {three_digits(b.half_width.major), three_digits(b.major_axis.x),
-                             three_digits(b.major_axis.y), three_digits(b.half_width.minor),
+    text += table.row(name, {three_digits(b.half_width_pixels.major), three_digits(b.major_axis.x),
+                             three_digits(b.major_axis.y), three_digits(b.half_width_pixels.minor),
                              shown(b.background), shown(b.energy)});
     if (!b.because.empty())
       remarks += fmt::format("{}: no blob: {}\n", name, b.because);
-    else if (!std::isnan(b.gaussian_sigma.major))
-      remarks +=
-          fmt::format("{}: as wide as a Gaussian of {} x {} pixels standard deviation\n", name,
-                      three_digits(b.gaussian_sigma.major), three_digits(b.gaussian_sigma.minor));
+    else if (!std::isnan(b.gaussian_sigma_pixels.major))
+      remarks += fmt::format("{}: as wide as a Gaussian of {} x {} pixels standard deviation\n",
+                             name, three_digits(b.gaussian_sigma_pixels.major),
+                             three_digits(b.gaussian_sigma_pixels.minor));
     if (!b.remark.empty())
       remarks += fmt::format("{}: {}\n", name, b.remark);
     else if (const std::string remark = peak_remark(b.peak); !remark.empty())
@@ -241,8 +244,9 @@ std::string blob_csv(const records::Blob& blob) {
   std::string text;
   for (const auto& [axis, curve] : blob.curves) {
     if (text.empty()) text = "axis,offsetPixels" + csv_head(curve.radiance);
-    for (std::size_t i = 0; i < curve.offset.size(); ++i)
-      text += axis + "," + records::json_number(curve.offset[i]) + csv_values(curve.radiance, i);
+    for (std::size_t i = 0; i < curve.offset_pixels.size(); ++i)
+      text +=
+          axis + "," + records::json_number(curve.offset_pixels[i]) + csv_values(curve.radiance, i);
   }
   return text.empty() ? "axis,offsetPixels\n" : text;
 }
@@ -255,11 +259,11 @@ std::string blob_svg(const records::Blob& blob) {
   chart.x = {"pixels from the reference's peak", -1, 1};
   std::size_t line = 0;
   for (const auto& [axis, curve] : blob.curves) {
-    chart.x.from = curve.offset.front();
-    chart.x.to = curve.offset.back();
+    chart.x.from = curve.offset_pixels.front();
+    chart.x.to = curve.offset_pixels.back();
     for (const auto& [name, column] : curve.radiance)
       chart.series.push_back({fmt::format("{}, {} axis", name, axis == "major" ? "long" : "short"),
-                              curve.offset, column, style_of(line++)});
+                              curve.offset_pixels, column, style_of(line++)});
   }
   set_top(chart);
   return draw_chart_file(chart);

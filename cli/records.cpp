@@ -9,7 +9,6 @@
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "records/catalogue.hpp"
-#include "records/typescript.hpp"
 
 namespace lobelia::cli {
 namespace {

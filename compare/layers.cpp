@@ -40,11 +40,11 @@ records::PictureRead picture_record(const PictureSource& source) {
   record.value_type = source.value_type;
   record.transfer = source.transfer;
   record.multiplied_by_alpha = source.multiplied_by_alpha;
-  record.data = window_record(source.data);
-  record.display = window_record(source.display);
+  record.data_window = window_record(source.data);
+  record.display_window = window_record(source.display);
   record.chromaticities = source.chromaticities;
   record.icc_profile = source.icc_profile;
-  if (!source.icc_profile.empty()) record.icc_is_srgb = source.icc_is_srgb;
+  if (!source.icc_profile.empty()) record.icc_profile_is_srgb = source.icc_is_srgb;
   return record;
 }
 

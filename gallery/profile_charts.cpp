@@ -47,7 +47,7 @@ ChartAxis angle_axis(const records::Profile& profile) {
   for (const double angle : profile.curve.angle_degrees) {
     if (angle <= 180) axis.to = std::max(axis.to, angle);
   }
-  const double zones_end = profile.zones.blooming[1];
+  const double zones_end = profile.zones.blooming_degrees[1];
   if (zones_end > 0) axis.to = std::min(axis.to, kBeyondZones * zones_end);
   if (!(axis.to > 0)) axis.to = 90;
   return axis;

@@ -12,43 +12,30 @@
 namespace lobelia::records {
 
 struct AgreementEngine {
-  std::string name;
-  std::string title;
+  std::string name, title;
   bool available = false;
-  std::string state;
-  std::string version;
-  std::string why;
+  std::string state, version, why;
   static const Struct& type();
 };
 
 struct Ring {
-  int pixels = 0;
-  int over = 0;
-  int allowed = 0;
+  int pixels = 0, over = 0, allowed = 0;
   double max_of_peak = 0;
   static const Struct& type();
 };
 
 struct Target {
-  std::optional<double> relative;
-  std::optional<double> of_peak;
+  std::optional<double> relative, of_peak;
   static const Struct& type();
 };
 
 struct AgreementRow {
-  std::string group;
-  std::string what;
-  std::string model;
-  std::string lobe;
-  std::string normalisation;
+  std::string group, what, model, lobe, normalisation;
   double exponent = 0;
   std::string view;
-  int width = 0;
-  int height = 0;
+  int width = 0, height = 0;
   std::string witness;
-  std::optional<double> max_of_peak;
-  std::optional<double> rms_of_peak;
-  std::optional<double> max_relative;
+  std::optional<double> max_of_peak, rms_of_peak, max_relative;
   std::optional<Ring> ring;
   std::string why;
   std::optional<Target> target;
@@ -58,18 +45,15 @@ struct AgreementRow {
 
 struct SoftCount {
   int points = 0;
-  std::size_t values = 0;
-  std::size_t beyond = 0;
+  std::size_t values = 0, beyond = 0;
   double rms_of_peak = 0;
   static const Struct& type();
 };
 
 struct SoftRow {
-  std::string what;
-  std::string witness;
+  std::string what, witness;
   std::vector<SoftCount> counts;
-  std::string why;
-  std::string verdict;
+  std::string why, verdict;
   static const Struct& type();
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "records/agreement.hpp"
@@ -10,6 +11,7 @@
 #include "records/cost.hpp"
 #include "records/farm.hpp"
 #include "records/models.hpp"
+#include "records/pages.hpp"
 #include "records/paper.hpp"
 #include "records/profile.hpp"
 #include "records/record.hpp"
@@ -20,42 +22,18 @@
 namespace lobelia::records {
 namespace {
 
-template <class T>
-constexpr Kind kind() {
-  return {T::type, [](std::string_view text, const std::string& where) {
-            return record_text(parse_record<T>(text, where));
-          }};
+template <class... T>
+constexpr std::array<Kind, sizeof...(T)> kinds_of() {
+  return {Kind{T::type, [](std::string_view text, const std::string& where) {
+                 return record_text(parse_record<T>(text, where));
+               }}...};
 }
 
-constexpr Kind kKinds[] = {kind<Agreement>(),
-                           kind<Blob>(),
-                           kind<Cell>(),
-                           kind<Comparison>(),
-                           kind<ComparisonSet>(),
-                           kind<Content>(),
-                           kind<Cost>(),
-                           kind<Engines>(),
-                           kind<Failure>(),
-                           kind<Farm>(),
-                           kind<FarmChunk>(),
-                           kind<FarmChunkReport>(),
-                           kind<FarmExplanation>(),
-                           kind<FarmRun>(),
-                           kind<FarmStatus>(),
-                           kind<KnownHashes>(),
-                           kind<GalleryList>(),
-                           kind<HighlightTables>(),
-                           kind<Models>(),
-                           kind<Plan>(),
-                           kind<Profile>(),
-                           kind<Profiles>(),
-                           kind<Reference>(),
-                           kind<Render>(),
-                           kind<Result>(),
-                           kind<SlurmDoctor>(),
-                           kind<SlurmRun>(),
-                           kind<VerifyPaper>(),
-                           kind<VerifyStability>()};
+constexpr auto kKinds =
+    kinds_of<Agreement, Blob, Cell, Comparison, ComparisonSet, Content, Cost, Engines, Failure,
+             Farm, FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus, KnownHashes,
+             GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Reference, Render,
+             Result, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {
@@ -107,18 +85,15 @@ std::string table_of(const Struct& type) {
     row("`madeBy`", "string", "always", "program and version");
   }
   for (const Field& field : type.fields()) {
-    std::string meaning(field.meaning);
-    if (!field.unit_name.empty())
-      meaning += fmt::format("{}{}", meaning.empty() ? "" : "; ", field.unit_name);
     const Json schema = field.type->schema(field.bounds);
     if (field.is_rest())
-      row("any other", type_text(schema["additionalProperties"]), "", meaning);
+      row("any other", type_text(schema["additionalProperties"]), "", field.description());
     else
       row(fmt::format("`{}`", field.key), type_text(schema),
           field.presence == Presence::kAlways  ? "always"
           : field.presence == Presence::kIfAny ? "if any"
                                                : "or null",
-          meaning);
+          field.description());
   }
   if (type.is_sealed())
     row(fmt::format("`{}`", kSealKey), "string", "always",
@@ -161,6 +136,18 @@ std::string reference_index() {
       "[records.md](../records.md) says where they lie.\n\n| kind | what it says |\n|---|---|\n";
   for (const Kind& kind : kinds())
     text += fmt::format("| [{0}]({0}.md) | {1} |\n", kind.type().kind(), kind.type().meaning());
+  return text;
+}
+
+std::string typescript_text() {
+  Definitions definitions;
+  for (const Struct* page : {&GridPage::type(), &CellPage::type(), &PackedPicture::type(),
+                             &StabilityPage::type(), &PaperPage::type(), &ExplorerPage::type()})
+    definitions.add(*page);
+  std::string text =
+      "// What the program gives the pages' scripts. Written by `lobelia records --typescript > "
+      "gallery/web/src/records.ts`;\n// do not edit: records/pages.cpp has the tables.\n";
+  for (const Struct* one : definitions.all()) text += "\n" + one->interface();
   return text;
 }
 

@@ -25,5 +25,7 @@ std::string schema_text(const Kind& kind);
 std::string reference_page(const Kind& kind);
 /// The list of all kinds, in Markdown: docs/reference/README.md.
 std::string reference_index();
+/// gallery/web/src/records.ts: an interface for each struct that a page's script is given.
+std::string typescript_text();
 
 }  // namespace lobelia::records

@@ -13,8 +13,7 @@ namespace lobelia::records {
 
 struct ChartAxis {
   std::string label;
-  double from = 0;
-  double to = 0;
+  double from = 0, to = 0;
   std::optional<bool> logarithmic;
   std::vector<double> ticks;
   static const Struct& type();
@@ -22,16 +21,14 @@ struct ChartAxis {
 
 struct ChartBand {
   std::string title;
-  double from = 0;
-  double to = 0;
+  double from = 0, to = 0;
   static const Struct& type();
 };
 
 struct ChartSeries {
   std::string name;
   int style = 0;
-  std::vector<double> x;
-  std::vector<double> y;
+  std::vector<double> x, y;
   static const Struct& type();
 };
 

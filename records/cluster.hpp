@@ -14,20 +14,15 @@
 namespace lobelia::records {
 
 struct ChunkLimits {
-  double time_limit = 0;
-  double no_progress_limit = 0;
+  double time_limit = 0, no_progress_limit = 0;
   int attempts = 0;
-  std::uint64_t memory = 0;
-  std::uint64_t disk = 0;
+  std::uint64_t memory = 0, disk = 0;
   int give_up_after = 0;
   static const Struct& type();
 };
 
 struct ChunkEngine {
-  std::string name;
-  std::string version;
-  std::string content;
-  std::string program;
+  std::string name, version, content, program;
   static const Struct& type();
 };
 
@@ -40,8 +35,7 @@ struct ChunkCell {
 };
 
 struct FarmChunk {
-  std::string program;
-  std::string libraries;
+  std::string program, libraries;
   Arithmetic arithmetic;
   std::string cache;
   ChunkLimits limits;
@@ -52,8 +46,7 @@ struct FarmChunk {
 };
 
 struct LeftUndone {
-  std::string engine;
-  std::string why;
+  std::string engine, why;
   static const Struct& type();
 };
 
@@ -64,12 +57,9 @@ struct FarmChunkReport {
 };
 
 struct FarmRun {
-  std::string program;
-  std::string libraries;
+  std::string program, libraries;
   Arithmetic arithmetic;
-  std::string grid;
-  std::string directory;
-  std::string cache;
+  std::string grid, directory, cache;
   std::vector<std::string> command;
   std::string gallery;
   Named<std::string> programs;
@@ -78,31 +68,22 @@ struct FarmRun {
 
 struct SlurmArray {
   std::uint32_t job = 0;
-  std::size_t first_chunk = 0;
-  std::size_t chunks = 0;
-  int phase = 0;
-  int round = 0;
-  std::string time;
-  std::string memory;
+  std::size_t first_chunk = 0, chunks = 0;
+  int phase = 0, round = 0;
+  std::string time, memory;
   static const Struct& type();
 };
 
 struct SlurmRun {
   std::string name;
   int round = 0;
-  std::size_t next_chunk = 0;
-  std::size_t first_report = 0;
+  std::size_t next_chunk = 0, first_report = 0;
   std::vector<SlurmArray> arrays;
   static const Struct& type();
 };
 
 struct SlurmDoctor {
-  std::string host;
-  std::string version;
-  std::string token;
-  std::string rename;
-  std::string link;
-  std::string lock;
+  std::string host, version, token, rename, link, lock;
   static const Struct& type();
 };
 

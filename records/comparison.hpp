@@ -23,10 +23,10 @@ struct PictureRead {
   std::vector<std::string> channels;
   std::string value_type, transfer;
   bool multiplied_by_alpha = false;
-  Window data, display;
+  Window data_window, display_window;
   std::vector<double> chromaticities;
   std::string icc_profile;
-  std::optional<bool> icc_is_srgb;
+  std::optional<bool> icc_profile_is_srgb;
   static const Struct& type();
 };
 
@@ -128,14 +128,15 @@ struct ReferenceFloor {
 
 /// Another layer of both files.
 struct LayerComparison {
-  std::string layer, verdict, problem;
-  std::optional<bool> identical;
+  std::string layer, verdict;
   std::optional<Window> overscan;
+  std::optional<bool> identical;
+  std::string problem;
   std::optional<Nonfinite> nonfinite;
   std::optional<Named<double>> metrics;
-  std::vector<NotMeasured> not_measured;
   std::optional<std::vector<Limit>> limits;
   std::optional<std::vector<std::string>> disagreement;
+  std::vector<NotMeasured> not_measured;
   PicturesRead pictures;
   static const Struct& type();
 };
@@ -167,14 +168,14 @@ struct Comparison {
   std::optional<Tolerance> tolerance;
   std::optional<ReferenceFloor> reference_floor;
   std::optional<PicturesRead> pictures;
-  std::optional<std::vector<LayerComparison>> layers;
   std::optional<NotCompared> not_compared;
+  std::optional<std::vector<LayerComparison>> layers;
   std::optional<LayersInOne> layers_in_one;
   static const Struct& type();
 };
 
 struct SetSummary {
-  std::size_t pairs = 0, pass = 0, differs = 0, undecided = 0, nonfinite = 0, errors = 0,
+  std::size_t pairs = 0, pass = 0, differs = 0, undecided = 0, non_finite = 0, errors = 0,
               missing = 0, extra = 0, passed_over = 0, links_not_followed = 0;
   static const Struct& type();
 };

@@ -15,49 +15,38 @@
 namespace lobelia::records {
 
 struct CostError {
-  std::string id;
-  std::string meaning;
+  std::string id, meaning;
   static const Struct& type();
 };
 
 struct CostSeconds {
-  double median = 0;
-  double spread = 0;
-  double least = 0;
-  double most = 0;
+  double median = 0, spread = 0, least = 0, most = 0;
   int rounds = 0;
   static const Struct& type();
 };
 
 struct LobeErrors {
-  double max = 0;
-  double rms = 0;
-  double energy = 0;
+  double max = 0, rms = 0, energy = 0;
   std::optional<double> max_at_most;
   static const Struct& type();
 };
 
 struct CircuitErrors {
-  double shape = 0;
-  double rounding = 0;
-  double quantisation = 0;
-  std::size_t steps = 0;
-  std::size_t steps_looked_at = 0;
+  double shape = 0, rounding = 0, quantisation = 0;
+  std::size_t steps = 0, steps_looked_at = 0;
   static const Struct& type();
 };
 
 struct CostFacts {
   std::optional<Operations> operations;
-  std::optional<LobeErrors> shape;
-  std::optional<LobeErrors> rounding;
+  std::optional<LobeErrors> shape, rounding;
   std::optional<std::size_t> numbers_looked_at;
   std::optional<CircuitErrors> circuit;
   std::optional<int> samples;
   std::string kernel;
   std::optional<double> predicted_cost;
   std::optional<Rays> rays;
-  std::optional<double> rays_saved;
-  std::optional<double> seconds_saved;
+  std::optional<double> rays_saved, seconds_saved;
   std::optional<Named<Work>> work;
   std::optional<Named<double>> stage_seconds;
   std::optional<double> seconds_of_tiny_call;
@@ -70,8 +59,7 @@ struct CostWay {
   Named<double> errors;
   std::optional<CostSeconds> seconds;
   std::optional<double> count;
-  std::optional<Named<double>> error_spreads;
-  std::optional<Named<double>> errors_at_most;
+  std::optional<Named<double>> error_spreads, errors_at_most;
   std::optional<CostFacts> facts;
   static const Struct& type();
 };
@@ -85,11 +73,7 @@ struct CostFront {
 };
 
 struct CostTable {
-  std::string id;
-  std::string level;
-  std::string title;
-  std::string unit;
-  std::string per;
+  std::string id, level, title, unit, per;
   std::vector<CostError> errors;
   std::vector<CostWay> ways;
   Named<CostFront> fronts;

@@ -9,12 +9,7 @@
 namespace lobelia::records {
 
 const Struct& Host::type() {
-  return define<Host>("Host", "The machine.", [](Struct& t) {
-    t.key<&Host::processor>("processor");
-    t.key<&Host::threads>("threads");
-    t.key<&Host::system>("system");
-    t.key<&Host::name>("name").if_any();
-  });
+  return define<Host>("The machine.", [](auto& t) { t.key("name").if_any(); });
 }
 
 Host this_host() {
@@ -31,13 +26,10 @@ Host this_node() {
 }
 
 const Struct& Highlight::type() {
-  return define<Highlight>("Highlight", "A normalised highlight.", [](Struct& t) {
-    t.key<&Highlight::model>("model");
-    t.key<&Highlight::lobe>("lobe");
-    t.key<&Highlight::normalisation>("normalisation");
-    t.key<&Highlight::exponent>("exponent").at_least(0);
-    t.key<&Highlight::coefficient>("coefficient", "of the radiance").may_be_nonfinite();
-    t.key<&Highlight::warning>("warning", "where the model is not what it promises").if_any();
+  return define<Highlight>("A normalised highlight.", [](auto& t) {
+    t.key("exponent").at_least(0);
+    t.key("coefficient", "of the radiance").may_be_nonfinite();
+    t.key("warning", "where the model is not what it promises").if_any();
   });
 }
 

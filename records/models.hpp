@@ -12,30 +12,19 @@
 namespace lobelia::records {
 
 struct Formulas {
-  std::string exact;
-  std::string exact_cosine;
-  std::string paper_cosine;
-  std::string paper_cs16;
+  std::string exact, exact_cosine, paper_cosine, paper_cs16;
   static const Struct& type();
 };
 
 struct Operations {
-  int multiply = 0;
-  int add = 0;
-  int divide = 0;
-  int root = 0;
-  int transcendental = 0;
-  int compare = 0;
+  int multiply = 0, add = 0, divide = 0, root = 0, transcendental = 0, compare = 0;
   static const Struct& type();
 };
 
 struct Model {
-  std::string name;
-  std::string title;
-  std::string angle;
+  std::string name, title, angle;
   bool applies_cosine = false;
-  std::string normalised;
-  std::string integral;
+  std::string normalised, integral;
   Formulas coefficient;
   Operations operations;
   std::string source;
@@ -43,51 +32,36 @@ struct Model {
 };
 
 struct Lobe {
-  std::string name;
-  std::string title;
-  std::string formula;
-  std::string moments;
+  std::string name, title, formula, moments;
   Operations operations;
-  double float32_error_of_peak = 0;
-  double half_width_degrees = 0;
-  double support_degrees = 0;
-  double above_cosine = 0;
-  double below_cosine = 0;
+  double float32_error_of_peak = 0, half_width_degrees = 0, support_degrees = 0, above_cosine = 0,
+         below_cosine = 0;
   std::string source;
   static const Struct& type();
 };
 
 struct Normalisation {
-  std::string name;
-  std::string meaning;
+  std::string name, meaning;
   static const Struct& type();
 };
 
 struct Parameter {
-  std::string name;
-  std::string default_value;
-  std::optional<double> min;
-  std::optional<double> max;
-  std::string allowed;
-  std::string meaning;
+  std::string name, default_value;
+  std::optional<double> min, max;
+  std::string allowed, meaning;
   static const Struct& type();
 };
 
 struct AlbedoPeak {
-  double largest = 0;
-  double at_degrees = 0;
+  double largest = 0, at_degrees = 0;
   std::optional<double> above_one_from_degrees;
   static const Struct& type();
 };
 
 struct CatalogueHighlight {
-  std::string model;
-  std::string lobe;
-  std::string normalisation;
-  double coefficient = 0;
-  double energy_at_normal_incidence = 0;
-  AlbedoPeak albedo;
-  AlbedoPeak albedo_of_light;
+  std::string model, lobe, normalisation;
+  double coefficient = 0, energy_at_normal_incidence = 0;
+  AlbedoPeak albedo, albedo_of_light;
   double reciprocity_gap = 0;
   static const Struct& type();
 };
@@ -104,43 +78,31 @@ struct Models {
 };
 
 struct TableErrors {
-  double curve = 0;
-  double albedo = 0;
-  double half_width = 0;
-  double coefficient = 0;
+  double curve = 0, albedo = 0, half_width = 0, coefficient = 0;
   static const Struct& type();
 };
 
 struct ModelTable {
-  std::string name;
-  std::string title;
-  std::string angle;
+  std::string name, title, angle;
   bool applies_cosine = false;
-  std::string normalised;
-  std::string coefficient;
+  std::string normalised, coefficient;
   static const Struct& type();
 };
 
 struct LobeTable {
-  std::string name;
-  std::string title;
-  std::string formula;
+  std::string name, title, formula;
   int order = 0;
   double unit = 0;
-  std::vector<double> reach;
-  std::vector<double> half_width;
+  std::vector<double> reach, half_width;
   std::vector<std::vector<std::int64_t>> curves;
   static const Struct& type();
 };
 
 struct HighlightTable {
-  std::string model;
-  std::string lobe;
-  std::vector<double> exact;
-  std::vector<double> paper;
+  std::string model, lobe;
+  std::vector<double> exact, paper;
   double unit = 0;
-  std::vector<std::vector<std::int64_t>> seen;
-  std::vector<std::vector<std::int64_t>> lit;
+  std::vector<std::vector<std::int64_t>> seen, lit;
   static const Struct& type();
 };
 

@@ -15,29 +15,20 @@ namespace lobelia::records {
 struct Measured {
   std::string what;
   double value = 0;
-  std::string text;
-  std::string at;
+  std::string text, at;
   static const Struct& type();
 };
 
 struct Claim {
-  std::string name;
-  std::string where;
-  std::string statement;
-  std::string printed;
+  std::string name, where, statement, printed;
   std::vector<Measured> measured;
-  std::string definition;
-  std::string verdict;
-  std::string reason;
+  std::string definition, verdict, reason;
   static const Struct& type();
 };
 
 struct PaperFigure {
-  std::string id;
-  std::string title;
-  std::string description;
-  ChartAxis x;
-  ChartAxis y;
+  std::string id, title, description;
+  ChartAxis x, y;
   std::vector<ChartBand> bands;
   std::vector<ChartSeries> series;
   std::vector<std::string> claims;
@@ -46,9 +37,7 @@ struct PaperFigure {
 
 struct VerifyPaper {
   std::vector<std::string> command;
-  std::size_t confirmed = 0;
-  std::size_t not_reproduced = 0;
-  std::size_t found = 0;
+  std::size_t confirmed = 0, not_reproduced = 0, found = 0;
   std::vector<Claim> claims;
   std::vector<PaperFigure> figures;
   static const Struct& type();

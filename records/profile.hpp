@@ -40,7 +40,7 @@ struct CosineLobe {
 struct HighlightFigures {
   Peak peak;
   Point centroid;
-  HalfWidth along, across;
+  HalfWidth half_width_along, half_width_across;
   double energy = 0;
   CosineLobe cosine_lobe;
   std::string because;
@@ -66,7 +66,7 @@ struct ZoneErrors {
 };
 
 struct ZoneRanges {
-  std::array<double, 2> epicentre{}, flank{}, blooming{};
+  std::array<double, 2> epicentre_degrees{}, flank_degrees{}, blooming_degrees{};
   static const Struct& type();
 };
 
@@ -115,7 +115,7 @@ struct BlobFigures {
   double background = 0;
   std::size_t pixels = 0;
   Point centroid, major_axis;
-  AxisPair half_width, gaussian_sigma;
+  AxisPair half_width_pixels, gaussian_sigma_pixels;
   double energy = 0;
   std::size_t nonfinite = 0;
   std::string because, remark;
@@ -123,7 +123,7 @@ struct BlobFigures {
 };
 
 struct BlobCurve {
-  std::vector<double> offset;
+  std::vector<double> offset_pixels;
   Named<std::vector<double>> radiance;
   static const Struct& type();
 };

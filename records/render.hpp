@@ -134,14 +134,13 @@ struct Reference {
   std::size_t passes = 0;
   std::optional<int> points;
   std::optional<std::uint64_t> seed;
-  std::vector<std::string> engine_commands;
-  std::vector<std::string> engine_options;
+  std::vector<std::string> engine_commands, engine_options;
+  std::optional<bool> writes_limited;
+  std::string contained;
   EngineSeconds seconds;
   std::optional<double> cpu_seconds;
   std::optional<std::uint64_t> peak_memory_bytes;
   std::optional<int> threads;
-  std::optional<bool> writes_limited;
-  std::string contained;
   std::vector<std::string> command;
   std::string standard_error;
   std::vector<Highlight> highlights;

@@ -21,8 +21,7 @@ struct Arithmetic {
 struct ResultInputs {
   std::string program, libraries;
   Arithmetic arithmetic;
-  std::string scene;
-  std::string engine_version, engine_content;
+  std::string scene, engine_version, engine_content;
   Named<std::string> pictures;  ///< keys of the results that it was made from
   static const Struct& type();
 };

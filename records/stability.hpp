@@ -12,127 +12,93 @@
 namespace lobelia::records {
 
 struct StabilityGroup {
-  std::string name;
-  std::string meaning;
+  std::string name, meaning;
   static const Struct& type();
 };
 
 struct StabilityErrors {
-  double of_peak = 0;
-  double ulp = 0;
+  double of_peak = 0, ulp = 0;
   int wrong_pixels = 0;
   static const Struct& type();
 };
 
 struct StabilityAnswer {
-  double value = 0;
-  double of_peak = 0;
-  double ulp = 0;
+  double value = 0, of_peak = 0, ulp = 0;
   int wrong_pixels = 0;
   static const Struct& type();
 };
 
 struct StabilityBound {
-  double of_peak = 0;
-  double ulp = 0;
+  double of_peak = 0, ulp = 0;
   static const Struct& type();
 };
 
 struct StabilityOfLobe {
-  std::string group;
-  std::string lobe;
+  std::string group, lobe;
   std::optional<double> exponent;
-  std::size_t cases = 0;
-  std::size_t outside = 0;
-  std::size_t not_compared = 0;
-  StabilityErrors naive;
-  StabilityErrors ours;
+  std::size_t cases = 0, outside = 0, not_compared = 0;
+  StabilityErrors naive, ours;
   double of_bound = 0;
   static const Struct& type();
 };
 
 struct StabilityOfCase {
-  std::string group;
-  std::string name;
-  std::string meaning;
-  std::size_t cases = 0;
-  std::size_t outside = 0;
-  std::size_t not_compared = 0;
-  StabilityErrors naive;
-  StabilityErrors ours;
+  std::string group, name, meaning;
+  std::size_t cases = 0, outside = 0, not_compared = 0;
+  StabilityErrors naive, ours;
   double of_bound = 0;
   static const Struct& type();
 };
 
 struct StabilityCurve {
   double exponent = 0;
-  std::string model;
-  std::string lobe;
-  std::vector<double> degrees;
-  std::vector<double> truth;
-  std::vector<double> naive;
-  std::vector<double> ours;
+  std::string model, lobe;
+  std::vector<double> degrees, truth, naive, ours;
   static const Struct& type();
 };
 
 struct StabilityRow {
-  std::string group;
-  std::string name;
-  std::string model;
-  std::string lobe;
-  double exponent = 0;
-  double truth = 0;
-  StabilityAnswer naive;
-  StabilityAnswer ours;
+  std::string group, name, model, lobe;
+  double exponent = 0, truth = 0;
+  StabilityAnswer naive, ours;
   StabilityBound bound;
   std::string outcome;
   static const Struct& type();
 };
 
 struct Nanoseconds {
-  double median = 0;
-  double spread = 0;
+  double median = 0, spread = 0;
   static const Struct& type();
 };
 
 struct StabilityStall {
-  std::string lobe;
-  std::string precision;
-  Nanoseconds ordinary_nanoseconds;
-  Nanoseconds underflow_nanoseconds;
+  std::string lobe, precision;
+  Nanoseconds ordinary_nanoseconds, underflow_nanoseconds;
   static const Struct& type();
 };
 
 struct StabilityPrice {
-  std::string lobe;
-  std::string model;
-  Nanoseconds float32_nanoseconds;
-  Nanoseconds mixed_nanoseconds;
-  Nanoseconds float64_nanoseconds;
+  std::string lobe, model;
+  Nanoseconds float32_nanoseconds, mixed_nanoseconds, float64_nanoseconds;
   static const Struct& type();
 };
 
 struct StabilityPicture {
-  std::string exr;
-  std::string png;
-  std::string error;
+  std::string exr, png, error;
   double largest_error_of_peak = 0;
   static const Struct& type();
 };
 
 struct StabilityPictures {
   double exponent = 0;
-  StabilityPicture naive;
-  StabilityPicture ours;
+  StabilityPicture naive, ours;
   static const Struct& type();
 };
 
 struct VerifyStability {
   std::vector<std::string> command;
   std::string instruction_set;
-  std::size_t cases = 0;
-  std::size_t outside = 0;
-  std::size_t not_compared = 0;
+  std::size_t cases = 0, outside = 0, not_compared = 0;
   std::vector<StabilityGroup> groups;
   std::vector<StabilityOfLobe> by_lobe;
   std::vector<StabilityOfCase> by_case;

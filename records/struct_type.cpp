@@ -11,17 +11,18 @@
 #include "records/record.hpp"
 
 namespace lobelia::records {
-namespace {
 
-/// "width; pixels": the meaning and the unit, for a schema.
-std::string description(const Field& field) {
-  std::string text(field.meaning);
-  if (!field.unit_name.empty())
-    text += fmt::format("{}{}", text.empty() ? "" : "; ", field.unit_name);
-  return text;
+std::string Field::description() const {
+  const std::string_view between = meaning.empty() || unit.empty() ? "" : "; ";
+  return fmt::format("{}{}{}", meaning, between, unit);
 }
 
-}  // namespace
+void* Field::member_of(void* record) const { return static_cast<char*>(record) + offset; }
+
+void Struct::add_key(std::string_view key, const Type& type, std::size_t offset,
+                     Presence presence) {
+  fields_.push_back({key, &type, offset, presence});
+}
 
 Json Struct::write(const void* value) const {
   Json object = Json::object();
@@ -30,7 +31,7 @@ Json Struct::write(const void* value) const {
         {"schemaVersion", kRecordSchemaVersion}, {"kind", kind_}, {"madeBy", kNameAndVersion}};
   for (const Field& field : fields_) {
     // A record is not changed by being written; reading needs the same accessor.
-    const void* member = field.member(const_cast<void*>(value));
+    const void* member = field.member_of(const_cast<void*>(value));
     const bool is_empty = field.presence != Presence::kAlways && field.type->is_empty(member);
     if (is_empty && field.presence == Presence::kIfAny) continue;
     if (field.is_rest()) {
@@ -47,7 +48,7 @@ void Struct::read(const Json& json, const Bounds&, const Place& place, void* val
   if (!kind_.empty()) require_kind(json, kind_, place);
   for (const Field& field : fields_) {
     if (field.is_rest()) {
-      field.type->read(others(json), field.bounds, place, field.member(value));
+      field.type->read(others(json), field.bounds, place, field.member_of(value));
       continue;
     }
     const auto found = json.find(field.key);
@@ -57,7 +58,7 @@ void Struct::read(const Json& json, const Bounds&, const Place& place, void* val
       if (found == json.end() && field.is_required()) Place(place, field.key).fail("missing");
       continue;
     }
-    field.type->read(*found, field.bounds, Place(place, field.key), field.member(value));
+    field.type->read(*found, field.bounds, Place(place, field.key), field.member_of(value));
   }
   const auto is_there = [&](std::string_view key) { return json.contains(key); };
   if (!needs_.empty() && std::ranges::none_of(needs_, [&](const auto& keys) {
@@ -103,7 +104,7 @@ Json Struct::definition() const {
     if (field.presence == Presence::kOrNull)
       schema = {{"anyOf", Json::array({std::move(schema), Json{{"type", "null"}}})}};
     // Draft 7 ignores what stands beside $ref.
-    const std::string text = description(field);
+    const std::string text = field.description();
     if (!text.empty() && schema.contains("$ref"))
       schema = {{"allOf", Json::array({std::move(schema)})}};
     if (!text.empty()) schema["description"] = text;
@@ -129,7 +130,7 @@ std::string Struct::interface() const {
     text += fmt::format("  schemaVersion: {};\n  kind: \"{}\";\n  madeBy: string;\n",
                         kRecordSchemaVersion, kind_);
   for (const Field& field : fields_) {
-    if (const std::string meaning = description(field); !meaning.empty())
+    if (const std::string meaning = field.description(); !meaning.empty())
       text += fmt::format("  /** {} */\n", meaning);
     if (field.is_rest()) {
       // Wide enough for the keys above it, as TypeScript asks.

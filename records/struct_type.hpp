@@ -1,11 +1,14 @@
 // The table of a record's struct: key, member, meaning, unit, bounds.
 #pragma once
 
+#include <functional>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "records/members.hpp"
 #include "records/type.hpp"
 
 namespace lobelia::records {
@@ -20,80 +23,75 @@ enum class Presence : std::uint8_t {
 /// A key of a struct's table.
 struct Field {
   std::string_view key;  ///< empty: of all keys that the others do not name
-  std::string_view
-      meaning;  ///< one sentence for the reference page; empty where the key says it all
   const Type* type = nullptr;
-  void* (*member)(void* record) = nullptr;
-  std::string_view unit_name = {};  ///< "seconds", "bytes"; empty for none
+  std::size_t offset = 0;  ///< of the member within the struct
   Presence presence = Presence::kAlways;
+  /// One sentence for the reference page; empty where the key says it all.
+  std::string_view meaning = {};
+  std::string_view unit = {};  ///< "seconds", "bytes"; empty for none
   Bounds bounds = {};
 
   bool is_rest() const { return key.empty(); }
   bool is_required() const { return presence != Presence::kIfAny && !is_rest(); }
+  std::string description() const;  ///< "width; pixels"
+  void* member_of(void* record) const;
+};
 
-  Field& unit(std::string_view name) { return unit_name = name, *this; }
-  Field& at_least(double least) { return bounds.least = least, *this; }
-  Field& at_most(double most) { return bounds.most = most, *this; }
-  Field& within(double least, double most) { return at_least(least).at_most(most); }
+/// What a table says of one key or of several.
+class Keys {
+ public:
+  void add(Field& field) { fields_.push_back(&field); }
+
+  Keys& meaning(std::string_view sentence) { return set(&Field::meaning, sentence); }
+  Keys& unit(std::string_view name) { return set(&Field::unit, name); }
+  Keys& at_least(double least) { return set(&Bounds::least, least); }
+  Keys& at_most(double most) { return set(&Bounds::most, most); }
+  Keys& within(double least, double most) { return at_least(least).at_most(most); }
   /// Neither `least` nor `most` itself.
-  Field& between(double least, double most) {
-    return bounds.without_ends = true, within(least, most);
+  Keys& between(double least, double most) {
+    return set(&Bounds::without_ends, true).within(least, most);
   }
   /// A number that is not finite is allowed, and is the text "nan", "inf" or "-inf".
-  Field& may_be_nonfinite() { return bounds.nonfinite = true, *this; }
-  Field& one_of(std::span<const std::string_view> texts) { return bounds.one_of = texts, *this; }
+  Keys& may_be_nonfinite() { return set(&Bounds::nonfinite, true); }
+  Keys& one_of(std::span<const std::string_view> texts) { return set(&Bounds::one_of, texts); }
   /// A file beside the record: see is_plain_name().
-  Field& plain_name() { return bounds.plain_name = true, *this; }
-  Field& not_empty() { return bounds.least_text = 1, *this; }
-  Field& most_text(std::size_t bytes) { return bounds.most_text = bytes, *this; }
-  Field& items(std::size_t least, std::size_t most = kMaxItems) {
-    bounds.least_items = least, bounds.most_items = most;
-    return *this;
+  Keys& plain_name() { return set(&Bounds::plain_name, true); }
+  Keys& not_empty() { return set(&Bounds::least_text, 1); }
+  Keys& most_text(std::size_t bytes) { return set(&Bounds::most_text, bytes); }
+  Keys& items(std::size_t least, std::size_t most = kMaxItems) {
+    return set(&Bounds::least_items, least).set(&Bounds::most_items, most);
   }
   /// Missing where it is empty, as an optional is without more words.
-  Field& if_any() { return presence = Presence::kIfAny, *this; }
+  Keys& if_any() { return set(&Field::presence, Presence::kIfAny); }
   /// null where it is empty.
-  Field& or_null() { return presence = Presence::kOrNull, *this; }
+  Keys& or_null() { return set(&Field::presence, Presence::kOrNull); }
+  /// Another key than the member's name.
+  Keys& renamed(std::string_view key) { return set(&Field::key, key); }
+
+ private:
+  template <class V>
+  Keys& set(V Field::*member, std::type_identity_t<V> value) {
+    for (Field* field : fields_) field->*member = value;
+    return *this;
+  }
+  template <class V>
+  Keys& set(V Bounds::*member, std::type_identity_t<V> value) {
+    for (Field* field : fields_) field->bounds.*member = value;
+    return *this;
+  }
+
+  std::vector<Field*> fields_;
 };
 
 enum class Seal : bool { kNo, kYes };
 
-/// A struct's table: what define() fills.
+/// A struct with its table.
 class Struct final : public Type {
  public:
   /// `name` is that of the TypeScript interface and of the schema's definition.
-  Struct(std::string_view name, std::string_view meaning, void (*fill)(Struct&))
-      : name_(name), meaning_(meaning) {
-    fill(*this);
-  }
+  Struct(std::string_view name, std::string_view meaning) : name_(name), meaning_(meaning) {}
 
-  template <auto kMember>
-  Field& key(std::string_view key, std::string_view meaning = "") {
-    using Of = OfMember<decltype(kMember)>;
-    fields_.push_back({key, meaning, &type_of<typename Of::Value>(), [](void* record) -> void* {
-                         return &(static_cast<typename Of::Record*>(record)->*kMember);
-                       }});
-    return detail::kIsOptional<typename Of::Value> ? fields_.back().if_any() : fields_.back();
-  }
-  /// A Named member for all keys that the table does not have, which are data; follows the others.
-  template <auto kMember>
-  Field& rest(std::string_view meaning = "") {
-    return key<kMember>("", meaning);
-  }
-  /// It is a record by itself, with kind and version in front, and a `seal` at the end if it has one.
-  void kind(std::string_view kind, Seal seal = Seal::kNo) {
-    kind_ = kind;
-    is_sealed_ = seal == Seal::kYes;
-  }
-  /// All keys of one of these lists are there, whatever else is.
-  void needs(std::vector<std::vector<std::string_view>> lists) { needs_ = std::move(lists); }
-  /// Finds what contradicts itself where every key is right by itself: a sentence; empty if nothing does.
-  template <auto kCheck>
-  void check() {
-    contradiction_ = [](const void* record) {
-      return kCheck(*static_cast<const typename OfCheck<decltype(kCheck)>::type*>(record));
-    };
-  }
+  void add_key(std::string_view key, const Type& type, std::size_t offset, Presence presence);
 
   std::string_view name() const { return name_; }
   std::string_view meaning() const { return meaning_; }
@@ -114,18 +112,7 @@ class Struct final : public Type {
 
  private:
   template <class>
-  struct OfMember;
-  template <class S, class T>
-  struct OfMember<T S::*> {
-    using Record = S;
-    using Value = T;
-  };
-  template <class>
-  struct OfCheck;
-  template <class T>
-  struct OfCheck<std::string (*)(const T&)> {
-    using type = T;
-  };
+  friend class Table;
   /// The keys of `json` that the table does not have.
   Json others(const Json& json) const;
 
@@ -133,20 +120,91 @@ class Struct final : public Type {
   bool is_sealed_ = false;
   std::vector<Field> fields_;
   std::vector<std::vector<std::string_view>> needs_;
-  std::string (*contradiction_)(const void* record) = nullptr;
+  std::function<std::string(const void* record)> contradiction_;
 };
 
-/// The table of T, built at its first use:
+namespace detail {
+
+template <class V>
+void add_member(Struct& type, std::string_view key, const V* member, const void* whole) {
+  type.add_key(key, type_of<V>(),
+               std::size_t(reinterpret_cast<const char*>(member) - static_cast<const char*>(whole)),
+               kIsOptional<V> ? Presence::kIfAny : Presence::kAlways);
+}
+
+}  // namespace detail
+
+/// What a record's table says beyond its struct. A name that is not a member's, as a key, does not compile.
+template <class T>
+class Table {
+ public:
+  explicit Table(Struct& type) : type_(type) {}
+
+  struct Key {
+    consteval Key(const char* key) : index(index_of(key)) {}
+    std::size_t index;
+  };
+
+  Keys key(Key key, std::string_view meaning = "") { return keys({key}).meaning(meaning); }
+  Keys keys(std::initializer_list<Key> keys) {
+    Keys chosen;
+    for (const Key key : keys) chosen.add(type_.fields_[key.index]);
+    return chosen;
+  }
+  Keys all() {
+    Keys all;
+    for (Field& field : type_.fields_) all.add(field);
+    return all;
+  }
+  /// A Named member for all keys that the table does not have, which are data; follows the others.
+  Keys rest(Key key, std::string_view meaning = "") { return this->key(key, meaning).renamed(""); }
+  /// It is a record by itself, with kind and version in front, and a `seal` at the end if it has one.
+  void kind(std::string_view kind, Seal seal = Seal::kNo) {
+    type_.kind_ = kind;
+    type_.is_sealed_ = seal == Seal::kYes;
+  }
+  /// All keys of one of these lists are there, whatever else is.
+  void needs(std::vector<std::vector<std::string_view>> lists) { type_.needs_ = std::move(lists); }
+  /// Finds what contradicts itself where every key is right by itself: a sentence; empty if nothing does.
+  void check(std::string (*contradiction)(const T&)) {
+    type_.contradiction_ = [contradiction](const void* record) {
+      return contradiction(*static_cast<const T*>(record));
+    };
+  }
+
+ private:
+  static consteval std::size_t index_of(std::string_view key) {
+    for (std::size_t i = 0; i < detail::kKeys<T>.size(); ++i)
+      if (detail::kKeys<T>[i] == key) return i;
+    throw "no member has this name";
+  }
+
+  Struct& type_;
+};
+
+/// The table of T, built at its first use. Every member is a key: `white_at` is whiteAt.
 ///
 ///   const Struct& Place::type() {
-///     return define<Place>("Place", "Where a pixel is.", [](Struct& t) {
-///       t.key<&Place::x>("x", "from the left").unit("pixels").at_least(0);
-///       t.key<&Place::y>("y", "from the top").unit("pixels").at_least(0);
+///     return define<Place>("Where a pixel is.", [](auto& t) {
+///       t.key("x", "from the left");
+///       t.key("y", "from the top");
+///       t.all().unit("pixels").at_least(0);
 ///     });
 ///   }
 template <class T>
-const Struct& define(std::string_view name, std::string_view meaning, void (*fill)(Struct&)) {
-  static const Struct type(name, meaning, fill);
+[[gnu::cold]] const Struct& define(std::string_view meaning, void (*fill)(Table<T>&) = nullptr) {
+  static const Struct type = [&] {
+    Struct made(detail::type_name<T>(), meaning);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (detail::add_member(made, detail::kKeys<T>[I], detail::get<I>(detail::kMembers<T>),
+                          &detail::kUnmade<T>),
+       ...);
+    }
+    (detail::MemberIndices<T>());
+    Table<T> table(made);
+    if (fill) fill(table);
+    return made;
+  }();
   return type;
 }
 

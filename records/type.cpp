@@ -232,9 +232,9 @@ void ListType::read(const Json& json, const Bounds& bounds, const Place& place, 
   if (!json.is_array()) place.fail("not a list");
   require_items(json.size(), fixed_size(), bounds, place);
   const Bounds inner = bounds.of_items();
-  clear(value);
+  reset(value, json.size());
   for (std::size_t i = 0; i < json.size(); ++i)
-    item().read(json[i], inner, Place(place, i), append(value, i));
+    item().read(json[i], inner, Place(place, i), const_cast<void*>(at(value, i)));
 }
 
 Json ListType::schema(const Bounds& bounds) const {
@@ -292,7 +292,6 @@ Json OptionalType::write(const void* value) const {
 
 void OptionalType::read(const Json& json, const Bounds& bounds, const Place& place,
                         void* value) const {
-  reset(value);
   item().read(json, bounds, place, emplace(value));
 }
 

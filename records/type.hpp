@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
@@ -14,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -122,10 +122,9 @@ class ListType : public Type {
  protected:
   virtual const Type& item() const = 0;
   virtual std::size_t size(const void* list) const = 0;
-  virtual std::size_t fixed_size() const { return 0; }  ///< 0: any
+  virtual std::size_t fixed_size() const = 0;  ///< 0: any
   virtual const void* at(const void* list, std::size_t index) const = 0;
-  virtual void* append(void* list, std::size_t index) const = 0;
-  virtual void clear(void* list) const = 0;
+  virtual void reset(void* list, std::size_t size) const = 0;
 };
 
 class NamedType : public Type {
@@ -142,8 +141,8 @@ class NamedType : public Type {
   virtual std::size_t size(const void* object) const = 0;
   virtual std::pair<const std::string*, const void*> at(const void* object,
                                                         std::size_t index) const = 0;
-  virtual void* append(void* object, const std::string& name) const = 0;
   virtual void clear(void* object) const = 0;
+  virtual void* append(void* object, const std::string& name) const = 0;
 };
 
 class OptionalType : public Type {
@@ -160,43 +159,30 @@ class OptionalType : public Type {
   virtual const Type& item() const = 0;
   virtual const void* get(const void* optional) const = 0;
   virtual void* emplace(void* optional) const = 0;
-  virtual void reset(void* optional) const = 0;
 };
 
-template <class T>
-class VectorType final : public ListType {
-  using List = std::vector<T>;
-  const Type& item() const override { return type_of<T>(); }
+/// A std::vector or std::array.
+template <class List>
+class ListTypeOf final : public ListType {
+  const Type& item() const override { return type_of<typename List::value_type>(); }
   std::size_t size(const void* list) const override {
     return static_cast<const List*>(list)->size();
   }
+  std::size_t fixed_size() const override {
+    if constexpr (requires(List list) { list.resize(0); }) return 0;
+    return List().size();
+  }
   const void* at(const void* list, std::size_t index) const override {
     return &(*static_cast<const List*>(list))[index];
   }
-  void* append(void* list, std::size_t) const override {
-    return &static_cast<List*>(list)->emplace_back();
+  void reset([[maybe_unused]] void* list, [[maybe_unused]] std::size_t size) const override {
+    if constexpr (requires(List items) { items.clear(); }) *static_cast<List*>(list) = List(size);
   }
-  void clear(void* list) const override { static_cast<List*>(list)->clear(); }
 };
 
-template <class T, std::size_t N>
-class ArrayType final : public ListType {
-  using List = std::array<T, N>;
-  const Type& item() const override { return type_of<T>(); }
-  std::size_t size(const void*) const override { return N; }
-  std::size_t fixed_size() const override { return N; }
-  const void* at(const void* list, std::size_t index) const override {
-    return &(*static_cast<const List*>(list))[index];
-  }
-  void* append(void* list, std::size_t index) const override {
-    return &(*static_cast<List*>(list))[index];
-  }
-  void clear(void*) const override {}
-};
-
-template <class T>
+template <class Object>
 class NamedTypeOf final : public NamedType {
-  using Object = Named<T>;
+  using T = typename Object::value_type::second_type;
   const Type& item() const override { return type_of<T>(); }
   std::size_t size(const void* object) const override {
     return static_cast<const Object*>(object)->size();
@@ -206,16 +192,15 @@ class NamedTypeOf final : public NamedType {
     const auto& one = (*static_cast<const Object*>(object))[index];
     return {&one.first, &one.second};
   }
+  void clear(void* object) const override { static_cast<Object*>(object)->clear(); }
   void* append(void* object, const std::string& name) const override {
     return &static_cast<Object*>(object)->emplace_back(name, T{}).second;
   }
-  void clear(void* object) const override { static_cast<Object*>(object)->clear(); }
 };
 
-template <class T>
+template <class Optional>
 class OptionalTypeOf final : public OptionalType {
-  using Optional = std::optional<T>;
-  const Type& item() const override { return type_of<T>(); }
+  const Type& item() const override { return type_of<typename Optional::value_type>(); }
   const void* get(const void* optional) const override {
     const auto& held = *static_cast<const Optional*>(optional);
     return held ? &*held : nullptr;
@@ -223,68 +208,43 @@ class OptionalTypeOf final : public OptionalType {
   void* emplace(void* optional) const override {
     return &static_cast<Optional*>(optional)->emplace();
   }
-  void reset(void* optional) const override { static_cast<Optional*>(optional)->reset(); }
 };
 
 template <class>
 inline constexpr bool kIsOptional = false;
 template <class T>
 inline constexpr bool kIsOptional<std::optional<T>> = true;
+template <class T>
+inline constexpr bool kIsNamed = false;
+template <class T>
+inline constexpr bool kIsNamed<Named<T>> = true;
 
-template <class T>
-struct TypeOf {
-  static const Type& get() { return T::type(); }
-};
-template <>
-struct TypeOf<bool> {
-  static const Type& get() { return bool_type(); }
-};
-template <>
-struct TypeOf<double> {
-  static const Type& get() { return double_type(); }
-};
-template <>
-struct TypeOf<std::string> {
-  static const Type& get() { return string_type(); }
-};
-template <std::integral T>
-struct TypeOf<T> {
-  static const Type& get() { return integer_type(sizeof(T), std::is_signed_v<T>); }
-};
-template <class T>
-struct TypeOf<std::vector<T>> {
-  static const Type& get() {
-    static const VectorType<T> type;
-    return type;
-  }
-};
-template <class T, std::size_t N>
-struct TypeOf<std::array<T, N>> {
-  static const Type& get() {
-    static const ArrayType<T, N> type;
-    return type;
-  }
-};
-template <class T>
-struct TypeOf<std::vector<std::pair<std::string, T>>> {
-  static const Type& get() {
-    static const NamedTypeOf<T> type;
-    return type;
-  }
-};
-template <class T>
-struct TypeOf<std::optional<T>> {
-  static const Type& get() {
-    static const OptionalTypeOf<T> type;
-    return type;
-  }
-};
+template <class Made>
+const Type& only_one() {
+  static const Made made;
+  return made;
+}
 
 }  // namespace detail
 
 template <class T>
 const Type& type_of() {
-  return detail::TypeOf<T>::get();
+  if constexpr (requires { T::type(); })
+    return T::type();
+  else if constexpr (std::is_same_v<T, bool>)
+    return detail::bool_type();
+  else if constexpr (std::is_same_v<T, double>)
+    return detail::double_type();
+  else if constexpr (std::is_same_v<T, std::string>)
+    return detail::string_type();
+  else if constexpr (std::is_integral_v<T>)
+    return detail::integer_type(sizeof(T), std::is_signed_v<T>);
+  else if constexpr (detail::kIsOptional<T>)
+    return detail::only_one<detail::OptionalTypeOf<T>>();
+  else if constexpr (detail::kIsNamed<T>)
+    return detail::only_one<detail::NamedTypeOf<T>>();
+  else
+    return detail::only_one<detail::ListTypeOf<T>>();
 }
 
 }  // namespace lobelia::records

@@ -18,8 +18,8 @@ records::BlobFigures figures_record(const BlobFigures& blob) {
   record.pixels = blob.pixels;
   record.centroid = point_record(blob.axes.centre);
   record.major_axis = point_record(blob.axes.major);
-  record.half_width = {blob.major_half_width, blob.minor_half_width};
-  record.gaussian_sigma = {kSigma * blob.major_half_width, kSigma * blob.minor_half_width};
+  record.half_width_pixels = {blob.major_half_width, blob.minor_half_width};
+  record.gaussian_sigma_pixels = {kSigma * blob.major_half_width, kSigma * blob.minor_half_width};
   record.energy = blob.energy;
   record.nonfinite = blob.not_finite;
   record.because = blob.why_not;
@@ -38,7 +38,7 @@ records::Blob blob_record(const BlobProfile& profile) {
   for (const BlobCurve& curve : profile.curves) {
     records::BlobCurve& columns =
         record.curves.emplace_back(curve.axis, records::BlobCurve{}).second;
-    columns.offset = curve.offset;
+    columns.offset_pixels = curve.offset;
     for (std::size_t k = 0; k < profile.names.size(); ++k)
       columns.radiance.emplace_back(profile.names[k], curve.radiance[k]);
   }

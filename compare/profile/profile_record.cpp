@@ -27,8 +27,8 @@ records::HighlightFigures figures_record(const HighlightFigures& figures) {
   records::HighlightFigures record;
   record.peak = peak_record(figures.peak);
   record.centroid = point_record(figures.centroid);
-  record.along = half_width_record(figures.along);
-  record.across = half_width_record(figures.across);
+  record.half_width_along = half_width_record(figures.along);
+  record.half_width_across = half_width_record(figures.across);
   record.energy = figures.energy;
   const CosineFit& cosine = figures.cosine;
   records::CosineLobe& lobe = record.cosine_lobe;

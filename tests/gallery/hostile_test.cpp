@@ -186,7 +186,8 @@ TEST(HostileRecords, numbers_at_the_ends_of_what_a_double_holds_are_drawn) {
         values[1] = values[59] = odd;
         if (name == "povray") values.assign(60, odd);
       }
-      for (auto* zone : {&profile.zones.epicentre, &profile.zones.flank, &profile.zones.blooming})
+      for (auto* zone : {&profile.zones.epicentre_degrees, &profile.zones.flank_degrees,
+                         &profile.zones.blooming_degrees})
         if (odd >= 0 && odd <= 90) (*zone)[1] = odd;
       records::HighlightShape& shape = profile.images[0].second;
       shape.peak = shape.half_width_degrees = shape.energy = odd;

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "gallery/gallery.hpp"
 #include "lobelia_paths.hpp"
-#include "records/typescript.hpp"
+#include "records/catalogue.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"
 

@@ -192,7 +192,7 @@ Problems loose_removals(const fs::path& root) {
 
 /// Keys of JSON outside of records/: by the library, in the text of a string, or in a table.
 Problems loose_keys(const fs::path& root) {
-  static const std::regex pattern(R"re(#\s*include\s*<nlohmann/|\\"[A-Za-z_]+\\"\s*:|\.key<&)re");
+  static const std::regex pattern(R"re(#\s*include\s*<nlohmann/|\\"[A-Za-z_]+\\"\s*:|\bdefine<)re");
   return lines_with(root, pattern, [](const fs::path& file) {
     const std::string room = file.begin()->string(), name = file.generic_string();
     if (!is_cpp(file) || room == "records" || !kMaySee.contains(room)) return false;
@@ -205,12 +205,13 @@ TEST(Records, alone_spell_their_keys) { EXPECT_THAT(loose_keys(kRoot), IsEmpty()
 
 TEST(Records, keys_that_others_spell_are_found) {
   Scratch tree;
-  write(tree / "records/a.cpp", "#include <nlohmann/json.hpp>\nt.key<&A::b>(\"b\");\n");
+  write(tree / "records/a.cpp", "#include <nlohmann/json.hpp>\nreturn define<A>(\"A part.\");\n");
   write(tree / "tests/a.cpp", "#include <nlohmann/json.hpp>\n");
   write(tree / "farm/a.cpp", "record.status = \"pass\";\nfmt::print(\"\\\"{}\\\": x\", y);\n");
   ASSERT_THAT(loose_keys(tree.path()), IsEmpty());
-  write(tree / "farm/b.cpp",
-        "#include <nlohmann/json_fwd.hpp>\ntext += \"\\\"status\\\": \";\nt.key<&A::b>(\"b\");\n");
+  write(
+      tree / "farm/b.cpp",
+      "#include <nlohmann/json_fwd.hpp>\ntext += \"\\\"status\\\": \";\nreturn define<A>(\"A part.\");\n");
   EXPECT_EQ(loose_keys(tree.path()).size(), 3u);
 }
 

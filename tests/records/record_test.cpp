@@ -26,9 +26,9 @@ struct Part {
   int count = 0;
   std::optional<double> size;
   static const Struct& type() {
-    return define<Part>("Part", "A part.", [](Struct& t) {
-      t.key<&Part::count>("count").at_least(0);
-      t.key<&Part::size>("size").within(0, 1);
+    return define<Part>("A part.", [](auto& t) {
+      t.key("count").at_least(0);
+      t.key("size").within(0, 1);
     });
   }
 };
@@ -41,17 +41,15 @@ struct Sample {
   std::optional<int> nothing;
   std::uint64_t seed = 0;
   static const Struct& type() {
-    return define<Sample>("Sample", "A sample.", [](Struct& t) {
+    return define<Sample>("A sample.", [](auto& t) {
       t.kind("sample");
-      t.key<&Sample::name>("name").most_text(8);
-      t.key<&Sample::colour>("colour").one_of(kColours);
-      t.key<&Sample::file>("file").plain_name();
-      t.key<&Sample::any>("any").may_be_nonfinite();
-      t.key<&Sample::parts>("parts").items(0, 3);
-      t.key<&Sample::pairs>("pairs");
-      t.key<&Sample::nothing>("nothing").or_null();
-      t.key<&Sample::seed>("seed");
-      t.check<contradiction>();
+      t.key("name").most_text(8);
+      t.key("colour").one_of(kColours);
+      t.key("file").plain_name();
+      t.key("any").may_be_nonfinite();
+      t.key("parts").items(0, 3);
+      t.key("nothing").or_null();
+      t.check(contradiction);
     });
   }
   static std::string contradiction(const Sample& sample) {
