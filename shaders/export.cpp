@@ -7,7 +7,6 @@
 #include "core/version.hpp"
 #include "shaders/gpu.hpp"
 #include "shaders/names.hpp"
-#include "shaders/parts.hpp"
 #include "shaders/povray.hpp"
 
 namespace lobelia {

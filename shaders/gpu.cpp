@@ -9,7 +9,6 @@
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "shaders/names.hpp"
-#include "shaders/parts.hpp"
 
 namespace lobelia {
 namespace embedded {

@@ -10,7 +10,7 @@
 
 namespace lobelia {
 
-/// What differs.
+/// The words in which the three languages differ.
 struct GpuLanguage {
   std::string_view vec3;    ///< the type of a vector
   std::string_view normal;  ///< name of a parameter; "normal" is a word of OSL's own

@@ -1,7 +1,12 @@
-// What an exported highlight is called.
+// What an exported highlight is called, and its text in parts: what several highlights need stands in it once, and two
+// exports can be used together.
 #pragma once
 
+#include <initializer_list>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "renderer/highlight.hpp"
 
@@ -14,7 +19,7 @@ std::string function_name(const Highlight& highlight, bool fixed_exponent = fals
 /// "Modified_Phong" out of "modified_phong".
 std::string capitalised(std::string_view name);
 
-/// What "Romanyuk et al." is, for a reader who has only the exported file.
+/// Explains "Romanyuk et al." to a reader who has only the exported file.
 inline constexpr std::string_view kPaper =
     "Romanyuk et al.: O. N. Romanyuk, I. V. Abramchuk, S. A. Kyrylashchuk, S. O. Romanyuk, Modelling\n"
     "// of a specular component of colour by using energy-correct models of surface reflectivity\n"
@@ -22,5 +27,23 @@ inline constexpr std::string_view kPaper =
 
 /// `modified Phong with the lobe cs16, normalisation "exact"`
 std::string heading(const Highlight& highlight);
+
+/// `text` with each "%name%" replaced.
+std::string fill(std::string_view text,
+                 std::initializer_list<std::pair<std::string_view, std::string_view>> values);
+
+class Parts {
+ public:
+  /// How the language skips what it has read before; "%name%" is the part's name.
+  Parts(std::string_view begin, std::string_view end) : begin_(begin), end_(end) {}
+
+  /// Appends the part unless it is there already.
+  void add(const std::string& name, std::string_view text);
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string begin_, end_, text_;
+  std::set<std::string> names_;
+};
 
 }  // namespace lobelia

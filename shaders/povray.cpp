@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "shaders/names.hpp"
-#include "shaders/parts.hpp"
 
 namespace lobelia {
 namespace embedded {

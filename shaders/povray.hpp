@@ -13,7 +13,7 @@
 
 namespace lobelia {
 
-/// What the include file of `highlight` defines; its exponent does not matter.
+/// The names that the include file of `highlight` defines; its exponent does not matter.
 struct PovrayNames {
   std::string file;         ///< "lobelia_modified_phong_cs16.inc"
   std::string pattern;      ///< "Lobelia_Modified_Phong_Cs16", of normal, light, eye and exponent
