@@ -14,7 +14,7 @@ namespace {
 
 std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
 
-/// Of the first object, the program itself.
+/// Reads the build ID of the first object, which is the program itself.
 int take_build_id(dl_phdr_info* object, std::size_t, void* result) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const auto& part = object->dlpi_phdr[i];

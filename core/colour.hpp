@@ -5,7 +5,7 @@
 
 namespace lobelia {
 
-/// What a person sees on an sRGB display: values times 2^exposure_stops, clipped to [0, 1], encoded
+/// The picture on an sRGB display: values times 2^exposure_stops, clipped to [0, 1], encoded
 /// by the sRGB display of core/lobelia.ocio, rounded to 8 bits. Non-finite pixels become magenta.
 DisplayImage to_display(const Image& image, double exposure_stops);
 

@@ -26,7 +26,7 @@ struct DisplayView::Processors {
 
 namespace {
 
-/// What linear light with Rec. 709 primaries is called: OpenColorIO's own configurations, ACES' older ones,
+/// Names of linear light with Rec. 709 primaries: OpenColorIO's own configurations, ACES' older ones,
 /// Blender's, and ours.
 constexpr const char* kLinearRec709[] = {"lin_rec709_scene",
                                          "lin_rec709",
@@ -53,7 +53,7 @@ ocio::ConstConfigRcPtr read_config(const std::string& name) {
 /// `wanted`, which has to be among `names`.
 void require_name(std::string_view what, const std::string& config, const std::string& wanted,
                   const std::vector<std::string_view>& names) {
-  if (std::find(names.begin(), names.end(), wanted) != names.end()) return;
+  if (std::ranges::count(names, wanted) > 0) return;
   throw Error(ExitCode::kUsage,
               fmt::format("{} has no {} '{}'{}; it has {}", config, what, printable(wanted),
                           did_you_mean(wanted, names), printable(join(names), 400)));

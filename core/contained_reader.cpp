@@ -16,6 +16,7 @@
 #include <memory>
 #include <mutex>
 
+#include "core/descriptor.hpp"
 #include "core/error.hpp"
 #include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
@@ -42,25 +43,6 @@ constexpr int kLookMilliseconds = 50;
 [[noreturn]] void broken(const char* what, int error) {
   throw failure_of(fmt::format("{}: {}", kReaderFile, what), error, ExitCode::kInternal);
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Descriptor() { close(); }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-  int get() const { return number_; }
-
- private:
-  int number_;
-};
 
 /// Until there is something to be read, or the other side is gone. Throws Error(kInterrupted).
 void wait_for(int descriptor) {
@@ -255,7 +237,7 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
                          .limit = limit};
   Descriptor copy;
   if (g_any_format)
-    copy = Descriptor(file.copy_in_memory(kMaxAnyFormatBytes));
+    copy = file.copy_in_memory(kMaxAnyFormatBytes);
   else
     request.format = file.known_format();
   const std::string message = pack(request);

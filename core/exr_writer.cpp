@@ -22,23 +22,13 @@
 namespace lobelia {
 namespace {
 
-Imf::Compression imf(ExrCompression compression) {
-  switch (compression) {
-    case ExrCompression::kNone:
-      return Imf::NO_COMPRESSION;
-    case ExrCompression::kZips:
-      return Imf::ZIPS_COMPRESSION;
-    case ExrCompression::kZip:
-      return Imf::ZIP_COMPRESSION;
-    case ExrCompression::kPiz:
-      break;
-  }
-  return Imf::PIZ_COMPRESSION;
-}
+/// In the order of ExrCompression.
+constexpr Imf::Compression kCompressions[] = {Imf::NO_COMPRESSION, Imf::ZIPS_COMPRESSION,
+                                              Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION};
 
 Imf::Header header(int width, int height, const ImageMetadata& metadata, ExrOptions options) {
   Imf::Header result(width, height);
-  result.compression() = imf(options.compression);
+  result.compression() = kCompressions[std::size_t(options.compression)];
   result.zipCompressionLevel() = options.zip_level;
   for (const char* name : {"R", "G", "B"}) result.channels().insert(name, Imf::Channel(Imf::FLOAT));
   for (const auto& [name, value] : metadata) {

@@ -12,9 +12,7 @@ namespace {
 constexpr std::array<std::string_view, 11> kInline = {
     "a", "abbr", "b", "code", "em", "small", "span", "strong", "sub", "sup", "pre"};
 
-bool is_inline(std::string_view tag) {
-  return std::find(kInline.begin(), kInline.end(), tag) != kInline.end();
-}
+bool is_inline(std::string_view tag) { return std::ranges::count(kInline, tag) > 0; }
 
 void write_start(std::string& out, std::string_view tag, const Attributes& attributes) {
   out += '<';

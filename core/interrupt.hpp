@@ -60,8 +60,8 @@ class TemporaryPath {
   std::filesystem::path path_;  ///< empty once forgotten
 };
 
-/// What a second Ctrl-C writes to stderr before it ends the process; at most 1000 bytes of it. Whoever holds
-/// something that goes on without us says there where. One at a time; not for several threads.
+/// Sets the text that a second Ctrl-C writes to stderr before it ends the process; at most 1000 bytes. It says where
+/// work goes on without this process. Not for several threads at once.
 void set_last_words(std::string_view text);
 
 /// Holds a keeper (core/process_keeper.cpp) where a second Ctrl-C finds it, for as long as this object lives: SIGTERM makes

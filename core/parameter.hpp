@@ -2,6 +2,7 @@
 // checks against it, and the documentation of the scene format is printed from it.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string_view>
 
@@ -11,21 +12,8 @@ enum class ParameterType { kFloat, kInteger, kString, kPoint, kVector, kRgb };
 
 /// XML tag of a parameter of that type, as in Mitsuba: "float", "integer", "string", "point", ...
 constexpr std::string_view parameter_tag(ParameterType type) {
-  switch (type) {
-    case ParameterType::kFloat:
-      return "float";
-    case ParameterType::kInteger:
-      return "integer";
-    case ParameterType::kString:
-      return "string";
-    case ParameterType::kPoint:
-      return "point";
-    case ParameterType::kVector:
-      return "vector";
-    case ParameterType::kRgb:
-      return "rgb";
-  }
-  return "";
+  constexpr std::string_view kTags[] = {"float", "integer", "string", "point", "vector", "rgb"};
+  return kTags[std::size_t(type)];
 }
 
 struct Parameter {

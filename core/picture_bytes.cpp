@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <istream>
-#include <streambuf>
 #include <string>
+
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace {
@@ -31,28 +31,6 @@ std::uint64_t number_at(std::string_view bytes, std::size_t at, bool little, std
   }
   return value;
 }
-
-/// A file in memory, for a stream.
-class MemoryBuffer : public std::streambuf {
- public:
-  explicit MemoryBuffer(std::string_view bytes) {
-    char* begin = const_cast<char*>(bytes.data());
-    setg(begin, begin, begin + bytes.size());
-  }
-
- protected:
-  pos_type seekoff(off_type offset, std::ios::seekdir from, std::ios::openmode) override {
-    const off_type start = from == std::ios::beg   ? 0
-                           : from == std::ios::cur ? gptr() - eback()
-                                                   : egptr() - eback();
-    if (offset < -start || offset > egptr() - eback() - start) return pos_type(off_type(-1));
-    setg(eback(), eback() + start + offset, egptr());
-    return pos_type(start + offset);
-  }
-  pos_type seekpos(pos_type place, std::ios::openmode mode) override {
-    return seekoff(off_type(place), std::ios::beg, mode);
-  }
-};
 
 struct Mark {
   std::string_view bytes, format;
@@ -80,7 +58,7 @@ bool is_tga_header(std::string_view head) {
   if (head.size() < 18) return false;
   const auto byte = [&](std::size_t at) { return number_at(head, at, true, 1); };
   const auto one_of = [](std::uint64_t value, std::initializer_list<std::uint64_t> allowed) {
-    return std::find(allowed.begin(), allowed.end(), value) != allowed.end();
+    return std::ranges::find(allowed, value) != allowed.end();
   };
   const bool has_map = byte(1) == 1;
   return byte(1) <= 1 && one_of(byte(2), {1, 2, 3, 9, 10, 11}) &&
@@ -97,9 +75,7 @@ std::string_view picture_format(std::string_view head, std::string_view footer,
     if (head.starts_with(mark.bytes)) return mark.format;
   if (is_pnm(head)) return "pnm";
   if (head.starts_with("RIFF") && head.size() >= 12 && head.substr(8, 4) == "WEBP") return "webp";
-  std::string small(ending);
-  for (char& c : small) c = char(std::tolower(static_cast<unsigned char>(c)));
-  const bool is_tga = footer.ends_with("TRUEVISION-XFILE.\0"sv) || small == ".tga";
+  const bool is_tga = footer.ends_with("TRUEVISION-XFILE.\0"sv) || lower_case(ending) == ".tga";
   return is_tga && is_tga_header(head) ? "targa" : "";
 }
 
@@ -145,61 +121,47 @@ bool is_cut_off(std::string_view bytes, std::string_view format) {
   return stated != 0xffffffffu && bytes.size() < stated;
 }
 
-bool is_tiff_without_bits(std::string_view whole) {
+bool is_tiff_without_bits(std::string_view file) {
   constexpr std::uint64_t kBitsPerSample = 258, kMaxEntries = 65535;
-  MemoryBuffer buffer(whole);
-  std::istream file(&buffer);
-  std::string start(16, '\0');
-  file.read(start.data(), 16);
-  const bool little = start.starts_with("II");
-  if (file.gcount() < 8 || (!little && !start.starts_with("MM"))) return false;
-  const std::uint64_t version = number_at(start, 2, little, 2);
+  const bool little = file.starts_with("II");
+  if (file.size() < 8 || (!little && !file.starts_with("MM"))) return false;
+  const std::uint64_t version = number_at(file, 2, little, 2);
   const bool big = version == 43;
   if (version != 42 && !big) return false;
   // A directory is a count, entries, and the place of the next one.
   const std::size_t offset = big ? 8 : 4, count_size = big ? 8 : 2, entry_size = big ? 20 : 12;
-  std::uint64_t at = number_at(start, big ? 8 : 4, little, offset);
+  std::uint64_t at = number_at(file, big ? 8 : 4, little, offset);
   constexpr int kMaxPages = 1024;
   for (int page = 0; at != 0 && page < kMaxPages; ++page) {
-    file.clear();
-    file.seekg(std::streamoff(at));
-    std::string bytes(count_size, '\0');
-    if (!file.read(bytes.data(), std::streamsize(count_size))) return false;
-    const std::uint64_t count = number_at(bytes, 0, little, count_size);
+    if (at > file.size() || file.size() - at < count_size) return false;
+    const std::uint64_t count = number_at(file, at, little, count_size);
     if (count > kMaxEntries) return false;
-    bytes.resize(count * entry_size + offset);
-    file.read(bytes.data(), std::streamsize(bytes.size()));
-    // The last directory may end without a next one.
-    if (std::uint64_t(file.gcount()) < count * entry_size) return false;
+    at += count_size;
+    if (file.size() - at < count * entry_size) return false;
     bool has_bits = false;
     for (std::uint64_t i = 0; i < count; ++i)
-      has_bits |= number_at(bytes, i * entry_size, little, 2) == kBitsPerSample;
+      has_bits |= number_at(file, at + i * entry_size, little, 2) == kBitsPerSample;
     if (!has_bits) return true;
-    at = file ? number_at(bytes, count * entry_size, little, offset) : 0;
+    at += count * entry_size;
+    // The last directory may end without a next one.
+    at = file.size() - at < offset ? 0 : number_at(file, at, little, offset);
   }
   return false;
 }
 
-PngColour png_colour(std::string_view whole) {
+PngColour png_colour(std::string_view file) {
   PngColour colour;
-  MemoryBuffer buffer(whole);
-  std::istream file(&buffer);
-  file.seekg(8);
-  constexpr std::uint64_t kLongest = 32;  // of those that are read
-  for (std::string head(8, '\0'); file.read(head.data(), 8);) {
-    const std::uint64_t length = number_at(head, 0, false);
-    const std::string type = head.substr(4);
+  constexpr std::size_t kLongest = 32;  // of those that are read
+  // Length, type, data, checksum.
+  for (std::size_t at = 8; at <= file.size() && file.size() - at >= 8;) {
+    const std::size_t length = number_at(file, at, false);
+    const std::string_view type = file.substr(at + 4, 4), data = file.substr(at + 8, length);
     if (type == "IDAT") break;
     if (type == "iCCP") colour.has_icc_profile = true;
-    if (length > kLongest) {
-      file.seekg(std::streamoff(length + 4), std::ios::cur);
-      continue;
-    }
-    std::string data(length + 4, '\0');
-    if (!file.read(data.data(), std::streamsize(data.size()))) break;
-    const std::uint64_t checksum = number_at(data, length, false);
-    data.resize(length);
-    if (crc32(type + data) != checksum) continue;
+    at += 12 + length;
+    if (length > kLongest) continue;
+    if (at > file.size()) break;
+    if (crc32(file.substr(at - 8 - length, 4 + length)) != number_at(file, at - 4, false)) continue;
     const auto number = [&](std::size_t i) { return double(number_at(data, 4 * i, false)) / 1e5; };
     if (type == "sRGB" && length == 1) colour.is_srgb = true;
     if (type == "gAMA" && length == 4 && !colour.gamma)

@@ -34,11 +34,11 @@ void unreadable_picture(const std::filesystem::path& path, std::string_view why)
 
 PictureFile::PictureFile(const std::filesystem::path& path) : path_(path) {
   // Opening a pipe would wait for whoever writes to it.
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (descriptor_ < 0) cannot_open(path, errno);
+  file_ = Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (descriptor() < 0) cannot_open(path, errno);
   struct stat status {};
   std::string problem;
-  if (::fstat(descriptor_, &status) != 0)
+  if (::fstat(descriptor(), &status) != 0)
     problem = std::strerror(errno);
   else if (!S_ISREG(status.st_mode))
     problem = "not a regular file";
@@ -48,18 +48,14 @@ PictureFile::PictureFile(const std::filesystem::path& path) : path_(path) {
     problem =
         fmt::format("the file has {} bytes; at most {} are read", status.st_size, kMaxPictureBytes);
   size_ = std::uint64_t(status.st_size);
-  if (problem.empty()) return;
-  ::close(descriptor_);
-  unreadable_picture(path, problem);
+  if (!problem.empty()) unreadable_picture(path, problem);
 }
-
-PictureFile::~PictureFile() { ::close(descriptor_); }
 
 std::string PictureFile::read(std::uint64_t offset, std::size_t size) const {
   std::string bytes(size, '\0');
   std::size_t done = 0;
   while (done < size) {
-    const ssize_t n = ::pread(descriptor_, bytes.data() + done, size - done, off_t(offset + done));
+    const ssize_t n = ::pread(descriptor(), bytes.data() + done, size - done, off_t(offset + done));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) unreadable_picture(path_, std::strerror(errno));
     if (n == 0) unreadable_picture(path_, "it became shorter while it was read");
@@ -84,19 +80,18 @@ std::string_view PictureFile::known_format() const {
   return format;
 }
 
-int PictureFile::copy_in_memory(std::uint64_t max_bytes) const {
+Descriptor PictureFile::copy_in_memory(std::uint64_t max_bytes) const {
   if (size_ > max_bytes)
     unreadable_picture(
         path_, fmt::format("the file has {} bytes; at most {} of such a format are read", size_,
                            max_bytes));
-  const int copy = ::memfd_create("picture", MFD_CLOEXEC);
-  if (copy < 0) cannot_open(path_, errno);
+  Descriptor copy(::memfd_create("picture", MFD_CLOEXEC));
+  if (copy.get() < 0) cannot_open(path_, errno);
   off_t offset = 0;
   while (std::uint64_t(offset) < size_) {
-    const ssize_t n = ::sendfile(copy, descriptor_, &offset, std::size_t{1} << 24);
+    const ssize_t n = ::sendfile(copy.get(), descriptor(), &offset, std::size_t{1} << 24);
     const int error = errno;
     if (n > 0 && !interrupted()) continue;
-    ::close(copy);
     throw_if_interrupted();
     unreadable_picture(path_, n < 0 ? std::strerror(error) : "it became shorter while it was read");
   }

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/descriptor.hpp"
+
 namespace lobelia {
 
 /// Larger files are not opened; those of --any-format are copied into memory.
@@ -16,24 +18,20 @@ class PictureFile {
  public:
   /// Throws Error(kInput): missing, not a regular file, empty, over kMaxPictureBytes.
   explicit PictureFile(const std::filesystem::path& path);
-  ~PictureFile();
-  PictureFile(const PictureFile&) = delete;
-  PictureFile& operator=(const PictureFile&) = delete;
 
-  int descriptor() const { return descriptor_; }
+  int descriptor() const { return file_.get(); }
   std::uint64_t size() const { return size_; }
   /// As picture_format(). Throws Error(kInput) if it has none, naming those that are read.
   std::string_view known_format() const;
   /// The whole file. Throws Error(kInput) if it became shorter.
   std::string read_all() const;
-  /// A copy of the file in memory that belongs to no file system: a descriptor, the caller's to close. Throws
-  /// Error(kInput) if it is over `max_bytes`.
-  int copy_in_memory(std::uint64_t max_bytes) const;
+  /// A copy of the file in memory that belongs to no file system. Throws Error(kInput) if it is over `max_bytes`.
+  Descriptor copy_in_memory(std::uint64_t max_bytes) const;
 
  private:
   std::string read(std::uint64_t offset, std::size_t size) const;
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  Descriptor file_;
   std::uint64_t size_ = 0;
 };
 

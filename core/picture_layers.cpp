@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -21,10 +20,8 @@ struct SplitName {
 
 SplitName split_name(const std::string& name) {
   const std::size_t dot = name.rfind('.');
-  SplitName result{dot == name.npos ? "" : name.substr(0, dot),
-                   dot == name.npos ? name : name.substr(dot + 1)};
-  for (char& c : result.suffix) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return result;
+  return {dot == name.npos ? "" : name.substr(0, dot),
+          lower_case(dot == name.npos ? name : name.substr(dot + 1))};
 }
 
 /// One part's channels of one prefix: position by suffix.

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <optional>
 
+#include "core/descriptor.hpp"
 #include "core/error.hpp"
 #include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
@@ -43,10 +44,8 @@ std::vector<std::string> environment_with(const std::vector<std::string>& change
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text = *variable;
     const auto name = text.substr(0, text.find('=') + 1);
-    const bool changed = std::any_of(
-        changes.begin(), changes.end(),
-        [&](const std::string& change) { return std::string_view(change).starts_with(name); });
-    if (!changed) result.emplace_back(text);
+    if (std::ranges::none_of(changes, [&](const auto& change) { return change.starts_with(name); }))
+      result.emplace_back(text);
   }
   return result;
 }
@@ -137,11 +136,11 @@ class Progress {
   std::uint64_t fingerprint_ = 0, bytes_ = 0;
 };
 
-/// What a keeper's processes have resident, looked at the more often the nearer it is to the limit.
+/// Resident memory of a keeper's processes. It is read more often as it nears the limit.
 class Memory {
  public:
   Memory(std::uint64_t limit, pid_t keeper) : limit_(limit), keeper_(keeper) {}
-  /// What they use if that is too much, else 0.
+  /// The bytes in use if they are over the limit, else 0.
   std::uint64_t used_too_much() {
     if (limit_ == 0 || Clock::now() < next_) return 0;
     std::uint64_t used = memory_of_tree(keeper_);
@@ -164,22 +163,6 @@ class Memory {
 [[noreturn]] void cannot_start(const std::string& program, int error) {
   throw failure_of(program + ": cannot be started", error, ExitCode::kEngine);
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-  int get() const { return number_; }
-
- private:
-  int number_;
-};
 
 /// A program at work, or its keeper with it. However it is left, nothing of it goes on.
 class Running {

@@ -14,7 +14,7 @@
 
 namespace lobelia {
 
-/// What holds a program, as the kernel allows it.
+/// The limits on a program that the kernel could set.
 struct ProcessLimits {
   bool writes_limited = false;  ///< to ProcessOptions::writable (core/write_limit.hpp)
   Containment contained = Containment::kNone;
@@ -56,7 +56,7 @@ struct ProcessResult {
   double seconds = 0;        ///< wall time
   double cpu_seconds = 0;    ///< of it and all that it started: user and system
   std::uint64_t peak_memory_bytes = 0;  ///< resident, of the largest of them
-  /// What it used when it was killed for a limit: bytes of memory or of the disk; 0 where that is not known.
+  /// Bytes of memory or of disk it used when it was killed for a limit; 0 if not known.
   std::uint64_t used_bytes = 0;
   std::string output_tail;  ///< the last 4 KiB of its output
 };

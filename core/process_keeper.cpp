@@ -61,7 +61,7 @@ pid_t parent_of(const char* process) {
   return name_end && std::sscanf(name_end, ") %*c %d", &parent) == 1 ? parent : 0;
 }
 
-/// Of a subreaper: whatever loses its parent becomes its child. Returns how many were killed.
+/// Kills all children of a subreaper: every process that loses its parent becomes one. Returns how many were killed.
 int kill_children() {
   DIR* processes = ::opendir("/proc");
   if (!processes) return 0;

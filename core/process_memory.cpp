@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostProcesses = 1000;  // of a tree that never stops growing
 
-/// Of a file of "NAME: NUMBER" or "NAME NUMBER" lines; nothing if it has none of that name.
+/// The number after `name` in a file of "NAME: NUMBER" or "NAME NUMBER" lines.
 std::optional<std::uint64_t> number_in(const std::string& file, std::string_view name) {
   std::ifstream lines(file);
   for (std::string word; lines >> word;)

@@ -88,45 +88,20 @@ class Filter {
 };
 
 /// Memory, threads, time, and what is open already: decoders, malloc and pools of threads need no more.
-constexpr long kHarmlessCalls[] = {SYS_read,
-                                   SYS_pread64,
-                                   SYS_readv,
-                                   SYS_write,
-                                   SYS_writev,
-                                   SYS_lseek,
-                                   SYS_fstat,
-                                   SYS_close,
-                                   SYS_mmap,
-                                   SYS_munmap,
-                                   SYS_mremap,
-                                   SYS_mprotect,
-                                   SYS_madvise,
-                                   SYS_brk,
-                                   SYS_futex,
-                                   SYS_set_robust_list,
-                                   SYS_set_tid_address,
-                                   SYS_rseq,
-                                   SYS_exit,
-                                   SYS_exit_group,
-                                   SYS_sched_yield,
-                                   SYS_sched_getaffinity,
-                                   SYS_rt_sigaction,
-                                   SYS_rt_sigprocmask,
-                                   SYS_rt_sigreturn,
-                                   SYS_sigaltstack,
-                                   SYS_restart_syscall,
-                                   SYS_clock_gettime,
-                                   SYS_clock_getres,
-                                   SYS_clock_nanosleep,
-                                   SYS_nanosleep,
-                                   SYS_gettimeofday,
-                                   SYS_getrandom,
-                                   SYS_getpid,
-                                   SYS_gettid,
-                                   SYS_getrusage,
-                                   SYS_sysinfo,
-                                   SYS_uname,
-                                   SYS_membarrier};
+constexpr std::initializer_list<long> kHarmlessCalls[] = {
+    // what is open already
+    {SYS_read, SYS_pread64, SYS_readv, SYS_write, SYS_writev, SYS_lseek, SYS_fstat, SYS_close},
+    // memory
+    {SYS_mmap, SYS_munmap, SYS_mremap, SYS_mprotect, SYS_madvise, SYS_brk},
+    // threads
+    {SYS_futex, SYS_set_robust_list, SYS_set_tid_address, SYS_rseq, SYS_sched_yield,
+     SYS_sched_getaffinity, SYS_membarrier, SYS_exit, SYS_exit_group},
+    // signals
+    {SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_sigaltstack, SYS_restart_syscall},
+    // time
+    {SYS_clock_gettime, SYS_clock_getres, SYS_clock_nanosleep, SYS_nanosleep, SYS_gettimeofday},
+    // itself and the machine
+    {SYS_getrandom, SYS_getpid, SYS_gettid, SYS_getrusage, SYS_sysinfo, SYS_uname}};
 
 /// Opening a file and looking at it, by its name.
 constexpr long kNameCalls[] = {
@@ -152,13 +127,11 @@ void forbid_every_path() {
   ::close(ruleset);
 }
 
-}  // namespace
-
-namespace {
 /// In the data window and in the display window, together.
 std::uint64_t most_pixels(std::uint64_t file_bytes, const PictureLimit& limit) {
   return 2 * (limit.pixels_of_any_file + limit.pixels_per_byte * file_bytes);
 }
+
 }  // namespace
 
 std::string claim_problem(const PictureClaim& claim, std::uint64_t file_bytes,
@@ -208,7 +181,8 @@ bool lock_down(bool may_open_files) {
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
   if (may_open_files) forbid_every_path();
   Filter filter;
-  for (const long call : kHarmlessCalls) filter.allow(call);
+  for (const auto& calls : kHarmlessCalls)
+    for (const long call : calls) filter.allow(call);
   filter.allow_if(SYS_clone, 0, CLONE_THREAD, CLONE_THREAD);
   filter.refuse(SYS_clone3,
                 ENOSYS);  // then the C library takes clone, of which the flags can be seen

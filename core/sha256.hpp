@@ -15,7 +15,7 @@ using Sha256Digest = std::array<std::uint8_t, 32>;
 
 Sha256Digest sha256(std::string_view bytes);
 
-/// Of the whole file. Throws Error(kInput) if it cannot be read.
+/// Hashes the whole file. Throws Error(kInput) if it cannot be read.
 Sha256Digest sha256_of_file(const std::filesystem::path& path);
 
 /// 64 lower-case hexadecimal digits, and back; `from_hex` returns false for anything else.

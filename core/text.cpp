@@ -121,6 +121,13 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
   return suggestion.empty() ? "" : "; did you mean '" + suggestion + "'?";
 }
 
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return result;
+}
+
 std::string join(std::span<const std::string_view> items, std::string_view separator) {
   std::string result;
   for (const auto item : items) {
@@ -148,28 +155,16 @@ bool parse_number(std::string_view text, double& value) {
 bool parse_integer(std::string_view text, long long& value) { return parse_whole(text, value); }
 
 std::string escape_markup(std::string_view text) {
+  constexpr std::pair<char, std::string_view> kEscapes[] = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
   std::string result;
   result.reserve(text.size());
   for (const char c : valid_utf8(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') result += c;
-    }
+    const auto* escape = std::ranges::find(kEscapes, c, &std::pair<char, std::string_view>::first);
+    if (escape != std::end(kEscapes))
+      result += escape->second;
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
+      result += c;
   }
   return result;
 }

@@ -21,6 +21,8 @@ std::optional<Id> find_id(std::span<const std::string_view> names, std::string_v
     if (names[i] == name) return Id{std::uint8_t(i)};
   return std::nullopt;
 }
+/// Letters of ASCII in lower case.
+std::string lower_case(std::string_view text);
 /// "a, b, c"
 std::string join(std::span<const std::string_view> items, std::string_view separator = ", ");
 /// Parts between any of `separators`, trimmed of white space, empty ones dropped.

@@ -16,7 +16,7 @@ struct TransferCurve {
   std::string name;  ///< for the record: "linear", "sRGB", "Rec709", "gamma 1.8", ...
 };
 
-/// What a file says of its values, as OpenImageIO hands it on.
+/// The encoding that a file states, as OpenImageIO reports it.
 struct EncodingStatement {
   std::string_view format;  ///< "dpx"
   std::string_view space;   ///< "oiio:ColorSpace"; empty if it says nothing
