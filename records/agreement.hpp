@@ -1,12 +1,6 @@
 // How far all engines are from the formulas.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {

@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "records/agreement.hpp"
 #include "records/cluster.hpp"
 #include "records/comparison.hpp"
@@ -40,9 +41,7 @@ std::string type_text(const Json& schema) {
   if (schema.contains("allOf")) return type_text(schema["allOf"][0]);
   if (schema.contains("$ref")) {
     const std::string name = schema["$ref"].get<std::string>().substr(14);
-    std::string anchor;
-    for (const char c : name) anchor += char(std::tolower(static_cast<unsigned char>(c)));
-    return fmt::format("[{}](#{})", name, anchor);
+    return fmt::format("[{}](#{})", name, lower_case(name));
   }
   if (schema.contains("anyOf")) {
     std::string text;

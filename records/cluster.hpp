@@ -1,12 +1,6 @@
 // A run of a farm on a cluster: what its elements are given and tell.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/farm.hpp"
 #include "records/result.hpp"
 #include "records/struct_type.hpp"

@@ -3,9 +3,6 @@
 namespace lobelia::records {
 namespace {
 
-constexpr std::string_view kVerdicts[] = {"pass", "differs",   "non-finite",
-                                          "same", "different", "undecided"};
-constexpr std::string_view kStandings[] = {"holds", "broken", "open"};
 constexpr std::string_view kDecoders[] = {"XYZ", "sRGB"};
 constexpr std::string_view kToneCurves[] = {"aces"};
 

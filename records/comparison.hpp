@@ -1,15 +1,15 @@
 // Comparisons: of two pictures, and of a set of pairs.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {
+
+/// The last three for pictures with noise.
+inline constexpr std::string_view kVerdicts[] = {"pass", "differs",   "non-finite",
+                                                 "same", "different", "undecided"};
+/// A limit, for the whole error bar.
+inline constexpr std::string_view kStandings[] = {"holds", "broken", "open"};
 
 /// Pixels x to x + width - 1, y to y + height - 1; y down.
 struct Window {

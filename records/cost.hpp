@@ -1,12 +1,6 @@
 // What accuracy costs.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/highlight.hpp"
 #include "records/models.hpp"
 #include "records/render.hpp"

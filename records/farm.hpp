@@ -1,10 +1,6 @@
 // What lies in a farm's directory, and what `lobelia farm` prints of it.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/highlight.hpp"
 #include "records/result.hpp"
 #include "records/struct_type.hpp"

@@ -1,9 +1,6 @@
 // What every record may say: on which machine, of which highlight.
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {

@@ -55,6 +55,7 @@ consteval auto pointers_to(const Members&... members) {
 
 template <class T>
 consteval auto member_pointers() {
+  static_assert(count_members<T>() <= 22, "a struct of more members needs more lines here");
 #define LOBELIA_MEMBERS(count, ...)               \
   if constexpr (count_members<T>() == count) {    \
     const auto& [__VA_ARGS__] = kUnmade<T>.value; \

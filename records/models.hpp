@@ -1,12 +1,6 @@
 // The catalogues of models and lobes, and the tables that the explorer draws from.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {

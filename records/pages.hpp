@@ -1,11 +1,6 @@
 // What the scripts of the gallery's pages are given. They are no records: program and script are of one version.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/models.hpp"
 #include "records/paper.hpp"
 #include "records/stability.hpp"

@@ -1,12 +1,6 @@
 // What came out when the claims of the paper were measured.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/chart.hpp"
 #include "records/struct_type.hpp"
 

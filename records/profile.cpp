@@ -6,7 +6,6 @@ namespace lobelia::records {
 namespace {
 
 constexpr std::string_view kAngles[] = {"reflection", "half_vector"};
-constexpr std::string_view kFound[] = {"fitted", "pixel", "plateau", "edge", "none"};
 
 std::string contradiction_of_curve(const ProfileCurve& curve) {
   const auto has_length = [&](const auto& values) {
@@ -30,7 +29,7 @@ const Struct& Peak::type() {
   return define<Peak>("The brightest place, to a fraction of a pixel.", [](auto& t) {
     t.keys({"x", "y"}).unit("pixels").may_be_nonfinite();
     t.key("radiance").may_be_nonfinite();
-    t.key("found", "how").one_of(kFound);
+    t.key("found", "how").one_of(kPeakFound);
   });
 }
 

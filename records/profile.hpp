@@ -1,11 +1,6 @@
 // Profiles: a highlight as curves and figures, with the scene that it is of and without.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/highlight.hpp"
 #include "records/struct_type.hpp"
 
@@ -13,6 +8,9 @@ namespace lobelia::records {
 
 /// The formula's name among curves and pictures; also of the engine that evaluates it.
 inline constexpr char kAnalytic[] = "analytic";
+
+/// How a peak was found.
+inline constexpr std::string_view kPeakFound[] = {"fitted", "pixel", "plateau", "edge", "none"};
 
 struct Point {
   double x = 0, y = 0;

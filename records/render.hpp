@@ -1,18 +1,12 @@
 // Pictures: what a plan decided, how a render and a reference were made.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "records/highlight.hpp"
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {
 
-/// Of an engine: there is no such program; one that cannot be driven; one that can.
+/// The states of an engine: not installed, cannot be driven, can be driven.
 inline constexpr std::string_view kEngineStates[] = {"absent", "broken", "ready"};
 
 struct Work {

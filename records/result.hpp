@@ -1,12 +1,6 @@
 // What lies in a cache: results, failures, what programs are made of. Also the hashes that a user's machine remembers.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/highlight.hpp"
 #include "records/struct_type.hpp"
 
@@ -77,7 +71,7 @@ struct Result {
   std::vector<ResultFile> files;
   static const Struct& type();
 
-  /// Of one of its files; empty without such a file.
+  /// The SHA-256 of one of its files; empty if it has no such file.
   std::string hash_of(const std::string& file) const;
   std::uint64_t bytes() const;  ///< of all files
 };

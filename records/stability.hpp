@@ -1,12 +1,6 @@
 // How numerically stable highlights are.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {

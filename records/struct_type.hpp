@@ -37,7 +37,7 @@ struct Field {
   void* member_of(void* record) const;
 };
 
-/// What a table says of one key or of several.
+/// Sets attributes of one key or of several.
 class Keys {
  public:
   void add(Field& field) { fields_.push_back(&field); }
@@ -134,7 +134,7 @@ void add_member(Struct& type, std::string_view key, const V* member, const void*
 
 }  // namespace detail
 
-/// What a record's table says beyond its struct. A name that is not a member's, as a key, does not compile.
+/// Fills in what the struct does not say. A key without a member does not compile.
 template <class T>
 class Table {
  public:

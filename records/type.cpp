@@ -223,66 +223,51 @@ const Type& integer_type(std::size_t size, bool is_signed) {
 }
 
 Json ListType::write(const void* value) const {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < size(value); ++i) list.push_back(item().write(at(value, i)));
+  Json list = is_named() ? Json::object() : Json::array();
+  for (std::size_t i = 0; i < size(value); ++i) {
+    const Item one = at(value, i);
+    if (one.name)
+      list[escape_invalid_utf8(*one.name)] = item().write(one.value);
+    else
+      list.push_back(item().write(one.value));
+  }
   return list;
 }
 
 void ListType::read(const Json& json, const Bounds& bounds, const Place& place, void* value) const {
-  if (!json.is_array()) place.fail("not a list");
+  if (is_named() && !json.is_object()) place.fail("not an object");
+  if (!is_named() && !json.is_array()) place.fail("not a list");
   require_items(json.size(), fixed_size(), bounds, place);
   const Bounds inner = bounds.of_items();
   reset(value, json.size());
-  for (std::size_t i = 0; i < json.size(); ++i)
-    item().read(json[i], inner, Place(place, i), const_cast<void*>(at(value, i)));
+  std::size_t i = 0;
+  for (auto one = json.begin(); one != json.end(); ++one, ++i) {
+    // Writable again: the list is ours to fill.
+    const auto [name, into] = at(value, i);
+    if (name) *const_cast<std::string*>(name) = one.key();
+    item().read(*one, inner, name ? Place(place, *name) : Place(place, i), const_cast<void*>(into));
+  }
 }
 
 Json ListType::schema(const Bounds& bounds) const {
-  Json schema{{"type", "array"}, {"items", item().schema(bounds.of_items())}};
   const std::size_t least = std::max(fixed_size(), bounds.least_items);
   const std::size_t most = fixed_size() > 0 ? fixed_size() : bounds.most_items;
-  if (least > 0) schema["minItems"] = least;
-  if (most != kMaxItems) schema["maxItems"] = most;
+  Json schema{{"type", is_named() ? "object" : "array"},
+              {is_named() ? "additionalProperties" : "items", item().schema(bounds.of_items())}};
+  if (least > 0) schema[is_named() ? "minProperties" : "minItems"] = least;
+  if (most != kMaxItems) schema[is_named() ? "maxProperties" : "maxItems"] = most;
   return schema;
 }
 
 std::string ListType::typescript(const Bounds& bounds) const {
-  const std::string one = item().typescript(bounds.of_items()) + null_text(item());
+  const std::string plain = item().typescript(bounds.of_items());
+  if (is_named()) return fmt::format("Record<string, {}>", plain);
+  const std::string one = plain + null_text(item());
   if (fixed_size() > 0 && fixed_size() < 5) {
     const std::vector<std::string> all(fixed_size(), one);
     return fmt::format("[{}]", fmt::join(all, ", "));
   }
   return one.find(' ') == one.npos ? one + "[]" : fmt::format("({})[]", one);
-}
-
-Json NamedType::write(const void* value) const {
-  Json object = Json::object();
-  for (std::size_t i = 0; i < size(value); ++i) {
-    const auto [name, one] = at(value, i);
-    object[escape_invalid_utf8(*name)] = item().write(one);
-  }
-  return object;
-}
-
-void NamedType::read(const Json& json, const Bounds& bounds, const Place& place,
-                     void* value) const {
-  if (!json.is_object()) place.fail("not an object");
-  require_items(json.size(), 0, bounds, place);
-  const Bounds inner = bounds.of_items();
-  clear(value);
-  for (const auto& [name, one] : json.items())
-    item().read(one, inner, Place(place, name), append(value, name));
-}
-
-Json NamedType::schema(const Bounds& bounds) const {
-  Json schema{{"type", "object"}, {"additionalProperties", item().schema(bounds.of_items())}};
-  if (bounds.least_items > 0) schema["minProperties"] = bounds.least_items;
-  if (bounds.most_items != kMaxItems) schema["maxProperties"] = bounds.most_items;
-  return schema;
-}
-
-std::string NamedType::typescript(const Bounds& bounds) const {
-  return fmt::format("Record<string, {}>", item().typescript(bounds.of_items()));
 }
 
 Json OptionalType::write(const void* value) const {

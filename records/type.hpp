@@ -54,7 +54,7 @@ inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
 /// Longest text and list of a record, unless its table says otherwise.
 inline constexpr std::size_t kMaxText = 1u << 20, kMaxItems = 10'000'000;
 
-/// What a table allows beyond the C++ type. Applies to the numbers and texts at the bottom of lists and objects,
+/// Limits that a table adds to the C++ type. They apply to the numbers and texts at the bottom of lists and objects,
 /// `least_items` and `most_items` to the outermost list or object.
 struct Bounds {
   double least = -kNoBound, most = kNoBound;
@@ -109,43 +109,37 @@ const Type& double_type();
 /// `size` bytes, with a sign or without.
 const Type& integer_type(std::size_t size, bool is_signed);
 
-/// Lists, objects and optionals, without the C++ type of what they hold.
-class ListType : public Type {
+/// A type that is made of another one.
+class TypeOfItems : public Type {
+ public:
+  void define(Definitions& definitions) const final { item().define(definitions); }
+
+ protected:
+  virtual const Type& item() const = 0;
+};
+
+/// Lists, and objects with keys that are data, without the C++ type of their items.
+class ListType : public TypeOfItems {
  public:
   Json write(const void* value) const final;
   void read(const Json& json, const Bounds& bounds, const Place& place, void* value) const final;
   bool is_empty(const void* value) const final { return size(value) == 0; }
   Json schema(const Bounds& bounds) const final;
   std::string typescript(const Bounds& bounds) const final;
-  void define(Definitions& definitions) const final { item().define(definitions); }
 
  protected:
-  virtual const Type& item() const = 0;
-  virtual std::size_t size(const void* list) const = 0;
+  struct Item {
+    const std::string* name;  ///< null in a list
+    const void* value;
+  };
+  virtual bool is_named() const = 0;
   virtual std::size_t fixed_size() const = 0;  ///< 0: any
-  virtual const void* at(const void* list, std::size_t index) const = 0;
+  virtual std::size_t size(const void* list) const = 0;
+  virtual Item at(const void* list, std::size_t index) const = 0;
   virtual void reset(void* list, std::size_t size) const = 0;
 };
 
-class NamedType : public Type {
- public:
-  Json write(const void* value) const final;
-  void read(const Json& json, const Bounds& bounds, const Place& place, void* value) const final;
-  bool is_empty(const void* value) const final { return size(value) == 0; }
-  Json schema(const Bounds& bounds) const final;
-  std::string typescript(const Bounds& bounds) const final;
-  void define(Definitions& definitions) const final { item().define(definitions); }
-
- protected:
-  virtual const Type& item() const = 0;
-  virtual std::size_t size(const void* object) const = 0;
-  virtual std::pair<const std::string*, const void*> at(const void* object,
-                                                        std::size_t index) const = 0;
-  virtual void clear(void* object) const = 0;
-  virtual void* append(void* object, const std::string& name) const = 0;
-};
-
-class OptionalType : public Type {
+class OptionalType : public TypeOfItems {
  public:
   Json write(const void* value) const final;
   void read(const Json& json, const Bounds& bounds, const Place& place, void* value) const final;
@@ -153,48 +147,41 @@ class OptionalType : public Type {
   bool may_be_null() const final { return true; }
   Json schema(const Bounds& bounds) const final;
   std::string typescript(const Bounds& bounds) const final { return item().typescript(bounds); }
-  void define(Definitions& definitions) const final { item().define(definitions); }
 
  protected:
-  virtual const Type& item() const = 0;
   virtual const void* get(const void* optional) const = 0;
   virtual void* emplace(void* optional) const = 0;
 };
 
-/// A std::vector or std::array.
+template <class>
+inline constexpr bool kIsNamed = false;
+template <class T>
+inline constexpr bool kIsNamed<Named<T>> = true;
+
+/// A std::vector, a std::array or a Named.
 template <class List>
 class ListTypeOf final : public ListType {
-  const Type& item() const override { return type_of<typename List::value_type>(); }
+  static constexpr bool kHasFixedSize = !requires(List list) { list.clear(); };
+  const Type& item() const override {
+    if constexpr (kIsNamed<List>)
+      return type_of<typename List::value_type::second_type>();
+    else
+      return type_of<typename List::value_type>();
+  }
+  bool is_named() const override { return kIsNamed<List>; }
+  std::size_t fixed_size() const override { return kHasFixedSize ? List().size() : 0; }
   std::size_t size(const void* list) const override {
     return static_cast<const List*>(list)->size();
   }
-  std::size_t fixed_size() const override {
-    if constexpr (requires(List list) { list.resize(0); }) return 0;
-    return List().size();
-  }
-  const void* at(const void* list, std::size_t index) const override {
-    return &(*static_cast<const List*>(list))[index];
+  Item at(const void* list, std::size_t index) const override {
+    const auto& one = (*static_cast<const List*>(list))[index];
+    if constexpr (kIsNamed<List>)
+      return {&one.first, &one.second};
+    else
+      return {nullptr, &one};
   }
   void reset([[maybe_unused]] void* list, [[maybe_unused]] std::size_t size) const override {
-    if constexpr (requires(List items) { items.clear(); }) *static_cast<List*>(list) = List(size);
-  }
-};
-
-template <class Object>
-class NamedTypeOf final : public NamedType {
-  using T = typename Object::value_type::second_type;
-  const Type& item() const override { return type_of<T>(); }
-  std::size_t size(const void* object) const override {
-    return static_cast<const Object*>(object)->size();
-  }
-  std::pair<const std::string*, const void*> at(const void* object,
-                                                std::size_t index) const override {
-    const auto& one = (*static_cast<const Object*>(object))[index];
-    return {&one.first, &one.second};
-  }
-  void clear(void* object) const override { static_cast<Object*>(object)->clear(); }
-  void* append(void* object, const std::string& name) const override {
-    return &static_cast<Object*>(object)->emplace_back(name, T{}).second;
+    if constexpr (!kHasFixedSize) *static_cast<List*>(list) = List(size);
   }
 };
 
@@ -214,10 +201,6 @@ template <class>
 inline constexpr bool kIsOptional = false;
 template <class T>
 inline constexpr bool kIsOptional<std::optional<T>> = true;
-template <class T>
-inline constexpr bool kIsNamed = false;
-template <class T>
-inline constexpr bool kIsNamed<Named<T>> = true;
 
 template <class Made>
 const Type& only_one() {
@@ -241,8 +224,6 @@ const Type& type_of() {
     return detail::integer_type(sizeof(T), std::is_signed_v<T>);
   else if constexpr (detail::kIsOptional<T>)
     return detail::only_one<detail::OptionalTypeOf<T>>();
-  else if constexpr (detail::kIsNamed<T>)
-    return detail::only_one<detail::NamedTypeOf<T>>();
   else
     return detail::only_one<detail::ListTypeOf<T>>();
 }
