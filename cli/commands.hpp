@@ -19,7 +19,7 @@ namespace lobelia::cli {
 LOBELIA_COMMANDS(LOBELIA_DECLARE)
 #undef LOBELIA_DECLARE
 
-/// What the user typed, program name first; for records.
+/// The command line as typed, program name first; for records.
 const std::vector<std::string>& command_line();
 
 }  // namespace lobelia::cli

@@ -11,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "cli/any_format.hpp"
-#include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/compare_pictures.hpp"
+#include "cli/options.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/display_view.hpp"
@@ -304,61 +303,45 @@ std::string footer() {
       join(limit_names()), defaults);
 }
 
-void add_display_options(CLI::App& command, DisplayViewChoice& display) {
-  command
-      .add_option(
-          "--ocio", display.config,
-          fmt::format("Show the perceptual metrics what this OpenColorIO configuration shows; {} "
-                      "is Lobelia's own; default: $OCIO, or Lobelia's own",
-                      kOwnConfig))
-      ->type_name("FILE")
-      ->group("Viewing");
-  command.add_option("--display", display.display, "Its display; default: its first")
-      ->type_name("NAME")
-      ->group("Viewing");
-  command.add_option("--view", display.view, "The view of that display; default: its first")
-      ->type_name("NAME")
-      ->group("Viewing");
-  command
-      .add_option("--input-space", display.input_space,
-                  "The colour space of A and B in it; default: its linear Rec. 709, or else its "
-                  "role scene_linear")
-      ->type_name("NAME")
-      ->group("Viewing");
+void add_display_options(OptionGroup& viewing, DisplayViewChoice& display) {
+  viewing.add(
+      "--ocio", display.config, "FILE",
+      fmt::format("Show the perceptual metrics what this OpenColorIO configuration shows; {} "
+                  "is Lobelia's own; default: $OCIO, or Lobelia's own",
+                  kOwnConfig));
+  viewing.add("--display", display.display, "NAME", "Its display; default: its first");
+  viewing.add("--view", display.view, "NAME", "The view of that display; default: its first");
+  viewing.add("--input-space", display.input_space, "NAME",
+              "The colour space of A and B in it; default: its linear Rec. 709, or else its "
+              "role scene_linear");
 }
 
-void add_difference_options(CLI::App& command, DifferencePicture& difference) {
+void add_difference_options(OptionGroup& output, DifferencePicture& difference) {
   std::vector<std::string> maps{std::string(kChannels)};
   for (const std::string_view id : difference_map_names()) maps.emplace_back(id);
-  auto* picture = command.add_option(
-      "--diff-image", difference.path,
+  auto* picture = output.add(
+      "--diff-image", difference.path, "FILE|DIR",
       "Write where the two differ, in colours (.png, with the scale in its metadata) or as values "
       "(.exr); of folders, a folder of .png");
-  picture->type_name("FILE|DIR")->group("Output");
-  command
-      .add_option(
-          "--diff-of", difference.of,
-          "What it shows: channels is |A - B| of each in its own colour, the others are one "
-          "value a pixel")
+  output
+      .add("--diff-of", difference.of, "",
+           "What it shows: channels is |A - B| of each in its own colour, the others are one "
+           "value a pixel")
       ->check(CLI::IsMember(maps))
       ->needs(picture)
-      ->capture_default_str()
-      ->group("Output");
-  command
-      .add_option("--diff-colours", difference.colour_map,
-                  fmt::format("Its colour map; default {}, of signed values {}", kDefaultColourMap,
-                              kSignedColourMap))
+      ->capture_default_str();
+  output
+      .add("--diff-colours", difference.colour_map, "",
+           fmt::format("Its colour map; default {}, of signed values {}", kDefaultColourMap,
+                       kSignedColourMap))
       ->check(CLI::IsMember(
           std::vector<std::string>(colour_map_names().begin(), colour_map_names().end())))
-      ->needs(picture)
-      ->group("Output");
-  command
-      .add_option("--diff-scale", difference.scale,
-                  "The difference that has the map's last colour; default: the largest")
-      ->type_name("NUMBER")
+      ->needs(picture);
+  output
+      .add("--diff-scale", difference.scale, "NUMBER",
+           "The difference that has the map's last colour; default: the largest")
       ->check(CLI::PositiveNumber)
-      ->needs(picture)
-      ->group("Output");
+      ->needs(picture);
 }
 
 }  // namespace
@@ -379,19 +362,17 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
                    "A second reference: how far it is from B is shown beside how far A is")
       ->type_name("C");
   add_any_format(*command);
-  auto* layer = command->add_option(
-      "--layer", job.layers.layer,
+  OptionGroup layers(*command, "Layers"), verdict(*command, "Verdict"), look(*command, "Viewing"),
+      output(*command, "Output");
+  auto* layer = layers.add(
+      "--layer", job.layers.layer, "NAME",
       "Compare this layer of both files: a prefix of channels, an EXR part, or one channel");
-  layer->type_name("NAME")->group("Layers");
-  command
-      ->add_flag("--all-layers", job.layers.all,
-                 "Compare every layer; the verdict is the worst, and a layer that only B has fails")
-      ->excludes(layer)
-      ->group("Layers");
-  command
-      ->add_flag("--ignore-alpha", job.layers.ignore_alpha,
-                 "Do not judge the alpha of the picture, which is judged where both have one")
-      ->group("Layers");
+  layers
+      .add_flag("--all-layers", job.layers.all,
+                "Compare every layer; the verdict is the worst, and a layer that only B has fails")
+      ->excludes(layer);
+  layers.add_flag("--ignore-alpha", job.layers.ignore_alpha,
+                  "Do not judge the alpha of the picture, which is judged where both have one");
   command
       ->add_flag_callback(
           "--list-metrics",
@@ -403,92 +384,56 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->trigger_on_parse()  // before A and B are asked for
       ->group("Output");
 
-  command
-      ->add_option(
-          "--fail", options->fail,
+  verdict
+      .add(
+          "--fail", options->fail, "METRIC=LIMIT",
           "Verdict 'differs' if METRIC is over LIMIT (a likeness, such as psnr: below it); may be given again")
-      ->type_name("METRIC=LIMIT")
       ->expected(1)
-      ->take_all()
-      ->group("Verdict");
-  command
-      ->add_option("--warn", options->warn,
-                   "As --fail, but a line and no verdict; may be given again")
-      ->type_name("METRIC=LIMIT")
+      ->take_all();
+  verdict
+      .add("--warn", options->warn, "METRIC=LIMIT",
+           "As --fail, but a line and no verdict; may be given again")
       ->expected(1)
-      ->take_all()
-      ->group("Verdict");
-  command
-      ->add_option(
-          "--tolerance", options->tolerance,
-          "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
-          "any channel; verdict 'differs' if there are more than COUNT")
-      ->type_name("REL,PEAK,COUNT")
-      ->group("Verdict");
-  command
-      ->add_option(
-          "--scene", options->scene,
-          "Measure errors on the pixels that see a surface of this scene as well (ids in "
-          ".mask); with --tolerance, outliers may lie only on its silhouettes, terminators "
-          "and shadow edges")
-      ->group("Verdict");
-
-  command
-      ->add_flag("--allow-equal-nonfinite", job.comparison.allow_equal_nonfinite,
-                 "A NaN or an infinity that both pictures have in the same pixel and channel is no "
-                 "difference; always so for layers named Z, ZBack, depth, distance or position")
-      ->group("Verdict");
+      ->take_all();
+  verdict.add("--tolerance", options->tolerance, "REL,PEAK,COUNT",
+              "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
+              "any channel; verdict 'differs' if there are more than COUNT");
+  verdict.add("--scene", options->scene, "",
+              "Measure errors on the pixels that see a surface of this scene as well (ids in "
+              ".mask); with --tolerance, outliers may lie only on its silhouettes, terminators "
+              "and shadow edges");
+  verdict.add_flag(
+      "--allow-equal-nonfinite", job.comparison.allow_equal_nonfinite,
+      "A NaN or an infinity that both pictures have in the same pixel and channel is no "
+      "difference; always so for layers named Z, ZBack, depth, distance or position");
 
   job.noise.add_to(*command);
 
-  command
-      ->add_option(
-          "--exposure", viewing.exposure_stops,
-          "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted")
-      ->type_name("STOPS")
+  look.add("--exposure", viewing.exposure_stops, "STOPS",
+           "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted")
       ->check(between(-kMaxExposureStops, kMaxExposureStops))
-      ->capture_default_str()
-      ->group("Viewing");
-  command
-      ->add_option(
-          "--exposures", options->exposures,
-          "Measure HDR-FLIP over COUNT exposures from START to STOP, in stops, shown through "
-          "the ACES curve; with auto over the range that the reference alone suggests")
-      ->type_name("START,STOP,COUNT|auto")
-      ->group("Viewing");
-  command
-      ->add_option("--pixels-per-degree", viewing.pixels_per_degree,
-                   "How many pixels of the display a degree of the viewer's eye sees, for FLIP")
-      ->type_name("NUMBER")
+      ->capture_default_str();
+  look.add("--exposures", options->exposures, "START,STOP,COUNT|auto",
+           "Measure HDR-FLIP over COUNT exposures from START to STOP, in stops, shown through "
+           "the ACES curve; with auto over the range that the reference alone suggests");
+  look.add("--pixels-per-degree", viewing.pixels_per_degree, "NUMBER",
+           "How many pixels of the display a degree of the viewer's eye sees, for FLIP")
       ->check(between(kMinPixelsPerDegree, kMaxPixelsPerDegree))
-      ->capture_default_str()
-      ->group("Viewing");
+      ->capture_default_str();
+  add_display_options(look, options->display);
 
-  add_display_options(*command, options->display);
-
-  command
-      ->add_option(
-          "--json", options->json,
-          "Write the record (kind comparison, of folders comparison-set) to FILE; with - to "
-          "stdout, in place of the table")
-      ->type_name("FILE|-")
-      ->group("Output");
-  command
-      ->add_option("--csv", options->csv,
-                   "Write a table with a line for each pair; with - to stdout, likewise")
-      ->type_name("FILE|-")
-      ->group("Output");
-  command
-      ->add_option("--junit", options->junit,
-                   "Write the verdicts as JUnit's XML, for continuous integration; with - to "
-                   "stdout, likewise")
-      ->type_name("FILE.xml|-")
-      ->group("Output");
-  add_difference_options(*command, job.difference);
-  command->add_option("--threads", options->threads, "Threads that work; 0: one for each processor")
+  output.add("--json", options->json, "FILE|-",
+             "Write the record (kind comparison, of folders comparison-set) to FILE; with - to "
+             "stdout, in place of the table");
+  output.add("--csv", options->csv, "FILE|-",
+             "Write a table with a line for each pair; with - to stdout, likewise");
+  output.add("--junit", options->junit, "FILE.xml|-",
+             "Write the verdicts as JUnit's XML, for continuous integration; with - to "
+             "stdout, likewise");
+  add_difference_options(output, job.difference);
+  output.add("--threads", options->threads, "", "Threads that work; 0: one for each processor")
       ->check(CLI::Range(0, 1024))
-      ->capture_default_str()
-      ->group("Output");
+      ->capture_default_str();
   command->footer(footer());
   command->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }

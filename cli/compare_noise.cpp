@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "cli/between.hpp"
+#include "cli/options.hpp"
 #include "compare/require_same_size.hpp"
 #include "compare/uncertainty/z_test.hpp"
 #include "core/error.hpp"
@@ -23,57 +23,47 @@ fs::path file_of(const std::string& given, const std::string& name) {
 }  // namespace
 
 void NoiseFlags::add_to(CLI::App& command) {
-  constexpr const char* kGroup = "Noise of Monte-Carlo pictures";
+  OptionGroup group(command, "Noise of Monte-Carlo pictures");
   for (const auto& [letter, side] : {std::pair("a", &a_), {"b", &b_}}) {
     const std::string picture = letter == std::string("a") ? "A" : "B";
-    auto* replicate = command.add_option(
-        fmt::format("--{}-replicate", letter), side->replicates,
+    auto* replicate = group.add(
+        fmt::format("--{}-replicate", letter), side->replicates, "FILE|DIR",
         fmt::format(
             "Another, independent picture of what {0} is, from as many samples: {0} is their "
             "mean, and its noise what they scatter; may be given again. With one, the two "
             "are half-sample pictures",
             picture));
-    replicate->type_name("FILE|DIR")->expected(1)->take_all()->group(kGroup);
-    command
-        .add_option(fmt::format("--{}-error", letter), side->error,
-                    fmt::format("Picture of the standard errors of {}, as render and reference "
-                                "--standard-error write",
-                                picture))
-        ->type_name("FILE|DIR")
-        ->excludes(replicate)
-        ->group(kGroup);
+    replicate->expected(1)->take_all();
+    group
+        .add(fmt::format("--{}-error", letter), side->error, "FILE|DIR",
+             fmt::format("Picture of the standard errors of {}, as render and reference "
+                         "--standard-error write",
+                         picture))
+        ->excludes(replicate);
   }
-  command
-      .add_option("--freedom", freedom_,
-                  "Degrees of freedom of those errors: independent estimates less one")
-      ->type_name("NUMBER")
+  group
+      .add("--freedom", freedom_, "NUMBER",
+           "Degrees of freedom of those errors: independent estimates less one")
       ->check(between(1, 1e9))
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option(
-          "--shared-noise", shared_,
-          "Whose pixels err together, as they share their points or were filtered: a, b, both "
-          "or none; default: what has a picture of errors")
-      ->check(CLI::IsMember({"a", "b", "both", "none"}))
-      ->group(kGroup);
-  command
-      .add_option("--significance", judged_.significance,
-                  "Chance of finding a difference beyond the noise where there is none")
+      ->capture_default_str();
+  group
+      .add("--shared-noise", shared_, "",
+           "Whose pixels err together, as they share their points or were filtered: a, b, both "
+           "or none; default: what has a picture of errors")
+      ->check(CLI::IsMember({"a", "b", "both", "none"}));
+  group
+      .add("--significance", judged_.significance, "",
+           "Chance of finding a difference beyond the noise where there is none")
       ->check(between(kLeastSignificance, kMostSignificance))
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option(
-          "--bootstrap", judged_.bootstraps,
-          "Pairs with noise that error bars are made of; each figure is measured twice as often")
+      ->capture_default_str();
+  group
+      .add("--bootstrap", judged_.bootstraps, "",
+           "Pairs with noise that error bars are made of; each figure is measured twice as often")
       ->check(between(kFewestBootstraps, kMostBootstraps))
-      ->capture_default_str()
-      ->group(kGroup);
-  command.add_option("--noise-seed", judged_.seed, "Chooses that noise")
+      ->capture_default_str();
+  group.add("--noise-seed", judged_.seed, "", "Chooses that noise")
       ->check(between(0, 1 << 30))
-      ->capture_default_str()
-      ->group(kGroup);
+      ->capture_default_str();
 }
 
 void NoiseFlags::apply(ComparisonOptions& options) const {

@@ -14,7 +14,7 @@ class NoiseFlags {
  public:
   void add_to(CLI::App& command);
 
-  /// What can be said before a picture is read: whether there is noise, and how it is judged.
+  /// Sets what is known before a picture is read: whether there is noise, and how to judge it.
   void apply(ComparisonOptions& options) const;
   /// The files that read() will read for a pair of that name.
   std::vector<std::filesystem::path> files(const std::string& name) const;

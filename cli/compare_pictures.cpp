@@ -17,8 +17,8 @@
 #include "compare/metrics/flip_exposures.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/files.hpp"
-#include "core/finite_image.hpp"
 #include "core/image_io.hpp"
+#include "core/image_values.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
 
@@ -29,6 +29,12 @@ namespace fs = std::filesystem;
 
 bool has_automatic_exposures(const ComparisonOptions& options) {
   return options.viewing.hdr_exposures && options.viewing.hdr_exposures->automatic;
+}
+
+/// `options.layer`, or where all are asked for and one file has no picture, the first that both have.
+std::string main_layer(const std::string& a, const std::string& b, const LayerOptions& options) {
+  if (!options.all || !options.layer.empty()) return options.layer;
+  return common_layers(a, b).both.front();
 }
 
 /// A map's values as they are, in a picture of three equal channels.
@@ -165,6 +171,46 @@ HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const Layer
   return *all;
 }
 
+std::string layer_reasons(const LayerComparison& layer, const std::string& a,
+                          const std::string& b) {
+  if (layer.identical) return "identical";
+  if (!layer.comparison) return layer.problem;
+  const Comparison& comparison = *layer.comparison;
+  if (comparison.verdict == Verdict::kNonFinite) return why_not_pass(comparison, a, b);
+  std::string text;
+  for (const LimitResult& limit : comparison.limits)
+    text += fmt::format("{}{} {:.4g}{}", text.empty() ? "" : ", ", limit.metric, limit.value,
+                        limit.pass ? "" : fmt::format(" (limit {:g})", limit.limit));
+  return text;
+}
+
+void print_layer_names(const char* where, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    fmt::print("  only in {}: {}\n", where, name.empty() ? "the picture" : printable(name));
+}
+
+/// The verdict and the limits of each layer, the layers of one file alone, and what was not compared.
+void print_layers(const OtherLayers& layers, const std::string& a, const std::string& b) {
+  if (!layers.compared.empty() || layers.common) fmt::print("\n");
+  for (const LayerComparison& layer : layers.compared)
+    fmt::print("  {}: {}; {}\n", layer.title(), verdict_name(layer.verdict()),
+               layer_reasons(layer, a, b));
+  if (layers.common) {
+    print_layer_names("a", layers.common->only_a);
+    print_layer_names("b", layers.common->only_b);
+  }
+  if (!is_empty(layers.not_compared))
+    fmt::print("  not compared: {}\n", to_text(layers.not_compared));
+}
+
+/// A line for each file whose ICC profile says other colours than were assumed.
+void print_profiles(const PicturePairSource& sources) {
+  for (const auto& [name, source] : {std::pair('a', &sources.a), {'b', &sources.b}})
+    if (!source->icc_profile.empty() && !source->icc_is_srgb)
+      fmt::print("  {}: its ICC profile '{}' is not sRGB, and is not applied\n", name,
+                 printable(source->icc_profile));
+}
+
 void print_names(const std::string& a, const std::string& b, const std::string& c) {
   fmt::print("a  {}\nb  {}  (the reference)\n", printable_path(a), printable_path(b));
   if (!c.empty()) fmt::print("c  {}  (the second reference)\n", printable_path(c));
@@ -179,7 +225,7 @@ void print_display(const DisplayView* display) {
 /// "± 0.0012  " where noise is known; a column that is empty for figures without an error bar.
 std::string error_bar_text(const Comparison& comparison, std::string_view id) {
   if (!comparison.uncertainty) return "";
-  const ErrorBar* bar = comparison.uncertainty->bar(id);
+  const ErrorBar* bar = records::find(comparison.error_bars, id);
   return fmt::format("{:<12}", bar ? fmt::format("± {:.2g}", bar->standard_error) : "");
 }
 
@@ -190,16 +236,14 @@ void print_metric_lines(const Comparison& comparison) {
   for (const MetricValue& metric : comparison.metrics) {
     fmt::print("  {:<20}{:>14.6g}", metric.id, metric.value);
     if (floor) {
-      const auto found =
-          std::find_if(floor->metrics.begin(), floor->metrics.end(),
-                       [&](const MetricValue& other) { return other.id == metric.id; });
+      const auto found = std::ranges::find(floor->metrics, metric.id, &MetricValue::id);
       fmt::print("{:>14}",
                  found == floor->metrics.end() ? "-" : fmt::format("{:.6g}", found->value));
     }
     fmt::print("  {}{}\n", error_bar_text(comparison, metric.id), metric.meaning);
   }
   for (const NotMeasured& one : comparison.not_measured)
-    fmt::print("  {:<20}{:>14}  not measured: {}\n", one.id, "-", one.because);
+    fmt::print("  {:<20}{:>14}  not measured: {}\n", one.metric, "-", one.because);
 }
 
 void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view before) {
@@ -218,7 +262,7 @@ void print_not_measured(const std::vector<PairReport>& pairs) {
   for (const PairReport& pair : pairs)
     if (pair.comparison)
       for (const NotMeasured& one : pair.comparison->not_measured)
-        ++reasons.try_emplace(one.id, 0, one.because).first->second.first;
+        ++reasons.try_emplace(one.metric, 0, one.because).first->second.first;
   for (const auto& [id, why] : reasons)
     fmt::print("  {:<20}not measured in {} pairs: {}\n", id, why.first, why.second);
 }
@@ -321,17 +365,17 @@ void print_set(const SetReport& report) {
     fmt::print("  {:<20}{:>14.6g}{:>14.6g}  {}\n", metric.id, metric.mean, metric.worst,
                printable_path(metric.worst_at->name));
   print_not_measured(report.pairs);
-  const SetCounts counts = count(report);
+  const records::SetSummary counts = count(report);
   fmt::print(
       "\n{} pairs: {} pass, {} differ, {}{} not finite, {} not comparable; {} missing, {} extra\n",
       report.pairs.size(), counts.pass, counts.differs,
-      counts.undecided > 0 ? fmt::format("{} undecided, ", counts.undecided) : "", counts.nonfinite,
-      counts.errors, counts.missing, counts.extra);
+      counts.undecided > 0 ? fmt::format("{} undecided, ", counts.undecided) : "",
+      counts.non_finite, counts.errors, counts.missing, counts.extra);
   if (const SetNotCompared left = not_compared(report); left.pairs > 0)
     fmt::print("not compared, in {} of the pairs: {}\n", left.pairs, to_text(left.all));
   if (report.passed_over > 0) fmt::print("{} files are no pictures\n", report.passed_over);
-  if (counts.not_followed > 0)
-    fmt::print("{} links to folders elsewhere were not followed\n", counts.not_followed);
+  if (counts.links_not_followed > 0)
+    fmt::print("{} links to folders elsewhere were not followed\n", counts.links_not_followed);
 }
 
 }  // namespace lobelia::cli

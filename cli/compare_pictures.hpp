@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/compare_layers.hpp"
 #include "cli/compare_noise.hpp"
+#include "compare/layers.hpp"
 #include "compare/set/folder_pairs.hpp"
 #include "compare/set/report.hpp"
 

@@ -5,9 +5,8 @@
 
 #include <memory>
 
-#include "cli/between.hpp"
-#include "cli/choice.hpp"
 #include "cli/commands.hpp"
+#include "cli/options.hpp"
 #include "cli/warnings.hpp"
 #include "core/files.hpp"
 
@@ -47,23 +46,23 @@ void add_export(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<ExportArguments>();
   command->add_option("MODEL", options->models, fmt::format("Models: {}", join(model_names())))
       ->required();
-  command
-      ->add_option("--language", options->language,
-                   fmt::format("Language: {}", join(shader_language_names())))
+  OptionGroup group(*command, "Options");
+  group
+      .add("--language", options->language, "",
+           fmt::format("Language: {}", join(shader_language_names())))
       ->required();
-  command->add_option("--lobe", options->lobe, fmt::format("Lobe: {}", allowed_lobes()))
+  group.add("--lobe", options->lobe, "", fmt::format("Lobe: {}", allowed_lobes()))
       ->capture_default_str();
-  command
-      ->add_option("--normalisation", options->normalisation,
-                   fmt::format("Coefficient: {}", join(normalisation_names())))
+  group
+      .add("--normalisation", options->normalisation, "",
+           fmt::format("Coefficient: {}", join(normalisation_names())))
       ->capture_default_str();
-  command
-      ->add_option("--exponent", options->exponent,
-                   "A number for n, and the coefficient with it, in place of a parameter; needed "
-                   "for the lobes whose coefficient has no closed form")
+  group
+      .add("--exponent", options->exponent, "",
+           "A number for n, and the coefficient with it, in place of a parameter; needed "
+           "for the lobes whose coefficient has no closed form")
       ->check(between(kMinExponent, kMaxExponent));
-  command->add_option("-o,--output", options->output, "File to write; otherwise standard output")
-      ->type_name("FILE");
+  group.add("-o,--output", options->output, "FILE", "File to write; otherwise standard output");
   command->footer(
       "What is written needs nothing of Lobelia, and says what each function returns, where the\n"
       "cosine is, and which integral its coefficient makes 1. Two exports may be used together.\n"

@@ -4,12 +4,12 @@
 
 #include <memory>
 
-#include "cli/between.hpp"
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
 #include "cli/farm_explain.hpp"
 #include "cli/farm_slurm.hpp"
 #include "cli/farm_upkeep.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/publish.hpp"
 #include "cli/warnings.hpp"

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "cli/between.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/publish.hpp"
 #include "core/removal.hpp"

@@ -68,7 +68,7 @@ std::string unknown_subcommand(CLI::App& app, int argc, char** argv) {
     std::vector<std::string_view> names;
     for (const auto* sub : command->get_subcommands({})) names.push_back(sub->get_name());
     if (names.empty()) break;
-    if (std::find(names.begin(), names.end(), argv[i]) == names.end()) {
+    if (std::ranges::count(names, std::string_view(argv[i])) == 0) {
       // `farm GRID` and `farm status DIR`: what is no subcommand is a file.
       if (command->get_require_subcommand_min() == 0) break;
       return fmt::format("unknown subcommand '{}'; allowed: {}{}", printable(argv[i]), join(names),

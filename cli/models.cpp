@@ -3,8 +3,8 @@
 #include <memory>
 #include <numbers>
 
-#include "cli/between.hpp"
 #include "cli/commands.hpp"
+#include "cli/options.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "records/record.hpp"
@@ -125,12 +125,11 @@ void add_models(CLI::App& app, ExitCode&) {
       command->add_option("--exponent", options->exponent, "Exponent n at which to measure")
           ->check(between(kMinExponent, kMaxExponent))
           ->capture_default_str();
-  command
-      ->add_option(
-          "--tables", options->tables,
+  OptionGroup(*command, "Options")
+      .add(
+          "--tables", options->tables, "FILE",
           "Write curves and albedos of every highlight over the exponent (kind highlight-tables) to "
           "FILE instead; with --exponent, which is at least 1 then, at that one alone")
-      ->type_name("FILE")
       ->excludes(json);
   command->callback([options, exponent] {
     if (!options->tables.empty() && options->exponent < 1)

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "cli/any_format.hpp"
 #include "cli/commands.hpp"
+#include "cli/options.hpp"
 #include "cli/profile_text.hpp"
 #include "cli/scene_overrides.hpp"
 #include "compare/profile/blob.hpp"
@@ -41,7 +41,7 @@ std::pair<std::string, std::string> picture_names(const ProfileArguments& option
   return {"a", "b"};
 }
 
-/// Of one highlight where one is chosen, else of all; more would take minutes and be read by nobody.
+/// Most highlights that are measured without a choice. More would take minutes.
 constexpr std::size_t kMostHighlights = 64;
 
 std::vector<records::Profile> profiles_of(const Scene& scene, const ProfileArguments& options,
@@ -65,7 +65,7 @@ std::vector<records::Profile> profiles_of(const Scene& scene, const ProfileArgum
   return profiles;
 }
 
-/// What is to be written, however it was measured.
+/// The outputs, the same for profiles and blobs.
 struct Result {
   std::string record, text, csv, svg;
 };
@@ -139,19 +139,12 @@ void add_profile(CLI::App& app, ExitCode&) {
   options->overrides.add_to(*command);
   const auto all = command->get_options();
   for (std::size_t i = before; i < all.size(); ++i) all[i]->needs(scene);
-  command
-      ->add_option(
-          "--json", options->json,
-          "Write the record to FILE; with - to stdout, and no table (kind profile of one chosen "
-          "highlight, profiles of all, blob without a scene)")
-      ->type_name("FILE|-")
-      ->group("Output");
-  command->add_option("--csv", options->csv, "Write the curves as a table with a line per angle")
-      ->type_name("FILE")
-      ->group("Output");
-  command->add_option("--svg", options->svg, "Write the curves of one highlight as a chart")
-      ->type_name("FILE")
-      ->group("Output");
+  OptionGroup output(*command, "Output");
+  output.add("--json", options->json, "FILE|-",
+             "Write the record to FILE; with - to stdout, and no table (kind profile of one chosen "
+             "highlight, profiles of all, blob without a scene)");
+  output.add("--csv", options->csv, "FILE", "Write the curves as a table with a line per angle");
+  output.add("--svg", options->svg, "FILE", "Write the curves of one highlight as a chart");
   command->footer(
       "With a scene 'analytic' is its formula at each pixel's centre. The epicentre reaches to where\n"
       "the lobe has fallen to 1/2, the flank to 1/20, the blooming zone to 1/1000. Places are in pixels\n"

@@ -46,7 +46,7 @@ std::string curve_table(const Table& table, const records::Profile& profile) {
   return text;
 }
 
-/// What is to be said of a peak that is not a fitted one.
+/// A remark on a peak that could not be fitted; empty for a fitted one.
 std::string peak_remark(const records::Peak& peak) {
   if (peak.found == "pixel") return "its peak is known to the pixel alone";
   if (peak.found == "plateau")

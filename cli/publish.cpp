@@ -15,12 +15,12 @@ namespace {
 /// Those for the eye; those of values a page can draw by itself.
 std::vector<gallery::MapKind> visual_maps() {
   std::vector<gallery::MapKind> kinds;
-  for (const DifferenceMap* map : difference_maps()) {
-    if (!map->is_visual) continue;
-    kinds.push_back({std::string(map->id), std::string(map->unit), std::string(map->meaning),
-                     [map](const Image& a, const Image& b, const gallery::MapViewing& viewing) {
+  for (const DifferenceMap& map : difference_maps()) {
+    if (!map.is_visual) continue;
+    kinds.push_back({std::string(map.id), std::string(map.unit), std::string(map.meaning),
+                     [&map](const Image& a, const Image& b, const gallery::MapViewing& viewing) {
                        return measure_difference_map(
-                           *map, a, b, {viewing.exposure_stops, viewing.pixels_per_degree});
+                           map, a, b, {viewing.exposure_stops, viewing.pixels_per_degree});
                      }});
   }
   return kinds;

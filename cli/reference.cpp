@@ -4,11 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "cli/between.hpp"
-#include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
-#include "cli/output_path.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_overrides.hpp"
 #include "cli/warnings.hpp"

@@ -3,9 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "cli/between.hpp"
 #include "cli/commands.hpp"
-#include "cli/output_path.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_overrides.hpp"
 #include "cli/warnings.hpp"
@@ -46,8 +45,8 @@ void require_png(const std::filesystem::path& png, const std::filesystem::path& 
   require_writable(png);
 }
 
-/// What a command took besides its picture, seconds. Packing rows is a part of rendering, in time too but
-/// where a picture is so large that others are rendered meanwhile.
+/// Seconds of the stages around rendering. Packing rows is part of rendering; in a large picture it runs while other
+/// rows are rendered.
 struct Stages {
   double read = 0, pack = 0, write = 0;
 };
@@ -159,64 +158,50 @@ void add_render(CLI::App& app, ExitCode& code) {
   auto* command = app.add_subcommand("render", "Render a scene to a linear float32 EXR");
   auto options = std::make_shared<RenderArguments>();
   command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
-  command
-      ->add_option("-o,--output", options->output,
-                   "Picture to write, OUT.exr; its record goes to OUT.json")
-      ->required()
-      ->type_name("OUT.exr");
-  command->add_option("--png", options->png, "Write a picture for the eye too (8 bits, sRGB)")
-      ->type_name("FILE");
-  command->add_option("--exposure", options->exposure, "Stops by which the --png is brightened")
+  OptionGroup group(*command, "Options");
+  group
+      .add("-o,--output", options->output, "OUT.exr",
+           "Picture to write, OUT.exr; its record goes to OUT.json")
+      ->required();
+  group.add("--png", options->png, "FILE", "Write a picture for the eye too (8 bits, sRGB)");
+  group.add("--exposure", options->exposure, "", "Stops by which the --png is brightened")
       ->check(between(-100.0, 100.0))
       ->capture_default_str();
-  command->add_option("--threads", options->threads, "Threads; 0 is all processors")
+  group.add("--threads", options->threads, "", "Threads; 0 is all processors")
       ->check(between(0, 1024))
       ->capture_default_str();
-  command
-      ->add_option("--effects", options->effects,
-                   "Simulate effects as the scene calls for them, or all")
+  group
+      .add("--effects", options->effects, "",
+           "Simulate effects as the scene calls for them, or all")
       ->check(CLI::IsMember({"as-called-for", "all"}))
       ->capture_default_str();
   auto* precision =
-      command
-          ->add_option(
-              "--precision", options->precision,
-              "Shade with the narrowest precision whose error bound allows it (sufficient), "
-              "or with this one")
-          ->check(CLI::IsMember({"sufficient", "float32", "mixed", "float64"}))
-          ->capture_default_str();
+      group.add("--precision", options->precision, "",
+                "Shade with the narrowest precision whose error bound allows it (sufficient), "
+                "or with this one");
+  precision->check(CLI::IsMember({"sufficient", "float32", "mixed", "float64"}))
+      ->capture_default_str();
   auto* target_error =
-      command
-          ->add_option("--target-error", options->target_error,
-                       "Take samples until the picture's estimated relative error is this small")
-          ->check(between(1e-9, 1.0));
-  auto* time_limit =
-      command
-          ->add_option("--time-limit", options->time_limit,
-                       "Take no more samples once rendering would take longer, seconds")
-          ->check(between(1e-3, 1e7));
-  command
-      ->add_option(
-          "--standard-error", options->standard_error,
-          fmt::format("Picture of the error of each value, from {} more renders with the next "
-                      "seeds; for compare: --a-error ERROR.exr --shared-noise none",
-                      kErrorRenders))
-      ->type_name("ERROR.exr");
-  command->add_option("--max-samples", options->max_samples, "Take at most so many rays a pixel")
+      group.add("--target-error", options->target_error, "",
+                "Take samples until the picture's estimated relative error is this small");
+  target_error->check(between(1e-9, 1.0));
+  auto* time_limit = group.add("--time-limit", options->time_limit, "",
+                               "Take no more samples once rendering would take longer, seconds");
+  time_limit->check(between(1e-3, 1e7));
+  group.add("--standard-error", options->standard_error, "ERROR.exr",
+            fmt::format("Picture of the error of each value, from {} more renders with the next "
+                        "seeds; for compare: --a-error ERROR.exr --shared-noise none",
+                        kErrorRenders));
+  group.add("--max-samples", options->max_samples, "", "Take at most so many rays a pixel")
       ->check(between(1, 1 << 20));
-  auto* accuracy =
-      command
-          ->add_option(
-              "--accuracy", options->accuracy,
-              "Choose the cheapest lobe, precision and number of samples for this largest error of "
-              "the peak, 1e-3, or this CIEDE2000 of 99 % of the pixels, de2000=1 (docs/cost.md)")
-          ->type_name("X|de2000=X")
-          ->excludes(precision)
-          ->excludes(target_error)
-          ->excludes(time_limit);
-  command
-      ->add_option("--accuracy-check", options->accuracy_check,
-                   "Measure afterwards what --accuracy reached against the truth, or none")
+  auto* accuracy = group.add(
+      "--accuracy", options->accuracy, "X|de2000=X",
+      "Choose the cheapest lobe, precision and number of samples for this largest error of "
+      "the peak, 1e-3, or this CIEDE2000 of 99 % of the pixels, de2000=1 (docs/cost.md)");
+  accuracy->excludes(precision)->excludes(target_error)->excludes(time_limit);
+  group
+      .add("--accuracy-check", options->accuracy_check, "",
+           "Measure afterwards what --accuracy reached against the truth, or none")
       ->check(CLI::IsMember({"truth", "none"}))
       ->needs(accuracy)
       ->capture_default_str();

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/choice.hpp"
+#include "cli/options.hpp"
 #include "core/error.hpp"
 #include "core/image.hpp"
 #include "core/text.hpp"
@@ -25,23 +25,17 @@ void replace(const std::optional<Number>& value, std::string_view option, double
 }  // namespace
 
 void SceneOverrides::add_to(CLI::App& command) {
-  const std::string group = "In place of what the scene says";
-  command.add_option("--model", model_, fmt::format("Model: {}", join(model_names())))
-      ->group(group);
-  command.add_option("--lobe", lobe_, fmt::format("Lobe: {}", allowed_lobes()))->group(group);
-  command
-      .add_option("--normalisation", normalisation_,
-                  fmt::format("Coefficient: {}", join(normalisation_names())))
-      ->group(group);
-  command
-      .add_option("--exponent", exponent_,
-                  fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent))
-      ->group(group);
-  command.add_option("--width", width_, "Width of the picture in pixels")->group(group);
-  command.add_option("--height", height_, "Height of the picture in pixels")->group(group);
-  command.add_option("--samples", samples_, "Rays a pixel; 1 is the pixel's centre")->group(group);
-  command.add_option("--seed", seed_, "Chooses the positions of more than one sample")
-      ->group(group);
+  OptionGroup group(command, "In place of what the scene says");
+  group.add("--model", model_, "", fmt::format("Model: {}", join(model_names())));
+  group.add("--lobe", lobe_, "", fmt::format("Lobe: {}", allowed_lobes()));
+  group.add("--normalisation", normalisation_, "",
+            fmt::format("Coefficient: {}", join(normalisation_names())));
+  group.add("--exponent", exponent_, "",
+            fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent));
+  group.add("--width", width_, "", "Width of the picture in pixels");
+  group.add("--height", height_, "", "Height of the picture in pixels");
+  group.add("--samples", samples_, "", "Rays a pixel; 1 is the pixel's centre");
+  group.add("--seed", seed_, "", "Chooses the positions of more than one sample");
 }
 
 void SceneOverrides::apply(Scene& scene) const {

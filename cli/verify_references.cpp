@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "cli/between.hpp"
-#include "cli/choice.hpp"
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "cli/choice.hpp"
 #include "cli/commands.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"

@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "compare/as_shown.hpp"
 #include "compare/disagreement.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
@@ -39,7 +38,7 @@ void require_range(std::string_view what, double value, double min, double max) 
                 fmt::format("{} is {}; it must lie in [{}, {}]", what, value, min, max));
 }
 
-/// What an option has to give before the metric can be measured; empty if nothing.
+/// The input that an option must provide for the metric; empty if it has all.
 std::string_view what_is_missing(const Metric& metric, const ComparisonOptions& options) {
   if (metric.needs == Needs::kTolerance && !options.tolerance) return "a tolerance";
   if (metric.needs == Needs::kHdrExposures && !options.viewing.hdr_exposures)
@@ -67,7 +66,7 @@ std::vector<NotMeasured> all_not_measured(const MetricInput& input) {
   for (const Metric* metric : metrics())
     if (const std::string why = why_not_measured(*metric, input); !why.empty())
       for (const MetricOutput& output : metric->outputs)
-        if (output.better != Better::kNeither) result.push_back({output.id, why});
+        if (output.better != Better::kNeither) result.push_back({std::string(output.id), why});
   return result;
 }
 
@@ -89,13 +88,11 @@ NoiseOfPair noise_of_pair(const ComparisonOptions& options) {
   return {a ? &*a : nullptr, b ? &*b : nullptr, significance};
 }
 
-std::optional<Uncertainty::OfPicture> in_short(const PictureNoise* noise) {
-  if (!noise) return std::nullopt;
-  return Uncertainty::OfPicture{noise->freedom, noise->shared};
-}
-
-Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOptions& options) {
-  const NoiseOptions& noise = *options.noise;
+records::Uncertainty uncertainty_of(const MetricInput& input, const NoiseOptions& noise) {
+  const auto in_short = [](const PictureNoise* one) -> std::optional<records::PictureNoise> {
+    if (!one) return std::nullopt;
+    return records::PictureNoise{one->freedom, one->shared};
+  };
   const double tests = count_of_tests(input.a.width(), input.a.height());
   return {.a = in_short(input.noise->a),
           .b = in_short(input.noise->b),
@@ -103,15 +100,14 @@ Uncertainty uncertainty_of(const MetricInput& input, const ComparisonOptions& op
           .tests = tests,
           .each = sidak(noise.significance, tests),
           .bootstraps = noise.bootstraps,
-          .seed = noise.seed,
-          .error_bars = error_bars(input, options.viewing, noise.bootstraps, noise.seed)};
+          .seed = noise.seed};
 }
 
 /// Fills in limits and verdict.
 void judge_noisy(const ComparisonOptions& options, Comparison& result) {
   for (const MetricLimit& limit : asked_limits(options)) {
     const double value = result.value(limit.metric);
-    const ErrorBar* bar = result.uncertainty ? result.uncertainty->bar(limit.metric) : nullptr;
+    const ErrorBar* bar = records::find(result.error_bars, limit.metric);
     const Standing standing = standing_of(limit, value, bar);
     result.limits.push_back({limit.metric, limit.limit, value, standing == Standing::kHolds,
                              standing,
@@ -138,45 +134,16 @@ std::span<const MetricLimit> default_limits() {
   return limits;
 }
 
-std::string_view verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kPass:
-      return "pass";
-    case Verdict::kDiffers:
-      return "differs";
-    case Verdict::kNonFinite:
-      return "non-finite";
-    case Verdict::kSame:
-      return "same";
-    case Verdict::kDifferent:
-      return "different";
-    case Verdict::kUndecided:
-      return "undecided";
-  }
-  return "";
-}
-
 bool is_pass(Verdict verdict) { return verdict == Verdict::kPass || verdict == Verdict::kSame; }
 
-std::string_view standing_name(Standing standing) {
-  return standing == Standing::kHolds ? "holds" : standing == Standing::kBroken ? "broken" : "open";
-}
-
-const ErrorBar* Uncertainty::bar(std::string_view id) const {
-  for (const ErrorBar& bar : error_bars)
-    if (bar.id == id) return &bar;
-  return nullptr;
-}
-
 double Comparison::value(std::string_view id) const {
-  for (const MetricValue& metric : metrics)
-    if (metric.id == id) return metric.value;
-  return std::numeric_limits<double>::quiet_NaN();
+  const auto found = std::ranges::find(metrics, id, &MetricValue::id);
+  return found == metrics.end() ? std::numeric_limits<double>::quiet_NaN() : found->value;
 }
 
 std::string_view Comparison::why_not_measured(std::string_view id) const {
   for (const NotMeasured& one : not_measured)
-    if (one.id == id) return one.because;
+    if (one.metric == id) return one.because;
   return {};
 }
 
@@ -253,8 +220,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   result.viewing = options.viewing;
   result.tolerance = options.tolerance;
   if (!options.mask.empty())
-    result.mask_pixels = std::count_if(options.mask.begin(), options.mask.end(),
-                                       [](std::uint8_t inside) { return inside != 0; });
+    result.mask_pixels =
+        std::ranges::count_if(options.mask, [](auto inside) { return inside != 0; });
   result.nonfinite_a = count_nonfinite_pixels(a);
   result.nonfinite_b = count_nonfinite_pixels(b);
   result.first_nonfinite_a = first_nonfinite(a);
@@ -273,7 +240,11 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
         options.noise ? &noise : nullptr};
     result.metrics = measure_all(input);
     result.not_measured = all_not_measured(input);
-    if (options.noise) result.uncertainty = uncertainty_of(input, options);
+    if (options.noise) {
+      result.uncertainty = uncertainty_of(input, *options.noise);
+      result.error_bars =
+          error_bars(input, options.viewing, options.noise->bootstraps, options.noise->seed);
+    }
   }
   if (options.noise) {
     judge_noisy(options, result);
@@ -288,8 +259,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   if (limits.empty()) limits.assign(default_limits().begin(), default_limits().end());
   result.limits = results_of(limits, result);
   result.warnings = results_of(options.warnings, result);
-  const bool pass = std::all_of(result.limits.begin(), result.limits.end(),
-                                [](const LimitResult& limit) { return limit.pass; });
+  const bool pass = std::ranges::all_of(result.limits, &LimitResult::pass);
   result.disagreement = disagreements(result.limits);
   result.verdict = !finite ? Verdict::kNonFinite : pass ? Verdict::kPass : Verdict::kDiffers;
   return result;

@@ -22,7 +22,7 @@ struct MetricLimit {
   double limit = 0;    ///< the last value that passes, see Better
 };
 
-/// What is known of the noise of the pictures, and how it is judged by.
+/// The known noise of the pictures, and how to judge by it.
 struct NoiseOptions {
   std::optional<PictureNoise> a = {}, b = {};  ///< one of them at least
   double significance =
@@ -48,7 +48,7 @@ struct ComparisonOptions {
 /// The limits where neither limits nor a tolerance were asked for.
 std::span<const MetricLimit> default_limits();
 
-/// From the best to the worst.
+/// From the best to the worst; named by records::kVerdicts.
 enum class Verdict : std::uint8_t {
   kPass,
   kDiffers,    ///< over a limit, or more outliers than allowed
@@ -58,15 +58,13 @@ enum class Verdict : std::uint8_t {
   kDifferent,  ///< one is broken, wherever in its error bar the figure is
   kUndecided,  ///< it is up to the noise: no pass
 };
-/// "pass", "differs", "non-finite", "same", "different", "undecided"
-std::string_view verdict_name(Verdict verdict);
+constexpr std::string_view verdict_name(Verdict verdict) {
+  return records::kVerdicts[std::size_t(verdict)];
+}
 bool is_pass(Verdict verdict);  ///< pass or same
 
 /// A metric that was asked for, or needs no asking, and could not be computed.
-struct NotMeasured {
-  std::string_view id;
-  std::string because;
-};
+using NotMeasured = records::NotMeasured;
 
 struct MetricValue {
   std::string_view id, meaning;
@@ -74,32 +72,18 @@ struct MetricValue {
 };
 
 enum class Standing : std::uint8_t { kHolds, kBroken, kOpen };
-std::string_view standing_name(Standing standing);  ///< "holds", "broken", "open"
+constexpr std::string_view standing_name(Standing standing) {
+  return records::kStandings[std::size_t(standing)];
+}
 
 struct LimitResult {
   std::string metric;
   double limit = 0;
   double value = 0;  ///< NaN where it could not be measured
   bool pass = false;
-  /// Of pictures with noise; only what holds passes.
+  /// Set for pictures with noise; only a limit that holds passes.
   std::optional<Standing> standing = {};
   double more_samples = 0;  ///< how many times the samples would decide what is open, about
-};
-
-/// How the noise was taken into account.
-struct Uncertainty {
-  struct OfPicture {
-    double freedom = 0;   ///< degrees of freedom of a value's error
-    bool shared = false;  ///< pixels err together
-  };
-  std::optional<OfPicture> a, b;
-  double significance = 0;
-  double tests = 0, each = 0;  ///< how many values and regions were tested, and the level of each
-  int bootstraps = 0;
-  std::uint64_t seed = 0;
-  std::vector<ErrorBar> error_bars;  ///< in the order of the metrics
-
-  const ErrorBar* bar(std::string_view id) const;  ///< null for a figure that has none
 };
 
 /// How far two references are from each other: what no picture can be asked to be nearer than.
@@ -124,7 +108,9 @@ struct Comparison {
   std::optional<Tolerance> tolerance;
   std::optional<std::int64_t> mask_pixels;        ///< inside the mask, if there was one
   std::optional<ReferenceFloor> reference_floor;  ///< if there was a second reference
-  std::optional<Uncertainty> uncertainty;  ///< where noise was known and everything is finite
+  /// How the noise was taken into account, where it was known and everything is finite.
+  std::optional<records::Uncertainty> uncertainty;
+  ErrorBars error_bars;  ///< likewise
 
   /// The value of a metric, or NaN if it was not measured.
   double value(std::string_view id) const;

@@ -24,7 +24,7 @@ enum class ToneCurve : std::uint8_t {
 class DisplayLight {
  public:
   DisplayLight(const Image& image, double exposure_stops, ToneCurve curve = ToneCurve::kClip);
-  /// What `view` shows, or with null a plain sRGB display that clips; finite values only.
+  /// The picture as `view` shows it; null is a plain sRGB display that clips. Finite values only.
   static DisplayLight of(const Image& image, double exposure_stops, const DisplayView* view);
 
   int width() const { return image_->width(); }

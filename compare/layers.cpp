@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "compare/overscan.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "core/image_values.hpp"
 #include "core/picture_window.hpp"
 #include "core/text.hpp"
 
@@ -68,8 +68,7 @@ records::LayerComparison layer_record(const LayerComparison& layer) {
 }
 
 bool are_identical(const Image& a, const Image& b) {
-  return std::ranges::equal(a.values(), b.values()) &&
-         std::ranges::all_of(a.values(), [](float value) { return std::isfinite(value); });
+  return std::ranges::equal(a.values(), b.values()) && is_finite(a);
 }
 
 LayerComparison compare_overscan(const std::string& name, const PicturePair& pair,

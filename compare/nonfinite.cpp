@@ -20,8 +20,7 @@ bool is_same_nonfinite(float a, float b) {
 
 std::optional<NonfinitePlace> first_nonfinite(const Image& image) {
   const auto values = image.values();
-  const auto found =
-      std::find_if(values.begin(), values.end(), [](float value) { return !std::isfinite(value); });
+  const auto found = std::ranges::find_if_not(values, [](float v) { return std::isfinite(v); });
   if (found == values.end()) return std::nullopt;
   const auto at = std::size_t(found - values.begin());
   const std::size_t pixel = at / 3, width = std::size_t(image.width());
@@ -61,12 +60,9 @@ std::int64_t clear_equal_nonfinite(Image& a, Image& b) {
 
 bool is_depth_like(std::string_view layer) {
   constexpr std::array<std::string_view, 5> kNames{"z", "zback", "depth", "distance", "position"};
-  for (std::string part : split(layer, ".")) {
-    for (char& c : part)
-      if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    if (std::ranges::find(kNames, part) != kNames.end()) return true;
-  }
-  return false;
+  return std::ranges::any_of(split(lower_case(layer), "."), [&](const std::string& part) {
+    return std::ranges::find(kNames, part) != kNames.end();
+  });
 }
 
 }  // namespace lobelia

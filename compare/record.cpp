@@ -4,25 +4,6 @@
 namespace lobelia {
 namespace {
 
-std::optional<records::PictureNoise> noise_record(const std::optional<Uncertainty::OfPicture>& n) {
-  if (!n) return std::nullopt;
-  return records::PictureNoise{n->freedom, n->shared};
-}
-
-void add_uncertainty(const Uncertainty& uncertainty, records::Comparison& record) {
-  record.uncertainty = records::Uncertainty{noise_record(uncertainty.a),
-                                            noise_record(uncertainty.b),
-                                            uncertainty.significance,
-                                            uncertainty.tests,
-                                            uncertainty.each,
-                                            uncertainty.bootstraps,
-                                            uncertainty.seed};
-  auto& bars = record.error_bars.emplace();
-  for (const ErrorBar& bar : uncertainty.error_bars)
-    bars.emplace_back(bar.id, records::ErrorBar{bar.standard_error, bar.floor, bar.floor_most,
-                                                bar.low, bar.high});
-}
-
 std::vector<records::Limit> limit_records(std::span<const LimitResult> limits) {
   std::vector<records::Limit> list;
   for (const LimitResult& limit : limits) {
@@ -84,12 +65,12 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   record.viewing = viewing_record(comparison.viewing, !comparison.metrics.empty());
   if (comparison.mask_pixels) record.mask = records::Mask{*comparison.mask_pixels};
   record.metrics = metric_records(comparison.metrics);
-  for (const NotMeasured& one : comparison.not_measured)
-    record.not_measured.push_back({std::string(one.id), one.because});
+  record.not_measured = comparison.not_measured;
   record.limits = limit_records(comparison.limits);
   record.warnings = limit_records(comparison.warnings);
   record.disagreement = comparison.disagreement;
-  if (comparison.uncertainty) add_uncertainty(*comparison.uncertainty, record);
+  record.uncertainty = comparison.uncertainty;
+  if (comparison.uncertainty) record.error_bars = comparison.error_bars;
   if (comparison.tolerance)
     record.tolerance = records::Tolerance{
         comparison.tolerance->relative, comparison.tolerance->of_peak,

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What is below 0, or no number, is 0.
+/// Values below 0 and NaN become 0.
 template <class D>
 HWY_INLINE hn::Vec<D> clipped(D d, hn::Vec<D> v) {
   return hn::IfThenElseZero(hn::Gt(v, hn::Zero(d)), hn::Min(v, hn::Set(d, 1)));

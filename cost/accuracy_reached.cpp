@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compare/metrics/peak.hpp"
+#include "core/image_values.hpp"
 #include "cost/accuracy.hpp"
 #include "cost/picture_truth.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"

@@ -12,10 +12,10 @@
 #include <memory>
 
 #include "compare/compare.hpp"
-#include "compare/metrics/peak.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
+#include "core/image_values.hpp"
 #include "core/process.hpp"
 #include "core/text.hpp"
 #include "cost/engine_program.hpp"

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "compare/metrics/catalogue.hpp"
-#include "compare/metrics/peak.hpp"
 #include "core/colour.hpp"
+#include "core/image_values.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"

@@ -1,6 +1,7 @@
 #include "compare/compare.hpp"
 #include "core/colour.hpp"
 #include "core/image_io.hpp"
+#include "core/image_values.hpp"
 #include "farm/make_result.hpp"
 #include "farm/our_name.hpp"
 #include "records/record.hpp"
@@ -63,7 +64,7 @@ void make_comparison(const Scene& scene, const MadePicture& ours, const MadePict
   const std::string name = comparison_name(engine);
   // White is what the tolerance allows at the brightest place, and a tenth of the peak where there is noise.
   const double relative = exact ? options.tolerance->relative + options.tolerance->of_peak : 0.1;
-  const double white_at = relative * brightest(b);
+  const double white_at = relative * peak_value(b);
   write_png(draft.file(name + ".png"), difference_picture(a, b, white_at));
   records::write_record(draft.file(name + ".json"),
                         comparison_record(comparison, picture_file(kOurs), picture_file(engine)));

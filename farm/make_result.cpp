@@ -7,8 +7,8 @@
 
 #include "compare/metrics/metric.hpp"
 #include "core/colour.hpp"
-#include "core/finite_image.hpp"
 #include "core/image_io.hpp"
+#include "core/image_values.hpp"
 #include "farm/our_name.hpp"
 
 namespace lobelia {
@@ -41,15 +41,8 @@ Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) 
   return image;
 }
 
-double brightest(const Image& image) {
-  double peak = 0;
-  for (const float value : image.values())
-    if (std::isfinite(value)) peak = std::max(peak, double(value));
-  return peak;
-}
-
 double cell_exposure(const Image& ours) {
-  return std::clamp(exposure_for_peak(brightest(ours)), -kMaxExposureStops, kMaxExposureStops);
+  return std::clamp(exposure_for_peak(peak_value(ours)), -kMaxExposureStops, kMaxExposureStops);
 }
 
 }  // namespace lobelia

@@ -66,7 +66,4 @@ Image read_whole_picture(const std::filesystem::path& file, const Scene& scene);
 /// The exposure at which a cell is looked at: the brightest value of our picture becomes white.
 double cell_exposure(const Image& ours);
 
-/// The brightest finite value of a picture, at least 0.
-double brightest(const Image& image);
-
 }  // namespace lobelia

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "compare/profile/radiance_at.hpp"
 #include "core/error.hpp"
 #include "renderer/highlight_map.hpp"
 #include "renderer/lobe_properties.hpp"

@@ -14,8 +14,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/finite_image.hpp"
 #include "core/image_io.hpp"
+#include "core/image_values.hpp"
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/sha256.hpp"

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "core/image_values.hpp"
 #include "gallery/half_picture.hpp"
 #include "gallery/packed_images.hpp"
 
@@ -18,10 +19,6 @@ namespace lobelia::gallery {
 namespace {
 
 constexpr char kFormat[] = "float picture 2";  // of the scripts; another number makes them anew
-
-bool is_finite(const Image& image) {
-  return std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); });
-}
 
 Image difference(const Image& theirs, const Image& ours) {
   Image result = theirs;

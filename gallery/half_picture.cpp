@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/image_values.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -108,13 +109,6 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-float largest_of(const Image& image) {
-  float largest = 0;
-  for (const float value : image.values())
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
 }  // namespace
 
 records::PackedPicture half_picture(const Image& image, int precision) {
@@ -122,7 +116,7 @@ records::PackedPicture half_picture(const Image& image, int precision) {
   result.width = image.width();
   result.height = image.height();
   result.mantissa_bits = std::max(1, precision);
-  const float largest = largest_of(image);
+  const float largest = float(largest_magnitude(image.values()));
   int exponent = 0;
   std::frexp(largest, &exponent);  // largest < 2^exponent
   if (largest > 0) result.scale_log2 = kTopExponent - exponent;

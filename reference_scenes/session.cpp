@@ -6,7 +6,7 @@
 
 #include "core/at_once.hpp"
 #include "core/error.hpp"
-#include "core/finite_image.hpp"
+#include "core/image_values.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"

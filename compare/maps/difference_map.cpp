@@ -7,22 +7,15 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/as_shown.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/error.hpp"
-#include "core/finite_image.hpp"
 #include "core/image_io.hpp"
+#include "core/image_values.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
 
-extern const DifferenceMap absolute_map, signed_map, relative_map, ciede2000_map, delta_e_itp_map,
-    flip_ldr_map;
-
 namespace {
-
-constexpr const DifferenceMap* kMaps[] = {&absolute_map,  &signed_map,      &relative_map,
-                                          &ciede2000_map, &delta_e_itp_map, &flip_ldr_map};
 
 constexpr std::string_view kColourMaps[] = {kDefaultColourMap, "inferno", "plasma",
                                             "viridis",         "turbo",   kSignedColourMap};
@@ -61,17 +54,15 @@ std::vector<float> measure_finite(const DifferenceMap& map, const Image& a, cons
 
 }  // namespace
 
-std::span<const DifferenceMap* const> difference_maps() { return kMaps; }
-
 std::vector<std::string_view> difference_map_names() {
   std::vector<std::string_view> names;
-  for (const DifferenceMap* map : kMaps) names.push_back(map->id);
+  for (const DifferenceMap& map : difference_maps()) names.push_back(map.id);
   return names;
 }
 
 const DifferenceMap* find_difference_map(std::string_view id) {
-  for (const DifferenceMap* map : kMaps)
-    if (map->id == id) return map;
+  for (const DifferenceMap& map : difference_maps())
+    if (map.id == id) return &map;
   return nullptr;
 }
 
@@ -87,19 +78,11 @@ std::vector<float> measure_difference_map(const DifferenceMap& map, const Image&
   return values;
 }
 
-double largest_magnitude(std::span<const float> values) {
-  float largest = 0;
-  for (const float value : values)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  return double(largest);
-}
-
 std::span<const std::string_view> colour_map_names() { return kColourMaps; }
 
 DisplayImage colour_picture(std::span<const float> values, int width, int height, double scale,
                             std::string_view colour_map) {
-  if (std::find(std::begin(kColourMaps), std::end(kColourMaps), colour_map) ==
-      std::end(kColourMaps))
+  if (std::ranges::count(kColourMaps, colour_map) == 0)
     throw Error(ExitCode::kUsage,
                 fmt::format("no colour map '{}'{}; there are {}", printable(colour_map),
                             did_you_mean(colour_map, kColourMaps), join(kColourMaps)));

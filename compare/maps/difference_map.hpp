@@ -24,13 +24,13 @@ struct DifferenceMap {
   std::string_view id;  ///< "ciede2000": name on the command line
   std::string_view unit, meaning;
   bool is_signed;  ///< values below 0 say something: its colours diverge from 0
-  bool
-      is_visual;  ///< of what an eye sees under the viewing condition, and not of the values; from 0 to about 1
+  /// Compares the pictures as seen under the viewing condition, not their values; from 0 to about 1.
+  bool is_visual;
   /// One value a pixel in reading order; values of `a` and `b` are finite.
   std::vector<float> (*measure)(const MapInput& input);
 };
 
-std::span<const DifferenceMap* const> difference_maps();
+std::span<const DifferenceMap> difference_maps();
 std::vector<std::string_view> difference_map_names();
 /// Null if there is none of that id.
 const DifferenceMap* find_difference_map(std::string_view id);
@@ -39,9 +39,6 @@ const DifferenceMap* find_difference_map(std::string_view id);
 /// 0 for its neighbours. Throws Error(kInput) if the sizes differ.
 std::vector<float> measure_difference_map(const DifferenceMap& map, const Image& a, const Image& b,
                                           const Viewing& viewing);
-
-/// The largest finite |value|; 0 if there is none.
-double largest_magnitude(std::span<const float> values);
 
 /// Colour maps for a scale from 0 (matplotlib's, by OpenImageIO) and, last, the one for signed values.
 std::span<const std::string_view> colour_map_names();
@@ -53,7 +50,7 @@ inline constexpr std::string_view kDefaultColourMap = "magma", kSignedColourMap 
 DisplayImage colour_picture(std::span<const float> values, int width, int height, double scale,
                             std::string_view colour_map);
 
-/// What has to be known to read such a picture, for its file.
+/// Metadata that say how to read such a picture.
 ImageMetadata colour_metadata(const DifferenceMap& map, double scale, std::string_view colour_map);
 
 }  // namespace lobelia

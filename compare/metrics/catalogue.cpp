@@ -57,19 +57,20 @@ const MetricOutput* find_metric_output(std::string_view id) {
 }
 
 bool is_measurable(const Metric& metric, const MetricInput& input) {
+  const int side = std::min(input.a.width(), input.a.height());
   switch (metric.needs) {
     case Needs::kNothing:
       return true;
     case Needs::kTolerance:
       return input.tolerance != nullptr;
     case Needs::kMask:
-      return std::any_of(input.mask.begin(), input.mask.end(), [](auto inside) { return inside; });
+      return std::ranges::any_of(input.mask, [](auto inside) { return inside != 0; });
     case Needs::kHdrExposures:
       return input.hdr_exposures != nullptr && input.hdr_exposures->problem.empty();
     case Needs::kOneWindow:
-      return std::min(input.a.width(), input.a.height()) >= kSsimSide;
+      return side >= kSsimSide;
     case Needs::kFiveScales:
-      return std::min(input.a.width(), input.a.height()) >= kMsSsimSide;
+      return side >= kMsSsimSide;
     case Needs::kNoise:
       return input.noise != nullptr;
   }
@@ -78,22 +79,13 @@ bool is_measurable(const Metric& metric, const MetricInput& input) {
 
 std::string why_not_measured(const Metric& metric, const MetricInput& input) {
   if (is_measurable(metric, input)) return "";
-  const auto too_small = [&](int side) {
-    return fmt::format("it needs {} pixels a side, the pictures have {} x {}", side,
-                       input.a.width(), input.a.height());
-  };
-  switch (metric.needs) {
-    case Needs::kHdrExposures:
-      return input.hdr_exposures ? input.hdr_exposures->problem : "";
-    case Needs::kMask:
-      return input.mask.empty() ? "" : "no pixel lies inside the mask";
-    case Needs::kOneWindow:
-      return too_small(kSsimSide);
-    case Needs::kFiveScales:
-      return too_small(kMsSsimSide);
-    default:
-      return "";
-  }
+  if (metric.needs == Needs::kHdrExposures && input.hdr_exposures)
+    return input.hdr_exposures->problem;
+  if (metric.needs == Needs::kMask && !input.mask.empty()) return "no pixel lies inside the mask";
+  if (metric.needs != Needs::kOneWindow && metric.needs != Needs::kFiveScales) return "";
+  return fmt::format("it needs {} pixels a side, the pictures have {} x {}",
+                     metric.needs == Needs::kOneWindow ? kSsimSide : kMsSsimSide, input.a.width(),
+                     input.a.height());
 }
 
 bool is_within(const MetricOutput& output, double value, double limit) {

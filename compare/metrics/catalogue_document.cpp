@@ -6,52 +6,21 @@
 namespace lobelia {
 namespace {
 
-std::string_view better_text(Better better) {
-  switch (better) {
-    case Better::kLower:
-      return "lower";
-    case Better::kNearZero:
-      return "nearer to 0";
-    case Better::kHigher:
-      return "higher";
-    case Better::kNeither:
-      return "(a fact)";
-  }
-  return "";
-}
-
-std::string_view family_text(Family family) {
-  switch (family) {
-    case Family::kRadiance:
-      return "radiance";
-    case Family::kColour:
-      return "colour";
-    case Family::kStructure:
-      return "structure";
-    case Family::kVisibility:
-      return "visibility";
-  }
-  return "";
-}
+// In the order of the enumerations.
+constexpr std::string_view kBetter[] = {"lower", "nearer to 0", "higher", "(a fact)"};
+constexpr std::string_view kFamilies[] = {"radiance", "colour", "structure", "visibility"};
 
 std::string needs_text(Needs needs) {
   switch (needs) {
-    case Needs::kNothing:
-      return "";
-    case Needs::kTolerance:
-      return "`--tolerance`";
-    case Needs::kMask:
-      return "`--scene`";
-    case Needs::kHdrExposures:
-      return "`--exposures`";
     case Needs::kOneWindow:
       return fmt::format("{} pixels a side", kSsimSide);
     case Needs::kFiveScales:
       return fmt::format("{} pixels a side", kMsSsimSide);
-    case Needs::kNoise:
-      return "`--a-replicate` and others";
+    default:
+      constexpr std::string_view kOptions[] = {
+          "", "`--tolerance`", "`--scene`", "`--exposures`", "", "", "`--a-replicate` and others"};
+      return std::string(kOptions[std::size_t(needs)]);
   }
-  return "";
 }
 
 }  // namespace
@@ -69,9 +38,10 @@ std::string metrics_document() {
       "|---|---|---|---|---|---|\n";
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs)
-      text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", output.id,
-                          family_text(metric->family), better_text(output.better),
-                          needs_text(metric->needs), output.meaning, metric->source);
+      text +=
+          fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", output.id,
+                      kFamilies[std::size_t(metric->family)], kBetter[std::size_t(output.better)],
+                      needs_text(metric->needs), output.meaning, metric->source);
   text += fmt::format(
       "\n"
       "**Better** is what a limit means: `--fail rmse=0.01` passes up to 0.01, `--fail drift=0.01`\n"

@@ -6,9 +6,15 @@
 #include <span>
 #include <vector>
 
-#include "compare/metrics/flip_tile.hpp"
+#include "compare/display_light.hpp"
+#include "compare/metrics/flip_filters.hpp"
 
 namespace lobelia {
+
+/// Columns [left, left + width), rows [top, top + height).
+struct FlipTile {
+  int left, top, width, height;
+};
 
 /// FLIP's error of each pixel of the tile, in [0, 1], its rows flip_padded(tile.width) apart.
 void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
@@ -22,7 +28,7 @@ struct FlipPooled {
   double mean, max;
 };
 
-/// Of a picture whose errors in a tile errors_of(tile, errors) fills in, called on many threads.
+/// Mean and maximum over a picture. errors_of(tile, errors) fills in the errors of a tile; many threads call it.
 FlipPooled flip_pooled(int width, int height,
                        const std::function<void(const FlipTile&, std::span<float>)>& errors_of);
 

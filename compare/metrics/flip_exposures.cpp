@@ -12,7 +12,7 @@
 namespace lobelia {
 namespace {
 
-/// What the largest and the median luminance are brought to by the tone curve.
+/// The tone curve brings the largest and the median luminance to this value.
 constexpr float kShown = 0.85f;
 
 /// The light that the tone curve shows as that, in the tool's order of operations.

@@ -125,7 +125,7 @@ HWY_INLINE Triple hunt_lab(const Triple& rgb) {
           hn::Mul(hunt, hn::Mul(set(200), hn::Sub(fy, fz)))};
 }
 
-/// Of a filtered colour what a display can show.
+/// A filtered colour, clipped to what a display can show.
 HWY_INLINE Triple shown_rgb(Lanes y, Lanes cx, Lanes cz) {
   const Lanes yy = hn::Div(hn::Add(y, set(16)), set(116));
   const Triple rgb = rgb_from_relative_xyz(

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "compare/metrics/metric.hpp"
-#include "compare/metrics/peak.hpp"
+#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {

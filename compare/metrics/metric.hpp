@@ -41,6 +41,12 @@ struct Viewing {
   std::shared_ptr<const DisplayView> display = {};  ///< null: a plain sRGB display
 };
 
+/// At the exposure, and on the display, of `viewing`; finite values only. As DisplayLight: of a plain display it is
+/// a view, which the picture must outlive.
+inline DisplayLight as_shown(const Image& image, const Viewing& viewing) {
+  return DisplayLight::of(image, viewing.exposure_stops, viewing.display.get());
+}
+
 /// A pixel is an outlier if |a - b| > relative * |b| + of_peak * peak in any of its channels.
 struct Tolerance {
   double relative = 0;  ///< share of the reference's value
@@ -72,8 +78,8 @@ enum class Better : std::uint8_t {
   kNeither,   ///< a fact, a place or a scale, to read an error by: no limit may be set on it
 };
 
-/// What a metric looks at. Metrics of one family mostly agree; where two families disagree, that says
-/// what kind of difference it is (compare/disagreement.hpp).
+/// The kind of values a metric compares. Metrics of one family mostly agree. If two families disagree, that
+/// tells the kind of difference (compare/disagreement.hpp).
 enum class Family : std::uint8_t {
   kRadiance,    ///< scene-linear values
   kColour,      ///< colours of single pixels, as shown
@@ -90,7 +96,7 @@ constexpr std::string_view unit_name(Unit unit) {
   return kNames[std::size_t(unit)];
 }
 
-/// What has to be there for a metric to be measured; otherwise it is left out of the results.
+/// The input that a metric needs. Without it the metric is left out of the results.
 enum class Needs : std::uint8_t {
   kNothing,
   kTolerance,
@@ -101,7 +107,7 @@ enum class Needs : std::uint8_t {
   kNoise,       ///< of one picture at least
 };
 
-/// What a window of SSIM takes, and what five halvings of the picture leave it.
+/// Shortest sides for one window of SSIM, and for a window after the halvings of MS-SSIM.
 inline constexpr int kSsimSide = 11, kMsSsimSide = 176;
 
 struct MetricOutput {

@@ -12,8 +12,8 @@
 #include <limits>
 
 #include "compare/metrics/metric.hpp"
-#include "compare/metrics/peak.hpp"
 #include "compare/metrics/picture_part.hpp"
+#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {

@@ -18,7 +18,7 @@ constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
 // Rows of windows at once: the rows above them, which are filtered again, are ten.
 constexpr int kRowsPerTask = 64;
 
-/// What is averaged within a window.
+/// The values that are averaged within a window.
 enum Moment { kA, kB, kAA, kBB, kAB, kMoments };
 using Moments = std::array<std::vector<double>, kMoments>;
 

@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Of as many values as `d` and kVectors hold, from the i-th on. In registers; in memory, each sum would be
-/// loaded and stored for every weight. Mul and Add, not MulAdd: see the header.
+/// Sums as many values as `d` and kVectors hold, from the i-th on. The sums stay in registers; in memory each would
+/// be loaded and stored for every weight. Mul and Add, not MulAdd: see the header.
 template <std::size_t kSums, std::size_t kVectors, class D>
 HWY_INLINE void sum_at(D d, const WeightedSum* sums, const float* const* rows, std::size_t i) {
   const std::size_t lanes = hn::Lanes(d), count = sums[0].weights.size();

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/profile/radiance_at.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {

@@ -28,7 +28,7 @@ double log_cosine(double angle) {
   return std::log1p(-std::min(1.0, 2 * half_sine * half_sine));
 }
 
-/// What the best coefficient is at an exponent.
+/// The best coefficient at an exponent.
 struct Best {
   double coefficient, squares,
       score;  ///< score: half of minus the derivative of the squares by ln n

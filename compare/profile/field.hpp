@@ -12,7 +12,7 @@ struct Field {
   int width = 0, height = 0;
   std::vector<double> values;  ///< width * height
 
-  /// Of pixel (i, j); NaN outside of the film.
+  /// The value of pixel (i, j); NaN outside of the film.
   double at(int i, int j) const;
 };
 
@@ -20,7 +20,7 @@ struct FilmPoint {
   double x = 0, y = 0;
 };
 
-/// Of a pixel in reading order.
+/// The centre of a pixel, by its index in reading order.
 FilmPoint pixel_centre(const Field& field, std::size_t index);
 
 /// Between the pixels' centres by cubic convolution with a = -1/2 (Keys 1981, "Cubic convolution
@@ -39,7 +39,7 @@ struct Axes {
   double major_sigma = 0;  ///< standard deviations along the two axes, pixels, the square of a
   double minor_sigma = 0;  ///< pixel itself (1/12) included
 };
-/// Of pixels with the weight value - base; `pixels` is not empty and the weights' sum is positive.
+/// Weights each pixel by value - base. `pixels` is not empty and the weights' sum is positive.
 Axes principal_axes(const Field& field, const std::vector<std::size_t>& pixels, double base);
 
 /// How far from `peak` along a unit vector the field first falls to `level`, pixels; NaN where it meets a hole

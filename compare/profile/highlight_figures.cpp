@@ -1,11 +1,10 @@
-#include "compare/profile/highlight_figures.hpp"
+// The highlight of one picture in figures.
+#include "compare/profile/profile.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
-
-#include "compare/profile/radiance_at.hpp"
 
 namespace lobelia {
 namespace {

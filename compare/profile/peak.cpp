@@ -185,20 +185,4 @@ Peak locate_peak(const Field& field) {
   return peak;
 }
 
-const char* name(PeakFound found) {
-  switch (found) {
-    case PeakFound::kFitted:
-      return "fitted";
-    case PeakFound::kPixel:
-      return "pixel";
-    case PeakFound::kPlateau:
-      return "plateau";
-    case PeakFound::kEdge:
-      return "edge";
-    case PeakFound::kNone:
-      break;
-  }
-  return "none";
-}
-
 }  // namespace lobelia

@@ -13,6 +13,7 @@
 
 namespace lobelia {
 
+/// Named by records::kPeakFound.
 enum class PeakFound {
   kFitted,   ///< by the polynomial
   kPixel,    ///< to the brightest pixel: no polynomial has a maximum near it
@@ -30,8 +31,5 @@ struct Peak {
 
 /// Infinite values are holes too. O(pixels).
 Peak locate_peak(const Field& field);
-
-/// "fitted", "pixel", "plateau", "edge", "none", as records have it.
-const char* name(PeakFound found);
 
 }  // namespace lobelia

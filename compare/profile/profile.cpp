@@ -7,8 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "compare/profile/highlight_figures.hpp"
-#include "compare/profile/radiance_at.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
@@ -44,8 +42,8 @@ struct Binning {
     for (const LitPixel& pixel : lit) largest = std::max(largest, pixel.angle);
     reach = std::min(kCurveReach * end, largest);
     if (!(reach > 0)) return;
-    const auto within = std::count_if(lit.begin(), lit.end(),
-                                      [&](const LitPixel& pixel) { return pixel.angle <= reach; });
+    const auto within = std::ranges::count_if(
+        lit, [&](double angle) { return angle <= reach; }, &LitPixel::angle);
     // The side of a square with the area that a pixel has in the disc of radius `reach`.
     const double spacing =
         reach * std::sqrt(std::numbers::pi / double(std::max<std::ptrdiff_t>(within, 1)));
@@ -114,7 +112,7 @@ HighlightShape measure_shape(const std::vector<LitPixel>& lit, const ProfileGeom
   return shape;
 }
 
-/// Of each zone in turn.
+/// The errors of each zone.
 std::array<ZoneError, kZoneCount> zone_errors(const std::vector<LitPixel>& lit,
                                               const ZoneEnds& ends, const Image& a, const Image& b,
                                               double peak) {
@@ -125,8 +123,7 @@ std::array<ZoneError, kZoneCount> zone_errors(const std::vector<LitPixel>& lit,
       sums[std::size_t(zone)].add(radiance_at(a, pixel.index) - radiance_at(b, pixel.index));
   }
   std::array<ZoneError, kZoneCount> errors;
-  std::transform(sums.begin(), sums.end(), errors.begin(),
-                 [&](const ZoneErrorSum& sum) { return sum.error(peak); });
+  for (std::size_t zone = 0; zone < kZoneCount; ++zone) errors[zone] = sums[zone].error(peak);
   return errors;
 }
 

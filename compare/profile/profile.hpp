@@ -23,6 +23,12 @@ namespace lobelia {
 /// Pictures by name, in the order they are reported in. One may be the formula: "analytic".
 using NamedImages = std::vector<std::pair<std::string, const Image*>>;
 
+/// The mean of R, G and B of a pixel, by its index in reading order.
+inline double radiance_at(const Image& image, std::size_t index) {
+  const float* value = image.values().data() + 3 * index;
+  return (double(value[0]) + double(value[1]) + double(value[2])) / 3;
+}
+
 /// The geometry of the pixels, in reading order.
 struct ProfileGeometry {
   std::span<const double> angle;        ///< radians; NaN where the light does not reach the body
@@ -43,7 +49,7 @@ struct HalfWidth {
   double angle = 0;  ///< of the lobe there, the mean of both sides, radians
 };
 
-/// Of the highlight alone, without what lies beneath it; NaN where it cannot be told.
+/// Figures of the highlight alone, without the radiance beneath it; NaN if unknown.
 struct HighlightFigures {
   Peak peak;           ///< to a fraction of a pixel
   FilmPoint centroid;  ///< weighted by radiance * solid angle, down to the end of the blooming zone
@@ -52,6 +58,9 @@ struct HighlightFigures {
   CosineFit cosine;         ///< down to the end of the blooming zone
   std::string why_not;      ///< a sentence where there is no peak or it is not resolved
 };
+
+/// `geometry.width` is not 0, and the picture has as many pixels as the geometry.
+HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image& image);
 
 struct HighlightShape {
   double peak = 0;        ///< the largest radiance of a lit pixel; NaN if one is not finite

@@ -1,8 +1,8 @@
-// A profile as its record.
+// Profiles with and without a scene as their records.
+#include <cmath>
 #include <numbers>
 
-#include "compare/profile/profile.hpp"
-#include "compare/profile/record_parts.hpp"
+#include "compare/profile/blob.hpp"
 
 namespace lobelia {
 namespace {
@@ -15,8 +15,15 @@ std::vector<double> scaled(std::vector<double> values, double scale) {
   return values;
 }
 
-records::ZoneError zone_record(const ZoneError& zone) {
-  return {zone.pixels, zone.max_abs, zone.rms, zone.max_rel_peak};
+records::Point point_record(FilmPoint point) { return {point.x, point.y}; }
+
+records::Peak peak_record(const Peak& peak) {
+  return {peak.place.x, peak.place.y, peak.value,
+          std::string(records::kPeakFound[std::size_t(peak.found)])};
+}
+
+records::ZoneErrors zones_record(const std::array<ZoneError, kZoneCount>& zones) {
+  return {zones[0], zones[1], zones[2]};
 }
 
 records::HalfWidth half_width_record(const HalfWidth& width) {
@@ -44,17 +51,26 @@ records::HighlightFigures figures_record(const HighlightFigures& figures) {
   return record;
 }
 
+// Standard deviation of a Gaussian over its half-width.
+const double kSigma = 1 / std::sqrt(2 * std::numbers::ln2);
+
+records::BlobFigures figures_record(const BlobFigures& blob) {
+  records::BlobFigures record;
+  record.peak = peak_record(blob.peak);
+  record.background = blob.background;
+  record.pixels = blob.pixels;
+  record.centroid = point_record(blob.axes.centre);
+  record.major_axis = point_record(blob.axes.major);
+  record.half_width_pixels = {blob.major_half_width, blob.minor_half_width};
+  record.gaussian_sigma_pixels = {kSigma * blob.major_half_width, kSigma * blob.minor_half_width};
+  record.energy = blob.energy;
+  record.nonfinite = blob.not_finite;
+  record.because = blob.why_not;
+  record.remark = blob.remark;
+  return record;
+}
+
 }  // namespace
-
-records::Point point_record(FilmPoint point) { return {point.x, point.y}; }
-
-records::Peak peak_record(const Peak& peak) {
-  return {peak.place.x, peak.place.y, peak.value, std::string(name(peak.found))};
-}
-
-records::ZoneErrors zones_record(const std::array<ZoneError, kZoneCount>& zones) {
-  return {zone_record(zones[0]), zone_record(zones[1]), zone_record(zones[2])};
-}
 
 records::Profile profile_record(const Profile& profile, int light, int sphere,
                                 const std::string& angle_name) {
@@ -84,6 +100,25 @@ records::Profile profile_record(const Profile& profile, int light, int sphere,
   for (const ProfileDifference& difference : profile.differences)
     record.differences.emplace_back(difference.a + "-" + difference.b,
                                     zones_record(difference.zones));
+  return record;
+}
+
+records::Blob blob_record(const BlobProfile& profile) {
+  records::Blob record;
+  record.reference = profile.names.back();
+  record.zones = {kZones[0].lobe, kZones[1].lobe, kZones[2].lobe};
+  for (std::size_t k = 0; k < profile.names.size(); ++k)
+    record.images.emplace_back(profile.names[k], figures_record(profile.blobs[k]));
+  for (const BlobCurve& curve : profile.curves) {
+    records::BlobCurve& columns =
+        record.curves.emplace_back(curve.axis, records::BlobCurve{}).second;
+    columns.offset_pixels = curve.offset;
+    for (std::size_t k = 0; k < profile.names.size(); ++k)
+      columns.radiance.emplace_back(profile.names[k], curve.radiance[k]);
+  }
+  if (profile.difference)
+    record.differences.emplace_back(profile.names[0] + "-" + profile.names[1],
+                                    zones_record(*profile.difference));
   return record;
 }
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 
+#include "records/profile.hpp"
+
 namespace lobelia {
 
 struct Zone {
@@ -23,12 +25,8 @@ inline constexpr std::array<Zone, kZoneCount> kZones = {{
 /// Where each ends, in whatever grows outward.
 using ZoneEnds = std::array<double, kZoneCount>;
 
-struct ZoneError {
-  std::size_t pixels = 0;   ///< of the zone; if 0, the errors are NaN
-  double max_abs = 0;       ///< radiance
-  double rms = 0;           ///< radiance
-  double max_rel_peak = 0;  ///< max_abs / the second picture's peak
-};
+/// The errors are NaN if the zone has no pixels.
+using ZoneError = records::ZoneError;
 
 /// The errors of a zone, a pixel after the other.
 class ZoneErrorSum {

@@ -8,14 +8,14 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the formats that OpenImageIO reads, those that renders and photographs come in. Not all of its endings:
-/// it takes .txt and films as well.
+/// Endings of renders and photographs. OpenImageIO reads more, such as .txt and films.
 constexpr std::string_view kEndings[] = {
     ".avif", ".bmp", ".dpx", ".exr", ".gif", ".hdr",  ".heic", ".iff", ".jp2", ".jpeg",
     ".jpg",  ".pbm", ".pfm", ".pgm", ".png", ".pnm",  ".ppm",  ".psd", ".rgb", ".rgbe",
@@ -93,10 +93,7 @@ std::vector<std::string> only_in(const std::vector<std::string>& one,
 }  // namespace
 
 bool has_picture_ending(const fs::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
+  return std::ranges::find(kEndings, lower_case(file.extension().string())) != std::end(kEndings);
 }
 
 bool is_below(const fs::path& path, const fs::path& folder) {

@@ -24,8 +24,9 @@ Verdict PairReport::verdict() const {
   return layers ? worst_verdict(comparison->verdict, *layers) : comparison->verdict;
 }
 
-SetCounts count(const SetReport& report) {
-  SetCounts counts;
+records::SetSummary count(const SetReport& report) {
+  records::SetSummary counts;
+  counts.pairs = report.pairs.size();
   for (const PairReport& pair : report.pairs) {
     if (!pair.comparison) {
       ++counts.errors;
@@ -44,13 +45,14 @@ SetCounts count(const SetReport& report) {
         ++counts.undecided;
         break;
       case Verdict::kNonFinite:
-        ++counts.nonfinite;
+        ++counts.non_finite;
         break;
     }
   }
   counts.missing = report.missing.size();
   counts.extra = report.extra.size();
-  counts.not_followed = report.not_followed.size();
+  counts.passed_over = report.passed_over;
+  counts.links_not_followed = report.not_followed.size();
   return counts;
 }
 
@@ -65,10 +67,10 @@ SetNotCompared not_compared(const SetReport& report) {
 }
 
 ExitCode set_exit_code(const SetReport& report) {
-  const SetCounts counts = count(report);
+  const records::SetSummary counts = count(report);
   if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
-  return counts.differs + counts.undecided + counts.nonfinite + counts.missing +
-                     counts.not_followed >
+  return counts.differs + counts.undecided + counts.non_finite + counts.missing +
+                     counts.links_not_followed >
                  0
              ? ExitCode::kDiffers
              : ExitCode::kSuccess;

@@ -40,11 +40,7 @@ struct SetReport {
 inline constexpr std::string_view kNotFollowed =
     "a link to a folder elsewhere; its pictures were not compared";
 
-struct SetCounts {
-  std::size_t pass = 0, differs = 0, undecided = 0, nonfinite = 0, errors = 0, missing = 0,
-              extra = 0, not_followed = 0;
-};
-SetCounts count(const SetReport& report);
+records::SetSummary count(const SetReport& report);
 
 /// Everything that was not compared, over all pairs.
 struct SetNotCompared {
@@ -65,7 +61,7 @@ struct MetricSummary {
   const PairReport* worst_at;  ///< the first pair that has it
 };
 
-/// Of all metrics that are no facts, in the catalogue's order.
+/// A summary of every metric that is not a fact, in the catalogue's order.
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
 
 /// "is 0.02", or "was not measured (why)".
@@ -82,9 +78,8 @@ std::string why_not_pass(const PairReport& pair);
 records::Comparison pair_record(const PairReport& pair);
 records::ComparisonSet set_record(const SetReport& report);
 
-/// RFC 4180: a line of names, then one for each pair, missing and extra name and link that was not followed; a
-/// column for each metric that
-/// any of them has. What is not there is empty.
+/// RFC 4180: a header, then a line for each pair, missing name, extra name and link that was not followed. It has a
+/// column for each metric that any pair has; a missing value is empty.
 std::string set_csv(const SetReport& report);
 
 /// JUnit's XML: a test case for each pair (failure, or error where it could not be compared), a failure

@@ -19,12 +19,10 @@ std::vector<std::string_view> measured_ids(const SetReport& report) {
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs) {
       const auto has = [&](const PairReport& pair) {
-        if (!pair.comparison) return false;
-        const auto& values = pair.comparison->metrics;
-        return std::any_of(values.begin(), values.end(),
-                           [&](const MetricValue& value) { return value.id == output.id; });
+        return pair.comparison &&
+               std::ranges::count(pair.comparison->metrics, output.id, &MetricValue::id) > 0;
       };
-      if (std::any_of(report.pairs.begin(), report.pairs.end(), has)) ids.push_back(output.id);
+      if (std::ranges::any_of(report.pairs, has)) ids.push_back(output.id);
     }
   return ids;
 }
@@ -46,10 +44,8 @@ std::string set_csv(const SetReport& report) {
     text += fmt::format("{},{},{}", field(pair.name), verdict_name(pair.verdict()),
                         field(why_not_pass(pair)));
     for (const std::string_view id : ids) {
-      const auto& values = comparison.metrics;
-      const auto found = std::find_if(values.begin(), values.end(),
-                                      [&](const MetricValue& value) { return value.id == id; });
-      text += found == values.end() ? "," : fmt::format(",{}", found->value);
+      const auto found = std::ranges::find(comparison.metrics, id, &MetricValue::id);
+      text += found == comparison.metrics.end() ? "," : fmt::format(",{}", found->value);
     }
     text += "\r\n";
   }

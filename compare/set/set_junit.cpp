@@ -47,7 +47,7 @@ void add_pair(pugi::xml_node suite, const PairReport& pair) {
 }  // namespace
 
 std::string set_junit(const SetReport& report) {
-  const SetCounts counts = count(report);
+  const records::SetSummary counts = count(report);
   double seconds = 0;
   for (const PairReport& pair : report.pairs) seconds += pair.seconds;
   pugi::xml_document document;
@@ -56,9 +56,9 @@ std::string set_junit(const SetReport& report) {
   for (pugi::xml_node node : {suites, suite}) {
     node.append_attribute("name") = printable_path(report.a + " against " + report.b).c_str();
     node.append_attribute("tests") =
-        report.pairs.size() + counts.missing + counts.extra + counts.not_followed;
-    node.append_attribute("failures") =
-        counts.differs + counts.undecided + counts.nonfinite + counts.missing + counts.not_followed;
+        report.pairs.size() + counts.missing + counts.extra + counts.links_not_followed;
+    node.append_attribute("failures") = counts.differs + counts.undecided + counts.non_finite +
+                                        counts.missing + counts.links_not_followed;
     node.append_attribute("errors") = counts.errors;
     node.append_attribute("skipped") = counts.extra;
     node.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();

@@ -15,10 +15,7 @@ records::ComparisonSet set_record(const SetReport& report) {
   record.a = report.a;
   record.b = report.b;
   record.c = report.c;
-  const SetCounts counts = count(report);
-  record.summary = {report.pairs.size(), counts.pass,        counts.differs, counts.undecided,
-                    counts.nonfinite,    counts.errors,      counts.missing, counts.extra,
-                    report.passed_over,  counts.not_followed};
+  record.summary = count(report);
   const SetNotCompared left = not_compared(report);
   record.not_compared = {left.all.layers, left.all.alpha, left.all.overscan_pixels,
                          left.all.mip_levels, left.pairs};

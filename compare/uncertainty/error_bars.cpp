@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/as_shown.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/uncertainty/gaussian.hpp"
 #include "compare/uncertainty/z_test.hpp"
@@ -96,13 +95,13 @@ ErrorBar bar_of(const Figure& figure, double factor) {
     return std::max(number(figure.apart), number(figure.together));
   };
   using Spreads = Figure::Spreads;
-  ErrorBar bar{.id = output.id};
+  ErrorBar bar;
   bar.standard_error = worse([](const Spreads& s) { return s.value.deviation(); });
-  bar.floor = from_distance(output, worse([](const Spreads& s) { return s.nothing.mean(); }));
+  bar.noise_floor = from_distance(output, worse([](const Spreads& s) { return s.nothing.mean(); }));
   const double spread = factor * worse([](const Spreads& s) { return s.again.deviation(); });
   const double floor =
       worse([&](const Spreads& s) { return s.nothing.mean() + factor * s.nothing.deviation(); });
-  bar.floor_most = from_distance(output, floor);
+  bar.noise_floor_most = from_distance(output, floor);
   double near = figure.distance, far = figure.distance;
   if (std::isfinite(figure.distance)) {
     far += spread;
@@ -130,8 +129,8 @@ double from_distance(const MetricOutput& output, double distance) {
   return output.better == Better::kHigher ? output.best - apart : output.best + apart;
 }
 
-std::vector<ErrorBar> error_bars(const MetricInput& input, const Viewing& viewing, int count,
-                                 std::uint64_t seed) {
+ErrorBars error_bars(const MetricInput& input, const Viewing& viewing, int count,
+                     std::uint64_t seed) {
   const NoiseOfPair& noise = *input.noise;
   std::vector<Figure> figures;
   measure_each(input, [&](const MetricOutput& output, double value) {
@@ -168,9 +167,9 @@ std::vector<ErrorBar> error_bars(const MetricInput& input, const Viewing& viewin
   }
   if (!any_shared)
     for (Figure& figure : figures) figure.together = figure.apart;
-  std::vector<ErrorBar> bars;
+  ErrorBars bars;
   const double factor = draw_factor(noise, count);
-  for (const Figure& figure : figures) bars.push_back(bar_of(figure, factor));
+  for (const Figure& figure : figures) bars.emplace_back(figure.output->id, bar_of(figure, factor));
   return bars;
 }
 

@@ -6,7 +6,8 @@
 //               one number for all values of a picture, and of each result the worse of the two is taken.
 // Formula:      standard_error is the spread of the figure over pairs (a + noise, b + noise). The noise floor is
 //               the figure over pairs (b + noise of a, b + noise of b): what two pictures of one expectation
-//               show; floor is its mean and floor_most what 97.5 % of them do not exceed.
+//               show; noise_floor is its mean and noise_floor_most what 97.5 % of them do not exceed (of a
+//               likeness, the least).
 // Interval:     [low, high] is to hold the figure of the expectations, which endless samples would give,
 //               with 95 %. Noise makes most errors larger, so that a figure is not in the middle of it:
 //               high is the figure and 97.5 % of its spread; low is the figure without 97.5 % of the noise
@@ -20,28 +21,24 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
-#include <vector>
 
 #include "compare/metrics/metric.hpp"
 #include "compare/uncertainty/noise.hpp"
+#include "records/comparison.hpp"
 
 namespace lobelia {
 
-struct ErrorBar {
-  std::string_view id;
-  double standard_error = 0;
-  double floor = 0, floor_most = 0;  ///< floor_most is the least of a likeness
-  double low = 0, high = 0;
-};
+using ErrorBar = records::ErrorBar;
+/// By the id of the figure, in the order of the metrics.
+using ErrorBars = records::Named<ErrorBar>;
 
 inline constexpr int kFewestBootstraps = 4, kMostBootstraps = 1000;
 
-/// Of every figure of the catalogue that is no fact and does not itself speak of noise, for an input with noise.
+/// Error bars of all figures that are neither facts nor about noise, for an input with noise.
 /// `count` as in kFewestBootstraps to kMostBootstraps. Holds two more pictures, and takes 2 * count
 /// times what the metrics take, twice that where pixels err together.
-std::vector<ErrorBar> error_bars(const MetricInput& input, const Viewing& viewing, int count,
-                                 std::uint64_t seed);
+ErrorBars error_bars(const MetricInput& input, const Viewing& viewing, int count,
+                     std::uint64_t seed);
 
 /// A figure as a distance, see above, and back; of signed errors themselves.
 double as_distance(const MetricOutput& output, double value);

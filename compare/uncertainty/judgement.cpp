@@ -46,8 +46,8 @@ double more_samples(const MetricLimit& limit, double value, const ErrorBar* bar)
   const MetricOutput* output = find_metric_output(limit.metric);
   if (!output || !bar) return kInfinity;
   const bool is_signed = output->better == Better::kNearZero;
-  const double now = as_distance(*output, value), floor = as_distance(*output, bar->floor),
-               floor_most = as_distance(*output, bar->floor_most),
+  const double now = as_distance(*output, value), floor = as_distance(*output, bar->noise_floor),
+               floor_most = as_distance(*output, bar->noise_floor_most),
                spread =
                    std::max(as_distance(*output, bar->low), as_distance(*output, bar->high)) - now;
   // As of rmse, whose squares add up.

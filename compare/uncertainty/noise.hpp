@@ -41,7 +41,7 @@ struct PictureNoise {
   bool shared = false;        ///< pixels err together: they share their points, or were filtered
 };
 
-/// Of a picture of standard errors. Throws Error(kInput) where it is negative or not finite, or has no
+/// Noise from a picture of standard errors. Throws Error(kInput) where it is negative or not finite, or has no
 /// pixels, and Error(kUsage) if there is not at least one degree of freedom.
 PictureNoise noise_of_standard_errors(const Image& standard_error, double freedom, bool shared);
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "compare/metrics/peak.hpp"
 #include "compare/uncertainty/critical.hpp"
+#include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {

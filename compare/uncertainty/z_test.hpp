@@ -21,7 +21,7 @@
 
 namespace lobelia {
 
-/// Of the two pictures of a comparison; null for one without noise.
+/// The noise of the two pictures of a comparison; null for a picture without noise.
 struct NoiseOfPair {
   const PictureNoise* a = nullptr;
   const PictureNoise* b = nullptr;
@@ -45,7 +45,7 @@ struct ZTest {
 /// Values of pixels and of regions of a picture of that size.
 double count_of_tests(int width, int height);
 
-/// Of an input with noise.
+/// Tests an input with noise.
 ZTest z_test(const MetricInput& input);
 
 }  // namespace lobelia

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/finite_image.hpp"
+#include "core/image_values.hpp"
 
 namespace lobelia::cost {
 

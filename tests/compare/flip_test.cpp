@@ -5,6 +5,7 @@
 #include "compare/compare.hpp"
 #include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/flip_exposures.hpp"
+#include "compare/metrics/flip_kernels.hpp"
 #include "core/error.hpp"
 #include "tests/compare/pictures.hpp"
 #include "tests/compare/plain_flip.hpp"

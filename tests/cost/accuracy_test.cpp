@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "compare/metrics/peak.hpp"
 #include "core/error.hpp"
+#include "core/image_values.hpp"
 #include "cost/lobe_candidates.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"

@@ -1,0 +1,80 @@
+// The maps of differences. Formulas and sources of those as shown stand with their metrics.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/maps/difference_map.hpp"
+#include "compare/metrics/ciede2000.hpp"
+#include "compare/metrics/delta_e_itp.hpp"
+#include "compare/metrics/flip_error.hpp"
+
+namespace lobelia {
+namespace {
+
+/// The largest difference(a, b) of the three channels.
+template <class Difference>
+std::vector<float> largest_of_channels(const MapInput& input, Difference difference) {
+  const std::span<const float> a = input.a.values(), b = input.b.values();
+  std::vector<float> map(input.a.pixel_count());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    map[i / 3] = std::max(map[i / 3], difference(a[i], b[i]));
+  return map;
+}
+
+std::vector<float> absolute(const MapInput& input) {
+  return largest_of_channels(input, [](float a, float b) { return std::abs(a - b); });
+}
+
+std::vector<float> mean_signed(const MapInput& input) {
+  const std::span<const float> a = input.a.values(), b = input.b.values();
+  std::vector<float> map(input.a.pixel_count());
+  for (std::size_t pixel = 0; pixel < map.size(); ++pixel) {
+    double sum = 0;
+    for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) sum += double(a[i]) - double(b[i]);
+    map[pixel] = float(sum / 3);
+  }
+  return map;
+}
+
+/// Flanks and tails count as much as the peak.
+std::vector<float> relative(const MapInput& input) {
+  return largest_of_channels(input, [](float a, float b) {
+    // Something where the reference has nothing is more than any scale, but not the NaN of a broken pixel.
+    constexpr double kWithoutReference = std::numeric_limits<float>::max();
+    const double difference = std::abs(double(a) - double(b));
+    if (difference == 0) return 0.0f;
+    return float(b == 0 ? kWithoutReference
+                        : std::min(difference / std::abs(double(b)), kWithoutReference));
+  });
+}
+
+std::vector<float> ciede2000_map(const MapInput& input) {
+  return ciede2000_of_pixels(input.shown_a, input.shown_b).values;
+}
+
+std::vector<float> delta_e_itp_map(const MapInput& input) {
+  return delta_e_itp_of_pixels(input.shown_a, input.shown_b).values;
+}
+
+std::vector<float> flip_ldr_map(const MapInput& input) {
+  return flip_error_map(input.shown_a, input.shown_b, FlipFilters(float(input.pixels_per_degree)));
+}
+
+constexpr DifferenceMap kMaps[] = {
+    {"abs", "radiance", "largest |A - B| of R, G and B", false, false, absolute},
+    {"signed", "radiance", "mean of A - B over R, G and B", true, false, mean_signed},
+    {"relative", "share of the reference", "largest |A - B| / |B| of R, G and B", false, false,
+     relative},
+    {"ciede2000", "CIEDE2000", "colour difference as shown, 1 is about just noticeable", false,
+     true, ciede2000_map},
+    {"delta_e_itp", "delta E ITP",
+     "colour difference as shown to an adapted eye, 1 is just noticeable", false, true,
+     delta_e_itp_map},
+    {"flip.ldr", "LDR-FLIP, 0 to 1", "what is noticed when the two are shown in turn", false, true,
+     flip_ldr_map}};
+
+}  // namespace
+
+std::span<const DifferenceMap> difference_maps() { return kMaps; }
+
+}  // namespace lobelia

@@ -1,0 +1,31 @@
+// What the values of a picture are like: finite, how large.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/image.hpp"
+
+namespace lobelia {
+
+/// No value of it is a NaN or an infinity.
+inline bool is_finite(const Image& image) {
+  return std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); });
+}
+
+/// The brightest R, G or B value of the picture; 0 for a picture without a positive value.
+inline double peak_value(const Image& image) {
+  float peak = 0;
+  for (const float value : image.values()) peak = std::max(peak, value);
+  return peak;
+}
+
+/// The largest finite |value|; 0 if there is none.
+inline double largest_magnitude(std::span<const float> values) {
+  float largest = 0;
+  for (const float value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+}  // namespace lobelia
