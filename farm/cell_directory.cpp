@@ -125,24 +125,6 @@ std::vector<records::CellFile> files_of(const CellRecords& records) {
   return files;
 }
 
-/// A comparison or a profile is of the very pictures that are there now, not of ones that have been made again.
-bool is_of(const records::Result& record, const CellRecords& records, const JobGraph& graph,
-           std::size_t cell) {
-  for (const auto& [engine, hash] : *record.from) {
-    const records::Result* picture = nullptr;
-    if (engine == kOurs) {
-      if (records[0]) picture = &*records[0];
-    } else {
-      for (std::size_t e = 0; e < graph.engines().size(); ++e)
-        if (graph.engines()[e].name == engine)
-          if (const auto& found = records[graph.reference(cell, e) - graph.render(cell)])
-            picture = &*found;
-    }
-    if (!picture || picture->hash_of(picture_file(engine)) != hash) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 bool is_cell_file(const std::string& name) {
@@ -170,24 +152,6 @@ FarmDirectoryLock::FarmDirectoryLock(const fs::path& directory, Use use, ByteLoc
         fmt::format("{}: {} is at work in this directory; try again when it has ended",
                     directory.string(),
                     use == Use::kFarm ? "'lobelia farm clean' or 'verify --remove'" : "a farm"));
-}
-
-CellRecords find_records(const ResultCache& cache, const JobGraph& graph, std::size_t cell,
-                         std::vector<std::string>* why_not) {
-  const auto jobs = graph.of_cell(cell);
-  CellRecords records(jobs.size());
-  if (why_not) why_not->assign(jobs.size(), "");
-  for (std::size_t slot = 0; slot < jobs.size(); ++slot) {
-    if (!jobs[slot].exists) continue;
-    std::string why;
-    records[slot] = cache.find(jobs[slot].key, ResultCache::Look::kQuick, why);
-    if (records[slot] && records[slot]->from && !is_of(*records[slot], records, graph, cell)) {
-      records[slot].reset();
-      why = "its pictures are made again";
-    }
-    if (why_not) (*why_not)[slot] = std::move(why);
-  }
-  return records;
 }
 
 CellDirectory::CellDirectory(const fs::path& farm_directory, const JobGraph& graph,
@@ -262,13 +226,13 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
 
   std::set<std::string> foreign = names_of_ours();
   bool complete = true;
-  for (std::size_t slot = 0; slot < records.size(); ++slot) {
-    const Job& job = graph_->of_cell(cell_)[slot];
-    complete = complete && (!job.exists || records[slot]);
-    if (!records[slot]) continue;
-    for (const auto& [name, bytes, sha256, modified] : records[slot]->files) {
+  for (const JobIndex job : graph_->jobs(cell_)) {
+    const auto& result = records[job - graph_->render(cell_)];
+    complete = complete && result;
+    if (!result) continue;
+    for (const auto& [name, bytes, sha256, modified] : result->files) {
       if (removal.directory(name)) removal.remove(name);  // if it is empty
-      place_file(cache.file(job.key, name), directory, name);
+      place_file(cache.file((*graph_)[job].key, name), directory, name);
       foreign.erase(name);
     }
   }

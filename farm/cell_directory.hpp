@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "farm/job_graph.hpp"
-#include "farm/result_cache.hpp"
+#include "farm/job_states.hpp"
 #include "records/farm.hpp"
 
 namespace lobelia {
@@ -17,13 +16,6 @@ struct CellProblem {
   records::CellProblem record;
   std::filesystem::path log;  ///< the engine's; empty: it had nothing to say
 };
-
-/// The records of a cell's results, by place in the graph; null where there is no job or no result.
-using CellRecords = std::vector<std::optional<records::Result>>;
-
-/// In the result cache, each looked at; `why_not` gets a reason for each that is null though the job exists.
-CellRecords find_records(const ResultCache& cache, const JobGraph& graph, std::size_t cell,
-                         std::vector<std::string>* why_not = nullptr);
 
 /// Whether a farm may have put a file of that name into a cell, cell.json included.
 bool is_cell_file(const std::string& name);

@@ -59,27 +59,6 @@ void leave_out(ChunkCells& cells, const std::string& engine) {
     cells.jobs[cell].erase(job_name(cells.farm.cells[cell].id, JobKind::kReference, engine));
 }
 
-/// What is to be done, and what is there of what that needs.
-std::vector<JobState> states_of(const ChunkCells& cells, const JobGraph& graph,
-                                const ResultCache& cache) {
-  std::vector<JobState> states(graph.size(), JobState::kAbsent);
-  for (std::size_t cell = 0; cell < graph.cell_count(); ++cell) {
-    const CellRecords records = find_records(cache, graph, cell);
-    for (std::size_t slot = 0; slot < records.size(); ++slot) {
-      const JobIndex job = JobIndex(graph.render(cell) + slot);
-      if (!graph[job].exists) continue;
-      if (records[slot])
-        states[job] = JobState::kDone;
-      else if (cells.jobs[cell].contains(graph.name(job)))
-        states[job] = JobState::kWaiting;
-      else if (cache.failure(graph[job].key))
-        states[job] = JobState::kFailed;
-    }
-    leave_out_what_waits_for_nothing(graph, states, cell);
-  }
-  return states;
-}
-
 }  // namespace
 
 records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
@@ -146,14 +125,20 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
   const ResultCache cache(chunk.cache);
   const auto in_use = cache.use();
   remove_abandoned_temporaries();
-  JobRun run(graph, cache, options, states_of(cells, graph, cache));
+  const auto is_of_chunk = [&](JobIndex job) {
+    return cells.jobs[graph.cell_of(job)].contains(graph.name(job));
+  };
+  JobRun run(
+      graph, cache, options,
+      job_states(graph, &cache,
+                 {.wanted = is_of_chunk, .failures = JobStateFilter::Failures::kOfOthersCount}));
   std::vector<std::size_t> order(graph.cell_count());
   std::iota(order.begin(), order.end(), std::size_t{0});
   run.run(order, [](std::size_t) {});
   summary.work = run.work();
   std::ranges::copy(summary.work.engines_given_up, std::back_inserter(summary.left));
   for (JobIndex job = 0; job < graph.size(); ++job) {
-    if (!graph[job].exists || !cells.jobs[graph.cell_of(job)].contains(graph.name(job))) continue;
+    if (!graph[job].exists || !is_of_chunk(job)) continue;
     if (run.state(job) == JobState::kDone) ++summary.done;
     if (run.state(job) == JobState::kFailed) ++summary.failed;
     if (run.state(job) == JobState::kAbsent) ++summary.undone;

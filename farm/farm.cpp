@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <unordered_set>
 
 #include "core/error.hpp"
 #include "farm/farm_session.hpp"
@@ -26,7 +25,7 @@ FarmSummary run_farm(const Grid& grid, const fs::path& directory, const FarmOpti
   std::size_t made = 0, pictures = 0;
   for (int round = 1;; ++round) {
     FarmSession session(grid, directory, now);
-    JobRun run(session.work().graph, session.cache(), now, session.take_states());
+    JobRun run(session.work().graph, session.cache(), now, session.states());
     try {
       run.run(session.waiting_cells(), [&](std::size_t cell) { session.finish_cell(cell); });
     } catch (...) {
@@ -56,35 +55,34 @@ FarmPlan plan_farm(
     const Grid& grid, const fs::path& directory, const FarmOptions& options,
     const std::function<void(const std::string& name, const std::string& reason)>& on_job) {
   FarmWork work(grid, options, directory);
-  const JobGraph& graph = work.graph;
-  std::unordered_set<ResultKey> there, failed;
+  JobGraph& graph = work.graph;
+  std::optional<ResultCache> cache;
   std::error_code ignored;
-  if (const fs::path cache = cache_directory(options.cache, directory);
-      fs::exists(cache, ignored)) {
-    const ResultCache results(cache, ResultCache::Opening::kLook);
-    for (const ResultKey& key : results.list()) there.insert(key);
-    for (const ResultKey& key : results.failures()) failed.insert(key);
-  }
+  if (const fs::path there = cache_directory(options.cache, directory); fs::exists(there, ignored))
+    cache.emplace(there, ResultCache::Opening::kLook);
+  JobStateFilter filter = work.filter(options);
+  filter.look = ResultCache::Look::kName;
+  std::vector<std::uint8_t> is_there(graph.size());
+  const std::vector<JobState> states = job_states(
+      graph, cache ? &*cache : nullptr, filter, [&](std::size_t cell, const CellStates& found) {
+        for (const JobIndex job : graph.jobs(cell))
+          is_there[job] = found.records[job - graph.render(cell)].has_value();
+      });
   const bool has_cells = fs::exists(directory / "cells", ignored);
   FarmPlan plan;
   plan.cells = graph.cell_count();
   plan.absent_engines = work.absences();
   plan.warning = work.filter_warning(options.filter);
   for (const std::size_t cell : coarse_to_fine(work.cells.cells)) {
-    work.leave_out_absent(cell, [&](JobIndex job) { return there.contains(graph[job].key); });
     const CellDirectory before(directory, graph, cell);
-    for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job) {
-      if (!graph[job].exists) continue;
+    for (const JobIndex job : graph.jobs(cell)) {
       ++plan.jobs;
-      const bool is_there = there.contains(graph[job].key);
-      if (is_there && !(options.again && work.can_make(job))) continue;
-      const std::string name = graph.name(job);
-      if (!options.filter.picks(name)) continue;
+      if (states[job] != JobState::kWaiting) continue;
       ++plan.wanted;
-      on_job(name, is_there                          ? "again"
-                   : failed.contains(graph[job].key) ? "failed before"
-                   : has_cells                       ? before.reason(job)
-                                                     : "missing");
+      on_job(graph.name(job), is_there[job]                             ? "again"
+                              : cache && cache->failure(graph[job].key) ? "failed before"
+                              : has_cells                               ? before.reason(job)
+                                                                        : "missing");
     }
   }
   return plan;

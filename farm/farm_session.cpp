@@ -1,7 +1,6 @@
 #include "farm/farm_session.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
-#include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
@@ -63,15 +61,15 @@ std::vector<std::string> FarmWork::refusals() const {
   return sentences;
 }
 
-bool FarmWork::leave_out_absent(std::size_t cell, const std::function<bool(JobIndex)>& is_there) {
-  bool any = false;
-  for (std::size_t e = 0; e < engines.size(); ++e) {
-    const JobIndex reference = graph.reference(cell, e);
-    if (engines[e].is_here() || !graph[reference].exists || is_there(reference)) continue;
-    graph.leave_out(cell, e);
-    any = true;
-  }
-  return any;
+JobStateFilter FarmWork::filter(const FarmOptions& options) const {
+  JobStateFilter filter;
+  if (!options.filter.picks_everything())
+    filter.wanted = [&](JobIndex job) { return options.filter.picks(graph.name(job)); };
+  if (options.again)
+    filter.again = [&](JobIndex job) {
+      return graph[job].kind != JobKind::kReference || engines[graph[job].engine].is_here();
+    };
+  return filter;
 }
 
 std::string FarmWork::filter_warning(const JobFilter& filter) const {
@@ -124,7 +122,6 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
       cache_(cache_directory(options.cache, directory)),
       in_use_(cache_.use()),
       lock_sharing_(cache_.lock_sharing()),
-      states_(work_.graph.size(), JobState::kAbsent),
       status_(work_.graph.cell_count(), "missing") {
   summary_.absent_engines = work_.absences();
   summary_.refusals = work_.refusals();
@@ -150,10 +147,10 @@ void FarmSession::look_at_cells() {
   std::vector<std::uint8_t> unfinished(count);
   const auto before = std::chrono::steady_clock::now();
   ThreadLimit(options_.threads).run([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t cell) {
-      throw_if_interrupted();
-      unfinished[cell] = !look_at(cell);
-    });
+    states_ = job_states(work_.graph, &cache_, work_.filter(options_),
+                         [&](std::size_t cell, const CellStates& found) {
+                           unfinished[cell] = !look_at(cell, found);
+                         });
   });
   summary_.cached_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
@@ -164,56 +161,43 @@ void FarmSession::look_at_cells() {
 /// Of a cell that may be of another grid.
 bool FarmSession::is_to_be_made(const std::string& cell, const std::string& job) const {
   const JobGraph& graph = work_.graph;
-  for (std::size_t i = 0; i < graph.cell_count(); ++i) {
-    if (work_.cells.cells[i].id != cell) continue;
-    for (JobIndex j = graph.render(i); j < graph.render(i) + graph.stride(); ++j)
-      if (graph[j].exists && states_[j] != JobState::kDone && graph.name(j) == cell + "/" + job)
-        return true;
-  }
+  for (std::size_t i = 0; i < graph.cell_count(); ++i)
+    if (work_.cells.cells[i].id == cell)
+      return std::ranges::any_of(graph.jobs(i), [&](JobIndex j) {
+        return states_[j] != JobState::kDone && graph.name(j) == cell + "/" + job;
+      });
   return false;
 }
 
 /// Whether everything of the cell is there. Where it is not, its record goes: it would speak of other results.
-bool FarmSession::look_at(std::size_t cell) {
-  CellRecords records = find_records(cache_, work_.graph, cell);
-  // Without them the profile is another result.
-  if (work_.leave_out_absent(
-          cell, [&](JobIndex job) { return records[job - work_.graph.render(cell)].has_value(); }))
-    records = find_records(cache_, work_.graph, cell);
+bool FarmSession::look_at(std::size_t cell, const CellStates& found) {
+  const JobIndex first = work_.graph.render(cell);
   bool complete = true;
   std::size_t kept = 0;
-  for (std::size_t slot = 0; slot < records.size(); ++slot) {
-    const JobIndex job = JobIndex(work_.graph.render(cell) + slot);
-    if (!work_.graph[job].exists) continue;
-    const bool picked =
-        options_.filter.picks_everything() || options_.filter.picks(work_.graph.name(job));
-    const bool again = options_.again && picked && work_.can_make(job);
-    if (records[slot] && !again) {
-      states_[job] = JobState::kDone;
-      cache_.touch(work_.graph[job].key);
-      if (is_picture(work_.graph[job].kind)) ++kept;
+  for (const JobIndex job : work_.graph.jobs(cell)) {
+    const Job& one = work_.graph[job];
+    if (found.states[job - first] == JobState::kDone) {
+      cache_.touch(one.key);
+      if (is_picture(one.kind)) ++kept;
       continue;
     }
     complete = false;
-    if (!picked) continue;
-    if (again) cache_.discard(work_.graph[job].key);
-    states_[job] = JobState::kWaiting;
+    if (found.records[job - first]) cache_.discard(one.key);  // it is made again
   }
-  leave_out_what_waits_for_nothing(work_.graph, states_, cell);
   {
     const std::scoped_lock lock(mutex_);
     summary_.kept += kept;
     if (complete) ++summary_.cached_cells;
-    take_warnings(records);
-  }
-  if (!complete) {
-    cell_directory(cell).forget();
-    return false;
+    take_warnings(found.records);
   }
   const CellDirectory there = cell_directory(cell);
-  status_[cell] = there.current_status(cache_, records);
+  if (!complete) {
+    there.forget();
+    return false;
+  }
+  status_[cell] = there.current_status(cache_, found.records);
   if (status_[cell].empty())
-    status_[cell] = there.write(cache_, records, {});
+    status_[cell] = there.write(cache_, found.records, {});
   else
     there.remove_abandoned();
   return true;
@@ -226,27 +210,21 @@ void FarmSession::take_warnings(const CellRecords& records) {
 
 void FarmSession::finish_cell(std::size_t cell) {
   JobGraph& graph = work_.graph;
-  CellRecords records = find_records(cache_, graph, cell);
-  bool lacks_one = false;
-  for (std::size_t e = 0; e < work_.engines.size(); ++e) {
-    const JobIndex reference = graph.reference(cell, e);
-    lacks_one = lacks_one || (graph[reference].exists && !records[reference - graph.render(cell)]);
-  }
-  if (lacks_one && graph[graph.profile(cell)].exists) {
-    graph.narrow_profile(
-        cell, [&](JobIndex picture) { return records[picture - graph.render(cell)].has_value(); });
-    records = find_records(cache_, graph, cell);
+  const JobIndex first = graph.render(cell);
+  CellRecords records = find_records(graph, cache_, cell);
+  const auto is_there = [&](JobIndex job) { return records[job - first].has_value(); };
+  const auto lacks_picture = [&](JobIndex job) {
+    return graph[job].kind == JobKind::kReference && !is_there(job);
+  };
+  if (graph[graph.profile(cell)].exists && std::ranges::any_of(graph.jobs(cell), lacks_picture)) {
+    graph.narrow_profile(cell, is_there);
+    records = find_records(graph, cache_, cell);
   }
   std::vector<CellProblem> problems;
-  for (std::size_t slot = 0; slot < records.size(); ++slot) {
-    const Job& job = graph.of_cell(cell)[slot];
-    if (!job.exists || records[slot]) continue;
-    const auto failure = cache_.failure(job.key);
-    if (!failure) continue;
-    problems.push_back({{graph.whose(JobIndex(graph.render(cell) + slot)), failure->message,
-                         failure->failure, failure->attempts},
-                        cache_.failure_log(job.key)});
-  }
+  for (const JobIndex job : graph.jobs(cell))
+    if (const auto failure = is_there(job) ? std::nullopt : cache_.failure(graph[job].key))
+      problems.push_back({{graph.whose(job), failure->message, failure->failure, failure->attempts},
+                          cache_.failure_log(graph[job].key)});
   std::string status = cell_directory(cell).write(cache_, records, problems);
   const std::scoped_lock lock(mutex_);
   status_[cell] = std::move(status);
@@ -257,14 +235,14 @@ void FarmSession::finish_cell(std::size_t cell) {
 }
 
 void FarmSession::show_what_is_there() {
-  for (const std::size_t cell : waiting_cells_) {
-    if (status_[cell] != "missing") continue;
-    const auto jobs = work_.graph.of_cell(cell);
-    if (std::any_of(jobs.begin(), jobs.end(), [&](const Job& job) {
-          return job.exists && (cache_.has(job.key) || cache_.failure(job.key));
-        }))
+  const JobStateFilter what_is_there{.wanted = [](JobIndex) { return false; },
+                                     .failures = JobStateFilter::Failures::kOfOthersCount,
+                                     .look = ResultCache::Look::kName};
+  for (const std::size_t cell : waiting_cells_)
+    if (status_[cell] == "missing" &&
+        std::ranges::any_of(cell_states(work_.graph, &cache_, what_is_there, cell).states,
+                            [](JobState state) { return state != JobState::kAbsent; }))
       finish_cell(cell);
-  }
   write_farm_record();
 }
 
@@ -297,14 +275,12 @@ void FarmSession::write_farm_record() const {
 }
 
 bool FarmSession::has_lost(const JobRun& run) const {
-  if (run.work().lost > 0) return true;
-  return std::ranges::any_of(waiting_cells_, [&](std::size_t cell) {
-    if (status_[cell] != "missing") return false;
-    const JobGraph& graph = work_.graph;
-    for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job)
-      if (graph[job].exists && run.state(job) != JobState::kDone) return false;
-    return true;
-  });
+  return run.work().lost > 0 || std::ranges::any_of(waiting_cells_, [&](std::size_t cell) {
+           return status_[cell] == "missing" &&
+                  std::ranges::all_of(work_.graph.jobs(cell), [&](JobIndex job) {
+                    return run.state(job) == JobState::kDone;
+                  });
+         });
 }
 
 std::size_t FarmSession::count_foreign_cells() const {

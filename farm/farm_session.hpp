@@ -22,13 +22,8 @@ struct FarmWork {
   FarmWork(const FarmWork&) = delete;
   std::vector<std::string> absences() const;  ///< of engines, as sentences
   std::vector<std::string> refusals() const;  ///< likewise: of cells that they cannot show
-  /// Whether the job can be done on this machine: it has the engine.
-  bool can_make(JobIndex job) const {
-    return graph[job].kind != JobKind::kReference || engines[graph[job].engine].is_here();
-  }
-  /// Leaves pictures of absent engines out of a cell's jobs, but those for which `is_there` holds. Whether there
-  /// were any.
-  bool leave_out_absent(std::size_t cell, const std::function<bool(JobIndex)>& is_there);
+  /// The jobs that the options ask for, of those that can be made here.
+  JobStateFilter filter(const FarmOptions& options) const;
   /// A sentence if there are jobs and the filter picks none of them, else empty.
   std::string filter_warning(const JobFilter& filter) const;
 
@@ -46,8 +41,8 @@ class FarmSession {
 
   FarmWork& work() { return work_; }
   const ResultCache& cache() const { return cache_; }
-  /// Of each job: kDone where its result is there, kWaiting where it is to be made. Asked once.
-  std::vector<JobState> take_states() { return std::move(states_); }
+  /// As it found the jobs: kDone where the result is there, kWaiting where it is to be made.
+  const std::vector<JobState>& states() const { return states_; }
   /// Cells with jobs that are waiting, from coarse to fine.
   const std::vector<std::size_t>& waiting_cells() const { return waiting_cells_; }
 
@@ -65,7 +60,7 @@ class FarmSession {
     return CellDirectory(directory_, work_.graph, cell);
   }
   void look_at_cells();
-  bool look_at(std::size_t cell);
+  bool look_at(std::size_t cell, const CellStates& found);
   bool is_to_be_made(const std::string& cell, const std::string& job) const;
   void take_warnings(const CellRecords& records);
   std::size_t count_foreign_cells() const;

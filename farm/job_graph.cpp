@@ -78,6 +78,13 @@ void JobGraph::narrow_profile(std::size_t cell, const std::function<bool(JobInde
   jobs_[profile(cell)].key = profile_key(cell, with_engine);
 }
 
+std::vector<JobIndex> JobGraph::jobs(std::size_t cell) const {
+  std::vector<JobIndex> found;
+  for (JobIndex job = render(cell); job <= profile(cell); ++job)
+    if (jobs_[job].exists) found.push_back(job);
+  return found;
+}
+
 std::vector<JobIndex> JobGraph::inputs(JobIndex job) const {
   const std::size_t cell = cell_of(job);
   switch (jobs_[job].kind) {

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -45,11 +44,9 @@ class JobGraph {
     return JobIndex(cell * stride_ + 1 + engines_->size() + engine);
   }
   JobIndex profile(std::size_t cell) const { return JobIndex((cell + 1) * stride_ - 1); }
-  /// All places of a cell; some have no job.
-  std::span<const Job> of_cell(std::size_t cell) const {
-    return std::span(jobs_).subspan(cell * stride_, stride_);
-  }
-  std::size_t stride() const { return stride_; }
+  /// The jobs that a cell has.
+  std::vector<JobIndex> jobs(std::size_t cell) const;
+  std::size_t stride() const { return stride_; }  ///< places of a cell; some have no job
 
   /// Jobs that must have their results first.
   std::vector<JobIndex> inputs(JobIndex job) const;

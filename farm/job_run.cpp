@@ -346,12 +346,11 @@ struct JobRun::Impl {
 
   /// Of a picture that is an input: its directory, and in `from` the hash of what is read there.
   MadePicture input_picture(JobIndex job, Hashes& from) const {
-    const Job& one = graph[job];
     const std::string engine = graph.whose(job);
-    const auto record = cache.find(one.key);
+    const auto record = find_result(graph, cache, job);
     if (!record) throw LostInput(graph.name(job));
     from.emplace_back(engine, record->hash_of(picture_file(engine)));
-    return {engine, cache.result_directory(one.key)};
+    return {engine, cache.result_directory(graph[job].key)};
   }
 
   void make(JobIndex job, const Scene& scene, ResultDraft& draft, records::Result& record) {
@@ -424,10 +423,9 @@ struct JobRun::Impl {
 
   /// Somebody made it since the farm looked: then it is settled.
   bool is_there(JobIndex job) {
-    const auto record = cache.find(graph[job].key);
-    if (!record) return false;
-    if (record->from && !is_of_these_inputs(job, *record->from)) {
-      cache.discard(graph[job].key);
+    if (!find_result(graph, cache, job)) {
+      // It is damaged, or of other pictures.
+      if (find_result(graph, cache, job, ResultCache::Look::kName)) cache.discard(graph[job].key);
       return false;
     }
     {
@@ -438,19 +436,12 @@ struct JobRun::Impl {
     return true;
   }
 
-  bool is_of_these_inputs(JobIndex job, const Hashes& made_from) const {
-    Hashes from;
-    for (const JobIndex input : graph.inputs(job))
-      if (state_of(input) == JobState::kDone) input_picture(input, from);
-    return from == made_from;
-  }
-
   /// So that they are made again. Whether there were any.
   bool discard_unreadable_inputs(JobIndex job) {
     bool any = false;
     for (const JobIndex input : graph.inputs(job)) {
       if (state_of(input) != JobState::kDone ||
-          cache.find(graph[input].key, ResultCache::Look::kThorough))
+          find_result(graph, cache, input, ResultCache::Look::kThorough))
         continue;
       cache.discard(graph[input].key);
       any = true;
@@ -778,17 +769,6 @@ struct JobRun::Impl {
     }
   }
 };
-
-void leave_out_what_waits_for_nothing(const JobGraph& graph, std::vector<JobState>& states,
-                                      std::size_t cell) {
-  for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job) {
-    if (states[job] != JobState::kWaiting) continue;
-    for (const JobIndex input : graph.inputs(job))
-      if (states[input] == JobState::kAbsent ||
-          (states[input] == JobState::kFailed && !graph.may_lack(job, input)))
-        states[job] = JobState::kAbsent;
-  }
-}
 
 JobRun::JobRun(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options,
                std::vector<JobState> states)

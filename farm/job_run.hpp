@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "farm/chunk_report.hpp"
-#include "farm/job_graph.hpp"
-#include "farm/result_cache.hpp"
+#include "farm/job_states.hpp"
 #include "reference_scenes/failure.hpp"
 
 namespace lobelia {
@@ -43,14 +42,6 @@ struct JobRunOptions {
   std::function<void(const FarmProgress&)> on_progress;  ///< from any thread, one at a time
 };
 
-enum class JobState : std::uint8_t {
-  kAbsent,   ///< there is no such job, or it has no result and is not to be made here
-  kWaiting,  ///< for its inputs, or for a thread
-  kDone,     ///< its result is in the cache
-  kFailed,
-  kBlocked,  ///< one of its inputs failed, or was taken away
-};
-
 /// What it took.
 struct JobRunWork {
   std::size_t made = 0;       ///< results, by us and now
@@ -72,11 +63,6 @@ struct JobRunWork {
                : 0;
   }
 };
-
-/// Takes from the jobs of a cell that are waiting those of which an input neither is there nor will be: a filter leaves it
-/// out, or it has failed.
-void leave_out_what_waits_for_nothing(const JobGraph& graph, std::vector<JobState>& states,
-                                      std::size_t cell);
 
 class JobRun {
  public:

@@ -241,6 +241,7 @@ std::optional<records::Result> ResultCache::find(const ResultKey& key, Look look
     if (::access(result_directory(key).c_str(), F_OK) == 0) why_not = "damaged: it has no record";
     return std::nullopt;
   }
+  if (look == Look::kName) return records::Result();
   try {
     auto record = records::read_record<records::Result>(file(key, kManifestFile));
     if (record.key != key.text()) {

@@ -92,6 +92,7 @@ class ResultCache {
   bool has(const ResultKey& key) const;
 
   enum class Look {
+    kName,  ///< it is believed by its name; its record has nothing in it
     kQuick,  ///< a file of the size and with the time of change that its record tells is taken for whole
     kThorough,  ///< every byte is read again
   };

@@ -26,20 +26,23 @@ fs::path chunk_file(const fs::path& run_directory, std::size_t number) {
 /// What may still be done for a session's cells: no result, no failure that this run kept.
 class Missing {
  public:
-  Missing(FarmSession& session, std::vector<JobState> states)
-      : session_(session), states_(std::move(states)) {}
+  explicit Missing(FarmSession& session) : session_(session) {}
 
   std::vector<SlurmJob> operator()() {
-    const JobGraph& graph = session_.work().graph;
+    JobGraph& graph = session_.work().graph;
+    // A result that was there at the start may have been taken away.
+    const JobStateFilter filter{
+        .wanted = [&](JobIndex job) { return session_.states()[job] != JobState::kAbsent; },
+        .failures = JobStateFilter::Failures::kCount,
+        .look = ResultCache::Look::kName};
     jobs_.clear();
     std::vector<SlurmJob> missing;
     for (const std::size_t cell : session_.waiting_cells()) {
-      std::vector<JobIndex> of_cell;
-      for (JobIndex job = graph.render(cell); job < graph.render(cell) + graph.stride(); ++job)
-        if (states_[job] == JobState::kWaiting && is_missing(job)) of_cell.push_back(job);
-      if (of_cell.empty()) continue;
+      const auto states = cell_states(graph, &session_.cache(), filter, cell).states;
+      if (std::ranges::find(states, JobState::kWaiting) == states.end()) continue;
       const Scene scene = session_.work().cells.scene(cell);
-      for (const JobIndex job : of_cell) {
+      for (const JobIndex job : graph.jobs(cell)) {
+        if (states[job - graph.render(cell)] != JobState::kWaiting) continue;
         const Job& one = graph[job];
         const std::string whose = graph.whose(job);
         missing.push_back(
@@ -67,14 +70,20 @@ class Missing {
     }
   }
 
-  /// Of the results that were wanted at the start, those that are there now.
+  /// Of the results that were missing at the start, those that are there now.
   JobRunWork made() const {
-    const JobGraph& graph = session_.work().graph;
+    JobGraph& graph = session_.work().graph;
     JobRunWork work;
-    for (JobIndex job = 0; job < graph.size(); ++job) {
-      if (states_[job] != JobState::kWaiting || !session_.cache().has(graph[job].key)) continue;
-      ++work.made;
-      if (is_picture(graph[job].kind)) ++work.pictures;
+    for (const std::size_t cell : session_.waiting_cells()) {
+      const auto now =
+          cell_states(graph, &session_.cache(), {.look = ResultCache::Look::kName}, cell).states;
+      for (const JobIndex job : graph.jobs(cell)) {
+        if (session_.states()[job] != JobState::kWaiting ||
+            now[job - graph.render(cell)] != JobState::kDone)
+          continue;
+        ++work.made;
+        if (is_picture(graph[job].kind)) ++work.pictures;
+      }
     }
     return work;
   }
@@ -82,28 +91,12 @@ class Missing {
   void forget_failures() const {
     const JobGraph& graph = session_.work().graph;
     for (JobIndex job = 0; job < graph.size(); ++job)
-      if (states_[job] == JobState::kWaiting) session_.cache().forget_failure(graph[job].key);
+      if (session_.states()[job] == JobState::kWaiting)
+        session_.cache().forget_failure(graph[job].key);
   }
 
  private:
-  bool is_missing(JobIndex job) {
-    JobGraph& graph = session_.work().graph;
-    const ResultCache& cache = session_.cache();
-    if (graph[job].kind == JobKind::kProfile)
-      graph.narrow_profile(graph.cell_of(job), [&](JobIndex picture) {
-        return cache.has(graph[picture].key) || !cache.failure(graph[picture].key);
-      });
-    if (cache.has(graph[job].key) || cache.failure(graph[job].key)) return false;
-    // What waits for something that failed is not to be had.
-    for (const JobIndex input : graph.inputs(job))
-      if (!graph.may_lack(job, input) && !cache.has(graph[input].key) &&
-          cache.failure(graph[input].key))
-        return false;
-    return true;
-  }
-
   FarmSession& session_;
-  std::vector<JobState> states_;
   std::vector<JobIndex> jobs_;  ///< of the last answer
 };
 
@@ -186,7 +179,7 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   work.run_directory = slurm_run_directory(directory);
   work.program = own_program();
   make_directories(work.run_directory / "chunks");
-  Missing missing(session, session.take_states());
+  Missing missing(session);
   // Whoever comes back to jobs that live goes on with what they have found out; who begins anew tries all again.
   if (slurm_status(work.run_directory, slurm.call_limit).living.empty()) missing.forget_failures();
   write_run_record(work.run_directory, grid_file, directory, session, options);

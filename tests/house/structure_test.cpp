@@ -215,6 +215,35 @@ TEST(Records, keys_that_others_spell_are_found) {
   EXPECT_EQ(loose_keys(tree.path()).size(), 3u);
 }
 
+/// Whoever asks a cache for the result of a job, but in the one place that says what is missing.
+Problems loose_looks_at_results(const fs::path& root) {
+  static const std::regex pattern(R"(\b\w*cache\w*(\(\))?(\.|->)(find|has|list)\()");
+  return lines_with(root, pattern, [](const fs::path& file) {
+    const std::string name = file.generic_string();
+    // Maintenance and explanations go by the keys that they find written down.
+    return is_cpp(file) && kMaySee.contains(file.begin()->string()) &&
+           name != "farm/job_states.cpp" && name != "farm/explain.cpp" &&
+           !name.starts_with("farm/upkeep");
+  });
+}
+
+TEST(Farm, job_states_alone_say_what_is_missing) {
+  EXPECT_THAT(loose_looks_at_results(kRoot), IsEmpty());
+}
+
+TEST(Farm, others_that_say_what_is_missing_are_found) {
+  Scratch tree;
+  write(tree / "farm/job_states.cpp", "record = cache.find(graph[job].key, look);\n");
+  write(tree / "farm/upkeep.cpp", "for (const ResultKey& key : cache.list()) {\n");
+  write(tree / "tests/farm/a.cpp", "EXPECT_TRUE(cache.has(key));\n");
+  write(tree / "farm/a.cpp", "cache.publish(draft, key, record);\ncache_names.size();\n");
+  ASSERT_THAT(loose_looks_at_results(tree.path()), IsEmpty());
+  write(tree / "farm/b.cpp",
+        "if (cache.has(key)) return;\nsession.cache().find(key);\ncache_->list();\n"
+        "const auto record = result_cache->find(graph[job].key);\n");
+  EXPECT_EQ(loose_looks_at_results(tree.path()).size(), 4u);
+}
+
 TEST(Words, nothing_is_removed_but_by_core_removal) {
   EXPECT_THAT(loose_removals(kRoot), IsEmpty());
 }
