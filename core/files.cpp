@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -58,13 +57,6 @@ fs::path final_target(const fs::path& path, AtLink at_link) {
   return target;
 }
 
-/// By chance besides the process's number, which another machine or container may have too.
-fs::path temporary_name(const fs::path& path) {
-  static thread_local std::random_device device;
-  return path.parent_path() /
-         fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), device());
-}
-
 /// Whether the path still names what is open.
 bool is_at(const fs::path& path, int fd) {
   struct stat there {
@@ -103,7 +95,7 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
 PartFile::PartFile(const fs::path& path, AtLink at_link)
     : path_(path), target_(final_target(path, at_link)), part_([&] {
         while (true) {
-          const fs::path part = temporary_name(target_);
+          const fs::path part = part_path(target_);
           fd_ = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
           if (fd_ < 0) output_error(path, errno);
           ::flock(fd_, LOCK_EX);  // by which others see that it is not abandoned
@@ -198,7 +190,7 @@ void write_file(const fs::path& path, std::string_view text, AtLink at_link) {
 
 void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
-  const fs::path part = temporary_name(final_target(path, AtLink::kFollow));
+  const fs::path part = part_path(final_target(path, AtLink::kFollow));
   const EndDelay delay;
   const FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
   if (file.fd < 0) output_error(path, errno);

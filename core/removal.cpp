@@ -15,6 +15,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <random>
 
 #include "core/error.hpp"
 #include "core/no_resources.hpp"
@@ -28,7 +29,8 @@ namespace {
 constexpr int kMaxDepth = 128;
 constexpr int kOpenDirectory = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
 
-bool is_plain(std::string_view name) {
+/// What a directory may list, hidden files too. Names that others chose have to be is_plain_name().
+bool is_entry_name(std::string_view name) {
   return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
          name.find('\0') == name.npos;
 }
@@ -137,7 +139,7 @@ HeldDirectory& HeldDirectory::operator=(HeldDirectory&& other) noexcept {
 HeldDirectory HeldDirectory::below(const std::string& name, Border border) const {
   HeldDirectory found;
   found.path_ = path_ / name;
-  found.error_ = fd_ < 0 ? error_ : !is_plain(name) ? EINVAL : 0;
+  found.error_ = fd_ < 0 ? error_ : !is_entry_name(name) ? EINVAL : 0;
   if (found.error_ != 0) return found;
   found.fd_ = open_directory(fd_, name, border);
   if (found.fd_ >= 0) return found;
@@ -192,7 +194,7 @@ std::vector<std::string> HeldDirectory::list(bool links_only) const {
   }
   while (const dirent* entry = ::readdir(directory)) {
     struct stat status {};
-    if (!is_plain(entry->d_name)) continue;
+    if (!is_entry_name(entry->d_name)) continue;
     if (links_only && entry->d_type != DT_LNK &&
         (entry->d_type != DT_UNKNOWN ||
          ::fstatat(fd, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 ||
@@ -207,7 +209,7 @@ std::vector<std::string> HeldDirectory::list(bool links_only) const {
 
 std::optional<std::string> HeldDirectory::read(const std::string& name,
                                                std::uint64_t max_bytes) const {
-  if (fd_ < 0 || !is_plain(name)) return std::nullopt;
+  if (fd_ < 0 || !is_entry_name(name)) return std::nullopt;
   const int fd = ::openat(fd_, name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) {
     throw_if_lacking(path_ / name, errno);
@@ -279,7 +281,7 @@ bool Removal::remove(const fs::path& relative) {
   const HeldDirectory parent = directory(relative.parent_path());
   if (!parent) return root_ && !parent.is_missing() ? keep(parent.path(), parent.why_not()) : false;
   struct stat status {};
-  if (!is_plain(name) || would_be_gone(relative) ||
+  if (!is_entry_name(name) || would_be_gone(relative) ||
       ::fstatat(parent.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
     return false;
   const Owned kind = ours_.owned(relative);
@@ -343,6 +345,12 @@ bool Removal::remove_from(const HeldDirectory& parent, const std::string& name,
   }
   if (on_removed_) on_removed_(shown);
   return true;
+}
+
+fs::path part_path(const fs::path& path) {
+  static thread_local std::random_device device;
+  return path.parent_path() /
+         fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), device());
 }
 
 bool is_part_name(std::string_view name, long long& pid) {

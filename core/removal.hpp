@@ -110,7 +110,10 @@ class Removal {
   std::vector<Kept> kept_;
 };
 
-/// Whether `name` is that of a file in the making, ".NAME.PID-N.part"; `pid` gets its process.
+/// A new name beside `path` for a file in the making: ".NAME.PID-N.part". N is by chance, because another machine may have
+/// a process of that number too.
+std::filesystem::path part_path(const std::filesystem::path& path);
+/// Whether `name` is such a name; `pid` gets its process.
 bool is_part_name(std::string_view name, long long& pid);
 /// Removes such a file of this process, if it can. Nothing else of any name. Throws nothing.
 void remove_part(const std::filesystem::path& path);

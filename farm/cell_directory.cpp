@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
-#include <random>
 #include <set>
 
 #include "core/error.hpp"
@@ -80,10 +79,9 @@ void link_or_copy(const fs::path& cached, const HeldDirectory& directory, const 
 }
 
 void place_file(const fs::path& cached, const HeldDirectory& directory, const std::string& name) {
-  static thread_local std::random_device device;
   const fs::path target = directory.path() / name;
   for (int attempt = 0; !is_same_file(cached, target); ++attempt) {
-    const std::string part = fmt::format(".{}.{}-{}.part", name, ::getpid(), device());
+    const std::string part = part_path(name).string();
     link_or_copy(cached, directory, part, target);
     const int error =
         ::renameat(directory.fd(), part.c_str(), directory.fd(), name.c_str()) == 0 ? 0 : errno;

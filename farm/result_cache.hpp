@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "core/removal.hpp"
-#include "farm/byte_locks.hpp"
+#include "core/byte_locks.hpp"
 #include "farm/draft_name.hpp"
 #include "farm/result_key.hpp"
 #include "reference_scenes/content.hpp"

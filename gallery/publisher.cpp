@@ -3,12 +3,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <random>
 #include <vector>
 
 #include "core/error.hpp"
@@ -46,8 +44,7 @@ void place(const fs::path& site, const std::string& file,
     held = held.make_below(name.string(), HeldDirectory::Border::kCross);
   std::error_code error;
   const TemporaryPath part([&] {
-    fs::path name = path.parent_path() / fmt::format(".{}.{}-{}.part", path.filename().string(),
-                                                     ::getpid(), std::random_device()());
+    fs::path name = part_path(path);
     std::ofstream created(name);
     return name;
   });

@@ -12,6 +12,7 @@
 #include <random>
 #include <thread>
 
+#include "core/byte_locks.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
@@ -19,7 +20,6 @@
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
-#include "farm/slurm/lock_file.hpp"
 #include "farm/slurm/slurm_client.hpp"
 #include "records/cluster.hpp"
 #include "records/record.hpp"
@@ -64,16 +64,9 @@ std::string try_link(const fs::path& directory) {
 
 /// The client holds it: whoever gets it too is not asked in earnest.
 std::string try_lock(const fs::path& directory) {
-  const LockFile lock(directory / kLock);
-  switch (lock.state()) {
-    case LockFile::State::kTaken:
-      return "";
-    case LockFile::State::kHeld:
-      return "a lock that another machine holds was given away again";
-    case LockFile::State::kUnsupported:
-      break;
-  }
-  return "the file system has no locks there";
+  const ByteLocks locks(HeldDirectory(directory), kLock);
+  if (!locks.works()) return "the file system has no locks there";
+  return locks.try_claim(0) ? "a lock that another machine holds was given away again" : "";
 }
 
 long long seconds_of(const std::map<std::string, std::string>& config, const char* key) {
@@ -199,7 +192,8 @@ class Doctor {
     HeldDirectory made = held.make_below(directory.filename().string());
     const Remover remover{std::move(held), std::move(made)};
     write_file(directory / kToken, token);
-    const LockFile lock(directory / kLock);
+    const ByteLocks locks(remover.made, kLock);
+    const auto lock = locks.try_claim(0);
     const fs::path script = directory / "doctor.sh";
     write_file(script, fmt::format("#!/bin/sh\nexec {} farm doctor-on-node {}\n",
                                    shell_quote(fs::absolute(options_.program).string()),

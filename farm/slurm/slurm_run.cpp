@@ -14,6 +14,7 @@
 #include <set>
 #include <thread>
 
+#include "core/byte_locks.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/interrupt.hpp"
@@ -21,7 +22,6 @@
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "farm/chunk_report.hpp"
-#include "farm/slurm/lock_file.hpp"
 #include "farm/slurm/slurm_client.hpp"
 #include "farm/slurm/slurm_limits.hpp"
 #include "records/cluster.hpp"
@@ -121,11 +121,16 @@ class Run {
                               printable(directory_.string(), 200)));
     make_directories(directory_ / "log");  // without it an element fails and nobody is told why
     make_directories(directory_ / "submit");
-    const LockFile lock(directory_ / "client.lock");
-    if (lock.state() == LockFile::State::kTaken)
+    const ByteLocks locks(HeldDirectory(directory_), "client.lock");
+    const auto lock = locks.try_claim(0);
+    if (!locks.is_open())
+      throw Error(ExitCode::kOutput, fmt::format("{}: {}", directory_.string(), locks.why_not()));
+    if (!lock)
       throw Error(ExitCode::kOutput, fmt::format("{}: another client has this run ({})",
-                                                 directory_.string(), lock.holder()));
-    if (lock.state() == LockFile::State::kUnsupported)
+                                                 directory_.string(), locks.holder()));
+    if (locks.works())
+      locks.write_holder();
+    else
       say("This file system has no locks: start no second client of this run.");
     record_ = read_run_record(directory_);
     if (record_.name.empty()) record_.name = name_of_run(directory_);

@@ -1,4 +1,4 @@
-// Who is at work on what, told to other processes, also on other machines that share the file system.
+// Locks between processes, also of other machines that share the file system.
 #pragma once
 
 #include <cstdint>
@@ -6,15 +6,14 @@
 #include <optional>
 #include <string>
 
+#include "core/lock_sharing.hpp"
 #include "core/removal.hpp"
-#include "farm/lock_sharing.hpp"
 
 namespace lobelia {
 
-/// Locks on single bytes of one empty file, held by the kernel for this object: whoever dies lets go of his at once,
-/// and nothing is left to clean up. Objects of one process exclude each other as those of two do. Where the file
-/// cannot be made, or its file system knows no locks, every claim is granted: results are then made twice
-/// at worst.
+/// Locks on single bytes of one file (fcntl F_OFD_SETLK). The kernel frees the locks of a process that dies. Objects of
+/// one process exclude each other as those of two do. Where the file cannot be made, or its file system knows no locks,
+/// every claim is granted.
 class ByteLocks {
  public:
   /// Lets go of its byte at the end.
@@ -43,8 +42,13 @@ class ByteLocks {
   std::optional<Claim> try_claim(std::uint64_t number, bool shared = false) const;
   /// Whether another object holds it, shared or not; asking keeps nobody from it.
   bool is_claimed(std::uint64_t number) const;
+  bool is_open() const { return fd_ >= 0; }
   /// Whether locks mean anything here.
   bool works() const { return works_; }
+  const std::string& why_not() const { return why_not_; }
+  /// Puts "HOST PID" of this process into the file, for a message to whoever finds it locked.
+  void write_holder() const;
+  std::string holder() const;
   /// The number of the open file in its file system; 0: there is none.
   std::uint64_t inode() const { return inode_; }
   /// Whether processes of other machines are kept out too, as far as this one can tell: locks are tried, the file has

@@ -1,4 +1,4 @@
-#include "farm/lock_sharing.hpp"
+#include "core/lock_sharing.hpp"
 
 #include <fmt/format.h>
 

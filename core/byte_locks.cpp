@@ -1,4 +1,4 @@
-#include "farm/byte_locks.hpp"
+#include "core/byte_locks.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -6,12 +6,16 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <random>
 #include <utility>
+
+#include "core/host.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace {
@@ -82,6 +86,18 @@ bool ByteLocks::is_claimed(std::uint64_t number) const {
   if (!works_) return false;
   struct flock range = range_of(F_WRLCK, byte_of(number));
   return ::fcntl(fd_, F_OFD_GETLK, &range) == 0 && range.l_type != F_UNLCK;
+}
+
+void ByteLocks::write_holder() const {
+  const std::string text = fmt::format("{} {}", host_name(), ::getpid());
+  // On a full disk the lock is held all the same.
+  if (::ftruncate(fd_, 0) != 0 || ::pwrite(fd_, text.data(), text.size(), 0) < 0) errno = 0;
+}
+
+std::string ByteLocks::holder() const {
+  std::array<char, 256> text{};
+  const ssize_t size = ::pread(fd_, text.data(), text.size(), 0);
+  return size > 0 ? printable({text.data(), std::size_t(size)}) : "";
 }
 
 LockSharing ByteLocks::sharing() const {
