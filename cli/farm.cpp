@@ -6,7 +6,6 @@
 
 #include "cli/commands.hpp"
 #include "cli/engine_programs.hpp"
-#include "cli/farm_explain.hpp"
 #include "cli/farm_slurm.hpp"
 #include "cli/farm_upkeep.hpp"
 #include "cli/options.hpp"
@@ -23,31 +22,22 @@ namespace lobelia::cli {
 namespace {
 
 struct FarmArguments {
-  std::string grid, directory, cache, filter, gallery;
+  std::string grid, directory, cache, filter, gallery, memory = "4G", disk = "4G";
   EnginePrograms programs;
   SlurmSettings slurm;
-  int threads = 0, attempts = 3, give_up_after = 5;
-  std::string memory = "4G", disk = "4G";
-  bool memory_given = false;
+  FarmOptions farm;
   double time_limit = 600, no_progress_limit = 300;
-  bool again = false, require_engines = false, quiet = false, dry_run = false, fail_fast = false,
-       keep_going = false;
+  bool memory_given = false, quiet = false, dry_run = false, keep_going = false;
 };
 
 FarmOptions farm_options(const FarmArguments& options) {
-  FarmOptions farm;
+  FarmOptions farm = options.farm;
   farm.programs = options.programs.given();
-  farm.threads = options.threads;
-  farm.attempts = options.attempts;
   farm.time_limit = std::chrono::duration<double>(options.time_limit);
   farm.no_progress_limit = std::chrono::duration<double>(options.no_progress_limit);
-  farm.fail_fast = options.fail_fast;
   farm.memory = parse_size(options.memory);
   farm.disk = parse_size(options.disk);
-  farm.give_up_after = options.give_up_after;
   farm.failed_directory = std::filesystem::absolute(options.directory) / FailedJobs::kName;
-  farm.again = options.again;
-  farm.require_engines = options.require_engines;
   farm.cache = options.cache;
   farm.filter = JobFilter(options.filter);
   farm.command = command_line();
@@ -175,6 +165,11 @@ ExitCode run_farm_command(const FarmArguments& options) {
 void add_farm(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("farm", "Render, reference and compare every cell of a grid");
   auto options = std::make_shared<FarmArguments>();
+  FarmOptions& farm = options->farm;
+  const auto number = [&](const char* name, auto& value, double least, double most,
+                          const char* what) {
+    command->add_option(name, value, what)->check(between(least, most))->capture_default_str();
+  };
   command->add_option("GRID", options->grid, "Grid file (docs/grid_format.md)");
   command->add_option("-o,--output", options->directory, "Directory for pictures and records")
       ->type_name("DIR");
@@ -190,22 +185,12 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
           "Only jobs of these names: 'phong*:-*blender' is those that begin with phong and do "
           "not end in blender")
       ->type_name("PATTERNS");
-  command->add_option("--threads", options->threads, "Threads; 0 is all processors")
-      ->check(between(0, 1024))
-      ->capture_default_str();
-  command->add_option("--time-limit", options->time_limit, "Seconds that a picture may take")
-      ->check(between(0.1, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option("--no-progress-limit", options->no_progress_limit,
-                   "Seconds in which an engine may say and write nothing; 0 is any")
-      ->check(between(0, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option("--attempts", options->attempts,
-                   "At a picture that fails in a way that may not repeat itself")
-      ->check(between(1, 100))
-      ->capture_default_str();
+  number("--threads", farm.threads, 0, 1024, "Threads; 0 is all processors");
+  number("--time-limit", options->time_limit, 0.1, 1e6, "Seconds that a picture may take");
+  number("--no-progress-limit", options->no_progress_limit, 0, 1e6,
+         "Seconds in which an engine may say and write nothing; 0 is any");
+  number("--attempts", farm.attempts, 1, 100,
+         "At a picture that fails in a way that may not repeat itself");
   auto* memory = command->add_option(
       "--memory", options->memory,
       "What a job's processes may use together: 4G; 0 is any. On a cluster an element asks for it for "
@@ -214,15 +199,10 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--disk", options->disk, "What an engine may write for a picture; 0 is any")
       ->type_name("SIZE")
       ->capture_default_str();
-  command
-      ->add_option(
-          "--give-up-after", options->give_up_after,
-          "Pictures in a row that an engine fails at before it is not tried any more; 0 is "
-          "any number")
-      ->check(between(0, 1000000))
-      ->capture_default_str();
-  auto* fail_fast =
-      command->add_flag("--fail-fast", options->fail_fast, "Stop at the first failure");
+  number(
+      "--give-up-after", farm.give_up_after, 0, 1000000,
+      "Pictures in a row that an engine fails at before it is not tried any more; 0 is any number");
+  auto* fail_fast = command->add_flag("--fail-fast", farm.fail_fast, "Stop at the first failure");
   command
       ->add_flag("--keep-going", options->keep_going,
                  "A failure stops nothing else (as without it)")
@@ -231,8 +211,8 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--gallery", options->gallery,
                    "Then publish its gallery there (DIR itself, or another directory)")
       ->type_name("SITE");
-  command->add_flag("--again", options->again, "Make everything again, in the cache or not");
-  command->add_flag("--require-engines", options->require_engines,
+  command->add_flag("--again", farm.again, "Make everything again, in the cache or not");
+  command->add_flag("--require-engines", farm.require_engines,
                     "An engine that is not installed is an error");
   command->add_flag("-q,--quiet", options->quiet, "No progress");
   options->programs.add_to(*command);

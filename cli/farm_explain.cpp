@@ -1,5 +1,3 @@
-#include "cli/farm_explain.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <string>
 
 #include "cli/engine_programs.hpp"
+#include "cli/farm_upkeep.hpp"
 #include "core/text.hpp"
 #include "farm/explain.hpp"
 #include "records/record.hpp"

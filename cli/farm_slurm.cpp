@@ -17,15 +17,16 @@ namespace lobelia::cli {
 
 void SlurmSettings::add_to(CLI::App& command) {
   constexpr char kGroup[] = "On a cluster (docs/farm_slurm.md)";
-  command
-      .add_option("--executor", executor_,
-                  "local, or slurm: the same jobs as array jobs of a cluster")
-      ->check(CLI::IsMember({"local", "slurm"}))
-      ->capture_default_str()
-      ->group(kGroup);
-  const auto text = [&](const char* name, std::string& value, const char* what) {
-    command.add_option(name, value, what)->group(kGroup);
+  const auto text = [&](const char* name, auto& value, const char* what) {
+    return command.add_option(name, value, what)->group(kGroup);
   };
+  const auto number = [&](const char* name, auto& value, double least, double most,
+                          const char* what) {
+    return text(name, value, what)->check(between(least, most));
+  };
+  text("--executor", executor_, "local, or slurm: the same jobs as array jobs of a cluster")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
   text("--partition", slurm_.partition, "As sbatch has it; likewise the next four");
   text("--time", slurm_.time, "Of an element: 30, 1:00:00");
   text("--account", slurm_.account, "");
@@ -33,30 +34,16 @@ void SlurmSettings::add_to(CLI::App& command) {
   text("--constraint", slurm_.constraint, "");
   command.add_flag("--exclusive", slurm_.exclusive, "No other job on the nodes: for timings")
       ->group(kGroup);
-  command.add_option("--cpus-per-task", slurm_.processors, "Threads of an element")
-      ->check(between(1, 1024))
-      ->capture_default_str()
-      ->group(kGroup);
-  command.add_option("--throttle", slurm_.throttle, "Elements at once; 0 is any number")
-      ->check(between(0, 1000000))
-      ->group(kGroup);
-  command
-      .add_option("--sbatch", slurm_.raw,
-                  "Further options of sbatch, each '--name=value'; repeatable")
-      ->allow_extra_args(false)
-      ->group(kGroup);
-  command.add_option("--chunk-seconds", chunk_seconds_, "Work of an element")
-      ->check(between(0.1, 1e6))
-      ->capture_default_str()
-      ->group(kGroup);
-  command.add_option("--rounds", rounds_, "Times that what is missing is submitted")
-      ->check(between(1, 100))
-      ->capture_default_str()
-      ->group(kGroup);
-  command.add_option("--poll-seconds", poll_seconds_, "Between the first looks at the queue")
-      ->check(between(0.05, 3600))
-      ->capture_default_str()
-      ->group(kGroup);
+  number("--cpus-per-task", slurm_.processors, 1, 1024, "Threads of an element")
+      ->capture_default_str();
+  number("--throttle", slurm_.throttle, 0, 1000000, "Elements at once; 0 is any number");
+  text("--sbatch", slurm_.raw, "Further options of sbatch, each '--name=value'; repeatable")
+      ->allow_extra_args(false);
+  number("--chunk-seconds", chunk_seconds_, 0.1, 1e6, "Work of an element")->capture_default_str();
+  number("--rounds", rounds_, 1, 100, "Times that what is missing is submitted")
+      ->capture_default_str();
+  number("--poll-seconds", poll_seconds_, 0.05, 3600, "Between the first looks at the queue")
+      ->capture_default_str();
   command
       .add_flag("--detach", detach_,
                 "Submit and leave; 'lobelia farm status DIR --attach' comes back")
@@ -157,7 +144,7 @@ void add_farm_slurm(CLI::App& farm, ExitCode& exit_code) {
     command->add_option("RUN", *run, "The run's directory")->required();
     command->group("");
     command->callback([run] {
-      const SlurmEnd end = finish_slurm_run(*run);
+      const SlurmFarmSummary end = finish_slurm_run(*run);
       const FarmSummary& summary = end.farm;
       fmt::print("{} cells: {} failed, {} differ, {} pass, {} not done\n", summary.cells,
                  summary.failed, summary.differs, summary.pass, summary.missing);

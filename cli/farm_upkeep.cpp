@@ -38,7 +38,7 @@ void tell_what_stays(const std::vector<std::string>& stays) {
   for (const auto& sentence : stays) say("lobelia: stays: {}\n", printable_path(sentence));
 }
 
-/// Of the run on a cluster, if there is one that lives.
+/// A line on the run on a cluster, if one lives.
 std::string cluster_text(const std::string& directory) {
   const SlurmStatus status = slurm_status(slurm_run_directory(directory));
   if (!status.problem.empty()) return fmt::format("Slurm: {}\n", status.problem);

@@ -1,4 +1,4 @@
-// lobelia farm status | verify | gc | clean
+// lobelia farm status | verify | gc | clean | explain
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,5 +8,6 @@
 namespace lobelia::cli {
 
 void add_farm_upkeep(CLI::App& farm, ExitCode& exit_code);
+void add_farm_explain(CLI::App& farm, ExitCode& exit_code);
 
 }  // namespace lobelia::cli

@@ -14,7 +14,6 @@
 #include "core/files.hpp"
 #include "core/removal.hpp"
 #include "farm/make_result.hpp"
-#include "farm/our_name.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
@@ -26,23 +25,19 @@ constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
 
 /// Every file that a farm of any version may have put into a cell for an engine.
 std::set<std::string> names_of(const std::string& engine) {
-  std::set<std::string> names;
-  for (const char* ending : {".exr", "-error.exr", ".json", ".png", ".log"})
-    names.insert(engine + ending);
-  for (const char* ending : {".json", ".png"}) names.insert(comparison_name(engine) + ending);
-  return names;
+  const std::string comparison = comparison_name(engine);
+  return {engine + ".exr", engine + "-error.exr", engine + ".json",   engine + ".png",
+          engine + ".log", comparison + ".json",  comparison + ".png"};
 }
 
 /// The same for a cell.
-std::set<std::string> list_names_of_ours() {
-  std::set<std::string> names{"profile.json", "scene.xml"};
-  names.merge(names_of(kOurs));
-  for (const auto& engine : engine_infos()) names.merge(names_of(std::string(engine.name)));
-  return names;
-}
-
 const std::set<std::string>& names_of_ours() {
-  static const std::set<std::string> names = list_names_of_ours();
+  static const std::set<std::string> names = [] {
+    std::set<std::string> all{"profile.json", "scene.xml"};
+    all.merge(names_of(kOurs));
+    for (const auto& engine : engine_infos()) all.merge(names_of(std::string(engine.name)));
+    return all;
+  }();
   return names;
 }
 
@@ -169,11 +164,9 @@ HeldDirectory CellDirectory::held() const {
 
 records::Named<std::string> CellDirectory::results(const CellRecords& records) const {
   records::Named<std::string> found;
-  const std::size_t prefix = graph_->cells().cells[cell_].id.size() + 1;
-  for (std::size_t slot = 0; slot < records.size(); ++slot)
-    if (records[slot])
-      found.emplace_back(graph_->name(JobIndex(graph_->render(cell_) + slot)).substr(prefix),
-                         records[slot]->key);
+  for (const JobIndex job : graph_->jobs(cell_))
+    if (const auto& result = records[graph_->place(job)])
+      found.emplace_back(graph_->name_in_cell(job), result->key);
   return found;
 }
 
@@ -196,12 +189,12 @@ std::string CellDirectory::current_status(const ResultCache& cache,
   if (!record->problems.empty() || record->results != results(records) ||
       record->made_from != made_from() || record->files != files_of(records))
     return "";
-  for (std::size_t slot = 0; slot < records.size(); ++slot) {
-    if (!records[slot]) continue;
-    const fs::path cached =
-        cache.result_directory((*graph_)[JobIndex(graph_->render(cell_) + slot)].key);
-    for (const auto& file : records[slot]->files)
-      if (!is_same_file(cached / file.name, directory_ / file.name)) return "";
+  for (const JobIndex job : graph_->jobs(cell_)) {
+    const auto& result = records[graph_->place(job)];
+    if (!result) continue;
+    for (const auto& file : result->files)
+      if (!is_same_file(cache.file((*graph_)[job].key, file.name), directory_ / file.name))
+        return "";
   }
   return record->status;
 }
@@ -225,7 +218,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
   std::set<std::string> foreign = names_of_ours();
   bool complete = true;
   for (const JobIndex job : graph_->jobs(cell_)) {
-    const auto& result = records[job - graph_->render(cell_)];
+    const auto& result = records[graph_->place(job)];
     complete = complete && result;
     if (!result) continue;
     for (const auto& [name, bytes, sha256, modified] : result->files) {
@@ -240,7 +233,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     place_file(problem.log, directory, log);
     foreign.erase(log);
   }
-  // What an engine made that is absent now could not be made again.
+  // Pictures of an absent engine could not be made again.
   for (const auto& engine : graph_->engines())
     if (!engine.is_here())
       for (const auto& name : names_of(engine.name)) foreign.erase(name);
@@ -277,8 +270,8 @@ records::Cell CellDirectory::cell_record(const CellRecords& records) const {
     const std::string& engine = graph_->engines()[e].name;
     if (std::string why = graph_->refusal(cell_, e); !why.empty())
       record.not_comparable.push_back({engine, std::move(why)});
-    const auto& reference = records[graph_->reference(cell_, e) - graph_->render(cell_)];
-    const auto& compared = records[graph_->compare(cell_, e) - graph_->render(cell_)];
+    const auto& reference = records[graph_->place(graph_->reference(cell_, e))];
+    const auto& compared = records[graph_->place(graph_->compare(cell_, e))];
     if (!reference || !compared) continue;
     add_image(engine, *reference);
     if (!compared->entry) {
@@ -332,8 +325,7 @@ std::string CellDirectory::reason(JobIndex job) const {
   if (before.program != own.program) return "program changed";
   if (before.libraries != own.libraries) return "libraries changed";
   if (before.arithmetic != own.arithmetic) return "arithmetic differs";
-  const std::string name = graph_->name(job).substr(graph_->cells().cells[cell_].id.size() + 1);
-  const std::string* key = records::find(record->results, name);
+  const std::string* key = records::find(record->results, graph_->name_in_cell(job));
   return key && *key == wanted.key.text() ? "lost from the cache" : "missing";
 }
 

@@ -46,19 +46,6 @@ ChunkCells read_cells(const records::FarmChunk& chunk, const std::string& file_n
   return cells;
 }
 
-bool wants_pictures_of(const ChunkCells& cells, const std::string& engine) {
-  for (std::size_t cell = 0; cell < cells.jobs.size(); ++cell)
-    if (cells.jobs[cell].contains(job_name(cells.farm.cells[cell].id, JobKind::kReference, engine)))
-      return true;
-  return false;
-}
-
-/// Takes the pictures of an engine out of what is to be done.
-void leave_out(ChunkCells& cells, const std::string& engine) {
-  for (std::size_t cell = 0; cell < cells.jobs.size(); ++cell)
-    cells.jobs[cell].erase(job_name(cells.farm.cells[cell].id, JobKind::kReference, engine));
-}
-
 }  // namespace
 
 records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
@@ -111,23 +98,25 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
   ChunkCells cells = read_cells(chunk, file.filename().string());
   cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
   JobGraph graph(cells.farm, engines);
+  const auto is_of_chunk = [&](JobIndex job) {
+    return graph[job].exists && cells.jobs[graph.cell_of(job)].contains(graph.name(job));
+  };
   for (const auto& cell : cells.jobs) summary.jobs += cell.size();
-  if (summary.left.empty())
-    for (const FarmEngine& planned : engines) {
-      if (!wants_pictures_of(cells, planned.name)) continue;
-      std::string why = engine_difference(planned, options.programs);
-      if (why.empty()) continue;
-      summary.left.push_back({planned.name, std::move(why)});
-      leave_out(cells, planned.name);
-    }
-  else
+  if (!summary.left.empty())
     for (auto& cell : cells.jobs) cell.clear();
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    std::vector<JobIndex> pictures;
+    for (std::size_t cell = 0; cell < graph.cell_count(); ++cell)
+      if (is_of_chunk(graph.reference(cell, e))) pictures.push_back(graph.reference(cell, e));
+    if (pictures.empty()) continue;
+    std::string why = engine_difference(engines[e], options.programs);
+    if (why.empty()) continue;
+    summary.left.push_back({engines[e].name, std::move(why)});
+    for (const JobIndex job : pictures) cells.jobs[graph.cell_of(job)].erase(graph.name(job));
+  }
   const ResultCache cache(chunk.cache);
   const auto in_use = cache.use();
   remove_abandoned_temporaries();
-  const auto is_of_chunk = [&](JobIndex job) {
-    return cells.jobs[graph.cell_of(job)].contains(graph.name(job));
-  };
   JobRun run(
       graph, cache, options,
       job_states(graph, &cache,
@@ -138,7 +127,7 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
   summary.work = run.work();
   std::ranges::copy(summary.work.engines_given_up, std::back_inserter(summary.left));
   for (JobIndex job = 0; job < graph.size(); ++job) {
-    if (!graph[job].exists || !is_of_chunk(job)) continue;
+    if (!is_of_chunk(job)) continue;
     if (run.state(job) == JobState::kDone) ++summary.done;
     if (run.state(job) == JobState::kFailed) ++summary.failed;
     if (run.state(job) == JobState::kAbsent) ++summary.undone;

@@ -1,4 +1,4 @@
-// A part of a farm's jobs as a file that another machine can do without the grid: scenes, engines, names of jobs.
+// Some of a farm's jobs as a file for another machine, which needs no grid: scenes, engines, names of jobs.
 #pragma once
 
 #include <filesystem>
@@ -22,12 +22,11 @@ struct ChunkSummary {
   std::size_t failed = 0;  ///< whose failures are
   std::size_t undone = 0;  ///< left for another machine
   JobRunWork work;
-  /// Why: this machine is not as the plan has it, or an engine failed again and again. Undone is not failed.
+  /// Why: this machine is not as planned, or an engine failed again and again.
   std::vector<LeftUndone> left;
 };
 
-/// Does what the file says, with `threads` threads. Jobs that are done already cost nothing; those whose inputs are neither there
-/// nor have failed are left alone. Throws Error: kInput (no such chunk), kOutput, kInterrupted.
+/// Does the jobs of the file whose inputs are there. Throws Error: kInput (no such chunk), kOutput, kInterrupted.
 ChunkSummary exec_chunk(const std::filesystem::path& file, int threads);
 
 }  // namespace lobelia

@@ -1,22 +1,20 @@
 #include "farm/chunk_report.hpp"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <optional>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "farm/slurm/slurm_answers.hpp"
 #include "records/record.hpp"
@@ -25,13 +23,12 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr char kDirectory[] = "reports";
 constexpr std::size_t kMostBytes = 64 << 10;
 constexpr std::size_t kMostLeft = 100;      // far more than there are engines
 constexpr std::size_t kMostWhy = 500;       // bytes
 constexpr std::size_t kMostProblems = 10;   // are told
 constexpr std::size_t kMostReports = 2000;  // two rounds of as many elements as there can be
-
-fs::path reports_directory(const fs::path& run_directory) { return run_directory / "reports"; }
 
 /// "7.json": 7
 std::optional<std::size_t> number_of(std::string_view name) {
@@ -51,34 +48,14 @@ bool is_engine_name(std::string_view name) {
          });
 }
 
-struct Descriptor {
-  int fd;
-  ~Descriptor() {
-    if (fd >= 0) ::close(fd);
-  }
-};
-
-/// Throws Error(kInput) without a path.
-std::string read_beside(int directory, const std::string& name) {
-  // Without O_NONBLOCK a pipe would hold us up for ever.
-  const Descriptor file{
-      ::openat(directory, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+std::string why_not_read(const HeldDirectory& directory, const std::string& name) {
   struct stat status {};
-  if (file.fd < 0 || ::fstat(file.fd, &status) != 0)
-    throw Error(ExitCode::kInput, errno == ELOOP ? "a link" : std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) throw Error(ExitCode::kInput, "not a regular file");
-  std::string text(kMostBytes + 1, '\0');
-  std::size_t size = 0;
-  while (size < text.size()) {
-    const ssize_t n = ::read(file.fd, text.data() + size, text.size() - size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(ExitCode::kInput, std::strerror(errno));
-    if (n == 0) break;
-    size += std::size_t(n);
-  }
-  if (size > kMostBytes) throw Error(ExitCode::kInput, fmt::format("over {} bytes", kMostBytes));
-  text.resize(size);
-  return text;
+  if (::fstatat(directory.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
+    return std::strerror(errno);
+  if (S_ISLNK(status.st_mode)) return "a link";
+  if (!S_ISREG(status.st_mode)) return "not a regular file";
+  return std::uint64_t(status.st_size) > kMostBytes ? fmt::format("over {} bytes", kMostBytes)
+                                                    : "it cannot be read";
 }
 
 ChunkReport parse_report(const std::string& text, std::size_t number) {
@@ -104,7 +81,7 @@ std::string own_node_name() {
 void write_chunk_report(const fs::path& run_directory, std::size_t number,
                         std::span<const LeftUndone> left) {
   if (left.empty()) return;
-  const fs::path directory = reports_directory(run_directory);
+  const fs::path directory = run_directory / kDirectory;
   const fs::path path = directory / fmt::format("{}.json", number);
   const std::string node = own_node_name();
   if (!is_node_name(node))
@@ -126,26 +103,17 @@ void write_chunk_report(const fs::path& run_directory, std::size_t number,
 
 ChunkReports read_chunk_reports(const fs::path& run_directory, std::size_t first, std::size_t end) {
   ChunkReports found;
-  const fs::path path = reports_directory(run_directory);
+  const fs::path path = run_directory / kDirectory;
   const auto problem = [&](const fs::path& where, std::string_view what) {
     if (found.problems.size() < kMostProblems)
       found.problems.push_back(
           fmt::format("{}: not taken for a report: {}", printable_path(where.string()), what));
   };
-  const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (fd < 0) {
-    if (errno != ENOENT) problem(path, "not a directory, or one that cannot be read");
-    return found;
-  }
-  const std::unique_ptr<DIR, int (*)(DIR*)> directory(::fdopendir(fd), ::closedir);
-  if (!directory) {
-    ::close(fd);
-    problem(path, std::strerror(errno));
-    return found;
-  }
+  const HeldDirectory directory = HeldDirectory(run_directory).below(kDirectory);
+  if (!directory && !directory.is_missing()) problem(path, directory.why_not());
   std::vector<std::size_t> numbers;
-  while (const dirent* entry = ::readdir(directory.get()))
-    if (const auto number = number_of(entry->d_name); number && *number >= first && *number < end)
+  for (const std::string& name : directory.names())
+    if (const auto number = number_of(name); number && *number >= first && *number < end)
       numbers.push_back(*number);
   std::sort(numbers.begin(), numbers.end());
   if (numbers.size() > kMostReports) {
@@ -155,7 +123,11 @@ ChunkReports read_chunk_reports(const fs::path& run_directory, std::size_t first
   for (const std::size_t number : numbers) {
     const std::string name = fmt::format("{}.json", number);
     try {
-      found.reports.push_back(parse_report(read_beside(fd, name), number));
+      const auto text = directory.read(name, kMostBytes);
+      if (text)
+        found.reports.push_back(parse_report(*text, number));
+      else
+        problem(path / name, why_not_read(directory, name));
     } catch (const Error& error) {
       problem(path / name, error.what());
     }

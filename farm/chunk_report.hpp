@@ -1,4 +1,4 @@
-// What an element of a cluster's job says about its node: RUN/reports/NUMBER.json, beside its chunk.
+// Reports of elements about their nodes: RUN/reports/NUMBER.json, with the number of the chunk.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace lobelia {
 
-/// Jobs that an element has left undone because of its node: another node may do them.
+/// Jobs that an element left undone because of its node: another node may do them.
 using records::LeftUndone;
 
 struct ChunkReport {
@@ -24,19 +24,17 @@ struct ChunkReport {
 /// The node that this process runs on: $SLURMD_NODENAME, otherwise the host's name.
 std::string own_node_name();
 
-/// Writes the report of chunk NUMBER over an earlier one; nothing
-/// where nothing was left. Throws Error(kOutput), also where a link lies in the way or the node has no proper name.
+/// Writes nothing where nothing was left. Throws Error(kOutput), also where a link lies in the way or the node has no
+/// proper name.
 void write_chunk_report(const std::filesystem::path& run_directory, std::size_t number,
                         std::span<const LeftUndone> left);
 
 struct ChunkReports {
-  std::vector<ChunkReport> reports;  ///< by number
-  std::vector<std::string>
-      problems;  ///< files that are no such reports, each in a sentence; at most ten
+  std::vector<ChunkReport> reports;   ///< by number
+  std::vector<std::string> problems;  ///< sentences on files that are no such reports; at most ten
 };
 
-/// The reports of chunks from `first` on, `end` not included. What is no report is a problem and nothing else:
-/// links, special files and files over 64 KiB are not read.
+/// The reports of chunks from `first` to before `end`. Links, special files and files over 64 KiB are not read.
 ChunkReports read_chunk_reports(const std::filesystem::path& run_directory, std::size_t first = 0,
                                 std::size_t end = std::numeric_limits<std::size_t>::max());
 

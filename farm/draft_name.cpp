@@ -95,16 +95,10 @@ std::string DraftName::text() const {
 }
 
 std::optional<DraftName> DraftName::parse(std::string_view name) {
-  if (name.size() > 200) return std::nullopt;
-  std::vector<std::string_view> parts;
-  for (std::size_t from = 0; from <= name.size();) {
-    const auto dot = std::min(name.find('.', from), name.size());
-    parts.push_back(name.substr(from, dot - from));
-    from = dot + 1;
-  }
+  if (name.size() > 200 || std::ranges::count(name, '.') != 7) return std::nullopt;
+  const std::vector<std::string> parts = split(name, ".");
   DraftName draft;
-  if (parts.size() != 8 || parts[0] != "draft" || parts[1].empty() ||
-      parts[1].size() > kMaxHost + 1 + kHostHash ||
+  if (parts.size() != 8 || parts[0] != "draft" || parts[1].size() > kMaxHost + 1 + kHostHash ||
       !std::ranges::all_of(
           parts[1], [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; }) ||
       parts[2].size() != kBoot || !is_hex(parts[2]) ||

@@ -1,4 +1,4 @@
-// Names of results in the making: whoever sees one knows whether its maker lives, without a lock.
+// Names of results in the making, which tell whether their maker lives.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,9 @@
 
 namespace lobelia {
 
-/// A process among all that may share a cache. One that cannot be told has an empty boot.
+/// A process among all that may share a cache.
 struct ProcessIdentity {
-  std::string
-      host;  ///< letters, digits, '_' and '-'; at most 40, and a hash of the machine's own number
+  std::string host;  ///< at most 40 of [A-Za-z0-9_-], and a hash of the machine's own number
   std::string boot;  ///< 32 hexadecimal digits, other ones after each start of the machine
   std::uint64_t pid_namespace = 0;
   std::uint64_t pid = 0;
@@ -29,7 +28,7 @@ struct DraftName {
   std::uint64_t random = 0;
 
   std::string text() const;
-  /// Empty for whatever text() does not write.
+  /// Empty for what text() does not write.
   static std::optional<DraftName> parse(std::string_view name);
 };
 
@@ -37,7 +36,7 @@ struct DraftName {
 bool is_old_draft_name(std::string_view name);
 
 enum class Life { kAlive, kDead, kUnknown };
-/// By what this machine knows of its own processes. kUnknown: it is another one's, or of another namespace.
+/// kUnknown: the process is of another machine or another namespace.
 Life life_of(const ProcessIdentity& maker, const ProcessIdentity& self);
 
 }  // namespace lobelia

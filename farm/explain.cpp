@@ -39,7 +39,7 @@ fs::path directory_of_cell(const fs::path& farm_directory, const std::string& ce
   return cells / cell;
 }
 
-/// What there is on this machine, asked for once.
+/// The engines on this machine, each looked for once.
 class Now {
  public:
   explicit Now(const std::map<std::string, fs::path>& programs) : programs_(programs) {}
@@ -57,7 +57,7 @@ class Now {
   std::map<std::string, FarmEngine> engines_;
 };
 
-/// Of one job: parts of its key with what they were and what they are.
+/// The parts of a job's key, then and now.
 class Parts {
  public:
   Parts(const std::optional<ResultCache>& cache, Now& now) : cache_(cache), now_(now) {}
@@ -120,7 +120,7 @@ class Parts {
   std::vector<records::ExplainedPart> list_;
 };
 
-/// Of a record that no farm has written.
+/// No farm has written this record.
 struct NotOurs {};
 
 /// Empty for a job of ours.
@@ -149,7 +149,7 @@ records::ExplainedJob explain_job(const std::string& job, const std::string& key
   std::optional<records::Result> result;
   if (cache) result = cache->find(key, ResultCache::Look::kQuick, why_not);
 
-  // What is lost had the parts that the cell had.
+  // A lost result had the parts that the cell had.
   const records::MadeFrom& made_from = cell.made_from;
   Parts parts(cache, now);
   parts.own(result ? OwnIdentity::of_record(result->inputs) : OwnIdentity::of_record(made_from));

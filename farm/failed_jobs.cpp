@@ -17,7 +17,7 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of all files in it, without a look at what lies deeper: a farm puts no directories there.
+/// All files in it; a farm puts no directories there.
 std::uint64_t bytes_in(const HeldDirectory& directory) {
   std::uint64_t sum = 0;
   for (const auto& name : directory.names())
@@ -27,7 +27,7 @@ std::uint64_t bytes_in(const HeldDirectory& directory) {
   return sum;
 }
 
-/// Of a farm's directory; `failed` is the name of what lies in it.
+/// Lets a Removal touch a farm's subdirectory `failed` alone.
 Ownership ownership(const fs::path& failed) {
   return {[](const HeldDirectory& root) {
             struct stat status {};

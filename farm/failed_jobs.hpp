@@ -1,4 +1,4 @@
-// What a failed job was given, and what its engine said, for whoever looks for the reason.
+// The input of failed jobs and the log of their engines, for whoever looks for the reason.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,7 @@
 
 namespace lobelia {
 
-/// DIR/failed/CELL/JOB/: at most kMost of them, each of at most kMostBytes. No link in it is followed, and nothing but
-/// what a farm puts there is removed. From any thread.
+/// DIR/failed/CELL/JOB/: at most kMost of them, each of at most kMostBytes. Follows no link in it. For any thread.
 class FailedJobs {
  public:
   static constexpr char kName[] = "failed";  ///< of the directory in DIR
@@ -21,8 +20,8 @@ class FailedJobs {
   /// `directory` is DIR/failed; empty: nothing is kept.
   explicit FailedJobs(std::filesystem::path directory);
 
-  /// Lets `write` put files into the job's directory, in place of what is there of an earlier failure. Returns its
-  /// name, "failed/CELL/JOB"; empty if it is not kept: there are too many, it is too large, or it cannot be written.
+  /// Lets `write` fill the job's directory. Returns its name, "failed/CELL/JOB"; empty if there are too many, it is too
+  /// large, or it cannot be written.
   std::string keep(const std::string& cell, const std::string& job,
                    const std::function<void(const std::filesystem::path& directory)>& write);
   /// After a success.

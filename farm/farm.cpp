@@ -66,7 +66,7 @@ FarmPlan plan_farm(
   const std::vector<JobState> states = job_states(
       graph, cache ? &*cache : nullptr, filter, [&](std::size_t cell, const CellStates& found) {
         for (const JobIndex job : graph.jobs(cell))
-          is_there[job] = found.records[job - graph.render(cell)].has_value();
+          is_there[job] = found.records[graph.place(job)].has_value();
       });
   const bool has_cells = fs::exists(directory / "cells", ignored);
   FarmPlan plan;

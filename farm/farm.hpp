@@ -1,5 +1,5 @@
-// The farm: every cell of a grid rendered by us and by the reference engines, compared, and recorded
-// as docs/records.md says. What the cache has is not made again.
+// The farm: renders every cell of a grid with Lobelia and the reference engines, and compares them. What the cache has
+// is not made again.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace lobelia {
 
-/// More would make records that nobody reads (docs/scale.md); several farms may share a cache.
+/// See docs/scale.md; several farms may share a cache.
 inline constexpr std::size_t kMaxFarmCells = 150000;
 
 struct FarmOptions : JobRunOptions {
@@ -26,19 +26,18 @@ struct FarmOptions : JobRunOptions {
   bool require_engines = false;      ///< one that is absent is an error
   bool engines_as_recorded = false;  ///< nothing is made: what farm.json says of them holds
   std::vector<std::string> command;  ///< for the record
-  /// Where whoever asked will publish what comes of it; a cluster's run has that done by its last element. Empty:
-  /// nowhere.
+  /// Where the caller will publish the outcome; a cluster's run has its last element do it. Empty: nowhere.
   std::filesystem::path gallery;
 };
 
 struct FarmSummary {
   std::size_t cells = 0, pass = 0, differs = 0, failed = 0, missing = 0;
   std::size_t foreign = 0;                  ///< directories under cells/ that are not of this grid
-  std::size_t undecided = 0;                ///< cells whose pictures are too noisy to tell
+  std::size_t undecided = 0;                ///< cells with too much noise to tell
   std::size_t unchecked = 0;                ///< cells with no engine to compare with
   std::size_t rendered = 0, kept = 0;       ///< pictures
-  std::size_t cached_cells = 0;             ///< of which everything was there
-  double cached_seconds = 0;                ///< for looking at all cells, this program's own time
+  std::size_t cached_cells = 0;             ///< everything was there
+  double cached_seconds = 0;                ///< for looking at all cells
   std::vector<std::string> absent_engines;  ///< sentences: which, why, how to get it
   std::vector<std::string> refusals;        ///< sentences: which engine cannot show how many cells
   std::set<std::string> warnings;           ///< of the filter and the cells' highlights, each once
@@ -46,9 +45,8 @@ struct FarmSummary {
   JobRunWork work;
 };
 
-/// Throws Error(kInterrupted) on Ctrl-C, after farm.json has been written with what is done;
-/// Error(kOutput) if the directory or the cache cannot be written; Error(kEngine), before anything is made or
-/// changed, if an engine is broken (find_engines); Error(kInput) for more than kMaxFarmCells.
+/// Throws Error: kInterrupted on Ctrl-C, after farm.json has been written; kOutput if the directory or the cache cannot
+/// be written; kEngine, before anything is changed, if an engine is broken; kInput for more than kMaxFarmCells.
 FarmSummary run_farm(const Grid& grid, const std::filesystem::path& directory,
                      const FarmOptions& options);
 
@@ -58,9 +56,8 @@ struct FarmPlan {
   std::string warning;  ///< of the filter; empty: none
 };
 
-/// What run_farm would do, in its order: calls `on_job` with the name of each job and why it is wanted ("missing",
-/// "scene changed", "engine version changed: 3.8, was 3.7", ...). Writes nothing. What lies in the cache is believed by its
-/// name; run_farm looks inside.
+/// Calls `on_job` with each job that run_farm would do, in its order, and why: "missing", "scene changed", "engine version
+/// changed: 3.8, was 3.7". Writes nothing, and does not look inside the results.
 FarmPlan plan_farm(
     const Grid& grid, const std::filesystem::path& directory, const FarmOptions& options,
     const std::function<void(const std::string& name, const std::string& reason)>& on_job);

@@ -4,14 +4,14 @@
 
 #include "core/error.hpp"
 #include "core/version.hpp"
-#include "farm/our_name.hpp"
+#include "farm/job.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
 namespace {
 namespace fs = std::filesystem;
 
-/// What the last run's farm.json says of its engines, as far as there is one that can be read.
+/// The engines of the last run's farm.json; none if it cannot be read.
 std::vector<records::FarmEngine> engines_before(const fs::path& farm_directory) {
   std::error_code ignored;
   if (farm_directory.empty() || !fs::exists(farm_directory / "farm.json", ignored)) return {};

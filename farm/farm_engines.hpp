@@ -18,12 +18,11 @@ struct FarmEngine {
   std::string version = {};  ///< empty: not known
   /// SHA-256 of the program and what it loads and reads (engine_content()); empty for one that is part of ours.
   std::string content = {};
-  bool here =
-      true;  ///< false: there is no such program; version and content are those of the last run
+  bool here = true;  ///< false: absent; version and content are those of the last run
   bool is_here() const { return here && !version.empty(); }
-  /// Whether its results have keys: those that are in the cache are shown though the engine is absent.
+  /// Whether its results have keys: the cache's are shown though the engine is absent.
   bool is_known() const { return !version.empty(); }
-  Content files = {};  ///< what `content` is of, where it is here
+  Content files = {};  ///< `content` is the hash of these
 };
 
 struct EngineChoice {
@@ -33,13 +32,12 @@ struct EngineChoice {
   bool as_recorded = false;              ///< that is believed, and no program looked for
 };
 
-/// Looks for each. Throws Error(kEngine) if one is broken, if one of `programs` is not the engine that it should be
-/// (asked for by its path, that is a mistake and not a lack), or if one is absent though all are required.
+/// Throws Error(kEngine) if one is broken, if one of `programs` is not that engine, or if a required one is absent.
 std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
                                      const EngineChoice& choice);
 
-/// What of an engine on this machine is not as a plan has it: "POV-Ray: engine content: other files under the same version
-/// 3.7.0.10". Empty if it is all the same.
+/// How an engine here differs from the plan: "POV-Ray: engine content: other files under the same version 3.7.0.10". Empty
+/// if it does not.
 std::string engine_difference(const FarmEngine& planned,
                               const std::map<std::string, std::filesystem::path>& programs);
 
@@ -50,7 +48,7 @@ FarmEngine look_for_engine(const std::string& name, const std::filesystem::path&
 /// "POV-Ray is absent: no program 'povray' in $PATH; to get it: ..."
 std::string absence(const FarmEngine& engine);
 
-/// What farm.json says of ours and of each.
+/// The engines for farm.json, Lobelia first.
 std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines);
 
 }  // namespace lobelia

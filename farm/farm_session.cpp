@@ -158,31 +158,31 @@ void FarmSession::look_at_cells() {
     if (unfinished[cell]) waiting_cells_.push_back(cell);
 }
 
-/// Of a cell that may be of another grid.
+/// The cell may be of another grid.
 bool FarmSession::is_to_be_made(const std::string& cell, const std::string& job) const {
   const JobGraph& graph = work_.graph;
   for (std::size_t i = 0; i < graph.cell_count(); ++i)
     if (work_.cells.cells[i].id == cell)
       return std::ranges::any_of(graph.jobs(i), [&](JobIndex j) {
-        return states_[j] != JobState::kDone && graph.name(j) == cell + "/" + job;
+        return states_[j] != JobState::kDone && graph.name_in_cell(j) == job;
       });
   return false;
 }
 
 /// Whether everything of the cell is there. Where it is not, its record goes: it would speak of other results.
 bool FarmSession::look_at(std::size_t cell, const CellStates& found) {
-  const JobIndex first = work_.graph.render(cell);
+  const JobGraph& graph = work_.graph;
   bool complete = true;
   std::size_t kept = 0;
-  for (const JobIndex job : work_.graph.jobs(cell)) {
-    const Job& one = work_.graph[job];
-    if (found.states[job - first] == JobState::kDone) {
+  for (const JobIndex job : graph.jobs(cell)) {
+    const Job& one = graph[job];
+    if (found.states[graph.place(job)] == JobState::kDone) {
       cache_.touch(one.key);
       if (is_picture(one.kind)) ++kept;
       continue;
     }
     complete = false;
-    if (found.records[job - first]) cache_.discard(one.key);  // it is made again
+    if (found.records[graph.place(job)]) cache_.discard(one.key);  // it is made again
   }
   {
     const std::scoped_lock lock(mutex_);
@@ -210,9 +210,8 @@ void FarmSession::take_warnings(const CellRecords& records) {
 
 void FarmSession::finish_cell(std::size_t cell) {
   JobGraph& graph = work_.graph;
-  const JobIndex first = graph.render(cell);
   CellRecords records = find_records(graph, cache_, cell);
-  const auto is_there = [&](JobIndex job) { return records[job - first].has_value(); };
+  const auto is_there = [&](JobIndex job) { return records[graph.place(job)].has_value(); };
   const auto lacks_picture = [&](JobIndex job) {
     return graph[job].kind == JobKind::kReference && !is_there(job);
   };

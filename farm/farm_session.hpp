@@ -1,5 +1,5 @@
-// A farm at work on a grid: what is there, what is to be made, and what has become of each cell. The way in which jobs
-// are done (here, or on a cluster) is not its business.
+// A farm at work on a grid: what is there, what is to be made, and the state of each cell. Who does the jobs, this
+// machine or a cluster, is not its business.
 #pragma once
 
 #include <filesystem>
@@ -15,13 +15,13 @@
 
 namespace lobelia {
 
-/// A grid's cells with the engines that are here. Neither copied nor moved: its parts know each other.
+/// A grid's cells with the engines that are here. Not copied: its parts refer to each other.
 struct FarmWork {
-  /// `directory` is the farm's: what it says of engines that are absent now.
+  /// `directory` is the farm's, for its record of engines that are absent now.
   FarmWork(const Grid& g, const FarmOptions& options, const std::filesystem::path& directory = {});
   FarmWork(const FarmWork&) = delete;
-  std::vector<std::string> absences() const;  ///< of engines, as sentences
-  std::vector<std::string> refusals() const;  ///< likewise: of cells that they cannot show
+  std::vector<std::string> absences() const;  ///< a sentence for each absent engine
+  std::vector<std::string> refusals() const;  ///< for each engine, of cells that it cannot show
   /// The jobs that the options ask for, of those that can be made here.
   JobStateFilter filter(const FarmOptions& options) const;
   /// A sentence if there are jobs and the filter picks none of them, else empty.
@@ -35,7 +35,7 @@ struct FarmWork {
 
 class FarmSession {
  public:
-  /// Opens the cache, looks at every cell, puts together those whose results are all there, and writes farm.json.
+  /// Opens the cache, looks at every cell, writes those that are complete, and writes farm.json.
   /// Arguments must outlive it. Throws as run_farm().
   FarmSession(const Grid& grid, const std::filesystem::path& directory, const FarmOptions& options);
 
@@ -46,13 +46,13 @@ class FarmSession {
   /// Cells with jobs that are waiting, from coarse to fine.
   const std::vector<std::size_t>& waiting_cells() const { return waiting_cells_; }
 
-  /// Puts a cell together from what is there now; what is not there is a problem if it has failed. From any thread.
+  /// Writes a cell with what is there now and what has failed. From any thread.
   void finish_cell(std::size_t cell);
-  /// After an end that came too early: every cell of which something has been made, and farm.json.
+  /// After an early end: writes every cell that has something, and farm.json.
   void show_what_is_there();
   void write_farm_record() const;
   FarmSummary summarise(const JobRunWork& done);
-  /// Whether results were made and are gone, before their cell was put together or a job read them.
+  /// Whether results were made and are gone before their cell was written or a job read them.
   bool has_lost(const JobRun& run) const;
 
  private:

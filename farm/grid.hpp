@@ -40,7 +40,7 @@ struct Grid {
   Scene scene;                       ///< empty if there is an axis of scenes
   std::vector<Axis> axes;            ///< at least one, in the file's order
   std::vector<std::string> engines;  ///< every one that a cell is compared with
-  /// The cells: of each, the index of its value on every axis. No combination stands twice.
+  /// For each cell the index of its value on every axis. No combination stands twice.
   std::vector<ValueIndex> places;
 
   std::size_t cell_count() const { return places.size() / axes.size(); }
@@ -62,8 +62,7 @@ std::vector<Cell> cells_of(const Grid& grid);
 /// The id of the cell with these values, one on each axis.
 std::string cell_id(const Grid& grid, std::span<const ValueIndex> at);
 
-/// What the cell shows. Scenes are made when they are asked for: a grid may have a million. May be
-/// called from any thread.
+/// The cell's scene, made now because a grid may have a million. For any thread.
 Scene scene_of(const Grid& grid, const Cell& cell);
 
 }  // namespace lobelia

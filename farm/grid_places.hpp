@@ -1,4 +1,4 @@
-// Which combinations of values a grid has, as numbers: a product of factors, less what is excluded.
+// The combinations of values that a grid has, as numbers: a product of factors without what is excluded.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@ namespace lobelia {
 
 using ValueIndex = std::uint16_t;  ///< of a value on its axis
 
-/// An axis, or the axes of a list, which advance together: at each step one value of each axis.
+/// An axis, or the axes of a list: each step has one value of each axis.
 struct GridFactor {
   std::vector<std::vector<ValueIndex>> steps;  ///< by axis; all of one length, at least 1
 
   std::size_t size() const { return steps.front().size(); }
 };
 
-/// Combinations that all exclusions of a grid may name together: what is named twice costs twice.
+/// Combinations that all exclusions of a grid may name together, counted as often as they are named.
 inline constexpr std::size_t kMaxExcluded = 20000000;
 
 class GridPlaces {
@@ -25,9 +25,8 @@ class GridPlaces {
   /// At least one factor; their product has to fit in memory.
   explicit GridPlaces(std::vector<GridFactor> factors);
 
-  /// Takes away every combination whose value is chosen on every axis, where the axes are those of
-  /// the factors one after the other; an axis without choices is free. Returns how many it names,
-  /// whether they were still there or not. Throws std::runtime_error over kMaxExcluded.
+  /// Removes the combinations of chosen values; an axis without choices is free. Axes are those of the factors, in order.
+  /// Returns how many combinations it names, there or not. Throws std::runtime_error over kMaxExcluded.
   std::size_t exclude(std::span<const std::vector<bool>> chosen);
 
   /// The values on all axes, combination after combination, the last factor running fastest.

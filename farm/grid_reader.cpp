@@ -9,7 +9,6 @@
 #include "core/files.hpp"
 #include "core/image.hpp"
 #include "core/text.hpp"
-#include "farm/axis_table.hpp"
 #include "farm/grid.hpp"
 #include "farm/grid_choices.hpp"
 #include "reference_scenes/engine.hpp"

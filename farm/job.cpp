@@ -36,14 +36,9 @@ bool matches_any(std::string_view patterns, std::string_view name) {
 
 }  // namespace
 
-std::string job_name(std::string_view cell_id, JobKind kind, std::string_view engine) {
-  std::string name(cell_id);
-  name += '/';
-  name += kJobKindNames[int(kind)];
-  if (!engine.empty()) {
-    name += '-';
-    name += engine;
-  }
+std::string job_name(JobKind kind, std::string_view engine) {
+  std::string name(kJobKindNames[int(kind)]);
+  if (!engine.empty()) (name += '-') += engine;
   return name;
 }
 

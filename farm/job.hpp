@@ -1,4 +1,4 @@
-// What a farm does for a cell: jobs, each with a result in the cache.
+// A cell's jobs, each with a result in the cache.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@ constexpr bool is_picture(JobKind kind) {
   return kind == JobKind::kRender || kind == JobKind::kReference;
 }
 
+inline constexpr char kOurs[] = "lobelia";  ///< our name among the engines
 inline constexpr std::uint8_t kNoEngine = 255;
 
 struct Job {
@@ -30,8 +31,8 @@ struct Job {
   bool exists = false;  ///< false: the cell has no such job (an engine that is not there, say)
 };
 
-/// "n16-head_on/compare-povray", as `--filter` sees it.
-std::string job_name(std::string_view cell_id, JobKind kind, std::string_view engine);
+/// "compare-povray"
+std::string job_name(JobKind kind, std::string_view engine);
 
 /// GoogleTest's patterns: "a*:b?c-d*" is what matches a* or b?c and does not match d*. An empty list in front of
 /// the '-' is everything.

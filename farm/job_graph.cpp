@@ -8,7 +8,6 @@
 #include <mutex>
 #include <numeric>
 
-#include "farm/our_name.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -119,9 +118,12 @@ std::vector<JobIndex> JobGraph::dependents(JobIndex job) const {
 }
 
 std::string JobGraph::name(JobIndex job) const {
+  return cells_->cells[cell_of(job)].id + "/" + name_in_cell(job);
+}
+
+std::string JobGraph::name_in_cell(JobIndex job) const {
   const Job& one = jobs_[job];
-  return job_name(cells_->cells[cell_of(job)].id, one.kind,
-                  one.engine == kNoEngine ? "" : (*engines_)[one.engine].name);
+  return job_name(one.kind, one.engine == kNoEngine ? "" : (*engines_)[one.engine].name);
 }
 
 std::string JobGraph::whose(JobIndex job) const {

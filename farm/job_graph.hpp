@@ -15,7 +15,7 @@
 
 namespace lobelia {
 
-/// Cells whose scenes are made when they are needed: a grid's, or a part of one on another machine.
+/// A grid's cells, or a part of them on another machine. Scenes are made when they are needed.
 struct FarmCells {
   std::vector<Cell> cells;
   std::function<Scene(std::size_t)> scene;  ///< of a cell; from any thread
@@ -47,32 +47,34 @@ class JobGraph {
   /// The jobs that a cell has.
   std::vector<JobIndex> jobs(std::size_t cell) const;
   std::size_t stride() const { return stride_; }  ///< places of a cell; some have no job
+  std::size_t place(JobIndex job) const { return job % stride_; }
 
   /// Jobs that must have their results first.
   std::vector<JobIndex> inputs(JobIndex job) const;
   /// Jobs that have this one among their inputs.
   std::vector<JobIndex> dependents(JobIndex job) const;
 
+  /// "n16-head_on/compare-povray", as `--filter` sees it.
   std::string name(JobIndex job) const;
+  std::string name_in_cell(JobIndex job) const;  ///< "compare-povray"
   /// Whose picture a job is about: an engine's, or ours.
   std::string whose(JobIndex job) const;
 
-  /// Why a cell is not compared with an engine that is here: it cannot show the scene. Empty if it can.
+  /// Why an engine cannot show the cell's scene; empty if it can.
   std::string refusal(std::size_t cell, std::size_t engine) const;
 
   /// Engines that the cell is to be compared with, that are absent, and of which it has no picture.
   std::vector<std::size_t> missing_engines(std::size_t cell) const;
-  /// Of how many cells.
+  /// The number of cells that an engine cannot show.
   std::size_t refusals(std::size_t engine) const;
-  /// A cell has no picture of an engine that is absent: neither it nor what would be made from it is a job.
+  /// The cell has no picture of this engine: it is no job, nor is its comparison.
   void leave_out(std::size_t cell, std::size_t engine);
 
-  /// Whether a job can be done without this input of it if that has failed: a profile draws what pictures there are.
+  /// Whether a job can be done though this input has failed: a profile draws the pictures that there are.
   bool may_lack(JobIndex job, JobIndex input) const {
     return jobs_[job].kind == JobKind::kProfile && jobs_[input].kind == JobKind::kReference;
   }
-  /// Makes the profile of a cell that of our picture and of those engines' for whose job `has_picture` holds: without
-  /// the others it is another result.
+  /// Makes the profile one of fewer pictures, which is another result: of ours and those for which `has_picture` holds.
   void narrow_profile(std::size_t cell, const std::function<bool(JobIndex)>& has_picture);
 
   /// The hash of a cell's scene file, in hexadecimal.
@@ -91,8 +93,8 @@ class JobGraph {
   std::map<std::size_t, std::string> refusals_;  ///< by cell * engines + engine; few have one
 };
 
-/// Cells from coarse to fine: after any part of them the ones that are done are spread over the whole grid. First
-/// the first value of each axis, then the one in the middle, then those between, and so on.
+/// Cells from coarse to fine, so that any first part is spread over the whole grid: the first value of each axis, then
+/// the one in the middle, then those between.
 std::vector<std::size_t> coarse_to_fine(const std::vector<Cell>& cells);
 
 }  // namespace lobelia

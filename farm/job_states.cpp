@@ -6,7 +6,6 @@
 
 #include "core/interrupt.hpp"
 #include "farm/make_result.hpp"
-#include "farm/our_name.hpp"
 
 namespace lobelia {
 namespace {
@@ -31,13 +30,12 @@ bool is_of_these_pictures(const records::Result& record, const JobGraph& graph, 
 
 /// Takes away waiting jobs that need a result that is neither there nor to be made.
 void drop_unreachable_jobs(const JobGraph& graph, std::size_t cell, std::vector<JobState>& states) {
-  const JobIndex first = graph.render(cell);
   for (const JobIndex job : graph.jobs(cell)) {
-    if (states[job - first] != JobState::kWaiting) continue;
+    if (states[graph.place(job)] != JobState::kWaiting) continue;
     for (const JobIndex input : graph.inputs(job))
-      if (const JobState state = states[input - first];
+      if (const JobState state = states[graph.place(input)];
           state == JobState::kAbsent || (state == JobState::kFailed && !graph.may_lack(job, input)))
-        states[job - first] = JobState::kAbsent;
+        states[graph.place(job)] = JobState::kAbsent;
   }
 }
 
@@ -45,14 +43,13 @@ void drop_unreachable_jobs(const JobGraph& graph, std::size_t cell, std::vector<
 
 CellRecords find_records(const JobGraph& graph, const ResultCache& cache, std::size_t cell,
                          ResultCache::Look look) {
-  const JobIndex first = graph.render(cell);
   CellRecords records(graph.stride());
   for (const JobIndex job : graph.jobs(cell)) {
-    auto& record = records[job - first];
+    auto& record = records[graph.place(job)];
     record = cache.find(graph[job].key, look);
     if (record && !is_of_these_pictures(
                       *record, graph, cell, [&](JobIndex picture) -> const auto& {
-                        return records[picture - first];
+                        return records[graph.place(picture)];
                       }))
       record.reset();
   }
@@ -72,11 +69,10 @@ std::optional<records::Result> find_result(const JobGraph& graph, const ResultCa
 CellStates cell_states(JobGraph& graph, const ResultCache* cache, const JobStateFilter& filter,
                        std::size_t cell) {
   CellStates found{std::vector<JobState>(graph.stride()), CellRecords(graph.stride())};
-  const JobIndex first = graph.render(cell);
   const auto look = [&] {
     if (cache) found.records = find_records(graph, *cache, cell, filter.look);
   };
-  const auto is_there = [&](JobIndex job) { return found.records[job - first].has_value(); };
+  const auto is_there = [&](JobIndex job) { return found.records[graph.place(job)].has_value(); };
   const auto has_failed = [&](JobIndex job) {
     return cache && !is_there(job) && cache->failure(graph[job].key).has_value();
   };
@@ -98,7 +94,7 @@ CellStates cell_states(JobGraph& graph, const ResultCache* cache, const JobState
     const bool wanted = !filter.wanted || filter.wanted(job);
     const bool failure_counts = filter.failures == Failures::kCount ||
                                 (filter.failures == Failures::kOfOthersCount && !wanted);
-    JobState& state = found.states[job - first];
+    JobState& state = found.states[graph.place(job)];
     if (is_there(job) && !(wanted && filter.again && filter.again(job)))
       state = JobState::kDone;
     else if (failure_counts && has_failed(job))

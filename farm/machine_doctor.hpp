@@ -1,4 +1,4 @@
-// What this machine can hold an engine to.
+// Limits for engines that work on this machine.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,7 @@
 
 namespace lobelia {
 
-/// Tries what contains an engine's processes, its writing and its memory. What does not work here is a warning: a
-/// farm works without it.
+/// Tries what limits an engine's processes, writing and memory. What does not work is a warning: a farm works without it.
 std::vector<DoctorCheck> look_at_machine();
 
 }  // namespace lobelia

@@ -3,7 +3,6 @@
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
 #include "farm/make_result.hpp"
-#include "farm/our_name.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"

@@ -7,7 +7,6 @@
 #include "core/image_io.hpp"
 #include "core/numbers.hpp"
 #include "farm/make_result.hpp"
-#include "farm/our_name.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/replicates.hpp"
 #include "renderer/render_error.hpp"

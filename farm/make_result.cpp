@@ -7,9 +7,12 @@
 
 #include "compare/metrics/metric.hpp"
 #include "core/colour.hpp"
+#include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
-#include "farm/our_name.hpp"
+#include "farm/profile_scene.hpp"
+#include "records/record.hpp"
+#include "reference_scenes/reference_metadata.hpp"
 
 namespace lobelia {
 
@@ -39,6 +42,42 @@ Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) 
     throw ResultFailure(FailureClass::kNonFinite,
                         fmt::format("{} has values that are not finite", name));
   return image;
+}
+
+void make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
+                    ReferenceResult result, ResultDraft& draft, records::Result& made) {
+  records::Reference& record = result.record;
+  const std::string file = picture_file(engine.name);
+  record.command = {"lobelia", "reference", "scene.xml", "--engine", engine.name, "-o", file};
+  if (!program.empty()) record.command.insert(record.command.end(), {"--" + engine.name, program});
+  record.image = {file, result.image.width(), result.image.height()};
+  const ImageMetadata metadata = reference_metadata(scene, record);
+  write_exr(draft.file(file), result.image, metadata);
+  if (result.standard_error.pixel_count() > 0) {
+    record.standard_error = error_file(engine.name);
+    write_exr(draft.file(error_file(engine.name)), result.standard_error, metadata);
+  }
+  read_whole_picture(draft.file(file), scene);
+  records::write_record(draft.file(engine.name + ".json"), record);
+  // An engine may have had nothing to say.
+  if (!result.log.empty()) write_file(draft.file(engine.name + ".log"), result.log);
+  made.command = record.command;
+  made.engine_commands = record.engine_commands;
+  made.witness = record.witness;
+}
+
+void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
+                  ResultDraft& draft) {
+  std::vector<Image> images;
+  images.reserve(pictures.size());
+  NamedImages named;
+  for (const auto& picture : pictures) {
+    // The profile draws the formula under that name already.
+    if (picture.engine == records::kAnalytic) continue;
+    images.push_back(read_whole_picture(picture.directory / picture_file(picture.engine), scene));
+    named.emplace_back(picture.engine, &images.back());
+  }
+  records::write_record(draft.file("profile.json"), profile_scene(scene, 0, 0, named));
 }
 
 double cell_exposure(const Image& ours) {

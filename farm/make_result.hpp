@@ -1,4 +1,4 @@
-// How the result of each kind of job is made: its files in a draft, and its part of the result's record.
+// Makes the result of each kind of job: its files in a draft, and its part of the record.
 #pragma once
 
 #include <chrono>
@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/image.hpp"
 #include "farm/farm_engines.hpp"
+#include "farm/job.hpp"
 #include "farm/result_cache.hpp"
 #include "reference_scenes/failure.hpp"
 #include "renderer/scene/scene.hpp"
@@ -17,7 +18,7 @@ namespace lobelia {
 
 struct Tolerance;
 
-/// What is wrong with one result, and with nothing else.
+/// Something is wrong with one result, and with nothing else.
 class ResultFailure : public Error {
  public:
   ResultFailure(FailureClass kind, const std::string& message)
@@ -28,7 +29,7 @@ class ResultFailure : public Error {
   FailureClass kind_;
 };
 
-/// A picture that is there: an engine's result in the cache.
+/// An engine's result in the cache.
 struct MadePicture {
   std::string engine;
   std::filesystem::path directory;

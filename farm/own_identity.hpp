@@ -1,4 +1,4 @@
-// What of ours decides a result: this program, the libraries that it uses, and how it calculates here.
+// The parts of this program that decide a result: its build, its libraries, and its arithmetic on this machine.
 #pragma once
 
 #include <string>
@@ -10,15 +10,12 @@
 namespace lobelia {
 
 struct OwnIdentity {
-  std::string program;  ///< "lobelia 0.1.0 BUILD-ID"
-  std::string
-      libraries;  ///< SHA-256 of the image module, the picture reader, and all libraries that these and we use
+  std::string program;    ///< "lobelia 0.1.0 BUILD-ID"
+  std::string libraries;  ///< SHA-256 of the image module, the picture reader, and all libraries
   Arithmetic arithmetic;
 
   bool operator==(const OwnIdentity&) const = default;
-  /// In a key.
-  std::string text() const;
-  /// Members of a record that has such, and back.
+  std::string text() const;  ///< for a key
   template <class T>
   void put_into(T& record) const {
     record.program = program;
@@ -31,13 +28,13 @@ struct OwnIdentity {
   }
 };
 
-/// Of this process, found out once. Throws Error(kInternal) if a file of ours is not there.
+/// The identity of this process. Throws Error(kInternal) if a file of ours is not there.
 const OwnIdentity& own_identity();
 
 /// The files that own_identity().libraries is of.
 const Content& own_libraries();
 
-/// What is not the same in both, in a few words each: "libm: other results", "libraries: other files". Empty: nothing.
+/// A few words for each difference: "libm: other results", "libraries: other files".
 std::vector<std::string> identity_differences(const OwnIdentity& planned, const OwnIdentity& here);
 
 }  // namespace lobelia

@@ -14,18 +14,16 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
+#include "farm/cache_layout.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kLayout = "1\n";
-constexpr char kLocksFile[] = "locks";
 constexpr std::uint64_t kUseLock = ~std::uint64_t{0};
 constexpr std::uint64_t kMaxLogBytes = 64 << 20;
 constexpr std::time_t kTouchAfterSeconds = 24 * 60 * 60;
-constexpr const char* kParts[] = {"results", "failures", "contents", "making"};
 
 std::uint64_t number_of(const ResultKey& key) { return std::hash<ResultKey>()(key); }
 std::uint64_t number_of(const std::string& name) { return number_of(result_key({name})); }
@@ -44,48 +42,6 @@ std::int64_t modified(const struct stat& status) {
 void move(const fs::path& from, const HeldDirectory& to, const std::string& name) {
   if (::renameat(AT_FDCWD, from.c_str(), to.fd(), name.c_str()) != 0)
     fail(to.path() / name, "write", errno);
-}
-
-bool is_shelf(std::string_view name) {
-  return name.size() == 2 && name.find_first_not_of("0123456789abcdef") == name.npos;
-}
-
-bool is_key(std::string_view name) {
-  Sha256Digest digest;
-  return from_hex(name, digest);
-}
-
-/// Whether nothing is in it but what a cache consists of; an NFS client's own names for removed files aside.
-bool has_only_our_names(const HeldDirectory& directory) {
-  for (const std::string& name : directory.names()) {
-    struct stat status {};
-    if (name.starts_with(".nfs")) continue;
-    if (::fstatat(directory.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
-    const bool is_part = std::ranges::find(kParts, name) != std::end(kParts);
-    if (is_part ? S_ISREG(status.st_mode) : name != kLocksFile || !S_ISREG(status.st_mode))
-      return false;
-  }
-  return true;
-}
-
-Owned owned_in_cache(const fs::path& relative) {
-  std::vector<std::string> parts;
-  for (const fs::path& part : relative) parts.push_back(part.string());
-  if (parts.size() == 2 && parts[0] == "making")
-    return DraftName::parse(parts[1]) || is_old_draft_name(parts[1]) ? Owned::kTree : Owned::kNo;
-  if (parts.size() != 3 || !is_shelf(parts[1]) || !parts[2].starts_with(parts[1]))
-    return Owned::kNo;
-  if (parts[0] == "results" && is_key(parts[2])) return Owned::kTree;
-  const fs::path name = parts[2];
-  return parts[0] == "failures" && is_key(name.stem().native()) &&
-                 (name.extension() == ".json" || name.extension() == ".log")
-             ? Owned::kFile
-             : Owned::kNo;
-}
-
-Ownership ownership() {
-  return {[](const HeldDirectory& root) { return root.read(kCacheMarkerFile, 64) == kLayout; },
-          owned_in_cache};
 }
 
 /// The pictures of a record, which its times and hosts are no part of.
@@ -108,11 +64,16 @@ std::string damage_of(const fs::path& path, const records::ResultFile& file,
   return hex(sha256_of_file(path)) == file.sha256 ? "" : "has another content";
 }
 
-/// Of what is named KEY or KEY.json in the directories under this one.
+fs::path on_shelf(const char* part, const ResultKey& key, const char* ending = "") {
+  const std::string text = key.text();
+  return fs::path(part) / text.substr(0, 2) / (text + ending);
+}
+
+/// The keys of entries KEY and KEY.json in the directories below this one.
 std::vector<ResultKey> keys_on_shelves(const HeldDirectory& directory) {
   std::vector<ResultKey> keys;
   for (const std::string& shelf : directory.names()) {
-    if (!is_shelf(shelf)) continue;
+    if (!is_cache_shelf(shelf)) continue;
     for (const std::string& name : directory.below(shelf).names()) {
       ResultKey key;
       const fs::path path = name;
@@ -125,17 +86,10 @@ std::vector<ResultKey> keys_on_shelves(const HeldDirectory& directory) {
 
 }  // namespace
 
-bool is_cache(const fs::path& directory) {
-  const HeldDirectory root(directory);
-  if (!root) return false;
-  if (const auto marker = root.read(kCacheMarkerFile, 64)) return true;
-  return !root.names().empty() && has_only_our_names(root);
-}
-
 ResultDraft::~ResultDraft() {
   if (directory_.empty()) return;
   try {
-    Removal(directory_.parent_path().parent_path(), ownership())
+    Removal(directory_.parent_path().parent_path(), cache_ownership())
         .remove(directory_.parent_path().filename() / directory_.filename());
   } catch (const Error&) {  // stays, for the next farm to remove
   }
@@ -147,48 +101,9 @@ bool ResultDraft::is_there() const {
          (::lstat(directory_.c_str(), &status) == 0 && S_ISDIR(status.st_mode));
 }
 
-namespace {
-/// Of what is there and is no cache.
-void require_cache(const HeldDirectory& root) {
-  if (const auto marker = root.read(kCacheMarkerFile, 64)) {
-    if (*marker != kLayout)
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: a cache of another layout; this program reads layout {}",
-                              root.path().string(), kLayout.substr(0, 1)));
-  } else if (!has_only_our_names(root)) {
-    throw Error(ExitCode::kInput, fmt::format("{}: not empty and not a cache (it has no file '{}')",
-                                              root.path().string(), kCacheMarkerFile));
-  }
-}
-
-/// Before the locks' file is opened.
-HeldDirectory opened(const fs::path& directory, ResultCache::Opening opening) {
-  HeldDirectory root(directory);
-  if (!root && opening == ResultCache::Opening::kMake) {
-    make_directories(directory);
-    root = HeldDirectory(directory);
-  }
-  if (!root)
-    throw Error(ExitCode::kInput, fmt::format("{}: {}", directory.string(), root.why_not()));
-  require_cache(root);
-  for (const char* part : kParts) {
-    // One that may only be read stays as it is.
-    if (opening == ResultCache::Opening::kMake) ::mkdirat(root.fd(), part, 0777);
-    const HeldDirectory there = root.below(part);
-    const auto links = there.links();
-    if ((there && links.empty()) || there.is_missing()) continue;
-    throw Error(ExitCode::kOutput,
-                there ? fmt::format("{}: a symbolic link, which a cache has none of",
-                                    (there.path() / links.front()).string())
-                      : fmt::format("{}: {}", there.path().string(), there.why_not()));
-  }
-  return root;
-}
-}  // namespace
-
 ResultCache::ResultCache(fs::path directory, Opening opening)
     : directory_(fs::absolute(directory)),
-      locks_(opened(directory_, opening), kLocksFile, opening),
+      locks_(open_cache(directory_, opening), kCacheLocksFile, opening),
       self_(this_process()) {
   std::error_code ignored;
   if (opening == Opening::kMake && !fs::exists(directory_ / kCacheMarkerFile, ignored)) draft();
@@ -210,13 +125,11 @@ HeldDirectory ResultCache::shelf(const char* part, const ResultKey& key) const {
 }
 
 fs::path ResultCache::result_directory(const ResultKey& key) const {
-  const std::string text = key.text();
-  return directory_ / "results" / text.substr(0, 2) / text;
+  return directory_ / on_shelf("results", key);
 }
 
 fs::path ResultCache::failure_file(const ResultKey& key, const char* ending) const {
-  const std::string text = key.text();
-  return directory_ / "failures" / text.substr(0, 2) / (text + ending);
+  return directory_ / on_shelf("failures", key, ending);
 }
 
 std::vector<ResultKey> ResultCache::list() const {
@@ -283,14 +196,14 @@ ResultDraft ResultCache::draft() const {
   }
   ResultDraft made{directory, std::move(*alive)};
   if (::faccessat(held.fd(), kCacheMarkerFile, F_OK, AT_SYMLINK_NOFOLLOW) != 0) {
-    write_file(directory / kCacheMarkerFile, kLayout);
+    write_file(directory / kCacheMarkerFile, kCacheLayout);
     move(directory / kCacheMarkerFile, held, kCacheMarkerFile);
   }
   return made;
 }
 
 namespace {
-/// Of a draft, which somebody may have taken away by now.
+/// Throws Error(kOutput) if somebody took the draft away.
 std::string hash_of_output(const fs::path& file) {
   try {
     return hex(sha256_of_file(file));
@@ -334,7 +247,7 @@ Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key,
 }
 
 Removal ResultCache::removal(Removal::Mode mode) const {
-  return Removal(directory_, ownership(), mode);
+  return Removal(directory_, cache_ownership(), mode);
 }
 
 void ResultCache::discard(const ResultKey& key) const {
@@ -348,8 +261,7 @@ void ResultCache::discard(const ResultKey& key) const {
 bool ResultCache::discard(const ResultKey& key, Removal& removal) const {
   const std::string name = new_draft_name();
   const auto alive = locks_.try_claim(number_of(name));
-  return removal.remove_at_once(fs::path("results") / key.text().substr(0, 2) / key.text(),
-                                fs::path("making") / name);
+  return removal.remove_at_once(on_shelf("results", key), fs::path("making") / name);
 }
 
 std::optional<ByteLocks::Claim> ResultCache::try_claim(const ResultKey& key) const {
@@ -426,7 +338,7 @@ void ResultCache::keep_content(const Content& content) const {
 }
 
 std::optional<Content> ResultCache::content(const std::string& sha256) const {
-  if (!is_key(sha256)) return std::nullopt;
+  if (Sha256Digest digest; !from_hex(sha256, digest)) return std::nullopt;
   try {
     return records::read_record<Content>(directory_ / "contents" / (sha256 + ".json"));
   } catch (const std::exception&) {
@@ -435,8 +347,7 @@ std::optional<Content> ResultCache::content(const std::string& sha256) const {
 }
 
 void ResultCache::forget_failure(const ResultKey& key, Removal& removal) const {
-  for (const char* ending : {".json", ".log"})
-    removal.remove(failure_file(key, ending).lexically_relative(directory_));
+  for (const char* ending : {".json", ".log"}) removal.remove(on_shelf("failures", key, ending));
 }
 
 /// `claim` gets its lock where that tells; to be held while it is removed.
@@ -457,11 +368,6 @@ Life ResultCache::life_of_draft(const std::string& name,
   return has_our_locks && (draft->maker.boot == self_.boot || lock_sharing().shared)
              ? Life::kDead
              : Life::kUnknown;
-}
-
-AbandonedDrafts ResultCache::remove_abandoned() const {
-  Removal removing = removal();
-  return remove_abandoned(removing);
 }
 
 AbandonedDrafts ResultCache::remove_abandoned(Removal& removal) const {

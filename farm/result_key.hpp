@@ -19,7 +19,7 @@ struct ResultKey {
   auto operator<=>(const ResultKey&) const = default;
 };
 
-/// Of the parts in their order; each counts with its length, so that no two lists make the same text.
+/// Hashes the parts in their order, each with its length, so that no two lists make the same text.
 inline ResultKey result_key(std::initializer_list<std::string_view> parts) {
   std::string text;
   for (const std::string_view part : parts) {
@@ -30,7 +30,7 @@ inline ResultKey result_key(std::initializer_list<std::string_view> parts) {
   return {sha256(text)};
 }
 
-/// What a key is as a part of another one.
+/// A key as a part of another one.
 inline std::string_view as_part(const ResultKey& key) {
   return {reinterpret_cast<const char*>(key.digest.data()), key.digest.size()};
 }

@@ -57,7 +57,19 @@ records::Farm read_farm_record(const fs::path& directory) {
   return records::read_record<records::Farm>(directory / "farm.json");
 }
 
-/// The number of the file's last change, for an order.
+template <class F>
+void in_parallel(std::size_t count, const OnProgress& on_progress, F f) {
+  std::mutex mutex;
+  std::size_t done = 0;
+  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    throw_if_interrupted();
+    f(i);
+    const std::scoped_lock lock(mutex);
+    if (on_progress) on_progress(++done, count);
+  });
+}
+
+/// The time of the last change, for an order.
 std::pair<std::int64_t, std::int64_t> changed(const fs::path& path) {
   struct stat status {};
   ::stat(path.c_str(), &status);
@@ -94,7 +106,7 @@ std::set<std::string> files_of_gallery(const fs::path& directory) {
   }
 }
 
-/// Of a farm's directory, whose record has been read.
+/// For a farm's directory with a record that can be read.
 Removal removal_from_farm(const fs::path& directory, bool dry_run) {
   return Removal(directory,
                  {[](const HeldDirectory& root) {
@@ -106,13 +118,21 @@ Removal removal_from_farm(const fs::path& directory, bool dry_run) {
                  dry_run ? Removal::Mode::kDryRun : Removal::Mode::kForReal);
 }
 
+/// Throws Error(kOutput) for anything else, such as a link.
+HeldDirectory there_or_missing(HeldDirectory directory) {
+  if (!directory && !directory.is_missing())
+    throw Error(ExitCode::kOutput,
+                fmt::format("{}: {}", directory.path().string(), directory.why_not()));
+  return directory;
+}
+
 std::vector<std::string> sentences(const std::vector<Removal::Kept>& kept) {
   std::vector<std::string> found;
   for (const auto& one : kept) found.push_back(fmt::format("{}: {}", one.path.string(), one.why));
   return found;
 }
 
-/// What a cell's record names and is not so.
+/// Differences between a cell's record and its files.
 struct CellFindings {
   std::vector<std::pair<std::string, std::string>> damaged;  ///< file and why
   std::set<ResultKey> missing;
@@ -167,9 +187,7 @@ CachePlace cache_of(const fs::path& path) {
   return {cache, is_cache(cache), true};
 }
 
-VerifyReport verify_cache(
-    const fs::path& directory, bool remove,
-    const std::function<void(std::size_t done, std::size_t all)>& on_progress) {
+VerifyReport verify_cache(const fs::path& directory, bool remove, const OnProgress& on_progress) {
   const ResultCache cache(directory, ResultCache::Opening::kLook);
   std::vector<ResultKey> keys = cache.list();
   std::sort(keys.begin(), keys.end());
@@ -177,9 +195,7 @@ VerifyReport verify_cache(
   report.results = keys.size();
   std::mutex mutex;
   std::map<ResultKey, std::string> damaged;
-  std::size_t done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
-    throw_if_interrupted();
+  in_parallel(keys.size(), on_progress, [&](std::size_t i) {
     std::string why;
     const auto record = cache.find(keys[i], ResultCache::Look::kThorough, why);
     if (record)
@@ -192,7 +208,6 @@ VerifyReport verify_cache(
       report.bytes += record->bytes();
     }
     if (!why.empty()) damaged[keys[i]] = title_of(keys[i], record) + ": " + why;
-    if (on_progress) on_progress(++done, keys.size());
   });
   for (const auto& [key, text] : damaged) {
     report.damaged.push_back(text);
@@ -201,9 +216,7 @@ VerifyReport verify_cache(
   return report;
 }
 
-VerifyReport verify_farm(
-    const fs::path& directory, bool remove,
-    const std::function<void(std::size_t done, std::size_t all)>& on_progress) {
+VerifyReport verify_farm(const fs::path& directory, bool remove, const OnProgress& on_progress) {
   const records::Farm farm = read_farm_record(directory);
   std::optional<FarmDirectoryLock> alone;
   if (remove) alone.emplace(directory, FarmDirectoryLock::Use::kAlone);
@@ -215,15 +228,10 @@ VerifyReport verify_farm(
     cache.emplace(place.cache, ResultCache::Opening::kLook);
   }
   const HeldDirectory cells =
-      HeldDirectory(directory).below("cells", HeldDirectory::Border::kCross);
-  if (!cells && !cells.is_missing())
-    throw Error(ExitCode::kOutput, fmt::format("{}: {}", cells.path().string(), cells.why_not()));
+      there_or_missing(HeldDirectory(directory).below("cells", HeldDirectory::Border::kCross));
   const auto& all = farm.cells;
   std::vector<CellFindings> findings(all.size());
-  std::mutex mutex;
-  std::size_t done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    throw_if_interrupted();
+  in_parallel(all.size(), on_progress, [&](std::size_t i) {
     const HeldDirectory cell = cells.below(all[i].id, HeldDirectory::Border::kCross);
     // One that was never finished has no record, and names nothing.
     struct stat ignored {};
@@ -231,8 +239,6 @@ VerifyReport verify_farm(
         cell && ::fstatat(cell.fd(), kRecordFile, &ignored, AT_SYMLINK_NOFOLLOW) == 0;
     if (has_record || all[i].status != "missing")
       findings[i] = look_at_cell(cell, cache ? &*cache : nullptr);
-    const std::scoped_lock lock(mutex);
-    if (on_progress) on_progress(++done, all.size());
   });
   Removal removal = removal_from_farm(directory, false);
   std::set<ResultKey> missing;
@@ -342,10 +348,7 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
     ++paths;
     if (options.on_removed) options.on_removed(path);
   });
-  const HeldDirectory cells = removal.directory("cells");
-  if (!cells && !cells.is_missing())
-    throw Error(ExitCode::kOutput, fmt::format("{}: {}", cells.path().string(), cells.why_not()));
-  std::size_t directories = 0;
+  const HeldDirectory cells = there_or_missing(removal.directory("cells"));
   const auto remove_parts = [&](const fs::path& where) {
     const HeldDirectory held = removal.directory(where);
     for (const std::string& name : held.names())
@@ -360,7 +363,7 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
       if (!is_part_name(name, pid)) removal.remove(cell / name);
     if (removal.remove(cell)) ++report.cells;
   }
-  directories = report.cells;
+  std::size_t directories = report.cells;
   remove_parts("");
   if (all && removal.remove("cells")) ++directories;
   if (all) removal.remove("farm.json");

@@ -25,26 +25,22 @@ struct VerifyReport {
   std::size_t results = 0, files = 0;
   std::uint64_t bytes = 0;
   std::vector<std::string> damaged;  ///< "KEY (render of n16): lobelia.exr has another content"
-  std::size_t missing = 0;  ///< results that a farm's cells name and its cache does not have
+  std::size_t missing = 0;           ///< results that a farm's cells name and its cache lacks
 };
 
-/// Reads every byte of every result again, compares it with its hash, and opens every picture and record, on all
-/// processors. With `remove` what is damaged is taken away, so that the next farm makes it again. Throws
-/// Error(kInterrupted).
-VerifyReport verify_cache(
-    const std::filesystem::path& cache, bool remove,
-    const std::function<void(std::size_t done, std::size_t all)>& on_progress);
-/// The cache of the farm in `directory`, if it is there, and besides every file under cells/, by the hashes in the cells'
-/// records. With `remove` files under cells/ go too, so that the next farm puts them there again; Error(kOutput)
-/// while a farm is at work.
+/// Compares every file of every result with its hash, and opens every picture and record. With `remove` damaged results
+/// go, and the next farm makes them again. Throws Error(kInterrupted).
+using OnProgress = std::function<void(std::size_t done, std::size_t all)>;
+VerifyReport verify_cache(const std::filesystem::path& cache, bool remove,
+                          const OnProgress& on_progress);
+/// Likewise the cache of a farm and every file under cells/, by the hashes in the cells' records. With `remove`, throws
+/// Error(kOutput) while a farm is at work.
 VerifyReport verify_farm(const std::filesystem::path& directory, bool remove,
-                         const std::function<void(std::size_t done, std::size_t all)>& on_progress);
+                         const OnProgress& on_progress);
 
-/// Of gc and clean.
 struct RemovalOptions {
-  bool dry_run = false;  ///< nothing is removed or written
-  /// Gets every path that goes, or would go.
-  std::function<void(const std::filesystem::path&)> on_removed;
+  bool dry_run = false;                                          ///< removes and writes nothing
+  std::function<void(const std::filesystem::path&)> on_removed;  ///< every path that (would) go
 };
 
 struct GcReport {
@@ -54,8 +50,8 @@ struct GcReport {
   std::vector<std::string> stays;  ///< "PATH: why it cannot be removed"
 };
 
-/// Takes away what killed farms left half-made, failures of results that are there, and the results that were not used
-/// for longest until the rest is at most `max_bytes`. Throws Error(kOutput) while a farm uses the cache.
+/// Removes what killed farms left half-made, failures of results that are there, and the least recently used results
+/// until the rest is at most `max_bytes`. Throws Error(kOutput) while a farm uses the cache.
 GcReport collect_garbage(const std::filesystem::path& cache, std::optional<std::uint64_t> max_bytes,
                          const RemovalOptions& options = {});
 
@@ -67,9 +63,8 @@ struct CleanReport {
   std::vector<std::string> stays;  ///< "PATH: why": what no farm and no gallery wrote
 };
 
-/// Takes away from a farm's directory the cells that are not of its grid and what killed farms left behind;
-/// with `all` every cell, and its record. The cache stays, and what is not ours. Throws Error(kInput) if it is no
-/// farm's directory, Error(kOutput) while a farm is at work there.
+/// Removes cells that are not of the farm's grid and what killed farms left; with `all` every cell and the record.
+/// Throws Error(kInput) if it is no farm's directory, Error(kOutput) while a farm is at work there.
 CleanReport clean_farm(const std::filesystem::path& directory, bool all,
                        const RemovalOptions& options = {});
 

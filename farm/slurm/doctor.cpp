@@ -97,6 +97,11 @@ class Doctor {
     return verdict != Verdict::kFailed;
   }
 
+  /// Advises where it is not ok.
+  void check(std::string name, bool ok, Verdict otherwise, std::string found, std::string advice) {
+    add(std::move(name), ok ? Verdict::kOk : otherwise, std::move(found), ok ? "" : advice);
+  }
+
   bool programs() {
     const auto absent = SlurmClient::absent_programs();
     if (absent.empty())
@@ -121,25 +126,21 @@ class Doctor {
       return;
     }
     const auto size = seconds_of(*config, "MaxArraySize");
-    if (size > 100)
-      add("MaxArraySize", Verdict::kOk,
-          fmt::format("{}: arrays of up to {} elements", size, std::min(size - 1, 1000LL)));
-    else if (size > 1)
-      add("MaxArraySize", Verdict::kWarning, fmt::format("{}: few and long elements", size),
-          "ask an administrator for 1001, Slurm's default");
-    else
-      add("MaxArraySize", Verdict::kFailed, fmt::format("{}: there are no job arrays", size),
+    check("MaxArraySize", size > 100, size > 1 ? Verdict::kWarning : Verdict::kFailed,
+          size > 100
+              ? fmt::format("{}: arrays of up to {} elements", size, std::min(size - 1, 1000LL))
+              : fmt::format("{}: {}", size,
+                            size > 1 ? "few and long elements" : "there are no job arrays"),
           "ask an administrator for 1001, Slurm's default");
     const auto kill_wait = seconds_of(*config, "KillWait");
-    add("KillWait", kill_wait >= 0 && kill_wait < 5 ? Verdict::kWarning : Verdict::kOk,
-        fmt::format("{} s between TERM and KILL", kill_wait),
-        kill_wait >= 0 && kill_wait < 5 ? "an element that is cancelled may leave a temporary file"
-                                        : "");
+    check("KillWait", kill_wait < 0 || kill_wait >= 5, Verdict::kWarning,
+          fmt::format("{} s between TERM and KILL", kill_wait),
+          "an element that is cancelled may leave a temporary file");
     const auto timeout = seconds_of(*config, "SlurmdTimeout");
-    add("SlurmdTimeout", timeout == 0 ? Verdict::kWarning : Verdict::kOk,
-        timeout == 0 ? std::string("0: a lost node is never noticed")
-                     : fmt::format("{} s until a lost node's elements go elsewhere", timeout),
-        timeout == 0 ? "ask an administrator for 300, Slurm's default" : "");
+    check("SlurmdTimeout", timeout != 0, Verdict::kWarning,
+          timeout == 0 ? "0: a lost node is never noticed"
+                       : fmt::format("{} s until a lost node's elements go elsewhere", timeout),
+          "ask an administrator for 300, Slurm's default");
   }
 
   bool partition() {
@@ -163,8 +164,6 @@ class Doctor {
       return add("partition", Verdict::kFailed, found, "'sinfo -R' says why; ask an administrator");
     return add("partition", Verdict::kOk, found);
   }
-
-  // ---- a job on a node
 
   void node() {
     const fs::path base = fs::absolute(options_.directory).lexically_normal();
@@ -255,23 +254,22 @@ class Doctor {
     const auto shown = [](const std::string& text) { return printable(text, 300); };
     add("a job", Verdict::kOk, fmt::format("it ran on {}", shown(answer.host)));
     const bool same = answer.token == token;
-    add("directory on a node", same ? Verdict::kOk : Verdict::kFailed,
-        same ? "what one writes the other reads" : "the node reads another file of the same name",
-        same ? "" : "results have to be on a file system that the nodes share");
-    const bool version = answer.version == kNameAndVersion;
-    add("program on a node", version ? Verdict::kOk : Verdict::kFailed,
-        fmt::format("{} there, {} here", shown(answer.version), kNameAndVersion),
-        version ? "" : "let both be the same file, or build it the same on all");
-    const auto check = [&](const char* name, const std::string& problem, Verdict verdict,
-                           const char* advice) {
-      add(name, problem.empty() ? Verdict::kOk : verdict,
-          problem.empty() ? "they work" : shown(problem), problem.empty() ? "" : advice);
+    check("directory on a node", same, Verdict::kFailed,
+          same ? "what one writes the other reads" : "the node reads another file of the same name",
+          "results have to be on a file system that the nodes share");
+    check("program on a node", answer.version == kNameAndVersion, Verdict::kFailed,
+          fmt::format("{} there, {} here", shown(answer.version), kNameAndVersion),
+          "let both be the same file, or build it the same on all");
+    const auto try_on_node = [&](const char* name, const std::string& problem, Verdict otherwise,
+                                 const char* advice) {
+      check(name, problem.empty(), otherwise, problem.empty() ? "they work" : shown(problem),
+            advice);
     };
-    check("renaming on a node", answer.rename, Verdict::kFailed,
-          "take another file system for the results");
-    check("hard links on a node", answer.link, Verdict::kFailed,
-          "take another file system for the results");
-    check(
+    try_on_node("renaming on a node", answer.rename, Verdict::kFailed,
+                "take another file system for the results");
+    try_on_node("hard links on a node", answer.link, Verdict::kFailed,
+                "take another file system for the results");
+    try_on_node(
         "locks across machines", answer.lock, Verdict::kWarning,
         "start one client for a directory at a time, or have lockd (NFS) or -o flock (Lustre) turned on");
   }

@@ -24,14 +24,12 @@ struct DoctorOptions {
   std::filesystem::path directory;  ///< where results would be put; made if it is not there
   std::filesystem::path program;    ///< run on the node as `PROGRAM farm doctor-on-node DIR`
   std::chrono::duration<double> call_limit = std::chrono::seconds(15);
-  std::chrono::duration<double> node_limit =
-      std::chrono::minutes(2);  ///< for the element, queue included
+  std::chrono::duration<double> node_limit = std::chrono::minutes(2);  ///< queue included
   std::chrono::duration<double> poll = std::chrono::seconds(1);
 };
 
-/// Asks Slurm, then lets a one-element job look at `directory` from a node. What cannot be asked because something
-/// before it failed is left out. Takes as long as the queue does, `node_limit` at most; then the job is cancelled.
-/// Throws Error(kOutput) if the directory cannot be written, kInterrupted.
+/// Asks Slurm, then lets a one-element job look at `directory` from a node; leaves out what cannot be asked after a
+/// failure. Throws Error(kOutput) if the directory cannot be written, kInterrupted.
 std::vector<DoctorCheck> doctor(const DoctorOptions& options);
 
 /// The job's side, in a directory that doctor() made: writes what it finds to DIR/node.json.

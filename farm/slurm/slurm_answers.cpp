@@ -65,7 +65,7 @@ bool is_message(std::string_view line) {
 
 /// Exactly `count` fields between bars; the last but `tail` may hold bars itself.
 std::optional<std::vector<std::string_view>> fields(std::string_view line, std::size_t count,
-                                                    std::size_t tail = 0) {
+                                                    std::size_t tail) {
   std::vector<std::string_view> result;
   while (result.size() + 1 + tail < count) {
     const auto bar = line.find('|');
@@ -83,6 +83,28 @@ std::optional<std::vector<std::string_view>> fields(std::string_view line, std::
   result.push_back(line);
   result.insert(result.end(), last.rbegin(), last.rend());
   return result;
+}
+
+using Fields = std::vector<std::string_view>;
+
+/// A T of each line that is no message; `fill` says whether it understands the fields.
+template <class T, class Fill>
+std::optional<std::vector<T>> parse_lines(std::span<const std::string> lines, std::size_t count,
+                                          std::size_t tail, Fill fill) {
+  std::vector<T> result;
+  for (const std::string& line : lines) {
+    if (is_message(line)) continue;
+    const auto field = fields(line, count, tail);
+    if (!field || !fill(*field, result.emplace_back())) return {};
+  }
+  return result;
+}
+
+/// "main*": the default one is marked.
+std::string partition_name(std::string_view field, bool& is_default) {
+  is_default = field.ends_with('*');
+  if (is_default) field.remove_suffix(1);
+  return printable(field);
 }
 
 /// "3", "3-9", "1-9:2"
@@ -175,89 +197,70 @@ std::optional<SlurmJobId> parse_submission(std::span<const std::string> lines) {
 }
 
 std::optional<std::vector<SlurmElement>> parse_elements(std::span<const std::string> lines) {
-  std::vector<SlurmElement> result;
-  for (const std::string& line : lines) {
-    if (is_message(line)) continue;
-    const auto field = fields(line, 4, 1);
-    if (!field) return {};
-    const auto count = count_of_array_tasks((*field)[0]);
-    if (!count || !is_state_name((*field)[1])) return {};
-    result.push_back({state_of((*field)[1]), *count, std::string((*field)[1]),
-                      printable((*field)[2], 200), printable((*field)[3]), digits((*field)[0])});
-  }
-  return result;
+  return parse_lines<SlurmElement>(lines, 4, 1, [](const Fields& field, SlurmElement& element) {
+    const auto count = count_of_array_tasks(field[0]);
+    if (!count || !is_state_name(field[1])) return false;
+    element = {state_of(field[1]),    *count,
+               std::string(field[1]), printable(field[2], 200),
+               printable(field[3]),   digits(field[0])};
+    return true;
+  });
 }
 
 std::optional<std::vector<SlurmLivingJob>> parse_living_jobs(std::span<const std::string> lines) {
+  const auto all =
+      parse_lines<SlurmLivingJob>(lines, 3, 0, [](const Fields& field, SlurmLivingJob& job) {
+        const auto id = job_id(field[0]);
+        if (!id || !is_state_name(field[1])) return false;
+        job = {*id, std::string(field[1]), printable(field[2], 200)};
+        return true;
+      });
+  if (!all) return {};
   std::map<SlurmJobId, SlurmLivingJob> jobs;
-  for (const std::string& line : lines) {
-    if (is_message(line)) continue;
-    const auto field = fields(line, 3);
-    if (!field) return {};
-    const auto id = job_id((*field)[0]);
-    if (!id || !is_state_name((*field)[1])) return {};
-    if (state_of((*field)[1]) == SlurmElement::State::kEnded) continue;
-    jobs[*id] = {*id, std::string((*field)[1]), printable((*field)[2], 200)};
-  }
+  for (const SlurmLivingJob& job : *all)
+    if (state_of(job.state_name) != SlurmElement::State::kEnded) jobs[job.id] = job;
   std::vector<SlurmLivingJob> result;
   for (auto& [id, job] : jobs) result.push_back(std::move(job));
   return result;
 }
 
 std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> lines) {
-  std::vector<SlurmNodes> result;
-  for (const std::string& line : lines) {
-    if (is_message(line)) continue;
-    const auto field = fields(line, 5);
-    if (!field) return {};
-    SlurmNodes nodes;
-    std::string_view name = (*field)[0], state = (*field)[2];
-    nodes.is_default = name.ends_with('*');
-    if (nodes.is_default) name.remove_suffix(1);
-    nodes.partition = printable(name);
-    nodes.up = (*field)[1] == "up";
-    nodes.state = printable(state);
-    nodes.usable = is_usable(state);
-    const auto count = digits((*field)[3]);
+  return parse_lines<SlurmNodes>(lines, 5, 0, [](const Fields& field, SlurmNodes& nodes) {
+    nodes.partition = partition_name(field[0], nodes.is_default);
+    nodes.up = field[1] == "up";
+    nodes.state = printable(field[2]);
+    nodes.usable = is_usable(field[2]);
     std::array<std::size_t, 4> processors{};  // allocated, idle, other, total
-    std::string_view rest = (*field)[4];
+    std::string_view rest = field[4];
     for (std::size_t i = 0; i < 4; ++i) {
       const auto slash = rest.find('/');
       const auto value = digits(rest.substr(0, slash));
-      if (!value || (slash == rest.npos) != (i == 3)) return {};
+      if (!value || (slash == rest.npos) != (i == 3)) return false;
       processors[i] = *value;
       rest.remove_prefix(slash == rest.npos ? rest.size() : slash + 1);
     }
-    if (!count || nodes.partition.empty() || state.empty()) return {};
+    const auto count = digits(field[3]);
+    if (!count || nodes.partition.empty() || field[2].empty()) return false;
     nodes.nodes = *count;
     nodes.processors = std::min(processors[0], kMostTasks) + std::min(processors[1], kMostTasks);
-    result.push_back(std::move(nodes));
-  }
-  return result;
+    return true;
+  });
 }
 
 std::optional<std::vector<SlurmNode>> parse_node_list(std::span<const std::string> lines) {
-  std::vector<SlurmNode> result;
-  for (const std::string& line : lines) {
-    if (is_message(line)) continue;
-    const auto field = fields(line, 5);
-    if (!field) return {};
-    SlurmNode node;
-    std::string_view partition = (*field)[1], memory = (*field)[4];
-    node.is_default = partition.ends_with('*');
-    if (node.is_default) partition.remove_suffix(1);
+  return parse_lines<SlurmNode>(lines, 5, 0, [](const Fields& field, SlurmNode& node) {
+    std::string_view memory = field[4];
     if (memory.ends_with('+')) memory.remove_suffix(1);
     const auto mebibytes = digits(memory);
-    if (!is_node_name((*field)[0]) || partition.empty() || (*field)[3].empty() || !mebibytes)
-      return {};
-    node.name = (*field)[0];
-    node.partition = printable(partition);
-    node.state = printable((*field)[3]);
-    node.usable = (*field)[2] == "up" && is_usable((*field)[3]);
+    node.partition = partition_name(field[1], node.is_default);
+    if (!is_node_name(field[0]) || node.partition.empty() || field[3].empty() || !mebibytes)
+      return false;
+    node.name = field[0];
+    node.state = printable(field[3]);
+    node.usable = field[2] == "up" && is_usable(field[3]);
     node.mebibytes = (long long)std::min<std::size_t>(*mebibytes, 1'000'000'000);
-    result.push_back(std::move(node));
-  }
-  return result;
+    return true;
+  });
 }
 
 std::optional<SlurmPartition> parse_partition(std::span<const std::string> lines) {

@@ -1,5 +1,5 @@
-// What Slurm's programs print, read strictly: an answer is understood whole, or not at all.
-// Formats: the manual pages of sbatch, squeue, sinfo and scontrol, Slurm 22.05.
+// Reads what Slurm's programs print: an answer is understood whole, or not at all. Formats: the manual pages of
+// sbatch, squeue, sinfo and scontrol, Slurm 22.05.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,13 @@ using SlurmJobId = std::uint32_t;  ///< never 0
 struct SlurmElement {
   enum class State { kPending, kRunning, kEnded };  ///< running: whatever is neither of the others
   State state = State::kPending;
-  std::size_t count =
-      1;  ///< elements that the line stands for, or as many as it shows ("1_[3-9,...]")
+  std::size_t count = 1;   ///< elements that the line stands for, or shows ("1_[3-9,...]")
   std::string state_name;  ///< as printed: "RUNNING"
   std::string reason;      ///< why it waits, or how it ended
   std::string nodes;
-  std::optional<std::size_t> task = {};  ///< its place in the array, of a line for one element
+  std::optional<std::size_t> task = {};  ///< place in the array, if the line is of one element
 };
 
-/// The ways in which an element ends, as far as what follows differs.
 enum class SlurmEnding {
   kWell,
   kFailed,     ///< its own exit code or signal, or it could not be started
@@ -35,15 +33,15 @@ enum class SlurmEnding {
   kNode,       ///< the node was lost, or did not come up
   kPreempted,  ///< it made room for others, or another cluster took it
   kDeadline,   ///< --deadline
-  kCancelled,  ///< by whoever
+  kCancelled,
 };
 
-/// Of an element that has ended, by its state. Slurm calls it FAILED, too, where its own accounting ended an element
-/// for its memory (OverMemoryKill); only the element's log tells.
+/// By an element's state. It is FAILED also where Slurm's accounting ended it for its memory (OverMemoryKill); only the
+/// log tells.
 SlurmEnding end_of(const SlurmElement& element);
-/// In words: "time limit reached". Empty where the state's own name says it.
+/// "time limit reached". Empty where the state's own name says it.
 std::string_view words_for(SlurmEnding end);
-/// Whether a line of an element's log is slurmstepd's that the element used more memory than it had asked for.
+/// Whether slurmstepd says in this line of a log that the element used too much memory.
 bool tells_of_memory(std::string_view line);
 
 /// A job that lives, by `squeue -o '%F|%T|%k'`.
@@ -70,40 +68,36 @@ struct SlurmNode {
   long long mebibytes = 0;  ///< of memory
 };
 
-/// Limits of a partition, by `scontrol -o show partition NAME`; nothing where there is none.
+/// Limits of a partition, by `scontrol -o show partition NAME`; empty where there is none.
 struct SlurmPartition {
   std::optional<long long> most_seconds, most_mebibytes;
 };
 
-/// Whether it can be the name of one node: letters, digits, "-", "_" and ".", with a letter or digit first.
+/// Letters, digits, "-", "_" and ".", with a letter or digit first.
 bool is_node_name(std::string_view text);
 
-/// How many elements "7", "3-9", "[1,3-9:2%4]" or "N/A" stand for; nothing if it is none of them.
+/// Elements that "7", "3-9", "[1,3-9:2%4]" or "N/A" stand for; empty if it is none of them.
 std::optional<std::size_t> count_of_array_tasks(std::string_view text);
 
-/// Of `sbatch --parsable`: "12" or "12;cluster", among lines of warnings.
+/// Reads `sbatch --parsable`: "12" or "12;cluster", among lines of warnings.
 std::optional<SlurmJobId> parse_submission(std::span<const std::string> lines);
 
-/// Of `squeue -h -r -o '%K|%T|%r|%N'`. Lines that begin with "squeue: " are its warnings.
+/// Reads `squeue -h -r -o '%K|%T|%r|%N'`. Lines that begin with "squeue: " are its warnings.
 std::optional<std::vector<SlurmElement>> parse_elements(std::span<const std::string> lines);
-
 /// Each job once, whatever number of lines its array has.
 std::optional<std::vector<SlurmLivingJob>> parse_living_jobs(std::span<const std::string> lines);
 
 std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> lines);
-
 std::optional<std::vector<SlurmNode>> parse_node_list(std::span<const std::string> lines);
-
 std::optional<SlurmPartition> parse_partition(std::span<const std::string> lines);
 
 /// "Key = value" of `scontrol show config`, at least one.
 std::optional<std::map<std::string, std::string>> parse_config(std::span<const std::string> lines);
 
-/// Whether a pending element never starts without somebody's doing, by its state or by its reason: it is held, or
-/// refused.
+/// Whether a pending element is held or refused, so that it never starts until somebody does something.
 bool waits_for_somebody(const SlurmElement& element);
-/// Reasons that name nodes tell nothing: "ReqNodeNotAvail, UnavailableNodes:n2" is said while one of many nodes
-/// is down and the job only waits for its turn on another.
+/// Reasons that name nodes do not tell: "ReqNodeNotAvail, UnavailableNodes:n2" also stands where the job waits for
+/// another node.
 bool waits_for_somebody(std::string_view reason);
 
 }  // namespace lobelia

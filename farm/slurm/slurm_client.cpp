@@ -101,12 +101,8 @@ SlurmSubmission SlurmClient::submit(const std::vector<std::string>& arguments,
   const Output output = run(command);
   SlurmSubmission result;
   if (output.why.empty()) {
-    result.job = parse_submission(output.lines);
-    result.unclear = !result.job;
-    if (!result.job)
-      result.why = fmt::format("sbatch's answer is not understood: '{}'",
-                               printable(output.lines.empty() ? "" : output.lines.front()));
-    return result;
+    const auto job = understood(parse_submission(output.lines), "sbatch", output.lines);
+    return {job.value, job.why, !job};
   }
   result.why = output.why;
   result.unclear = !output.in_time;
@@ -116,19 +112,25 @@ SlurmSubmission SlurmClient::submit(const std::vector<std::string>& arguments,
   return result;
 }
 
+template <class T>
+SlurmAnswer<T> SlurmClient::ask(const std::vector<std::string>& arguments,
+                                std::optional<T> (*parse)(std::span<const std::string>)) const {
+  const Output output = run(arguments);
+  if (!output.why.empty()) return {{}, output.why};
+  return understood(parse(output.lines), arguments.front(), output.lines);
+}
+
 SlurmAnswer<std::vector<SlurmElement>> SlurmClient::elements(SlurmJobId job,
                                                              const std::string& name) const {
-  const Output output = run({"squeue", "-h", "-r", "-t", "all", "-j", std::to_string(job),
-                             "--name=" + name, "-o", "%K|%T|%r|%N"});
-  if (output.why.empty()) return understood(parse_elements(output.lines), "squeue", output.lines);
-  if (contains(output.why, "Invalid job id")) return {std::vector<SlurmElement>(), ""};
-  return {{}, output.why};
+  auto found = ask({"squeue", "-h", "-r", "-t", "all", "-j", std::to_string(job), "--name=" + name,
+                    "-o", "%K|%T|%r|%N"},
+                   parse_elements);
+  if (contains(found.why, "Invalid job id")) return {std::vector<SlurmElement>(), ""};
+  return found;
 }
 
 SlurmAnswer<std::vector<SlurmLivingJob>> SlurmClient::living_jobs(const std::string& name) const {
-  const Output output = run({"squeue", "-h", "--me", "--name=" + name, "-o", "%F|%T|%k"});
-  if (!output.why.empty()) return {{}, output.why};
-  return understood(parse_living_jobs(output.lines), "squeue", output.lines);
+  return ask({"squeue", "-h", "--me", "--name=" + name, "-o", "%F|%T|%k"}, parse_living_jobs);
 }
 
 std::string SlurmClient::cancel(const std::string& name) const {
@@ -144,40 +146,31 @@ std::string SlurmClient::ping() const {
 }
 
 SlurmAnswer<std::map<std::string, std::string>> SlurmClient::config() const {
-  const Output output = run({"scontrol", "show", "config"});
-  if (!output.why.empty()) return {{}, output.why};
-  return understood(parse_config(output.lines), "scontrol", output.lines);
+  return ask({"scontrol", "show", "config"}, parse_config);
 }
 
 SlurmAnswer<std::vector<SlurmNodes>> SlurmClient::nodes(const std::string& partition) const {
-  const Output output = run({"sinfo", "-h", "-o", "%P|%a|%t|%D|%C"});
-  if (!output.why.empty()) return {{}, output.why};
-  auto all = parse_nodes(output.lines);
+  auto all = ask({"sinfo", "-h", "-o", "%P|%a|%t|%D|%C"}, parse_nodes);
   if (all)
-    std::erase_if(*all, [&](const SlurmNodes& nodes) {
+    std::erase_if(*all.value, [&](const SlurmNodes& nodes) {
       return partition.empty() ? !nodes.is_default : nodes.partition != partition;
     });
-  return understood(std::move(all), "sinfo", output.lines);
+  return all;
 }
 
 SlurmAnswer<std::vector<SlurmNode>> SlurmClient::node_list(const std::string& partition) const {
-  const Output output = run({"sinfo", "-h", "-N", "-o", "%N|%P|%a|%t|%m"});
-  if (!output.why.empty()) return {{}, output.why};
-  auto all = parse_node_list(output.lines);
+  auto all = ask({"sinfo", "-h", "-N", "-o", "%N|%P|%a|%t|%m"}, parse_node_list);
   const auto wanted = split(partition, ",");
   if (all)
-    std::erase_if(*all, [&](const SlurmNode& node) {
-      return wanted.empty()
-                 ? !node.is_default
-                 : std::find(wanted.begin(), wanted.end(), node.partition) == wanted.end();
+    std::erase_if(*all.value, [&](const SlurmNode& node) {
+      return wanted.empty() ? !node.is_default
+                            : std::ranges::find(wanted, node.partition) == wanted.end();
     });
-  return understood(std::move(all), "sinfo", output.lines);
+  return all;
 }
 
 SlurmAnswer<SlurmPartition> SlurmClient::partition(const std::string& name) const {
-  const Output output = run({"scontrol", "-o", "show", "partition", name});
-  if (!output.why.empty()) return {{}, output.why};
-  return understood(parse_partition(output.lines), "scontrol", output.lines);
+  return ask({"scontrol", "-o", "show", "partition", name}, parse_partition);
 }
 
 }  // namespace lobelia

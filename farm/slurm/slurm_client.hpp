@@ -18,7 +18,7 @@ struct SlurmSubmission {
   bool unclear = false;  ///< no word of the controller's: it may have been taken nevertheless
 };
 
-/// What could be asked, or why there was no answer.
+/// An answer, or why there is none.
 template <class T>
 struct SlurmAnswer {
   std::optional<T> value;
@@ -30,17 +30,16 @@ struct SlurmAnswer {
 
 class SlurmClient {
  public:
-  /// `time_limit` is that of each call. Nothing is started or looked for yet.
+  /// `time_limit` is that of each call.
   explicit SlurmClient(std::chrono::duration<double> time_limit = std::chrono::seconds(15));
 
-  /// Of the five that are used, those that are not in $PATH.
+  /// Programs of Slurm that are needed and not in $PATH.
   static std::vector<std::string> absent_programs();
 
   /// sbatch with `arguments` and a script. Not cut in two by an interruption.
   SlurmSubmission submit(const std::vector<std::string>& arguments,
                          const std::filesystem::path& script) const;
-  /// Every element of the job that Slurm still knows, ended ones too; none if it knows no such job of that
-  /// name (an id may be given away again).
+  /// Every element that Slurm still knows, ended ones too; none if the job of that id has another name by now.
   SlurmAnswer<std::vector<SlurmElement>> elements(SlurmJobId job, const std::string& name) const;
   /// The user's own jobs of that name that have not ended.
   SlurmAnswer<std::vector<SlurmLivingJob>> living_jobs(const std::string& name) const;
@@ -49,7 +48,7 @@ class SlurmClient {
   /// Empty, or why the controller does not answer.
   std::string ping() const;
   SlurmAnswer<std::map<std::string, std::string>> config() const;
-  /// Of `partition`, or of the default one if empty.
+  /// The nodes of `partition`, or of the default one if empty.
   SlurmAnswer<std::vector<SlurmNodes>> nodes(const std::string& partition) const;
   /// The same one by one; `partition` may also name several, with commas between them.
   SlurmAnswer<std::vector<SlurmNode>> node_list(const std::string& partition) const;
@@ -62,6 +61,9 @@ class SlurmClient {
     bool in_time = true;
   };
   Output run(std::vector<std::string> arguments) const;
+  template <class T>
+  SlurmAnswer<T> ask(const std::vector<std::string>& arguments,
+                     std::optional<T> (*parse)(std::span<const std::string>)) const;
 
   std::chrono::duration<double> time_limit_;
 };

@@ -23,7 +23,7 @@ fs::path chunk_file(const fs::path& run_directory, std::size_t number) {
   return run_directory / "chunks" / fmt::format("{}.json", number);
 }
 
-/// What may still be done for a session's cells: no result, no failure that this run kept.
+/// The jobs of a session that can still be done: without a result, and without a failure that this run kept.
 class Missing {
  public:
   explicit Missing(FarmSession& session) : session_(session) {}
@@ -42,7 +42,7 @@ class Missing {
       if (std::ranges::find(states, JobState::kWaiting) == states.end()) continue;
       const Scene scene = session_.work().cells.scene(cell);
       for (const JobIndex job : graph.jobs(cell)) {
-        if (states[job - graph.render(cell)] != JobState::kWaiting) continue;
+        if (states[graph.place(job)] != JobState::kWaiting) continue;
         const Job& one = graph[job];
         const std::string whose = graph.whose(job);
         missing.push_back(
@@ -70,7 +70,7 @@ class Missing {
     }
   }
 
-  /// Of the results that were missing at the start, those that are there now.
+  /// The results that were missing at the start and are there now.
   JobRunWork made() const {
     JobGraph& graph = session_.work().graph;
     JobRunWork work;
@@ -79,7 +79,7 @@ class Missing {
           cell_states(graph, &session_.cache(), {.look = ResultCache::Look::kName}, cell).states;
       for (const JobIndex job : graph.jobs(cell)) {
         if (session_.states()[job] != JobState::kWaiting ||
-            now[job - graph.render(cell)] != JobState::kDone)
+            now[graph.place(job)] != JobState::kDone)
           continue;
         ++work.made;
         if (is_picture(graph[job].kind)) ++work.pictures;
@@ -192,8 +192,7 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   work.give_up = [&](std::span<const std::size_t> places, const std::string& why) {
     missing.give_up(places, why);
   };
-  SlurmFarmSummary summary;
-  summary.gallery = options.gallery;
+  SlurmFarmSummary summary{{}, {}, directory, options.gallery};
   try {
     summary.slurm = run_on_slurm(work, slurm);
   } catch (...) {
@@ -219,13 +218,13 @@ ChunkSummary exec_slurm_chunk(const fs::path& run_directory, std::size_t number)
   return summary;
 }
 
-SlurmEnd finish_slurm_run(const fs::path& run_directory) {
+SlurmFarmSummary finish_slurm_run(const fs::path& run_directory) {
   RecordedRun run = read_run(run_directory);
   run.options.engines_as_recorded = true;
   const Grid grid = read_grid(run.grid_file);
   FarmSession session(grid, run.directory, run.options);
   session.show_what_is_there();
-  return {session.summarise({}), run.directory, run.options.gallery};
+  return {session.summarise({}), {}, run.directory, run.options.gallery};
 }
 
 SlurmFarmSummary attach_to_slurm_run(const fs::path& directory, const SlurmRunOptions& slurm) {

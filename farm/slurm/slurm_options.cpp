@@ -13,7 +13,7 @@ namespace lobelia {
 namespace {
 
 /// A run depends on them: what it waits for, where its logs are, how it is found again.
-constexpr std::array<std::string_view, 20> kOurs = {
+constexpr std::array<std::string_view, 20> kSetByTheRun = {
     "--array",      "--job-name",   "--comment",   "--output",      "--error",
     "--dependency", "--parsable",   "--wrap",      "--wait",        "--chdir",
     "--requeue",    "--no-requeue", "--open-mode", "--test-only",   "--kill-on-invalid-dep",
@@ -72,7 +72,7 @@ std::vector<std::string> sbatch_arguments(const SlurmOptions& options) {
                   fmt::format("sbatch option '{}' does not begin with --", printable(option)));
     // sbatch takes an option by its beginning too: "--arr=0-9".
     const std::string_view name = std::string_view(option).substr(0, option.find('='));
-    for (const auto ours : kOurs)
+    for (const auto ours : kSetByTheRun)
       if (ours == name || (name.size() > 4 && ours.starts_with(name)))
         throw Error(ExitCode::kUsage, fmt::format("sbatch option '{}': {} is set by the run itself",
                                                   printable(option), ours));

@@ -1,4 +1,4 @@
-// What a user may ask of Slurm for the elements of a run.
+// A user's options of Slurm for the elements of a run.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,11 @@ struct SlurmOptions {
   std::vector<std::string> raw;  ///< further options of sbatch, "--name" or "--name=value"
 };
 
-/// What an element asks for whose jobs may use so many bytes each, one on each processor, and this program 512 MiB besides:
-/// "4608M".
+/// An element's memory: so many bytes for the job of each processor, and 512 MiB for this program; "4608M".
 std::string memory_of_element(std::uint64_t job_bytes, int processors);
 
-/// Arguments of sbatch. Throws Error(kUsage) on a value that holds control characters or is out of range, and on
-/// a raw option that does not begin with "--" or is one of those that a run sets itself.
+/// Throws Error(kUsage) on a value with control characters or out of range, and on a raw option that does not begin with
+/// "--" or that a run sets itself.
 std::vector<std::string> sbatch_arguments(const SlurmOptions& options);
 
 }  // namespace lobelia

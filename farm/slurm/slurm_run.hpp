@@ -1,8 +1,5 @@
-// A run on a Slurm cluster: what is missing goes out as arrays of elements, and what they make is looked for
-// where they put it. Done is what is no longer missing; what Slurm says is a hint.
-//
-// An element runs at least once, sometimes twice, now and then twice at the same time: jobs have to publish
-// their results so that this does no harm.
+// A run on a Slurm cluster: missing jobs go out as arrays of elements. A job is done when its result is there; Slurm's
+// answers are hints. An element may run twice, also at the same time: publishing has to allow for that.
 #pragma once
 
 #include <chrono>
@@ -19,19 +16,17 @@
 
 namespace lobelia {
 
-/// What a run is of.
 struct SlurmWork {
-  /// The run's own, and the same for the same work, so that another client finds the run again. Holds slurm.json
-  /// (which jobs there are), log/ (one for each element) and submit/ (scripts). On a file system that the nodes share.
+  /// The same for the same work, so that another client finds the run again. Holds slurm.json (its jobs), log/ and
+  /// submit/ (scripts). On a file system that the nodes share.
   std::filesystem::path run_directory;
   /// Runs as `PROGRAM farm exec-chunk RUN_DIR NUMBER` for an element and `PROGRAM farm finish RUN_DIR` at the end.
   std::filesystem::path program;
   /// Jobs without a result that are still to be tried. Called before each round; empty ends the run.
   std::function<std::vector<SlurmJob>()> missing;
-  /// Writes what element NUMBER is to do: positions in the last answer of missing(). A number is never used twice
-  /// in a run directory.
+  /// Writes the jobs of element NUMBER: positions in the last answer of missing(). No number is used twice.
   std::function<void(std::size_t number, std::span<const std::size_t> jobs)> write_chunk;
-  /// No node is left for these positions in the last answer of missing(), which names them no more from now on.
+  /// No node is left for these positions; missing() names them no more from now on.
   std::function<void(std::span<const std::size_t> jobs, const std::string& why)> give_up;
 };
 
@@ -47,12 +42,11 @@ struct SlurmRunOptions {
   int rounds = 3;       ///< times that missing jobs are submitted
   bool finish = true;   ///< a last element that runs `farm finish`
   bool detach = false;  ///< returns after submission; an interruption cancels nothing
-  std::chrono::duration<double> call_limit =
-      std::chrono::seconds(15);  ///< of each of Slurm's programs
+  std::chrono::duration<double> call_limit = std::chrono::seconds(15);  ///< of Slurm's programs
   std::chrono::duration<double> first_poll = std::chrono::seconds(1);
   std::chrono::duration<double> last_poll = std::chrono::seconds(15);
   std::chrono::duration<double> stall = std::chrono::seconds(60);
-  /// How long a network file system may take to show what a node wrote, before it counts as missing.
+  /// Time for a network file system to show what a node wrote, before it counts as missing.
   std::chrono::duration<double> settle = std::chrono::seconds(10);
   /// Asked on Ctrl-C: true cancels, false leaves the jobs running. Not set: cancels.
   std::function<bool()> cancel_on_interrupt;
@@ -69,18 +63,16 @@ struct SlurmOutcome {
   std::vector<std::string> given_up;  ///< names of those that no node is left for; not in `missing`
 };
 
-/// Runs until nothing is missing or the rounds are used up. Elements that reached their time limit, or used more
-/// memory than they had asked for, get twice as much in the next round. Nodes that handed work back
-/// (farm/chunk_report.hpp) get no more of it. Where somebody cancelled elements nothing more is submitted. Throws Error: kUsage (an option), kOutput (another
-/// client has the run, or the directory cannot be written), kEngine (Slurm is not there, refuses, or the jobs stall:
-/// the message says what to type), kInterrupted.
+/// Runs until nothing is missing or the rounds are used up. Elements that ran out of time or memory get twice as much in
+/// the next round. Nodes that handed work back (farm/chunk_report.hpp) get no more of it. If somebody cancelled elements
+/// nothing more is submitted. Throws Error: kUsage (an option), kOutput (another client has the run, or the directory
+/// cannot be written), kEngine (Slurm is absent or refuses, or the jobs stall), kInterrupted.
 SlurmOutcome run_on_slurm(const SlurmWork& work, const SlurmRunOptions& options);
 
-/// The question for cancel_on_interrupt, on the terminal: "c" cancels, "d" leaves the jobs running; the end of
-/// input cancels. Only where stdin and stderr are terminals.
+/// For cancel_on_interrupt: asks on the terminal. Without one, and at the end of input, true.
 bool ask_whether_to_cancel();
 
-/// What slurm.json and Slurm say of a run, from anywhere and without disturbing its client.
+/// A run as slurm.json and Slurm show it, without disturbing its client.
 struct SlurmStatus {
   std::string name;  ///< of its jobs; empty: never submitted
   int round = 0;

@@ -1,0 +1,258 @@
+#include "farm/job_maker.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <ctime>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/process_memory.hpp"
+#include "core/text.hpp"
+#include "reference_scenes/engine_program.hpp"
+#include "reference_scenes/keep_input.hpp"
+#include "reference_scenes/replicates.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double thread_cpu_seconds() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
+
+const records::Host& host_of_result() {
+  static const records::Host host = records::this_node();
+  return host;
+}
+
+/// An input was done and is no longer in the cache: no failure of the job.
+class LostInput : public Error {
+ public:
+  explicit LostInput(const std::string& name)
+      : Error(ExitCode::kOutput, name + ": its result is no longer in the cache") {}
+};
+
+void replace_all(std::string& text, std::string_view what, std::string_view by) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+    text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+JobMaker::Claim::~Claim() {
+  lock_.reset();
+  const std::scoped_lock guard(maker_.mutex_);
+  maker_.claimed_.erase(key_);
+}
+
+std::unique_ptr<JobMaker::Claim> JobMaker::claim(JobIndex job) {
+  const ResultKey& key = graph_[job].key;
+  {
+    const std::scoped_lock guard(mutex_);
+    if (!claimed_.insert(key).second) return nullptr;
+  }
+  auto claim = std::make_unique<Claim>(*this, key);
+  if (auto lock = cache_.try_claim(key)) claim->lock_.emplace(std::move(*lock));
+  return claim->lock_ ? std::move(claim) : nullptr;
+}
+
+bool JobMaker::is_there(JobIndex job) {
+  if (!find_result(graph_, cache_, job)) {
+    // It is damaged, or of other pictures.
+    if (find_result(graph_, cache_, job, ResultCache::Look::kName)) cache_.discard(graph_[job].key);
+    return false;
+  }
+  board_.count([](JobRunWork& work) { ++work.found; });
+  settle_done(job);
+  return true;
+}
+
+void JobMaker::settle_done(JobIndex job) {
+  cache_.forget_failure(graph_[job].key);
+  failed_.forget(cell_id(job), graph_.name_in_cell(job));
+  board_.settle(job, JobState::kDone);
+}
+
+/// Somebody took its input or its draft away: the next round of the farm makes all of it.
+void JobMaker::settle_lost(JobIndex job) {
+  board_.count([](JobRunWork& work) { ++work.lost; });
+  board_.settle(job, JobState::kBlocked);
+}
+
+/// Keeps what an engine was given, for whoever looks for the reason. Returns "failed/CELL/JOB", or "".
+std::string JobMaker::keep_input(JobIndex job, const std::string& log) {
+  const std::string& engine = graph_.engines()[graph_[job].engine].name;
+  return failed_.keep(cell_id(job), graph_.name_in_cell(job), [&](const fs::path& directory) {
+    const Scene scene = graph_.cells().scene(graph_.cell_of(job));
+    write_file(directory / "scene.xml", scene_to_xml(scene));
+    std::vector<std::string> again{"lobelia", "reference", "scene.xml",    "--engine",
+                                   engine,    "-o",        engine + ".exr"};
+    if (const auto given = options_.programs.find(engine); given != options_.programs.end())
+      again.insert(again.end(), {"--" + engine, given->second.string()});
+    write_file(directory / "again.sh", shell_join(again) + "\n");
+    constexpr std::uint64_t kMostLog = FailedJobs::kMostBytes / 2;
+    if (!log.empty() && log.size() <= kMostLog) write_file(directory / (engine + ".log"), log);
+    // The first picture of an average stands for all.
+    keep_engine_input(engine,
+                      needs_replicates(scene) ? replicates(scene, 1, 1, 0)[0][0].scene : scene, {},
+                      directory);
+  });
+}
+
+void JobMaker::fail(JobIndex job, JobFailure failure, const std::string& log) {
+  if (!board_.is_made_here(job) && worth_retrying(failure.kind)) {
+    const std::string kept = keep_input(job, log);
+    replace_all(failure.message, kEngineDirectory, kept.empty() ? "." : kept);
+    if (!kept.empty()) failure.message += fmt::format("; its input and log are in {}", kept);
+  }
+  const std::string key = graph_[job].key.text();
+  cache_.keep_failure(graph_[job].key,
+                      {graph_.name(job), key, std::string(failure_name(failure.kind)),
+                       failure.message, failure.attempts, host_of_result()},
+                      log);
+  if (options_.fail_fast) board_.stop();
+  board_.settle(job, JobState::kFailed);
+}
+
+records::Result JobMaker::result_record(JobIndex job, int attempts) const {
+  const Job& one = graph_[job];
+  records::Result record;
+  record.job = kJobKindNames[int(one.kind)];
+  record.first_made_for = cell_id(job);
+  own_identity().put_into(record.inputs);
+  record.inputs.scene = graph_.scene_hash(graph_.cell_of(job));
+  if (one.engine != kNoEngine) {
+    const FarmEngine& engine = graph_.engines()[one.engine];
+    record.engine = engine.name;
+    record.inputs.engine_version = engine.version;
+    record.inputs.engine_content = engine.content;
+  }
+  for (const JobIndex input : graph_.inputs(job))
+    if (board_.state(input) == JobState::kDone)
+      record.inputs.pictures.emplace_back(graph_.whose(input), graph_[input].key.text());
+  record.host = host_of_result();
+  record.attempts = attempts;
+  return record;
+}
+
+/// The directory of a picture that is an input; `from` gets the hash of what is read there.
+MadePicture JobMaker::input_picture(JobIndex job, Hashes& from) const {
+  const std::string engine = graph_.whose(job);
+  const auto record = find_result(graph_, cache_, job);
+  if (!record) throw LostInput(graph_.name(job));
+  from.emplace_back(engine, record->hash_of(picture_file(engine)));
+  return {engine, cache_.result_directory(graph_[job].key)};
+}
+
+/// Takes them away, so that they are made again. Whether there were any.
+bool JobMaker::discard_unreadable_inputs(JobIndex job) const {
+  bool any = false;
+  for (const JobIndex input : graph_.inputs(job)) {
+    if (board_.state(input) != JobState::kDone ||
+        find_result(graph_, cache_, input, ResultCache::Look::kThorough))
+      continue;
+    cache_.discard(graph_[input].key);
+    any = true;
+  }
+  return any;
+}
+
+void JobMaker::make(JobIndex job, ResultDraft& draft, records::Result& record) const {
+  const Scene scene = graph_.cells().scene(graph_.cell_of(job));
+  const JobKind kind = graph_[job].kind;
+  if (kind == JobKind::kRender)
+    return make_render(scene, draft, options_.time_limit, options_.memory, record);
+  if (kind == JobKind::kReference) {
+    const FarmEngine& here = graph_.engines()[graph_[job].engine];
+    ReferenceOptions reference;
+    reference.threads = 1;
+    ReferenceResult result = Session(*here.engine, reference).render(scene);
+    if (!result.error.empty()) throw ResultFailure(result.failure, result.error);
+    return make_reference(scene, here, "", std::move(result), draft, record);
+  }
+  Hashes& from = record.from.emplace();
+  std::vector<MadePicture> pictures;
+  for (const JobIndex input : graph_.inputs(job))
+    if (board_.state(input) == JobState::kDone) pictures.push_back(input_picture(input, from));
+  if (kind == JobKind::kProfile) return make_profile(scene, pictures, draft);
+  make_comparison(scene, pictures.at(0), pictures.at(1), draft, record);
+}
+
+bool JobMaker::make_here(JobIndex job) {
+  if (graph_[job].kind == JobKind::kProfile)
+    graph_.narrow_profile(graph_.cell_of(job), [&](JobIndex picture) {
+      return board_.state(picture) == JobState::kDone;
+    });
+  const auto claimed = claim(job);
+  if (!claimed) return false;
+  const double cpu_before = thread_cpu_seconds();
+  const auto wall_before = Clock::now();
+  std::optional<ResultDraft> draft;
+  try {
+    if (is_there(job)) return true;
+    draft.emplace(cache_.draft());
+    records::Result record = result_record(job, 1);
+    make(job, *draft, record);
+    const double cpu = thread_cpu_seconds() - cpu_before;
+    record.seconds = {std::chrono::duration<double>(Clock::now() - wall_before).count(), cpu};
+    record.peak_memory_bytes = peak_memory_of(::getpid());
+    board_.count([&](JobRunWork& work) { work.kernel_cpu_seconds += cpu; });
+    publish(job, *draft, std::move(record));
+  } catch (const Error& error) {
+    if ((draft && !draft->is_there()) || dynamic_cast<const LostInput*>(&error) ||
+        discard_unreadable_inputs(job)) {
+      settle_lost(job);
+      return true;
+    }
+    // A full disk ends the farm; whatever is wrong with this job is its own failure.
+    if (error.code() != ExitCode::kEngine && error.code() != ExitCode::kInput) throw;
+    const auto* failure = dynamic_cast<const ResultFailure*>(&error);
+    fail(job, {failure ? failure->kind() : FailureClass::kRefused, error.what(), 1});
+  }
+  return true;
+}
+
+void JobMaker::keep_reference(JobIndex job, const Scene& scene, ReferenceResult result, int attempt,
+                              double wall_seconds) {
+  const FarmEngine& engine = graph_.engines()[graph_[job].engine];
+  const auto given = options_.programs.find(engine.name);
+  const std::string program = given == options_.programs.end() ? "" : given->second.string();
+  records::Result record = result_record(job, attempt);
+  const records::Reference& made_by = result.record;
+  record.threads = made_by.threads.value_or(1);
+  record.seconds = {wall_seconds, made_by.cpu_seconds.value_or(0)};
+  record.peak_memory_bytes = made_by.peak_memory_bytes.value_or(0);
+  ResultDraft draft = cache_.draft();
+  try {
+    const double cpu_before = thread_cpu_seconds();
+    make_reference(scene, engine, program, std::move(result), draft, record);
+    const double cpu = thread_cpu_seconds() - cpu_before;
+    board_.count([&](JobRunWork& work) { work.kernel_cpu_seconds += cpu; });
+    publish(job, draft, std::move(record));
+  } catch (const Error&) {
+    if (draft.is_there()) throw;
+    settle_lost(job);
+  }
+}
+
+void JobMaker::publish(JobIndex job, ResultDraft& draft, records::Result record) {
+  const Publication publication = cache_.publish(draft, graph_[job].key, std::move(record));
+  board_.count([&](JobRunWork& work) {
+    if (publication == Publication::kNew) {
+      ++work.made;
+      if (is_picture(graph_[job].kind)) ++work.pictures;
+    } else {
+      ++work.found;
+      if (publication == Publication::kDifferent) ++work.different;
+    }
+  });
+  settle_done(job);
+}
+
+}  // namespace lobelia
