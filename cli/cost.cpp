@@ -53,15 +53,17 @@ void run_cost(const CostArguments& options) {
     require_writable(std::filesystem::path(options.directory) / "cost.json");
   }
   ProgressLine line(!options.quiet);
-  cost::Report report{command_line(), records::this_host(), kernels().instruction_set, {}};
+  records::Cost report{command_line(), records::this_host(), kernels().instruction_set, {}};
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const double done = double(i) / double(levels.size());
     measured.on_progress = [&](const std::string& what) {
       line.show(done, fmt::format("{}: {}", levels[i]->name, what));
     };
     measured.progress("begins");
-    for (cost::Table& table : levels[i]->measure(measured))
+    for (cost::Table& table : levels[i]->measure(measured)) {
+      cost::add_fronts(table);
       report.tables.push_back(std::move(table));
+    }
   }
   line.clear();
   if (!options.directory.empty()) {
@@ -70,7 +72,7 @@ void run_cost(const CostArguments& options) {
     files.commit();
   }
   if (options.json == "-")
-    fmt::print("{}", record_text(cost::cost_record(report)));
+    fmt::print("{}", record_text(report));
   else
     fmt::print("{}", cost::cost_text(report, options.all));
 }

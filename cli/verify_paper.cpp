@@ -7,8 +7,6 @@
 #include "cli/commands.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
-#include "verify/paper/catalogue.hpp"
-#include "verify/paper/errata.hpp"
 #include "verify/paper/plots.hpp"
 #include "verify/paper/report.hpp"
 
@@ -31,7 +29,7 @@ void run_paper(const PaperOptions& options) {
     paper::write_plots(options.plots, plots);
   }
   if (!options.json.empty())
-    write_record(options.json, paper::paper_record(claims, command_line(), plots));
+    write_record(options.json, paper::paper_record(claims, command_line(), figure_records(plots)));
   files.commit();
   fmt::print("{}", options.errata ? paper::errata_document(claims) : paper::table_text(claims));
 }

@@ -10,7 +10,9 @@
 #include "core/files.hpp"
 #include "records/record.hpp"
 #include "verify/stability/cases.hpp"
+#include "verify/stability/pictures.hpp"
 #include "verify/stability/report.hpp"
+#include "verify/stability/timing.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -29,33 +31,30 @@ ExitCode run_verify_stability(const VerifyStabilityArguments& options) {
     make_directories(options.pictures);
     require_writable(std::filesystem::path(options.pictures) / "stability.png");
   }
-  stability::Report report;
+  records::VerifyStability report;
+  report.command = command_line();
   ProgressLine progress(!options.quiet);
   report.rows = stability::all_rows(lobes, [&](double done) { progress.show(done, "hard cases"); });
   progress.clear();
+  stability::summarise(report);
   if (!options.json.empty()) report.curves = stability::error_curves();
   // One thread, after everything else: nothing of ours disturbs it.
   if (!options.no_timing) {
     report.stalls = stability::measure_stalls(lobes);
-    report.prices = stability::measure_prices(lobes);
+    report.price = stability::measure_prices(lobes);
   }
   FilesTogether files;
   if (!options.pictures.empty()) {
-    report.pictures = stability::make_pictures();
-    stability::write_pictures(options.pictures, report.pictures);
-  }
-  if (!options.json.empty()) {
     const auto from = std::filesystem::absolute(options.json).parent_path();
-    const auto directory =
-        options.pictures.empty()
-            ? std::filesystem::path()
-            : std::filesystem::absolute(options.pictures).lexically_relative(from);
-    write_record(options.json,
-                 stability::report_record(report, command_line(), directory, options.all));
+    report.pictures = stability::write_pictures(
+        options.pictures, std::filesystem::absolute(options.pictures).lexically_relative(from));
   }
+  const std::string text = stability::report_text(report, options.all);
+  if (!options.all) stability::keep_rows_outside(report);
+  if (!options.json.empty()) write_record(options.json, report);
   files.commit();
-  fmt::print("{}", stability::report_text(report, options.all));
-  return report.count(stability::Outcome::kOutside) == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
+  fmt::print("{}", text);
+  return report.outside == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "cost/effects/everything.hpp"
 #include "cost/effects/without.hpp"
 #include "cost/film_size.hpp"
-#include "cost/pareto.hpp"
 #include "cost/report.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
@@ -84,11 +83,12 @@ records::Named<records::Work> effects_record(const RenderResult& result) {
   return work;
 }
 
-std::string price(const Way& way, const Way& all, const Case& one, const Case& whole) {
-  const double saved = 1 - way.time.median / all.time.median;
+std::string price(const Variant& way, const Variant& all, const Case& one, const Case& whole) {
+  const double with = all.seconds->median, without = way.seconds->median;
+  const double saved = 1 - without / with;
   std::string time =
       saved >= 0 ? fmt::format("{} takes {:.0f} % of the time ({})", one.effect, 100 * saved,
-                               short_time_text(all.time.median - way.time.median))
+                               short_time_text(with - without))
                  : fmt::format("without {} it takes {:.0f} % longer", one.effect, -100 * saved);
   if (clearly_slower(way, all) == 0) time += ", which is within the spread";
   const double rays_saved = double(rays(whole.result.work)) - double(rays(one.result.work));
@@ -97,7 +97,7 @@ std::string price(const Way& way, const Way& all, const Case& one, const Case& w
       rays_saved >= 0
           ? fmt::format("{:.2g} of {:.2g} rays", rays_saved, double(rays(whole.result.work)))
           : fmt::format("{:.2g} more rays", -rays_saved),
-      in_place_of(one.effect), way.errors[0], way.errors[1]);
+      in_place_of(one.effect), way.errors[0].second, way.errors[1].second);
 }
 
 Table measure_scene(const std::string& name, const Scene& scene, const Options& options) {
@@ -131,12 +131,13 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& one = cases[i];
     const Comparison comparison = compare(with_more_samples(one, more, 0), whole, seen);
-    Way way;
+    Variant way;
     way.name = one.effect.empty() ? "everything" : "without " + one.effect;
     way.settings = {{"without", one.effect}};
-    way.time = times[i];
-    way.errors = {comparison.value("ciede2000.p99"), comparison.value("ciede2000.mean"),
-                  comparison.value("flip.ldr.mean")};
+    way.seconds = seconds_record(times[i]);
+    way.errors = {{"de2000_p99", comparison.value("ciede2000.p99")},
+                  {"de2000_mean", comparison.value("ciede2000.mean")},
+                  {"flip_mean", comparison.value("flip.ldr.mean")}};
     records::CostFacts& facts = way.facts.emplace();
     facts.rays = rays_record(one.result.work);
     facts.rays_saved = double(rays(cases[0].result.work)) - double(rays(one.result.work));

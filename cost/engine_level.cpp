@@ -157,14 +157,15 @@ std::vector<Contender> contenders(const Scene& scene, const std::filesystem::pat
   return all;
 }
 
-Way way_of(Contender& one, const Image& truth, const std::vector<std::uint8_t>& edges,
-           const ComparisonOptions& seen) {
+Variant way_of(Contender& one, const Image& truth, const std::vector<std::uint8_t>& edges,
+               const ComparisonOptions& seen) {
   const Comparison comparison = compare(without_edges(one.last.image, truth, edges), truth, seen);
-  Way way;
+  Variant way;
   way.name = one.name;
   way.settings = one.settings;
-  way.time = summary(one.seconds);
-  way.errors = {comparison.value("max_rel_peak"), comparison.value("ciede2000.p99")};
+  way.seconds = seconds_record(summary(one.seconds));
+  way.errors = {{"max_rel_peak", comparison.value("max_rel_peak")},
+                {"de2000_p99", comparison.value("ciede2000.p99")}};
   records::Named<double> stages;
   for (const auto& [stage, seconds] : one.stages)
     stages.emplace_back(stage, summary(seconds).median);
@@ -173,7 +174,7 @@ Way way_of(Contender& one, const Image& truth, const std::vector<std::uint8_t>& 
 }
 
 /// "start 12.0 ms, parse 0.10 ms, ..."
-std::string stages_text(const Way& way) {
+std::string stages_text(const Variant& way) {
   std::string text;
   double told = 0;
   const auto stages = way.facts ? way.facts->stage_seconds : std::nullopt;
@@ -183,9 +184,10 @@ std::string stages_text(const Way& way) {
       told += *seconds;
     }
   if (text.empty())
-    return fmt::format("{}: {}, not told apart", way.name, short_time_text(way.time.median));
-  const double rest = way.time.median - told;
-  if (rest > 0.02 * way.time.median) text += fmt::format(", all else {}", short_time_text(rest));
+    return fmt::format("{}: {}, not told apart", way.name, short_time_text(way.seconds->median));
+  const double rest = way.seconds->median - told;
+  if (rest > 0.02 * way.seconds->median)
+    text += fmt::format(", all else {}", short_time_text(rest));
   return fmt::format("{}: {}", way.name, text);
 }
 
@@ -228,11 +230,11 @@ Table measure_scene(const NamedScene& named, const Options& options) {
   if (const double peak = peak_value(truth.image); peak > 0)
     seen.viewing.exposure_stops = -std::log2(peak);
   for (Contender& one : all) table.ways.push_back(way_of(one, truth.image, edges, seen));
-  if (!(table.ways[0].errors[0] <= kMostError))
+  if (!(table.ways[0].errors[0].second <= kMostError))
     throw Error(ExitCode::kInternal,
                 fmt::format("engine: our picture of {} is off by {:.2g} of the peak", named.name,
-                            table.ways[0].errors[0]));
-  for (const Way& way : table.ways) table.remarks.push_back(stages_text(way));
+                            table.ways[0].errors[0].second));
+  for (const Variant& way : table.ways) table.remarks.push_back(stages_text(way));
   table.remarks.push_back(fmt::format(
       "times are of whole processes, all of an engine's passes included; errors are to the formulas in 50 "
       "digits, which took {}, rounded to float32 as all pictures are (6e-8 of a value), seen with the peak as white, without the {} pixels at edges where a rounding "

@@ -65,21 +65,18 @@ std::vector<Circuit> circuits(unsigned n, const std::vector<int>& bits) {
   return all;
 }
 
-Way row(const Circuit& circuit, const CircuitErrors& e) {
+Variant row(const Circuit& circuit, const CircuitErrors& e) {
   const std::string rounding(name(circuit.f.rounding));
-  Times count;
-  count.least = count.median = count.most = circuit.operations;
-  Way way;
+  Variant way;
   way.name = fmt::format("{}, {} bits, {}", circuit.what, circuit.f.bits, rounding);
   way.settings = {
       {"lobe", circuit.what}, {"bits", std::to_string(circuit.f.bits)}, {"rounding", rounding}};
-  way.time = count;
-  way.errors = {e.max, e.rms, e.energy};
-  way.facts.emplace().circuit = records::CircuitErrors{
-      e.shape, e.rounding, e.quantisation, std::size_t(e.steps), std::size_t(e.looked_at)};
-  if (e.looked_at < e.steps) {
-    way.errors_at_most = {e.max_at_most, NAN, NAN};
-    way.error_spreads = {0, e.rms_spread, e.energy_spread};
+  way.count = circuit.operations;
+  way.errors = {{"max", e.max}, {"rms", e.rms}, {"energy", e.energy}};
+  way.facts.emplace().circuit = e;
+  if (e.steps_looked_at < e.steps) {
+    way.errors_at_most.emplace() = {{"max", e.max_at_most}};
+    way.error_spreads.emplace() = {{"max", 0}, {"rms", e.rms_spread}, {"energy", e.energy_spread}};
   }
   return way;
 }
@@ -154,7 +151,7 @@ void add_remark_of_parts(Table& table, const std::vector<CircuitErrors>& errors)
   std::size_t parts = 0;
   double rms = 0, energy = 0;
   for (const CircuitErrors& e : errors) {
-    if (e.looked_at == e.steps) continue;
+    if (e.steps_looked_at == e.steps) continue;
     ++parts;
     rms = std::max(rms, e.rms_spread / e.rms);
     energy = std::max(energy, e.energy_spread);
@@ -251,7 +248,7 @@ CircuitErrors circuit_errors(const Circuit& circuit, unsigned n) {
   CircuitErrors errors;
   double drift = 0, square = 0, drift_variance = 0, square_variance = 0;
   const auto look = [&](std::uint64_t step) {
-    ++errors.looked_at;
+    ++errors.steps_looked_at;
     return all.look(step, errors);
   };
   const auto add = [&](const Steps::Sums& sums) { drift += sums.drift, square += sums.square; };
@@ -281,21 +278,18 @@ CircuitErrors circuit_errors(const Circuit& circuit, unsigned n) {
   errors.rms_spread = square > 0 ? std::sqrt(square_variance) / (2 * square) * errors.rms : 0;
   errors.energy_spread = std::sqrt(drift_variance) * (n + 1.0);
   errors.max_at_most =
-      errors.looked_at == errors.steps ? errors.max : errors.shape + circuit.most_rounding;
+      errors.steps_looked_at == errors.steps ? errors.max : errors.shape + circuit.most_rounding;
   return errors;
 }
 
 Table fixed_point_table(unsigned n, const std::vector<int>& bits) {
-  Table table{fmt::format("fixed-point-n{}", n),
-              "fixed-point",
-              fmt::format("A lobe in fixed point, n = {}", n),
-              "evaluation",
-              {{"max", "largest error, of the peak"},
-               {"rms", "RMS error over the highlight, of the peak"},
-               {"energy", "error of the energy, of that of cos^n"}},
-              {},
-              {},
-              "bit operations"};
+  Table table;
+  table.id = fmt::format("fixed-point-n{}", n);
+  table.level = "fixed-point";
+  table.title = fmt::format("A lobe in fixed point, n = {}", n);
+  table.unit = "bit operations";
+  table.per = "evaluation";
+  table.errors = lobe_error_kinds();
   const std::vector<Circuit> tried = circuits(n, bits);
   const std::vector<CircuitErrors> errors = errors_of_all(tried, n);
   for (std::size_t i = 0; i < tried.size(); ++i) table.ways.push_back(row(tried[i], errors[i]));

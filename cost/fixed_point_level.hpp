@@ -25,16 +25,12 @@ Circuit power_circuit(FixedPoint f, unsigned n);
 /// If a circuit has more steps than this in the highlight, two from each of kCells equal parts are looked at.
 inline constexpr std::uint64_t kMostSteps = 1 << 17, kCells = 1 << 15;
 
-/// Errors relative to the peak, over s from 0 to highlight_end.
-struct CircuitErrors {
-  double max = 0;       ///< of the circuit against cos^n
-  double rms = 0;       ///< the same, root mean square
-  double energy = 0;    ///< the same of the integral, relative
-  double shape = 0;     ///< of the ideal against cos^n
-  double rounding = 0;  ///< of the circuit against its ideal
-  double quantisation =
-      0;  ///< of the ideal at the quantised s against the ideal: a part of rounding
-  std::uint64_t steps = 0, looked_at = 0;
+/// Errors relative to the peak, over s from 0 to highlight_end: `shape` of the ideal against cos^n, `rounding` of the
+/// circuit against its ideal, and `quantisation`, a part of it, of the ideal at the quantised s.
+struct CircuitErrors : records::CircuitErrors {
+  double max = 0;     ///< of the circuit against cos^n
+  double rms = 0;     ///< the same, root mean square
+  double energy = 0;  ///< the same of the integral, relative
   /// Where not all steps are looked at: a bound of `max`, and standard errors of the two sums. Else `max`, and 0.
   double max_at_most = 0, rms_spread = 0, energy_spread = 0;
 };

@@ -23,6 +23,12 @@ std::size_t place_of(LobeId lobe) {
 
 }  // namespace
 
+std::vector<records::CostError> lobe_error_kinds() {
+  return {{"max", "largest error, of the peak"},
+          {"rms", "RMS error over the highlight, of the peak"},
+          {"energy", "error of the energy, of that of cos^n"}};
+}
+
 LobeTruth::LobeTruth(double exponent) : cosine_energy_(1 / (exponent + 1)) {
   add_samples(exponent);
   cosine_ = place_of(*find_lobe("cosine"));

@@ -5,18 +5,19 @@
 #include <vector>
 
 #include "cost/lobe_ways.hpp"
+#include "records/cost.hpp"
 
 namespace lobelia::cost {
 
 /// Beyond this s cos^n is less than e^-16 of its peak, and the paper's lobe, cs16, is 0.
 inline double highlight_end(double exponent) { return exponent > 16 ? 16 / exponent : 1; }
 
-/// Of one lobe value against another, over all s; relative to the peak 1, or to the energy of cos^n.
-struct LobeErrors {
-  double max = 0;     ///< largest absolute difference
-  double rms = 0;     ///< over s from 0 to highlight_end, each direction alike
-  double energy = 0;  ///< of the integral over the hemisphere, 2 pi times that over s
-};
+/// Of one lobe value against another, over all s; relative to the peak 1, or to the energy of cos^n: the largest
+/// absolute difference; RMS over s from 0 to highlight_end, each direction alike; the integral over the hemisphere,
+/// 2 pi times that over s.
+using LobeErrors = records::LobeErrors;
+/// "max", "rms" and "energy", of tables.
+std::vector<records::CostError> lobe_error_kinds();
 
 struct LobeWayErrors {
   LobeErrors all;       ///< of the way's numbers against cos^n in 113 bits

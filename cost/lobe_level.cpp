@@ -96,27 +96,23 @@ void check(const LobeWay& way, double exponent, const Points& points) {
   }
 }
 
-records::LobeErrors errors_record(const LobeErrors& errors) {
-  return {errors.max, errors.rms, errors.energy, std::nullopt};
-}
-
-Way row(const LobeWay& way, const LobeWayErrors& errors, const LargestError& largest,
-        const Times& times) {
-  Way made;
+Variant row(const LobeWay& way, const LobeWayErrors& errors, const LargestError& largest,
+            const Times& times) {
+  Variant made;
   made.name = way.name();
   made.settings = {{"lobe", std::string(info(way.lobe).name)},
                    {"method", way.method},
                    {"precision", way.wide ? "float64" : "float32"},
                    {"lanes", way.simd ? "SIMD" : "scalar"}};
-  made.time = times;
-  made.errors = {largest.found, errors.all.rms, errors.all.energy};
+  made.seconds = seconds_record(times);
+  made.errors = {{"max", largest.found}, {"rms", errors.all.rms}, {"energy", errors.all.energy}};
   records::CostFacts& facts = made.facts.emplace();
   facts.operations = operations_record(way.operations);
-  facts.shape = errors_record(errors.shape);
-  facts.rounding = errors_record(errors.rounding);
+  facts.shape = errors.shape;
+  facts.rounding = errors.rounding;
   facts.rounding->max_at_most = way.allowed;
   facts.numbers_looked_at = largest.numbers;
-  if (largest.at_most > largest.found) made.errors_at_most = {largest.at_most, NAN, NAN};
+  if (largest.at_most > largest.found) made.errors_at_most.emplace() = {{"max", largest.at_most}};
   return made;
 }
 
@@ -147,22 +143,21 @@ std::vector<std::string> what_limits(const std::vector<LobeWay>& ways,
 }
 
 std::string what_is_a_bracket(const Table& table) {
-  std::size_t brackets = 0;
-  for (const Way& way : table.ways) brackets += !way.errors_at_most.empty();
+  const auto brackets = std::ranges::count_if(
+      table.ways, [](const Variant& way) { return way.errors_at_most.has_value(); });
   if (brackets == 0) return "";
   return fmt::format(
       "The max of {} ways is of all float32 numbers s, that of {} a bracket: the largest found, and a bound that no "
       "number exceeds.",
-      table.ways.size() - brackets, brackets);
+      std::ssize(table.ways) - brackets, brackets);
 }
 
 std::string what_bounds_the_time(const Table& table, double copy) {
-  const auto fastest =
-      std::min_element(table.ways.begin(), table.ways.end(),
-                       [](const Way& a, const Way& b) { return a.time.median < b.time.median; });
+  double fastest = std::numeric_limits<double>::infinity();
+  for (const Variant& way : table.ways) fastest = std::min(fastest, way.seconds->median);
   return fmt::format(
       "Reading s and writing a value takes {} in float32; the fastest way takes {:.1f} times that.",
-      short_time_text(copy), fastest->time.median / copy);
+      short_time_text(copy), fastest / copy);
 }
 
 }  // namespace
@@ -179,15 +174,12 @@ Table lobe_table(double exponent, int rounds, bool quick) {
     return per(times[i], double(kPoints * cases[i].repeats));
   };
 
-  Table table{"lobe-n" + exponent_text(exponent),
-              "lobe",
-              fmt::format("A lobe, n = {}", exponent_text(exponent)),
-              "evaluation",
-              {{"max", "largest error, of the peak"},
-               {"rms", "RMS error over the highlight, of the peak"},
-               {"energy", "error of the energy, of that of cos^n"}},
-              {},
-              {}};
+  Table table;
+  table.id = "lobe-n" + exponent_text(exponent);
+  table.level = "lobe";
+  table.title = fmt::format("A lobe, n = {}", exponent_text(exponent));
+  table.per = "evaluation";
+  table.errors = lobe_error_kinds();
   const LobeTruth truth(exponent);
   std::vector<LobeWayErrors> errors;
   for (std::size_t i = 0; i < ways.size(); ++i) {

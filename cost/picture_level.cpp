@@ -11,7 +11,6 @@
 
 #include "core/error.hpp"
 #include "cost/lobe_candidates.hpp"
-#include "cost/pareto.hpp"
 #include "cost/picture_truth.hpp"
 #include "cost/shading_cost.hpp"
 #include "renderer/render.hpp"
@@ -50,7 +49,7 @@ Scene sized(const Scene& scene, const Options& options) {
 }
 
 /// How the order that --accuracy goes by fares against the clock.
-std::string order_remark(const std::vector<Way>& ways) {
+std::string order_remark(const std::vector<Variant>& ways) {
   int clear = 0, reversed = 0;
   double worst = 1;
   for (std::size_t i = 0; i < ways.size(); ++i)
@@ -61,7 +60,7 @@ std::string order_remark(const std::vector<Way>& ways) {
       const double predicted = *ways[j].facts->predicted_cost - *ways[i].facts->predicted_cost;
       if (predicted * slower >= 0) continue;
       ++reversed;
-      const double ratio = ways[i].time.median / ways[j].time.median;
+      const double ratio = ways[i].seconds->median / ways[j].seconds->median;
       worst = std::max({worst, ratio, 1 / ratio});
     }
   return fmt::format(
@@ -101,27 +100,30 @@ Table table_of(const NamedScene& named, const Options& options) {
   options.progress(fmt::format("{}, errors", named.name));
   const PictureTruth truth = picture_truth(
       scene, std::min(1 << 14, scene.sampler.sample_count * options.rounds(4, 16, 64)));
-  Table table{"picture-" + named.name,
-              "picture",
-              fmt::format("{}: {} x {} pixels", named.name, scene.film.width, scene.film.height),
-              "megapixel",
-              {{"de2000_p99", "CIEDE2000 that 99 % of the pixels do not exceed, the peak at white"},
-               {"flip", "mean LDR-FLIP, the peak at white"},
-               {"max_rel_peak", "largest error of a value, of the peak"}},
-              {},
-              {"truth: " + truth.how}};
+  Table table;
+  table.id = "picture-" + named.name;
+  table.level = "picture";
+  table.title = fmt::format("{}: {} x {} pixels", named.name, scene.film.width, scene.film.height);
+  table.per = "megapixel";
+  table.errors = {
+      {"de2000_p99", "CIEDE2000 that 99 % of the pixels do not exceed, the peak at white"},
+      {"flip", "mean LDR-FLIP, the peak at white"},
+      {"max_rel_peak", "largest error of a value, of the peak"}};
+  table.remarks = {"truth: " + truth.how};
   const double megapixels = 1e-6 * scene.film.width * scene.film.height;
   for (Case& c : cases) {
     const auto error = [&](std::string_view metric) {
       return measure_at_peak(metric, c.first, truth.image);
     };
     const std::string lobe(info(c.lobe).name), precision(name(c.precision));
-    Way& way = table.ways.emplace_back();
+    Variant& way = table.ways.emplace_back();
     way.name = fmt::format("{}, {}", lobe, precision);
     way.settings = {
         {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.samples)}};
-    way.time = per(summary(std::move(c.seconds)), megapixels);
-    way.errors = {error("ciede2000.p99"), error("flip.ldr.mean"), error("max_rel_peak")};
+    way.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));
+    way.errors = {{"de2000_p99", error("ciede2000.p99")},
+                  {"flip", error("flip.ldr.mean")},
+                  {"max_rel_peak", error("max_rel_peak")}};
     records::CostFacts& facts = way.facts.emplace();
     facts.samples = c.samples;
     facts.kernel = c.kernel;

@@ -1,9 +1,7 @@
-// What accuracy costs: ways of making one thing, each with its time and its errors, measured in one run.
+// Tables of what accuracy costs: variants of one thing, each with its time and its errors, all of one run.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/timing.hpp"
@@ -11,44 +9,29 @@
 
 namespace lobelia::cost {
 
-/// One way of making what a table is about.
-struct Way {
-  std::string name;  ///< "cs16, float32": unique in its table
-  /// What it was made with: "lobe" is "cs16", "precision" is "float32", "samples" is "64".
-  std::vector<std::pair<std::string, std::string>> settings;
-  Times time;                  ///< of one of what the table counts, in its unit: seconds
-  std::vector<double> errors;  ///< by the table's errors, not negative; NaN where not known
-  std::vector<double>
-      error_spreads;  ///< standard deviations over repeats; empty where nothing is random
-  std::optional<records::CostFacts> facts = {};  ///< what else was counted
-  /// Bounds of errors that are the largest of what was looked at; NaN or empty where an error is what it says.
-  std::vector<double> errors_at_most = {};
-  double setting(const std::string& name) const;  ///< as a number; NaN without
-};
+/// Its id is unique in its report and a file's name. Times are of one of what `per` says; without times the unit is
+/// what is counted: "bit operations". Remarks say what was fitted, found and left out.
+using Table = records::CostTable;
+/// Its name is unique in its table. Errors are in the order of the table's kinds, not negative, NaN where not known;
+/// spreads are standard deviations over repeats.
+using Variant = records::CostWay;
 
-struct ErrorKind {
-  std::string id;       ///< "max": unique in its table
-  std::string meaning;  ///< with what it is relative to
-};
+inline bool is_timed(const Table& table) { return table.unit == "s"; }
+records::CostSeconds seconds_record(const Times& times);
+/// A variant's seconds, or its count where there is nothing to time.
+records::CostSeconds cost_of(const Variant& variant);
+double setting(const Variant& variant, std::string_view name);  ///< as a number; NaN without
+/// b is slower than a by more than the spread of both: 1, faster: -1, or else 0.
+int clearly_slower(const Variant& a, const Variant& b);
 
-struct Table {
-  std::string id;     ///< "lobe-n64": unique in its report, and a file's name
-  std::string level;  ///< name of a Level
-  std::string title;  ///< for people
-  std::string per;    ///< what times are of: "evaluation", "megapixel", "picture"
-  std::vector<ErrorKind> errors;
-  std::vector<Way> ways;
-  std::vector<std::string> remarks;  ///< sentences: what was fitted, found and left out
-  /// Of Way::time: seconds, or what is counted where there is nothing to time: "bit operations".
-  std::string unit = "s";
-  bool is_timed() const { return unit == "s"; }
-};
-
-struct Report {
-  std::vector<std::string> command;
-  records::Host host;
-  std::string instruction_set;
-  std::vector<Table> tables;
-};
+/// The Pareto front by one of a table's errors: the variants of which none is both as fast and as accurate. Medians
+/// decide; of variants that are equal in both, the first counts. Variants without a known error are neither on the
+/// front nor dominated.
+///
+/// In words: along the front, "from cs16 to cosine: 1.8 times the time, 170 times less error", and for each variant
+/// that is dominated, by what: "cs64 takes 1.2 times the time of cosine and has 17 times its error".
+records::CostFront pareto_front(const Table& table, std::size_t error);
+/// Of all errors of a table that has all its variants.
+void add_fronts(Table& table);
 
 }  // namespace lobelia::cost

@@ -196,18 +196,18 @@ std::string time_text(const TimeTo& time) {
 void add_series(const Series& series, const Converged& truth, Table& table) {
   std::vector<double> samples, seconds, errors;
   for (const Point& point : series.points) {
-    Way way;
+    Variant way;
     way.name = fmt::format("{}, {}", series.name, point.samples);
     way.settings = {{"engine", series.engine},
                     {"importance_sampling", series.sampling},
                     {"samples", std::to_string(point.samples)}};
-    way.time = summary(point.seconds);
-    way.errors = {error_of(point, truth)};
-    way.error_spreads = {spread_of(point, truth)};
+    way.seconds = seconds_record(summary(point.seconds));
+    way.errors = {{"rmse_rel", error_of(point, truth)}};
+    way.error_spreads.emplace() = {{"rmse_rel", spread_of(point, truth)}};
     way.facts = point.facts;
     samples.push_back(point.samples);
-    seconds.push_back(way.time.median);
-    errors.push_back(way.errors[0]);
+    seconds.push_back(way.seconds->median);
+    errors.push_back(way.errors[0].second);
     table.ways.push_back(std::move(way));
   }
   // A single sample goes through the pixel's centre, and is off by the edges as well: no part of a slope. Nor

@@ -67,7 +67,11 @@ struct CostFront {
 };
 
 struct CostTable {
-  std::string id, level, title, unit, per;
+  std::string id;
+  std::string level;
+  std::string title;
+  std::string unit = "s";
+  std::string per;
   std::vector<CostError> errors;
   std::vector<CostWay> ways;
   Named<CostFront> fronts;

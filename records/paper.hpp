@@ -14,9 +14,14 @@ struct Measured {
 };
 
 struct Claim {
-  std::string name, where, statement, printed;
-  std::vector<Measured> measured;
-  std::string definition, verdict, reason;
+  std::string name;
+  std::string where;
+  std::string statement;
+  std::string printed;
+  std::vector<Measured> measured = {};
+  std::string definition = {};
+  std::string verdict = "found";
+  std::string reason = {};
   static const Struct& type();
 };
 

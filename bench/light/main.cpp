@@ -20,8 +20,9 @@ namespace lobelia::bench {
 namespace {
 
 void measure_light() {
-  cost::Report report;
+  records::Cost report;
   report.tables = cost::measure_transport({});
+  for (cost::Table& table : report.tables) cost::add_fronts(table);
   fmt::print("{}", cost::cost_text(report, true));
   constexpr int kSide = 96;
   fmt::print(

@@ -152,10 +152,10 @@ TEST_F(OfEverything, TheTableHasARowForEveryEffectThatIsOn) {
   for (const std::string& name : effects_that_are(true, make_plan(everything(), kAsCalledFor)))
     names.push_back("without " + name);
   std::vector<std::string> rows;
-  for (const Way& way : table().ways) {
+  for (const Variant& way : table().ways) {
     rows.push_back(way.name);
     EXPECT_EQ(way.errors.size(), table().errors.size());
-    EXPECT_GT(way.time.median, 0);
+    EXPECT_GT(cost_of(way).median, 0);
   }
   EXPECT_EQ(rows, names);
   EXPECT_EQ(table().id, "effects-all");
@@ -163,18 +163,18 @@ TEST_F(OfEverything, TheTableHasARowForEveryEffectThatIsOn) {
 
 TEST_F(OfEverything, OnlyThatIsWithoutLoss) {
   for (std::size_t e = 0; e < table().errors.size(); ++e) {
-    EXPECT_EQ(table().ways[0].errors[e], 0);
+    EXPECT_EQ(table().ways[0].errors[e].second, 0);
     for (std::size_t i = 1; i < table().ways.size(); ++i)
-      EXPECT_GT(table().ways[i].errors[e], 1e-4) << table().ways[i].name;
+      EXPECT_GT(table().ways[i].errors[e].second, 1e-4) << table().ways[i].name;
   }
 }
 
 TEST_F(OfEverything, RaysAddUpToWhatIsSaved) {
-  const auto all = [](const Way& way) {
+  const auto all = [](const Variant& way) {
     const records::Rays& rays = way.facts.value().rays.value();
     return double(rays.camera + rays.shadow + rays.mirror + rays.scattered);
   };
-  for (const Way& way : table().ways)
+  for (const Variant& way : table().ways)
     EXPECT_EQ(way.facts->rays_saved, all(table().ways[0]) - all(way)) << way.name;
   EXPECT_THAT(table().remarks, testing::Contains(HasSubstr("shadows")));
 }

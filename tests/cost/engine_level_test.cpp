@@ -41,8 +41,8 @@ TEST(EngineLevel, MeasuresOurselvesAndTheFormulasWhereNoEngineIs) {
   ASSERT_EQ(table.ways.size(), 2u);
   EXPECT_EQ(table.id, "engine-scene");
   EXPECT_EQ(table.ways[0].name, "ours");
-  EXPECT_LT(table.ways[0].errors[0], 1e-6);
-  EXPECT_LT(table.ways[1].errors[0], 1e-7);
+  EXPECT_LT(table.ways[0].errors[0].second, 1e-6);
+  EXPECT_LT(table.ways[1].errors[0].second, 1e-7);
   EXPECT_THAT(table.remarks, Contains(HasSubstr("without POV-Ray: ")));
   EXPECT_THAT(table.remarks, Contains(HasSubstr("without Blender Cycles: ")));
 }
@@ -57,7 +57,7 @@ TEST(EngineLevel, TellsOurStagesApartAndTheyAreTheWhole) {
     EXPECT_GT(*seconds, 0) << stage;
     sum += *seconds;
   }
-  EXPECT_NEAR(sum, table.ways[0].time.median, 1e-9) << "of one round";
+  EXPECT_NEAR(sum, cost_of(table.ways[0]).median, 1e-9) << "of one round";
   EXPECT_THAT(table.remarks, Contains(HasSubstr("ours: start ")));
 }
 
@@ -81,16 +81,16 @@ class EngineLevelWithEngines : public testing::Test {
 
 TEST_F(EngineLevelWithEngines, RanksTheirNumberFormatsByError) {
   const Table table = measure_engines(quick("two_lights.xml")).at(0);
-  std::map<std::string, const Way*> ways;
-  for (const Way& way : table.ways) ways[way.name] = &way;
+  std::map<std::string, const Variant*> ways;
+  for (const Variant& way : table.ways) ways[way.name] = &way;
   ASSERT_EQ(ways.size(), 5u);
-  const Way &half = *ways.at("POV-Ray, half"), &fine = *ways.at("POV-Ray, float"),
-            &cycles = *ways.at("Blender Cycles");
-  EXPECT_GT(half.errors[0], 1e-5);
-  EXPECT_LT(half.errors[0], 6e-4);
-  EXPECT_LT(fine.errors[0], 1e-5);
-  EXPECT_LT(cycles.errors[0], 1e-4);
-  EXPECT_GT(cycles.errors[0], 1e-8);
+  const Variant &half = *ways.at("POV-Ray, half"), &fine = *ways.at("POV-Ray, float"),
+                &cycles = *ways.at("Blender Cycles");
+  EXPECT_GT(half.errors[0].second, 1e-5);
+  EXPECT_LT(half.errors[0].second, 6e-4);
+  EXPECT_LT(fine.errors[0].second, 1e-5);
+  EXPECT_LT(cycles.errors[0].second, 1e-4);
+  EXPECT_GT(cycles.errors[0].second, 1e-8);
   EXPECT_TRUE(records::find(*half.facts->stage_seconds, "trace"));
   EXPECT_FALSE(records::find(*half.facts->stage_seconds, "start")) << "POV-Ray does not tell";
   for (const char* stage : {"start", "parse", "trace", "write"})

@@ -172,7 +172,7 @@ TEST(CircuitErrors, AreTheSumsOverAllStepsWhateverTheirNumber) {
         const CircuitErrors truth = by_fractions(f, n, k);
         SCOPED_TRACE(::testing::Message() << "n = " << n << ", " << bits << " bits, "
                                           << name(rounding) << ", k = " << k);
-        EXPECT_EQ(e.looked_at, truth.steps);
+        EXPECT_EQ(e.steps_looked_at, truth.steps);
         EXPECT_NEAR(e.max, truth.max, 1e-14);
         EXPECT_NEAR(e.rms, truth.rms, 1e-6 * truth.rms + 1e-15);
         EXPECT_NEAR(e.energy, truth.energy, 1e-11);
@@ -212,7 +212,7 @@ TEST(CircuitErrors, OfSomeOfTheStepsAreThoseOfAllWithinTheirStandardErrorsAndBou
       const double energy = double(std::abs(drift)) * (kN + 1),
                    rms = double(std::sqrt(square / 0.25L));
       SCOPED_TRACE(::testing::Message() << name(rounding) << ", k = " << k);
-      EXPECT_EQ(e.looked_at, 2 * kCells + 2);
+      EXPECT_EQ(e.steps_looked_at, 2 * kCells + 2);
       EXPECT_GT(e.energy_spread, 0);
       EXPECT_LT(e.energy_spread, 1e-7);
       EXPECT_NEAR(e.energy, energy, 4 * e.energy_spread);
@@ -269,10 +269,11 @@ TEST(FixedPointTable, CountsBitOperationsAndHasNamesOfItsOwn) {
   EXPECT_EQ(table.id, "fixed-point-n64");
   EXPECT_EQ(table.unit, "bit operations");
   std::set<std::string> names;
-  for (const Way& way : table.ways) {
+  for (const Variant& way : table.ways) {
     EXPECT_TRUE(names.insert(way.name).second) << way.name;
-    EXPECT_GT(way.time.median, 0) << way.name;
-    for (const double error : way.errors) EXPECT_TRUE(std::isfinite(error)) << way.name;
+    EXPECT_GT(cost_of(way).median, 0) << way.name;
+    for (const auto& [kind, error] : way.errors)
+      EXPECT_TRUE(std::isfinite(error)) << way.name << ", " << kind;
   }
   for (const int k : kOrders)
     EXPECT_THAT(names, Contains("cs" + std::to_string(k) + ", 16 bits, truncated"));

@@ -19,16 +19,16 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Report report() {
+records::Cost report() {
   return {{"lobelia", "cost"},
           {"any", 0, "", ""},
           "AVX2",
-          {table({way("cs16", 1e-9, 0.017), way("cosine", 2e-9, 1e-7),
-                  way("slow, \"but\"", 9e-9, 0.5), way("exact", 5e-9, 0)})}};
+          {table({variant("cs16", 1e-9, 0.017), variant("cosine", 2e-9, 1e-7),
+                  variant("slow, \"but\"", 9e-9, 0.5), variant("exact", 5e-9, 0)})}};
 }
 
 TEST(CostRecord, HoldsEveryWayAndItsFronts) {
-  const Json record = as_json(cost_record(report()));
+  const Json record = as_json(report());
   EXPECT_EQ(record["kind"], "cost");
   const Json& table = record["tables"][0];
   EXPECT_EQ(table["ways"].size(), 4u);
@@ -48,14 +48,13 @@ TEST(CostCsv, HasALineForEachWayAndError) {
 }
 
 TEST(AnErrorThatIsTheLargestOfSome, IsPrintedWithItsBoundWhereTheDigitsDiffer) {
-  Report bracketed = report();
-  std::vector<Way>& ways = bracketed.tables[0].ways;
-  ways[0].errors_at_most = {0.0170001};
-  ways[1].errors_at_most = {3e-7};
-  ways[3].errors_at_most = {std::nan("")};
+  records::Cost bracketed = report();
+  std::vector<Variant>& ways = bracketed.tables[0].ways;
+  ways[0].errors_at_most = {{"max", 0.0170001}};
+  ways[1].errors_at_most = {{"max", 3e-7}};
   const std::string text = cost_text(bracketed, true);
   EXPECT_THAT(text, AllOf(HasSubstr(" 0.017  max"), HasSubstr(" 1e-07..3e-07  max")));
-  const Json table = as_json(cost_record(bracketed))["tables"][0];
+  const Json table = as_json(bracketed)["tables"][0];
   EXPECT_EQ(table["ways"][1]["errorsAtMost"]["max"], 3e-7);
   EXPECT_FALSE(table["ways"][2].contains("errorsAtMost"));
   EXPECT_FALSE(table["ways"][3].contains("errorsAtMost"));
@@ -78,10 +77,10 @@ TEST(CostChart, IsXmlWithAPointForEachWayEvenWhereItHasNoError) {
 }
 
 TEST(CountedTables, SayWhatTheyCountInEveryForm) {
-  Report counted = report();
-  counted.tables = {counted_table({way("8 bits", 64, 0.1), way("16 bits", 256, 0.001)})};
+  records::Cost counted = report();
+  counted.tables = {counted_table({variant("8 bits", 64, 0.1), variant("16 bits", 256, 0.001)})};
   const Table& table = counted.tables[0];
-  const Json record = as_json(cost_record(counted));
+  const Json record = as_json(counted);
   EXPECT_EQ(record["tables"][0]["unit"], "bit operations");
   EXPECT_EQ(record["tables"][0]["ways"][1]["count"], 256);
   EXPECT_FALSE(record["tables"][0]["ways"][1].contains("seconds"));
@@ -93,16 +92,16 @@ TEST(CountedTables, SayWhatTheyCountInEveryForm) {
 }
 
 TEST(CountedTables, SayHowFarADrawnErrorIsToBeTrusted) {
-  Report counted = report();
-  counted.tables = {counted_table({way("8 bits", 64, 0.1), way("16 bits", 256, 0.001)})};
-  counted.tables[0].ways[0].error_spreads = {1e-5};
-  counted.tables[0].ways[1].error_spreads = {0.002};
+  records::Cost counted = report();
+  counted.tables = {counted_table({variant("8 bits", 64, 0.1), variant("16 bits", 256, 0.001)})};
+  counted.tables[0].ways[0].error_spreads = {{"max", 1e-5}};
+  counted.tables[0].ways[1].error_spreads = {{"max", 0.002}};
   const std::string text = cost_text(counted, true);
   EXPECT_THAT(text, AllOf(HasSubstr(" 0.1  max"), HasSubstr(" 0.001+-0.002  max")));
 }
 
 TEST(TimedTables, SayThatTheyAreOfSeconds) {
-  EXPECT_EQ(as_json(cost_record(report()))["tables"][0]["unit"], "s");
+  EXPECT_EQ(as_json(report())["tables"][0]["unit"], "s");
   EXPECT_THAT(cost_csv(report()), HasSubstr(",evaluation,s,1e-09,"));
   EXPECT_THAT(cost_chart(report().tables[0], 0), HasSubstr(">ns per evaluation<"));
 }
@@ -110,7 +109,7 @@ TEST(TimedTables, SayThatTheyAreOfSeconds) {
 TEST(CostChart, CanBeDrawnOfNothing) {
   pugi::xml_document document;
   EXPECT_TRUE(document.load_string(cost_chart(table({}), 0).c_str()));
-  EXPECT_TRUE(document.load_string(cost_chart(table({way("a", 1, std::nan(""))}), 0).c_str()));
+  EXPECT_TRUE(document.load_string(cost_chart(table({variant("a", 1, std::nan(""))}), 0).c_str()));
 }
 
 TEST(WritingCosts, LeavesTheRecordTheTableAndAChartForEachError) {

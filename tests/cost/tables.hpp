@@ -5,20 +5,29 @@
 
 namespace lobelia::cost {
 
-inline Way way(const char* name, double seconds, double error, double spread = 0) {
-  Way result{name, {{"lobe", name}}, {seconds, seconds, seconds, spread, 5}, {error}, {}, {}};
+inline Variant variant(const char* name, double seconds, double error, double spread = 0) {
+  Variant result{name, {{"lobe", name}}, {{"max", error}}, {}, {}, {}, {}, {}};
+  result.seconds = records::CostSeconds{seconds, spread, seconds, seconds, 5};
   return result;
 }
 
-inline Table table(std::vector<Way> ways) {
-  return {"lobe-n64",      "lobe", "A lobe", "evaluation", {{"max", "largest error"}},
-          std::move(ways), {}};
+inline Table table(std::vector<Variant> variants) {
+  Table result{"lobe-n64",          "lobe", "A lobe", "s", "evaluation", {{"max", "largest error"}},
+               std::move(variants), {},     {}};
+  add_fronts(result);
+  return result;
 }
 
 /// The same, counted and not timed.
-inline Table counted_table(std::vector<Way> ways) {
-  Table result = table(std::move(ways));
+inline Table counted_table(std::vector<Variant> variants) {
+  Table result = table(std::move(variants));
   result.unit = "bit operations";
+  for (Variant& variant : result.ways) {
+    variant.count = variant.seconds->median;
+    variant.seconds.reset();
+  }
+  result.fronts.clear();
+  add_fronts(result);
   return result;
 }
 

@@ -30,13 +30,14 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"compare", {"core", "records"}},
     {"shaders", {"core", "renderer"}},
     {"reference_scenes", {"core", "records", "renderer", "shaders"}},
-    {"verify", {"core", "records", "renderer", "reference_scenes"}},
+    {"studies", {"core"}},
+    {"verify", {"core", "studies", "records", "renderer", "reference_scenes"}},
     {"farm", {"core", "records", "renderer", "compare", "reference_scenes"}},
-    {"cost", {"core", "records", "renderer", "compare", "verify", "reference_scenes"}},
+    {"cost", {"core", "studies", "records", "renderer", "compare", "verify", "reference_scenes"}},
     {"gallery", {"core", "records"}},
     {"cli",
-     {"core", "records", "renderer", "shaders", "compare", "verify", "reference_scenes", "farm",
-      "cost", "gallery"}},
+     {"core", "records", "renderer", "shaders", "compare", "verify", "studies", "reference_scenes",
+      "farm", "cost", "gallery"}},
 };
 
 /// Who alone may include a heavy library.

@@ -1,7 +1,7 @@
 // The claims, measured once for all tests.
 #pragma once
 
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 
 namespace lobelia::paper {
 

@@ -10,7 +10,6 @@
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/json.hpp"
 #include "tests/verify/measured_claims.hpp"
-#include "verify/paper/errata.hpp"
 #include "verify/paper/plots.hpp"
 #include "verify/paper/report.hpp"
 
@@ -49,7 +48,7 @@ TEST(PaperClaims, say_all_that_a_reader_needs_and_have_names_of_their_own) {
     EXPECT_FALSE(claim.statement.empty()) << claim.name;
     EXPECT_FALSE(claim.definition.empty()) << claim.name;
     EXPECT_FALSE(claim.measured.empty()) << claim.name;
-    EXPECT_TRUE(claim.verdict != Verdict::kNotReproduced || !claim.reason.empty()) << claim.name;
+    EXPECT_TRUE(claim.verdict != kNotReproduced || !claim.reason.empty()) << claim.name;
     for (const Figure& figure : claim.measured)
       EXPECT_TRUE(std::isfinite(figure.value) && !figure.text.empty()) << claim.name;
   }
@@ -102,7 +101,7 @@ TEST(PaperCommand, exits_with_0_and_writes_record_and_plots) {
   EXPECT_EQ(record, as_json(paper_record(
                         measured_claims(),
                         {"lobelia", "verify", "paper", "--json", "paper.json", "--plots", "plots"},
-                        drawn)));
+                        figure_records(drawn))));
   EXPECT_EQ(files_in(directory.path() / "plots"), drawn.size());
   for (const auto& plot : drawn)
     EXPECT_EQ(read_file(directory.path() / "plots" / plot.file, 1 << 20),

@@ -17,8 +17,7 @@ const Claim& claim(std::string_view name) {
 }
 
 TEST(PaperFindings, every_claim_of_the_catalogue_has_the_verdict_that_is_known) {
-  using enum Verdict;
-  const std::map<std::string_view, Verdict> known = {
+  const std::map<std::string_view, std::string_view> known = {
       {"cs16-largest-error", kConfirmed},
       {"cs16-smallest-error", kNotReproduced},
       {"cs16-without-power", kNotReproduced},
@@ -66,7 +65,7 @@ TEST(PaperFindings, every_claim_of_the_catalogue_has_the_verdict_that_is_known) 
   EXPECT_EQ(measured_claims().size(), known.size());
   for (const Claim& measured : measured_claims()) {
     ASSERT_TRUE(known.contains(measured.name)) << "pin the verdict of " << measured.name;
-    EXPECT_EQ(name(measured.verdict), name(known.at(measured.name))) << measured.name;
+    EXPECT_EQ(measured.verdict, known.at(measured.name)) << measured.name;
   }
 }
 

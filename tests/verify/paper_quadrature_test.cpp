@@ -2,7 +2,6 @@
 // that are known, verdicts against figures that are just in or just out.
 #include <gtest/gtest.h>
 
-#include "verify/paper/albedo.hpp"
 #include "verify/paper/claim.hpp"
 #include "verify/paper/energy.hpp"
 #include "verify/paper/search.hpp"

@@ -9,28 +9,28 @@
 #include "renderer/precision.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/naive.hpp"
-#include "verify/stability/random_vectors.hpp"
 #include "verify/stability/sphere_scenes.hpp"
+#include "verify/stability/vectors.hpp"
 
 namespace lobelia::stability {
 namespace {
 
 /// Whether a bound is stated that a lobe, which is 0 to 1 of its peak, could be outside of.
 bool can_be_outside(const Row& row) {
-  return row.bound_of_peak < 1 || std::isfinite(row.bound_ulp);
+  return row.bound.of_peak < 1 || std::isfinite(row.bound.ulp);
 }
 
 /// Expects no row to be outside its bounds, and every row that passes to have one. Counts them.
 std::size_t expect_within(const Rows& rows) {
   for (const Row& row : rows) {
     EXPECT_TRUE(std::isfinite(row.truth)) << row.group << ", " << row.name << ", " << row.lobe;
-    EXPECT_EQ(row.outcome == Outcome::kNotCompared, !can_be_outside(row))
+    EXPECT_EQ(row.outcome == kNotCompared, !can_be_outside(row))
         << row.group << ", " << row.name << ", " << row.model << ", " << row.lobe
-        << ", n = " << row.exponent << ": " << row.bound_of_peak << " of the peak is stated";
-    EXPECT_NE(row.outcome, Outcome::kOutside)
+        << ", n = " << row.exponent << ": " << row.bound.of_peak << " of the peak is stated";
+    EXPECT_NE(row.outcome, kOutside)
         << row.group << ", " << row.name << ", " << row.model << ", " << row.lobe
         << ", n = " << row.exponent << ": " << row.ours.value << " for " << row.truth << ", "
-        << row.ours.of_peak << " of the peak where " << row.bound_of_peak << " is stated, "
+        << row.ours.of_peak << " of the peak where " << row.bound.of_peak << " is stated, "
         << row.ours.wrong_pixels << " wrong pixels";
   }
   return rows.size();
@@ -65,7 +65,7 @@ TEST(HardCases, DensitiesOfEveryLobeAreAllComparedAndNotOnlyWhereThereIsNothing)
   for (const LobeId lobe : lobes_under_test()) {
     int compared = 0, above_nothing = 0;
     for (const Row& row : density_rows(lobe)) {
-      compared += row.outcome == Outcome::kWithin && row.bound_of_peak == kDensityBound;
+      compared += row.outcome == kWithin && row.bound.of_peak == kDensityBound;
       above_nothing += row.truth > 0;
     }
     EXPECT_EQ(compared, 54) << info(lobe).name;
@@ -79,7 +79,7 @@ TEST(HardCases,
   for (const LobeId lobe : lobes_under_test())
     for (const Row& row : vector_rows(lobe)) {
       ++cases;
-      if (row.outcome != Outcome::kNotCompared) continue;
+      if (row.outcome != kNotCompared) continue;
       ++not_compared;
       EXPECT_TRUE(row.name.starts_with("L = -V")) << row.name << ", " << row.model;
       EXPECT_EQ(row.model, "blinn_phong_rdf") << row.name;
@@ -120,8 +120,8 @@ TEST_P(RandomVectorsOf, AreShadedWithinTheBoundOfEachPrecisionAndOfTheOneChosen)
     if (row.name == "in the precision that is chosen") {
       EXPECT_LE(row.ours.of_peak, kAllowedShadingError);
       chosen = std::max(chosen, row.ours.of_peak);
-    } else if (row.bound_of_peak < 0.1 && row.name.starts_with("all in")) {
-      used[row.name] = std::max(used[row.name], row.ours.of_peak / row.bound_of_peak);
+    } else if (row.bound.of_peak < 0.1 && row.name.starts_with("all in")) {
+      used[row.name] = std::max(used[row.name], row.ours.of_peak / row.bound.of_peak);
     }
   }
   // Below n = 0.35 cos^n rises so steeply from a right angle that not even float64 can promise it.

@@ -48,9 +48,8 @@ TEST(EveryLobeInFloat32, IsWithinItsStatedBoundInTheHardCases) {
   for (const LobeId lobe : lobes_under_test())
     for (const Row& row : lobe_rows(lobe)) {
       ++rows;
-      EXPECT_EQ(name(row.outcome), "within")
-          << row.lobe << " n = " << row.exponent << ", " << row.name << ": " << row.ours.value
-          << " for " << row.truth;
+      EXPECT_EQ(row.outcome, "within") << row.lobe << " n = " << row.exponent << ", " << row.name
+                                       << ": " << row.ours.value << " for " << row.truth;
     }
   EXPECT_EQ(rows, lobes_under_test().size() * kExponents.size() * 15);
 }

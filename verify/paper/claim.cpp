@@ -1,21 +1,67 @@
 #include "verify/paper/claim.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
 
 namespace lobelia::paper {
 
-std::string_view name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kConfirmed:
-      return "confirmed";
-    case Verdict::kNotReproduced:
-      return "not reproduced";
-    case Verdict::kFound:
-      return "found";
-  }
-  return "";
+#define LOBELIA_PAPER_CLAIMS(CLAIM)    \
+  CLAIM(cs16_largest_error)            \
+  CLAIM(cs16_smallest_error)           \
+  CLAIM(cs16_without_power)            \
+  CLAIM(cs16_operations)               \
+  CLAIM(cs16_normalised)               \
+  CLAIM(cs16_tail)                     \
+  CLAIM(theta_cr_approximation)        \
+  CLAIM(theta_cr_beyond)               \
+  CLAIM(theta_cr_growth)               \
+  CLAIM(residual_phong_rdf)            \
+  CLAIM(residual_modified_phong)       \
+  CLAIM(residual_blinn_phong_rdf_cut)  \
+  CLAIM(residual_blinn_phong_rdf)      \
+  CLAIM(residual_modified_blinn_phong) \
+  CLAIM(residual_distributions)        \
+  CLAIM(cosine_column)                 \
+  CLAIM(cosine_modified_blinn_phong)   \
+  CLAIM(factor_1063)                   \
+  CLAIM(best_digits)                   \
+  CLAIM(bounds_blinn_phong_rdf)        \
+  CLAIM(bounds_modified_blinn_phong)   \
+  CLAIM(bounds_of_cs16)                \
+  CLAIM(outside_the_range)             \
+  CLAIM(schlick_epicentre)             \
+  CLAIM(schlick_epicentre_inflection)  \
+  CLAIM(schlick_tail)                  \
+  CLAIM(schlick_division)              \
+  CLAIM(schlick_cost)                  \
+  CLAIM(gauss_accuracy)                \
+  CLAIM(gauss_inverse_cosine)          \
+  CLAIM(gauss_angle)                   \
+  CLAIM(more_accurate_lobe)            \
+  CLAIM(reciprocity_of_brdfs)          \
+  CLAIM(reciprocity_of_rdfs)           \
+  CLAIM(energy_of_cs16)                \
+  CLAIM(more_accurate_energy)          \
+  CLAIM(more_accurate_normalised)      \
+  CLAIM(energy_of_brdfs)               \
+  CLAIM(energy_of_rdfs_seen)           \
+  CLAIM(energy_of_rdfs_lit)            \
+  CLAIM(distribution_as_rdf)           \
+  CLAIM(distribution_as_brdf)          \
+  CLAIM(renderer_constants)
+
+#define LOBELIA_DECLARE(claim) Claim claim();
+LOBELIA_PAPER_CLAIMS(LOBELIA_DECLARE)
+
+std::vector<Claim> measure_all() {
+#define LOBELIA_LIST(claim) claim,
+  static constexpr Claim (*kMeasure[])() = {LOBELIA_PAPER_CLAIMS(LOBELIA_LIST)};
+  std::vector<Claim> claims(std::size(kMeasure));
+  oneapi::tbb::parallel_for(std::size_t{0}, claims.size(),
+                            [&](std::size_t i) { claims[i] = kMeasure[i](); });
+  return claims;
 }
 
 std::string figure_text(double value, int digits) {
@@ -50,6 +96,6 @@ bool rounds_to(long double measured, double printed, double unit) {
          static_cast<long double>(unit) / 2;
 }
 
-Verdict confirmed_if(bool holds) { return holds ? Verdict::kConfirmed : Verdict::kNotReproduced; }
+std::string confirmed_if(bool holds) { return holds ? kConfirmed : kNotReproduced; }
 
 }  // namespace lobelia::paper

@@ -1,43 +1,26 @@
-// A claim of the paper, and what came out when it was measured.
+// A claim of the paper and its measurement. To add one: write its function in a file of claims/ and add it to the list
+// in claim.cpp. Table, record, docs/errata.md and tests find it there.
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "records/paper.hpp"
 
 namespace lobelia::paper {
 
-enum class Verdict {
-  kConfirmed,
-  kNotReproduced,
-  kFound  ///< the paper does not speak of it: found while measuring
-};
+/// The statement is in our words, and `printed` is as the paper has it. The verdict is about the first figure.
+using Claim = records::Claim;
+/// A value with as many digits as are the same on every machine, and where it was found.
+using Figure = records::Measured;
+
+/// Verdicts. Found: the paper does not speak of it.
+inline constexpr char kConfirmed[] = "confirmed", kNotReproduced[] = "not reproduced",
+                      kFound[] = "found";
 
 /// Where the claims are that are called more-accurate.
 inline constexpr char kConclusions[] =
     "conclusions: the models are more accurate than the classical ones";
-
-/// "confirmed", "not reproduced", "found"
-std::string_view name(Verdict verdict);
-
-struct Figure {
-  std::string what;  ///< "largest difference"
-  double value = 0;
-  std::string
-      text;        ///< the value with as many digits as are worth saying: the same on every machine
-  std::string at;  ///< where: "n = 1024, x = 3.5 degrees"; may be empty
-};
-
-struct Claim {
-  std::string_view name;              ///< "cs16-largest-error"
-  std::string_view where;             ///< in the paper
-  std::string statement;              ///< in our words
-  std::string printed;                ///< the figure or formula as printed; "" where there is none
-  std::vector<Figure> measured = {};  ///< the first is the one that the verdict is about
-  std::string definition = {};        ///< what was measured, and how
-  Verdict verdict = Verdict::kFound;
-  std::string reason = {};  ///< where one is known
-};
 
 /// "0.0907", "1.70e-2", "36.8": significant digits, no locale, nothing that is not ASCII.
 std::string figure_text(double value, int digits);
@@ -53,6 +36,9 @@ std::string at_exponent(long double n);
 
 /// Whether `measured`, rounded as `printed` is, gives `printed`; `unit` is that of its last digit.
 bool rounds_to(long double measured, double printed, double unit);
-Verdict confirmed_if(bool holds);
+std::string confirmed_if(bool holds);
+
+/// All claims, measured, in the order of the list: takes about a second.
+std::vector<Claim> measure_all();
 
 }  // namespace lobelia::paper

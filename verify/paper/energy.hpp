@@ -22,4 +22,17 @@ inline Real energy(const Row& row, Lobe lobe, Real n, Cut cut = Cut::kSupport) {
 /// 2 pi times the integral of schlick(x) sin x, x = 0..pi/2: what Schlick's lobe carries.
 Real schlick_integral(Real n);
 
+enum class Held { kBeam, kEye };
+
+/// The share of power that a model reflects at any incidence, not at normal incidence alone.
+///
+/// Two questions that have one answer for a reciprocal model, and two for a model that is not:
+///   kBeam  a beam arrives at the angle theta: reflected power / arriving power,
+///          the integral over to_eye of radiance (N.V) / (N.L). This is conservation of energy.
+///   kEye   an eye looks at the angle theta in surroundings of radiance 1: the radiance that it sees,
+///          the integral over to_light of radiance per unit irradiance. The paper normalises this.
+///
+/// `coefficient` multiplies the lobe; a distribution D reflects f_r = D / 4 (implicit geometry).
+double albedo(const Row& row, Lobe lobe, Real n, Real coefficient, double theta, Held held);
+
 }  // namespace lobelia::paper

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <cmath>
+#include <cstdlib>
+
 #include "core/files.hpp"
-#include "verify/paper/albedo.hpp"
 #include "verify/paper/energy.hpp"
 
 namespace lobelia::paper {
@@ -191,6 +193,44 @@ std::vector<Plot> plots() {
     drawn[i] = {all[i].file, all[i].draw(), all[i].claims};
   });
   return drawn;
+}
+
+namespace {
+
+/// More digits than a drawing shows would only make the record long.
+std::vector<double> rounded(std::vector<double> values) {
+  for (double& value : values)
+    if (std::isfinite(value)) value = std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+  return values;
+}
+
+records::ChartAxis axis_record(const ChartAxis& axis) {
+  return {axis.label, axis.from, axis.to, axis.logarithmic ? std::optional(true) : std::nullopt,
+          axis.ticks};
+}
+
+records::PaperFigure figure_record(const Plot& plot) {
+  const Chart& chart = plot.chart;
+  records::PaperFigure record;
+  record.id = chart.id;
+  record.title = chart.title;
+  record.description = chart.description;
+  record.x = axis_record(chart.x);
+  record.y = axis_record(chart.y);
+  for (const ChartBand& band : chart.bands)
+    record.bands.push_back({band.label, band.from, band.to});
+  for (const ChartSeries& series : chart.series)
+    record.series.push_back({series.label, series.style, rounded(series.x), rounded(series.y)});
+  record.claims.assign(plot.claims.begin(), plot.claims.end());
+  return record;
+}
+
+}  // namespace
+
+std::vector<records::PaperFigure> figure_records(std::span<const Plot> plots) {
+  std::vector<records::PaperFigure> figures;
+  for (const Plot& plot : plots) figures.push_back(figure_record(plot));
+  return figures;
 }
 
 void write_plots(const std::filesystem::path& directory, std::span<const Plot> plots) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/svg_chart.hpp"
+#include "records/paper.hpp"
 
 namespace lobelia::paper {
 
@@ -18,6 +19,9 @@ struct Plot {
 };
 /// Drawn on all processors.
 std::vector<Plot> plots();
+
+/// As the record has them.
+std::vector<records::PaperFigure> figure_records(std::span<const Plot> plots);
 
 /// Writes them all into `directory`, which is made if it is not there.
 void write_plots(const std::filesystem::path& directory, std::span<const Plot> plots);

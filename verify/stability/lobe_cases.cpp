@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "verify/stability/cases.hpp"
@@ -67,15 +68,48 @@ Rows lobe_rows(LobeId lobe) {
       alignas(64) float given[16]{}, value[16]{};
       given[0] = s;
       kernels().lobe32(lobe)({{}, lobe, Normalisation::kExact, n}, 1, given, value);
-      Row row{"lobe", name, "", std::string(info(lobe).name), n};
-      row.truth = truth::lobe(lobe, s, n);
-      row.naive = judge(naive::lobe(lobe, float(1 - double(s)), n), row.truth, 1);
-      row.ours = judge(value[0], row.truth, 1);
-      row.bound_of_peak = stated.of_peak;
-      row.bound_ulp = stated.ulp;
-      if (row.truth > 0) row.bound_ulp -= stated.ulp_per_nat * std::log(row.truth);
-      row.outcome = value[0] == 0 || std::isnormal(value[0]) ? outcome(row) : Outcome::kOutside;
-      rows.push_back(row);
+      const double truth = truth::lobe(lobe, s, n);
+      const double ulp = stated.ulp - (truth > 0 ? stated.ulp_per_nat * std::log(truth) : 0);
+      rows.push_back(judged("lobe", name, {lobe, n}, truth,
+                            judge(naive::lobe(lobe, float(1 - double(s)), n), truth, 1),
+                            judge(value[0], truth, 1), stated.of_peak, ulp));
+      if (value[0] != 0 && !std::isnormal(value[0])) rows.back().outcome = kOutside;
+    }
+  }
+  return rows;
+}
+
+Rows coefficient_rows(LobeId lobe) {
+  std::vector<std::pair<std::string, double>> exponents{
+      {"smallest n: 2^(-n/2) is nearly 1", kMinExponent}, {"(n+2)(n+4) overflows float32", 2e19}};
+  for (const double n : kExponents) exponents.emplace_back("n = 0.1 to 1e8", n);
+  Rows rows;
+  for (const ModelId model : all_models())
+    for (const auto& [name, n] : exponents) {
+      const Highlight highlight{model, lobe, Normalisation::kExact, n};
+      const double truth = truth::coefficient(model, lobe, n);
+      rows.push_back(judged("coefficient", name, Subject(highlight), truth,
+                            judge(naive::coefficient(highlight), truth, truth),
+                            judge(radiance_coefficient(highlight), truth, truth),
+                            kCoefficientBound));
+    }
+  return rows;
+}
+
+Rows density_rows(LobeId lobe) {
+  Rows rows;
+  for (const double n : kExponents) {
+    const auto density = truth::density(lobe, n), ours = prepare(lobe, n).density;
+    const double peak = density(0);
+    for (const double nats : {0.0, 1.0, 80.0, 100.0, 700.0, 800.0}) {
+      const double s = std::min(1.0, -std::expm1(-nats / n));
+      const double truth = density(s);
+      const float cosine = float(1 - s);
+      const float naive =
+          cosine > 0 ? naive::lobe(lobe, cosine, n) * draw_factor(lobe, cosine) * float(peak) : 0;
+      rows.push_back(judged("density", fmt::format("n s = {}", nats), {lobe, n}, truth,
+                            judge(naive, truth, peak), judge(ours(s), truth, peak), kDensityBound));
+      if (!(rows.back().ours.value >= 0)) rows.back().outcome = kOutside;
     }
   }
   return rows;

@@ -58,30 +58,6 @@ void paste(const DisplayImage& from, DisplayImage& to, int x0, int y0) {
                 to.rgb.begin() + 3 * (std::ptrdiff_t(y0 + y) * to.width + x0));
 }
 
-}  // namespace
-
-std::vector<PicturePair> make_pictures() {
-  const HardScene hard = hard_scenes().front();
-  const ModelId model = *find_model("modified_phong");
-  const LobeId lobe = *find_lobe("cosine");
-  std::vector<PicturePair> pictures;
-  for (const double n : {1e3, 1e5, 1e6}) {
-    Scene scene = close_to_highlight(hard.scene, n).at(0);
-    scene.film = {kSide, kSide};
-    const Highlight highlight{model, lobe, Normalisation::kExact, n};
-    scene.materials[0].highlight = highlight;
-    const truth::Picture truth(scene);
-    PicturePair pair{n, truth::coefficient(model, lobe, n) * truth.peak(), {}, {}, {}};
-    pair.truth = to_image(truth.highlights(highlight), [](Rgb c) { return c; });
-    pair.naive = to_image(naive::picture(scene), [](const naive::Pixel& p) { return p.radiance; });
-    pair.ours = render(scene, {}).image;
-    pair.naive_error = largest_error(pair.naive, pair.truth, pair.peak);
-    pair.ours_error = largest_error(pair.ours, pair.truth, pair.peak);
-    pictures.push_back(std::move(pair));
-  }
-  return pictures;
-}
-
 DisplayImage error_picture(const Image& picture, const Image& truth, double peak) {
   DisplayImage shown{picture.width(), picture.height(), {}};
   for (std::size_t i = 0; i < picture.pixel_count(); ++i) {
@@ -95,35 +71,53 @@ DisplayImage error_picture(const Image& picture, const Image& truth, double peak
   return shown;
 }
 
-std::string picture_stem(double exponent, const char* name) {
-  return fmt::format("stability-n{:.0f}-{}", exponent, name);
-}
+}  // namespace
 
-void write_pictures(const std::filesystem::path& directory,
-                    const std::vector<PicturePair>& pictures) {
+std::vector<records::StabilityPictures> write_pictures(const std::filesystem::path& directory,
+                                                       const std::filesystem::path& from_record) {
   constexpr int kGap = 4;
-  const int rows = int(pictures.size());
+  constexpr double kExponents[] = {1e3, 1e5, 1e6};
+  const int rows = int(std::size(kExponents));
   DisplayImage sheet{4 * kSide + 3 * kGap, rows * kSide + (rows - 1) * kGap, {}};
   sheet.rgb.assign(std::size_t{3} * sheet.width * sheet.height, 255);
-  int y = 0;
-  for (const PicturePair& pair : pictures) {
-    const double exposure = exposure_for_peak(pair.peak);
+  const HardScene hard = hard_scenes().front();
+  Highlight highlight{*find_model("modified_phong"), *find_lobe("cosine"), Normalisation::kExact};
+  std::vector<records::StabilityPictures> pictures;
+  for (const double n : kExponents) {
+    Scene scene = close_to_highlight(hard.scene, n).at(0);
+    scene.film = {kSide, kSide};
+    highlight.exponent = n;
+    scene.materials[0].highlight = highlight;
+    const truth::Picture truth(scene);
+    const double peak = truth::coefficient(highlight.model, highlight.lobe, n) * truth.peak();
+    const Image true_image = to_image(truth.highlights(highlight), [](Rgb c) { return c; });
+    const double exposure = exposure_for_peak(peak);
+    const int y = int(pictures.size()) * (kSide + kGap);
     int x = 0;
-    for (const auto& [name, image] :
-         {std::pair("naive", &pair.naive), std::pair("ours", &pair.ours)}) {
-      const std::string stem = picture_stem(pair.exponent, name);
-      write_exr(directory / (stem + ".exr"), *image, {});
-      const DisplayImage eye = to_display(*image, exposure);
-      const DisplayImage error = error_picture(*image, pair.truth, pair.peak);
-      write_png(directory / (stem + ".png"), eye);
-      write_png(directory / (stem + "-error.png"), error);
+    const auto write = [&](const char* name, const Image& image) {
+      const std::string stem = fmt::format("stability-n{:.0f}-{}", n, name),
+                        file = (directory / stem).string(),
+                        recorded = (from_record / stem).generic_string();
+      const DisplayImage eye = to_display(image, exposure),
+                         error = error_picture(image, true_image, peak);
+      write_exr(file + ".exr", image, {});
+      write_png(file + ".png", eye);
+      write_png(file + "-error.png", error);
       paste(eye, sheet, x, y);
       paste(error, sheet, x + 2 * (kSide + kGap), y);
       x += kSide + kGap;
-    }
-    y += kSide + kGap;
+      return records::StabilityPicture{recorded + ".exr", recorded + ".png",
+                                       recorded + "-error.png",
+                                       largest_error(image, true_image, peak)};
+    };
+    records::StabilityPictures& pair = pictures.emplace_back();
+    pair.exponent = n;
+    pair.naive = write(
+        "naive", to_image(naive::picture(scene), [](const naive::Pixel& p) { return p.radiance; }));
+    pair.ours = write("ours", render(scene, {}).image);
   }
   write_png(directory / "stability.png", sheet);
+  return pictures;
 }
 
 }  // namespace lobelia::stability

@@ -2,33 +2,18 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
-#include "core/image.hpp"
+#include "records/stability.hpp"
 
 namespace lobelia::stability {
 
-struct PicturePair {
-  double exponent = 0;
-  double peak = 0;
-  Image truth, naive, ours;
-  double naive_error = 0, ours_error = 0;  ///< largest, of the peak
-};
-
-/// A modified Phong highlight cos^n, so close that it fills the picture, for n = 1e3, 1e5, 1e6.
-std::vector<PicturePair> make_pictures();
-
-/// log10 of |picture - truth| / peak as a colour: black at 1e-8 and below, then blue, red, yellow, white
-/// at 1 and above. What is no number is magenta.
-DisplayImage error_picture(const Image& picture, const Image& truth, double peak);
-
-/// "stability-n1000-naive": what the files of a picture begin with.
-std::string picture_stem(double exponent, const char* name);
-
-/// stability-nN-naive.exr, .png, -error.png and the same of ours, and stability.png: all in one, a
-/// row for each exponent.
-void write_pictures(const std::filesystem::path& directory,
-                    const std::vector<PicturePair>& pictures);
+/// Writes a modified Phong highlight cos^n, so close that it fills the picture, for n = 1e3, 1e5, 1e6:
+/// stability-nN-naive.exr, .png, -error.png and the same of ours, and stability.png: all in one, a row for each
+/// exponent. Error pictures show log10 of the error over the peak as a colour: black at 1e-8 and below, then blue, red,
+/// yellow, white at 1 and above; magenta is no number. The files' names begin with `from_record`, the path from the
+/// record to the directory.
+std::vector<records::StabilityPictures> write_pictures(const std::filesystem::path& directory,
+                                                       const std::filesystem::path& from_record);
 
 }  // namespace lobelia::stability

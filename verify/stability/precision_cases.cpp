@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "verify/stability/cases.hpp"
 #include "verify/stability/naive.hpp"
-#include "verify/stability/vector_chunk.hpp"
+#include "verify/stability/vectors.hpp"
 
 namespace lobelia::stability {
 namespace {
@@ -72,15 +71,10 @@ class Trial {
     const auto truth_at = [&](const Triple& d) {
       return truth::shape(highlight_, d.normal, d.to_eye, d.to_light);
     };
-    Row row{"precision", name, std::string(info(highlight_.model).name),
-            std::string(info(highlight_.lobe).name), highlight_.exponent};
-    row.truth = truth_at(worst.at);
-    row.naive = judge(by_naive.value, truth_at(by_naive.at), 1);
-    row.ours = judge(worst.value, row.truth, 1);
-    row.bound_of_peak = worst.bound;
-    row.bound_ulp = std::numeric_limits<double>::infinity();
-    row.outcome = outcome(row);
-    return row;
+    const double truth = truth_at(worst.at);
+    return judged("precision", name, Subject(highlight_), truth,
+                  judge(by_naive.value, truth_at(by_naive.at), 1), judge(worst.value, truth, 1),
+                  worst.bound);
   }
 
   Worst by_precision[3], as_chosen, by_naive;

@@ -1,44 +1,44 @@
-// One hard case: the truth, what the textbook's float32 makes of it, and what we do.
+// One hard case: the truth, the textbook's float32, and ours.
 #pragma once
 
-#include <string>
+#include <limits>
 #include <string_view>
 #include <vector>
 
+#include "records/stability.hpp"
 #include "renderer/highlight.hpp"
 
 namespace lobelia::stability {
 
-/// A result and how far it is off: in units in the last place that float32 has at the truth, and
-/// relative to the highlight's peak. Infinite where the result is no number.
-struct Answer {
-  double value = 0, ulp = 0, of_peak = 0;
-  int wrong_pixels = 0;  ///< of a picture: hit instead of miss, the wrong sphere, or no number
-};
-
-enum class Outcome {
-  kWithin,
-  kOutside,
-  kNotCompared,  ///< a number, but no bound is stated that any number could exceed
-};
-std::string_view name(Outcome outcome);  ///< "within", "outside", "not compared"
-
-struct Row {
-  std::string group, name, model, lobe;  ///< model is empty where the lobe alone is looked at
-  double exponent = 0;
-  double truth = 0;
-  Answer naive = {}, ours = {};
-  double bound_of_peak = 0, bound_ulp = 0;  ///< stated; infinite where nothing is
-  Outcome outcome = Outcome::kOutside;
-};
+using Row = records::StabilityRow;
 using Rows = std::vector<Row>;
+/// A result and its error: in float32's units in the last place at the truth, and relative to the highlight's peak.
+/// Infinite where the result is no number.
+using Answer = records::StabilityAnswer;
 
-/// `peak` is what the highlight has in its middle. A truth and a value below the smallest normal
-/// float32 are the same: nothing.
+/// A row's outcome. Not compared: a number, but no bound is stated that any number could exceed.
+inline constexpr std::string_view kWithin = "within", kOutside = "outside",
+                                  kNotCompared = "not compared";
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// `peak` is the highlight's value in its middle. A truth and a value below the smallest normal float32 are the same:
+/// nothing.
 Answer judge(double value, double truth, double peak);
 
 /// Within both bounds, no wrong pixel, and 0 or a normal number. A lobe is 0 to 1 of its peak: a bound of the whole
 /// peak compares nothing.
-Outcome outcome(const Row& row);
+std::string_view outcome(const Row& row);
+
+/// A row of a highlight, or of a lobe alone.
+struct Subject {
+  explicit Subject(const Highlight& h)
+      : model(info(h.model).name), lobe(info(h.lobe).name), exponent(h.exponent) {}
+  Subject(LobeId l, double n) : lobe(info(l).name), exponent(n) {}
+  std::string_view model = {}, lobe;
+  double exponent;
+};
+Row judged(std::string_view group, std::string_view name, const Subject& of, double truth,
+           const Answer& naive, const Answer& ours, double bound_of_peak,
+           double bound_ulp = kInfinity);
 
 }  // namespace lobelia::stability

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/render.hpp"
@@ -67,7 +66,7 @@ const std::vector<Framing>& framings() {
 /// The worst pixel of a picture. Units in the last place are counted where there is a highlight to speak
 /// of; far down its flank they say nothing of the picture.
 struct WorstPixel {
-  Answer answer;
+  Answer answer = {};
   double truth = 0;
   void note(double value, double true_value, double peak) {
     const Answer here = judge(value, true_value, peak > 0 ? peak : 1);
@@ -95,15 +94,8 @@ Row compare_pictures(const Framing& framing, const Highlight& highlight) {
     if (naive[i].sphere != framing.truth.sphere(i)) ++of_naive.answer.wrong_pixels;
   }
   of_ours.answer.wrong_pixels += framing.wrong_pixels;
-  Row row{"spheres", framing.name, std::string(info(highlight.model).name),
-          std::string(info(highlight.lobe).name), highlight.exponent};
-  row.truth = of_ours.truth;
-  row.naive = of_naive.answer;
-  row.ours = of_ours.answer;
-  row.bound_of_peak = kAllowedShadingError;
-  row.bound_ulp = std::numeric_limits<double>::infinity();
-  row.outcome = outcome(row);
-  return row;
+  return judged("spheres", framing.name, Subject(highlight), of_ours.truth, of_naive.answer,
+                of_ours.answer, kAllowedShadingError);
 }
 
 }  // namespace

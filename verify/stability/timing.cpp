@@ -1,12 +1,11 @@
 #include "verify/stability/timing.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
 
+#include "core/timing.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 
@@ -16,23 +15,19 @@ namespace {
 constexpr int kRounds = 31, kCalls = 100;
 constexpr double kExponent = 1024;
 
-/// Each work does kChunk values. The first round only warms up.
-std::vector<Timing> interleaved(const std::vector<std::function<void()>>& works) {
-  using Clock = std::chrono::steady_clock;
-  std::vector<std::vector<double>> nanoseconds(works.size());
-  for (int round = 0; round <= kRounds; ++round)
-    for (std::size_t w = 0; w < works.size(); ++w) {
-      const auto start = Clock::now();
-      for (int call = 0; call < kCalls; ++call) works[w]();
-      const std::chrono::duration<double, std::nano> time = Clock::now() - start;
-      if (round > 0) nanoseconds[w].push_back(time.count() / (kCalls * double(kChunk)));
-    }
-  std::vector<Timing> timings;
-  for (auto& times : nanoseconds) {
-    std::sort(times.begin(), times.end());
-    timings.push_back({times[kRounds / 2], times[3 * kRounds / 4] - times[kRounds / 4]});
+/// Each work does kChunk values.
+std::vector<records::Nanoseconds> nanoseconds(const std::vector<std::function<void()>>& works) {
+  std::vector<std::function<void()>> repeated;
+  for (const auto& work : works)
+    repeated.push_back([&work] {
+      for (int call = 0; call < kCalls; ++call) work();
+    });
+  std::vector<records::Nanoseconds> result;
+  for (const Times& times : interleaved(repeated, kRounds)) {
+    const double median = times.median / (1e-9 * kCalls * double(kChunk));
+    result.push_back({median, 2 * times.spread * median});
   }
-  return timings;
+  return result;
 }
 
 /// s where the lobe has a value between these two, or nothing if it is never that small.
@@ -74,7 +69,7 @@ std::function<void()> shading(std::shared_ptr<Points> points, const Highlight& h
 }
 
 /// What a processor takes to multiply into denormal numbers.
-Stall without_care() {
+records::StabilityStall without_care() {
   const auto works = [](float factor) {
     const auto values = std::make_shared<std::vector<float>>(kChunk, 1e-30f);
     const auto results = std::make_shared<std::vector<float>>(kChunk);
@@ -83,7 +78,7 @@ Stall without_care() {
       for (std::size_t i = 0; i < kChunk; ++i) (*results)[i] = (*values)[i] * by;
     };
   };
-  const auto t = interleaved({works(0.5f), works(1e-10f)});
+  const auto t = nanoseconds({works(0.5f), works(1e-10f)});
   return {"no care", "float32", t[0], t[1]};
 }
 
@@ -95,8 +90,8 @@ std::vector<double> underflowing(LobeId lobe, Precision precision) {
 
 }  // namespace
 
-std::vector<Stall> measure_stalls(const std::vector<LobeId>& lobes) {
-  std::vector<Stall> stalls;
+std::vector<records::StabilityStall> measure_stalls(const std::vector<LobeId>& lobes) {
+  std::vector<records::StabilityStall> stalls;
   const ModelId phong = *find_model("phong_rdf");
   for (const LobeId lobe : lobes) {
     const auto ordinary = places(lobe, 0.9, 0.1);
@@ -104,7 +99,7 @@ std::vector<Stall> measure_stalls(const std::vector<LobeId>& lobes) {
     for (const Precision p : {Precision::kFloat32, Precision::kMixed, Precision::kFloat64}) {
       const auto tiny = underflowing(lobe, p);
       if (tiny.empty()) continue;
-      const auto t = interleaved({shading(std::make_shared<Points>(ordinary), h, p),
+      const auto t = nanoseconds({shading(std::make_shared<Points>(ordinary), h, p),
                                   shading(std::make_shared<Points>(tiny), h, p)});
       stalls.push_back({std::string(info(lobe).name), std::string(name(p)), t[0], t[1]});
     }
@@ -113,16 +108,16 @@ std::vector<Stall> measure_stalls(const std::vector<LobeId>& lobes) {
   return stalls;
 }
 
-std::vector<Price> measure_prices(const std::vector<LobeId>& lobes) {
-  std::vector<Price> prices;
+std::vector<records::StabilityPrice> measure_prices(const std::vector<LobeId>& lobes) {
+  std::vector<records::StabilityPrice> prices;
   for (const char* model : {"modified_phong", "modified_blinn_phong"})
     for (const LobeId lobe : lobes) {
       const Highlight h{*find_model(model), lobe, Normalisation::kExact, kExponent};
       const auto points = std::make_shared<Points>(places(lobe, 0.9, 0.1));
-      const auto t = interleaved({shading(points, h, Precision::kFloat32),
+      const auto t = nanoseconds({shading(points, h, Precision::kFloat32),
                                   shading(points, h, Precision::kMixed),
                                   shading(points, h, Precision::kFloat64)});
-      prices.push_back({std::string(info(lobe).name), model, {t[0], t[1], t[2]}});
+      prices.push_back({std::string(info(lobe).name), model, t[0], t[1], t[2]});
     }
   return prices;
 }

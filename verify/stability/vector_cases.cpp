@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/reflector.hpp"
-#include "verify/stability/by_kernel.hpp"
 #include "verify/stability/cases.hpp"
-#include "verify/stability/long_double.hpp"
 #include "verify/stability/naive.hpp"
+#include "verify/stability/vectors.hpp"
 
 namespace lobelia::stability {
 namespace {
@@ -81,25 +79,7 @@ double bound_here(double stated, const Highlight& h, const ScreenedVectors& v) {
   return at(std::max(0.0, chord - step)) - at(chord + step) + 2 * arithmetic;
 }
 
-Row new_row(const Highlight& h, const std::string& name) {
-  Row row{"vectors", name, std::string(info(h.model).name), std::string(info(h.lobe).name),
-          h.exponent};
-  row.bound_ulp = std::numeric_limits<double>::infinity();
-  return row;
-}
-
 }  // namespace
-
-double by_kernel(const Highlight& h, const ScreenedVectors& v, double& bound) {
-  const Precision precision = sufficient_precision(h, v.half_length);
-  bound = shading_error_bound(precision, h, v.half_length);
-  Vec3Chunk normal{}, to_eye{}, to_light{};
-  const auto put = [](Vec3Chunk& to, Vec3 a) { to.x[0] = a.x, to.y[0] = a.y, to.z[0] = a.z; };
-  put(normal, v.normal), put(to_eye, v.to_eye), put(to_light, v.to_light);
-  alignas(64) double value[16];
-  kernels().shade(h, precision)(h, 1, normal, to_eye, to_light, value);
-  return value[0];
-}
 
 Rows vector_rows(LobeId lobe) {
   Rows rows;
@@ -114,25 +94,19 @@ Rows vector_rows(LobeId lobe) {
         const bool seen = dot(v.normal, v.to_eye) > 0;
         const double naive = naive::shape(h, at.normal, at.to_eye, at.to_light);
 
-        Row row = new_row(h, name + " (Reflector)");
-        row.truth = seen ? shape : 0;
-        row.naive = judge(naive, row.truth, 1);
-        row.ours =
-            judge(reflector.eval(at.normal, at.to_eye, at.to_light).r / coefficient, row.truth, 1);
-        row.bound_of_peak =
-            bound_here(2 * shading_error_bound(Precision::kFloat64, h, v.half_length), h, v);
+        const double reflected = seen ? shape : 0;
+        rows.push_back(judged(
+            "vectors", name + " (Reflector)", Subject(h), reflected, judge(naive, reflected, 1),
+            judge(reflector.eval(at.normal, at.to_eye, at.to_light).r / coefficient, reflected, 1),
+            bound_here(2 * shading_error_bound(Precision::kFloat64, h, v.half_length), h, v)));
         const double pdf = reflector.pdf(at.normal, at.to_eye, at.to_light);
-        row.outcome = std::isfinite(pdf) && pdf >= 0 ? outcome(row) : Outcome::kOutside;
-        rows.push_back(row);
+        if (!(std::isfinite(pdf) && pdf >= 0)) rows.back().outcome = kOutside;
         if (!seen) continue;  // the kernels are given only what the camera sees
 
-        row = new_row(h, name);
-        row.truth = shape;
-        row.naive = judge(naive, shape, 1);
-        row.ours = judge(by_kernel(h, v, row.bound_of_peak), shape, 1);
-        row.bound_of_peak = bound_here(row.bound_of_peak, h, v);
-        row.outcome = outcome(row);
-        rows.push_back(row);
+        double bound = 0;
+        const Answer ours = judge(by_kernel(h, v, bound), shape, 1);
+        rows.push_back(judged("vectors", name, Subject(h), shape, judge(naive, shape, 1), ours,
+                              bound_here(bound, h, v)));
       }
     }
   return rows;

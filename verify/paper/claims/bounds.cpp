@@ -4,7 +4,7 @@
 // small that the difference rounds to 0.
 #include <fmt/format.h>
 
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 #include "verify/paper/search.hpp"
 
 namespace lobelia::paper {

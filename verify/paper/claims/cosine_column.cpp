@@ -1,7 +1,7 @@
 // The cos^n column of the table: coefficients in closed form, so the energy is to be 1 and not near it.
 #include <fmt/format.h>
 
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 #include "verify/paper/energy.hpp"
 #include "verify/paper/search.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 #include "verify/paper/search.hpp"
 
 namespace lobelia::paper {

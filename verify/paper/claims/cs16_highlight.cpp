@@ -2,7 +2,7 @@
 // them normalised, on a display of 8 bits.
 #include <fmt/format.h>
 
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 #include "verify/paper/search.hpp"
 
 namespace lobelia::paper {

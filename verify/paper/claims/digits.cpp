@@ -1,7 +1,7 @@
 // Whether the digits of the cs16 column are the best of their number.
 #include <fmt/format.h>
 
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 #include "verify/paper/energy.hpp"
 #include "verify/paper/search.hpp"
 

@@ -1,8 +1,7 @@
 // What rows 5 and 6 are not: their integral is that of a distribution of normals.
 #include <fmt/format.h>
 
-#include "verify/paper/albedo.hpp"
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 #include "verify/paper/energy.hpp"
 
 namespace lobelia::paper {

@@ -1,7 +1,7 @@
 // The cs16 column outside n = 16..1024, for which the paper gives it.
 #include <fmt/format.h>
 
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 #include "verify/paper/energy.hpp"
 
 namespace lobelia::paper {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "reference_scenes/engines/analytic/formulas/printed.hpp"
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 
 namespace lobelia::paper {
 namespace {

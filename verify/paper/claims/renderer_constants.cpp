@@ -3,7 +3,7 @@
 
 #include "reference_scenes/engines/analytic/formulas/printed.hpp"
 #include "renderer/highlight.hpp"
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 
 namespace lobelia::paper {
 

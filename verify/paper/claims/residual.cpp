@@ -1,7 +1,7 @@
 // The residuals of the cs16 column: how far the reflected energy at normal incidence is from 1.
 #include <fmt/format.h>
 
-#include "verify/paper/catalogue.hpp"
+#include "verify/paper/claim.hpp"
 #include "verify/paper/energy.hpp"
 #include "verify/paper/search.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 constexpr char kTable[] = "table of coefficients, cs16 column; Figs. 3 to 5";
 
 /// The claim "the residual of this row is at most `printed`", where `unit` is that of its last digit.
-Claim residual(std::string_view name, RowNumber number, double printed, double unit,
+Claim residual(const char* name, RowNumber number, double printed, double unit,
                Cut cut = Cut::kSupport) {
   const Row& row = kRows[number];
   const auto excess = [&](Real n) { return energy(row, Lobe::kCs16, n, cut) - 1; };
@@ -91,7 +91,7 @@ Claim residual_distributions() {
   claim.definition =
       "as rows 1 and 2, whose coefficients and integrands these rows share, with x the angle "
       "between normal and half vector; n real in 16..1024";
-  if (heightfield.verdict != Verdict::kConfirmed) claim.verdict = Verdict::kNotReproduced;
+  if (heightfield.verdict != kConfirmed) claim.verdict = kNotReproduced;
   claim.reason = "a distribution's integral is not the reflected energy (distribution-as-brdf)";
   return claim;
 }
