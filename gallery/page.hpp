@@ -32,7 +32,7 @@ struct SiteFrame {
 
 struct PageFrame {
   std::string title;    ///< of this page, without the site's
-  std::string view;     ///< of gallery/web/src/views.ts; nothing starts where that has none
+  std::string view;     ///< a file of gallery/web/src/views; nothing starts where there is none
   std::string root;     ///< from this page to the site's directory: "" or "../../"
   std::string path;     ///< from the site's directory to this page
   std::string made_by;  ///< of the records, for the foot

@@ -22,7 +22,8 @@ struct ViewPage {
 };
 
 struct View {
-  std::string_view name;   ///< also in gallery/web/src/views.ts, if a script makes more of it
+  std::string_view
+      name;  ///< also of its file in gallery/web/src/views, if a script makes more of it
   std::string_view title;  ///< in the navigation
   std::string_view file;   ///< "cost.html"
   /// Empty if the run has nothing for it. A record that cannot be read is said on the page.

@@ -2,7 +2,7 @@
 import './style/main.css';
 import { addCopyButtons } from './lib/copy';
 import './lib/data';
-import { views } from './views';
+import views from './views';
 
 // The data's scripts stand after this one, and this event after all of them.
 addEventListener('DOMContentLoaded', () => {

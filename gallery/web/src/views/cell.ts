@@ -1,7 +1,8 @@
 // The page of a cell: a viewer in place of the row of pictures, and curves that can be read.
 import type { CellPage } from '../records';
 import { profileView } from '../cell/profile_view';
-import { Viewer, viewerState } from '../cell/viewer';
+import { viewerState } from '../cell/choice';
+import { Viewer } from '../cell/viewer';
 import { pageData } from '../lib/data';
 
 /** The next cell is seen as this one is: the link takes the state along. */

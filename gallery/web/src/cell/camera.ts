@@ -1,0 +1,64 @@
+// Which part of the picture the stage shows, and how large.
+import { clamp } from '../lib/numbers';
+import type { Choice } from './choice';
+import type { Rectangle, Viewport } from './painter';
+
+const kMostZoom = 64;
+
+export class Camera {
+  /** Of the picture, in pixels. */
+  size = { width: 1, height: 1 };
+
+  constructor(private readonly stage: HTMLElement, private readonly choice: Choice,
+              private readonly change: (changes: { x: string; y: string; z: string }) => void) {}
+
+  rectangles(): Rectangle[] {
+    const box = this.stage.getBoundingClientRect(), scale = devicePixelRatio;
+    const width = Math.max(4, Math.round(box.width * scale)), height = Math.max(1, Math.round(box.height * scale));
+    if (this.choice.mode() !== 'side') return [{ x: 0, y: 0, width, height }];
+    const half = Math.max(1, Math.floor(width / 2) - 1);
+    return [{ x: 0, y: 0, width: half, height }, { x: half + 2, y: 0, width: width - half - 2, height }];
+  }
+
+  fitZoom(): number {
+    const at = this.rectangles()[0]!;
+    return Math.min(at.width / this.size.width, at.height / this.size.height);
+  }
+
+  view(): Viewport {
+    const at = this.rectangles()[0]!;
+    const zoom = this.choice.state.get('z') === '' ? this.fitZoom() : clamp(this.choice.state.number('z') * devicePixelRatio, this.fitZoom() / 4, kMostZoom * 4);
+    const x = this.choice.state.get('x') === '' ? this.size.width / 2 : this.choice.state.number('x');
+    const y = this.choice.state.get('y') === '' ? this.size.height / 2 : this.choice.state.number('y');
+    return { x: x - at.width / 2 / zoom, y: y - at.height / 2 / zoom, zoom };
+  }
+
+  zoomTo(zoom: number, about?: { x: number; y: number }): void {
+    const view = this.view(), at = this.rectangles()[0]!;
+    const next = clamp(zoom * devicePixelRatio, Math.min(this.fitZoom(), 1), kMostZoom * devicePixelRatio);
+    const centre = { x: view.x + at.width / 2 / view.zoom, y: view.y + at.height / 2 / view.zoom };
+    // What is under the pointer stays there.
+    const fixed = about ?? centre, share = view.zoom / next;
+    this.moveTo(fixed.x + (centre.x - fixed.x) * share, fixed.y + (centre.y - fixed.y) * share, next / devicePixelRatio);
+  }
+
+  zoomBy(factor: number, about?: { x: number; y: number }): void {
+    this.zoomTo(this.view().zoom / devicePixelRatio * factor, about);
+  }
+
+  moveTo(x: number, y: number, zoom: number): void {
+    this.change({
+      x: clamp(x, 0, this.size.width).toFixed(2), y: clamp(y, 0, this.size.height).toFixed(2), z: String(Number(zoom.toPrecision(5))),
+    });
+  }
+
+  fit(): void { this.change({ x: '', y: '', z: '' }); }
+
+  /** The picture's point under the pointer. */
+  pointAt(event: { clientX: number; clientY: number }): { x: number; y: number } {
+    const box = this.stage.getBoundingClientRect(), view = this.view(), scale = devicePixelRatio;
+    const across = (event.clientX - box.left) * scale, down = (event.clientY - box.top) * scale;
+    const panes = this.rectangles(), pane = panes.filter((r) => across >= r.x).at(-1) ?? panes[0]!;
+    return { x: view.x + (across - pane.x) / view.zoom, y: view.y + (down - pane.y) / view.zoom };
+  }
+}

@@ -1,0 +1,105 @@
+// What the pointer and the keys do to the viewer of a cell.
+import { announce, isTyping } from '../lib/dom';
+import { clamp, numberText } from '../lib/numbers';
+import type { Viewer } from './viewer';
+
+export function listenToPointer(viewer: Viewer): void {
+  const { stage, camera, choice } = viewer;
+  let held: { x: number; y: number; kind: 'pan' | 'line' | 'split' } | undefined;
+  const isAtDivider = (event: PointerEvent): boolean => {
+    const box = stage.getBoundingClientRect();
+    return choice.mode() === 'slide' && Math.abs(event.clientX - box.left - box.width * choice.state.number('split') / 100) < 12;
+  };
+  stage.addEventListener('pointerdown', (event) => {
+    if (event.button !== 0) return;
+    const point = camera.pointAt(event);
+    held = { ...point, kind: viewer.drawing ? 'line' : isAtDivider(event) ? 'split' : 'pan' };
+    stage.setPointerCapture(event.pointerId);
+  });
+  stage.addEventListener('pointermove', (event) => {
+    const point = camera.pointAt(event);
+    viewer.setCursor(point.x, point.y);
+    stage.classList.toggle('at-divider', held?.kind === 'split' || (!held && isAtDivider(event)));
+    if (!held) return;
+    if (held.kind === 'line') {
+      viewer.change({ line: [held.x, held.y, point.x, point.y].map((v, i) => clamp(Math.floor(v), 0, (i % 2 ? camera.size.height : camera.size.width) - 1)).join(',') });
+    } else if (held.kind === 'split') {
+      const box = stage.getBoundingClientRect();
+      viewer.change({ split: clamp(100 * (event.clientX - box.left) / box.width, 0, 100).toFixed(1) });
+    } else {
+      const view = camera.view(), at = camera.rectangles()[0]!;
+      camera.moveTo(view.x + at.width / 2 / view.zoom + held.x - point.x, view.y + at.height / 2 / view.zoom + held.y - point.y, view.zoom / devicePixelRatio);
+    }
+  });
+  const release = (): void => {
+    if (held?.kind === 'line') viewer.startLine();
+    else if (held?.kind === 'pan' && viewer.cursor) viewer.setCursor(viewer.cursor.x, viewer.cursor.y, true);
+    held = undefined;
+  };
+  stage.addEventListener('pointerup', release);
+  stage.addEventListener('pointercancel', release);
+  stage.addEventListener('wheel', (event) => {
+    // Without Ctrl the page scrolls, unless the reader is at work on the picture.
+    if (!event.ctrlKey && document.activeElement !== stage) return;
+    event.preventDefault();
+    camera.zoomBy(2 ** (-event.deltaY / 240), camera.pointAt(event));
+  }, { passive: false });
+  stage.addEventListener('dblclick', (event) => camera.zoomBy(2, camera.pointAt(event)));
+}
+
+export function listenToKeys(viewer: Viewer): void {
+  viewer.stage.addEventListener('keydown', (event) => moveByKey(viewer, event));
+  document.addEventListener('keydown', (event) => actByKey(viewer, event));
+}
+
+/** Arrow keys on the stage. */
+function moveByKey(viewer: Viewer, event: KeyboardEvent): void {
+  const { camera, choice } = viewer;
+  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+  if (!step) return;
+  event.preventDefault();
+  const [dx = 0, dy = 0] = step;
+  if (event.shiftKey) {
+    const view = camera.view(), at = camera.rectangles()[0]!;
+    const stride = at.width / view.zoom / 8;
+    camera.moveTo(view.x + at.width / 2 / view.zoom + dx * stride, view.y + at.height / 2 / view.zoom + dy * stride, view.zoom / devicePixelRatio);
+    return;
+  }
+  const { x, y } = viewer.cursorNow(choice.engine('a'), choice.engine('b')) ?? { x: Math.floor(camera.size.width / 2), y: Math.floor(camera.size.height / 2) };
+  viewer.setCursor(x + dx, y + dy, true);
+  const ours = viewer.pictures.valueAt(choice.engine('a'), viewer.cursor!.x, viewer.cursor!.y);
+  if (ours) announce(`Pixel ${viewer.cursor!.x}, ${viewer.cursor!.y}: ${ours.map((v) => numberText(v)).join(', ')}`);
+}
+
+/** Letters and digits anywhere on the page. */
+function actByKey(viewer: Viewer, event: KeyboardEvent): void {
+  const { camera, choice } = viewer;
+  if (isTyping(event)) return;
+  const digit = /^(?:Digit|Numpad)([1-9])$/.exec(event.code)?.[1];
+  const picked = digit ? choice.data.engines[Number(digit) - 1] : undefined;
+  if (picked?.picture) {
+    viewer.change(event.shiftKey ? { b: picked.name } : { a: picked.name, shown: 'a' });
+    announce(picked.title);
+    return event.preventDefault();
+  }
+  const stops = choice.mode() === 'diff' ? 'gain' : 'ev';
+  const now = choice.mode() === 'diff' ? choice.gain() : choice.stops();
+  const brighten = (by: number): void => {
+    viewer.change({ [stops]: String(now + by) });
+    viewer.change({ [stops]: String(choice.mode() === 'diff' ? choice.gain() : choice.stops()) });
+  };
+  const acts: Record<string, () => void> = {
+    f: () => viewer.change({ mode: 'flip', shown: choice.mode() === 'flip' && choice.state.get('shown') === 'a' ? 'b' : 'a' }),
+    l: () => viewer.change({ mode: 'slide' }), s: () => viewer.change({ mode: 'side' }), d: () => viewer.change({ mode: 'diff' }),
+    x: () => viewer.exchange(),
+    e: () => brighten(0.5), E: () => brighten(-0.5),
+    Escape: () => { if (viewer.drawing) viewer.startLine(); },
+    c: () => viewer.change({ colour: choice.state.get('colour') === 'false' ? '' : 'false' }),
+    '+': () => camera.zoomBy(2), '=': () => camera.zoomBy(2), '-': () => camera.zoomBy(0.5), '0': () => camera.fit(),
+    p: () => viewer.startLine(), w: () => viewer.goToWorst(),
+  };
+  const act = Object.hasOwn(acts, event.key) ? acts[event.key] : undefined;
+  if (!act) return;
+  act();
+  event.preventDefault();
+}
