@@ -75,7 +75,7 @@ fuzz: ## looks for files that break a reader, and scenes that break a law, FUZZ_
 	cmake --preset fuzz
 	cmake --build --preset fuzz --parallel "$(JOBS)"
 	$(configure)
-	$(build) --target test_renderer_random_scenes test_verify_random_scenes
+	$(build) --target test_renderer_random_scenes test_formulas_random_scenes
 	@scripts/fuzz build/fuzz "$(FUZZ_SECONDS)" "build/$(PRESET)/bin"
 
 chaos: ## farms to which faults happen at random, for MINUTES (10); SEED=N begins with that round

@@ -6,8 +6,8 @@
 
 #include "bench/sections.hpp"
 #include "core/timing.hpp"
-#include "cost/lobe_lanes.hpp"
 #include "renderer/kernels/kernels.hpp"
+#include "studies/cost/lobe_lanes.hpp"
 
 namespace lobelia::bench {
 namespace {

@@ -8,11 +8,11 @@
 #include "cli/progress.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
-#include "cost/levels.hpp"
-#include "cost/report.hpp"
 #include "records/record.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "studies/cost/benchmarks.hpp"
+#include "studies/cost/report.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -25,9 +25,9 @@ struct CostArguments {
 };
 
 /// Those that were named, or all that have something to measure.
-std::vector<const cost::Level*> chosen_levels(const CostArguments& options) {
-  std::vector<const cost::Level*> chosen;
-  for (const cost::Level& level : cost::levels()) {
+std::vector<const cost::Benchmark*> chosen_levels(const CostArguments& options) {
+  std::vector<const cost::Benchmark*> chosen;
+  for (const cost::Benchmark& level : cost::benchmarks()) {
     const bool named =
         std::find(options.levels.begin(), options.levels.end(), level.name) != options.levels.end();
     if (named && level.needs_scenes && options.scenes.empty())
@@ -79,7 +79,7 @@ void run_cost(const CostArguments& options) {
 
 std::string level_lines() {
   std::string text;
-  for (const cost::Level& level : cost::levels())
+  for (const cost::Benchmark& level : cost::benchmarks())
     text += fmt::format("  {:<14}{}{}\n", level.name, level.meaning,
                         level.needs_scenes ? " (of each SCENE)" : "");
   return text;
@@ -93,7 +93,7 @@ void add_cost(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<CostArguments>();
   command->add_option("SCENE", options->scenes, "Scene files, for the levels that need some");
   std::vector<std::string> names;
-  for (const cost::Level& level : cost::levels()) names.emplace_back(level.name);
+  for (const cost::Benchmark& level : cost::benchmarks()) names.emplace_back(level.name);
   command->add_option("--level", options->levels, "Measure this level alone; may be given again")
       ->check(CLI::IsMember(names))
       ->expected(1)

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "accuracy/accuracy.hpp"
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
@@ -15,7 +16,6 @@
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
 #include "core/timing.hpp"
-#include "cost/accuracy.hpp"
 #include "records/record.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_error.hpp"
@@ -73,20 +73,21 @@ RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
 }
 
 /// The cheapest way to the accuracy that was asked for.
-std::optional<cost::Choice> choice_of(const Scene& scene, const RenderArguments& options) {
+std::optional<accuracy::Choice> choice_of(const Scene& scene, const RenderArguments& options) {
   if (options.accuracy.empty()) return std::nullopt;
-  const cost::Accuracy asked = cost::parse_accuracy(options.accuracy);
-  return cost::choose(scene, asked, options.max_samples.value_or(cost::kMostChosenSamples));
+  const accuracy::Accuracy asked = accuracy::parse_accuracy(options.accuracy);
+  return accuracy::choose(scene, asked, options.max_samples.value_or(accuracy::kMostChosenSamples));
 }
 
 /// Says what was reached, where that was measured, and puts it into the record.
-ExitCode settle(const Scene& scene, const cost::Choice& choice, const Image& picture,
+ExitCode settle(const Scene& scene, const accuracy::Choice& choice, const Image& picture,
                 const RenderArguments& options, records::Render& record) {
-  std::optional<cost::Reached> reached;
-  if (options.accuracy_check != "none") reached = cost::measure_reached(scene, choice, picture);
-  record.accuracy = cost::accuracy_record(choice, reached);
+  std::optional<accuracy::Reached> reached;
+  if (options.accuracy_check != "none") reached = accuracy::measure_reached(scene, choice, picture);
+  record.accuracy = accuracy::accuracy_record(choice, reached);
   if (!options.quiet)
-    say("{}{}", cost::choice_text(choice), reached ? cost::reached_text(choice, *reached) : "");
+    say("{}{}", accuracy::choice_text(choice),
+        reached ? accuracy::reached_text(choice, *reached) : "");
   return !reached || reached->held(choice) ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
@@ -121,7 +122,7 @@ void run_render(const RenderArguments& options, ExitCode& code) {
   render_options.max_samples = options.max_samples;
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
   if (!options.accuracy.empty()) progress.show(0, "choosing");
-  const std::optional<cost::Choice> choice = choice_of(scene, options);
+  const std::optional<accuracy::Choice> choice = choice_of(scene, options);
   if (choice) choice->apply(render_options);
   const Scene& rendered = choice ? choice->scene : scene;
   FilesTogether files;

@@ -7,8 +7,8 @@
 #include "cli/commands.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
-#include "verify/paper/plots.hpp"
-#include "verify/paper/report.hpp"
+#include "studies/paper/plots.hpp"
+#include "studies/paper/report.hpp"
 
 namespace lobelia::cli {
 namespace {

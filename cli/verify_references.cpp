@@ -11,7 +11,7 @@
 #include "cli/progress.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
-#include "reference_scenes/agreement/report.hpp"
+#include "studies/agreement/report.hpp"
 
 namespace lobelia::cli {
 namespace {

@@ -9,10 +9,10 @@
 #include "cli/progress.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
-#include "verify/stability/cases.hpp"
-#include "verify/stability/pictures.hpp"
-#include "verify/stability/report.hpp"
-#include "verify/stability/timing.hpp"
+#include "studies/stability/cases.hpp"
+#include "studies/stability/pictures.hpp"
+#include "studies/stability/report.hpp"
+#include "studies/stability/timing.hpp"
 
 namespace lobelia::cli {
 namespace {

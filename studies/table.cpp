@@ -56,9 +56,11 @@ std::string table_text(Table table) {
   table.fit();
   std::string text = table.title.empty() ? "" : "\n" + table.title + "\n";
   const auto line = [&](auto cell) {
-    return joined("", "", "\n", table.columns.size(), [&](std::size_t i) {
+    std::string words = joined("", "", "", table.columns.size(), [&](std::size_t i) {
       return in_column(cell(i), table.columns[i], table.columns[i].width);
     });
+    words.erase(words.find_last_not_of(' ') + 1);
+    return words + "\n";
   };
   text += line_above(table.columns) + line([&](std::size_t i) { return table.columns[i].title; });
   for (const auto& row : table.rows)

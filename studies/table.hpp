@@ -1,18 +1,21 @@
 // The one table of all studies: columns and rows, and the forms in which people and programs read them.
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace lobelia::studies {
 
 /// A number is printed by its column's format, a text as it is.
 struct Cell {
-  Cell(std::string shown) : text(std::move(shown)) {}
-  Cell(const char* shown) : text(shown) {}
-  Cell(double value) : number(value) {}
+  template <std::convertible_to<std::string_view> Text>
+  Cell(const Text& shown) : text(std::string_view(shown)) {}
+  template <class Number>
+  requires std::is_arithmetic_v<Number> Cell(Number value) : number(double(value)) {}
   std::string text = {};
   std::optional<double> number = {};
 };

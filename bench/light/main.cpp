@@ -12,9 +12,9 @@
 #include <string_view>
 
 #include "bench/light/sections.hpp"
-#include "cost/report.hpp"
-#include "cost/transport/scenes.hpp"
-#include "cost/transport_level.hpp"
+#include "studies/cost/report.hpp"
+#include "studies/cost/transport/scenes.hpp"
+#include "studies/cost/transport_benchmark.hpp"
 
 namespace lobelia::bench {
 namespace {

@@ -9,10 +9,10 @@
 #include "bench/light/sections.hpp"
 #include "core/threads.hpp"
 #include "core/timing.hpp"
-#include "cost/transport/measure.hpp"
-#include "cost/transport/scenes.hpp"
 #include "renderer/accelerator.hpp"
 #include "renderer/plan/plan.hpp"
+#include "studies/cost/transport/measure.hpp"
+#include "studies/cost/transport/scenes.hpp"
 
 namespace lobelia::bench {
 namespace {

@@ -144,8 +144,6 @@ void add_effect(const fs::path& tree) {
               "  if (prepared.plan.on<effects::Throwaway>())\n"
               "    work.work.of<effects::Throwaway>() += wave.count;\n",
               "renderer/waves/");
-  effect.list("cost/effects/without.cpp", "constexpr Switch kSwitches[] = {\n",
-              "    {effects::Throwaway::kName, \"nothing\", [](Without&) {}},\n");
   effect.expect_as_documented();
 }
 
@@ -184,6 +182,8 @@ void add_view(const fs::path& tree) {
              {"\"paper\", \"Paper\", \"paper.html\"",
               "\"throwaway\", \"Throwaway\", \"throwaway.html\""}});
   view.list("gallery/views.cpp", "VIEW(paper)", " VIEW(throwaway)");
+  view.copy("gallery/web/src/views/paper.ts", "gallery/web/src/views/NAME.ts",
+            {{"function paper(", "function throwaway("}});
   view.expect_as_documented();
 }
 

@@ -78,9 +78,9 @@ TEST(Engines, that_others_name_or_start_are_found) {
   write(tree / "farm/b.cpp", "if (engine == \"tracer\") return 1;\n");
   write(tree / "gallery/b.cpp", "\nf(\"x\", \"The Tracer\");\n");
   write(tree / "reference_scenes/session.cpp", "f(\"tracer\");\n");
-  write(tree / "cost/b.cpp", "lobelia::run_engine(a);\nprobe_engine(b);\n");
+  write(tree / "compare/b.cpp", "lobelia::run_engine(a);\nprobe_engine(b);\n");
   EXPECT_THAT(knowledge_of_engines(tree.path()),
-              ElementsAre("cost/b.cpp:1: run_engine", "cost/b.cpp:2: probe_engine",
+              ElementsAre("compare/b.cpp:1: run_engine", "compare/b.cpp:2: probe_engine",
                           "farm/b.cpp:1: \"tracer\"", "gallery/b.cpp:2: \"The Tracer\"",
                           "reference_scenes/session.cpp:1: \"tracer\""));
 }

@@ -62,16 +62,16 @@ TEST(Lights, every_way_to_ask_is_found) {
   ASSERT_THAT(questions_of_type(tree.path()), IsEmpty());
 
   write(tree / "bench/b.cpp", "\nauto& l = std::get< lobelia::DiscLight >(light);\n");
-  write(tree / "cost/b.cpp", "if (get_if<const SphereLight>(&light)) return;\n");
-  write(tree / "verify/b.hpp", "std::holds_alternative<PointLight>(l);\n");
+  write(tree / "compare/b.cpp", "if (get_if<const SphereLight>(&light)) return;\n");
+  write(tree / "studies/b.hpp", "std::holds_alternative<PointLight>(l);\n");
   write(tree / "fuzz/b.cpp", "std::visit(\n    [](const auto& l) { return f(l); },\n    light);\n");
   write(tree / "cli/b.cpp",
         "visit(Print{}, scene.lights[0]);\nif (info(l).type != \"disc\") f();\n");
   EXPECT_THAT(questions_of_type(tree.path()),
               ElementsAre("bench/b.cpp:2: get< lobelia::DiscLight >",
                           "cli/b.cpp:2: info(l).type !=", "cli/b.cpp:1: visit(",
-                          "cost/b.cpp:1: get_if<const SphereLight>", "fuzz/b.cpp:1: visit(",
-                          "verify/b.hpp:1: holds_alternative<PointLight>"));
+                          "compare/b.cpp:1: get_if<const SphereLight>", "fuzz/b.cpp:1: visit(",
+                          "studies/b.hpp:1: holds_alternative<PointLight>"));
 }
 
 }  // namespace

@@ -30,14 +30,13 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"compare", {"core", "records"}},
     {"shaders", {"core", "renderer"}},
     {"reference_scenes", {"core", "records", "renderer", "shaders"}},
-    {"studies", {"core"}},
-    {"verify", {"core", "studies", "records", "renderer", "reference_scenes"}},
+    {"accuracy", {"core", "records", "renderer", "compare", "reference_scenes"}},
     {"farm", {"core", "records", "renderer", "compare", "reference_scenes"}},
-    {"cost", {"core", "studies", "records", "renderer", "compare", "verify", "reference_scenes"}},
+    {"studies", {"core", "records", "renderer", "compare", "reference_scenes", "accuracy"}},
     {"gallery", {"core", "records"}},
     {"cli",
-     {"core", "records", "renderer", "shaders", "compare", "verify", "studies", "reference_scenes",
-      "farm", "cost", "gallery"}},
+     {"core", "records", "renderer", "shaders", "compare", "reference_scenes", "accuracy", "farm",
+      "studies", "gallery"}},
 };
 
 /// Who alone may include a heavy library.
@@ -243,6 +242,29 @@ TEST(Farm, others_that_say_what_is_missing_are_found) {
         "if (cache.has(key)) return;\nsession.cache().find(key);\ncache_->list();\n"
         "const auto record = result_cache->find(graph[job].key);\n");
   EXPECT_EQ(loose_looks_at_results(tree.path()).size(), 4u);
+}
+
+/// Lines of studies that lay out a table themselves: as text, as CSV, as Markdown.
+Problems tables_of_their_own(const fs::path& root) {
+  static const std::regex pattern(R"re(csv_field|\|---|\{:<|\{:>?\{|<t[dhr]>)re");
+  return lines_with(root, pattern, [](const fs::path& file) {
+    return is_cpp(file) && *file.begin() == "studies" && file != "studies/table.cpp";
+  });
+}
+
+TEST(Studies, are_rendered_by_the_one_table) { EXPECT_THAT(tables_of_their_own(kRoot), IsEmpty()); }
+
+TEST(Studies, tables_of_their_own_are_found) {
+  Scratch tree;
+  write(tree / "studies/table.cpp", "text += csv_field(cell);\n");
+  write(tree / "cli/models.cpp", "fmt::print(\"{:<24}{}\", name, title);\n");
+  write(tree / "studies/cost/a.cpp", "fmt::format(\"{:.2f} ({})\", median, spread);\n");
+  ASSERT_THAT(tables_of_their_own(tree.path()), IsEmpty());
+  write(tree / "studies/paper/b.cpp",
+        "text += fmt::format(\"{:<{}}\", word, width);\ntext += \"|---|\";\n"
+        "line += csv_field(name) + \",\";\nfmt::format(\"{:>{}}\", value, 8);\n"
+        "fmt::format(\"{:<20}\", name);\n");
+  EXPECT_EQ(tables_of_their_own(tree.path()).size(), 5u);
 }
 
 TEST(Words, nothing_is_removed_but_by_core_removal) {

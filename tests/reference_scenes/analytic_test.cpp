@@ -12,8 +12,8 @@
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
+#include "studies/stability/sphere_scenes.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
-#include "verify/stability/sphere_scenes.hpp"
 
 namespace lobelia {
 namespace {

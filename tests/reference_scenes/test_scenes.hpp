@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/image.hpp"
-#include "reference_scenes/agreement/example_scenes.hpp"
+#include "studies/agreement/example_scenes.hpp"
 
 namespace lobelia {
 

@@ -20,6 +20,7 @@ struct Antialiasing {
   static constexpr double kSame = 1.0 / 32;
   /// Or than this share of the brightest highlight that is possible, which is black.
   static constexpr double kBlack = 1e-5;
+  static constexpr std::string_view kWithout = "one ray a pixel, through its centre";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const int samples = scene.sampler.sample_count;
@@ -46,6 +47,8 @@ struct Antialiasing {
     }
     return {kName, kWork, true, reason + "; " + plan.sample_reason};
   }
+
+  static void leave_out(Scene& scene, Experiment&) { scene.sampler.sample_count = 1; }
 };
 
 }  // namespace lobelia::effects

@@ -13,6 +13,7 @@ struct AreaLights {
   static constexpr std::string_view kName = "area_lights", kWork = "light samples",
                                     kHides =
                                         "a shadow's edge may be missed by all of a few samples";
+  static constexpr std::string_view kWithout = "points of the same power";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     const auto lights = std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
@@ -21,6 +22,11 @@ struct AreaLights {
     return {kName, kWork, policy == EffectPolicy::kAll || lights > 0,
             lights > 0 ? fmt::format("{} of {} lights have a size", lights, scene.lights.size())
                        : "no light has a size"};
+  }
+
+  static void leave_out(Scene& scene, Experiment&) {
+    for (Light& light : scene.lights)
+      if (const auto lamp = lamp_of_same_power(light)) light = light_of(*lamp);
   }
 };
 

@@ -10,6 +10,7 @@ namespace lobelia::effects {
 struct Glossy {
   static constexpr std::string_view kName = "glossy", kWork = "scattered rays",
                                     kHides = "a rare path may be missed by all of a few samples";
+  static constexpr std::string_view kWithout = "direct light and mirrors alone";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const bool all = policy == EffectPolicy::kAll;
@@ -21,6 +22,8 @@ struct Glossy {
     return {kName, kWork, true,
             fmt::format("inter-reflection was asked for, up to {} times", scene.depth.glossy)};
   }
+
+  static void leave_out(Scene& scene, Experiment&) { scene.depth.glossy = 0; }
 };
 
 }  // namespace lobelia::effects

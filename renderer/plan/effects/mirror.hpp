@@ -12,6 +12,7 @@ namespace lobelia::effects {
 struct Mirror {
   static constexpr std::string_view kName = "mirror", kWork = "mirror rays",
                                     kHides = "what a mirror shows may be of any size";
+  static constexpr std::string_view kWithout = "no mirrors";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     plan.depth.mirror = scene.depth.mirror;
@@ -31,6 +32,10 @@ struct Mirror {
     return {kName, kWork, true,
             fmt::format("{} of {} materials are mirrors, followed up to {} times", mirrors,
                         scene.materials.size(), scene.depth.mirror)};
+  }
+
+  static void leave_out(Scene& scene, Experiment&) {
+    for (Material& m : scene.materials) m.mirror_reflectance = {};
   }
 };
 

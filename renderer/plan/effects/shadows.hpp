@@ -10,6 +10,7 @@ namespace lobelia::effects {
 
 struct Shadows {
   static constexpr std::string_view kName = "shadows", kWork = "shadow rays", kHides = "";
+  static constexpr std::string_view kWithout = "light through everything";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     if (!plan.experiment.shadows) {
@@ -38,6 +39,8 @@ struct Shadows {
             fmt::format("{} pairs of a surface and another that may stand between it and a light",
                         pairs)};
   }
+
+  static void leave_out(Scene&, Experiment& experiment) { experiment.shadows = false; }
 };
 
 }  // namespace lobelia::effects

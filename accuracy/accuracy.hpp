@@ -1,0 +1,87 @@
+// A picture by the accuracy that it is to have: the cheapest lobe, precision and number of samples that will do.
+//
+// What a way costs is predicted from operations (shading_cost.hpp), what it errs from the lobes themselves or
+// from a look at some of the picture's pixels; docs/cost.md says what is promised and how.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "accuracy/shading_cost.hpp"
+#include "core/image.hpp"
+#include "records/render.hpp"
+#include "renderer/render.hpp"
+
+namespace lobelia::accuracy {
+
+struct Accuracy {
+  enum class Unit {
+    kOfPeak,     ///< error of a value, of the picture's brightest
+    kCiede2000,  ///< that 99 % of the pixels do not exceed, the brightest value at display white
+  };
+  Unit unit = Unit::kOfPeak;
+  double value = 0;  ///< > 0
+};
+inline constexpr double kMinAccuracyOfPeak = 1e-6, kMaxAccuracyOfPeak = 1;
+inline constexpr double kMinAccuracyCiede2000 = 1e-3, kMaxAccuracyCiede2000 = 100;
+
+/// "1e-3", of the peak, or "de2000=1". Throws Error(kUsage) that says what is allowed.
+Accuracy parse_accuracy(const std::string& text);
+std::string accuracy_text(const Accuracy& accuracy);  ///< as parse_accuracy takes it
+
+/// Why a prediction holds.
+enum class Basis {
+  kBound,  ///< an upper bound for every pixel, from the lobes and the roundings
+  kLook,   ///< measured on some of the pixels, and a quarter added
+};
+
+/// How an accuracy is measured: by its unit, and in a picture with noise by the root mean square.
+enum class Measure { kMaxOfPeak, kRmsOfPeak, kCiede2000P99 };
+
+struct Choice {
+  Accuracy asked;
+  Measure measure = Measure::kMaxOfPeak;
+  Basis basis = Basis::kBound;
+  Scene scene;                 ///< with the lobe that was chosen
+  std::optional<LobeId> lobe;  ///< none: each highlight's own, which differ
+  Precision precision = Precision::kFloat64;
+  std::optional<int> samples;     ///< a pixel, where something is random
+  double predicted = 0;           ///< what will not be exceeded
+  double cost = 0, own_cost = 0;  ///< shading_cost of it, and of the scene's own lobe in float64
+  int others = 0;                 ///< cheaper ways that would not do
+  std::string why;                ///< a sentence
+
+  /// How to render `scene`, on top of what else was asked for.
+  void apply(RenderOptions& options) const;
+};
+
+/// The cost by which ways are put in order: that of the catalogue, unless a test has its own.
+using CostModel = std::function<double(LobeId, Precision)>;
+
+/// At most so many samples a pixel are looked at and chosen.
+inline constexpr int kMostChosenSamples = 1024;
+
+/// Throws Error(kInput) with the best that is possible if nothing reaches what is asked.
+Choice choose(const Scene& scene, const Accuracy& asked, int most_samples = kMostChosenSamples,
+              const CostModel& model = shading_cost);
+
+struct Reached {
+  double value = 0;
+  std::string against;  ///< what truth, in words
+  double seconds = 0;   ///< that its making took
+  bool black = false;   ///< picture and truth both are: there was nothing to measure
+  bool held(const Choice& choice) const { return value <= choice.asked.value; }
+};
+
+/// How far the picture that was made by `choice` is from the truth of `scene`, by the choice's measure.
+Reached measure_reached(const Scene& scene, const Choice& choice, const Image& picture);
+
+std::string measure_text(Measure measure);  ///< "largest error of the peak"
+
+records::Accuracy accuracy_record(const Choice& choice, const std::optional<Reached>& reached);
+/// Lines for people: what was chosen and why; what was reached.
+std::string choice_text(const Choice& choice);
+std::string reached_text(const Choice& choice, const Reached& reached);
+
+}  // namespace lobelia::accuracy

@@ -1,0 +1,84 @@
+#include "accuracy/picture_truth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/metrics/catalogue.hpp"
+#include "core/colour.hpp"
+#include "core/image_values.hpp"
+#include "core/interrupt.hpp"
+#include "core/timing.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+
+namespace lobelia::accuracy {
+namespace {
+
+Image evaluated(const Scene& scene) {
+  const std::vector<Rgb> values =
+      truth::evaluate(scene, truth::Digits::kDouble, [] { return interrupted(); });
+  throw_if_interrupted();
+  Image image(scene.film.width, scene.film.height);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    float* pixel = image.values().data() + 3 * i;
+    pixel[0] = float(values[i].r), pixel[1] = float(values[i].g), pixel[2] = float(values[i].b);
+  }
+  return image;
+}
+
+}  // namespace
+
+RenderOptions with_samples(int samples) {
+  RenderOptions options;
+  // In rounds, towards an error that is never reached.
+  options.target_error = std::numeric_limits<double>::min();
+  options.max_samples = samples;
+  return options;
+}
+
+PictureTruth picture_truth(const Scene& scene, int samples) {
+  PictureTruth result;
+  const bool formulas = truth::why_not_evaluated(scene).empty();
+  result.how =
+      formulas ? "the formulas of every pixel, in double"
+      : samples > 1
+          ? fmt::format("our picture in float64, {} samples a pixel, another seed", samples)
+          : "our picture in float64";
+  result.seconds = seconds_of([&] {
+    if (formulas) {
+      result.image = evaluated(scene);
+      return;
+    }
+    Scene other = scene;
+    ++other.sampler.seed;
+    RenderOptions options = samples > 1 ? with_samples(samples) : RenderOptions();
+    options.precision = Precision::kFloat64;
+    result.image = render(other, options).image;
+  });
+  return result;
+}
+
+double measure_at_peak(std::string_view id, const Image& picture, const Image& truth) {
+  const double stops =
+      std::clamp(exposure_for_peak(peak_value(truth)), -kMaxExposureStops, kMaxExposureStops);
+  const Metric& metric = *find_metric(id);
+  std::vector<double> values(metric.outputs.size());
+  metric.measure({picture, truth, DisplayLight(picture, stops), DisplayLight(truth, stops),
+                  kDefaultPixelsPerDegree},
+                 values);
+  return values[std::size_t(find_metric_output(id) - metric.outputs.data())];
+}
+
+double rms_of_peak(const Image& picture, const Image& truth) {
+  double sum = 0;
+  const auto a = picture.values(), b = truth.values();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = double(a[i]) - double(b[i]);
+    sum += difference * difference;
+  }
+  return sum == 0 ? 0 : std::sqrt(sum / double(a.size())) / peak_value(truth);
+}
+
+}  // namespace lobelia::accuracy

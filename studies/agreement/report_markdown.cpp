@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/agreement/report.hpp"
+#include "studies/agreement/table_parts.hpp"
+
+namespace lobelia::agreement {
+namespace {
+
+constexpr char kHead[] = R"(# The references, compared
+
+<!-- Made by `lobelia verify references --markdown`; `make references` makes it again. -->
+
+How far each reference is from the analytic picture. The analytic picture is the formulas of
+[conventions](conventions.md), evaluated pixel by pixel in double, in 50 digits from n = 1e5 on, with geometry of
+their own ([decision 9](decisions/0009-the-formulas-are-an-engine.md)).
+
+- *Lobelia* is `lobelia render`.
+- *Native*: the engine shades the model itself.
+- *Expressed*: the model is reimplemented in the engine's language.
+- *Half*: POV-Ray writes half floats. *Float*: a second pass adds what they round off.
+- *POV-Ray against Blender Cycles*: both were told the same formula, POV-Ray in float. Smaller differences from us
+  are not meaningful.
+
+)";
+
+std::string section(const Table& table) {
+  std::string text = fmt::format("\n## {}\n\n", table.title);
+  if (table.rows.empty()) return text + "None.\n";
+  return text + table.remarks.at(0) + "\n\n" + table_markdown(table);
+}
+
+/// What the columns of figures mean.
+Table column_table() {
+  Table table = words_table("", "", {"column", ""});
+  for (const auto& [column, meaning] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"max, RMS",
+            "of the difference, over the peak of the analytic picture; RMS over the lit pixels"},
+           {"relative",
+            fmt::format(
+                "largest difference over the value, where the value is above {} of the peak",
+                short_number(kRelativeFrom))},
+           {"ring",
+            "pixels beside a silhouette, a terminator, a shadow's or a checker's edge, where a "
+            "rounding decides over a pixel's whole value; they are left out of the columns before. "
+            "Most in one picture"},
+           {"over",
+            fmt::format("of those in the ring, farther off than {} of the peak; at most 3 may be, "
+                        "{} beside checkers",
+                        short_number(kRingOfPeak), kCheckerRing)},
+           {"target", "what the largest difference of a picture is held to"}})
+    add_row(table, {column, meaning});
+  return table;
+}
+
+/// Why each variant misses its targets, if it misses one.
+std::string reasons(const Agreement& agreement) {
+  std::string text;
+  const auto add = [&](const Variant& variant) {
+    const bool missed = std::ranges::any_of(agreement.rows, [&](const Row& row) {
+      return row.variant.name == variant.name && row.verdict == Verdict::kMissed;
+    });
+    const std::string_view why = variant.why_off;
+    if (missed)
+      text += fmt::format("\n*{}*: {}\n", variant.title,
+                          why.empty() ? "the reason is not known." : why);
+  };
+  add(ours());
+  for (const Variant& variant : variants()) add(variant);
+  return text;
+}
+
+/// The same of averages.
+std::string soft_reasons(const Agreement& agreement) {
+  const bool missed = std::ranges::any_of(agreement.soft, [](const SoftRow& row) {
+    return row.what == "environment" && row.verdict == Verdict::kMissed;
+  });
+  return missed
+             ? "\n*environment*: A set has 4 or 16 directions of the whole sky, few of them or none where a "
+               "highlight looks. Its scatter is skewed, and Student's t too narrow for it; with 1024 points "
+               "one value or none is beyond, measured over three seeds.\n"
+             : "";
+}
+
+}  // namespace
+
+std::vector<std::string> markdown_headings() {
+  std::vector<std::string> headings;
+  for (const auto table : {headline_table, miss_table, lobe_table, model_table, effect_table,
+                           soft_table, refusal_table})
+    headings.push_back("## " + table({}).title);
+  return headings;
+}
+
+std::string report_markdown(const Agreement& agreement, std::string_view command) {
+  std::string text = kHead;
+  text += fmt::format(
+      "`{}`: pictures {} pixels wide, of the whole sphere below n = {:g} and from there on "
+      "of the highlight alone, so that it is resolved. ",
+      command, agreement.scope.size, kCloseUpExponent);
+  for (const EngineHere& engine : agreement.engines)
+    text += engine.status.available()
+                ? fmt::format("{} is {}. ", engine.info.title, engine.status.version)
+                : fmt::format("{} was not there. ", engine.info.title);
+  text += "**" + verdict_sentence(agreement) + ".**\n";
+  text += "\n" + table_markdown(column_table());
+  for (const auto table : {headline_table, miss_table, lobe_table, model_table, effect_table,
+                           soft_table, refusal_table}) {
+    text += section(table(agreement));
+    if (table == miss_table) text += reasons(agreement);
+    if (table == soft_table) text += soft_reasons(agreement);
+  }
+  return text;
+}
+
+}  // namespace lobelia::agreement

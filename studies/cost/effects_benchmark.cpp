@@ -1,0 +1,175 @@
+// The price of each effect: a picture with everything that its scene calls for, and without one effect at a
+// time.
+#include "studies/cost/effects_benchmark.hpp"
+#include "core/error_time_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/compare.hpp"
+#include "core/error.hpp"
+#include "renderer/render.hpp"
+#include "renderer/render_record.hpp"
+#include "studies/cost/everything.hpp"
+#include "studies/cost/film_size.hpp"
+#include "studies/cost/report.hpp"
+#include "studies/cost/without.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+/// One way to make the picture, and what it took.
+struct Case {
+  std::string effect;  ///< that is left out; empty: none
+  Scene scene;
+  RenderOptions how;
+  RenderResult result;
+};
+
+Case make_case(const std::string& effect, const Scene& scene) {
+  Case one{effect, scene, {}, {}};
+  if (!effect.empty()) {
+    Without left = without(effect, scene);
+    one.scene = std::move(left.scene);
+    one.how.experiment = left.experiment;
+  }
+  return one;
+}
+
+bool is_on(const Plan& plan, const std::string& effect) {
+  return std::any_of(plan.effects.begin(), plan.effects.end(),
+                     [&](const EffectDecision& e) { return e.name == effect && e.on; });
+}
+
+void require_good(const Case& one) {
+  for (const float value : one.result.image.values())
+    if (!std::isfinite(value))
+      throw Error(ExitCode::kInternal, "effects: a value of our picture is not finite");
+  if (!one.effect.empty() && is_on(one.result.plan, one.effect))
+    throw Error(ExitCode::kInternal, fmt::format("effects: {} is still on", one.effect));
+}
+
+/// Times as many samples and the seed after so many others; where there is one ray a pixel, it stays one.
+Image with_more_samples(const Case& one, int times, int seed) {
+  Scene scene = one.scene;
+  scene.sampler.seed += std::uint64_t(seed);
+  if (scene.sampler.sample_count > 1) scene.sampler.sample_count *= times;
+  return render(scene, one.how).image;
+}
+
+/// Stops by which the picture is brightened so that all but a hundredth of its pixels are below white: a
+/// few pixels that see a lamp would make the rest black.
+double exposure(const Image& image) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < image.values().size(); i += 3)
+    values.push_back(*std::max_element(&image.values()[i], &image.values()[i] + 3));
+  auto place = values.begin() + std::ptrdiff_t(double(values.size() - 1) * 0.99);
+  std::nth_element(values.begin(), place, values.end());
+  return *place > 0 ? -std::log2(double(*place)) : 0;
+}
+
+std::uint64_t rays(const Work& work) {
+  return work.camera_rays + work.shadow_rays + work.mirror_rays + work.scattered_rays;
+}
+
+records::Named<records::Work> effects_record(const RenderResult& result) {
+  records::Named<records::Work> work;
+  for (std::size_t i = 0; i < result.plan.effects.size(); ++i)
+    if (const EffectDecision& effect = result.plan.effects[i]; effect.on)
+      work.emplace_back(effect.name,
+                        records::Work{std::string(effect.work), result.work.of_effect[i]});
+  return work;
+}
+
+std::string price(const Variant& way, const Variant& all, const Case& one, const Case& whole) {
+  const double with = all.seconds->median, without = way.seconds->median;
+  const double saved = 1 - without / with;
+  std::string time =
+      saved >= 0 ? fmt::format("{} takes {:.0f} % of the time ({})", one.effect, 100 * saved,
+                               short_time_text(with - without))
+                 : fmt::format("without {} it takes {:.0f} % longer", one.effect, -100 * saved);
+  if (clearly_slower(way, all) == 0) time += ", which is within the spread";
+  const double rays_saved = double(rays(whole.result.work)) - double(rays(one.result.work));
+  return fmt::format(
+      "{}, {}; without it ({}) the picture is off by {:.2g} dE00 at p99, {:.2g} in the mean", time,
+      rays_saved >= 0
+          ? fmt::format("{:.2g} of {:.2g} rays", rays_saved, double(rays(whole.result.work)))
+          : fmt::format("{:.2g} more rays", -rays_saved),
+      in_place_of(one.effect), way.errors[0].second, way.errors[1].second);
+}
+
+Table measure_scene(const std::string& name, const Scene& scene, const Options& options) {
+  std::vector<Case> cases{make_case("", scene)};
+  for (const EffectDecision& effect : make_plan(scene, EffectPolicy::kAsCalledFor).effects)
+    if (effect.on) cases.push_back(make_case(std::string(effect.name), scene));
+  Table table;
+  table.id = "effects-" + name;
+  table.level = "effects";
+  table.title = fmt::format("What the effects of {} cost, {} x {}, {} samples", name,
+                            scene.film.width, scene.film.height, scene.sampler.sample_count);
+  table.per = "picture";
+  table.errors = {{"de2000_p99", "CIEDE2000 from everything, of 99 % of the pixels at most"},
+                  {"de2000_mean", "CIEDE2000 from everything, mean"},
+                  {"flip_mean", "LDR-FLIP from everything, mean"}};
+
+  const int rounds = options.rounds(3, 5, 11);
+  options.progress(fmt::format("{}: {} rounds of {} pictures", name, rounds, cases.size()));
+  std::vector<std::function<void()>> work;
+  for (Case& one : cases) work.push_back([&one] { one.result = render(one.scene, one.how); });
+  const std::vector<Times> times = interleaved(work, rounds);
+  for (const Case& one : cases) require_good(one);
+
+  // What is lost, of pictures with less noise than those that were timed. All have the same seed: what an
+  // effect does not touch is the same in both.
+  const int more = options.rounds(16, 4, 4);
+  options.progress(name + ": what is lost");
+  const Image whole = with_more_samples(cases[0], more, 0);
+  ComparisonOptions seen;
+  seen.viewing.exposure_stops = exposure(whole);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Case& one = cases[i];
+    const Comparison comparison = compare(with_more_samples(one, more, 0), whole, seen);
+    Variant way;
+    way.name = one.effect.empty() ? "everything" : "without " + one.effect;
+    way.settings = {{"without", one.effect}};
+    way.seconds = seconds_record(times[i]);
+    way.errors = {{"de2000_p99", comparison.value("ciede2000.p99")},
+                  {"de2000_mean", comparison.value("ciede2000.mean")},
+                  {"flip_mean", comparison.value("flip.ldr.mean")}};
+    records::CostFacts& facts = way.facts.emplace();
+    facts.rays = rays_record(one.result.work);
+    facts.rays_saved = double(rays(cases[0].result.work)) - double(rays(one.result.work));
+    facts.seconds_saved = times[0].median - times[i].median;
+    facts.work = effects_record(one.result);
+    table.ways.push_back(std::move(way));
+    if (!one.effect.empty())
+      table.remarks.push_back(price(table.ways.back(), table.ways[0], one, cases[0]));
+  }
+  const Comparison noise = compare(with_more_samples(cases[0], more, 1), whole, seen);
+  table.remarks.push_back(fmt::format(
+      "errors are to the picture with everything, both with {} samples of the same seed and brightened by "
+      "{:.2f} stops; with another seed everything itself is off by {:.2g} dE00 at p99, {:.2g} in the mean: "
+      "noise",
+      more * scene.sampler.sample_count, seen.viewing.exposure_stops, noise.value("ciede2000.p99"),
+      noise.value("ciede2000.mean")));
+  return table;
+}
+
+}  // namespace
+
+std::vector<Table> measure_effects(const Options& options) {
+  const int side = options.rounds(48, 96, 256);
+  std::vector<NamedScene> scenes = options.scenes;
+  if (scenes.empty()) scenes.push_back({"everything", everything()});
+  std::vector<Table> tables;
+  for (NamedScene& named : scenes) {
+    Scene scene = with_film(named.scene, side);
+    scene.sampler.sample_count = std::min(scene.sampler.sample_count, options.rounds(16, 64, 1024));
+    tables.push_back(measure_scene(named.name, scene, options));
+  }
+  return tables;
+}
+
+}  // namespace lobelia::cost

@@ -1,0 +1,215 @@
+#include "studies/cost/lobe_benchmark.hpp"
+#include "core/error_time_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "core/error.hpp"
+#include "renderer/catalogue_record.hpp"
+#include "studies/cost/largest_error.hpp"
+#include "studies/cost/lobe_errors.hpp"
+#include "studies/cost/lobe_variants.hpp"
+#include "studies/cost/report.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+constexpr std::size_t kPoints = 1024;     // in the first-level cache
+constexpr double kSecondsAtATime = 5e-5;  // a thousand times what the clock can tell apart
+constexpr std::size_t kMostRepeats = 4096;
+
+/// That are looked at for the largest error of a way; of float32 there are some 2^28.
+constexpr std::uint64_t kMostNumbersQuick = 1 << 20, kMostNumbers64 = 1 << 22,
+                        kAll = ~std::uint64_t(0);
+
+/// Points across the highlight, and a way's values of them.
+struct Points {
+  alignas(64) double s[kPoints], value[kPoints];
+  alignas(64) float s32[kPoints], value32[kPoints];
+  explicit Points(double exponent) {
+    // Where the lobes are neither 1 nor 0; in an order that no predictor of branches learns.
+    for (std::size_t i = 0; i < kPoints; ++i)
+      s[i] = s32[i] = float(highlight_end(exponent) / 2 * double(i * 389 % kPoints) / kPoints);
+  }
+};
+
+std::string exponent_text(double exponent) { return fmt::format("{:.15g}", exponent); }
+
+/// A compiler must take it that someone reads what was written.
+void keep(const void* written) { asm volatile("" ::"r"(written) : "memory"); }
+
+struct Case {
+  std::shared_ptr<Points> points;
+  std::function<void()> work;
+  std::size_t repeats;
+};
+
+/// `once` so often that the clock is no part of what is measured.
+Case repeated(std::shared_ptr<Points> points, std::function<void()> once) {
+  once();
+  const double seconds = std::max(seconds_of(once), 1e-8);
+  const auto repeats =
+      std::clamp<std::size_t>(std::size_t(kSecondsAtATime / seconds), 1, kMostRepeats);
+  return {std::move(points),
+          [once = std::move(once), repeats] {
+            for (std::size_t i = 0; i < repeats; ++i) once();
+          },
+          repeats};
+}
+
+Case case_of(const LobeVariant& way, double exponent) {
+  const auto p = std::make_shared<Points>(exponent);
+  if (way.wide)
+    return repeated(p, [&way, p] {
+      way.over64(kPoints, p->s, p->value);
+      keep(p->value);
+    });
+  return repeated(p, [&way, p] {
+    way.over32(kPoints, p->s32, p->value32);
+    keep(p->value32);
+  });
+}
+
+/// Reading and writing as many numbers: what no way can be faster than.
+Case copying(double exponent) {
+  const auto p = std::make_shared<Points>(exponent);
+  return repeated(p, [p] {
+    std::memcpy(p->value32, p->s32, sizeof(p->s32));
+    keep(p->value32);
+  });
+}
+
+/// What was timed were the lobe's values.
+void check(const LobeVariant& way, double exponent, const Points& points) {
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double value = way.wide ? points.value[i] : double(points.value32[i]);
+    const double truth = lobe_value(way.lobe, points.s[i], exponent);
+    if (!(std::abs(value - truth) <= way.allowed + 1e-13))
+      throw Error(ExitCode::kInternal,
+                  fmt::format("{}, timed at n = {}, is {} at s = {} in place of {}", way.name(),
+                              exponent_text(exponent), value, points.s[i], truth));
+  }
+}
+
+Variant row(const LobeVariant& way, const LobeVariantErrors& errors, const LargestError& largest,
+            const Times& times) {
+  Variant made;
+  made.name = way.name();
+  made.settings = {{"lobe", std::string(info(way.lobe).name)},
+                   {"method", way.method},
+                   {"precision", way.wide ? "float64" : "float32"},
+                   {"lanes", way.simd ? "SIMD" : "scalar"}};
+  made.seconds = seconds_record(times);
+  made.errors = {{"max", largest.found}, {"rms", errors.all.rms}, {"energy", errors.all.energy}};
+  records::CostFacts& facts = made.facts.emplace();
+  facts.operations = operations_record(way.operations);
+  facts.shape = errors.shape;
+  facts.rounding = errors.rounding;
+  facts.rounding->max_at_most = way.allowed;
+  facts.numbers_looked_at = largest.numbers;
+  if (largest.at_most > largest.found) made.errors_at_most.emplace() = {{"max", largest.at_most}};
+  return made;
+}
+
+/// Whether its shape or its rounding makes more of a way's largest error.
+std::vector<std::string> what_limits(const std::vector<LobeVariant>& ways,
+                                     const std::vector<LobeVariantErrors>& errors) {
+  std::size_t shaped = 0;
+  double most = 0, least_rounding = std::numeric_limits<double>::infinity(), most_rounding = 0;
+  std::string shaped_by, rounded_by, least_by;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const double shape = errors[i].shape.max, rounding = errors[i].rounding.max;
+    if (shape > rounding) {
+      ++shaped;
+      if (rounding / shape >= most) most = rounding / shape, shaped_by = ways[i].name();
+      continue;
+    }
+    if (rounding < least_rounding) least_rounding = rounding, least_by = ways[i].name();
+    if (rounding > most_rounding) most_rounding = rounding, rounded_by = ways[i].name();
+  }
+  std::vector<std::string> remarks{
+      fmt::format("The shape limits {} of {} ways: the most rounding seen is {:.2g} of it ({}).",
+                  shaped, ways.size(), most, shaped_by)};
+  if (shaped < ways.size())
+    remarks.push_back(fmt::format(
+        "Of the other {} the rounding is the larger error: seen from {:.2g} ({}) to {:.2g} ({}).",
+        ways.size() - shaped, least_rounding, least_by, most_rounding, rounded_by));
+  return remarks;
+}
+
+std::string what_is_a_bracket(const Table& table) {
+  const auto brackets = std::ranges::count_if(
+      table.ways, [](const Variant& way) { return way.errors_at_most.has_value(); });
+  if (brackets == 0) return "";
+  return fmt::format(
+      "The max of {} ways is of all float32 numbers s, that of {} a bracket: the largest found, and a bound that no "
+      "number exceeds.",
+      std::ssize(table.ways) - brackets, brackets);
+}
+
+std::string what_bounds_the_time(const Table& table, double copy) {
+  double fastest = std::numeric_limits<double>::infinity();
+  for (const Variant& way : table.ways) fastest = std::min(fastest, way.seconds->median);
+  return fmt::format(
+      "Reading s and writing a value takes {} in float32; the fastest way takes {:.1f} times that.",
+      short_time_text(copy), fastest / copy);
+}
+
+}  // namespace
+
+Table lobe_table(double exponent, int rounds, bool quick) {
+  const std::vector<LobeVariant> ways = lobe_variants(exponent);
+  std::vector<Case> cases;
+  for (const LobeVariant& way : ways) cases.push_back(case_of(way, exponent));
+  cases.push_back(copying(exponent));
+  std::vector<std::function<void()>> works;
+  for (const Case& timed : cases) works.push_back(timed.work);
+  const std::vector<Times> times = interleaved(works, rounds);
+  const auto each = [&](std::size_t i) {
+    return per(times[i], double(kPoints * cases[i].repeats));
+  };
+
+  Table table;
+  table.id = "lobe-n" + exponent_text(exponent);
+  table.level = "lobe";
+  table.title = fmt::format("A lobe, n = {}", exponent_text(exponent));
+  table.per = "evaluation";
+  table.errors = lobe_error_kinds();
+  const LobeTruth truth(exponent);
+  std::vector<LobeVariantErrors> errors;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    check(ways[i], exponent, *cases[i].points);
+    errors.push_back(truth.errors(ways[i]));
+    const std::uint64_t most = ways[i].of_cosine ? kAll
+                               : quick           ? kMostNumbersQuick
+                               : ways[i].wide    ? kMostNumbers64
+                                                 : kAll;
+    table.ways.push_back(row(ways[i], errors[i],
+                             largest_error(ways[i], exponent, errors[i].all.max, most), each(i)));
+  }
+  table.remarks = what_limits(ways, errors);
+  if (const std::string brackets = what_is_a_bracket(table); !brackets.empty())
+    table.remarks.push_back(brackets);
+  table.remarks.push_back(what_bounds_the_time(table, each(ways.size()).median));
+  return table;
+}
+
+std::vector<Table> measure_lobes(const Options& options) {
+  const std::vector<double> exponents =
+      options.effort == Effort::kQuick ? std::vector<double>{64, 1024}
+                                       : std::vector<double>{16, 64, 128, 256, 1024, 65536, 1e6};
+  std::vector<Table> tables;
+  for (const double exponent : exponents) {
+    options.progress(fmt::format("n = {}", exponent_text(exponent)));
+    tables.push_back(
+        lobe_table(exponent, options.rounds(11, 41, 201), options.effort == Effort::kQuick));
+  }
+  return tables;
+}
+
+}  // namespace lobelia::cost

@@ -1,0 +1,110 @@
+#include "studies/cost/lobe_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "reference_scenes/engines/analytic/formulas/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
+#include "studies/cost/quad.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+constexpr std::size_t kCore = 2048, kTail = 512;
+
+std::size_t place_of(LobeId lobe) {
+  const auto lobes = all_lobes();
+  return std::size_t(std::find(lobes.begin(), lobes.end(), lobe) - lobes.begin());
+}
+
+}  // namespace
+
+std::vector<records::CostError> lobe_error_kinds() {
+  return {{"max", "largest error, of the peak"},
+          {"rms", "RMS error over the highlight, of the peak"},
+          {"energy", "error of the energy, of that of cos^n"}};
+}
+
+LobeTruth::LobeTruth(double exponent) : cosine_energy_(1 / (exponent + 1)) {
+  add_samples(exponent);
+  cosine_ = place_of(*find_lobe("cosine"));
+  const ModelId whole = *find_model("phong_rdf");  // 1/coefficient: 2 pi times the lobe's integral
+  for (const LobeId lobe : all_lobes()) {
+    std::vector<Value>& values = values_.emplace_back();
+    for (const double s : s_) {
+      const Quad value = s < 1 ? lobe_definition<Quad>(lobe, Quad(1) - Quad(s), exponent) : Quad(0);
+      values.push_back({double(value), double(value - Quad(double(value)))});
+    }
+    const double energy = 1 / (2 * std::numbers::pi * truth::coefficient(whole, lobe, exponent));
+    shape_energy_.push_back(values_.size() - 1 == cosine_ ? 0 : energy / cosine_energy_ - 1);
+  }
+}
+
+void LobeTruth::add_samples(double exponent) {
+  const double end = highlight_end(exponent);
+  // Every way gets exactly the same s, so they are numbers of the narrower type.
+  const auto add = [&](double s, double weight) {
+    s_.push_back(float(s));
+    weight_.push_back(weight);
+  };
+  // Anywhere in its cell: cells' middles are numbers of few digits, whose 1 - s would not be rounded.
+  const auto within = [](std::size_t i) {
+    return double(i) + std::fmod(double(i + 1) * std::numbers::phi, 1.0);
+  };
+  for (std::size_t i = 0; i < kCore; ++i) add(end * within(i) / kCore, end / kCore);
+  core_ = s_.size();
+  const double step = -std::log(end) / kTail;
+  for (std::size_t i = 0; i < kTail && end < 1; ++i) {
+    const double s = end * std::exp(within(i) * step);
+    add(s, s * step);
+  }
+  add(0, 0);
+  add(1, 0);
+  for (int bits = 1; bits <= 24; ++bits) add(1 - std::exp2(-bits), 0);
+  for (int bits = 2; bits <= 60; ++bits) add(std::exp2(-bits), 0);
+  while (s_.size() % kLobeBlock != 0) add(0, 0);
+}
+
+LobeVariantErrors LobeTruth::errors(const LobeVariant& way) const {
+  const std::size_t count = s_.size();
+  std::vector<double> computed(count);
+  if (way.wide) {
+    way.over64(count, s_.data(), computed.data());
+  } else {
+    const std::vector<float> s(s_.begin(), s_.end());
+    std::vector<float> narrow(count);
+    way.over32(count, s.data(), narrow.data());
+    std::copy(narrow.begin(), narrow.end(), computed.begin());
+  }
+  const std::size_t place = place_of(way.lobe);
+  const std::vector<Value>&own = values_[place], &cosine = values_[cosine_];
+  LobeVariantErrors errors;
+  double drift = 0;
+  const auto count_in = [&](LobeErrors& e, double difference, std::size_t i) {
+    e.max = std::max(e.max, std::abs(difference));
+    if (i < core_) e.rms += difference * difference;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const double rounding = (computed[i] - own[i].high) - own[i].low;
+    if (!(std::abs(rounding) <= way.allowed))
+      throw Error(ExitCode::kInternal,
+                  fmt::format("{} is {:.3g} off at s = {}, n = {}; {:.3g} is allowed", way.name(),
+                              std::abs(rounding), s_[i], 1 / cosine_energy_ - 1, way.allowed));
+    count_in(errors.rounding, rounding, i);
+    count_in(errors.shape, (own[i].high - cosine[i].high) + (own[i].low - cosine[i].low), i);
+    count_in(errors.all, (computed[i] - cosine[i].high) - cosine[i].low, i);
+    drift += weight_[i] * rounding;
+  }
+  for (LobeErrors* e : {&errors.all, &errors.shape, &errors.rounding})
+    e->rms = std::sqrt(e->rms / double(core_));
+  errors.rounding.energy = std::abs(drift) / cosine_energy_;
+  errors.shape.energy = std::abs(shape_energy_[place]);
+  errors.all.energy = std::abs(shape_energy_[place] + drift / cosine_energy_);
+  return errors;
+}
+
+}  // namespace lobelia::cost

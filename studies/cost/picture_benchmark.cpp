@@ -1,0 +1,149 @@
+// What a whole picture takes, and how far it is from the scene's truth, by lobe and precision.
+//
+// Lobes stand in for the scene's own, each with the coefficient that makes its energy exact; the error is that
+// of the picture, so of lobe, precision and, where something is random, of noise together.
+#include "studies/cost/picture_benchmark.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/lobe_candidates.hpp"
+#include "accuracy/picture_truth.hpp"
+#include "accuracy/shading_cost.hpp"
+#include "core/error.hpp"
+#include "renderer/render.hpp"
+#include "renderer/render_record.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+struct Combination {
+  LobeId lobe;
+  Precision precision;
+  Scene scene;
+  Image first;
+  Work work;
+  int samples = 0;
+  std::string kernel;
+  std::vector<double> seconds;
+
+  RenderResult render() const {
+    RenderOptions options;
+    options.threads = 1;
+    options.precision = precision;
+    return lobelia::render(scene, options);
+  }
+};
+
+/// The scene's film, of the same shape but so many rays. Fewer say more about fixed costs than about pixels.
+Scene sized(const Scene& scene, const Options& options) {
+  const double rays = options.rounds(1 << 14, 1 << 18, 1 << 20);
+  const double pixels = std::max(rays / scene.sampler.sample_count, 4096.0);
+  const double shape = std::sqrt(double(scene.film.width) / scene.film.height);
+  Scene result = scene;
+  result.film.width = std::max(1, int(std::lround(std::sqrt(pixels) * shape)));
+  result.film.height = std::max(1, int(std::lround(std::sqrt(pixels) / shape)));
+  return result;
+}
+
+/// How the order that --accuracy goes by fares against the clock.
+std::string order_remark(const std::vector<Variant>& ways) {
+  int clear = 0, reversed = 0;
+  double worst = 1;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const int slower = clearly_slower(ways[i], ways[j]);
+      if (slower == 0) continue;
+      ++clear;
+      const double predicted = *ways[j].facts->predicted_cost - *ways[i].facts->predicted_cost;
+      if (predicted * slower >= 0) continue;
+      ++reversed;
+      const double ratio = ways[i].seconds->median / ways[j].seconds->median;
+      worst = std::max({worst, ratio, 1 / ratio});
+    }
+  return fmt::format(
+      "of {} pairs of ways of which one is clearly slower, the order of costs that --accuracy goes by has {} "
+      "the other way round, by {:.0f} % of the time at most",
+      clear, reversed, 100 * (worst - 1));
+}
+
+Table table_of(const NamedScene& named, const Options& options) {
+  const Scene scene = sized(named.scene, options);
+  std::vector<Combination> cases;
+  for (const LobeId lobe : accuracy::lobe_candidates(scene))
+    for (std::size_t p = 0; p < precision_names().size(); ++p)
+      cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}, 0, {}, {}});
+
+  const int rounds = options.rounds(3, 9, 25);
+  for (int round = -1; round < rounds; ++round) {
+    options.progress(fmt::format("{}, round {} of {}", named.name, std::max(1, round + 1), rounds));
+    for (Combination& c : cases) {
+      RenderResult result = c.render();
+      if (round >= 0) {
+        c.seconds.push_back(result.render_seconds);
+      } else {
+        c.first = std::move(result.image);
+        c.work = result.work;
+        c.samples = result.samples;
+        c.kernel = result.plan.kernel;
+        continue;
+      }
+      if (!std::ranges::equal(c.first.values(), result.image.values()))
+        throw Error(ExitCode::kInternal,
+                    fmt::format("{}, {}, {}: two renders of one scene differ", named.name,
+                                info(c.lobe).name, name(c.precision)));
+    }
+  }
+
+  options.progress(fmt::format("{}, errors", named.name));
+  const accuracy::PictureTruth truth = accuracy::picture_truth(
+      scene, std::min(1 << 14, scene.sampler.sample_count * options.rounds(4, 16, 64)));
+  Table table;
+  table.id = "picture-" + named.name;
+  table.level = "picture";
+  table.title = fmt::format("{}: {} x {} pixels", named.name, scene.film.width, scene.film.height);
+  table.per = "megapixel";
+  table.errors = {
+      {"de2000_p99", "CIEDE2000 that 99 % of the pixels do not exceed, the peak at white"},
+      {"flip", "mean LDR-FLIP, the peak at white"},
+      {"max_rel_peak", "largest error of a value, of the peak"}};
+  table.remarks = {"truth: " + truth.how};
+  const double megapixels = 1e-6 * scene.film.width * scene.film.height;
+  for (Combination& c : cases) {
+    const auto error = [&](std::string_view metric) {
+      return accuracy::measure_at_peak(metric, c.first, truth.image);
+    };
+    const std::string lobe(info(c.lobe).name), precision(name(c.precision));
+    Variant& way = table.ways.emplace_back();
+    way.name = fmt::format("{}, {}", lobe, precision);
+    way.settings = {
+        {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.samples)}};
+    way.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));
+    way.errors = {{"de2000_p99", error("ciede2000.p99")},
+                  {"flip", error("flip.ldr.mean")},
+                  {"max_rel_peak", error("max_rel_peak")}};
+    records::CostFacts& facts = way.facts.emplace();
+    facts.samples = c.samples;
+    facts.kernel = c.kernel;
+    facts.predicted_cost = accuracy::shading_cost(c.lobe, c.precision);
+    facts.rays = rays_record(c.work);
+  }
+  if (scene.sampler.sample_count > 1)
+    table.remarks.push_back(
+        fmt::format("errors are of lobe, precision and the noise of {} samples together",
+                    scene.sampler.sample_count));
+  table.remarks.push_back(order_remark(table.ways));
+  return table;
+}
+
+}  // namespace
+
+std::vector<Table> measure_pictures(const Options& options) {
+  std::vector<Table> tables;
+  for (const NamedScene& scene : options.scenes) tables.push_back(table_of(scene, options));
+  return tables;
+}
+
+}  // namespace lobelia::cost

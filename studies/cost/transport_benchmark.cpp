@@ -1,0 +1,342 @@
+// Light that comes from areas and by other surfaces: error over samples and over time, with importance
+// sampling and without, by us and by an engine.
+#include "studies/cost/transport_benchmark.hpp"
+#include "core/error_time_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "reference_scenes/engine.hpp"
+#include "renderer/plan/effects/catalogue.hpp"
+#include "renderer/render_record.hpp"
+#include "studies/cost/engine_program.hpp"
+#include "studies/cost/film_size.hpp"
+#include "studies/cost/report.hpp"
+#include "studies/cost/transport/convergence.hpp"
+#include "studies/cost/transport/measure.hpp"
+#include "studies/cost/transport/scenes.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+using Directions = Experiment::Directions;
+
+/// Seeds of the pictures that the others are measured against.
+constexpr std::uint64_t kTruthSeeds[] = {1001, 1002};
+/// What a converged picture takes, in units of the most samples that are measured.
+constexpr int kTruthFactor = 2;
+/// The smallest squared error, relative to the picture, that can be told from a converged picture's own.
+constexpr double kLeastSquare = 1e-20;
+
+struct Sampling {
+  const char* name;
+  const char* setting;
+  Directions directions;
+};
+constexpr Sampling kSamplings[] = {
+    {"ours", "light and surface, as planned", Directions::kPlanned},
+    {"ours, by the surface", "surface", Directions::kSurface},
+    {"ours, evenly", "none: evenly over the hemisphere", Directions::kEven},
+};
+
+/// A picture with an error known to be small.
+struct Converged {
+  Image image;
+  double error = 0;  ///< root mean square, expected from two halves
+  Converged() = default;
+  Converged(const Image& a, const Image& b)
+      : image(mean_of(a, b)), error(rms_of_difference(a, b) / 2) {}
+};
+
+/// What was measured with one number of samples.
+struct Point {
+  int samples = 1;
+  std::vector<double> seconds, errors;  ///< by seed; errors are root mean squares
+  records::CostFacts facts;
+};
+
+/// One way to draw samples, by one engine.
+struct Series {
+  std::string name, engine, sampling;
+  std::vector<Point> points;
+
+  Series(std::string series, std::string by, std::string how, const std::vector<int>& counts)
+      : name(std::move(series)), engine(std::move(by)), sampling(std::move(how)) {
+    for (const int samples : counts) points.emplace_back().samples = samples;
+  }
+};
+
+std::vector<int> sample_counts(const Options& options) {
+  std::vector<int> counts;
+  for (int n = 1; n <= options.rounds(16, 256, 1024); n *= 4) counts.push_back(n);
+  return counts;
+}
+
+void measure_ours(const Scene& scene, int seed, const Converged& truth, Directions directions,
+                  Series& series) {
+  RenderOptions how;
+  how.experiment.directions = directions;
+  for (Point& point : series.points) {
+    const Timed timed = render_timed(scene, point.samples, std::uint64_t(seed), how);
+    point.seconds.push_back(timed.seconds);
+    point.errors.push_back(rms_of_difference(timed.result.image, truth.image));
+    point.facts.rays = rays_record(timed.result.work);
+  }
+}
+
+/// An engine that traces light by itself; null if there is none here.
+struct TransportEngine {
+  std::unique_ptr<Engine> engine;
+  std::string title;  ///< "Cycles"
+  std::string why;    ///< where it is not here
+  explicit operator bool() const { return engine != nullptr; }
+};
+
+/// The first engine of the catalogue that has a light transport of its own.
+TransportEngine find_transport_engine(const Options& options) {
+  const auto infos = engine_infos();
+  const auto info =
+      std::ranges::find_if(infos, [](const EngineInfo& i) { return !i.transport.empty(); });
+  if (info == infos.end()) return {nullptr, "an engine", "no engine traces light by itself"};
+  auto engine = make_engine(info->name, named_program(options, info->name));
+  const EngineStatus& status = engine->status();
+  TransportEngine found{nullptr, std::string(info->transport), status.why};
+  if (status.available()) found.engine = std::move(engine);
+  return found;
+}
+
+/// Pictures one after the other, all processors for each.
+class TransportSession {
+ public:
+  explicit TransportSession(const TransportEngine& by)
+      : title_(by.title), session_(*by.engine, options()) {}
+
+  ReferenceResult render(Scene scene, int samples, std::uint64_t seed) {
+    scene.sampler.sample_count = samples;
+    scene.sampler.seed = seed;
+    ReferenceResult result = session_.render(scene);
+    if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
+    require_picture(result.image, title_.c_str());
+    return result;
+  }
+
+ private:
+  static ReferenceOptions options() {
+    ReferenceOptions options;
+    options.processes = 1;
+    options.own_transport = true;
+    options.no_progress_limit = std::chrono::minutes(5);
+    return options;
+  }
+  const std::string title_;
+  Session session_;
+};
+
+void measure_engine(const TransportEngine& by, const Scene& scene, const std::vector<int>& seeds,
+                    const Converged& truth, Series& series) {
+  TransportSession session(by);
+  // What a call costs without a picture to speak of; the first of a process costs more than the others.
+  const Scene tiny = with_film(scene, 8);
+  session.render(tiny, 1, 1);
+  const double tiny_seconds = session.render(tiny, 1, 1).record.seconds.total;
+  for (const int seed : seeds)
+    for (Point& point : series.points) {
+      const ReferenceResult result = session.render(scene, point.samples, std::uint64_t(seed));
+      point.seconds.push_back(result.record.seconds.total);
+      point.errors.push_back(rms_of_difference(result.image, truth.image));
+      point.facts.seconds_of_tiny_call = tiny_seconds;
+    }
+}
+
+Converged converged_picture(const TransportEngine& by, const Scene& scene, int samples) {
+  TransportSession session(by);
+  return {session.render(scene, samples, kTruthSeeds[0]).image,
+          session.render(scene, samples, kTruthSeeds[1]).image};
+}
+
+/// Relative to the picture; what the converged picture is off by itself is taken out.
+double error_of(const Point& point, const Converged& truth) {
+  double squared = 0;
+  for (const double error : point.errors) squared += error * error / double(point.errors.size());
+  const double scale = std::pow(rms(truth.image), 2);
+  return std::sqrt(std::max(kLeastSquare, (squared - truth.error * truth.error) / scale));
+}
+
+double spread_of(const Point& point, const Converged& truth) {
+  const double n = double(point.errors.size());
+  if (n < 2) return std::numeric_limits<double>::quiet_NaN();
+  double mean = 0, squared = 0;
+  for (const double error : point.errors) mean += error / n;
+  for (const double error : point.errors) squared += std::pow(error - mean, 2) / (n - 1);
+  return std::sqrt(squared) / rms(truth.image);
+}
+
+std::string slope_text(const Slope& slope) {
+  if (!std::isfinite(slope.value)) return "?";
+  if (!std::isfinite(slope.standard_error)) return fmt::format("{:.2f}", slope.value);
+  return fmt::format("{:.2f} +- {:.2f}", slope.value, slope.standard_error);
+}
+
+std::string time_text(const TimeTo& time) {
+  if (!std::isfinite(time.seconds)) return "a time that cannot be told";
+  const char* said = time.reach == TimeTo::Reach::kAtOnce   ? " (4 samples are better)"
+                     : time.reach == TimeTo::Reach::kBeyond ? " (extrapolated)"
+                                                            : "";
+  return short_time_text(time.seconds) + said;
+}
+
+/// The ways of a series, and what they say together.
+void add_series(const Series& series, const Converged& truth, Table& table) {
+  std::vector<double> samples, seconds, errors;
+  for (const Point& point : series.points) {
+    Variant way;
+    way.name = fmt::format("{}, {}", series.name, point.samples);
+    way.settings = {{"engine", series.engine},
+                    {"importance_sampling", series.sampling},
+                    {"samples", std::to_string(point.samples)}};
+    way.seconds = seconds_record(summary(point.seconds));
+    way.errors = {{"rmse_rel", error_of(point, truth)}};
+    way.error_spreads.emplace() = {{"rmse_rel", spread_of(point, truth)}};
+    way.facts = point.facts;
+    samples.push_back(point.samples);
+    seconds.push_back(way.seconds->median);
+    errors.push_back(way.errors[0].second);
+    table.ways.push_back(std::move(way));
+  }
+  // A single sample goes through the pixel's centre, and is off by the edges as well: no part of a slope. Nor
+  // are times in which there is little but the start.
+  const auto later = [](const std::vector<double>& values, std::size_t from) {
+    return std::vector<double>(values.begin() + std::ptrdiff_t(from), values.end());
+  };
+  const std::size_t working = samples.size() > 3 ? 2 : 1;
+  std::string slopes =
+      fmt::format("{}: the error falls as the samples to the power {}", series.name,
+                  slope_text(fit_slope(later(samples, 1), later(errors, 1))));
+  if (seconds.back() > 2 * seconds[working])
+    slopes += fmt::format(", as the time to the power {}",
+                          slope_text(fit_slope(later(seconds, working), later(errors, working))));
+  else
+    slopes += "; its time is mostly the start";
+  table.remarks.push_back(slopes);
+  std::string times;
+  for (const double wanted : {1e-2, 1e-3, 1e-4})
+    times += fmt::format(
+        "{} {:.0e} takes {}", times.empty() ? "" : ",", wanted,
+        time_text(time_to(later(samples, 1), later(seconds, 1), later(errors, 1), wanted)));
+  table.remarks.push_back(fmt::format("{}: an error of{}", series.name, times));
+}
+
+/// Two programs that show the same scene differ by their noise, and by what a picture's size makes of a plane
+/// that ends; beyond this one of them is wrong.
+constexpr double kMostApart = 0.03;
+
+std::string agreement(const Converged& ours, const Converged& theirs, const std::string& title) {
+  const double scale = rms(theirs.image);
+  const double apart = rms_of_difference(ours.image, theirs.image) / scale;
+  const double noise = std::hypot(ours.error, theirs.error) / scale;
+  if (apart > kMostApart + 2 * noise)
+    throw Error(
+        ExitCode::kInternal,
+        fmt::format("light transport: our converged picture and that of {} are {:.2g} apart "
+                    "(relative RMS), their noise is {:.2g}",
+                    title, apart, noise));
+  return fmt::format(
+      "the converged pictures of ours and {} are {:.1e} apart (relative RMS), their noise is {:.1e}",
+      title, apart, noise);
+}
+
+Table measure_scene(const std::string& id, const std::string& title, const Scene& scene,
+                    const TransportEngine& by, const Options& options) {
+  const std::vector<int> counts = sample_counts(options);
+  const int most = kTruthFactor * counts.back();
+  Table table;
+  table.id = "transport-" + id;
+  table.level = "transport";
+  table.title = fmt::format("{}, {} x {}", title, scene.film.width, scene.film.height);
+  table.per = "picture";
+  table.errors = {
+      {"rmse_rel",
+       "root mean square error, relative to that of the engine's own converged picture"}};
+
+  options.progress(id + ": converged pictures");
+  const Converged ours(render_timed(scene, most, kTruthSeeds[0]).result.image,
+                       render_timed(scene, most, kTruthSeeds[1]).result.image);
+  const bool both = bool(by);
+  const Converged theirs = both ? converged_picture(by, scene, most) : Converged();
+  std::vector<Series> series;
+  for (const Sampling& sampling : kSamplings)
+    series.emplace_back(sampling.name, "lobelia", sampling.setting, counts);
+  if (both)
+    series.emplace_back(by.title, std::string(by.engine->info().name),
+                        fmt::format("light and surface, by {} itself", by.title), counts);
+
+  // A program takes a second to start: too long for a quick look.
+  const bool at_once = options.effort == Effort::kQuick;
+  // In turn, so that a change in the machine's speed meets all.
+  const int rounds = options.rounds(2, 3, 7);
+  for (int seed = 1; seed <= rounds; ++seed) {
+    options.progress(fmt::format("{}: round {} of {}", id, seed, rounds));
+    for (std::size_t s = 0; s < std::size(kSamplings); ++s)
+      measure_ours(scene, seed, ours, kSamplings[s].directions, series[s]);
+    if (both && !at_once) measure_engine(by, scene, {seed}, theirs, series.back());
+  }
+  if (both && at_once) {
+    std::vector<int> seeds(std::size_t(rounds), 1);
+    std::iota(seeds.begin(), seeds.end(), 1);
+    measure_engine(by, scene, seeds, theirs, series.back());
+  }
+  for (const Series& one : series) add_series(one, one.engine == "lobelia" ? ours : theirs, table);
+  table.remarks.push_back(fmt::format(
+      "errors of the picture: of {} seeds each, against {} samples of two others, whose own error is "
+      "taken out (ours {:.1e}{})",
+      rounds, most, ours.error / rms(ours.image),
+      both ? fmt::format(", {} {:.1e}", by.title, theirs.error / rms(theirs.image)) : ""));
+  if (both) {
+    table.remarks.push_back(agreement(ours, theirs, by.title));
+    table.remarks.push_back(fmt::format(
+        "times of {} are of a running program that is given the scene, with setting it up and the file; ours "
+        "are of plan and picture",
+        by.title));
+  } else {
+    table.remarks.push_back(fmt::format("without {}: {}", by.title, by.why));
+  }
+  return table;
+}
+
+}  // namespace
+
+bool has_transport(const Scene& scene) {
+  const Plan plan = make_plan(scene, EffectPolicy::kAsCalledFor);
+  return plan.on<effects::AreaLights>() || plan.on<effects::Environment>() ||
+         plan.on<effects::Glossy>() || plan.on<effects::DepthOfField>();
+}
+
+std::vector<Table> measure_transport(const Options& options) {
+  const int side = options.rounds(48, 96, 192);
+  const TransportEngine by = find_transport_engine(options);
+  std::vector<Table> tables;
+  const auto add = [&](const char* id, const char* title, const Scene& scene) {
+    tables.push_back(measure_scene(id, title, scene, by, options));
+  };
+  add("rectangle_light", "A sphere on a plane below a rectangle of light", below_rectangle(side));
+  add("environment", "A sphere on a plane below a sky with a small sun", below_sky(side));
+  add("inter_reflection", "Below the rectangle, with light that goes from surface to surface",
+      with_inter_reflection(below_rectangle(side)));
+  const TransportEngine not_told{
+      nullptr, by.title,
+      "only the built-in scenes are told to it in this way (see the level engine)"};
+  for (const NamedScene& given : options.scenes)
+    if (has_transport(given.scene))
+      tables.push_back(
+          measure_scene(given.name, given.name, with_film(given.scene, side), not_told, options));
+  return tables;
+}
+
+}  // namespace lobelia::cost

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
+#include "renderer/kernels/kernels.hpp"
+#include "studies/stability/cases.hpp"
+#include "studies/stability/naive.hpp"
+#include "studies/stability/vectors.hpp"
+
+namespace lobelia::stability {
+namespace {
+
+constexpr std::size_t kChunks = 196;     ///< of kChunk vectors: 1e5
+constexpr int kClimbs = 6;               ///< chunks about the worst vectors
+constexpr std::size_t kNaiveEvery = 16;  ///< the naive formula is slow, and bad enough on these
+constexpr Precision kPrecisions[] = {Precision::kFloat32, Precision::kMixed, Precision::kFloat64};
+
+/// The largest error seen, and where.
+struct Worst {
+  double of_bound = -1;
+  Triple at;
+  double value = 0, bound = 0;
+};
+
+/// One model at one exponent in every precision.
+class Trial {
+ public:
+  explicit Trial(const Highlight& highlight) : highlight_(highlight) {
+    for (int halvings = 0; halvings < kHalvings; ++halvings) {
+      const double least = std::exp2(-halvings);
+      for (std::size_t p = 0; p < 3; ++p)
+        bounds_[p][halvings] = shading_error_bound(kPrecisions[p], highlight, least);
+      chosen_[halvings] = sufficient_precision(highlight, least);
+    }
+  }
+
+  /// `lobe` is the truth of it at the chunk's vectors.
+  void shade(const Chunk& chunk, const long double* lobe, bool with_naive) {
+    const bool cosine = info(highlight_.model).applies_cosine;
+    long double truth[kChunk];
+    for (std::size_t i = 0; i < kChunk; ++i)
+      truth[i] = lobe[i] * (cosine ? chunk.n_dot_l[i] : 1.0L);
+    for (std::size_t p = 0; p < 3; ++p) {
+      alignas(64) double value[kChunk];
+      kernels().shade(highlight_, kPrecisions[p])(highlight_, kChunk, chunk.normal, chunk.to_eye,
+                                                  chunk.to_light, value);
+      for (std::size_t i = 0; i < kChunk; ++i) {
+        const double error = double(std::abs(value[i] - truth[i]));
+        const int halvings = chunk.halvings[i];
+        const double bound = bounds_[p][halvings];
+        note(by_precision[p], error, bound, value[i], chunk.directions[i]);
+        if (chosen_[halvings] != kPrecisions[p]) continue;
+        if (bound <= kAllowedShadingError)
+          note(as_chosen, error, kAllowedShadingError, value[i], chunk.directions[i]);
+        else
+          note(beyond_float64, error, bound, value[i], chunk.directions[i]);
+      }
+    }
+    if (with_naive)
+      for (std::size_t i = 0; i < kChunk; ++i) {
+        const Triple& d = chunk.directions[i];
+        const double value = naive::shape(highlight_, d.normal, d.to_eye, d.to_light);
+        const double error = double(std::abs(value - truth[i]));
+        note(by_naive, std::isfinite(error) ? error : 1e300, 1, value, d);
+      }
+  }
+
+  /// The worst, judged by the truth.
+  Row row(const std::string& name, const Worst& worst) const {
+    const auto truth_at = [&](const Triple& d) {
+      return truth::shape(highlight_, d.normal, d.to_eye, d.to_light);
+    };
+    const double truth = truth_at(worst.at);
+    return judged("precision", name, Subject(highlight_), truth,
+                  judge(by_naive.value, truth_at(by_naive.at), 1), judge(worst.value, truth, 1),
+                  worst.bound);
+  }
+
+  Worst by_precision[3], as_chosen, by_naive;
+  Worst beyond_float64;  ///< where not even that promises kAllowedShadingError (docs/numerics.md)
+
+ private:
+  static void note(Worst& worst, double error, double bound, double value, const Triple& at) {
+    // A bound of the whole peak compares nothing: any other vector tells more.
+    const double part = bound < 1 || !std::isfinite(error) ? error / bound : 0;
+    if (part > worst.of_bound) worst = {part, at, value, bound};
+  }
+
+  Highlight highlight_;
+  double bounds_[3][kHalvings];
+  Precision chosen_[kHalvings];
+};
+
+/// The models that see the same angle, with one lobe.
+class Trials {
+ public:
+  Trials(LobeAngle angle, LobeId lobe, double exponent)
+      : angle_(angle), lobe_(lobe), exponent_(exponent) {
+    for (const ModelId model : all_models())
+      if (info(model).angle == angle)
+        trials_.emplace_back(Highlight{model, lobe, Normalisation::kExact, exponent});
+  }
+
+  void shade(const Chunk& chunk, bool with_naive) {
+    long double truth[kChunk];
+    for (std::size_t i = 0; i < kChunk; ++i) truth[i] = screened_lobe(lobe_, chunk.s[i], exponent_);
+    for (Trial& trial : trials_) trial.shade(chunk, truth, with_naive);
+  }
+
+  /// More vectors about the worst, which become the worst.
+  void climb(RandomVectors& vectors, Chunk& chunk) {
+    for (int climb = 0; climb < kClimbs; ++climb)
+      for (std::size_t p = 0; p < 3; ++p) {
+        const Triple worst = trials_[std::size_t(climb) % trials_.size()].by_precision[p].at;
+        chunk.fill(angle_, [&] { return vectors.beside(worst); });
+        shade(chunk, false);
+      }
+  }
+
+  void add_rows(Rows& rows) const {
+    for (const Trial& trial : trials_) {
+      if (trial.as_chosen.of_bound >= 0)
+        rows.push_back(trial.row("in the precision that is chosen", trial.as_chosen));
+      if (trial.beyond_float64.of_bound >= 0)
+        rows.push_back(trial.row("where float64 promises less", trial.beyond_float64));
+      for (std::size_t p = 0; p < 3; ++p)
+        rows.push_back(
+            trial.row("all in " + std::string(name(kPrecisions[p])), trial.by_precision[p]));
+    }
+  }
+
+ private:
+  LobeAngle angle_;
+  LobeId lobe_;
+  double exponent_;
+  std::vector<Trial> trials_;
+};
+
+}  // namespace
+
+Rows precision_rows(const std::vector<LobeId>& lobes, double exponent) {
+  Rows rows;
+  const auto chunk = std::make_unique<Chunk>();
+  for (const LobeAngle angle : {LobeAngle::kReflection, LobeAngle::kHalfVector}) {
+    std::vector<Trials> by_lobe;
+    for (const LobeId lobe : lobes) by_lobe.emplace_back(angle, lobe, exponent);
+    RandomVectors vectors(angle, exponent, 1);
+    for (std::size_t i = 0; i < kChunks; ++i) {
+      chunk->fill(angle, [&] { return vectors.next(); });
+      for (Trials& trials : by_lobe) trials.shade(*chunk, i % kNaiveEvery == 0);
+    }
+    for (Trials& trials : by_lobe) {
+      trials.climb(vectors, *chunk);
+      trials.add_rows(rows);
+    }
+  }
+  return rows;
+}
+
+}  // namespace lobelia::stability

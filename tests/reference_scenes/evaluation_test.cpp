@@ -1,0 +1,488 @@
+// A whole scene by formulas per pixel: held against numbers that are known without it, and double against 50
+// digits.
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "renderer/pixel_ray.hpp"
+#include "renderer/scene/scene_io.hpp"
+#include "studies/stability/sphere_scenes.hpp"
+#include "tests/canonical_scene.hpp"
+#include "tests/reference_scenes/hall_scene.hpp"
+
+namespace lobelia {
+namespace {
+
+using truth::Digits;
+
+constexpr double kPi = std::numbers::pi;
+constexpr HighlightChoice kPhong{"phong_rdf", "cosine", "exact", 9};
+
+std::vector<Rgb> picture(const Scene& scene) { return truth::evaluate(scene, Digits::kDouble); }
+/// Of an odd film.
+Rgb middle(const Scene& scene) {
+  const auto all = picture(scene);
+  return all[all.size() / 2];
+}
+
+/// Seen from above, a plane y = 0 of a Lambertian white: the middle pixel is the origin.
+Scene plane_scene() {
+  Scene scene = sphere_scene(kPhong, {DirectionalLight{{0, -1, 0}, {kPi, kPi, kPi}}}, 9);
+  scene.camera = {{0, 5, 0}, {0, 0, 0}, {0, 0, -1}, 28};
+  scene.spheres.clear();
+  scene.materials[0].specular_reflectance = {};
+  scene.materials[0].diffuse_reflectance = kWhite;
+  scene.planes = {{{0, 0, 0}, {0, 1, 0}, 0, 0, 1}};
+  return scene;
+}
+Material matt(double albedo) {
+  Material material;
+  material.highlight = highlight_of(kPhong);
+  material.diffuse_reflectance = albedo * kWhite;
+  return material;
+}
+Material mirror(double reflectance) {
+  Material material = matt(0);
+  material.mirror_reflectance = reflectance * kWhite;
+  return material;
+}
+
+TEST(Evaluation, PeakByALampBehindTheEyeIsTheCoefficientTimesTheIrradiance) {
+  EXPECT_NEAR(middle(sphere_scene(kPhong, {directional_at(0)}, 9)).r, 10 / (2 * kPi), 1e-14);
+  const std::pair<const char*, double> paper[] = {
+      {"phong_rdf", 1.063 * 40 / (2 * kPi)},
+      {"modified_phong", (1.063 * 40 + 1) / (2 * kPi)},
+      {"blinn_phong_rdf", (1.068 * 40 + 0.96) / (8 * kPi)},
+      {"modified_blinn_phong", (1.027 * 40 + 4.8) / (8 * kPi)},
+      {"blinn_phong_ndf", 1.063 * 40 / (8 * kPi)},
+      {"blinn_phong_heightfield", (1.063 * 40 + 1) / (8 * kPi)}};
+  for (const auto& [model, coefficient] : paper)
+    EXPECT_NEAR(middle(sphere_scene({model, "cs16", "paper", 40}, {directional_at(0)}, 9)).g,
+                coefficient, 1e-13)
+        << model;
+  EXPECT_NEAR(
+      middle(sphere_scene({"modified_blinn_phong", "cosine", "paper", 2}, {directional_at(0)}, 9))
+          .b,
+      4.0 * 6 / (4 * kPi * 2.5), 1e-14)
+      << "with the paper's misprint";
+}
+
+TEST(Evaluation, SchlicksFactorIsOfTheAngleBetweenEyeAndHalfVector) {
+  Scene scene = sphere_scene({"phong_rdf", "cosine", "exact", 9}, {directional_at(60)}, 9);
+  scene.materials[0].specular_reflectance = {0.1, 0.5, 1};
+  const Rgb without = middle(scene);
+  scene.materials[0].fresnel = Fresnel::kSchlick;
+  const Rgb with = middle(scene);
+  const double weight = std::pow(1 - std::cos(kPi / 6), 5);
+  EXPECT_NEAR(with.r / without.r, (0.1 + 0.9 * weight) / 0.1, 1e-13);
+  EXPECT_NEAR(with.g / without.g, (0.5 + 0.5 * weight) / 0.5, 1e-13);
+  EXPECT_NEAR(with.b / without.b, 1, 1e-13);
+}
+
+TEST(Evaluation, LambertsSphereIsAlbedoOverPiTimesTheCosine) {
+  Scene scene = sphere_scene(kPhong, {directional_at(60, {1, 2, 3})}, 9);
+  scene.materials = {matt(0.8)};
+  const Rgb m = middle(scene);
+  EXPECT_NEAR(m.r, 0.8 / kPi * 0.5, 1e-15);
+  EXPECT_NEAR(m.b, 2.4 / kPi * 0.5, 1e-15);
+}
+
+TEST(Evaluation, APointLightFallsWithTheSquareOfTheDistanceAndALampsNormalWithTheCosine) {
+  Scene scene = plane_scene();
+  scene.lights = {PointLight{{0, 2, 0}, {kPi, kPi, kPi}}};
+  EXPECT_NEAR(middle(scene).r, 0.25, 1e-15);
+  scene.lights = {PointLight{{3, 4, 0}, {kPi, kPi, kPi}}};
+  EXPECT_NEAR(middle(scene).r, 0.8 / 25, 1e-15);
+  scene.lights = {PointLight{{3, 4, 0}, {kPi, kPi, kPi}, {0, -1, 0}}};
+  EXPECT_NEAR(middle(scene).r, 0.8 * 0.8 / 25, 1e-15);
+  scene.lights = {PointLight{{3, 4, 0}, {kPi, kPi, kPi}, {0, 1, 0}}};
+  EXPECT_EQ(middle(scene).r, 0) << "it shines upwards";
+}
+
+TEST(Evaluation, APlaneHasTwoEqualSidesAndIsDarkByLightOfTheOther) {
+  Scene scene = plane_scene();
+  scene.lights = {DirectionalLight{{0, 1, 0}, {kPi, kPi, kPi}}};
+  EXPECT_EQ(middle(scene).r, 0);
+  scene.camera.origin.y = -5;
+  EXPECT_NEAR(middle(scene).r, 1, 1e-15);
+}
+
+TEST(Evaluation, SquaresOfACheckerBeginAtThePointAlongTheTangents) {
+  Scene scene = plane_scene();
+  scene.materials = {matt(1), matt(0.25)};
+  // Of +y the tangents are +x and -z.
+  for (const auto& [x, z, albedo] : {std::tuple(0.3, -0.3, 1.0),
+                                     {-0.3, -0.3, 0.25},
+                                     {0.3, 0.3, 0.25},
+                                     {-0.3, 0.3, 1.0},
+                                     {0.9, -0.3, 0.25},
+                                     {0.9, -0.9, 1.0}}) {
+    scene.planes = {{{-x, 0, -z}, {0, 1, 0}, 0, 1, 0.7}};
+    EXPECT_NEAR(middle(scene).r, albedo, 1e-14) << x << " " << z;
+  }
+  // Of (0.6, 0, -0.8) they are (1 - 0.36/1.8, 0, 0.6) = (0.8, 0, 0.6) and (0, -1, 0).
+  scene.camera = {{3, 0, -4}, {0, 0, 0}, {0, 1, 0}, 28};
+  scene.lights = {DirectionalLight{{-0.6, 0, 0.8}, {kPi, kPi, kPi}}};
+  for (const auto& [first, second, albedo] :
+       {std::tuple(0.3, 0.3, 1.0), {-0.3, 0.3, 0.25}, {0.3, -0.3, 0.25}, {0.9, 0.3, 0.25}}) {
+    scene.planes = {{{-0.8 * first, second, -0.6 * first}, {0.6, 0, -0.8}, 0, 1, 0.7}};
+    EXPECT_NEAR(middle(scene).r, albedo, 1e-14) << first << " " << second;
+  }
+}
+
+TEST(Evaluation, AMirrorPlaneShowsTheSceneMirroredAndDimmed) {
+  // A sphere above the floor y = 0, seen from above with its image, and its twin below where there is no floor.
+  Scene scene = sphere_scene({"blinn_phong_rdf", "gauss", "exact", 30},
+                             {DirectionalLight{{0.6, 0, -0.8}, kWhite}}, 40);
+  scene.camera = {{0, 1.5, 9}, {0, 0, 0}, {0, 1, 0}, 30};
+  scene.spheres[0].center = {0, 1.2, 0};
+  scene.materials.push_back(mirror(0.5));
+  scene.depth.mirror = 1;
+  Scene twin = scene;
+  scene.planes = {{{0, 0, 0}, {0, 1, 0}, 1, 1, 1}};
+  twin.spheres.push_back({{0, -1.2, 0}, 1, 0});
+  const auto mirrored = picture(scene), twins = picture(twin);
+  double seen = 0;
+  for (int y = 21; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const std::size_t i = std::size_t(y) * 40 + x;
+      EXPECT_NEAR(mirrored[i].g, 0.5 * twins[i].g, 1e-12) << x << ", " << y;
+      seen = std::max(seen, mirrored[i].g);
+    }
+  EXPECT_GT(seen, 0.1);
+  scene.depth.mirror = 0;
+  for (std::size_t i = 21 * 40; i < 1600; ++i) ASSERT_EQ(picture(scene)[i].g, 0);
+}
+
+TEST(Evaluation, AMirrorsSchlickFactorIsOfTheAngleToItsNormal) {
+  // By an angle of arccos 4/5 down to the floor and up to a wall that is lit head-on.
+  Scene scene = plane_scene();
+  scene.camera = {{-3, 4, 0}, {0, 0, 0}, {0, 1, 0}, 10};
+  scene.materials = {mirror(0.04), matt(1)};
+  scene.materials[0].fresnel = Fresnel::kSchlick;
+  scene.materials[0].specular_reflectance = {};
+  scene.planes = {{{0, 0, 0}, {0, 1, 0}, 0, 0, 1}, {{50, 0, 0}, {1, 0, 0}, 1, 1, 1}};
+  scene.lights = {DirectionalLight{{1, 0, 0}, {kPi, kPi, kPi}}};
+  scene.depth.mirror = 1;
+  EXPECT_NEAR(middle(scene).r, 0.04 + 0.96 * std::pow(0.2, 5), 1e-14);
+  // Below 0.02 it grows to 50 times its largest component; so there is no step where a mirror begins.
+  scene.materials[0].mirror_reflectance = {0.01, 0.005, 0};
+  EXPECT_NEAR(middle(scene).r, 0.01 + 0.49 * std::pow(0.2, 5), 1e-14);
+  EXPECT_NEAR(middle(scene).g, 0.005 + 0.495 * std::pow(0.2, 5), 1e-14);
+  EXPECT_NEAR(middle(scene).b, 0.5 * std::pow(0.2, 5), 1e-14);
+  scene.materials[0].mirror_reflectance = 1e-9 * kWhite;
+  EXPECT_NEAR(middle(scene).r, 1e-9 + 49e-9 * std::pow(0.2, 5), 1e-22);
+  scene.materials[0].mirror_reflectance = {};
+  EXPECT_EQ(middle(scene).r, 0);
+}
+
+TEST(Evaluation, EveryReflectionBetweenTwoMirrorsTakesItsShare) {
+  // Between x = 0 and x = 2, along x all but 0.1: after k reflections a lamp of a wall that only the last sees.
+  Scene scene = plane_scene();
+  scene.materials = {mirror(0.5), matt(1)};
+  scene.materials[0].diffuse_reflectance = kWhite;
+  scene.camera = {{1, 0, 0}, {0, 0, 0}, {0, 1, 0}, 10};
+  scene.planes = {{{0, 0, 0}, {1, 0, 0}, 0, 0, 1}, {{2, 0, 0}, {1, 0, 0}, 0, 0, 1}};
+  scene.lights = {PointLight{{1, 0, 0}, {kPi, kPi, kPi}}};
+  double expected = 0;
+  for (int depth = 0; depth < 9; ++depth) {
+    scene.depth.mirror = depth;
+    expected += std::pow(0.5, depth);
+    EXPECT_NEAR(middle(scene).r, expected, 1e-14) << depth;
+  }
+}
+
+TEST(Evaluation, APlaneAndASphereHideALampAndNothingBeyondItDoes) {
+  Scene scene = plane_scene();
+  scene.lights = {PointLight{{0, 2, 1}, {kPi, kPi, kPi}}};
+  const double lit = middle(scene).r;
+  ASSERT_GT(lit, 0);
+  scene.planes.push_back({{0, 0, 0.5}, {0, 0, 1}, 0, 0, 1});
+  scene.camera.origin = {0, 5, -1};
+  EXPECT_EQ(middle(scene).r, 0);
+  scene.planes[1].point.z = 1.5;
+  EXPECT_NEAR(middle(scene).r, lit, 1e-15);
+  scene.planes.pop_back();
+  scene.spheres = {{{0, 1, 0.5}, 0.2, 0}};
+  EXPECT_EQ(middle(scene).r, 0);
+  scene.spheres[0].center = {0, 4, 2};
+  EXPECT_NEAR(middle(scene).r, lit, 1e-15);
+  scene.lights = {DirectionalLight{normalize({0, -2, -1}), kWhite}};
+  EXPECT_EQ(middle(scene).r, 0) << "a directional light is behind everything";
+}
+
+/// The middle of a film of one pixel, in both kinds of number, of plane_scene() at any scale and place; `add`
+/// puts something into the scene, given what maps its places.
+class Floor {
+ public:
+  using Map = std::function<Vec3(Vec3)>;
+  Floor(double scale, Vec3 away) : scale_(scale), away_(away) {}
+  void expect_light(double expected, const std::function<void(Scene&, const Map&)>& add) const {
+    Scene scene = plane_scene();
+    scene.film = {1, 1};
+    const Map map = [&](Vec3 v) { return scale_ * (v + away_); };
+    scene.camera = {map({0.01, 5, 0.02}), map({0, 0, 0}), {0, 0, -1}, 28};
+    scene.planes[0].point = map({3, 0, 2});
+    add(scene, map);
+    for (const Digits digits : {Digits::kDouble, Digits::kFifty})
+      EXPECT_NEAR(scale_ * scale_ * truth::evaluate(scene, digits)[0].r, expected,
+                  1e-6)  // moved by a hair
+          << scale_ << " " << away_.x;
+  }
+
+ private:
+  double scale_;
+  Vec3 away_;
+};
+constexpr std::pair<double, Vec3> kPlaces[] = {
+    {1, {}}, {1e-3, {}}, {1e4, {}}, {1, {1e5, -2e5, 3e4}}, {1e-3, {1e5, -2e5, 3e4}}};
+/// Where a lamp stands that lights the floor's middle by 0.8 / 25.
+constexpr Vec3 kLampPlace{3, 4, 0};
+constexpr double kLit = 0.8 / 25;
+
+Vec3 unit_vector(int i) {
+  return normalize({std::sin(1 + 7.0 * i), std::sin(2 + 11.0 * i), std::sin(3 + 13.0 * i)});
+}
+
+TEST(Evaluation, ALampInAPlaneLightsBothItsSidesAndOneAHairAsideItsOwn) {
+  int before = 0, behind = 0;
+  for (const auto& [scale, away] : kPlaces)
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 normal = unit_vector(i);
+      // It must not come between the camera and the floor's middle, nor through that.
+      const double middle = -dot(kLampPlace, normal),
+                   eye = dot(Vec3{0.01, 5, 0.02} - kLampPlace, normal);
+      if (!(middle * eye > 0) || std::abs(middle) < 0.1) continue;
+      (middle > 0 ? before : behind) += 1;
+      // In closenesses: 1e-12 of the largest coordinate, which is less than 6 here, or that of the place.
+      for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
+        Floor(scale, away)
+            .expect_light(std::abs(aside) < 1 || aside * middle > 0 ? kLit : 0,
+                          [&](Scene& scene, const Floor::Map& map) {
+                            const double close =
+                                1e-12 * scale * (length(away) > 0 ? length(away) : 5.0);
+                            scene.lights = {PointLight{map(kLampPlace) + aside * close * normal,
+                                                       {kPi, kPi, kPi}}};
+                            scene.planes.push_back({map(kLampPlace), normal, 0, 0, 1});
+                          });
+    }
+  EXPECT_GT(before, 20);
+  EXPECT_GT(behind, 20);
+}
+
+TEST(Evaluation, ALampInAPlaneLightsNothingOfThePlane) {
+  for (const auto& [scale, away] : kPlaces)
+    for (int i = 0; i < 10; ++i)
+      Floor(scale, away).expect_light(0, [&](Scene& scene, const Floor::Map& map) {
+        const Vec3 normal = unit_vector(i), aside = cross(normal, unit_vector(i + 1));
+        // Without a cosine, so that nothing is dark because it is lit along the plane.
+        scene.materials[0].highlight = highlight_of({"phong_rdf", "cosine", "exact", 0.01});
+        scene.materials[0].specular_reflectance = kWhite;
+        scene.planes = {{map({0, 0, 0}), normal, 0, 0, 1}};
+        scene.lights = {PointLight{map(2.0 * aside), {kPi, kPi, kPi}}};
+      });
+}
+
+TEST(Evaluation, ALampOnASphereLightsWhatIsAboveItsHorizon) {
+  int above = 0, below = 0;
+  for (const auto& [scale, away] : kPlaces)
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 up = unit_vector(i);
+      const double middle = -dot(kLampPlace, up);
+      if (std::abs(middle) < 0.1) continue;
+      (middle > 0 ? above : below) += 1;
+      for (const double radius : {0.01, 1.0})
+        for (const double aside : {0.0, 0.1, -0.1, 10.0, -10.0})
+          Floor(scale, away)
+              .expect_light(middle > 0 && aside > -1 ? kLit : 0, [&](Scene& scene,
+                                                                     const Floor::Map& map) {
+                const double close = 1e-12 * scale * (length(away) > 0 ? length(away) : 5.0);
+                scene.lights = {PointLight{map(kLampPlace) + aside * close * up, {kPi, kPi, kPi}}};
+                scene.spheres = {{map(kLampPlace) - scale * radius * up, scale * radius, 0}};
+              });
+    }
+  EXPECT_GT(above, 50);
+  EXPECT_GT(below, 50);
+}
+
+TEST(Evaluation, ACameraInsideASphereDoesNotSeeIt) {
+  Scene scene = plane_scene();
+  const double lit = middle(scene).r;
+  scene.lights = {PointLight{{0, 1, 0}, {kPi, kPi, kPi}}};
+  scene.spheres = {{scene.camera.origin, 2, 0}};
+  EXPECT_NEAR(middle(scene).r, lit, 1e-15);
+}
+
+double peak_of(const std::vector<Rgb>& pixels) {
+  double peak = 0;
+  for (const Rgb& pixel : pixels) peak = std::max(peak, max_component(pixel));
+  return peak;
+}
+double apart(Rgb a, Rgb b) {
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+TEST(Evaluation, InDoubleIsThatIn50Digits) {
+  double worst = 0;
+  std::string where;
+  const auto expect_same = [&](const Scene& scene, const std::string& name) {
+    const auto fine = truth::evaluate(scene, Digits::kFifty), quick = picture(scene);
+    const auto ring = truth::edge_ring(scene);
+    const double peak = peak_of(fine);
+    ASSERT_GT(peak, 0) << name;
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      const double here = ring[i] ? 0 : apart(fine[i], quick[i]) / peak;
+      if (here > worst) worst = here, where = name;
+    }
+  };
+  for (const ModelInfo& model : models())
+    for (const char* lobe : {"cosine", "cs16", "cs64", "schlick", "gauss", "spherical_gaussian"})
+      for (const double n : {1.0, 16.0, 1024.0, 1e6}) {
+        const HighlightChoice choice{model.name, lobe, "exact", n};
+        Scene scene = hall_scene(choice, 16);
+        if (n > 16) {
+          scene = stability::close_to_highlight(scene, n).at(0);
+          scene.film = {12, 12};
+        }
+        expect_same(scene, fmt::format("{} {} {}", model.name, lobe, n));
+      }
+  EXPECT_LT(worst, 3e-9) << where;  // measured: 5.9e-10, at n = 1e6
+}
+
+TEST(Evaluation, InDoubleHoldsInTheHardCasesOfSizeAndDistance) {
+  double worst = 0;
+  for (const auto& hard : stability::hard_scenes())
+    for (Scene scene : stability::close_to_highlight(hard.scene, 1e6)) {
+      scene.materials[0].highlight = highlight_of({"modified_phong", "cosine", "exact", 1e6});
+      const auto fine = truth::evaluate(scene, Digits::kFifty), quick = picture(scene);
+      const double peak = peak_of(fine);
+      for (std::size_t i = 0; i < fine.size(); ++i)
+        worst = std::max(worst, apart(fine[i], quick[i]) / peak);
+    }
+  EXPECT_LT(worst, 5e-6);  // measured: 1.9e-6 from 1e7 radii away, nearer 8.7e-10
+}
+
+std::ptrdiff_t ring_size(const Scene& scene) {
+  const auto ring = truth::edge_ring(scene);
+  return std::count(ring.begin(), ring.end(), 1);
+}
+
+TEST(EdgeRing, IsEmptyWhereEveryRaySeesTheSame) { EXPECT_EQ(ring_size(plane_scene()), 0); }
+
+TEST(EdgeRing, HasTheTwoColumnsOfPixelsBesideABoundaryOfSquares) {
+  Scene scene = plane_scene();
+  scene.materials.push_back(matt(0.5));
+  scene.planes = {{{0.1, 0, 100}, {0, 1, 0}, 0, 1, 1000}};
+  EXPECT_EQ(ring_size(scene), 18);
+  scene.planes[0].checker_material = 0;
+  EXPECT_EQ(ring_size(scene), 0);
+}
+
+TEST(EdgeRing, HasTheTwoColumnsOfPixelsBesideALampsHorizon) {
+  Scene scene = plane_scene();
+  scene.lights = {PointLight{{0.1, 1, 0}, kWhite, {1, 0, 0}}};
+  EXPECT_EQ(ring_size(scene), 18);
+}
+
+TEST(EdgeRing, HasTheShadowsEdgeOfASphereAndOfAPlaneOutOfSight) {
+  Scene scene = plane_scene();
+  scene.spheres = {{{0, 8, 0}, 1, 0}};
+  EXPECT_GT(ring_size(scene), 8);
+  scene.spheres.clear();
+  scene.lights = {PointLight{{0.2, 7, 0}, kWhite}};
+  scene.planes.push_back({{0, 6, 0}, normalize({1, 0.1, 0}), 0, 0, 1});
+  EXPECT_GT(ring_size(scene), 8);
+}
+
+TEST(EdgeRing, HasTheSilhouetteThatAMirrorShowsAsFarAsMirrorsAreFollowed) {
+  Scene scene = plane_scene();
+  scene.lights.clear();
+  scene.materials.push_back(mirror(1));
+  scene.planes[0].material = scene.planes[0].checker_material = 1;
+  scene.spheres = {{{0, 8, 0}, 1, 0}};
+  EXPECT_EQ(ring_size(scene), 0);
+  scene.depth.mirror = 1;
+  EXPECT_GT(ring_size(scene), 8);
+}
+
+Scene canonical(const std::string& name) {
+  Scene scene = canonical_scene(name);
+  scene.film = {128, 128};
+  return scene;
+}
+
+TEST(EdgeRing, OfASphereLitFromTheCameraIsOneAboutItsSilhouette) {
+  const auto edges = truth::edge_ring(canonical("head_on"));
+  // Radius of the silhouette: tan(asin(1/5)) / tan(14 degrees) of half the picture.
+  const double radius = 64 * 0.204124 / 0.249328;
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) {
+      const double r = std::hypot(x - 63.5, y - 63.5);
+      if (std::abs(r - radius) > 2.5) {
+        EXPECT_EQ(edges[std::size_t(128 * y + x)], 0) << x << " " << y;
+      }
+    }
+  EXPECT_GT(std::count(edges.begin(), edges.end(), 1), int(2 * 3.14 * radius));
+}
+
+TEST(EdgeRing, GrowsByTerminatorAndByShadowEdge) {
+  EXPECT_GT(ring_size(canonical("grazing_80")), ring_size(canonical("head_on")));
+  Scene scene = canonical("two_spheres");
+  const auto with = ring_size(scene);
+  scene.spheres[1].center = {3, 3, -20};  // still in view, no longer in the way of the light
+  EXPECT_LT(ring_size(scene), with);
+}
+
+TEST(Evaluation, RefusesWhatItDoesNotKnowInWords) {
+  const auto refuses = [](const char* word, auto change) {
+    Scene scene = hall_scene(kPhong, 8);
+    ASSERT_EQ(truth::why_not_evaluated(scene), "");
+    change(scene);
+    EXPECT_NE(truth::why_not_evaluated(scene).find(word), std::string::npos) << word;
+    EXPECT_THROW(truth::evaluate(scene, Digits::kDouble), Error) << word;
+    EXPECT_THROW(truth::edge_ring(scene), Error) << word;
+  };
+  refuses("light with a size", [](Scene& s) { s.lights.emplace_back(SphereLight{}); });
+  refuses("light with a size", [](Scene& s) { s.lights.emplace_back(ConstantLight{}); });
+  refuses("lens", [](Scene& s) { s.camera.aperture_radius = 0.1; });
+  refuses("4 samples", [](Scene& s) { s.sampler.sample_count = 4; });
+  refuses("inter-reflection", [](Scene& s) { s.depth.glossy = 1; });
+  refuses("spheres", [](Scene& s) { s.spheres.resize(2000); });
+}
+
+TEST(Evaluation, LeavesRowsBlackOnceItIsToldToStop) {
+  for (const Rgb& pixel :
+       truth::evaluate(hall_scene(kPhong, 8), Digits::kFifty, [] { return true; }))
+    EXPECT_EQ(pixel, Rgb{});
+}
+
+TEST(SurfaceMask, IsWhereTheRayThroughThePixelMeetsASphere) {
+  Scene scene = sphere_scene(kPhong, {directional_at(30)}, 33);
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const auto mask = truth::surface_mask(scene);
+  int inside = 0;
+  for (int y = 0; y < 33; ++y)
+    for (int x = 0; x < 33; ++x) {
+      const bool hit =
+          nearest_hit(scene, scene.camera.origin, normalize(centre_ray(frame, x, y))).has_value();
+      EXPECT_EQ(mask[std::size_t(33 * y + x)] != 0, hit) << x << ", " << y;
+      inside += hit;
+    }
+  EXPECT_GT(inside, 100);
+  EXPECT_LT(inside, 1000);
+}
+
+TEST(SurfaceMask, HasPlanesToo) {
+  const auto mask = truth::surface_mask(plane_scene());
+  EXPECT_EQ(std::count(mask.begin(), mask.end(), 1), 81);
+}
+
+}  // namespace
+}  // namespace lobelia

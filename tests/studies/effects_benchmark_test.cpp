@@ -1,0 +1,183 @@
+#include "studies/cost/effects_benchmark.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "renderer/plan/effects/catalogue.hpp"
+#include "renderer/render.hpp"
+#include "studies/cost/everything.hpp"
+#include "studies/cost/transport/measure.hpp"
+#include "studies/cost/transport/scenes.hpp"
+#include "studies/cost/without.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr EffectPolicy kAsCalledFor = EffectPolicy::kAsCalledFor;
+
+std::vector<std::string> effects_that_are(bool on, const Plan& plan) {
+  std::vector<std::string> names;
+  for (const EffectDecision& effect : plan.effects)
+    if (effect.on == on) names.emplace_back(effect.name);
+  return names;
+}
+
+Scene small(Scene scene) {
+  scene.film = {24, 24};
+  scene.sampler.sample_count = 4;
+  return scene;
+}
+
+RenderResult picture(const Without& what) {
+  RenderOptions options;
+  options.experiment = what.experiment;
+  return render(what.scene, options);
+}
+
+/// One matt sphere in parallel light, one ray a pixel.
+Scene plain() {
+  Scene scene;
+  scene.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 28};
+  scene.film = {24, 24};
+  scene.materials.resize(1);
+  scene.materials[0].specular_reflectance = {1, 1, 1};
+  scene.spheres = {{{0, 0, 0}, 1, 0}};
+  scene.lights = {DirectionalLight{normalize({-0.3, -0.8, -0.6}), {3, 3, 3}}};
+  return scene;
+}
+
+TEST(TheSceneWithEverything, CallsForEveryEffectOfTheCatalogue) {
+  EXPECT_THAT(effects_that_are(false, make_plan(everything(), kAsCalledFor)), testing::IsEmpty());
+}
+
+TEST(LeavingOut, SwitchesOffThatEffectInThePlan) {
+  for (const std::string& name : effects_that_are(true, make_plan(everything(), kAsCalledFor))) {
+    const Without left = without(name, everything());
+    const Plan plan = make_plan(left.scene, kAsCalledFor, {}, left.experiment);
+    EXPECT_THAT(effects_that_are(false, plan), testing::Contains(name));
+    EXPECT_NE(in_place_of(name), "");
+  }
+}
+
+TEST(LeavingOut, CostsThatEffectsWorkAndChangesThePicture) {
+  const Scene scene = small(everything());
+  const RenderResult all = render(scene, {});
+  for (std::size_t i = 0; i < all.plan.effects.size(); ++i) {
+    const std::string name(all.plan.effects[i].name);
+    const RenderResult left = picture(without(name, scene));
+    EXPECT_GT(all.work.of_effect[i], 0u) << name;
+    EXPECT_EQ(left.work.of_effect[i], 0u) << name;
+    EXPECT_FALSE(std::ranges::equal(all.image.values(), left.image.values())) << name;
+  }
+}
+
+TEST(LeavingOut, OfAnEffectThatIsOffCostsNothingAndChangesNoPixel) {
+  const RenderResult all = render(plain(), {});
+  const auto off = effects_that_are(false, all.plan);
+  EXPECT_GE(off.size(), 8u);
+  for (const std::string& name : off) {
+    const RenderResult left = picture(without(name, plain()));
+    EXPECT_TRUE(std::ranges::equal(all.image.values(), left.image.values())) << name;
+    EXPECT_EQ(left.work.of_effect, all.work.of_effect) << name;
+    EXPECT_EQ(left.work.camera_rays, all.work.camera_rays) << name;
+  }
+}
+
+TEST(LeavingOutShadows, MakesNoPixelDarkerWhereLightIsDirect) {
+  Scene scene = small(everything());
+  scene.depth.glossy = 0;
+  scene.sampler.sample_count = 64;
+  const Image shadowed = render(scene, {}).image, lit = picture(without("shadows", scene)).image;
+  double more = 0, less = 0;
+  for (std::size_t i = 0; i < lit.values().size(); ++i) {
+    more += std::max(0.f, lit.values()[i] - shadowed.values()[i]);
+    less += std::max(0.f, shadowed.values()[i] - lit.values()[i]);
+  }
+  EXPECT_GT(more, 1);
+  EXPECT_LT(less, 1e-3 * more);
+}
+
+TEST(LeavingOutShadows, LeavesTheAlbedoBelowAnEvenSkyWhicheverWayItsDirectionsAreDrawn) {
+  Scene scene = sphere_on_plane(24);
+  scene.lights = {ConstantLight{{1, 1, 1}}};
+  const auto least = [](const Image& image) { return *std::ranges::min_element(image.values()); };
+  EXPECT_LT(least(render(scene, {}).image), 0.4) << "the sphere's shadow";
+  const Image lit = picture(without("shadows", scene)).image;
+  for (const float value : lit.values())
+    EXPECT_NEAR(value, value < 0.65 ? 0.5 : 0.8, 1e-5) << "floor or ball";
+  EXPECT_GT(*std::ranges::max_element(lit.values()), 0.7);
+  RenderOptions by_light;
+  by_light.experiment = {Experiment::Directions::kLight, false};
+  scene.sampler.sample_count = 256;
+  EXPECT_NEAR(mean(render(scene, by_light).image) / mean(lit), 1, 0.01);
+}
+
+TEST(PointsOfTheSamePower, LightAFarSurfaceAsTheLampsDo) {
+  Scene scene = plain();
+  scene.materials[0].diffuse_reflectance = {0.5, 0.5, 0.5};
+  scene.materials[0].specular_reflectance = {};
+  scene.sampler.sample_count = 64;
+  for (const Light& lamp :
+       {Light(SphereLight{{6, 30, 30}, 0.5, {900, 900, 900}}),
+        Light(RectangleLight{{6, 30, 30}, {0.5, 0, 0}, {0, -0.3, 0.3}, {900, 900, 900}})}) {
+    scene.lights = {lamp};
+    const auto centre = [](const Image& image) { return image.values()[3 * (12 * 24 + 12)]; };
+    const float soft = centre(render(scene, {}).image);
+    EXPECT_GT(soft, 0.01);
+    EXPECT_NEAR(centre(picture(without("area_lights", scene)).image) / soft, 1, 0.02);
+  }
+}
+
+class OfEverything : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    Options options;
+    options.effort = Effort::kQuick;
+    options.scenes = {{"all", everything()}};
+    tables_ = new std::vector<Table>(measure_effects(options));
+  }
+  static void TearDownTestSuite() { delete tables_; }
+  static const Table& table() { return tables_->at(0); }
+
+ private:
+  static inline std::vector<Table>* tables_ = nullptr;
+};
+
+TEST_F(OfEverything, TheTableHasARowForEveryEffectThatIsOn) {
+  std::vector<std::string> names{"everything"};
+  for (const std::string& name : effects_that_are(true, make_plan(everything(), kAsCalledFor)))
+    names.push_back("without " + name);
+  std::vector<std::string> rows;
+  for (const Variant& way : table().ways) {
+    rows.push_back(way.name);
+    EXPECT_EQ(way.errors.size(), table().errors.size());
+    EXPECT_GT(cost_of(way).median, 0);
+  }
+  EXPECT_EQ(rows, names);
+  EXPECT_EQ(table().id, "effects-all");
+}
+
+TEST_F(OfEverything, OnlyThatIsWithoutLoss) {
+  for (std::size_t e = 0; e < table().errors.size(); ++e) {
+    EXPECT_EQ(table().ways[0].errors[e].second, 0);
+    for (std::size_t i = 1; i < table().ways.size(); ++i)
+      EXPECT_GT(table().ways[i].errors[e].second, 1e-4) << table().ways[i].name;
+  }
+}
+
+TEST_F(OfEverything, RaysAddUpToWhatIsSaved) {
+  const auto all = [](const Variant& way) {
+    const records::Rays& rays = way.facts.value().rays.value();
+    return double(rays.camera + rays.shadow + rays.mirror + rays.scattered);
+  };
+  for (const Variant& way : table().ways)
+    EXPECT_EQ(way.facts->rays_saved, all(table().ways[0]) - all(way)) << way.name;
+  EXPECT_THAT(table().remarks, testing::Contains(HasSubstr("shadows")));
+}
+
+}  // namespace
+}  // namespace lobelia::cost

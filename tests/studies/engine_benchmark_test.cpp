@@ -1,0 +1,101 @@
+#include "studies/cost/engine_benchmark.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "lobelia_paths.hpp"
+#include "renderer/scene/scene_io.hpp"
+#include "tests/json.hpp"
+#include "tests/reference_scenes/require_engine.hpp"
+
+namespace lobelia::cost {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Scene example(const std::string& file) {
+  return read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + file);
+}
+
+Options quick(const std::string& file) {
+  Options options;
+  options.effort = Effort::kQuick;
+  options.scenes = {{"scene", example(file)}};
+  options.programs = {{"lobelia", LOBELIA_PROGRAM}};
+  return options;
+}
+
+Options without_engines(const std::string& file) {
+  Options options = quick(file);
+  options.programs.emplace_back("povray", "/nowhere/povray");
+  options.programs.emplace_back("blender", "/nowhere/blender");
+  return options;
+}
+
+TEST(EngineLevel, MeasuresOurselvesAndTheFormulasWhereNoEngineIs) {
+  const Table table = measure_engines(without_engines("two_lights.xml")).at(0);
+  ASSERT_EQ(table.ways.size(), 2u);
+  EXPECT_EQ(table.id, "engine-scene");
+  EXPECT_EQ(table.ways[0].name, "ours");
+  EXPECT_LT(table.ways[0].errors[0].second, 1e-6);
+  EXPECT_LT(table.ways[1].errors[0].second, 1e-7);
+  EXPECT_THAT(table.remarks, Contains(HasSubstr("without POV-Ray: ")));
+  EXPECT_THAT(table.remarks, Contains(HasSubstr("without Blender Cycles: ")));
+}
+
+TEST(EngineLevel, TellsOurStagesApartAndTheyAreTheWhole) {
+  const Table table = measure_engines(without_engines("head_on.xml")).at(0);
+  const auto& stages = *table.ways[0].facts->stage_seconds;
+  double sum = 0;
+  for (const char* stage : {"start", "parse", "trace", "write"}) {
+    const double* seconds = records::find(stages, stage);
+    ASSERT_TRUE(seconds) << stage;
+    EXPECT_GT(*seconds, 0) << stage;
+    sum += *seconds;
+  }
+  EXPECT_NEAR(sum, cost_of(table.ways[0]).median, 1e-9) << "of one round";
+  EXPECT_THAT(table.remarks, Contains(HasSubstr("ours: start ")));
+}
+
+TEST(EngineLevel, SaysWhyASceneWithoutTruthIsNotMeasured) {
+  const Table table = measure_engines(without_engines("effects/area_light.xml")).at(0);
+  EXPECT_THAT(table.ways, IsEmpty());
+  EXPECT_THAT(table.remarks, Contains(HasSubstr("a light with a size")));
+}
+
+TEST(EngineLevel, IsNothingWithoutAScene) { EXPECT_THAT(measure_engines({}), IsEmpty()); }
+
+class EngineLevelWithEngines : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"povray", "blender"}) {
+      const auto engine = make_engine(name, {});
+      require_engine(*engine);
+    }
+  }
+};
+
+TEST_F(EngineLevelWithEngines, RanksTheirNumberFormatsByError) {
+  const Table table = measure_engines(quick("two_lights.xml")).at(0);
+  std::map<std::string, const Variant*> ways;
+  for (const Variant& way : table.ways) ways[way.name] = &way;
+  ASSERT_EQ(ways.size(), 5u);
+  const Variant &half = *ways.at("POV-Ray, half"), &fine = *ways.at("POV-Ray, float"),
+                &cycles = *ways.at("Blender Cycles");
+  EXPECT_GT(half.errors[0].second, 1e-5);
+  EXPECT_LT(half.errors[0].second, 6e-4);
+  EXPECT_LT(fine.errors[0].second, 1e-5);
+  EXPECT_LT(cycles.errors[0].second, 1e-4);
+  EXPECT_GT(cycles.errors[0].second, 1e-8);
+  EXPECT_TRUE(records::find(*half.facts->stage_seconds, "trace"));
+  EXPECT_FALSE(records::find(*half.facts->stage_seconds, "start")) << "POV-Ray does not tell";
+  for (const char* stage : {"start", "parse", "trace", "write"})
+    EXPECT_GT(*records::find(*cycles.facts->stage_seconds, stage), 0) << stage;
+}
+
+}  // namespace
+}  // namespace lobelia::cost

@@ -1,0 +1,183 @@
+// The hard cases of the table, by group, and that the table's contrast is a real one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "reference_scenes/engines/analytic/formulas/truth.hpp"
+#include "renderer/precision.hpp"
+#include "studies/stability/cases.hpp"
+#include "studies/stability/naive.hpp"
+#include "studies/stability/sphere_scenes.hpp"
+#include "studies/stability/vectors.hpp"
+
+namespace lobelia::stability {
+namespace {
+
+/// Whether a bound is stated that a lobe, which is 0 to 1 of its peak, could be outside of.
+bool can_be_outside(const Row& row) {
+  return row.bound.of_peak < 1 || std::isfinite(row.bound.ulp);
+}
+
+/// Expects no row to be outside its bounds, and every row that passes to have one. Counts them.
+std::size_t expect_within(const Rows& rows) {
+  for (const Row& row : rows) {
+    EXPECT_TRUE(std::isfinite(row.truth)) << row.group << ", " << row.name << ", " << row.lobe;
+    EXPECT_EQ(row.outcome == kNotCompared, !can_be_outside(row))
+        << row.group << ", " << row.name << ", " << row.model << ", " << row.lobe
+        << ", n = " << row.exponent << ": " << row.bound.of_peak << " of the peak is stated";
+    EXPECT_NE(row.outcome, kOutside)
+        << row.group << ", " << row.name << ", " << row.model << ", " << row.lobe
+        << ", n = " << row.exponent << ": " << row.ours.value << " for " << row.truth << ", "
+        << row.ours.of_peak << " of the peak where " << row.bound.of_peak << " is stated, "
+        << row.ours.wrong_pixels << " wrong pixels";
+  }
+  return rows.size();
+}
+
+std::size_t expect_within(Rows (*rows_of)(LobeId)) {
+  std::size_t rows = 0;
+  for (const LobeId lobe : lobes_under_test()) rows += expect_within(rows_of(lobe));
+  return rows;
+}
+
+TEST(HardCases, CoverEveryListedLobeAndTwoThatAreNotListed) {
+  const auto lobes = lobes_under_test();
+  ASSERT_EQ(lobes.size(), all_lobes().size() + 2);
+  for (const LobeId lobe : all_lobes())
+    EXPECT_NE(std::find(lobes.begin(), lobes.end(), lobe), lobes.end());
+}
+
+TEST(HardCases, CoefficientsAreRightWhereThePlainFormulaOverflows) {
+  EXPECT_EQ(expect_within(coefficient_rows), lobes_under_test().size() * models().size() * 11);
+}
+
+TEST(HardCases, VectorsOfAnyLengthAndPlaceAreShadedWithinTheBound) {
+  EXPECT_GT(expect_within(vector_rows), lobes_under_test().size() * models().size() * 9 * 30);
+}
+
+TEST(HardCases, DensitiesAreRightDownToTheirUnderflow) {
+  EXPECT_EQ(expect_within(density_rows), lobes_under_test().size() * 9 * 6);
+}
+
+TEST(HardCases, DensitiesOfEveryLobeAreAllComparedAndNotOnlyWhereThereIsNothing) {
+  for (const LobeId lobe : lobes_under_test()) {
+    int compared = 0, above_nothing = 0;
+    for (const Row& row : density_rows(lobe)) {
+      compared += row.outcome == kWithin && row.bound.of_peak == kDensityBound;
+      above_nothing += row.truth > 0;
+    }
+    EXPECT_EQ(compared, 54) << info(lobe).name;
+    EXPECT_GE(above_nothing, 2 * 9) << info(lobe).name;
+  }
+}
+
+TEST(HardCases,
+     VectorsAreComparedUnlessLightAndEyeFaceEachOtherAlongTheHorizonAndNoCosineDimsThem) {
+  int cases = 0, not_compared = 0;
+  for (const LobeId lobe : lobes_under_test())
+    for (const Row& row : vector_rows(lobe)) {
+      ++cases;
+      if (row.outcome != kNotCompared) continue;
+      ++not_compared;
+      EXPECT_TRUE(row.name.starts_with("L = -V")) << row.name << ", " << row.model;
+      EXPECT_EQ(row.model, "blinn_phong_rdf") << row.name;
+    }
+  EXPECT_LT(not_compared, 0.02 * cases);
+}
+
+TEST(HardCases, SpheresOfAnySizeAndDistanceAreRightToThePixel) {
+  EXPECT_GT(expect_within(sphere_rows), lobes_under_test().size() * 600);
+}
+
+TEST(HardCases, SphereScenesShowTheHighlightWhereTheyAreMadeFor) {
+  // A close picture that missed its highlight would be right without being a test.
+  int close = 0;
+  const Highlight highlight{*find_model("modified_phong"), *find_lobe("cosine"),
+                            Normalisation::kExact, 1e6};
+  for (const HardScene& hard : hard_scenes())
+    for (const Scene& scene : close_to_highlight(hard.scene, 1e6)) {
+      ++close;
+      const truth::Picture picture(scene);
+      double brightest = 0;
+      for (const Rgb c : picture.highlights(highlight)) brightest = std::max(brightest, c.g);
+      const double peak = picture.peak() * truth::coefficient(highlight.model, highlight.lobe, 1e6);
+      EXPECT_GT(brightest, 0.3 * peak) << hard.name;
+    }
+  EXPECT_GE(close, 15);
+}
+
+class RandomVectorsOf : public testing::TestWithParam<double> {};
+
+TEST_P(RandomVectorsOf, AreShadedWithinTheBoundOfEachPrecisionAndOfTheOneChosen) {
+  const Rows rows = precision_rows(lobes_under_test(), GetParam());
+  EXPECT_GE(expect_within(rows), lobes_under_test().size() * models().size() * 4);
+  double chosen = 0;
+  // The largest part of a bound that is used: measured 0.09 to 0.7 wherever the bound says anything.
+  std::map<std::string, double> used;
+  for (const Row& row : rows) {
+    if (row.name == "in the precision that is chosen") {
+      EXPECT_LE(row.ours.of_peak, kAllowedShadingError);
+      chosen = std::max(chosen, row.ours.of_peak);
+    } else if (row.bound.of_peak < 0.1 && row.name.starts_with("all in")) {
+      used[row.name] = std::max(used[row.name], row.ours.of_peak / row.bound.of_peak);
+    }
+  }
+  // Below n = 0.35 cos^n rises so steeply from a right angle that not even float64 can promise it.
+  EXPECT_GT(chosen, 0) << "no model at all was shaded within the bound";
+  EXPECT_GE(used.size(), 2u);
+  for (const auto& [name, part] : used) EXPECT_GT(part, 0.05) << name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Exponents, RandomVectorsOf, testing::ValuesIn(kExponents));
+
+/// Relative errors of the naive formula, in ascending order, over the brighter nine tenths of a highlight.
+std::vector<double> naive_errors(double n) {
+  const Highlight highlight{*find_model("modified_phong"), *find_lobe("cosine"),
+                            Normalisation::kExact, n};
+  RandomVectors vectors(LobeAngle::kReflection, n, 3);
+  std::vector<double> errors;
+  while (errors.size() < 1000) {
+    const Triple at = vectors.next();
+    const double truth = truth::shape(highlight, at.normal, at.to_eye, at.to_light);
+    const double value = naive::shape(highlight, at.normal, at.to_eye, at.to_light);
+    if (truth > 0.1 * dot(at.normal, at.to_light))
+      errors.push_back(std::abs(value - truth) / truth);
+  }
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+TEST(TheNaiveFormula, IsThatOfItsOwnModelForEveryLobe) {
+  for (const ModelInfo& model : models())
+    for (const char* lobe : {"cosine", "cs16", "gauss"}) {
+      const Highlight highlight{*find_model(model.name), *find_lobe(lobe), {}, 20};
+      EXPECT_NEAR(
+          naive::coefficient(highlight) / truth::coefficient(highlight.model, highlight.lobe, 20),
+          1, 1e-4)
+          << model.name << ", " << lobe;
+    }
+}
+
+TEST(TheNaiveFormula, LosesItsDigitsAsTheExponentGrowsUntilNoneIsLeft) {
+  // Medians measured: 1.3e-6, 6e-4, 6e-2, 1; a tenth is off by more than 7e-6, 2e-3, 0.23, 2e10.
+  EXPECT_LT(naive_errors(16)[500], 1e-5);
+  EXPECT_GT(naive_errors(1e4)[500], 1e-4);
+  EXPECT_GT(naive_errors(1e6)[500], 0.03);
+  EXPECT_GT(naive_errors(1e6)[900], 0.1);
+  EXPECT_GT(naive_errors(1e8)[500], 0.9);
+}
+
+TEST(TheNaiveFormula, MissesSpheresThatAreFarAwayAndOverflowsCoefficients) {
+  int wrong = 0, infinite = 0;
+  for (const Row& row : sphere_rows(*find_lobe("cosine")))
+    if (row.name == "1e7 radii away") wrong = std::max(wrong, row.naive.wrong_pixels);
+  EXPECT_GT(wrong, 500);
+  for (const Row& row : coefficient_rows(*find_lobe("cosine")))
+    infinite += std::isinf(row.naive.of_peak);
+  EXPECT_GE(infinite, 1);
+}
+
+}  // namespace
+}  // namespace lobelia::stability
