@@ -267,6 +267,37 @@ TEST(Studies, tables_of_their_own_are_found) {
   EXPECT_EQ(tables_of_their_own(tree.path()).size(), 5u);
 }
 
+/// Sources that are not generated and that nobody reads at one sitting.
+Problems long_files(const fs::path& root) {
+  constexpr int kMostLines = 500;
+  static const std::set<std::string> written = {".cpp", ".hpp", ".ts", ".mjs", ".css", ".py"};
+  Problems problems;
+  for (const fs::path& file : project_files(root)) {
+    const bool bundled = file.parent_path() == "gallery/web/dist";
+    if (bundled || !written.contains(file.extension().string())) continue;
+    const std::string text = read(root / file);
+    const auto count = std::count(text.begin(), text.end(), '\n');
+    if (count > kMostLines)
+      problems.push_back(file.generic_string() + ": " + std::to_string(count) + " lines");
+  }
+  return problems;
+}
+
+TEST(Files, have_at_most_500_lines) { EXPECT_THAT(long_files(kRoot), IsEmpty()); }
+
+TEST(Files, that_are_longer_are_found) {
+  Scratch tree;
+  std::string text;
+  for (int i = 0; i < 500; ++i) text += "int x;\n";
+  write(tree / "core/a.cpp", text);
+  write(tree / "gallery/web/dist/gallery.css", text + text);
+  ASSERT_THAT(long_files(tree.path()), IsEmpty());
+  write(tree / "core/b.cpp", text + "int y;\n");
+  write(tree / "gallery/web/src/b.ts", text + text);
+  EXPECT_THAT(long_files(tree.path()),
+              ElementsAre("core/b.cpp: 501 lines", "gallery/web/src/b.ts: 1000 lines"));
+}
+
 TEST(Words, nothing_is_removed_but_by_core_removal) {
   EXPECT_THAT(loose_removals(kRoot), IsEmpty());
 }

@@ -1,0 +1,206 @@
+// `lobelia compare` on pictures with layers, alpha and channels of other names.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+#include "core/image_io.hpp"
+#include "tests/cli/compare_pictures_fixture.hpp"
+#include "tests/core/picture_files.hpp"
+
+namespace lobelia {
+namespace {
+
+using namespace fixtures;
+using ::testing::HasSubstr;
+
+TEST_F(ComparePictures, OneLayerIsComparedByItsName) {
+  flat("a.exr", 1,
+       {channel("diffuse.R", 1), channel("diffuse.G", 2), channel("diffuse.B", 3),
+        channel("Z", 70)});
+  flat(
+      "b.exr", 9,
+      {channel("diffuse.R", 1), channel("diffuse.G", 2), channel("diffuse.B", 3), channel("Z", 7)});
+  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 1);
+  const Record made = record({"a.exr", "b.exr", "--layer", "diffuse"}, 0);
+  EXPECT_EQ(made["pictures"]["b"]["layer"], "diffuse");
+  EXPECT_EQ(made["pictures"]["b"]["channels"], Record({"diffuse.R", "diffuse.G", "diffuse.B"}));
+  EXPECT_EQ(compare({"a.exr", "b.exr", "--layer", "Z"}).exit_code, 1);
+  const ProcessResult unknown = compare({"a.exr", "b.exr", "--layer", "difuse"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.output_tail,
+              HasSubstr("no layer 'difuse'; did you mean 'diffuse'?; there are 'diffuse', 'Z'"));
+}
+
+TEST_F(ComparePictures, WithAllLayersTheWorstIsTheVerdictAndEachHasItsFigures) {
+  flat("a.exr", 1, {channel("A", 0.5f), channel("Z", 70), channel("same.Y", 1)});
+  flat("b.exr", 1, {channel("A", 0.75f), channel("same.Y", 1), channel("id", 3)});
+  const Record made = record({"a.exr", "b.exr", "--all-layers"}, 1);
+  EXPECT_EQ(made["verdict"], "differs");
+  EXPECT_EQ(made["metrics"]["max_abs"], 0);
+  ASSERT_EQ(made["layers"].size(), 2u);
+  for (const Record& layer : made["layers"]) {
+    const bool alpha = layer["layer"] == "A";
+    EXPECT_EQ(layer["verdict"], alpha ? "differs" : "pass");
+    EXPECT_EQ(layer["metrics"]["max_abs"], alpha ? 0.25 : 0);
+    EXPECT_EQ(layer["pictures"]["a"]["layer"], layer["layer"]);
+  }
+  EXPECT_EQ(made["layersInOne"]["a"], Record({"Z"}));
+  EXPECT_EQ(made["layersInOne"]["b"], Record({"id"}));
+  const std::string table = compare({"a.exr", "b.exr", "--all-layers"}).output_tail;
+  EXPECT_THAT(table, HasSubstr("layer A: differs; max_rel_peak 0.3333 (limit 0.01)"));
+  EXPECT_THAT(table, HasSubstr("only in a: Z"));
+  EXPECT_THAT(table, HasSubstr("only in b: id"));
+  EXPECT_THAT(table, HasSubstr("verdict: differs"));
+
+  flat("c.exr", 1, {channel("A", std::numeric_limits<float>::quiet_NaN())});
+  EXPECT_EQ(record({"c.exr", "b.exr", "--all-layers"}, 1)["verdict"], "non-finite");
+}
+
+TEST_F(ComparePictures, OpaqueAgainstTransparentDoesNotPass) {
+  flat("opaque.exr", 0.5f, {channel("A", 1)});
+  flat("clear.exr", 0.5f, {channel("A", 0)});
+  flat("none.exr", 0.5f);
+  const Record made = record({"clear.exr", "opaque.exr"}, 1);
+  EXPECT_EQ(made["verdict"], "differs");
+  EXPECT_EQ(made["metrics"]["max_abs"], 0) << "the picture itself";
+  ASSERT_EQ(made["layers"].size(), 1u);
+  EXPECT_EQ(made["layers"][0]["layer"], "A");
+  EXPECT_EQ(made["layers"][0]["metrics"]["max_abs"], 1);
+  EXPECT_EQ(compare({"opaque.exr", "clear.exr"}).exit_code, 1);
+  // However dark the display is.
+  EXPECT_EQ(compare({"opaque.exr", "clear.exr", "--exposure", "-20", "--fail", "flip.ldr.mean=0.1"})
+                .exit_code,
+            1);
+  const Record same = record({"clear.exr", "clear.exr"}, 0);
+  EXPECT_EQ(same["layers"][0]["identical"], true);
+  EXPECT_EQ(same["notCompared"]["alpha"], false);
+
+  EXPECT_EQ(record({"opaque.exr", "none.exr", "--all-layers"}, 0)["notCompared"]["alpha"], false)
+      << "1 everywhere is no alpha";
+  EXPECT_EQ(record({"none.exr", "opaque.exr", "--all-layers"}, 0)["layersInOne"]["b"],
+            Record::array());
+  for (const auto& [a, b] : {std::pair{"none.exr", "clear.exr"}, {"clear.exr", "none.exr"}})
+    EXPECT_EQ(record({a, b}, 0)["notCompared"]["alpha"], true)
+        << "one alone has it, and it is said";
+  EXPECT_EQ(compare({"none.exr", "clear.exr", "--all-layers"}).exit_code, 1) << "A is missing";
+
+  const Record ignored = record({"clear.exr", "opaque.exr", "--ignore-alpha"}, 0);
+  EXPECT_EQ(ignored["notCompared"]["alpha"], true);
+  EXPECT_THAT(compare({"clear.exr", "opaque.exr", "--ignore-alpha"}).output_tail,
+              HasSubstr("  not compared: alpha\n"));
+  EXPECT_EQ(record({"clear.exr", "opaque.exr", "--ignore-alpha", "--all-layers"}, 0)["verdict"],
+            "pass");
+}
+
+TEST_F(ComparePictures, AlphaOfOtherNamesIsThatOfThePicture) {
+  const std::vector<ExrChannel> beauty = {channel("beauty.R", 1), channel("beauty.G", 1),
+                                          channel("beauty.B", 1), channel("beauty.A", 0.5f)};
+  exr("a.exr", 32, 32, beauty);
+  flat("b.exr", 1, {channel("A", 1)});
+  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 1);
+  flat("b.exr", 1, {channel("A", 0.5f)});
+  EXPECT_EQ(compare({"a.exr", "b.exr"}).exit_code, 0);
+  EXPECT_EQ(compare({"a.exr", "b.exr", "--all-layers"}).exit_code, 0);
+}
+
+TEST_F(ComparePictures, ALayerThatOnlyTheReferenceHasFailsWithAllLayersAndIsNamedWithout) {
+  flat("less.exr", 1);
+  flat("more.exr", 1, {channel("Z", 1)});
+  EXPECT_EQ(record({"less.exr", "more.exr", "--all-layers"}, 1)["verdict"], "differs");
+  const ProcessResult missing = compare({"less.exr", "more.exr", "--all-layers"});
+  EXPECT_THAT(missing.output_tail, HasSubstr("only in b: Z"));
+  EXPECT_THAT(missing.output_tail, HasSubstr("verdict: differs"));
+  EXPECT_EQ(record({"more.exr", "less.exr", "--all-layers"}, 0)["notCompared"]["layers"],
+            Record({"Z"}));
+  for (const auto& [a, b] : {std::pair{"less.exr", "more.exr"}, {"more.exr", "less.exr"}}) {
+    EXPECT_EQ(record({a, b}, 0)["notCompared"]["layers"], Record({"Z"}));
+    EXPECT_THAT(compare({a, b}).output_tail, HasSubstr("  not compared: layer 'Z'\n"));
+  }
+  EXPECT_EQ(record({"more.exr", "more.exr", "--layer", "Z"}, 0)["notCompared"]["layers"],
+            Record({""}))
+      << "the picture";
+}
+
+TEST_F(ComparePictures, EveryComponentOfAVectorIsCompared) {
+  const auto motion = [&](float x, float y) {
+    return std::vector{channel("motion.x", x), channel("motion.y", y)};
+  };
+  exr("a.exr", 32, 32, motion(1, 2));
+  exr("other_x.exr", 32, 32, motion(3, 2));
+  exr("other_y.exr", 32, 32, motion(1, 3));
+  for (const char* other : {"other_x.exr", "other_y.exr"}) {
+    EXPECT_EQ(compare({other, "a.exr"}).exit_code, 3) << "which layer is the picture?";
+    for (const char* option : {"--all-layers", "--layer=motion"})
+      EXPECT_EQ(compare({other, "a.exr", option}).exit_code, 1) << other << " " << option;
+  }
+  EXPECT_EQ(compare({"a.exr", "a.exr", "--layer", "motion"}).exit_code, 0);
+}
+
+TEST_F(ComparePictures, AChannelThatDiffersAloneNeverPassesUnsaid) {
+  // Random channels; of each file every channel differs once. One run of two folders for each way to ask.
+  constexpr const char* kPrefixes[] = {"", "", "motion.", "N.", "a.b.", "diffuse.", "Y."};
+  constexpr const char* kSuffixes[] = {"R", "G", "B", "A", "X", "Y", "Z",     "x",
+                                       "y", "z", "u", "v", "w", "r", "alpha", "id"};
+  std::mt19937 random(11);
+  std::map<std::string, std::string> changed;  // channel by file
+  for (const char* side : {"a", "b"}) std::filesystem::create_directory(directory_.path() / side);
+  for (int run = 0; run < 40; ++run) {
+    std::set<std::string> names;
+    if (run % 2 == 0) names = {"R", "G", "B"};
+    for (std::size_t count = names.size() + 1 + random() % 4; names.size() < count;)
+      names.insert(std::string(kPrefixes[random() % std::size(kPrefixes)]) +
+                   kSuffixes[random() % std::size(kSuffixes)]);
+    for (const std::string& other : names) {
+      const std::string file = std::to_string(run) + "_" + std::to_string(changed.size()) + ".exr";
+      for (const bool is_a : {true, false}) {
+        std::vector<ExrChannel> channels;
+        float value = 1;
+        for (const std::string& name : names)
+          channels.push_back(
+              {name, std::vector<float>(16 * 16, is_a && name == other ? 20 : ++value)});
+        exr((is_a ? "a/" : "b/") + file, 16, 16, channels);
+      }
+      changed[file] = other;
+    }
+  }
+  ASSERT_GT(changed.size(), 100u);
+  std::size_t named = 0, failed = 0;
+  for (const bool all : {true, false}) {
+    std::vector<std::string> arguments = {"a", "b", "--json", "set.json"};
+    if (all) arguments.emplace_back("--all-layers");
+    compare(arguments);
+    const Record set = Record::parse(read_file(directory_.path() / "set.json", 64 << 20));
+    ASSERT_EQ(set["pairs"].size(), changed.size());
+    for (const Record& pair : set["pairs"]) {
+      const std::string channel = changed[pair["name"]];
+      if (!pair.contains("comparison")) {
+        EXPECT_FALSE(all) << pair;
+        EXPECT_THAT(std::string(pair["error"]), HasSubstr("a layer has to be chosen"));
+        continue;
+      }
+      const Record& made = pair["comparison"];
+      if (made["verdict"] != "pass") {
+        ++failed;
+        continue;
+      }
+      EXPECT_FALSE(all) << channel << " " << made["pictures"]["a"] << made["notCompared"];
+      const auto has_channel = [&](const Record& layer) {
+        const std::string name = layer;
+        return name == channel || channel.starts_with(name + ".");
+      };
+      const Record& layers = made["notCompared"]["layers"];
+      EXPECT_TRUE(std::any_of(layers.begin(), layers.end(), has_channel))
+          << channel << " " << made["notCompared"];
+      ++named;
+    }
+  }
+  EXPECT_GT(named, 20u);
+  EXPECT_GT(failed, 100u);
+}
+
+}  // namespace
+}  // namespace lobelia
