@@ -44,15 +44,18 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lobelia_paths.hpp @ONLY CONTENT
 #define LOBELIA_PROGRAM R\"lobelia(@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/lobelia)lobelia\"
 ")
 
-# The presets of the sanitizers optimise nothing, which compiles fastest, except what computes most. There, and with
-# LOBELIA_UNITY, several files of a target are compiled as one.
-set(LOBELIA_COMPUTING_ROOMS renderer compare formulas verify cost)
+# The presets of the sanitizers optimise nothing, which compiles fastest, except rooms that compute. There, and with
+# LOBELIA_UNITY, several files of a target are compiled as one. LOBELIA_UNITY is for whoever builds from scratch and once:
+# what costs no time where it runs is then hardly optimised.
+set(LOBELIA_COMPUTING_ROOMS core renderer compare formulas accuracy studies)
 function(lobelia_compile_quickly target room)
   if(LOBELIA_SANITIZE OR LOBELIA_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
   endif()
   if(LOBELIA_SANITIZE AND room IN_LIST LOBELIA_COMPUTING_ROOMS)
     target_compile_options(${target} PRIVATE -O1)
+  elseif(LOBELIA_UNITY AND NOT room IN_LIST LOBELIA_COMPUTING_ROOMS)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
 

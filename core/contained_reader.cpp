@@ -38,7 +38,7 @@ std::atomic<bool> g_on_one_thread{false}, g_any_format{false};
 constexpr int kNotLoaded = 127;
 
 /// How often a wait looks for Ctrl-C.
-constexpr int kLookMilliseconds = 50;
+constexpr int kPollMilliseconds = 50;
 
 [[noreturn]] void broken(const char* what, int error) {
   throw failure_of(fmt::format("{}: {}", kReaderFile, what), error, ExitCode::kInternal);
@@ -49,7 +49,7 @@ void wait_for(int descriptor) {
   for (;;) {
     throw_if_interrupted();
     pollfd wait{descriptor, POLLIN, 0};
-    const int ready = ::poll(&wait, 1, kLookMilliseconds);
+    const int ready = ::poll(&wait, 1, kPollMilliseconds);
     if (ready > 0) return;
     if (ready < 0 && errno != EINTR) broken("poll", errno);
   }

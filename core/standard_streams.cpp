@@ -13,7 +13,7 @@
 namespace lobelia {
 namespace {
 
-constexpr int kLookMilliseconds = 100;  // between looks whether somebody interrupts the wait
+constexpr int kWaitMilliseconds = 100;  // between looks whether somebody interrupts the wait
 
 enum class Room { kYes, kNotYet, kNever };
 
@@ -48,7 +48,7 @@ void hold_standard_descriptors() noexcept {
 
 void write_message(std::string_view text) noexcept {
   while (!text.empty()) {
-    const Room room = wait_for_room(interrupted() ? 0 : kLookMilliseconds);
+    const Room room = wait_for_room(interrupted() ? 0 : kWaitMilliseconds);
     if (room == Room::kNever || (room == Room::kNotYet && interrupted())) return;
     if (room == Room::kYes && !write_piece(text)) return;
   }

@@ -16,8 +16,8 @@ namespace lobelia {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSmallest = 1e-12;  ///< radians: no piece is narrower
-constexpr double kSame = 1e-9;       ///< a peak is one only if it stands out by more
+constexpr double kNarrowestPiece = 1e-12;  ///< radians: no piece is narrower
+constexpr double kSame = 1e-9;             ///< a peak is one only if it stands out by more
 
 /// The integral of coefficient * lobe * (a factor of N.L) over all directions of the one vector while
 /// the other stays. Lobes treat the two alike, so it serves for light and for eye.
@@ -73,7 +73,7 @@ class HemisphereIntegral {
     std::vector<double> pieces{0};
     for (const double bend : bends) {
       const double end = std::min(bend, end_);
-      for (double next = std::max(kSmallest, std::min(width_, cut_begins)); next < end / 2;
+      for (double next = std::max(kNarrowestPiece, std::min(width_, cut_begins)); next < end / 2;
            next = 4 * std::max(next, pieces.back()))
         if (next > pieces.back()) pieces.push_back(next);
       if (end > pieces.back()) pieces.push_back(end);

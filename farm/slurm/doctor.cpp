@@ -28,7 +28,7 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-using Verdict = DoctorCheck::Verdict;
+using CheckVerdict = DoctorCheck::Verdict;
 
 constexpr char kToken[] = "token";       // written here, read on the node
 constexpr char kLock[] = "lock";         // held here, tried on the node
@@ -92,52 +92,53 @@ class Doctor {
   }
 
  private:
-  bool add(std::string name, Verdict verdict, std::string found, std::string advice = "") {
+  bool add(std::string name, CheckVerdict verdict, std::string found, std::string advice = "") {
     checks_.push_back({std::move(name), verdict, std::move(found), std::move(advice)});
-    return verdict != Verdict::kFailed;
+    return verdict != CheckVerdict::kFailed;
   }
 
   /// Advises where it is not ok.
-  void check(std::string name, bool ok, Verdict otherwise, std::string found, std::string advice) {
-    add(std::move(name), ok ? Verdict::kOk : otherwise, std::move(found), ok ? "" : advice);
+  void check(std::string name, bool ok, CheckVerdict otherwise, std::string found,
+             std::string advice) {
+    add(std::move(name), ok ? CheckVerdict::kOk : otherwise, std::move(found), ok ? "" : advice);
   }
 
   bool programs() {
     const auto absent = SlurmClient::absent_programs();
     if (absent.empty())
-      return add("Slurm's programs", Verdict::kOk, "sbatch and the others are in $PATH");
-    return add("Slurm's programs", Verdict::kFailed,
+      return add("Slurm's programs", CheckVerdict::kOk, "sbatch and the others are in $PATH");
+    return add("Slurm's programs", CheckVerdict::kFailed,
                fmt::format("not in $PATH: {}", fmt::join(absent, ", ")),
                "start it on a login node of the cluster, or 'module load slurm'");
   }
 
   bool controller() {
     const std::string why = client_.ping();
-    if (why.empty()) return add("controller", Verdict::kOk, "it answers");
-    return add("controller", Verdict::kFailed, why,
+    if (why.empty()) return add("controller", CheckVerdict::kOk, "it answers");
+    return add("controller", CheckVerdict::kFailed, why,
                "look whether 'scontrol ping' works and whether $SLURM_CONF names the right file");
   }
 
   void configuration() {
     const auto config = client_.config();
     if (!config) {
-      add("configuration", Verdict::kWarning, config.why,
+      add("configuration", CheckVerdict::kWarning, config.why,
           "array limits are taken to be Slurm's defaults");
       return;
     }
     const auto size = seconds_of(*config, "MaxArraySize");
-    check("MaxArraySize", size > 100, size > 1 ? Verdict::kWarning : Verdict::kFailed,
+    check("MaxArraySize", size > 100, size > 1 ? CheckVerdict::kWarning : CheckVerdict::kFailed,
           size > 100
               ? fmt::format("{}: arrays of up to {} elements", size, std::min(size - 1, 1000LL))
               : fmt::format("{}: {}", size,
                             size > 1 ? "few and long elements" : "there are no job arrays"),
           "ask an administrator for 1001, Slurm's default");
     const auto kill_wait = seconds_of(*config, "KillWait");
-    check("KillWait", kill_wait < 0 || kill_wait >= 5, Verdict::kWarning,
+    check("KillWait", kill_wait < 0 || kill_wait >= 5, CheckVerdict::kWarning,
           fmt::format("{} s between TERM and KILL", kill_wait),
           "an element that is cancelled may leave a temporary file");
     const auto timeout = seconds_of(*config, "SlurmdTimeout");
-    check("SlurmdTimeout", timeout != 0, Verdict::kWarning,
+    check("SlurmdTimeout", timeout != 0, CheckVerdict::kWarning,
           timeout == 0 ? "0: a lost node is never noticed"
                        : fmt::format("{} s until a lost node's elements go elsewhere", timeout),
           "ask an administrator for 300, Slurm's default");
@@ -147,9 +148,9 @@ class Doctor {
     const std::string name =
         options_.slurm.partition.empty() ? "default" : options_.slurm.partition;
     const auto nodes = client_.nodes(options_.slurm.partition);
-    if (!nodes) return add("partition", Verdict::kWarning, nodes.why);
+    if (!nodes) return add("partition", CheckVerdict::kWarning, nodes.why);
     if (nodes->empty())
-      return add("partition", Verdict::kFailed, fmt::format("'{}': there is none", name),
+      return add("partition", CheckVerdict::kFailed, fmt::format("'{}': there is none", name),
                  "'sinfo -s' lists them; name one with --partition");
     std::size_t usable = 0, all = 0, processors = 0;
     for (const auto& group : *nodes) {
@@ -161,8 +162,9 @@ class Doctor {
     const std::string found = fmt::format("'{}': {} of {} nodes can run jobs, with {} processors",
                                           nodes->front().partition, usable, all, processors);
     if (usable == 0)
-      return add("partition", Verdict::kFailed, found, "'sinfo -R' says why; ask an administrator");
-    return add("partition", Verdict::kOk, found);
+      return add("partition", CheckVerdict::kFailed, found,
+                 "'sinfo -R' says why; ask an administrator");
+    return add("partition", CheckVerdict::kOk, found);
   }
 
   void node() {
@@ -205,7 +207,7 @@ class Doctor {
     const auto submission = client_.submit(arguments, script);
     if (!submission.job) {
       client_.cancel(name);
-      add("a job", Verdict::kFailed, submission.why,
+      add("a job", CheckVerdict::kFailed, submission.why,
           "see the options for partition, account and QOS");
       return;
     }
@@ -213,7 +215,8 @@ class Doctor {
     if (!why.empty()) client_.cancel(name);
     throw_if_interrupted();
     if (!fs::exists(directory / kAnswer)) {
-      add("a job", Verdict::kFailed, why.empty() ? "it ended and nothing of it is seen here" : why,
+      add("a job", CheckVerdict::kFailed,
+          why.empty() ? "it ended and nothing of it is seen here" : why,
           fmt::format("is {} the same on the nodes, and does {} run there?", base.string(),
                       options_.program.string()));
       return;
@@ -248,29 +251,29 @@ class Doctor {
     try {
       answer = records::read_record<records::SlurmDoctor>(directory / kAnswer);
     } catch (const Error& error) {
-      add("a job", Verdict::kFailed, error.what());
+      add("a job", CheckVerdict::kFailed, error.what());
       return;
     }
     const auto shown = [](const std::string& text) { return printable(text, 300); };
-    add("a job", Verdict::kOk, fmt::format("it ran on {}", shown(answer.host)));
+    add("a job", CheckVerdict::kOk, fmt::format("it ran on {}", shown(answer.host)));
     const bool same = answer.token == token;
-    check("directory on a node", same, Verdict::kFailed,
+    check("directory on a node", same, CheckVerdict::kFailed,
           same ? "what one writes the other reads" : "the node reads another file of the same name",
           "results have to be on a file system that the nodes share");
-    check("program on a node", answer.version == kNameAndVersion, Verdict::kFailed,
+    check("program on a node", answer.version == kNameAndVersion, CheckVerdict::kFailed,
           fmt::format("{} there, {} here", shown(answer.version), kNameAndVersion),
           "let both be the same file, or build it the same on all");
-    const auto try_on_node = [&](const char* name, const std::string& problem, Verdict otherwise,
-                                 const char* advice) {
+    const auto try_on_node = [&](const char* name, const std::string& problem,
+                                 CheckVerdict otherwise, const char* advice) {
       check(name, problem.empty(), otherwise, problem.empty() ? "they work" : shown(problem),
             advice);
     };
-    try_on_node("renaming on a node", answer.rename, Verdict::kFailed,
+    try_on_node("renaming on a node", answer.rename, CheckVerdict::kFailed,
                 "take another file system for the results");
-    try_on_node("hard links on a node", answer.link, Verdict::kFailed,
+    try_on_node("hard links on a node", answer.link, CheckVerdict::kFailed,
                 "take another file system for the results");
     try_on_node(
-        "locks across machines", answer.lock, Verdict::kWarning,
+        "locks across machines", answer.lock, CheckVerdict::kWarning,
         "start one client for a directory at a time, or have lockd (NFS) or -o flock (Lustre) turned on");
   }
 
@@ -291,7 +294,7 @@ void doctor_on_node(const fs::path& directory) {
 }
 
 DoctorCheck::Verdict worst_of(const std::vector<DoctorCheck>& checks) {
-  Verdict worst = Verdict::kOk;
+  CheckVerdict worst = CheckVerdict::kOk;
   for (const auto& check : checks) worst = std::max(worst, check.verdict);
   return worst;
 }
@@ -299,9 +302,9 @@ DoctorCheck::Verdict worst_of(const std::vector<DoctorCheck>& checks) {
 std::string doctor_text(const std::vector<DoctorCheck>& checks) {
   std::string text;
   for (const auto& check : checks) {
-    const char* verdict = check.verdict == Verdict::kOk        ? "ok"
-                          : check.verdict == Verdict::kWarning ? "warning"
-                                                               : "failed";
+    const char* verdict = check.verdict == CheckVerdict::kOk        ? "ok"
+                          : check.verdict == CheckVerdict::kWarning ? "warning"
+                                                                    : "failed";
     text += fmt::format("{:8} {}: {}\n", verdict, check.name, check.found);
     if (!check.advice.empty()) text += fmt::format("{:8} -> {}\n", "", check.advice);
   }

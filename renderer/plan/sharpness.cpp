@@ -11,7 +11,7 @@ namespace lobelia {
 namespace {
 
 /// Smaller than so many pixels across, a thing may hide between the first samples.
-constexpr double kSmallest = 4;
+constexpr double kFewestPixels = 4;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::string why_every_pixel(const Scene& scene, const Plan& plan) {
   for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
     const Sphere& sphere = scene.spheres[k];
     const double distance = length(sphere.center - frame.origin);
-    if (sphere.radius < kSmallest * pixel * distance)
+    if (sphere.radius < kFewestPixels * pixel * distance)
       return fmt::format("sphere {} is only {:.1f} pixels across", k,
                          2 * sphere.radius / (pixel * distance));
     const Highlight& h = scene.materials[std::size_t(sphere.material)].highlight;
@@ -32,7 +32,7 @@ std::string why_every_pixel(const Scene& scene, const Plan& plan) {
     // mirror direction twice; that is where a highlight looks smallest but for the silhouette.
     const double turn = 2 * pixel * std::max(0.0, distance - sphere.radius) / sphere.radius;
     const double across = 2 * lobe_angle_at(prepare(h.lobe, h.exponent), 0.5) / turn;
-    if (across < kSmallest)
+    if (across < kFewestPixels)
       return fmt::format("the highlight of sphere {} is only {:.1f} pixels across", k, across);
   }
   return "";

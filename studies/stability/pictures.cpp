@@ -16,15 +16,15 @@
 namespace lobelia::stability {
 namespace {
 
-constexpr int kSide = 160;
+constexpr int kPictureSide = 160;
 constexpr double kDarkest = -8;  ///< log10 of the smallest error that is not black
 
 template <class Pixels, class Radiance>
 Image to_image(const Pixels& pixels, Radiance radiance) {
-  Image image(kSide, kSide);
+  Image image(kPictureSide, kPictureSide);
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     const Rgb c = radiance(pixels[i]);
-    const auto p = image.pixel(int(i) % kSide, int(i) / kSide);
+    const auto p = image.pixel(int(i) % kPictureSide, int(i) / kPictureSide);
     p[0] = float(c.r), p[1] = float(c.g), p[2] = float(c.b);
   }
   return image;
@@ -78,21 +78,21 @@ std::vector<records::StabilityPictures> write_pictures(const std::filesystem::pa
   constexpr int kGap = 4;
   constexpr double kExponents[] = {1e3, 1e5, 1e6};
   const int rows = int(std::size(kExponents));
-  DisplayImage sheet{4 * kSide + 3 * kGap, rows * kSide + (rows - 1) * kGap, {}};
+  DisplayImage sheet{4 * kPictureSide + 3 * kGap, rows * kPictureSide + (rows - 1) * kGap, {}};
   sheet.rgb.assign(std::size_t{3} * sheet.width * sheet.height, 255);
   const HardScene hard = hard_scenes().front();
   Highlight highlight{*find_model("modified_phong"), *find_lobe("cosine"), Normalisation::kExact};
   std::vector<records::StabilityPictures> pictures;
   for (const double n : kExponents) {
     Scene scene = close_to_highlight(hard.scene, n).at(0);
-    scene.film = {kSide, kSide};
+    scene.film = {kPictureSide, kPictureSide};
     highlight.exponent = n;
     scene.materials[0].highlight = highlight;
     const truth::Picture truth(scene);
     const double peak = truth::coefficient(highlight.model, highlight.lobe, n) * truth.peak();
     const Image true_image = to_image(truth.highlights(highlight), [](Rgb c) { return c; });
     const double exposure = exposure_for_peak(peak);
-    const int y = int(pictures.size()) * (kSide + kGap);
+    const int y = int(pictures.size()) * (kPictureSide + kGap);
     int x = 0;
     const auto write = [&](const char* name, const Image& image) {
       const std::string stem = fmt::format("stability-n{:.0f}-{}", n, name),
@@ -104,8 +104,8 @@ std::vector<records::StabilityPictures> write_pictures(const std::filesystem::pa
       write_png(file + ".png", eye);
       write_png(file + "-error.png", error);
       paste(eye, sheet, x, y);
-      paste(error, sheet, x + 2 * (kSide + kGap), y);
-      x += kSide + kGap;
+      paste(error, sheet, x + 2 * (kPictureSide + kGap), y);
+      x += kPictureSide + kGap;
       return records::StabilityPicture{recorded + ".exr", recorded + ".png",
                                        recorded + "-error.png",
                                        largest_error(image, true_image, peak)};

@@ -9,7 +9,7 @@
 namespace lobelia::stability {
 namespace {
 
-constexpr int kSide = 33;  ///< odd, so that one ray runs along the axis
+constexpr int kFilmSide = 33;  ///< odd, so that one ray runs along the axis
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
@@ -22,7 +22,7 @@ HardScene one_sphere(std::string name, double radius, Vec3 center, double from, 
   scene.camera.target = center;
   scene.camera.up = {0, 1, 0};
   scene.camera.fov_degrees = 2 * degrees(std::atan(1.15 / from));
-  scene.film = {kSide, kSide};
+  scene.film = {kFilmSide, kFilmSide};
   scene.lights = {DirectionalLight{kOblique, {1, 1, 1}}};
   scene.materials = {{"", {}, {1, 1, 1}, {}, Fresnel::kNone}};
   scene.spheres = {{center, radius, 0}};
@@ -106,7 +106,7 @@ std::vector<Scene> close_to_highlight(Scene scene, double exponent) {
   scene.camera.target = point;
   scene.camera.fov_degrees =
       2 * degrees(std::atan(std::min(1.0, 2.5 / std::sqrt(exponent)) * scale / distance));
-  scene.film = {kSide - 8, kSide - 8};
+  scene.film = {kFilmSide - 8, kFilmSide - 8};
   return {scene};
 }
 

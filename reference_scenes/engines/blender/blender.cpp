@@ -32,14 +32,14 @@ std::vector<fs::path> blender_directories(const fs::path& program, std::string_v
 }
 
 /// From 3.4 there are the node groups' and point primitives' interfaces that render_scenes.py uses.
-constexpr EngineProbe kProbe{
+constexpr EngineProbe kBlenderProbe{
     "blender", "Blender ",
     [](int major, int minor) { return major == 4 || (major == 3 && minor >= 4); },
     blender_directories};
 
 class Blender final : public ProgramEngine {
  public:
-  explicit Blender(const fs::path& program) : ProgramEngine(kBlenderInfo, kProbe, program) {}
+  explicit Blender(const fs::path& program) : ProgramEngine(kBlenderInfo, kBlenderProbe, program) {}
 
  protected:
   std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const override {

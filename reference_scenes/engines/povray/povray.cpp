@@ -29,9 +29,9 @@ constexpr int kProcessesPerProcessor = 16;
 constexpr double kFirstPerProcessor = 12;  // until one has ended and told how long it worked
 constexpr std::size_t kLargePixels = 1 << 20;
 
-constexpr EngineProbe kProbe{"povray", "POV-Ray ", [](int major, int minor) {
-                               return major == 3 && (minor == 7 || minor == 8);
-                             }};
+constexpr EngineProbe kPovrayProbe{"povray", "POV-Ray ", [](int major, int minor) {
+                                     return major == 3 && (minor == 7 || minor == 8);
+                                   }};
 
 struct PassResult {
   std::chrono::steady_clock::time_point begun = {};
@@ -151,7 +151,7 @@ class PovraySession final : public SimpleSession {
 
 class Povray final : public ProgramEngine {
  public:
-  explicit Povray(const fs::path& program) : ProgramEngine(kPovrayInfo, kProbe, program) {}
+  explicit Povray(const fs::path& program) : ProgramEngine(kPovrayInfo, kPovrayProbe, program) {}
 
  protected:
   std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const override {
