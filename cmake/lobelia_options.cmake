@@ -45,12 +45,12 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lobelia_paths.hpp @ONLY CONTENT
 ")
 
 # The presets of the sanitizers optimise nothing, which compiles fastest, except rooms that compute. There, and with
-# LOBELIA_UNITY, several files of a target are compiled as one. LOBELIA_UNITY is for whoever builds from scratch and once:
-# what costs no time where it runs is then hardly optimised.
+# LOBELIA_UNITY, the files of a target are compiled as one. LOBELIA_UNITY is for a build from scratch:
+# rooms that take no time at run time are then compiled at -O1.
 set(LOBELIA_COMPUTING_ROOMS core renderer compare formulas accuracy studies)
 function(lobelia_compile_quickly target room)
   if(LOBELIA_SANITIZE OR LOBELIA_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   endif()
   if(LOBELIA_SANITIZE AND room IN_LIST LOBELIA_COMPUTING_ROOMS)
     target_compile_options(${target} PRIVATE -O1)

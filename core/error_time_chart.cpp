@@ -9,9 +9,6 @@
 namespace lobelia {
 namespace {
 
-// What records say may be anything that a double can hold; axes stay away from its ends.
-constexpr double kLargest = 1e250, kSmallest = 1e-250;
-
 struct Unit {
   const char* name;
   double seconds;
@@ -24,15 +21,15 @@ Unit unit_for(double seconds) {
 }
 
 bool can_be_drawn(const TimedError& point) {
-  return point.cost >= kSmallest && point.cost <= kLargest && point.error >= 0 &&
-         point.error <= kLargest;
+  return point.cost >= kSmallestDrawn && point.cost <= kLargestDrawn && point.error >= 0 &&
+         point.error <= kLargestDrawn;
 }
 
 /// A whole number of decades around all values above 0.
 void widen(ChartAxis& axis, const std::vector<double>& values) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const double value : values)
-    if (value >= kSmallest) least = std::min(least, value), most = std::max(most, value);
+    if (value >= kSmallestDrawn) least = std::min(least, value), most = std::max(most, value);
   if (most == 0) least = most = 1;
   axis.logarithmic = true;
   axis.from = std::pow(10, std::floor(std::log10(least * 0.9)));

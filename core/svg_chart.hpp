@@ -8,6 +8,9 @@
 
 namespace lobelia {
 
+/// Values whose size is out of this range are not drawn: an axis has no room for their digits.
+inline constexpr double kSmallestDrawn = 1e-250, kLargestDrawn = 1e250;
+
 struct ChartAxis {
   std::string label;  ///< with its unit
   double from = 0, to = 1;

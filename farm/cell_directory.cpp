@@ -20,7 +20,6 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kRecordFile[] = "cell.json";
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
 
 /// Every file that a farm of any version may have put into a cell for an engine.
@@ -99,9 +98,9 @@ Removal removal_from(const HeldDirectory& directory) {
 }
 
 std::optional<records::Cell> read_cell_record(const fs::path& directory) {
-  if (::access((directory / kRecordFile).c_str(), F_OK) != 0) return std::nullopt;
+  if (::access((directory / kCellRecordFile).c_str(), F_OK) != 0) return std::nullopt;
   try {
-    return records::read_record<records::Cell>(directory / kRecordFile);
+    return records::read_record<records::Cell>(directory / kCellRecordFile);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;
     return std::nullopt;
@@ -121,7 +120,7 @@ std::vector<records::CellFile> files_of(const CellRecords& records) {
 }  // namespace
 
 bool is_cell_file(const std::string& name) {
-  return name == kRecordFile || names_of_ours().contains(name);
+  return name == kCellRecordFile || names_of_ours().contains(name);
 }
 
 namespace {
@@ -213,7 +212,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
   remove_abandoned_parts(directory);
   Removal removal = removal_from(directory);
   // It speaks of files that are about to change.
-  removal.remove(kRecordFile);
+  removal.remove(kCellRecordFile);
 
   std::set<std::string> foreign = names_of_ours();
   bool complete = true;
@@ -245,7 +244,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     record.status = "failed";
   else if (!complete)
     record.status = "missing";
-  records::write_record(directory_ / kRecordFile, record, AtLink::kReplace);
+  records::write_record(directory_ / kCellRecordFile, record, AtLink::kReplace);
   return record.status;
 }
 
@@ -295,7 +294,7 @@ records::Cell CellDirectory::cell_record(const CellRecords& records) const {
 }
 
 void CellDirectory::forget() const {
-  if (const HeldDirectory directory = held()) removal_from(directory).remove(kRecordFile);
+  if (const HeldDirectory directory = held()) removal_from(directory).remove(kCellRecordFile);
 }
 
 std::string CellDirectory::reason(JobIndex job) const {

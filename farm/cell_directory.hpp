@@ -11,6 +11,9 @@
 
 namespace lobelia {
 
+/// The record of a cell, in its directory.
+inline constexpr char kCellRecordFile[] = "cell.json";
+
 /// Why a cell has no result of an engine, or of ours.
 struct CellProblem {
   records::CellProblem record;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kDirectory[] = "reports";
-constexpr std::size_t kMostBytes = 64 << 10;
+constexpr std::size_t kMostReportBytes = 64 << 10;
 constexpr std::size_t kMostLeft = 100;      // far more than there are engines
 constexpr std::size_t kMostWhy = 500;       // bytes
 constexpr std::size_t kMostProblems = 10;   // are told
@@ -54,8 +54,9 @@ std::string why_not_read(const HeldDirectory& directory, const std::string& name
     return std::strerror(errno);
   if (S_ISLNK(status.st_mode)) return "a link";
   if (!S_ISREG(status.st_mode)) return "not a regular file";
-  return std::uint64_t(status.st_size) > kMostBytes ? fmt::format("over {} bytes", kMostBytes)
-                                                    : "it cannot be read";
+  return std::uint64_t(status.st_size) > kMostReportBytes
+             ? fmt::format("over {} bytes", kMostReportBytes)
+             : "it cannot be read";
 }
 
 ChunkReport parse_report(const std::string& text, std::size_t number) {
@@ -123,7 +124,7 @@ ChunkReports read_chunk_reports(const fs::path& run_directory, std::size_t first
   for (const std::size_t number : numbers) {
     const std::string name = fmt::format("{}.json", number);
     try {
-      const auto text = directory.read(name, kMostBytes);
+      const auto text = directory.read(name, kMostReportBytes);
       if (text)
         found.reports.push_back(parse_report(*text, number));
       else

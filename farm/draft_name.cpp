@@ -61,7 +61,7 @@ struct ProcessState {
   std::uint64_t start = 0;
 };
 
-ProcessState state_of(const std::string& pid) {
+ProcessState process_state(const std::string& pid) {
   const std::string line = first_line("/proc/" + pid + "/stat");  // "123 (name) S 1 ..."
   const auto close = line.rfind(')');
   if (close == line.npos) return {};
@@ -86,7 +86,7 @@ bool parse_number_part(std::string_view text, std::uint64_t& value) {
 
 ProcessIdentity this_process() {
   return {host_part(), boot_part(), pid_namespace(), std::uint64_t(::getpid()),
-          state_of("self").start};
+          process_state("self").start};
 }
 
 std::string DraftName::text() const {
@@ -122,7 +122,7 @@ Life life_of(const ProcessIdentity& maker, const ProcessIdentity& self) {
   if (maker.boot != self.boot) return maker.host == self.host ? Life::kDead : Life::kUnknown;
   if (maker.pid_namespace != self.pid_namespace || !proc_has_our_numbers()) return Life::kUnknown;
   if (::kill(pid_t(maker.pid), 0) != 0 && errno == ESRCH) return Life::kDead;
-  const ProcessState there = state_of(std::to_string(maker.pid));
+  const ProcessState there = process_state(std::to_string(maker.pid));
   if (there.state == 0) return Life::kAlive;  // another user's, which the system does not show
   // A zombie works on nothing; where process 1 reaps late there are many.
   const bool ended = there.state == 'Z' || there.state == 'X';

@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "farm/cell_directory.hpp"
 #include "farm/farm_engines.hpp"
 #include "farm/own_identity.hpp"
 #include "farm/result_cache.hpp"
@@ -33,7 +34,7 @@ bool is_there(const fs::path& path, mode_t type) {
 fs::path directory_of_cell(const fs::path& farm_directory, const std::string& cell) {
   const fs::path cells = farm_directory / "cells";
   if (!is_plain_name(cell) || !is_there(cells, S_IFDIR) || !is_there(cells / cell, S_IFDIR) ||
-      !is_there(cells / cell / "cell.json", S_IFREG))
+      !is_there(cells / cell / kCellRecordFile, S_IFREG))
     throw Error(ExitCode::kInput, fmt::format("{}: no cell '{}' with a cell.json",
                                               farm_directory.string(), printable(cell, 200)));
   return cells / cell;
@@ -182,7 +183,7 @@ records::FarmExplanation explain_cell(const fs::path& directory, const std::stri
       cache.emplace(place.cache, ResultCache::Opening::kLook);
   } catch (const Error&) {  // then nothing is in it
   }
-  const auto record = records::read_record<records::Cell>(cell_directory / "cell.json");
+  const auto record = records::read_record<records::Cell>(cell_directory / kCellRecordFile);
   records::FarmExplanation explanation;
   explanation.cell = cell;
   explanation.status = record.status;

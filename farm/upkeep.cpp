@@ -76,8 +76,6 @@ std::pair<std::int64_t, std::int64_t> changed(const fs::path& path) {
   return {status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
-constexpr char kRecordFile[] = "cell.json";
-
 /// Every path below a farm's directory that it or its gallery may have written, and that clean may take away.
 Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_gallery) {
   std::vector<std::string> parts;
@@ -142,9 +140,9 @@ struct CellFindings {
 
 CellFindings look_at_cell(const HeldDirectory& cell, const ResultCache* cache) {
   CellFindings found;
-  const auto text = cell.read(kRecordFile, records::kMaxRecordBytes);
+  const auto text = cell.read(kCellRecordFile, records::kMaxRecordBytes);
   if (!text) {
-    found.damaged.emplace_back(kRecordFile, "is missing");
+    found.damaged.emplace_back(kCellRecordFile, "is missing");
     return found;
   }
   try {
@@ -166,7 +164,7 @@ CellFindings look_at_cell(const HeldDirectory& cell, const ResultCache* cache) {
     }
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;
-    found.damaged.emplace_back(kRecordFile, fmt::format("is damaged: {}", error.what()));
+    found.damaged.emplace_back(kCellRecordFile, fmt::format("is damaged: {}", error.what()));
   }
   return found;
 }
@@ -236,7 +234,7 @@ VerifyReport verify_farm(const fs::path& directory, bool remove, const OnProgres
     // One that was never finished has no record, and names nothing.
     struct stat ignored {};
     const bool has_record =
-        cell && ::fstatat(cell.fd(), kRecordFile, &ignored, AT_SYMLINK_NOFOLLOW) == 0;
+        cell && ::fstatat(cell.fd(), kCellRecordFile, &ignored, AT_SYMLINK_NOFOLLOW) == 0;
     if (has_record || all[i].status != "missing")
       findings[i] = look_at_cell(cell, cache ? &*cache : nullptr);
   });
@@ -251,7 +249,7 @@ VerifyReport verify_farm(const fs::path& directory, bool remove, const OnProgres
       report.damaged.push_back(fmt::format("{} {}", (cell / name).string(), why));
       if (!remove) continue;
       removal.remove(cell / name);
-      removal.remove(cell / kRecordFile);
+      removal.remove(cell / kCellRecordFile);
     }
   }
   report.missing = missing.size();
@@ -390,7 +388,7 @@ records::FarmStatus farm_status(const fs::path& directory) {
     throw_if_interrupted();
     std::string now = status;
     // The farm's record is as old as its last look; a cell's own is not.
-    const fs::path file = directory / "cells" / id / kRecordFile;
+    const fs::path file = directory / "cells" / id / kCellRecordFile;
     std::error_code ignored;
     if (fs::exists(file, ignored)) {
       try {

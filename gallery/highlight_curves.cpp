@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/svg_chart.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
 constexpr std::size_t kMostExponents = 1000, kMostPoints = 1000;
-constexpr double kLargestDrawn = 1e250;
 /// So large that neither a number nor a second difference of rows overflows.
 constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
 
@@ -37,7 +37,7 @@ class Checker {
   void require_positive(const std::vector<double>& values) const {
     require(values.size() == count_, "a table must have a number for each exponent");
     for (const double value : values)
-      require(value >= 1 / kLargestDrawn && value <= kLargestDrawn,
+      require(value >= kSmallestDrawn && value <= kLargestDrawn,
               "a table has a number that cannot be drawn");
   }
   void require_rows(const Rows& rows, std::size_t points) const {

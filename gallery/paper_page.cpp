@@ -27,8 +27,6 @@ constexpr VerdictInfo kVerdicts[] = {{"confirmed", "pass", "✓", "confirmed"},
                                      {"not reproduced", "differs", "≠", "not reproduced"},
                                      {"found", "unchecked", "+", "found beyond the paper"}};
 
-/// Records may say anything that a double can hold; axes stay away from its ends.
-constexpr double kLargest = 1e250, kSmallest = 1e-250;
 constexpr int kLastStyle = 5;
 
 const VerdictInfo& verdict_of(const Claim& claim) {
@@ -42,9 +40,9 @@ std::string id_of(const Claim& claim, const std::vector<Claim>& claims) {
 }
 
 void require_drawable(records::ChartAxis& axis) {
-  const bool is_drawable = std::abs(axis.from) <= kLargest && std::abs(axis.to) <= kLargest &&
-                           axis.from < axis.to &&
-                           (!axis.logarithmic.value_or(false) || axis.from >= kSmallest);
+  const bool is_drawable = std::abs(axis.from) <= kLargestDrawn &&
+                           std::abs(axis.to) <= kLargestDrawn && axis.from < axis.to &&
+                           (!axis.logarithmic.value_or(false) || axis.from >= kSmallestDrawn);
   if (!is_drawable)
     throw Error(ExitCode::kInput,
                 fmt::format("{}: the axis '{}' cannot be drawn", kRecord, printable(axis.label)));

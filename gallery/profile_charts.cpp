@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/svg_chart.hpp"
 #include "core/ticks.hpp"
 
 namespace lobelia::gallery {
@@ -10,8 +11,6 @@ namespace {
 
 constexpr double kBeyondZones = 1.25;  // how much of the dark around a highlight is drawn
 constexpr double kMaxDecades = 10;     // of the logarithmic panel
-// What records say may be anything that a double can hold; axes stay away from its ends.
-constexpr double kLargest = 1e250, kSmallest = 1e-250;
 
 struct Curve {
   std::string name;
@@ -85,7 +84,7 @@ Chart radiance_chart(const ShownFarm& farm, const records::Profile& profile) {
     chart.series.push_back(
         {curve_title(farm, name), profile.curve.angle_degrees, values, style_of(farm, name)});
     for (const double value : values) {
-      if (value <= kLargest) top = std::max(top, value);
+      if (value <= kLargestDrawn) top = std::max(top, value);
     }
   }
   chart.y = {"radiance (linear)", 0, round_up(top), false};
@@ -112,7 +111,7 @@ Chart difference_chart(const ShownFarm& farm, const records::Profile& profile,
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double difference = std::abs(values[i] - analytic[i]);
       series.y.push_back(difference);
-      const bool drawn = difference >= kSmallest && difference <= kLargest;
+      const bool drawn = difference >= kSmallestDrawn && difference <= kLargestDrawn;
       if (!drawn || profile.curve.angle_degrees[i] > chart.x.to) continue;
       low = std::min(low, difference);
       high = std::max(high, difference);

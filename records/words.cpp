@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/constants.hpp"
 #include "core/numbers.hpp"
 
 namespace lobelia::records {
@@ -34,7 +35,6 @@ Named<std::string> words_of(const Struct& type, const void* part) {
 std::string in_words(const Struct& type, const void* part) { return words(type.write(part)); }
 
 Named<double> numbers_of(const Struct& type, const void* part) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Named<double> result;
   const Json json = type.write(part);
   for (const auto& [key, value] : json.items()) {

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/constants.hpp"
 #include "core/error.hpp"
 #include "renderer/chord.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Embree's boxes and rays are float32, ours are made of doubles. Both are given from the middle of all
 /// spheres, where no coordinate is beyond twice the extent, and boxes are wider by so much of it: some

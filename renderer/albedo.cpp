@@ -6,16 +6,15 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/reflector.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kNarrowestPiece = 1e-12;  ///< radians: no piece is narrower
 constexpr double kSame = 1e-9;             ///< a peak is one only if it stands out by more
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "core/constants.hpp"
 #include "renderer/albedo.hpp"
 #include "renderer/catalogue_record.hpp"
 #include "renderer/lobe_properties.hpp"
@@ -14,7 +14,6 @@
 namespace lobelia {
 namespace {
 
-constexpr double kRightAngle = std::numbers::pi / 2;
 constexpr int kCurvePoints = 80, kAlbedoPoints = 20;
 // Values are stored as multiples of this: of their logarithm, or of a root that is at most 1.
 constexpr double kLogarithmUnit = 1e-4, kRootUnit = 1e-6;

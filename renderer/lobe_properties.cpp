@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/constants.hpp"
 
 namespace lobelia {
-namespace {
-
-constexpr double kRightAngle = std::numbers::pi / 2;
-
-}  // namespace
-
 double lobe_angle_at(const PreparedLobe& lobe, double value) {
   double above = 0, below = kRightAngle;
   // Each step halves the interval; 80 leave an exponent of 1e8 its digits too.

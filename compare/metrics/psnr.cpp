@@ -9,16 +9,14 @@
 //               a peak far too high is rated the better for it; theirs is ours where the reference
 //               has it, else ours + 20 log10(that peak / peak). Tools for 8 bits take 255.
 #include <cmath>
-#include <limits>
 
 #include "compare/metrics/metric.hpp"
 #include "compare/metrics/picture_part.hpp"
+#include "core/constants.hpp"
 #include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 constexpr MetricOutput kOutputs[] = {
     {"psnr", "Peak signal-to-noise ratio", Unit::kPlain, Better::kHigher, false,

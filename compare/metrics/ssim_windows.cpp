@@ -11,7 +11,7 @@
 namespace lobelia {
 namespace {
 
-constexpr double kSigma = 1.5;
+constexpr double kWindowSigma = 1.5;
 // (K L)^2 with K1 = 0.01, K2 = 0.03 and the range L of luma, which is 1.
 constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
 
@@ -22,12 +22,12 @@ constexpr int kRowsPerTask = 64;
 enum Moment { kA, kB, kAA, kBB, kAB, kMoments };
 using Moments = std::array<std::vector<double>, kMoments>;
 
-std::array<double, kSsimWindow> gaussian() {
+std::array<double, kSsimWindow> gaussian_window() {
   std::array<double, kSsimWindow> taps;
   double sum = 0;
   for (int i = 0; i < kSsimWindow; ++i) {
     const double x = i - kSsimWindow / 2;
-    sum += taps[std::size_t(i)] = std::exp(-x * x / (2 * kSigma * kSigma));
+    sum += taps[std::size_t(i)] = std::exp(-x * x / (2 * kWindowSigma * kWindowSigma));
   }
   for (double& tap : taps) tap /= sum;
   return taps;
@@ -40,7 +40,7 @@ void add_scaled(double factor, const double* in, std::span<double> out) {
 }  // namespace
 
 SsimMeans ssim_means(const LumaRows& a, const LumaRows& b) {
-  const auto taps = gaussian();
+  const auto taps = gaussian_window();
   const int across = a.width - kSsimWindow + 1, down = a.height - kSsimWindow + 1;
   const auto width = std::size_t(a.width), windows = std::size_t(across);
   std::vector<double> row_similarity(std::size_t(down), 0.0), row_contrast(row_similarity);

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/constants.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // In half-widths. A Gaussian has fallen to 1/512 at 3 of them, and to 1/1000 at the last.
 constexpr double kBackgroundFrom = 3, kBackgroundTo = 4.5, kEnergyReach = 3;

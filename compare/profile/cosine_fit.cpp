@@ -8,10 +8,11 @@
 #include <limits>
 #include <vector>
 
+#include "core/constants.hpp"
+
 namespace lobelia {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSmallest = 1e-3, kLargest = 1e8;
 // Between two of these a sum of squares that has one minimum cannot hide it, and a few thousand pixels tell
 // where it is.

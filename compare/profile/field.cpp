@@ -2,12 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Weights of the four pixels around a place that is t past the second.
 std::array<double, 4> cubic_weights(double t) {

@@ -1,15 +1,13 @@
 // The highlight of one picture in figures.
 #include "compare/profile/profile.hpp"
+#include "core/constants.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 namespace lobelia {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Field empty_field(const ProfileGeometry& geometry) {
   return {geometry.width, int(geometry.angle.size() / std::size_t(geometry.width)),

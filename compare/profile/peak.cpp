@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
+
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr std::size_t kMostTerms = 15;  // of degree 4
 using Terms = std::array<double, kMostTerms>;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kCap = 0.8;
 // Of a broad highlight a smaller cap has pixels enough, and what is beyond degree 4 in it is a quarter.

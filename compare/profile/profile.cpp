@@ -7,12 +7,11 @@
 #include <limits>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // The curve reaches a little past the blooming zone, so that its end is seen, in bins as wide as
 // the pixels are apart, but for these bounds: finer bins would each hold a pixel or none, and

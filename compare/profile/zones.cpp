@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/constants.hpp"
 
 namespace lobelia {
 
@@ -14,7 +15,6 @@ void ZoneErrorSum::add(double difference) {
 }
 
 ZoneError ZoneErrorSum::error(double peak) const {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (pixels_ == 0 || !finite_) return {pixels_, kNaN, kNaN, kNaN};
   return {pixels_, max_abs_, std::sqrt(squares_ / double(pixels_)),
           max_abs_ == 0 ? 0 : max_abs_ / peak};

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "compare/metrics/catalogue.hpp"
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
 
 constexpr std::string_view kOpen = "z.open";
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kPrograms = {"sbatch", "squeue", "scancel", "scontrol",
                                                        "sinfo"};
-constexpr std::size_t kMostBytes = 16u << 20;  // a line of squeue for each of 1e5 elements
+constexpr std::size_t kMostAnswerBytes = 16u << 20;  // a line of squeue for each of 1e5 elements
 
 struct TooMuch {};
 
@@ -71,7 +71,7 @@ SlurmClient::Output SlurmClient::run(std::vector<std::string> arguments) const {
   options.uninterruptible = true;
   options.timeout = time_limit_;
   options.on_line = [&](std::string_view line) {
-    if ((bytes += line.size()) > kMostBytes) throw TooMuch();
+    if ((bytes += line.size()) > kMostAnswerBytes) throw TooMuch();
     output.lines.emplace_back(line);
   };
   try {
@@ -86,7 +86,7 @@ SlurmClient::Output SlurmClient::run(std::vector<std::string> arguments) const {
           said.empty() ? fmt::format("{} ended with exit code {}", name, result.exit_code) : said;
     }
   } catch (const TooMuch&) {
-    output.why = fmt::format("{}'s answer is longer than {} MiB", name, kMostBytes >> 20);
+    output.why = fmt::format("{}'s answer is longer than {} MiB", name, kMostAnswerBytes >> 20);
   } catch (const Error& error) {
     output.why = error.what();
   }

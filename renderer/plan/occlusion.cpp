@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A hair wider than the geometry, so that rounding never rules out a grazing occluder.
 constexpr double kWider = 1 + 1e-9;
 

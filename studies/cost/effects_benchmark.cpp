@@ -21,15 +21,15 @@ namespace lobelia::cost {
 namespace {
 
 /// One way to make the picture, and what it took.
-struct Case {
+struct EffectCase {
   std::string effect;  ///< that is left out; empty: none
   Scene scene;
   RenderOptions how;
   RenderResult result;
 };
 
-Case make_case(const std::string& effect, const Scene& scene) {
-  Case one{effect, scene, {}, {}};
+EffectCase make_case(const std::string& effect, const Scene& scene) {
+  EffectCase one{effect, scene, {}, {}};
   if (!effect.empty()) {
     Without left = without(effect, scene);
     one.scene = std::move(left.scene);
@@ -43,7 +43,7 @@ bool is_on(const Plan& plan, const std::string& effect) {
                      [&](const EffectDecision& e) { return e.name == effect && e.on; });
 }
 
-void require_good(const Case& one) {
+void require_good(const EffectCase& one) {
   for (const float value : one.result.image.values())
     if (!std::isfinite(value))
       throw Error(ExitCode::kInternal, "effects: a value of our picture is not finite");
@@ -52,7 +52,7 @@ void require_good(const Case& one) {
 }
 
 /// Times as many samples and the seed after so many others; where there is one ray a pixel, it stays one.
-Image with_more_samples(const Case& one, int times, int seed) {
+Image with_more_samples(const EffectCase& one, int times, int seed) {
   Scene scene = one.scene;
   scene.sampler.seed += std::uint64_t(seed);
   if (scene.sampler.sample_count > 1) scene.sampler.sample_count *= times;
@@ -83,7 +83,8 @@ records::Named<records::Work> effects_record(const RenderResult& result) {
   return work;
 }
 
-std::string price(const Variant& way, const Variant& all, const Case& one, const Case& whole) {
+std::string price(const Variant& way, const Variant& all, const EffectCase& one,
+                  const EffectCase& whole) {
   const double with = all.seconds->median, without = way.seconds->median;
   const double saved = 1 - without / with;
   std::string time =
@@ -101,7 +102,7 @@ std::string price(const Variant& way, const Variant& all, const Case& one, const
 }
 
 Table measure_scene(const std::string& name, const Scene& scene, const Options& options) {
-  std::vector<Case> cases{make_case("", scene)};
+  std::vector<EffectCase> cases{make_case("", scene)};
   for (const EffectDecision& effect : make_plan(scene, EffectPolicy::kAsCalledFor).effects)
     if (effect.on) cases.push_back(make_case(std::string(effect.name), scene));
   Table table;
@@ -117,9 +118,9 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
   const int rounds = options.rounds(3, 5, 11);
   options.progress(fmt::format("{}: {} rounds of {} pictures", name, rounds, cases.size()));
   std::vector<std::function<void()>> work;
-  for (Case& one : cases) work.push_back([&one] { one.result = render(one.scene, one.how); });
+  for (EffectCase& one : cases) work.push_back([&one] { one.result = render(one.scene, one.how); });
   const std::vector<Times> times = interleaved(work, rounds);
-  for (const Case& one : cases) require_good(one);
+  for (const EffectCase& one : cases) require_good(one);
 
   // What is lost, of pictures with less noise than those that were timed. All have the same seed: what an
   // effect does not touch is the same in both.
@@ -129,7 +130,7 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
   ComparisonOptions seen;
   seen.viewing.exposure_stops = exposure(whole);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const Case& one = cases[i];
+    const EffectCase& one = cases[i];
     const Comparison comparison = compare(with_more_samples(one, more, 0), whole, seen);
     Variant way;
     way.name = one.effect.empty() ? "everything" : "without " + one.effect;

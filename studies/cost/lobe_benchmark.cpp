@@ -43,14 +43,14 @@ std::string exponent_text(double exponent) { return fmt::format("{:.15g}", expon
 /// A compiler must take it that someone reads what was written.
 void keep(const void* written) { asm volatile("" ::"r"(written) : "memory"); }
 
-struct Case {
+struct LobeCase {
   std::shared_ptr<Points> points;
   std::function<void()> work;
   std::size_t repeats;
 };
 
 /// `once` so often that the clock is no part of what is measured.
-Case repeated(std::shared_ptr<Points> points, std::function<void()> once) {
+LobeCase repeated(std::shared_ptr<Points> points, std::function<void()> once) {
   once();
   const double seconds = std::max(seconds_of(once), 1e-8);
   const auto repeats =
@@ -62,7 +62,7 @@ Case repeated(std::shared_ptr<Points> points, std::function<void()> once) {
           repeats};
 }
 
-Case case_of(const LobeVariant& way, double exponent) {
+LobeCase case_of(const LobeVariant& way, double exponent) {
   const auto p = std::make_shared<Points>(exponent);
   if (way.wide)
     return repeated(p, [&way, p] {
@@ -76,7 +76,7 @@ Case case_of(const LobeVariant& way, double exponent) {
 }
 
 /// Reading and writing as many numbers: what no way can be faster than.
-Case copying(double exponent) {
+LobeCase copying(double exponent) {
   const auto p = std::make_shared<Points>(exponent);
   return repeated(p, [p] {
     std::memcpy(p->value32, p->s32, sizeof(p->s32));
@@ -164,11 +164,11 @@ std::string what_bounds_the_time(const Table& table, double copy) {
 
 Table lobe_table(double exponent, int rounds, bool quick) {
   const std::vector<LobeVariant> ways = lobe_variants(exponent);
-  std::vector<Case> cases;
+  std::vector<LobeCase> cases;
   for (const LobeVariant& way : ways) cases.push_back(case_of(way, exponent));
   cases.push_back(copying(exponent));
   std::vector<std::function<void()>> works;
-  for (const Case& timed : cases) works.push_back(timed.work);
+  for (const LobeCase& timed : cases) works.push_back(timed.work);
   const std::vector<Times> times = interleaved(works, rounds);
   const auto each = [&](std::size_t i) {
     return per(times[i], double(kPoints * cases[i].repeats));

@@ -1,10 +1,10 @@
 // One hard case: the truth, the textbook's float32, and ours.
 #pragma once
 
-#include <limits>
 #include <string_view>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "records/stability.hpp"
 #include "renderer/highlight.hpp"
 
@@ -19,7 +19,6 @@ using Answer = records::StabilityAnswer;
 /// A row's outcome. Not compared: a number, but no bound is stated that any number could exceed.
 inline constexpr std::string_view kWithin = "within", kOutside = "outside",
                                   kNotCompared = "not compared";
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// `peak` is the highlight's value in its middle. A truth and a value below the smallest normal float32 are the same:
 /// nothing.

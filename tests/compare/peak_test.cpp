@@ -1,4 +1,5 @@
 #include "compare/profile/peak.hpp"
+#include "core/constants.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 
 namespace lobelia {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Field field_of(int width, int height, const std::function<double(double x, double y)>& value) {
   Field field{width, height, {}};

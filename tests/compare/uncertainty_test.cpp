@@ -12,6 +12,7 @@
 #include "compare/metrics/catalogue.hpp"
 #include "compare/uncertainty/critical.hpp"
 #include "compare/uncertainty/z_test.hpp"
+#include "core/constants.hpp"
 #include "core/error.hpp"
 #include "tests/compare/noisy_pictures.hpp"
 
@@ -19,7 +20,6 @@ namespace lobelia {
 namespace {
 
 using fixtures::NoiseKind;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 ZTest test_of(const Image& a, const Image& b, NoiseOfPair noise,
               const Tolerance* tolerance = nullptr) {

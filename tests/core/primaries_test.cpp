@@ -1,5 +1,6 @@
 // Primaries of files against OpenEXR's own matrices.
 #include "core/primaries.hpp"
+#include "core/constants.hpp"
 
 #include <ImathMatrix.h>
 #include <ImfChromaticities.h>
@@ -7,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace lobelia {
@@ -83,8 +83,6 @@ TEST(RgbMatrices, LeaveGreyAsItIs) {
 }
 
 TEST(RgbMatrices, OfPrimariesThatAreNoneDoNotExist) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(to_rec709({}));
   EXPECT_FALSE(to_rec709({0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.2, 0.2})) << "a line";
   EXPECT_FALSE(to_rec709({0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.7, 0.1})) << "a white outside";

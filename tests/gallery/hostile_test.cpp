@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "core/error.hpp"
 #include "gallery/gallery.hpp"
 #include "records/comparison.hpp"
@@ -177,7 +177,6 @@ TEST(HostileRecords, a_grid_larger_than_any_page_is_refused) {
 }
 
 TEST(HostileRecords, numbers_at_the_ends_of_what_a_double_holds_are_drawn) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double odd : {std::nan(""), kInfinity, -kInfinity, 1e308, -1e308, 5e-324, 0.0, -1.0}) {
     const FakeFarm farm;
     farm.change<records::Profile>(FakeFarm::kPass, "profile.json", [&](records::Profile& profile) {

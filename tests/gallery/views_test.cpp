@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "gallery/gallery.hpp"
 #include "gallery/views.hpp"
 #include "records/models.hpp"
@@ -22,7 +22,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::string kHostileTitle = "<img src=x onerror=alert(1)>";
 
 records::HighlightTables explorer_record() {

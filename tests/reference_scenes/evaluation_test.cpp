@@ -1,6 +1,7 @@
 // A whole scene by formulas per pixel: held against numbers that are known without it, and double against 50
 // digits.
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+#include "core/constants.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "renderer/pixel_ray.hpp"
@@ -22,7 +22,6 @@ namespace {
 
 using truth::Digits;
 
-constexpr double kPi = std::numbers::pi;
 constexpr HighlightChoice kPhong{"phong_rdf", "cosine", "exact", 9};
 
 std::vector<Rgb> picture(const Scene& scene) { return truth::evaluate(scene, Digits::kDouble); }

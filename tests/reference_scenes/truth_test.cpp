@@ -1,10 +1,10 @@
 // The reference is itself held against numbers that are known without it.
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
+#include "core/constants.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
@@ -12,8 +12,6 @@
 
 namespace lobelia {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 LobeId lobe(const char* name) { return *find_lobe(name); }
 ModelId model(const char* name) { return *find_model(name); }

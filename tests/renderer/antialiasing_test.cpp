@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "core/files.hpp"
 #include "lobelia_paths.hpp"
 #include "renderer/filters/catalogue.hpp"
@@ -18,7 +18,6 @@
 namespace lobelia {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kFew[] = {2, 3, 4, 8, 16};
 
 /// The formula of a filter of the catalogue, apart from FilterSampler's tables.

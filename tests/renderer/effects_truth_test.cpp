@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/constants.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -13,8 +13,6 @@
 
 namespace lobelia {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(SphereLightOnAPlane, GivesTheIrradianceOfItsProjectedSolidAngle) {
   // E = pi L (r/d)^2 cos(theta) where all of it is above the horizon (Lambert).

@@ -4,16 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <numbers>
 
+#include "core/constants.hpp"
 #include "renderer/scene/lights/envmap_table.hpp"
 #include "renderer/scene/lights/prepared_light.hpp"
 #include "renderer/sobol.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Vec3 evenly(double u, double v) {
   const double c = 1 - 2 * u, s = std::sqrt(std::max(0.0, 1 - c * c));

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
+
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double luminance(std::span<const float, 3> p) {
   return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];

@@ -1,8 +1,6 @@
 #include "renderer/scene/lights/prepared_light.hpp"
 
-#include <limits>
-#include <numbers>
-
+#include "core/constants.hpp"
 #include "core/error.hpp"
 
 #ifndef __OPTIMIZE__
@@ -19,8 +17,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
-
-inline constexpr double kPi = std::numbers::pi, kInfinity = std::numeric_limits<double>::infinity();
 
 HWY_INLINE Lanes choose(Mask mask, Lanes yes, Lanes no) {
   return Lanes(hn::IfThenElse(mask, yes.v, no.v));

@@ -8,12 +8,12 @@
 namespace lobelia::paper {
 namespace {
 
-constexpr char kTable[] = "table of coefficients, cos^n column";
-constexpr Real kExponents[] = {1, 2, 16, 17.5, 64, 128, 500, 1024};
+constexpr char kCosineColumn[] = "table of coefficients, cos^n column";
+constexpr Real kColumnExponents[] = {1, 2, 16, 17.5, 64, 128, 500, 1024};
 
 Real largest_residual(const Row& row, Coefficient coefficient) {
   Real worst = 0;
-  for (const Real n : kExponents)
+  for (const Real n : kColumnExponents)
     worst =
         std::max(worst, std::abs(coefficient(n) * hemisphere_integral(row, Lobe::kCosine, n) - 1));
   return worst;
@@ -22,7 +22,8 @@ Real largest_residual(const Row& row, Coefficient coefficient) {
 }  // namespace
 
 Claim cosine_column() {
-  Claim claim{"cosine-column", kTable, "rows 1, 2, 3, 5 and 6 make their integral exactly 1", ""};
+  Claim claim{"cosine-column", kCosineColumn, "rows 1, 2, 3, 5 and 6 make their integral exactly 1",
+              ""};
   Real worst = 0;
   for (const Row& row : kRows)
     if (row.name != kRows[kModifiedBlinn].name)
@@ -37,7 +38,7 @@ Claim cosine_column() {
 
 Claim cosine_modified_blinn_phong() {
   const Row& row = kRows[kModifiedBlinn];
-  Claim claim{"cosine-modified-blinn-phong", kTable,
+  Claim claim{"cosine-modified-blinn-phong", kCosineColumn,
               "modified Blinn-Phong: (n+2)(n+4)/(4 pi (2^(-n/2) + n)) makes the energy 1", "4 pi"};
   const Real at_16 = energy(row, Lobe::kCosine, 16), at_1024 = energy(row, Lobe::kCosine, 1024);
   const Real corrected = largest_residual(row, column::modified_blinn_phong_corrected);

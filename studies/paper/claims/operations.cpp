@@ -92,7 +92,7 @@ Real disagreement(Form form, Formula formula, Counts& counts) {
   return worst;
 }
 
-constexpr char kDefinition[] =
+constexpr char kOperationDefinition[] =
     "the formula computed with numbers that count what is done to them, from a given cos x and "
     "constants of n made beforehand";
 
@@ -108,7 +108,7 @@ Claim cs16_operations() {
                     figure("multiply-adds", counts.multiply_adds, 1),
                     figure("comparisons, for the cut", counts.comparisons, 1),
                     vanishing("largest difference from eq. (1)", worst, 1e-14)};
-  claim.definition = kDefinition;
+  claim.definition = kOperationDefinition;
   claim.verdict = confirmed_if(counts.products == 4 && counts.multiply_adds == 1 &&
                                counts.divisions == 0 && worst < 1e-14L);
   claim.reason = "the cut at theta_cr is a comparison more, which the paper does not count";
@@ -122,7 +122,7 @@ Claim schlick_division() {
   claim.measured = {figure("divisions", counts.divisions, 1),
                     figure("multiply-adds", counts.multiply_adds, 1),
                     vanishing("largest difference from the formula", worst, 1e-14)};
-  claim.definition = kDefinition;
+  claim.definition = kOperationDefinition;
   claim.verdict = confirmed_if(counts.divisions == 1 && worst < 1e-14L);
   return claim;
 }
@@ -153,7 +153,7 @@ Claim schlick_cost() {
       figure("the same, most", most, 2, at_exponent(dearest)),
       vanishing("largest difference of both from cos^n", worst, 1e-14)};
   claim.definition =
-      std::string(kDefinition) +
+      std::string(kOperationDefinition) +
       ". Phong's and Blinn's lobes are both cos^n, of other angles; vectors are not counted. No figure "
       "is printed; confirmed if Schlick's needs neither logarithm nor exponential, and at every whole "
       "n = 16..1024 at most half of the operations of squarings, a division counted as one";
@@ -179,7 +179,7 @@ Claim gauss_inverse_cosine() {
                     vanishing("largest difference from the formula", worst, 1e-14),
                     figure("largest exp(-n (1 - cos x)) - cos^n", spherical(16).value, 3,
                            "n = 16; it falls with n")};
-  claim.definition = kDefinition;
+  claim.definition = kOperationDefinition;
   claim.verdict = confirmed_if(counts.inverse_cosines == 1 && worst < 1e-14L);
   claim.reason =
       "true of exp(-n x^2/2); exp(-n (1 - cos x)), the limit of the paper's own family, needs none";

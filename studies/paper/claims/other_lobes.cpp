@@ -10,7 +10,7 @@
 namespace lobelia::paper {
 namespace {
 
-constexpr int kAngles = 100;
+constexpr int kLobeAngles = 100;
 
 /// Where cos^n x has fallen to `level`.
 Real cosine_reach(Real n, Real level) { return std::acos(std::pow(level, 1 / n)); }
@@ -35,7 +35,7 @@ Extreme largest_error(OtherLobe other, Zone zone, Of of) {
                  const Real reference = cosine_lobe(x, n);
                  return std::abs(other(x, n) - reference) / (of == Of::kLocal ? reference : 1);
                },
-               0, zone(n), kAngles)
+               0, zone(n), kLobeAngles)
         .value;
   });
 }
@@ -112,7 +112,7 @@ Claim schlick_tail() {
 Claim gauss_accuracy() {
   const auto at = [](Real n) {
     return largest([n](Real x) { return std::abs(gauss_lobe(x, n) - cosine_lobe(x, n)); }, 0,
-                   kRightAngle, kAngles);
+                   kRightAngle, kLobeAngles);
   };
   const Extreme epicentre = largest_error(gauss_lobe, half_of_peak, Of::kPeak);
   const Extreme anywhere = largest_error(gauss_lobe, hemisphere, Of::kPeak);
@@ -164,7 +164,7 @@ Claim more_accurate_lobe() {
                 cs16 = largest_error(cs16_lobe, hemisphere, Of::kPeak);
   const auto worst = [](Real (*lobe)(Real, Real), Real n) {
     return largest([=](Real x) { return std::abs(lobe(x, n) - cosine_lobe(x, n)); }, 0,
-                   hemisphere(n), 4 * kAngles)
+                   hemisphere(n), 4 * kLobeAngles)
         .value;
   };
   std::uintmax_t iterations = 60;

@@ -57,7 +57,7 @@ void look(const Row& row, Asymmetry& asymmetry) {
           }
 }
 
-constexpr char kWhere[] = "text on the models";
+constexpr char kModelsText[] = "text on the models";
 constexpr char kPairs[] =
     "f_r(L, V) / f_r(V, L) - 1 over pairs of directions 5 to 85 degrees from the normal, both lobes, "
     "n = 16 and 64, where f_r/coefficient is above 1e-9";
@@ -69,7 +69,7 @@ Claim reciprocity_of_brdfs() {
   for (const Row& row : kRows)
     if (!row.is_rdf()) look(row, asymmetry);
   const Real excess = asymmetry.largest_ratio - 1;
-  Claim claim{"reciprocity-brdf", kWhere,
+  Claim claim{"reciprocity-brdf", kModelsText,
               "the modified models and the distributions satisfy Helmholtz reciprocity", ""};
   claim.measured = {vanishing("largest asymmetry", excess, 1e-12)};
   claim.definition = std::string(kPairs) + "; a distribution with G = (N.L)(N.V), f_r = D/4";
@@ -82,7 +82,7 @@ Claim reciprocity_of_rdfs() {
   Asymmetry asymmetry;
   for (const Row& row : kRows)
     if (row.is_rdf()) look(row, asymmetry);
-  Claim claim{"reciprocity-rdf", kWhere,
+  Claim claim{"reciprocity-rdf", kModelsText,
               "Phong (RDF) and Blinn-Phong (RDF) satisfy Helmholtz reciprocity", ""};
   claim.measured = {figure("largest ratio of f_r there to f_r back", asymmetry.largest_ratio, 3,
                            "light and eye up to 85 degrees from the normal"),

@@ -8,7 +8,7 @@
 namespace lobelia::paper {
 namespace {
 
-constexpr char kTable[] = "table of coefficients, cs16 column; Figs. 3 to 5";
+constexpr char kResidualTables[] = "table of coefficients, cs16 column; Figs. 3 to 5";
 
 /// The claim "the residual of this row is at most `printed`", where `unit` is that of its last digit.
 Claim residual(const char* name, RowNumber number, double printed, double unit,
@@ -18,7 +18,7 @@ Claim residual(const char* name, RowNumber number, double printed, double unit,
   const Extreme over = largest_over_n(excess);
   const Extreme under = largest_over_n([&](Real n) { return -excess(n); });
   const Extreme worst = over.value >= under.value ? over : under;
-  Claim claim{name, kTable,
+  Claim claim{name, kResidualTables,
               fmt::format("{}: the energy is within {} of 1", row.title, figure_text(printed, 2)),
               figure_text(printed, 2)};
   claim.measured = {

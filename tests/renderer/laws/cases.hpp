@@ -8,17 +8,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "renderer/highlight.hpp"
 #include "renderer/lobe_properties.hpp"
 
 namespace lobelia {
 
-inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kExponents[] = {0.1, 1, 2, 15.9, 16, 54, 128, 1024, 1e4, 1e6, 1e8};
 inline constexpr double kSampledExponents[] = {1, 16, 1024,
                                                1e5};  ///< where each costs many samples

@@ -1,13 +1,11 @@
 // What every model does with its lobe: where the cosine is, the horizon, finite and falling.
-#include <limits>
 
+#include "core/constants.hpp"
 #include "renderer/reflector.hpp"
 #include "tests/renderer/laws/directions.hpp"
 
 namespace lobelia {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(EveryModel, CarriesTheCosineExactlyWhereItsCatalogueEntrySaysSo) {
   for (const Highlight& h : highlights_of_both(every_model(), kExponents))
