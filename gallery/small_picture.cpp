@@ -1,6 +1,4 @@
-#include "gallery/small_picture.hpp"
-
-#include <algorithm>
+#include "gallery/derived_pictures.hpp"
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
@@ -13,7 +11,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The mean of the pixels that fall into each, in light.
+constexpr int kSmallSide = 160;  // pixels, of the longer side
+/// A picture file up to this size is its own preview.
+constexpr std::uintmax_t kLightBytes = 48 << 10;
+
+/// Each pixel is the linear mean of the pixels that it covers.
 Image reduced(const Image& image, int width, int height) {
   Image result(width, height);
   for (int y = 0; y < height; ++y) {
