@@ -148,8 +148,7 @@ void write_curves(Html& html, const ShownFarm& farm, const records::Profile& pro
   html.raw(draw_chart(chart));
   html.element("figcaption",
                "How far each curve is from the formula, subtracted for this drawing, on a "
-               "logarithmic axis. A gap is a bin "
-               "without any difference.");
+               "logarithmic axis. A gap is a bin without any difference.");
 }
 
 struct FigureColumn {
@@ -158,18 +157,21 @@ struct FigureColumn {
 };
 
 template <int kDigits>
-std::string digits(double value) {
+std::string with_digits(double value) {
   return number_text(value, kDigits);
 }
 std::string per_cent(double value) { return percent_text(value); }
 
 // Peak and energy: five digits tell apart engines that agree to four. n: the digits of a float32 exponent.
-constexpr FigureColumn kShapeColumns[] = {
-    {"Peak", digits<5>},   {"At angle", degrees_text},        {"Half-width", degrees_text},
-    {"Energy", digits<5>}, {"n as a cosine lobe", digits<7>}, {"± of n", digits<2>}};
+constexpr FigureColumn kShapeColumns[] = {{"Peak", with_digits<5>},
+                                          {"At angle", degrees_text},
+                                          {"Half-width", degrees_text},
+                                          {"Energy", with_digits<5>},
+                                          {"n as a cosine lobe", with_digits<7>},
+                                          {"± of n", with_digits<2>}};
 constexpr FigureColumn kZoneColumns[] = {{"Pixels", count_text},
-                                         {"Largest difference", digits<3>},
-                                         {"Root mean square", digits<3>},
+                                         {"Largest difference", with_digits<3>},
+                                         {"Root mean square", with_digits<3>},
                                          {"Largest, of the peak", per_cent}};
 
 struct FigureRow {

@@ -31,70 +31,64 @@ constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
 
 /// The numbers from 0 to `reach` at which the tables have values (docs/records.md).
 std::vector<double> spread(double reach, double exponent, std::size_t count) {
-  const double most = std::asinh(reach * std::sqrt(exponent));
+  const double a = std::asinh(reach * std::sqrt(exponent));
   std::vector<double> result;
   for (std::size_t i = 0; i < count; ++i)
-    result.push_back(reach * std::sinh(most * double(i) / double(count - 1)) / std::sinh(most));
+    result.push_back(reach * std::sinh(a * double(i) / double(count - 1)) / std::sinh(a));
   return result;
 }
 
-/// Throws Error(kInput) for tables that do not fit together or have a number that cannot be drawn.
-class TableChecker {
- public:
-  explicit TableChecker(std::size_t exponents) : count_(exponents) {}
+void require(bool condition, const char* what) {
+  if (!condition) throw Error(ExitCode::kInput, fmt::format("{}: {}", kRecord, what));
+}
 
-  void require(bool condition, const char* what) const {
-    if (!condition) throw Error(ExitCode::kInput, fmt::format("{}: {}", kRecord, what));
-  }
-  void require_unit(double unit) const {
-    require(unit > 0 && unit <= 1, "a unit must be above 0 and at most 1");
-  }
-  void require_positive(const std::vector<double>& values) const {
-    require(values.size() == count_, "a table must have a number for each exponent");
-    for (const double value : values)
-      require(value >= kSmallestDrawn && value <= kLargestDrawn,
-              "a table has a number that cannot be drawn");
-  }
-  void require_rows(const Rows& rows, std::size_t points) const {
-    require(rows.size() == count_, "a table must have a row for each exponent");
-    require(points >= 2 && points <= kMaxPoints, "a row must have 2 to 1000 numbers");
-    for (const auto& row : rows) {
-      require(row.size() == points, "all rows of a table must be equally long");
-      for (const std::int64_t number : row)
-        require(number >= -kLargestNumber && number <= kLargestNumber,
-                "a row has a number that cannot be drawn");
-    }
-  }
+void require_unit(double unit) {
+  require(unit > 0 && unit <= 1, "a unit must be above 0 and at most 1");
+}
 
- private:
-  std::size_t count_;
-};
+void require_positive(const std::vector<double>& values, std::size_t exponents) {
+  require(values.size() == exponents, "a table must have a number for each exponent");
+  for (const double value : values)
+    require(value >= kSmallestDrawn && value <= kLargestDrawn,
+            "a table has a number that cannot be drawn");
+}
+
+void require_rows(const Rows& rows, std::size_t exponents, std::size_t points) {
+  require(rows.size() == exponents, "a table must have a row for each exponent");
+  require(points >= 2 && points <= kMaxPoints, "a row must have 2 to 1000 numbers");
+  for (const auto& row : rows) {
+    require(row.size() == points, "all rows of a table must be equally long");
+    for (const std::int64_t number : row)
+      require(number >= -kLargestNumber && number <= kLargestNumber,
+              "a row has a number that cannot be drawn");
+  }
+}
 
 std::size_t width_of(const Rows& rows) { return rows.empty() ? 0 : rows[0].size(); }
 
+/// Throws Error(kInput) for tables that do not fit together or have a number that cannot be drawn.
 void require_drawable(const HighlightTables& tables) {
   const std::size_t count = tables.exponents.size();
-  const TableChecker check(count);
-  check.require(count >= 2 && count <= kMaxExponents && std::ranges::is_sorted(tables.exponents) &&
-                    tables.exponents.front() > 0 && tables.exponents.back() <= kLargestDrawn,
-                "exponents must be numbers above 0 that ascend");
-  check.require(tables.per_octave >= 1 && tables.per_octave <= 16 &&
-                    (count - 1) % std::size_t(tables.per_octave) == 0,
-                "perOctave must divide the exponents into octaves");
-  check.require(tables.most_grazing > 0 && tables.most_grazing < 1.5708,
-                "mostGrazing must be an angle below a right one");
+  require(count >= 2 && count <= kMaxExponents && std::ranges::is_sorted(tables.exponents) &&
+              tables.exponents.front() > 0 && tables.exponents.back() <= kLargestDrawn,
+          "exponents must be numbers above 0 that ascend");
+  require(tables.per_octave >= 1 && tables.per_octave <= 16 &&
+              (count - 1) % std::size_t(tables.per_octave) == 0,
+          "perOctave must divide the exponents into octaves");
+  require(tables.most_grazing > 0 && tables.most_grazing < 1.5708,
+          "mostGrazing must be an angle below a right one");
   for (const LobeTable& lobe : tables.lobes) {
-    check.require_unit(lobe.unit);
-    check.require_positive(lobe.reach);
-    check.require_positive(lobe.half_width);
-    check.require_rows(lobe.curves, width_of(lobe.curves));
+    require_unit(lobe.unit);
+    require_positive(lobe.reach, count);
+    require_positive(lobe.half_width, count);
+    require_rows(lobe.curves, count, width_of(lobe.curves));
   }
   for (const HighlightTable& highlight : tables.highlights) {
-    check.require_unit(highlight.unit);
-    check.require_positive(highlight.exact);
-    check.require_rows(highlight.seen, width_of(highlight.seen));
-    if (!highlight.paper.empty()) check.require_positive(highlight.paper);
-    if (!highlight.lit.empty()) check.require_rows(highlight.lit, width_of(highlight.seen));
+    require_unit(highlight.unit);
+    require_positive(highlight.exact, count);
+    require_rows(highlight.seen, count, width_of(highlight.seen));
+    if (!highlight.paper.empty()) require_positive(highlight.paper, count);
+    if (!highlight.lit.empty()) require_rows(highlight.lit, count, width_of(highlight.seen));
   }
 }
 
