@@ -21,6 +21,8 @@ class Descriptor {
     number_ = -1;
   }
   int get() const { return number_; }
+  /// The caller has to close it.
+  int release() { return std::exchange(number_, -1); }
 
  private:
   int number_;

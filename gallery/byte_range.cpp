@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(" \t") + 1);
 }
 
-/// Digits alone; a number beyond what a file can have is the largest.
+/// Nothing but digits; a number that is too large becomes the largest.
 std::optional<std::uint64_t> number(std::string_view digits) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -43,7 +43,7 @@ ByteRange byte_range(std::string_view range, std::uint64_t file_size) {
     const auto wanted = number(after);
     if (!wanted) return {};
     if (*wanted == 0) return {Kind::kUnsatisfiable};
-    if (file_size == 0) return {};  // all that it has, but no field could say so
+    if (file_size == 0) return {};  // satisfiable, but no Content-Range can describe it
     const std::uint64_t size = std::min(*wanted, file_size);
     return {Kind::kPart, file_size - size, size};
   }

@@ -8,15 +8,15 @@ namespace lobelia::gallery {
 
 struct ByteRange {
   enum class Kind {
-    kWhole,         ///< nothing is asked for that we understand, or several parts: the whole file
+    kWhole,         ///< no range, several, or one in another form: the whole file
     kPart,          ///< `size` bytes from `first`; at least one
-    kUnsatisfiable  ///< nothing that the file has
+    kUnsatisfiable  ///< beyond the file's end
   };
   Kind kind = Kind::kWhole;
   std::uint64_t first = 0, size = 0;
 };
 
-/// What the field `range` ("bytes=0-99", "bytes=100-", "bytes=-100") means for a file of `file_size` bytes.
+/// Reads the field `range` ("bytes=0-99", "bytes=100-", "bytes=-100") for a file of `file_size` bytes.
 ByteRange byte_range(std::string_view range, std::uint64_t file_size);
 
 }  // namespace lobelia::gallery

@@ -1,19 +1,12 @@
+#include <fmt/format.h>
+
 #include "core/numbers.hpp"
 #include "core/text.hpp"
-#include "gallery/cell_sections.hpp"
-#include "gallery/link.hpp"
-#include "gallery/page.hpp"
+#include "gallery/cell_page.hpp"
 #include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
-
-void write_fact(Html& html, const std::string& name, const std::string& value) {
-  if (value.empty()) return;
-  const Tag item(html, "div");
-  html.element("dt", name);
-  html.element("dd", value);
-}
 
 void write_file_link(Html& html, const std::string& file, const std::string& what) {
   if (file.empty()) return;
@@ -51,13 +44,11 @@ void write_facts(Html& html, const records::FarmEngine& engine, const EnginePict
     write_fact(html, "Instruction set", made->instruction_set);
   }
   if (const auto& made = image.reference) {
-    const std::vector<std::string_view> options(made->engine_options.begin(),
-                                                made->engine_options.end());
     write_fact(html, "Shading", made->witness);
     write_fact(html, "Time", seconds_words(made->seconds));
     write_fact(html, "Method", made->method);
     write_fact(html, "Passes", count_text(double(made->passes)));
-    write_fact(html, "Options", join(options));
+    write_fact(html, "Options", fmt::format("{}", fmt::join(made->engine_options, ", ")));
   }
 }
 
@@ -82,10 +73,7 @@ void write_engine(Html& html, const records::FarmEngine& engine, const EnginePic
   }
   if (image->reference && !image->reference->engine_commands.empty()) {
     html.element("p", "What it ran:");
-    std::string lines;
-    for (const std::string& command : image->reference->engine_commands)
-      lines += (lines.empty() ? "" : "\n") + command;
-    write_command(html, lines);
+    write_command(html, fmt::format("{}", fmt::join(image->reference->engine_commands, "\n")));
   }
   if (!image->exr_sha256.empty()) {
     const Tag line(html, "p", {{"class", "hashes"}});
@@ -106,24 +94,21 @@ void write_making(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"class", "making"}, {"aria-labelledby", "making"}});
   if (cell.has_record) {
     html.element("h2", {{"id", "making"}}, "How each picture was made");
-    for (const records::FarmEngine& engine : farm.record.engines) {
+    for (const records::FarmEngine& engine : farm.record.engines)
       write_engine(html, engine, cell.find_image(engine.name));
-    }
     html.element("h3", "Files of the cell");
   } else {
     html.element("h2", {{"id", "making"}}, "Files of the cell");
   }
   const Tag files(html, "ul", {{"class", "files"}});
-  if (cell.has_scene) {
+  if (cell.has_scene)
     write_file_link(html, "scene.xml", "the scene, complete");
-  } else {
+  else
     html.element("li", "The scene file is not there, or not as the farm wrote it.");
-  }
   if (!cell.has_record) return;
   write_file_link(html, "cell.json", "what belongs to the cell");
-  for (const CheckedComparison& comparison : cell.comparisons) {
+  for (const CheckedComparison& comparison : cell.comparisons)
     if (comparison.problem.empty()) write_file_link(html, comparison.entry.record, "comparison");
-  }
   if (cell.profile) write_file_link(html, cell.record.profile, "profile");
 }
 

@@ -3,16 +3,12 @@
 #include <algorithm>
 
 #include "core/numbers.hpp"
-#include "gallery/cell_sections.hpp"
-#include "gallery/link.hpp"
-#include "gallery/page.hpp"
 #include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-constexpr char kRoot[] = "../../";
-constexpr int kShownEachSide = 5;  // of a long axis, around where the reader stands
+constexpr int kShownEachSide = 5;  // values of a long axis before and after the cell's own
 
 std::string neighbour_link(const CellEntry& cell) {
   return "../" + link_to({cell.id, "index.html"});
@@ -28,10 +24,7 @@ const CellEntry* cell_beside(const ShownFarm& farm, const CellEntry& entry, int 
 void write_step(Html& html, const ShownFarm& farm, const CellEntry& entry, int axis, int step) {
   const std::string arrow = step < 0 ? "←" : "→";
   const CellEntry* cell = cell_beside(farm, entry, axis, entry.at[axis] + step);
-  if (!cell) {
-    html.element("span", {{"class", "step"}, {"aria-hidden", "true"}}, arrow);
-    return;
-  }
+  if (!cell) return html.element("span", {{"class", "step"}, {"aria-hidden", "true"}}, arrow);
   const std::string words = (step < 0 ? "Previous " : "Next ") + farm.record.axes[axis].name +
                             ": " + farm.record.axes[axis].values[cell->at[axis]].label;
   html.element("a",
@@ -69,9 +62,8 @@ void write_axis(Html& html, const ShownFarm& farm, const CellEntry& entry, int a
 
 void write_navigation(Html& html, const ShownFarm& farm, const CellEntry& entry) {
   const Tag nav(html, "nav", {{"class", "axes"}, {"aria-label", "Neighbouring cells"}});
-  for (int axis = 0; axis < static_cast<int>(farm.record.axes.size()); ++axis) {
+  for (int axis = 0; axis < static_cast<int>(farm.record.axes.size()); ++axis)
     if (entry.at[axis] >= 0) write_axis(html, farm, entry, axis);
-  }
 }
 
 std::string time_text(const EnginePicture* image) {
@@ -79,18 +71,12 @@ std::string time_text(const EnginePicture* image) {
   return image && image->reference ? seconds_text(image->reference->seconds.total) : "–";
 }
 
-/// How far each is from ours, in the one figure that the grid has too, and what time each took.
+/// The difference of each picture from ours, in the figure that the grid shows too, and its time.
 void write_agreement(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   constexpr char kFigure[] = "max_rel_peak";
   if (cell.comparisons.empty()) return;
   const Tag table(html, "table", {{"class", "agreement"}});
-  {
-    const Tag head(html, "thead");
-    const Tag row(html, "tr");
-    for (const std::string& title : {std::string("Picture"), farm.metrics.info(kFigure).title,
-                                     std::string("Verdict"), std::string("Time")})
-      html.element("th", {{"scope", "col"}}, title);
-  }
+  write_columns(html, {"Picture", farm.metrics.info(kFigure).title, "Verdict", "Time"});
   const Tag body(html, "tbody");
   for (const CheckedComparison& comparison : cell.comparisons) {
     const Tag row(html, "tr");
@@ -159,21 +145,18 @@ void write_verdict(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
 void write_highlight(Html& html, const CheckedCell& cell) {
   if (!cell.record.highlight) return;
   const Tag list(html, "dl", {{"class", "facts"}});
-  for (const auto& [name, value] : words_of(*cell.record.highlight)) {
-    const Tag item(html, "div");
-    html.element("dt", name);
-    html.element("dd", value);
-  }
+  for (const auto& [name, value] : words_of(*cell.record.highlight)) write_fact(html, name, value);
 }
 
 }  // namespace
 
 std::string cell_page(const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
                       const CheckedCell& cell) {
+  const std::string title = entry.label.empty() ? entry.id : entry.label;
   Html html;
   {
     const Tag header(html, "header");
-    html.element("h1", entry.label.empty() ? entry.id : entry.label);
+    html.element("h1", title);
     const Tag columns(html, "div", {{"class", "cell-head"}});
     {
       const Tag left(html, "div");
@@ -192,9 +175,9 @@ std::string cell_page(const SiteFrame& site, const ShownFarm& farm, const CellEn
   write_making(html, farm, cell);
   const std::string folder = link_to({"cells", entry.id}) + "/";
   const EnginePicture* ours = cell.find_image(kOurEngine);
-  const PageFrame frame{entry.label.empty() ? entry.id : entry.label,
+  const PageFrame frame{title,
                         "cell",
-                        kRoot,
+                        "../../",
                         folder + "index.html",
                         cell.made_by.empty() ? farm.made_by : cell.made_by,
                         kCellData,

@@ -1,16 +1,35 @@
-// The page of one cell.
+// The page of one cell, and its sections in the order in which they stand on it.
 #pragma once
-
-#include <string>
 
 #include "gallery/checked_cell.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {
 
+using records::kAnalytic;
+
 inline constexpr char kCellData[] = "data.js";  ///< beside the page
 
 std::string cell_page(const SiteFrame& site, const ShownFarm& farm, const CellEntry& entry,
                       const CheckedCell& cell);
+/// The input of the page's script.
+records::CellPage cell_page_data(const ShownFarm& farm, const CellEntry& entry,
+                                 const CheckedCell& cell);
+
+/// The engines' pictures side by side, and below each its difference from ours.
+void write_pictures(Html& html, const ShownFarm& farm, const CheckedCell& cell);
+/// The highlight as curves, and as figures.
+void write_profile(Html& html, const ShownFarm& farm, const CheckedCell& cell);
+/// Every metric of every comparison, with limits and verdict.
+void write_numbers(Html& html, const ShownFarm& farm, const CheckedCell& cell);
+/// Which effects were simulated, and why the others were not.
+void write_plan(Html& html, const CheckedCell& cell);
+/// Commands, versions, times and files of each picture.
+void write_making(Html& html, const ShownFarm& farm, const CheckedCell& cell);
+
+/// "✓ pass", or why there is no verdict.
+std::string verdict_words(const CheckedComparison& comparison);
+/// The zones of a highlight, from the middle outward.
+std::vector<records::ShownZone> zones_of(const records::Profile& profile);
 
 }  // namespace lobelia::gallery

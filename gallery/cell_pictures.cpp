@@ -1,39 +1,37 @@
 #include "core/numbers.hpp"
-#include "gallery/cell_sections.hpp"
-#include "gallery/link.hpp"
-#include "gallery/page.hpp"
+#include "gallery/cell_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-/// Sizes that a reader can choose without script: a radio button each, and style.css does the rest.
+/// Radio buttons for the size of the pictures. style.css does the rest, without script.
 void write_size_choice(Html& html) {
-  struct Size {
-    const char *id, *label;
-  };
-  for (const Size& size : {Size{"fit", "fit"}, Size{"one", "1 : 1"}, Size{"two", "2 : 1"},
-                           Size{"four", "4 : 1"}, Size{"eight", "8 : 1"}}) {
-    const std::string id = std::string("size-") + size.id;
+  static constexpr const char* kSizes[][2] = {{"size-fit", "fit"},
+                                              {"size-one", "1 : 1"},
+                                              {"size-two", "2 : 1"},
+                                              {"size-four", "4 : 1"},
+                                              {"size-eight", "8 : 1"}};
+  for (const auto& [id, label] : kSizes) {
     Attributes attributes = {{"type", "radio"}, {"name", "size"}, {"id", id}, {"class", "size"}};
-    if (id == "size-fit") attributes.push_back({"checked", "checked"});
+    if (std::string_view(label) == "fit") attributes.push_back({"checked", "checked"});
     html.empty("input", attributes);
-    html.element("label", {{"for", id}}, size.label);
+    html.element("label", {{"for", id}}, label);
   }
 }
 
 void write_image(Html& html, const Picture& picture, const std::string& alt) {
-  // Scrolls by itself when enlarged, and gallery.js keeps all of them at the same place.
+  // When enlarged, each frame scrolls, and gallery.js keeps all of them at the same place.
   const Tag frame(html, "div", {{"class", "picture"}, {"tabindex", "0"}});
-  const SmallPicture look = picture.first_look();
+  const SmallPicture shown = picture.preview();
   const auto write = [&] {
-    html.empty("img", {{"src", link_to({look.file})},
+    html.empty("img", {{"src", link_to({shown.file})},
                        {"alt", alt},
-                       {"width", std::to_string(look.width)},
-                       {"height", std::to_string(look.height)},
+                       {"width", std::to_string(shown.width)},
+                       {"height", std::to_string(shown.height)},
                        {"loading", "lazy"},
                        {"class", picture.width <= 320 ? "small" : "large"}});
   };
-  if (look.file == picture.file || !picture.is_published) return write();
+  if (shown.file == picture.file || !picture.is_published) return write();
   const Tag link(html, "a", {{"href", link_to({picture.file})}, {"title", "The whole picture"}});
   write();
 }
@@ -46,17 +44,16 @@ std::string why_no_picture(const records::FarmEngine& engine, const CheckedCell&
     if (!engine.install.empty()) words += " To get it: " + engine.install;
     return words;
   }
-  for (const records::CellProblem& problem : cell.record.problems) {
+  for (const records::CellProblem& problem : cell.record.problems)
     if (problem.engine == engine.name) return engine.title + " made no picture: " + problem.message;
-  }
-  for (const records::NotComparable& one : cell.record.not_comparable) {
+  for (const records::NotComparable& one : cell.record.not_comparable)
     if (one.engine == engine.name) return "Not comparable, because " + one.because + ".";
-  }
   if (const EnginePicture* image = cell.find_image(engine.name)) return image->png.why_not;
   return engine.title + " has not made this picture.";
 }
 
-std::string witness_words(const EnginePicture& image) {
+/// How the engine shaded the model.
+std::string shading_words(const EnginePicture& image) {
   if (!image.reference) return "";
   const std::string& witness = image.reference->witness;
   if (witness == "native") return "its own shading of this model";
@@ -70,19 +67,15 @@ void write_engine_picture(Html& html, const records::FarmEngine& engine, const C
   {
     const Tag caption(html, "figcaption");
     html.element("strong", engine.title);
-    if (!image) {
-      // Said in place of the picture.
-    } else if (engine.name == kOurEngine) {
-      html.text(" · ours");
-    } else if (const std::string words = witness_words(*image); !words.empty()) {
-      html.text(" · " + words);
-    }
+    const std::string words = !image                      ? ""
+                              : engine.name == kOurEngine ? "ours"
+                                                          : shading_words(*image);
+    if (!words.empty()) html.text(" · " + words);
   }
-  if (image && image->png.shown()) {
+  if (image && image->png.shown())
     write_image(html, image->png, "The picture by " + engine.title);
-  } else {
+  else
     write_absence(html, why_no_picture(engine, cell));
-  }
 }
 
 void write_scale(Html& html, const CheckedComparison& comparison) {
@@ -137,11 +130,10 @@ void write_pictures(Html& html, const ShownFarm& farm, const CheckedCell& cell) 
   }
   const Tag row(html, "div", {{"class", "picture-row"}});
   for (const records::FarmEngine& engine : farm.record.engines) {
-    if (engine.name == kOurEngine) {
+    if (engine.name == kOurEngine)
       write_explanation(html, cell);
-    } else {
+    else
       write_difference(html, engine, cell);
-    }
   }
 }
 

@@ -1,21 +1,135 @@
 #include <algorithm>
-#include <optional>
+#include <cmath>
 #include <span>
 
 #include "core/numbers.hpp"
-#include "gallery/cell_sections.hpp"
-#include "gallery/page.hpp"
-#include "gallery/profile_charts.hpp"
+#include "core/svg_chart.hpp"
+#include "core/ticks.hpp"
+#include "gallery/cell_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-void write_curves(Html& html, const ShownFarm& farm, const records::Profile& profile) {
-  if (profile.curve.angle_degrees.empty() || profile.curve.radiance.empty()) {
-    write_absence(html,
-                  "The profile has no curve: no pixel of the picture lies in this highlight.");
-    return;
+constexpr double kBeyondZones = 1.25;  // the angle axis ends at this multiple of the outermost zone
+constexpr double kMaxDecades = 10;     // of the logarithmic chart
+
+struct Curve {
+  std::string name;
+  const std::vector<double>& values;
+};
+
+/// The formula first, because it is drawn under the others; then the engines in the order of farm.json.
+std::vector<Curve> in_order(const ShownFarm& farm, const records::Profile& profile) {
+  std::vector<Curve> result;
+  const auto add = [&](const std::string& name) {
+    if (const auto* values = records::find(profile.curve.radiance, name))
+      result.push_back({name, *values});
+  };
+  add(kAnalytic);
+  for (const records::FarmEngine& engine : farm.record.engines)
+    if (engine.name != kAnalytic) add(engine.name);
+  return result;
+}
+
+int style_of(const ShownFarm& farm, const std::string& name) {
+  if (name == kAnalytic) return 0;
+  const auto at = std::ranges::find(farm.record.engines, name, &records::FarmEngine::name);
+  return at == farm.record.engines.end() ? 0 : int(at - farm.record.engines.begin()) + 1;
+}
+
+ChartAxis angle_axis(const records::Profile& profile) {
+  const bool half = profile.angle.find("half") != std::string::npos;
+  ChartAxis axis{half ? "angle between normal and half vector (degrees)"
+                      : "angle between light and mirror direction (degrees)",
+                 0, 0, false};
+  for (const double angle : profile.curve.angle_degrees)
+    if (angle <= 180) axis.to = std::max(axis.to, angle);
+  const double zones_end = profile.zones.blooming_degrees[1];
+  if (zones_end > 0) axis.to = std::min(axis.to, kBeyondZones * zones_end);
+  if (!(axis.to > 0)) axis.to = 90;
+  return axis;
+}
+
+std::vector<ChartBand> zone_bands(const records::Profile& profile) {
+  std::vector<ChartBand> bands;
+  for (const records::ShownZone& zone : zones_of(profile))
+    bands.push_back({zone.from, zone.to, zone.title});
+  return bands;
+}
+
+/// "formula", or the engine's title.
+std::string curve_title(const ShownFarm& farm, const std::string& name) {
+  return name == kAnalytic ? "formula" : farm.engine_title(name);
+}
+
+/// Radiance over angle, linear: the formula broad and pale, the engines' lines over it.
+Chart radiance_chart(const ShownFarm& farm, const records::Profile& profile) {
+  Chart chart{.id = "radiance",
+              .title = "Radiance over angle",
+              .description = "The highlight as each engine drew it, over the formula.",
+              .x = angle_axis(profile),
+              .y = {},
+              .bands = zone_bands(profile),
+              .series = {}};
+  double top = 0;
+  for (const auto& [name, values] : in_order(farm, profile)) {
+    chart.series.push_back(
+        {curve_title(farm, name), profile.curve.angle_degrees, values, style_of(farm, name)});
+    for (const double value : values)
+      if (value <= kLargestDrawn) top = std::max(top, value);
   }
+  chart.y = {"radiance (linear)", 0, round_up(top), false};
+  return chart;
+}
+
+/// |engine - formula| over angle, logarithmic. A chart without series if no curve differs at all.
+Chart difference_chart(const ShownFarm& farm, const records::Profile& profile,
+                       const std::vector<double>& analytic) {
+  Chart chart{
+      .id = "difference",
+      .title = "Difference from the formula over angle",
+      .description = "Absolute difference of each engine's curve from the formula, logarithmic.",
+      .height = 320,
+      .x = angle_axis(profile),
+      .y = {},
+      .bands = zone_bands(profile),
+      .series = {}};
+  double low = INFINITY, high = 0;
+  for (const auto& [name, values] : in_order(farm, profile)) {
+    if (name == kAnalytic) continue;
+    ChartSeries series{curve_title(farm, name) + " − formula",
+                       profile.curve.angle_degrees,
+                       {},
+                       style_of(farm, name)};
+    bool any = false;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double difference = std::abs(values[i] - analytic[i]);
+      series.y.push_back(difference);
+      const bool drawn = difference >= kSmallestDrawn && difference <= kLargestDrawn;
+      if (!drawn || profile.curve.angle_degrees[i] > chart.x.to) continue;
+      low = std::min(low, difference);
+      high = std::max(high, difference);
+      any = true;
+    }
+    if (!any) series.label += " (none)";
+    chart.series.push_back(std::move(series));
+  }
+  if (high == 0) {
+    chart.series.clear();
+    return chart;
+  }
+  const double to = std::pow(10, std::ceil(std::log10(high)));
+  const double from = std::pow(10, std::floor(std::log10(low)));
+  chart.y = {"|difference| (radiance, log)", std::max(from, to * std::pow(10, -kMaxDecades)), to,
+             true};
+  if (chart.y.from == chart.y.to) chart.y.from /= 10;
+  return chart;
+}
+
+void write_curves(Html& html, const ShownFarm& farm, const records::Profile& profile) {
+  if (profile.curve.angle_degrees.empty() || profile.curve.radiance.empty())
+    return write_absence(
+        html, "The profile has no curve: no pixel of the picture lies in this highlight.");
   {
     const Tag figure(html, "figure", {{"class", "chart-figure"}});
     html.raw(draw_chart(radiance_chart(farm, profile)));
@@ -25,21 +139,16 @@ void write_curves(Html& html, const ShownFarm& farm, const records::Profile& pro
         "each angle. Lines that lie on each other show through by their dashes.");
   }
   const std::vector<double>* analytic = records::find(profile.curve.radiance, kAnalytic);
-  if (!analytic) {
-    write_absence(html, "The profile has no curve of the formula to compare with.");
-    return;
-  }
+  if (!analytic)
+    return write_absence(html, "The profile has no curve of the formula to compare with.");
   const Chart chart = difference_chart(farm, profile, *analytic);
-  if (chart.series.empty()) {
-    write_absence(html, "No curve differs from the formula in any digit.");
-    return;
-  }
+  if (chart.series.empty())
+    return write_absence(html, "No curve differs from the formula in any digit.");
   const Tag figure(html, "figure", {{"class", "chart-figure"}});
   html.raw(draw_chart(chart));
   html.element("figcaption",
                "How far each curve is from the formula, subtracted for this drawing, on a "
-               "logarithmic axis. A gap is a bin "
-               "without any difference.");
+               "logarithmic axis. A gap is a bin without any difference.");
 }
 
 struct FigureColumn {
@@ -47,20 +156,22 @@ struct FigureColumn {
   std::string (*text)(double);
 };
 
-std::string three_digits(double value) { return number_text(value); }
-// Enough to see engines apart that agree to four.
-std::string five_digits(double value) { return number_text(value, 5); }
-// What float32 tells of an exponent.
-std::string seven_digits(double value) { return number_text(value, 7); }
-std::string two_digits(double value) { return number_text(value, 2); }
+template <int kDigits>
+std::string with_digits(double value) {
+  return number_text(value, kDigits);
+}
 std::string per_cent(double value) { return percent_text(value); }
 
-constexpr FigureColumn kShapeColumns[] = {
-    {"Peak", five_digits},   {"At angle", degrees_text},           {"Half-width", degrees_text},
-    {"Energy", five_digits}, {"n as a cosine lobe", seven_digits}, {"± of n", two_digits}};
+// Peak and energy: five digits tell apart engines that agree to four. n: the digits of a float32 exponent.
+constexpr FigureColumn kShapeColumns[] = {{"Peak", with_digits<5>},
+                                          {"At angle", degrees_text},
+                                          {"Half-width", degrees_text},
+                                          {"Energy", with_digits<5>},
+                                          {"n as a cosine lobe", with_digits<7>},
+                                          {"± of n", with_digits<2>}};
 constexpr FigureColumn kZoneColumns[] = {{"Pixels", count_text},
-                                         {"Largest difference", three_digits},
-                                         {"Root mean square", three_digits},
+                                         {"Largest difference", with_digits<3>},
+                                         {"Root mean square", with_digits<3>},
                                          {"Largest, of the peak", per_cent}};
 
 struct FigureRow {
@@ -83,12 +194,12 @@ FigureRow row_of(const std::string& pair, const std::string& zone, const records
   return {{pair, zone}, {double(e.pixels), e.max_abs, e.rms, e.max_rel_peak}};
 }
 
-/// Rows that may lack some of the columns: a hole is a dash, a column of holes is left out.
+/// A missing value is a dash; a column without any value is left out.
 void write_figures(Html& html, const std::string& caption, const std::vector<std::string>& head,
                    std::span<const FigureColumn> columns, const std::vector<FigureRow>& rows) {
   const auto is_there = [&](std::size_t column) {
-    return std::ranges::any_of(
-        rows, [&](const FigureRow& row) { return row.values[column].has_value(); });
+    return std::ranges::any_of(rows,
+                               [&](const FigureRow& row) { return bool(row.values[column]); });
   };
   const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table", {{"class", "figures"}});
@@ -119,6 +230,13 @@ std::string pair_title(const ShownFarm& farm, const std::string& pair) {
 }
 
 }  // namespace
+
+std::vector<records::ShownZone> zones_of(const records::Profile& profile) {
+  const auto& [epicentre, flank, blooming] = profile.zones;
+  return {{"epicentre", epicentre[0], epicentre[1]},
+          {"flank", flank[0], flank[1]},
+          {"blooming zone", blooming[0], blooming[1]}};
+}
 
 void write_profile(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"aria-labelledby", "profile"}});

@@ -1,8 +1,7 @@
-#include "gallery/cell_summary.hpp"
-
 #include <fmt/format.h>
 
 #include "core/numbers.hpp"
+#include "gallery/index_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -11,19 +10,13 @@ EngineFigure figure(const ShownFarm& farm, const records::FarmEngine& engine,
                     const CheckedCell& cell) {
   EngineFigure result{farm.short_title(engine), "–", ""};
   const CheckedComparison* comparison = cell.find_comparison(engine.name);
-  if (!comparison) {
-    if (cell.has_record) result.worst = "none";
-    return result;
-  }
-  if (comparison->doubt) {
-    result.worst = info(*comparison->doubt).word;
-    return result;
-  }
-  if (comparison->verdict == "non-finite") {
+  if (!comparison && cell.has_record) result.worst = "none";
+  if (comparison && comparison->doubt) result.worst = info(*comparison->doubt).word;
+  if (!comparison || comparison->doubt) return result;
+  if (comparison->verdict == "non-finite")
     result.worst = "non-finite";
-  } else if (const auto worst = comparison->metric("max_rel_peak")) {
+  else if (const auto worst = comparison->metric("max_rel_peak"))
     result.worst = percent_text(*worst, TrailingZeros::kKeep);
-  }
   const double outliers = comparison->metric("outliers").value_or(0);
   if (outliers > 0) result.note = count_text(outliers) + " px";
   return result;
@@ -40,9 +33,8 @@ std::vector<std::string> reasons_of(const ShownFarm& farm, const CheckedCell& ce
     const std::string who = problem.engine.empty() ? "" : farm.engine_title(problem.engine) + ": ";
     reasons.push_back(who + problem.message);
   }
-  for (const records::NotComparable& one : cell.record.not_comparable) {
+  for (const records::NotComparable& one : cell.record.not_comparable)
     reasons.push_back(farm.engine_title(one.engine) + ": not comparable, because " + one.because);
-  }
   for (const CheckedComparison& comparison : cell.comparisons) {
     const std::string pair = farm.engine_title(comparison.entry.b) + " · ";
     if (comparison.verdict == "non-finite") reasons.push_back(pair + "pixels that are not finite");
@@ -66,11 +58,9 @@ CellSummary summarise(const ShownFarm& farm, const CellEntry& entry, const Check
   summary.is_as_written =
       !is_flaw(cell.status) && cell.status != CellStatus::kUnsealed && cell.contradictions.empty();
   if (const EnginePicture* ours = cell.find_image(kOurEngine)) summary.picture = ours->png;
-  for (const records::FarmEngine& engine : farm.record.engines) {
-    if (engine.name != kOurEngine && engine.available) {
+  for (const records::FarmEngine& engine : farm.record.engines)
+    if (engine.name != kOurEngine && engine.available)
       summary.figures.push_back(figure(farm, engine, cell));
-    }
-  }
   for (const CheckedComparison& comparison : cell.comparisons) {
     if (comparison.entry.a != kOurEngine || comparison.doubt) continue;
     records::Named<double> numbers;

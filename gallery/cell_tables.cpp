@@ -3,18 +3,17 @@
 #include <algorithm>
 
 #include "core/numbers.hpp"
-#include "gallery/cell_sections.hpp"
-#include "gallery/page.hpp"
+#include "gallery/cell_page.hpp"
 #include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-/// Ids of all metrics, in the order in which the records have them.
+/// Ids of all metrics, in the order of the records.
 std::vector<std::string> metric_ids(const CheckedCell& cell) {
   std::vector<std::string> ids;
   const auto add = [&](const std::string& id) {
-    if (!is_coordinate(id) && std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+    if (!is_coordinate(id) && std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
   };
   for (const CheckedComparison& comparison : cell.comparisons) {
     for (const auto& [id, value] : comparison.record.metrics) add(id);
@@ -70,14 +69,12 @@ void write_metric_row(Html& html, const ShownFarm& farm, const CheckedCell& cell
   }
 }
 
-template <class Words>
 void write_words_row(Html& html, const CheckedCell& cell, const std::string& head,
-                     const Words& words) {
+                     std::string (*words)(const CheckedComparison&)) {
   const Tag row(html, "tr");
   html.element("th", {{"scope", "row"}}, head);
-  for (const CheckedComparison& comparison : cell.comparisons) {
+  for (const CheckedComparison& comparison : cell.comparisons)
     html.element("td", words(comparison));
-  }
 }
 
 std::string tolerance_text(const CheckedComparison& comparison) {
@@ -113,17 +110,6 @@ std::string viewing_text(const CheckedComparison& comparison) {
   return words;
 }
 
-void write_metric_head(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
-  const Tag thead(html, "thead");
-  const Tag line(html, "tr");
-  html.element("th", {{"scope", "col"}}, "Measure");
-  for (const CheckedComparison& comparison : cell.comparisons) {
-    html.element(
-        "th", {{"scope", "col"}},
-        farm.engine_title(comparison.entry.a) + " and " + farm.engine_title(comparison.entry.b));
-  }
-}
-
 }  // namespace
 
 std::string verdict_words(const CheckedComparison& comparison) {
@@ -140,13 +126,16 @@ std::string verdict_words(const CheckedComparison& comparison) {
 void write_numbers(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"aria-labelledby", "numbers"}});
   html.element("h2", {{"id", "numbers"}}, "The numbers");
-  if (cell.comparisons.empty()) {
-    write_absence(html, "Our picture was compared with no other: no reference picture was there.");
-    return;
-  }
+  if (cell.comparisons.empty())
+    return write_absence(html,
+                         "Our picture was compared with no other: no reference picture was there.");
   const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table", {{"class", "metrics"}});
-  write_metric_head(html, farm, cell);
+  std::vector<std::string> titles = {"Measure"};
+  for (const CheckedComparison& comparison : cell.comparisons)
+    titles.push_back(farm.engine_title(comparison.entry.a) + " and " +
+                     farm.engine_title(comparison.entry.b));
+  write_columns(html, titles);
   const Tag tbody(html, "tbody");
   write_words_row(html, cell, "Verdict", verdict_words);
   write_words_row(html, cell, "Pixels that are not finite", nonfinite_text);
@@ -159,19 +148,12 @@ void write_plan(Html& html, const CheckedCell& cell) {
   const EnginePicture* ours = cell.find_image(kOurEngine);
   const Tag section(html, "section", {{"aria-labelledby", "plan"}});
   html.element("h2", {{"id", "plan"}}, "The plan");
-  if (!ours || !ours->render || ours->render->plan.effects.empty()) {
-    write_absence(html, "The record of our picture has no plan.");
-    return;
-  }
+  if (!ours || !ours->render || ours->render->plan.effects.empty())
+    return write_absence(html, "The record of our picture has no plan.");
   html.element("p", "Which effects this scene calls for; our renderer simulates nothing else.");
   const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table");
-  {
-    const Tag thead(html, "thead");
-    const Tag line(html, "tr");
-    for (const char* title : {"Effect", "State", "Why"})
-      html.element("th", {{"scope", "col"}}, title);
-  }
+  write_columns(html, {"Effect", "State", "Why"});
   const Tag tbody(html, "tbody");
   for (const records::Effect& effect : ours->render->plan.effects) {
     const Tag row(html, "tr");

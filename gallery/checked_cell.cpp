@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
-#include "gallery/judgement.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
@@ -19,6 +21,44 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
+std::size_t count_nonfinite_pixels(const Image& image) {
+  std::size_t count = 0;
+  const auto values = image.values();
+  for (std::size_t i = 0; i < values.size(); i += 3)
+    count += !std::all_of(&values[i], &values[i] + 3, [](float v) { return std::isfinite(v); });
+  return count;
+}
+
+/// Why a file with another hash is not even a whole file of its kind; empty if it is one.
+std::string damage_of(const fs::path& directory, const std::string& file) {
+  try {
+    if (file.ends_with(".png")) return inspect_picture(directory, file).why_not;
+    if (file.ends_with(".exr")) {
+      const std::size_t count = count_nonfinite_pixels(read_image(directory / file));
+      if (count > 0)
+        return fmt::format("{} has {} {} that {} not finite.", file, count,
+                           count == 1 ? "pixel" : "pixels", count == 1 ? "is" : "are");
+    }
+    if (file.ends_with(".json") &&
+        !records::is_json(read_file(directory / file, records::kMaxRecordBytes)))
+      return file + " is not JSON.";
+    return "";
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    return file + " cannot be read: it is damaged or incomplete.";
+  }
+}
+
+/// The SHA-256; empty for a file that cannot be read.
+std::string hash_now(const fs::path& path) {
+  try {
+    return hex(sha256_of_file(path));
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    return "";
+  }
+}
+
 /// Messages name files with the path we opened; a page that may be moved must not.
 std::string without_directory(std::string message, const fs::path& directory) {
   const std::string prefix = directory.string() + "/";
@@ -28,21 +68,20 @@ std::string without_directory(std::string message, const fs::path& directory) {
   return message;
 }
 
-/// Reads what cell.json names, as far as it is as the farm wrote it; notes every flaw in the cell.
+/// Reads the files that cell.json names, unless they have a flaw; adds every flaw to the cell.
 class CellReader {
  public:
   CellReader(fs::path directory, CheckedCell& cell)
-      : directory_(std::move(directory)), evidence_(directory_, cell.record.files), cell_(cell) {
-    cell_.flaws = evidence_.flaws();
-  }
+      : directory_(std::move(directory)), cell_(cell) {}
 
   void read();
 
  private:
+  void check_hashes();
   EnginePicture read_image(const records::CellImage& entry);
   CheckedComparison read_comparison(const records::CellComparison& entry);
   const Flaw* flaw_of(const std::string& file) const;
-  /// `file` if it is there and as it was, otherwise nothing.
+  /// `file` if it is there and has no flaw, otherwise "".
   std::string use(const std::string& file);
   Picture picture(const std::string& file);
   /// Returns why it cannot be read; empty if it can.
@@ -50,9 +89,31 @@ class CellReader {
   std::string read_named(const std::string& file, T& record, std::string* made_by = nullptr);
 
   fs::path directory_;
-  Evidence evidence_;
+  std::map<std::string, std::string> hashes_;  ///< SHA-256 in cell.json, by file name
   CheckedCell& cell_;
 };
+
+/// Hashes every file that the record lists. Throws Error(kInput) if it lists one twice.
+void CellReader::check_hashes() {
+  for (const auto& [file, sealed] : cell_.record.files) {
+    if (!hashes_.emplace(file, sealed).second)
+      throw Error(ExitCode::kInput, fmt::format("cell.json: files: {} stands there twice", file));
+    if (!is_file(directory_ / file)) {
+      cell_.flaws.push_back({file, CellStatus::kLost, file + " is missing."});
+      continue;
+    }
+    const std::string now = hash_now(directory_ / file);
+    if (now == sealed) continue;
+    const std::string damage = damage_of(directory_, file);
+    if (!damage.empty())
+      cell_.flaws.push_back({file, CellStatus::kDamaged, damage});
+    else
+      cell_.flaws.push_back(
+          {file, CellStatus::kChanged,
+           fmt::format("{} is not the file that the farm wrote (SHA-256 {}…, was {}…).", file,
+                       now.substr(0, 12), sealed.substr(0, 12))});
+  }
+}
 
 const Flaw* CellReader::flaw_of(const std::string& file) const {
   const auto at = std::ranges::find(cell_.flaws, file, &Flaw::file);
@@ -61,19 +122,19 @@ const Flaw* CellReader::flaw_of(const std::string& file) const {
 
 std::string CellReader::use(const std::string& file) {
   if (file.empty() || flaw_of(file)) return "";
-  if (evidence_.has(file)) return file;
-  if (is_file(directory_ / file)) {
-    cell_.is_sealed = false;
-    return file;
+  const bool is_listed = hashes_.contains(file);
+  if (!is_listed && !is_file(directory_ / file)) {
+    cell_.flaws.push_back({file, CellStatus::kLost, file + " is missing."});
+    return "";
   }
-  cell_.flaws.push_back({file, CellStatus::kLost, file + " is missing."});
-  return "";
+  cell_.is_sealed = cell_.is_sealed && is_listed;
+  return file;
 }
 
 Picture CellReader::picture(const std::string& file) {
   const std::string whole = use(file);
   if (whole.empty() && !file.empty()) return {file, 0, 0, flaw_of(file)->message};
-  Picture picture = look_at_picture(directory_, whole);
+  Picture picture = inspect_picture(directory_, whole);
   if (!whole.empty() && !picture.shown())
     cell_.flaws.push_back({file, CellStatus::kDamaged, picture.why_not});
   return picture;
@@ -100,10 +161,11 @@ EnginePicture CellReader::read_image(const records::CellImage& entry) {
   image.engine = entry.engine;
   image.png = picture(entry.png);
   image.exr = use(entry.exr);
-  if (!image.exr.empty()) image.exr_sha256 = evidence_.hash_of(image.exr);
+  if (!image.exr.empty())
+    image.exr_sha256 = hashes_.contains(image.exr) ? hashes_[image.exr]
+                                                   : hex(sha256_of_file(directory_ / image.exr));
   const std::string log = image.engine + ".log";
   if (is_file(directory_ / log) && !flaw_of(log)) image.log = log;
-  // Ours is a render, everybody else's a reference.
   image.problem = image.engine == kOurEngine
                       ? read_named(entry.record, image.render.emplace(), &image.made_by)
                       : read_named(entry.record, image.reference.emplace(), &image.made_by);
@@ -125,6 +187,7 @@ CheckedComparison CellReader::read_comparison(const records::CellComparison& ent
 
 void CellReader::read() {
   const records::Cell& record = cell_.record;
+  check_hashes();
   if (record.id != cell_.id)
     throw Error(ExitCode::kInput,
                 fmt::format("cell.json: id: '{}' is not the name of the cell's directory",
@@ -163,11 +226,10 @@ CheckedCell check_cell(const fs::path& directory, const CellEntry& entry, const 
   cell.id = entry.id;
   cell.status = entry.status;
   cell.has_scene = is_file(here / "scene.xml");
-  // A cell that was never begun, or that failed before it had anything to say, has no record.
-  const bool may_be_absent =
-      entry.status == CellStatus::kMissing || entry.status == CellStatus::kFailed;
   const bool is_there = is_file(here / "cell.json");
-  if (may_be_absent && !is_there) return cell;
+  // A cell that was never begun, or that failed early, has no record.
+  if (!is_there && (cell.status == CellStatus::kMissing || cell.status == CellStatus::kFailed))
+    return cell;
   records::Origin origin;
   try {
     CheckedCell whole = cell;

@@ -1,22 +1,22 @@
-// A cell's records and pictures, after they were checked against their hashes and judged again. What is missing or
-// broken becomes words in `problem` fields, so that one bad file costs its own place on the page and nothing else.
+// A cell's records and pictures, checked against their hashes and judged again. A missing or broken file becomes a
+// sentence in a `problem` field and is left out; the rest of the cell's page is shown.
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "gallery/evidence.hpp"
 #include "gallery/picture.hpp"
 #include "gallery/shown_farm.hpp"
 #include "records/comparison.hpp"
-#include "records/farm.hpp"
 #include "records/pages.hpp"
 #include "records/profile.hpp"
 #include "records/render.hpp"
 
 namespace lobelia::gallery {
+
+/// A fault of a file that a verdict depends on.
+struct Flaw {
+  std::string file;     ///< a plain name
+  CellStatus status;    ///< kDamaged, kLost or kChanged
+  std::string message;  ///< a sentence that names the file
+};
 
 /// One engine's picture of the cell and how it was made.
 struct EnginePicture {
@@ -24,21 +24,21 @@ struct EnginePicture {
   Picture png;
   std::string exr, record, log;  ///< plain names of files that exist; else empty
   std::string exr_sha256;        ///< empty without a file
-  std::string float_script;  ///< published beside the page, with its values (float_pictures.hpp)
+  std::string float_script;  ///< published beside the page, with its values (float_pictures.cpp)
   std::string problem;       ///< why its record cannot be read
   std::string made_by;
-  std::optional<records::Render> render;        ///< of ours
-  std::optional<records::Reference> reference;  ///< of everybody else's
+  std::optional<records::Render> render;        ///< set for our picture
+  std::optional<records::Reference> reference;  ///< set for the other engines' pictures
 };
 
 struct CheckedComparison {
   records::CellComparison entry;  ///< a and b are engines
   Picture png;
   records::Comparison record;
-  std::string problem;                  ///< why its record cannot be read; it is empty then
-  std::string verdict;                  ///< of its record, or of its figures if that is worse
-  std::optional<CellStatus> doubt;      ///< the flaw of its record or of a picture that it is of
-  std::vector<records::ShownMap> maps;  ///< published beside the page (difference_maps.hpp)
+  std::string problem;                  ///< why its record cannot be read; then `record` is empty
+  std::string verdict;                  ///< of its record, or by its figures if that is worse
+  std::optional<CellStatus> doubt;      ///< a flaw of its record or of one of its two pictures
+  std::vector<records::ShownMap> maps;  ///< published beside the page (difference_maps.cpp)
 
   std::optional<double> metric(const std::string& id) const;
 };
@@ -48,27 +48,35 @@ struct CheckedCell {
   CellStatus status = CellStatus::kMissing;
   std::string unreadable;  ///< why cell.json cannot be read; then nothing below is filled
   std::vector<Flaw> flaws;
-  std::vector<std::string> contradictions;  ///< sentences: a record says what its figures do not
-  bool is_sealed = true;                    ///< every file that it names has its hash
+  std::vector<std::string>
+      contradictions;     ///< sentences: a record's verdict is not that of its figures
+  bool is_sealed = true;  ///< cell.json has a hash of every file it names
   bool has_record = false;
   std::string made_by;
   records::Cell record;
   std::vector<EnginePicture> images;
   std::vector<CheckedComparison> comparisons;
   std::optional<records::Profile> profile;
-  std::string profile_problem;  ///< why it cannot be read
+  std::string profile_problem;  ///< why the profile cannot be read
   bool has_scene = false;
 
   const EnginePicture* find_image(const std::string& engine) const;
   const CheckedComparison* find_comparison(const std::string& b) const;
 };
 
-/// Reads DIR/cells/ID/cell.json and all that it names, and judges it again. A file that is not as it was is not used.
+/// Reads DIR/cells/ID/cell.json and every file it names, and judges the cell again. Files with a flaw are not used.
 /// `entry` is the cell's line in farm.json.
 CheckedCell check_cell(const std::filesystem::path& directory, const CellEntry& entry,
                        const Metrics& metrics);
 
 /// Plain names of all files of the cell's directory that its page may show or link to.
 std::vector<std::string> files_of(const CheckedCell& cell);
+
+/// The verdict by a comparison's figures and limits, as a record names it. Without a limit it never passes.
+std::string judge(const records::Comparison& comparison, const Metrics& metrics);
+
+/// Judges every comparison and then the cell. Where a record's verdict is not that of its figures, the worse one holds
+/// and `contradictions` gets a sentence. A flaw of a file outweighs every verdict.
+void judge_cell(CheckedCell& cell, const Metrics& metrics);
 
 }  // namespace lobelia::gallery

@@ -1,4 +1,4 @@
-// The page of what accuracy costs in time.
+// The page on what accuracy costs in time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,11 +6,9 @@
 #include <limits>
 
 #include "core/error_time_chart.hpp"
-#include "core/html.hpp"
 #include "core/numbers.hpp"
 #include "core/text.hpp"
 #include "gallery/page.hpp"
-#include "gallery/record_page.hpp"
 #include "gallery/views.hpp"
 #include "records/cost.hpp"
 #include "records/words.hpp"
@@ -23,10 +21,10 @@ using records::CostError, records::CostTable, records::CostWay;
 constexpr char kRecord[] = "cost/cost.json", kCsv[] = "cost/cost.csv";
 constexpr char kTitle[] = "What accuracy costs in time";
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr int kChartWidth = 800;           // beside a table
-constexpr std::size_t kMostSentences = 8;  // of a front; the rest can be unfolded
+constexpr int kChartWidth = 800;          // beside a table
+constexpr std::size_t kMaxSentences = 8;  // about a front; the rest can be unfolded
 
-/// Empty: seconds.
+/// Empty for seconds.
 std::string cost_unit(const CostTable& table) { return table.unit == "s" ? "" : table.unit; }
 
 double cost_of(const CostWay& way) {
@@ -50,7 +48,7 @@ std::string cost_text(const CostTable& table, double cost) {
 
 std::string error_text(double error) { return std::isnan(error) ? "–" : number_text(error); }
 
-/// Whether no other is both as fast and as accurate.
+/// Whether no other variant is both as fast and as accurate.
 bool is_on_front(const CostTable& table, const CostError& error, const CostWay& way) {
   const records::CostFront* front = records::find(table.fronts, error.id);
   return front && std::ranges::find(front->ways, way.name) != front->ways.end();
@@ -77,11 +75,11 @@ void write_sentences(Html& html, const std::vector<std::string>& sentences) {
     for (std::size_t i = begin; i < end; ++i) html.element("li", sentences[i]);
   };
   if (sentences.empty()) return;
-  list(0, std::min(kMostSentences, sentences.size()));
-  if (sentences.size() <= kMostSentences) return;
+  list(0, std::min(kMaxSentences, sentences.size()));
+  if (sentences.size() <= kMaxSentences) return;
   const Tag details(html, "details");
-  html.element("summary", fmt::format("{} more", sentences.size() - kMostSentences));
-  list(kMostSentences, sentences.size());
+  html.element("summary", fmt::format("{} more", sentences.size() - kMaxSentences));
+  list(kMaxSentences, sentences.size());
 }
 
 void write_ways(Html& html, const CostTable& table) {
@@ -89,28 +87,20 @@ void write_ways(Html& html, const CostTable& table) {
   html.element("summary", table.ways.size() == 1
                               ? "The one way"
                               : fmt::format("All {} ways, the fastest first", table.ways.size()));
-  const Tag scroll(html, "div",
-                   {{"class", "table-wrap"},
-                    {"tabindex", "0"},
-                    {"role", "region"},
-                    {"aria-label", "Ways: " + table.title}});
+  const Tag scroll(html, "div", scroll_box("Ways: " + table.title));
   const Tag element(html, "table", {{"class", "figures"}});
-  {
-    const Tag head(html, "thead");
-    const Tag row(html, "tr");
-    html.element("th", {{"scope", "col"}}, "way");
-    html.element("th", {{"scope", "col"}},
-                 (cost_unit(table).empty() ? "time per " : cost_unit(table) + " per ") + table.per);
-    html.element("th", {{"scope", "col"}}, "±");
-    for (const CostError& error : table.errors) html.element("th", {{"scope", "col"}}, error.id);
-    html.element("th", {{"scope", "col"}}, "on the front by");
-  }
+  std::vector<std::string> titles = {
+      "way", (cost_unit(table).empty() ? "time per " : cost_unit(table) + " per ") + table.per,
+      "±"};
+  for (const CostError& error : table.errors) titles.push_back(error.id);
+  titles.emplace_back("on the front by");
+  write_columns(html, titles);
   std::vector<const CostWay*> ways;
   for (const CostWay& way : table.ways) ways.push_back(&way);
-  // NaN last: it compares as nothing.
-  std::stable_sort(ways.begin(), ways.end(), [](const CostWay* a, const CostWay* b) {
-    const double x = cost_of(*a), y = cost_of(*b);
-    return (std::isnan(x) ? HUGE_VAL : x) < (std::isnan(y) ? HUGE_VAL : y);
+  // Unknown costs last: a NaN cannot be sorted.
+  std::ranges::stable_sort(ways, {}, [](const CostWay* way) {
+    const double cost = cost_of(*way);
+    return std::isnan(cost) ? HUGE_VAL : cost;
   });
   const Tag body(html, "tbody");
   for (const CostWay* way : ways) {
@@ -150,14 +140,10 @@ void write_table(Html& html, const CostTable& table, std::size_t number) {
 }
 
 void write_cost(Html& html, const records::Cost& cost) {
-  {
-    const Tag header(html, "header");
-    html.element("h1", kTitle);
-    html.element("p", {{"class", "lead"}},
-                 "Every way of making one thing, with its error and its time, measured in one run: "
-                 "medians of interleaved rounds, ± half the spread between quartiles. The front is "
-                 "those ways of which no other is both as fast and as accurate.");
-  }
+  write_lead(html, kTitle,
+             "Every way of making one thing, with its error and its time, measured in one run: "
+             "medians of interleaved rounds, ± half the spread between quartiles. The front is "
+             "those ways of which no other is both as fast and as accurate.");
   {
     const Tag nav(html, "nav", {{"aria-label", "What was measured"}});
     const Tag list(html, "ul");
@@ -167,28 +153,21 @@ void write_cost(Html& html, const records::Cost& cost) {
     }
   }
   for (std::size_t i = 0; i < cost.tables.size(); ++i) write_table(html, cost.tables[i], i);
+  const Tag section(html, "section");
+  html.element("h2", "How it was measured");
+  write_command(html, shell_join(cost.command));
   {
-    const Tag section(html, "section");
-    html.element("h2", "How it was measured");
-    write_command(html, shell_join(cost.command));
-    {
-      const Tag line(html, "p");
-      html.text("All of it is in ");
-      html.element("a", {{"href", kRecord}}, "cost.json");
-      html.text(" and ");
-      html.element("a", {{"href", kCsv}}, "cost.csv");
-      html.text(".");
-    }
-    const Tag list(html, "dl");
-    for (const auto& [name, value] : words_of(cost.host)) {
-      const Tag item(html, "div");
-      html.element("dt", name);
-      html.element("dd", value);
-    }
+    const Tag line(html, "p");
+    html.text("All of it is in ");
+    html.element("a", {{"href", kRecord}}, "cost.json");
+    html.text(" and ");
+    html.element("a", {{"href", kCsv}}, "cost.csv");
+    html.text(".");
   }
+  const Tag list(html, "dl");
+  for (const auto& [name, value] : words_of(cost.host)) write_fact(html, name, value);
 }
 
-/// Of RUN/cost/cost.json; empty where there is none.
 std::optional<ViewPage> cost_page(const std::filesystem::path& run) {
   return record_page<records::Cost>(run, kRecord, kTitle,
                                     [&](ViewPage& page, const records::Cost& record) {
@@ -200,7 +179,6 @@ std::optional<ViewPage> cost_page(const std::filesystem::path& run) {
 
 }  // namespace
 
-extern const View cost_view;
-const View cost_view{"cost", "Cost", "cost.html", cost_page};
+extern const View cost_view{"cost", "Cost", "cost.html", cost_page};
 
 }  // namespace lobelia::gallery

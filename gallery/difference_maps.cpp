@@ -1,28 +1,26 @@
-#include "gallery/difference_maps.hpp"
-
 #include <fmt/format.h>
 
-#include <map>
-#include <optional>
-#include <string>
-
-#include "gallery/packed_images.hpp"
+#include "gallery/derived_pictures.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-constexpr char kMapFormat[] = "map 1";  // of the scripts; another number makes them anew
+constexpr char kMapFormat[] = "map 1";  // a new number makes all scripts anew
 constexpr int kPrecisions[] = {6, 2};   // bits: 1 % of a value, and enough for its colour
-constexpr int kMostBlock = 16;
+/// For all maps of a cell of 512 x 512 pixels; a larger one has more in proportion.
+constexpr std::size_t kMapBytes = 96 << 10;
+/// Smaller values count as 0: a thousandth of a difference that is noticed.
+constexpr float kMinMapValue = 0x1p-10f;
+constexpr int kMaxBlock = 16;
 
-/// Grey, which costs no more than one channel; of each block of pixels the largest, so that nothing large is lost.
+/// Grey, which packs like one channel. Each pixel is the largest of its block, so that no large difference is lost.
 Image picture_of(const std::vector<float>& values, int width, int height, int block) {
   Image image((width + block - 1) / block, (height + block - 1) / block);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const float value = values[std::size_t(y) * std::size_t(width) + std::size_t(x)];
       for (float& shown : image.pixel(x / block, y / block))
-        if (value >= kLeastOfMap && !(value <= shown)) shown = value;
+        if (value >= kMinMapValue && !(value <= shown)) shown = value;
     }
   return image;
 }
@@ -31,14 +29,14 @@ std::string script_of(const MapKind& kind, const MapViewing& viewing, const std:
                       const std::optional<Image>& b, std::size_t of_512) {
   if (!a || !b || a->width() != b->width() || a->height() != b->height()) return "";
   const auto values = kind.measure(*a, *b, viewing);
-  const std::size_t most = bytes_for(*a, of_512);
+  const std::size_t max_bytes = bytes_for(*a, of_512);
   std::string script;
-  // Of noise even few bits in every pixel are too many.
-  for (int block = 1; block <= kMostBlock; block *= 2)
+  // Noise is too large even with few bits, so its pixels are merged in blocks.
+  for (int block = 1; block <= kMaxBlock; block *= 2)
     for (const int precision : kPrecisions) {
       script =
           packed_image(picture_of(values, a->width(), a->height(), block), precision, false, block);
-      if (script.size() <= most) return script;
+      if (script.size() <= max_bytes) return script;
     }
   return script;
 }

@@ -1,16 +1,13 @@
-// The page on which a highlight can be chosen and looked at.
+// The page on which a reader chooses a highlight and sees its curves.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "core/numbers.hpp"
 #include "core/svg_chart.hpp"
-#include "gallery/highlight_curves.hpp"
 #include "gallery/page.hpp"
-#include "gallery/record_page.hpp"
 #include "gallery/views.hpp"
 #include "records/pages.hpp"
 #include "records/words.hpp"
@@ -22,10 +19,114 @@ using records::HighlightTable, records::HighlightTables, records::LobeTable, rec
 
 constexpr char kRecord[] = "explorer/tables.json";
 constexpr char kTitle[] = "Highlights to explore";
-constexpr double kShown = 64;  // the exponent that the page has without script
+constexpr double kShown = 64;  // the exponent of the page without script
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Of the exponent that is nearest to `n`.
+/// A row of numbers for each exponent.
+using Rows = std::vector<std::vector<std::int64_t>>;
+
+constexpr std::size_t kMaxExponents = 1000, kMaxPoints = 1000;
+/// Small enough that a second difference of rows does not overflow.
+constexpr std::int64_t kLargestNumber = 1'000'000'000'000'000;
+
+/// The numbers from 0 to `reach` at which the tables have values (docs/records.md).
+std::vector<double> spread(double reach, double exponent, std::size_t count) {
+  const double a = std::asinh(reach * std::sqrt(exponent));
+  std::vector<double> result;
+  for (std::size_t i = 0; i < count; ++i)
+    result.push_back(reach * std::sinh(a * double(i) / double(count - 1)) / std::sinh(a));
+  return result;
+}
+
+void require(bool condition, const char* what) {
+  if (!condition) throw Error(ExitCode::kInput, fmt::format("{}: {}", kRecord, what));
+}
+
+void require_unit(double unit) {
+  require(unit > 0 && unit <= 1, "a unit must be above 0 and at most 1");
+}
+
+void require_positive(const std::vector<double>& values, std::size_t exponents) {
+  require(values.size() == exponents, "a table must have a number for each exponent");
+  for (const double value : values)
+    require(value >= kSmallestDrawn && value <= kLargestDrawn,
+            "a table has a number that cannot be drawn");
+}
+
+void require_rows(const Rows& rows, std::size_t exponents, std::size_t points) {
+  require(rows.size() == exponents, "a table must have a row for each exponent");
+  require(points >= 2 && points <= kMaxPoints, "a row must have 2 to 1000 numbers");
+  for (const auto& row : rows) {
+    require(row.size() == points, "all rows of a table must be equally long");
+    for (const std::int64_t number : row)
+      require(number >= -kLargestNumber && number <= kLargestNumber,
+              "a row has a number that cannot be drawn");
+  }
+}
+
+std::size_t width_of(const Rows& rows) { return rows.empty() ? 0 : rows[0].size(); }
+
+/// Throws Error(kInput) for tables that do not fit together or have a number that cannot be drawn.
+void require_drawable(const HighlightTables& tables) {
+  const std::size_t count = tables.exponents.size();
+  require(count >= 2 && count <= kMaxExponents && std::ranges::is_sorted(tables.exponents) &&
+              tables.exponents.front() > 0 && tables.exponents.back() <= kLargestDrawn,
+          "exponents must be numbers above 0 that ascend");
+  require(tables.per_octave >= 1 && tables.per_octave <= 16 &&
+              (count - 1) % std::size_t(tables.per_octave) == 0,
+          "perOctave must divide the exponents into octaves");
+  require(tables.most_grazing > 0 && tables.most_grazing < 1.5708,
+          "mostGrazing must be an angle below a right one");
+  for (const LobeTable& lobe : tables.lobes) {
+    require_unit(lobe.unit);
+    require_positive(lobe.reach, count);
+    require_positive(lobe.half_width, count);
+    require_rows(lobe.curves, count, width_of(lobe.curves));
+  }
+  for (const HighlightTable& highlight : tables.highlights) {
+    require_unit(highlight.unit);
+    require_positive(highlight.exact, count);
+    require_rows(highlight.seen, count, width_of(highlight.seen));
+    if (!highlight.paper.empty()) require_positive(highlight.paper, count);
+    if (!highlight.lit.empty()) require_rows(highlight.lit, count, width_of(highlight.seen));
+  }
+}
+
+/// The lobe's value, 0 to 1, of an integer in its curves.
+double lobe_value(const LobeTable& lobe, std::int64_t number) {
+  const double scaled = double(number) * lobe.unit;
+  return lobe.order > 0 ? std::pow(std::max(0.0, scaled), lobe.order) : std::exp(scaled);
+}
+
+/// The angle of every number of a curve, in radians.
+std::vector<double> curve_angles(const LobeTable& lobe, std::size_t exponent, double n) {
+  return spread(lobe.reach[exponent], n, lobe.curves[exponent].size());
+}
+
+/// The albedo of an integer in `seen` or `lit`.
+double albedo_of(const HighlightTable& highlight, std::int64_t number) {
+  return std::exp(double(number) * highlight.unit);
+}
+
+/// The incidence of every number of an albedo, in radians, from grazing to normal.
+std::vector<double> incidences_of(const HighlightTables& tables, double n, std::size_t count) {
+  std::vector<double> result = spread(tables.most_grazing, n, count);
+  for (double& incidence : result) incidence = tables.most_grazing - incidence;
+  return result;
+}
+
+/// The share of a beam that is reflected, at each of the exponent's incidences.
+std::vector<double> beam_of(const HighlightTable& highlight, std::size_t exponent,
+                            const std::vector<double>& incidences) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < incidences.size(); ++i)
+    result.push_back(highlight.lit.empty() ? albedo_of(highlight, highlight.seen[exponent][i])
+                                           : albedo_of(highlight, highlight.lit[exponent][i]) /
+                                                 std::cos(incidences[i]));
+  return result;
+}
+
+/// The index of the exponent nearest to `n`.
 std::size_t nearest(const std::vector<double>& exponents, double n) {
   const auto distance = [n](double a, double b) { return std::abs(a - n) < std::abs(b - n); };
   return std::size_t(std::ranges::min_element(exponents, distance) - exponents.begin());
@@ -36,8 +137,8 @@ std::vector<double> in_degrees(std::vector<double> radians) {
   return radians;
 }
 
-/// Lines are told apart by five styles; of a family of lobes the first and the last tell its range.
-constexpr std::size_t kMostLines = 6;
+/// A chart has styles for six lines. A family of lobes is shown by its first and its last.
+constexpr std::size_t kMaxLines = 6;
 
 void write_chart(Html& html, const Chart& chart, const std::string& words) {
   const Tag figure(html, "figure", {{"class", "chart-figure"}});
@@ -47,18 +148,19 @@ void write_chart(Html& html, const Chart& chart, const std::string& words) {
 }
 
 Chart lobe_chart(const HighlightTables& tables, std::size_t at) {
-  Chart chart;
-  chart.id = "lobes";
   const double n = tables.exponents[at];
-  chart.title = "Lobes at n = " + number_text(n, 4);
-  chart.description = "The lobes over the angle, of the peak, logarithmic.";
-  chart.width = 760;
-  chart.height = 400;
-  chart.x = {"angle that the lobe sees (degrees)", 0, 60, false};
-  chart.y = {"lobe (log)", 1e-5, 10, true};
+  Chart chart{.id = "lobes",
+              .title = "Lobes at n = " + number_text(n, 4),
+              .description = "The lobes over the angle, of the peak, logarithmic.",
+              .width = 760,
+              .height = 400,
+              .x = {"angle that the lobe sees (degrees)", 0, 60, false},
+              .y = {"lobe (log)", 1e-5, 10, true},
+              .bands = {},
+              .series = {}};
   for (const LobeTable& lobe : tables.lobes) {
     if (lobe.order > 0 && lobe.order != 2 && lobe.order != 16) continue;
-    if (chart.series.size() == kMostLines) break;
+    if (chart.series.size() == kMaxLines) break;
     ChartSeries series{
         lobe.title, in_degrees(curve_angles(lobe, at, n)), {}, int(chart.series.size())};
     for (const std::int64_t number : lobe.curves[at]) series.y.push_back(lobe_value(lobe, number));
@@ -68,17 +170,18 @@ Chart lobe_chart(const HighlightTables& tables, std::size_t at) {
 }
 
 Chart albedo_chart(const HighlightTables& tables, std::size_t at, const std::string& lobe) {
-  Chart chart;
-  chart.id = "albedos";
   const double n = tables.exponents[at];
-  chart.title = fmt::format("Energy over incidence, {} at n = {}", lobe, number_text(n, 4));
-  chart.description = "What leaves of a beam, over its incidence, for every model.";
-  chart.width = 760;
-  chart.height = 400;
-  chart.x = {"incidence (degrees)", 0, 90, false};
-  chart.y = {"share of a beam that leaves", 0, 2, false};
+  Chart chart{.id = "albedos",
+              .title = fmt::format("Energy over incidence, {} at n = {}", lobe, number_text(n, 4)),
+              .description = "What leaves of a beam, over its incidence, for every model.",
+              .width = 760,
+              .height = 400,
+              .x = {"incidence (degrees)", 0, 90, false},
+              .y = {"share of a beam that leaves", 0, 2, false},
+              .bands = {},
+              .series = {}};
   for (const HighlightTable& highlight : tables.highlights) {
-    if (highlight.lobe != lobe || chart.series.size() == kMostLines) continue;
+    if (highlight.lobe != lobe || chart.series.size() == kMaxLines) continue;
     const auto incidences = incidences_of(tables, n, highlight.seen[at].size());
     const auto model = std::ranges::find(tables.models, highlight.model, &ModelTable::name);
     chart.series.push_back({model == tables.models.end() ? highlight.model : model->title,
@@ -89,9 +192,7 @@ Chart albedo_chart(const HighlightTables& tables, std::size_t at, const std::str
 }
 
 void write_lobes(Html& html, const HighlightTables& tables) {
-  const Tag scroll(
-      html, "div",
-      {{"class", "table-wrap"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", "Lobes"}});
+  const Tag scroll(html, "div", scroll_box("Lobes"));
   const Tag table(html, "table", {{"class", "figures"}});
   html.element("caption", "Half-widths: the angle at which the lobe has fallen to half");
   std::vector<std::size_t> at;
@@ -99,14 +200,10 @@ void write_lobes(Html& html, const HighlightTables& tables) {
     const std::size_t index = nearest(tables.exponents, n);
     if (std::ranges::find(at, index) == at.end()) at.push_back(index);
   }
-  {
-    const Tag head(html, "thead");
-    const Tag row(html, "tr");
-    html.element("th", {{"scope", "col"}}, "lobe");
-    html.element("th", {{"scope", "col"}}, "value, s = 1 − cos");
-    for (const std::size_t index : at)
-      html.element("th", {{"scope", "col"}}, "n = " + number_text(tables.exponents[index], 4));
-  }
+  std::vector<std::string> titles = {"lobe", "value, s = 1 − cos"};
+  for (const std::size_t index : at)
+    titles.push_back("n = " + number_text(tables.exponents[index], 4));
+  write_columns(html, titles);
   const Tag body(html, "tbody");
   for (const LobeTable& lobe : tables.lobes) {
     const Tag row(html, "tr");
@@ -118,11 +215,7 @@ void write_lobes(Html& html, const HighlightTables& tables) {
 }
 
 void write_highlights(Html& html, const HighlightTables& tables, std::size_t at) {
-  const Tag scroll(html, "div",
-                   {{"class", "table-wrap"},
-                    {"tabindex", "0"},
-                    {"role", "region"},
-                    {"aria-label", "Highlights"}});
+  const Tag scroll(html, "div", scroll_box("Highlights"));
   const Tag table(html, "table", {{"class", "figures"}});
   html.element("caption", fmt::format("Every model with every lobe at n = {}",
                                       number_text(tables.exponents[at], 4)));
@@ -144,13 +237,13 @@ void write_highlights(Html& html, const HighlightTables& tables, std::size_t at)
   }
 }
 
-/// More digits than the tables are good for, shorter than a double's.
+/// Eight digits: more than the tables are good for, and shorter than a double's.
 void round_all(std::vector<double>& values) {
   for (double& value : values) value = std::strtod(fmt::format("{:.8g}", value).c_str(), nullptr);
 }
 
-/// To second differences from exponent to exponent, which are short: the first row, how the second differs from it,
-/// and from then on how much this changes.
+/// Replaces rows by their second differences from exponent to exponent, which have few digits. Row 0 stays, row 1 becomes
+/// its difference from row 0.
 void take_differences(Rows& rows) {
   for (std::size_t r = rows.size(); r-- > 1;)
     for (std::size_t i = 0; i < rows[r].size(); ++i)
@@ -173,7 +266,7 @@ records::ExplorerPage page_data(HighlightTables tables) {
 }
 
 void draw(ViewPage& page, const HighlightTables& tables) {
-  require_drawable(tables, kRecord);
+  require_drawable(tables);
   const std::size_t at = nearest(tables.exponents, kShown);
   Html& html = page.main;
   write_lead(
@@ -210,19 +303,17 @@ void draw(ViewPage& page, const HighlightTables& tables) {
                   tables.exponents.size(), number_text(tables.exponents.front()),
                   number_text(tables.exponents.back(), 6), errors));
   write_command(html, "lobelia models --tables tables.json");
-  // Megabytes that the page's data says shorter.
+  // The page's data replaces the record, which has megabytes.
   page.files.clear();
   page.data = records::record_line(page_data(tables));
 }
 
-/// Of RUN/explorer/tables.json; empty where there is none.
 std::optional<ViewPage> explorer_page(const std::filesystem::path& run) {
   return record_page<HighlightTables>(run, kRecord, kTitle, draw);
 }
 
 }  // namespace
 
-extern const View explorer_view;
-const View explorer_view{"explorer", "Explorer", "explorer.html", explorer_page};
+extern const View explorer_view{"explorer", "Explorer", "explorer.html", explorer_page};
 
 }  // namespace lobelia::gallery

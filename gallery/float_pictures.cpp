@@ -1,24 +1,15 @@
-#include "gallery/float_pictures.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "core/error.hpp"
-#include "core/image_io.hpp"
 #include "core/image_values.hpp"
+#include "gallery/derived_pictures.hpp"
 #include "gallery/half_picture.hpp"
-#include "gallery/packed_images.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-constexpr char kFormat[] = "float picture 2";  // of the scripts; another number makes them anew
+constexpr char kFormat[] = "float picture 2";  // a new number makes all scripts anew
+/// For all float pictures of a cell of 512 x 512 pixels; a larger one has more in proportion.
+constexpr std::size_t kFloatPictureBytes = 416 << 10;
 
 Image difference(const Image& theirs, const Image& ours) {
   Image result = theirs;
@@ -37,19 +28,19 @@ struct Packing {
   int precision;
 };
 
-/// Adds a script of each by its name, all with the finest precision with which they fit into `most` bytes; with the
-/// coarsest if not even those do.
-Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t most,
+/// Adds a script for each image by its name, all with the finest precision that fits into `max_bytes`, or with the
+/// coarsest if none fits.
+Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t max_bytes,
                              std::map<std::string, std::string>& scripts) {
   if (images.empty()) return {0, kFinest};
-  int fits = kCoarsest, too_fine = kFinest + 1;  // by bisection
+  int fits = kCoarsest, too_fine = kFinest + 1;  // the bounds of a bisection
   std::size_t used = 0;
   for (int precision = kFinest; used == 0 || too_fine - fits > 1;) {
     std::map<std::string, std::string> made;
     std::size_t size = 0;
     for (const PackedImage& one : images)
       size += (made[one.name] = packed_image(one.image, precision, one.from_ours, 1)).size();
-    if (size > most && precision > kCoarsest) {
+    if (size > max_bytes && precision > kCoarsest) {
       too_fine = precision;
     } else {
       fits = precision;
@@ -61,67 +52,53 @@ Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t
   return {used, fits};
 }
 
-/// All scripts of a cell, made together when the first is asked for: a second publication reads no picture.
-class CellScripts {
- public:
-  CellScripts(CellPictures& pictures, const CheckedCell& cell) : pictures_(pictures), cell_(cell) {}
-
-  std::string of(const std::string& engine) {
-    if (!made_) make();
-    made_ = true;
-    return scripts_[engine];
+/// The scripts of all float pictures of a cell, by engine.
+std::map<std::string, std::string> make_scripts(CellPictures& pictures, const CheckedCell& cell,
+                                                const EnginePicture& our_image) {
+  std::map<std::string, std::string> scripts;
+  const std::optional<Image>& ours = pictures.of(our_image.exr);
+  if (!ours) return scripts;
+  std::vector<PackedImage> others;
+  // In a difference, values of ours that are not finite would hide theirs.
+  const bool from_ours = is_finite(*ours);
+  for (const EnginePicture& image : cell.images) {
+    if (&image == &our_image || image.exr.empty()) continue;
+    const std::optional<Image>& theirs = pictures.of(image.exr);
+    if (!theirs || theirs->width() != ours->width() || theirs->height() != ours->height()) continue;
+    others.push_back({image.engine, from_ours ? difference(*theirs, *ours) : *theirs, from_ours});
   }
-
- private:
-  void make() {
-    const EnginePicture* our_image = cell_.find_image(kOurEngine);
-    const std::optional<Image>& ours = pictures_.of(our_image->exr);
-    if (!ours) return;
-    std::vector<PackedImage> others;
-    // What is not finite in ours would hide theirs in a difference.
-    const bool from_ours = is_finite(*ours);
-    for (const EnginePicture& image : cell_.images) {
-      if (&image == our_image || image.exr.empty()) continue;
-      const std::optional<Image>& theirs = pictures_.of(image.exr);
-      if (!theirs || theirs->width() != ours->width() || theirs->height() != ours->height())
-        continue;
-      others.push_back({image.engine, from_ours ? difference(*theirs, *ours) : *theirs, from_ours});
-    }
-    const std::size_t most = bytes_for(*ours, kFloatPictureBytes);
-    std::vector<PackedImage> first;
-    first.push_back({kOurEngine, *ours, false});
-    // Noise takes all that it gets: half is for the others, and what they leave for ours again.
-    const Packing half = pack_as_fine_as_fits(first, most / 2, scripts_);
-    const std::size_t rest = most - std::min(most, half.bytes);
-    const Packing theirs = pack_as_fine_as_fits(others, rest, scripts_);
-    if (half.precision < kFinest && theirs.bytes < rest)
-      pack_as_fine_as_fits(first, most - theirs.bytes, scripts_);
-  }
-
-  CellPictures& pictures_;
-  const CheckedCell& cell_;
-  bool made_ = false;
-  std::map<std::string, std::string> scripts_;
-};
+  const std::size_t max_bytes = bytes_for(*ours, kFloatPictureBytes);
+  std::vector<PackedImage> first;
+  first.push_back({kOurEngine, *ours, false});
+  // A noisy picture takes all it can get: ours has half, the others the rest, and ours again what they leave.
+  const Packing half = pack_as_fine_as_fits(first, max_bytes / 2, scripts);
+  const std::size_t rest = max_bytes - std::min(max_bytes, half.bytes);
+  const Packing theirs = pack_as_fine_as_fits(others, rest, scripts);
+  if (half.precision < kFinest && theirs.bytes < rest)
+    pack_as_fine_as_fits(first, max_bytes - theirs.bytes, scripts);
+  return scripts;
+}
 
 }  // namespace
 
 void publish_float_pictures(CellPictures& pictures, CheckedCell& cell, Publisher& publisher) {
   const EnginePicture* our_image = cell.find_image(kOurEngine);
   if (!our_image || our_image->exr.empty()) return;
-  // Each script depends on all pictures of the cell, by the bytes that are left for it.
+  // The key names all pictures, because they share the bytes.
   std::string all_hashes;
   for (const EnginePicture& image : cell.images)
     all_hashes += (all_hashes.empty() ? "" : " ") + image.exr_sha256;
-  CellScripts scripts(pictures, cell);
+  // Made together when the first is needed: an unchanged cell reads no picture.
+  std::optional<std::map<std::string, std::string>> scripts;
   for (EnginePicture& image : cell.images) {
     if (image.exr.empty()) continue;
     const std::string file = image.engine + ".float.js";
-    const bool made =
-        publisher.derive("cells/" + cell.id + "/" + file,
-                         fmt::format("{} of {}, {}", kFormat, kFloatPictureBytes, all_hashes),
-                         [&] { return scripts.of(image.engine); });
-    if (made) image.float_script = file;
+    if (publisher.derive("cells/" + cell.id + "/" + file,
+                         fmt::format("{} of {}, {}", kFormat, kFloatPictureBytes, all_hashes), [&] {
+                           if (!scripts) scripts = make_scripts(pictures, cell, *our_image);
+                           return (*scripts)[image.engine];
+                         }))
+      image.float_script = file;
   }
 }
 

@@ -4,22 +4,13 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <regex>
-#include <string_view>
 
-#include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/text.hpp"
 #include "gallery/cell_page.hpp"
-#include "gallery/cell_summary.hpp"
-#include "gallery/difference_maps.hpp"
-#include "gallery/float_pictures.hpp"
+#include "gallery/derived_pictures.hpp"
 #include "gallery/index_page.hpp"
-#include "gallery/page.hpp"
-#include "gallery/page_data.hpp"
-#include "gallery/publisher.hpp"
-#include "gallery/small_picture.hpp"
 #include "gallery/views.hpp"
-#include "records/record.hpp"
 
 namespace lobelia {
 
@@ -33,27 +24,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "https://example.org/a" with a slash at its end. Throws Error(kUsage).
+/// The URL with a slash at its end. Throws Error(kUsage).
 std::string checked_base_url(const std::string& url) {
   static const std::regex kUrl(
       R"re(https?://[A-Za-z0-9.-]+(:[0-9]{1,5})?(/[A-Za-z0-9._~%-]+)*/?)re");
   if (url.empty()) return url;
-  if (url.size() > 1000 || !std::regex_match(url, kUrl)) {
+  if (url.size() > 1000 || !std::regex_match(url, kUrl))
     throw Error(
         ExitCode::kUsage,
         fmt::format("--base-url: '{}' must be like https://example.org/a/folder", printable(url)));
-  }
   return url.back() == '/' ? url : url + '/';
-}
-
-void require_title(const std::string& title) {
-  if (title.size() > 300) throw Error(ExitCode::kUsage, "--title: at most 300 bytes");
-}
-
-/// The files of the run that a cell's page shows or links to.
-void copy_cell_files(const fs::path& run, const CheckedCell& cell, Publisher& publisher) {
-  const std::string folder = "cells/" + cell.id + "/";
-  for (const std::string& file : files_of(cell)) publisher.copy(run, folder + file);
 }
 
 CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, const SiteFrame& site,
@@ -68,7 +48,7 @@ CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, con
     publish_difference_maps(pictures, options.maps, cell, publisher);
   }
   const std::string folder = "cells/" + entry.id + "/";
-  copy_cell_files(run, cell, publisher);
+  for (const std::string& file : files_of(cell)) publisher.copy(run, folder + file);
   publisher.write(folder + kCellData,
                   data_script("page", records::record_line(cell_page_data(farm, entry, cell))));
   publisher.write(folder + "index.html", cell_page(site, farm, entry, cell));
@@ -88,7 +68,7 @@ std::vector<std::string> doubts_of(const std::vector<CellSummary>& cells) {
 
 PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& options) {
   SiteFrame site{options.title, checked_base_url(options.base_url), {{"index.html", "Grid"}}};
-  require_title(options.title);
+  if (options.title.size() > 300) throw Error(ExitCode::kUsage, "--title: at most 300 bytes");
   ShownFarm farm = read_farm(run, Metrics(options.metrics));
   if (site.title.empty()) site.title = farm.record.title;
   farm.record.title = site.title;
@@ -98,10 +78,10 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
 
   std::vector<std::pair<const View*, ViewPage>> pages;
   for (const View* view : views()) {
-    if (auto page = view->draw(run)) {
-      site.pages.push_back({std::string(view->file), std::string(view->title)});
-      pages.emplace_back(view, std::move(*page));
-    }
+    auto page = view->draw(run);
+    if (!page) continue;
+    site.pages.push_back({std::string(view->file), std::string(view->title)});
+    pages.emplace_back(view, std::move(*page));
   }
   for (const auto& [view, page] : pages) {
     PageFrame frame{
@@ -115,12 +95,12 @@ PublishedGallery write_gallery(const fs::path& run, const GalleryOptions& option
   }
 
   std::vector<CellSummary> summaries(farm.cells.size());
-  // As many cells at a time as there are threads: thousands of profiles need not be in memory together.
+  // Only the summaries are kept: thousands of cells do not fit into memory together.
   oneapi::tbb::parallel_for(std::size_t{0}, farm.cells.size(), [&](std::size_t i) {
     throw_if_interrupted();
     summaries[i] = publish_cell(run, options, site, farm, farm.cells[i], publisher);
   });
-  // Last, so that an index never names a page that is not there.
+  // The index comes last, so that it never names a page that is not there.
   publisher.write(kGridData,
                   data_script("page", records::record_line(grid_page_data(farm, summaries))));
   publisher.write("index.html", index_page(site, farm, summaries));

@@ -1,39 +1,37 @@
-// From a farm's records to a static site that opens from a double-click, without a network.
+// Makes a static site from a farm's records. It opens from a double-click, without a network.
 //
-// The room has a namespace of its own: a grid, a metric and a picture are here what pages show of them.
+// The room has its own namespace, because its grids, metrics and pictures are those that pages show.
 #pragma once
 
 #include <filesystem>
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "core/image.hpp"
 #include "gallery/metrics.hpp"
 
 namespace lobelia::gallery {
 
-/// How the pictures of a comparison were looked at.
+/// The viewing conditions of a comparison.
 struct MapViewing {
   double exposure_stops, pixels_per_degree;
 };
 
-/// A difference for the eye that a page can show pixel by pixel. What it is, the room's user knows.
+/// A map of visible differences that a page can show pixel by pixel. The caller of the gallery provides it.
 struct MapKind {
-  std::string id, title,
-      meaning;  ///< "flip.ldr", as the metric's figures begin; words for a reader
-  /// One value of each pixel, from 0; 1 is a difference that is noticed. `b` is the reference, of the size of `a`.
+  std::string id;  ///< "flip.ldr": the beginning of its metrics' ids
+  std::string title, meaning;
+  /// One value per pixel, from 0; 1 is a difference that is noticed. `b` is the reference and has the size of `a`.
   std::function<std::vector<float>(const Image& a, const Image& b, const MapViewing& viewing)>
       measure;
 };
 
 struct GalleryOptions {
-  std::filesystem::path site;       ///< where to; empty: the run's own directory
+  std::filesystem::path site;       ///< output directory; empty: the run's own directory
   bool metrics_only = false;        ///< no float pictures: numbers, curves and thumbnails
-  std::vector<MapKind> maps;        ///< of every comparison, unless metrics_only
+  std::vector<MapKind> maps;        ///< made for every comparison, unless metrics_only
   std::vector<MetricInfo> metrics;  ///< that pages can explain; any other is shown by its id
-  std::string title;                ///< in place of the grid's; empty: that
-  std::string base_url;  ///< where it will be published, for links to it by others; empty: unknown
+  std::string title;                ///< empty: the grid's
+  std::string base_url;             ///< public address, for previews of links to it; empty: unknown
 };
 
 struct PublishedGallery {
@@ -43,16 +41,15 @@ struct PublishedGallery {
   std::vector<std::string> doubts;
 };
 
-/// Reads RUN/farm.json and the records it names; writes index.html, a page for every cell and for every view
-/// that has something to show, their script, style and data, and gallery.json, which lists them. In another
-/// directory than the run's also copies of the files that pages show or link to. Files that are as they should
-/// be are not touched, and those that an earlier publication wrote there and this one does not are removed.
+/// Reads RUN/farm.json and the records it names. Writes index.html, a page for every cell and for every view with a
+/// record, their script, style and data, and gallery.json, which lists the files. If the site is not the run's directory,
+/// copies the files that pages show or link to. Unchanged files are not touched. Files of an earlier publication that are
+/// no longer part of the site are removed.
 ///
-/// Every file of a cell is compared with its hash in cell.json, and every verdict is made again from the figures and
-/// limits of its record. A file that is missing, damaged or changed is not shown, and its cell has that state in place of
-/// a verdict. Otherwise draws what the records say and computes nothing but the subtraction of two curves or pictures for
-/// a drawing, and the maps that it is given. Error(kInput) only if farm.json itself cannot be read, Error(kUsage) for a
-/// title or base URL that is none.
+/// Compares every file of a cell with its hash in cell.json, and makes every verdict again from the figures and limits of
+/// its record. A missing, damaged or changed file is not shown, and its cell has that state in place of a verdict. Beyond
+/// that, only subtracts curves and pictures for drawings and makes `maps`; everything else is shown as recorded.
+/// Throws Error(kInput) if farm.json cannot be read, Error(kUsage) for a bad title or base URL.
 PublishedGallery write_gallery(const std::filesystem::path& run,
                                const GalleryOptions& options = {});
 

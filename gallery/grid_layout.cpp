@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -12,21 +11,20 @@ namespace lobelia::gallery {
 namespace {
 
 constexpr std::size_t kMaxPlaces = 200'000;
-constexpr int kMostGroupedColumns = 12;  // more would leave thumbnails too small to see
+constexpr int kMaxGroupedColumns = 12;  // more would leave thumbnails too small to see
 
 void require_drawable(const ShownFarm& farm) {
   std::size_t places = 1;
   for (const records::Axis& axis : farm.record.axes) {
     places *= axis.values.size();
-    if (places > kMaxPlaces) {
+    if (places > kMaxPlaces)
       throw Error(ExitCode::kInput,
                   fmt::format("farm.json: the axes span more than {} cells, which no page can show",
                               kMaxPlaces));
-    }
   }
 }
 
-/// The grid's order, but what lights the scene comes last: highlights are compared under one light.
+/// The axes in the grid's order, but light and scene last: highlights are compared under one light.
 std::vector<int> in_reading_order(const ShownFarm& farm) {
   std::vector<int> axes(farm.record.axes.size());
   std::iota(axes.begin(), axes.end(), 0);
@@ -50,9 +48,9 @@ GridLayout lay_out(const ShownFarm& farm) {
   // A single axis reads better across than as a column of one picture each.
   if (axes.size() > 1) layout.rows = take_first();
   const bool grouped =
-      axes.size() > 1 && axis_size(farm, axes[0]) * axis_size(farm, axes[1]) <= kMostGroupedColumns;
+      axes.size() > 1 && axis_size(farm, axes[0]) * axis_size(farm, axes[1]) <= kMaxGroupedColumns;
   if (grouped) layout.groups = take_first();
-  // Where two axes are too much for one line, the first of them goes to the sections.
+  // If two axes are too much for one line, the first of them goes to the sections.
   const std::size_t columns = !grouped && axes.size() > 1 ? 1 : 0;
   layout.columns = axes[columns];
   axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(columns));
@@ -73,8 +71,7 @@ GridLayout lay_out(const ShownFarm& farm) {
 
 std::vector<int> GridLayout::position(const std::vector<int>& section, int row, int group,
                                       int column) const {
-  const int placed = (rows >= 0 ? 1 : 0) + (groups >= 0 ? 1 : 0) + 1;
-  std::vector<int> at(placed + section.size());
+  std::vector<int> at((rows >= 0) + (groups >= 0) + 1 + section.size());
   if (rows >= 0) at[rows] = row;
   if (groups >= 0) at[groups] = group;
   at[columns] = column;
@@ -87,11 +84,9 @@ std::string GridLayout::section_label(const ShownFarm& farm,
   std::string label;
   for (std::size_t i = 0; i < section.size(); ++i) {
     const records::Axis& axis = farm.record.axes[section_axes[i]];
-    if (!label.empty()) label += " · ";
-    label += axis.name + ": " + axis.values[section[i]].label;
+    label += (i > 0 ? " · " : "") + axis.name + ": " + axis.values[section[i]].label;
   }
-  if (!label.empty() && label[0] >= 'a' && label[0] <= 'z')
-    label[0] = static_cast<char>(label[0] - 32);
+  if (!label.empty() && label[0] >= 'a' && label[0] <= 'z') label[0] = char(label[0] - 'a' + 'A');
   return label;
 }
 
@@ -102,7 +97,7 @@ int axis_size(const ShownFarm& farm, int axis) {
 std::vector<const CellEntry*> cells_without_place(const ShownFarm& farm) {
   std::vector<const CellEntry*> result;
   for (const CellEntry& cell : farm.cells) {
-    const bool unknown = std::count(cell.at.begin(), cell.at.end(), -1) > 0;
+    const bool unknown = std::ranges::count(cell.at, -1) > 0;
     if (unknown || farm.find_cell(cell.at) != &cell) result.push_back(&cell);
   }
   return result;

@@ -1,23 +1,20 @@
-// How a grid of any number of axes lies on a page of two dimensions.
+// Places a grid of any number of axes on a page of two dimensions.
 #pragma once
-
-#include <string>
-#include <vector>
 
 #include "gallery/shown_farm.hpp"
 
 namespace lobelia::gallery {
 
-/// The first axis runs down, the third across, the second groups the columns, and every combination
-/// of the others has a section of its own; one or two axes leave out the rest. The light is always
-/// taken last, and columns that would be too many are not grouped. -1: no such axis.
+/// The first axis runs down, the second groups the columns, the third runs across, and every combination
+/// of the others has a section of its own. With fewer axes, or too many columns, there are no groups. The light is
+/// always the last axis. -1: no such axis.
 struct GridLayout {
   int rows = -1, groups = -1, columns = -1;
   std::vector<int> section_axes;
-  /// Index on each section axis, in the grid's order; one empty entry if there are none.
+  /// For each section its index on each section axis, in the grid's order; one empty entry without section axes.
   std::vector<std::vector<int>> sections;
 
-  /// The place of a cell on all axes.
+  /// The index on each axis of the cell at this place.
   std::vector<int> position(const std::vector<int>& section, int row, int group, int column) const;
   /// "Light: 45 degrees"; empty if there are no section axes.
   std::string section_label(const ShownFarm& farm, const std::vector<int>& section) const;
@@ -29,7 +26,7 @@ GridLayout lay_out(const ShownFarm& farm);
 /// Number of values, or 1 where there is no such axis.
 int axis_size(const ShownFarm& farm, int axis);
 
-/// Cells that have no place: a value that its axis does not list, or a place that is taken.
+/// Cells with a value that its axis does not list, or with the place of another cell.
 std::vector<const CellEntry*> cells_without_place(const ShownFarm& farm);
 
 }  // namespace lobelia::gallery

@@ -1,13 +1,9 @@
 #include "gallery/half_picture.hpp"
 
+#include <openssl/evp.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/image_values.hpp"
@@ -16,8 +12,8 @@ namespace lobelia::gallery {
 namespace {
 
 constexpr int kHalfMantissa = 10;
-constexpr int kTopExponent =
-    15;  // the largest value goes just below 2^15, well within a half float
+/// The largest value is scaled to just below 2^15, well within a half float.
+constexpr int kTopExponent = 15;
 
 /// Round to nearest, ties to even. `value` is at most 2^15 in magnitude, or not finite.
 std::uint16_t half_of(float value) {
@@ -33,24 +29,24 @@ std::uint16_t half_of(float value) {
   return sign | static_cast<std::uint16_t>((rounded >> 13) - ((127 - 15) << 10));
 }
 
-/// Without the last `dropped` bits, rounded; ordered as the values are, so that near values are near numbers.
+/// Rounded without the last `dropped` bits, as an integer that is ordered as the values are.
 int ordered(std::uint16_t half, int dropped) {
   const int magnitude = half & 0x7fff;
   const int kept = (magnitude >= 0x7c00 ? magnitude : magnitude + (1 << dropped >> 1)) >> dropped;
   return half & 0x8000 ? -kept : kept;
 }
 
-/// Median edge detection (LOCO-I, Weinberger, Seroussi, Sapiro 2000): what the pixels left of and above one
-/// make likely, on a slope as at an edge.
+/// Predicts a pixel from those left of it and above it, on a slope as at an edge: median edge detection (LOCO-I,
+/// Weinberger, Seroussi, Sapiro 2000).
 int predicted(int left, int above, int above_left) {
   if (above_left >= std::max(left, above)) return std::min(left, above);
   if (above_left <= std::min(left, above)) return std::max(left, above);
   return left + above - above_left;
 }
 
-/// What the prediction leaves: of each channel the low bytes, then the high ones. Green is taken as its
-/// difference from red, and blue from green: grey costs nothing more.
-/// Without prediction they are the values themselves, which is shorter where they are noise.
+/// The values minus their prediction: for each channel the low bytes, then the high ones. Green is stored as its
+/// difference from red, and blue from green, so that grey costs one channel.
+/// Without prediction they are the values themselves, which is shorter for noise.
 std::string residuals(std::span<const std::uint16_t> halves, int width, int height, int dropped,
                       bool is_predicted) {
   const std::size_t pixels = std::size_t(width) * height;
@@ -60,7 +56,7 @@ std::string residuals(std::span<const std::uint16_t> halves, int width, int heig
     for (std::size_t i = 0; i < pixels; ++i) {
       const int value = ordered(halves[3 * i + channel], dropped);
       const int before = channel == 0 ? 0 : ordered(halves[3 * i + channel - 1], dropped);
-      plane[i] = static_cast<std::int16_t>(value - before);  // modulo 2^16, as the reader computes
+      plane[i] = static_cast<std::int16_t>(value - before);  // modulo 2^16, as in the reader
     }
     char* low = bytes.data() + 2 * pixels * channel;
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -70,7 +66,7 @@ std::string residuals(std::span<const std::uint16_t> halves, int width, int heig
       const int above_left = first_column || first_row ? left : plane[i - width - 1];
       const int rest = static_cast<std::int16_t>(
           plane[i] - (is_predicted ? predicted(left, above, above_left) : 0));
-      // Signs to the end: 0, -1, 1, -2, 2 are 0, 1, 2, 3, 4.
+      // The sign goes to the last bit: 0, -1, 1, -2, 2 become 0, 1, 2, 3, 4.
       const auto code =
           static_cast<std::uint32_t>(rest) << 1 ^ static_cast<std::uint32_t>(rest >> 31);
       low[i] = static_cast<char>(code & 0xff);
@@ -92,20 +88,9 @@ std::string deflated(const std::string& bytes) {
 }
 
 std::string base64(const std::string& bytes) {
-  static constexpr char kDigits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t at) {
-      return at < bytes.size() ? std::uint32_t{static_cast<unsigned char>(bytes[at])} : 0u;
-    };
-    const std::uint32_t three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    text += kDigits[three >> 18];
-    text += kDigits[three >> 12 & 63];
-    text += i + 1 < bytes.size() ? kDigits[three >> 6 & 63] : '=';
-    text += i + 2 < bytes.size() ? kDigits[three & 63] : '=';
-  }
+  std::string text((bytes.size() + 2) / 3 * 4, '\0');
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                  reinterpret_cast<const unsigned char*>(bytes.data()), int(bytes.size()));
   return text;
 }
 

@@ -2,8 +2,6 @@
 
 #include "gallery/grid_layout.hpp"
 #include "gallery/index_page.hpp"
-#include "gallery/link.hpp"
-#include "gallery/page.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -51,7 +49,7 @@ class GridWriter {
   }
 
   void write_label(const std::string& axis, const std::string& label) {
-    // "n = 16" says what it is; "16" does not.
+    // "n = 16" names its axis; "16" does not.
     if (label.find('=') == std::string::npos) html_.element("small", axis + " ");
     html_.text(label);
   }
@@ -85,24 +83,15 @@ class GridWriter {
 
   void write_row(const std::vector<int>& section, int row) {
     const Tag line(html_, "tr");
-    if (layout_.rows >= 0) {
-      html_.element("th", {{"scope", "row"}}, values(layout_.rows)[row].label);
-    }
-    for (int group = 0; group < groups(); ++group) {
-      for (int column = 0; column < columns(); ++column) {
-        const bool first = group > 0 && column == 0;
-        write_place(farm_.find_cell(layout_.position(section, row, group, column)), first);
-      }
-    }
+    if (layout_.rows >= 0) html_.element("th", {{"scope", "row"}}, values(layout_.rows)[row].label);
+    for (int group = 0; group < groups(); ++group)
+      for (int column = 0; column < columns(); ++column)
+        write_place(farm_.find_cell(layout_.position(section, row, group, column)),
+                    group > 0 && column == 0 ? " first" : "");
   }
 
-  void write_place(const CellEntry* entry, bool first) {
-    const std::string side = first ? " first" : "";
-    if (!entry) {
-      const Tag place(html_, "td", {{"class", "none" + side}});
-      html_.text("not in this farm");
-      return;
-    }
+  void write_place(const CellEntry* entry, const std::string& side) {
+    if (!entry) return html_.element("td", {{"class", "none" + side}}, "not in this farm");
     const CellSummary& cell = cells_[entry - farm_.cells.data()];
     const std::string_view status = info(cell.status).name;
     const Tag place(html_, "td",
@@ -117,7 +106,7 @@ class GridWriter {
     {
       const Tag link(html_, "a", {{"href", link_to({"cells", cell.entry->id, "index.html"})}});
       if (cell.picture.shown()) {
-        const SmallPicture picture = cell.picture.first_look();
+        const SmallPicture picture = cell.picture.preview();
         html_.empty("img", {{"src", link_to({"cells", cell.entry->id, picture.file})},
                             {"alt", words},
                             {"width", std::to_string(picture.width)},

@@ -6,35 +6,28 @@
 #include <span>
 
 #include "core/numbers.hpp"
-#include "gallery/link.hpp"
-#include "gallery/page.hpp"
 #include "records/words.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-constexpr std::size_t kMostReasons = 3;  // per cell; its page has them all
-// Of the cells to look at first, those that stand there and those that can be unfolded; the grid has all.
-constexpr std::size_t kMostShown = 6, kMostFolded = 200;
-/// What is worst first. A cell that was not compared or not done yet needs no look.
+constexpr std::size_t kMaxReasons = 3;  // per cell; its page has them all
+// Cells to look at first: so many are shown, so many more can be unfolded; the grid has all.
+constexpr std::size_t kMaxShown = 6, kMaxFolded = 200;
+/// The worst first. A cell that was not compared or not done yet needs no attention.
 constexpr CellStatus kLookOrder[] = {
     CellStatus::kDamaged, CellStatus::kLost,      CellStatus::kChanged, CellStatus::kFailed,
     CellStatus::kDiffers, CellStatus::kUndecided, CellStatus::kUnsealed};
 
 /// "POV-Ray and Blender Cycles"
-std::string reference_titles(const ShownFarm& farm, bool available_only) {
+std::string reference_titles(const ShownFarm& farm) {
   std::vector<std::string> titles;
-  for (const records::FarmEngine& engine : farm.record.engines) {
-    if (engine.name != kOurEngine && (engine.available || !available_only)) {
-      titles.push_back(engine.title);
-    }
-  }
-  std::string words;
-  for (std::size_t i = 0; i < titles.size(); ++i) {
-    if (i > 0) words += i + 1 == titles.size() ? " and " : ", ";
-    words += titles[i];
-  }
-  return words;
+  for (const records::FarmEngine& engine : farm.record.engines)
+    if (engine.name != kOurEngine && engine.available) titles.push_back(engine.title);
+  if (titles.empty()) return "";
+  const std::string last = titles.back();
+  titles.pop_back();
+  return titles.empty() ? last : fmt::format("{} and {}", fmt::join(titles, ", "), last);
 }
 
 void write_counts(Html& html, const std::vector<CellSummary>& cells) {
@@ -45,8 +38,7 @@ void write_counts(Html& html, const std::vector<CellSummary>& cells) {
     html.text(cells.size() == 1 ? " cell" : " cells");
   }
   for (const CellStatus status : kCellStatuses) {
-    const auto count = std::count_if(
-        cells.begin(), cells.end(), [&](const CellSummary& cell) { return cell.status == status; });
+    const auto count = std::ranges::count(cells, status, &CellSummary::status);
     if (count == 0 && status != CellStatus::kPass) continue;
     const Tag item(html, "li");
     html.element("strong", count_text(static_cast<double>(count)));
@@ -65,14 +57,13 @@ void write_introduction(Html& html, const ShownFarm& farm, const std::vector<Cel
   const Tag header(html, "header", {{"class", "top"}});
   html.element("h1", farm.record.title);
   write_counts(html, cells);
-  const std::string references = reference_titles(farm, true);
+  const std::string references = reference_titles(farm);
   html.element(
       "p", {{"class", "lead"}},
-      references.empty()
-          ? "Specular highlights, drawn by Lobelia straight from their models’ formulas. No other "
-            "renderer was there to compare them with."
-          : "Specular highlights, drawn by Lobelia straight from their models’ formulas. " +
-                references + " drew the same scenes, and each pair was compared pixel by pixel.");
+      "Specular highlights, drawn by Lobelia straight from their models’ formulas. " +
+          (references.empty()
+               ? "No other renderer was there to compare them with."
+               : references + " drew the same scenes, and each pair was compared pixel by pixel."));
 }
 
 void write_missing_engines(Html& html, const ShownFarm& farm) {
@@ -90,7 +81,7 @@ void write_missing_engines(Html& html, const ShownFarm& farm) {
   }
 }
 
-/// So that nobody who opens the page misses it.
+/// A notice at the top if cells are not as the farm wrote them.
 void write_doubts(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const auto count = std::ranges::count(cells, false, &CellSummary::is_as_written);
   if (count == 0) return;
@@ -113,31 +104,24 @@ void write_making(Html& html, const ShownFarm& farm) {
   html.element("h2", {{"id", "making"}}, "How it was made");
   if (!farm.record.command.empty()) write_command(html, farm.record.command);
   const Tag list(html, "dl", {{"class", "facts"}});
-  const auto fact = [&](const std::string& name, const std::string& value) {
-    if (value.empty()) return;
-    const Tag item(html, "div");
-    html.element("dt", name);
-    html.element("dd", value);
-  };
-  for (const records::FarmEngine& engine : farm.record.engines) {
-    fact(engine.title, !engine.available        ? "missing"
-                       : engine.version.empty() ? "present"
-                                                : engine.version);
-  }
-  fact("Grid", farm.record.grid);
+  for (const records::FarmEngine& engine : farm.record.engines)
+    write_fact(html, engine.title,
+               !engine.available        ? "missing"
+               : engine.version.empty() ? "present"
+                                        : engine.version);
+  write_fact(html, "Grid", farm.record.grid);
   if (!farm.record.host) return;
-  for (const auto& [name, value] : words_of(*farm.record.host)) fact(name, value);
+  for (const auto& [name, value] : words_of(*farm.record.host)) write_fact(html, name, value);
 }
 
-/// Explains only the marks that this grid has.
+/// Explains the marks that this grid has.
 void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const Tag section(html, "section", {{"class", "legend"}, {"aria-labelledby", "legend"}});
   html.element("h2", {{"id", "legend"}}, "How to read the grid");
   {
     const Tag list(html, "dl", {{"class", "marks"}});
     for (const CellStatus status : kCellStatuses) {
-      const auto has_it = [&](const CellSummary& cell) { return cell.status == status; };
-      if (std::none_of(cells.begin(), cells.end(), has_it)) continue;
+      if (std::ranges::count(cells, status, &CellSummary::status) == 0) continue;
       const Tag item(html, "div");
       {
         const Tag term(html, "dt");
@@ -152,7 +136,7 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
       "A thumbnail is our picture at an exposure that brings its brightest value to white, "
       "so that sharp and broad highlights can both be seen; the cell’s page prints the "
       "exposure. Click it for all pictures, differences, curves and numbers.");
-  if (!reference_titles(farm, true).empty()) {
+  if (!reference_titles(farm).empty()) {
     html.element(
         "p",
         std::string(
@@ -179,12 +163,10 @@ void write_attention_list(Html& html, std::span<const CellSummary* const> cells)
     html.text(" ");
     html.element("a", {{"href", link_to({"cells", cell->entry->id, "index.html"})}},
                  cell->entry->label.empty() ? cell->entry->id : cell->entry->label);
-    for (std::size_t i = 0; i < std::min(cell->reasons.size(), kMostReasons); ++i) {
+    for (std::size_t i = 0; i < std::min(cell->reasons.size(), kMaxReasons); ++i)
       html.element("small", cell->reasons[i]);
-    }
-    if (cell->reasons.size() > kMostReasons) {
-      html.element("small", fmt::format("and {} more", cell->reasons.size() - kMostReasons));
-    }
+    if (cell->reasons.size() > kMaxReasons)
+      html.element("small", fmt::format("and {} more", cell->reasons.size() - kMaxReasons));
   }
 }
 
@@ -197,15 +179,15 @@ void write_attention(Html& html, const std::vector<CellSummary>& cells) {
   const Tag section(html, "section", {{"class", "attention"}, {"aria-labelledby", "attention"}});
   html.element("h2", {{"id", "attention"}}, "Look at these first");
   const std::span<const CellSummary* const> all = first;
-  write_attention_list(html, all.first(std::min(all.size(), kMostShown)));
-  if (all.size() <= kMostShown) return;
+  write_attention_list(html, all.first(std::min(all.size(), kMaxShown)));
+  if (all.size() <= kMaxShown) return;
   const Tag details(html, "details");
-  const auto rest = all.subspan(kMostShown);
+  const auto rest = all.subspan(kMaxShown);
   html.element("summary", fmt::format("{} more{}", rest.size(),
-                                      rest.size() > kMostFolded
-                                          ? fmt::format(", of which here are {}", kMostFolded)
+                                      rest.size() > kMaxFolded
+                                          ? fmt::format(", of which here are {}", kMaxFolded)
                                           : ""));
-  write_attention_list(html, rest.first(std::min(rest.size(), kMostFolded)));
+  write_attention_list(html, rest.first(std::min(rest.size(), kMaxFolded)));
 }
 
 }  // namespace

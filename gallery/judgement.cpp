@@ -1,10 +1,9 @@
-#include "gallery/judgement.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "gallery/checked_cell.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -25,7 +24,7 @@ Standing standing_of(const records::Comparison& comparison, const records::Limit
       low = bar->low, high = bar->high;
   if (std::isnan(value) || std::isnan(low) || std::isnan(high))
     return is_noisy(limit) ? Standing::kOpen : Standing::kBroken;
-  // A signed figure is as good as it is near to 0.
+  // A signed figure is the better the nearer it is to 0.
   const auto holds = [&](double at) {
     return more_is_better ? at >= limit.limit : std::abs(at) <= limit.limit;
   };
@@ -34,13 +33,13 @@ Standing standing_of(const records::Comparison& comparison, const records::Limit
   return low_holds || high_holds || (low < 0 && high > 0) ? Standing::kOpen : Standing::kBroken;
 }
 
-/// From the best to the worst.
+/// Higher is worse.
 int rank(const std::string& verdict) {
   if (verdict == "pass" || verdict == "same") return 0;
   return verdict == "undecided" ? 1 : verdict == "differs" || verdict == "different" ? 2 : 3;
 }
 
-/// Likewise, of the states that a farm's record may tell.
+/// Higher is worse. Only for the states that a farm's record may have.
 std::size_t rank(CellStatus status) {
   constexpr std::array kOrder = {CellStatus::kPass,      CellStatus::kUnchecked,
                                  CellStatus::kUndecided, CellStatus::kDiffers,
@@ -48,7 +47,7 @@ std::size_t rank(CellStatus status) {
   return std::size_t(std::ranges::find(kOrder, status) - kOrder.begin());
 }
 
-/// An engine's picture is there, but neither a comparison with it nor a reason why not.
+/// Whether some engine's picture has neither a comparison nor a reason why there is none.
 bool lacks_a_comparison(const CheckedCell& cell) {
   return std::ranges::any_of(cell.images, [&](const EnginePicture& image) {
     return image.engine != kOurEngine && !cell.find_comparison(image.engine) &&

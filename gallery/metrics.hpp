@@ -1,8 +1,7 @@
-// What the numbers mean, for a reader who has not read the source. The room's user hands it over.
+// Titles and meanings of the metrics, for readers of the pages. The caller of the gallery provides them.
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lobelia::gallery {
@@ -20,16 +19,16 @@ class Metrics {
   Metrics() = default;
   explicit Metrics(std::vector<MetricInfo> all) : all_(std::move(all)) {}
 
-  /// A metric that is not known is shown by its id.
+  /// An unknown metric has its id as title.
   MetricInfo info(std::string_view id) const;
-  /// As number_text, or as per cent or a count, as the unit asks.
+  /// The value as a number, a percentage or a count, by the metric's unit.
   std::string text(std::string_view id, double value) const;
 
  private:
   std::vector<MetricInfo> all_;
 };
 
-/// Whether it says where a metric has its value: "max_abs.x".
+/// Whether the id names the place of a metric's value: "max_abs.x".
 bool is_coordinate(std::string_view id);
 
 }  // namespace lobelia::gallery

@@ -1,5 +1,7 @@
 #include "gallery/page.hpp"
 
+#include <fmt/format.h>
+
 #include "core/version.hpp"
 
 namespace lobelia::gallery {
@@ -15,7 +17,7 @@ void write_head(Html& html, const SiteFrame& site, const PageFrame& frame) {
   };
   const Tag head(html, "head");
   html.empty("meta", {{"charset", "utf-8"}});
-  // Before anything that it is to govern.
+  // First, because it governs only what follows.
   meta("http-equiv", "Content-Security-Policy", kContentSecurityPolicy);
   meta("name", "viewport", "width=device-width, initial-scale=1");
   meta("name", "color-scheme", "light dark");
@@ -28,7 +30,7 @@ void write_head(Html& html, const SiteFrame& site, const PageFrame& frame) {
     meta("property", "og:url", site.base_url + frame.path);
     if (!frame.picture.empty()) meta("property", "og:image", site.base_url + frame.picture);
   }
-  // Inside the page, or a browser would ask the server for /favicon.ico.
+  // Inline, or a browser would ask the server for /favicon.ico.
   html.empty("link", {{"rel", "icon"}, {"href", kIcon}});
   html.empty("link", {{"rel", "stylesheet"}, {"href", frame.root + kStyleFile}});
   // Classic scripts: browsers refuse modules on file://.
@@ -81,12 +83,29 @@ std::string data_script(std::string_view name, std::string_view json) {
   return script + "');\n";
 }
 
+std::string link_to(std::initializer_list<std::string_view> parts) {
+  constexpr std::string_view kUnreserved =  // RFC 3986, section 2.3
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.~";
+  std::string link;
+  for (const std::string_view part : parts) {
+    if (!link.empty()) link += '/';
+    for (const char c : part)
+      link += kUnreserved.find(c) != kUnreserved.npos
+                  ? std::string(1, c)
+                  : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return link;
+}
+
+void write_badge(Html& html, std::string_view style, std::string_view mark, std::string_view word) {
+  const Tag badge(html, "span", {{"class", fmt::format("status {}", style)}});
+  html.element("span", {{"aria-hidden", "true"}}, mark);
+  html.text(fmt::format(" {}", word));
+}
+
 void write_status(Html& html, CellStatus status) {
   const StatusInfo& s = info(status);
-  const Tag badge(html, "span", {{"class", "status " + std::string(s.name)}});
-  html.element("span", {{"aria-hidden", "true"}}, s.mark);
-  html.text(" ");
-  html.text(s.word);
+  write_badge(html, s.name, s.mark, s.word);
 }
 
 void write_command(Html& html, const std::string& command) {
@@ -96,6 +115,19 @@ void write_command(Html& html, const std::string& command) {
 
 void write_absence(Html& html, const std::string& words) {
   html.element("p", {{"class", "absent"}}, words);
+}
+
+void write_fact(Html& html, const std::string& name, const std::string& value) {
+  if (value.empty()) return;
+  const Tag item(html, "div");
+  html.element("dt", name);
+  html.element("dd", value);
+}
+
+void write_columns(Html& html, const std::vector<std::string>& titles) {
+  const Tag head(html, "thead");
+  const Tag row(html, "tr");
+  for (const std::string& title : titles) html.element("th", {{"scope", "col"}}, title);
 }
 
 }  // namespace lobelia::gallery

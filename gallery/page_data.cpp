@@ -1,24 +1,20 @@
-#include "gallery/page_data.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <map>
 
+#include "gallery/cell_page.hpp"
 #include "gallery/grid_layout.hpp"
-#include "gallery/link.hpp"
-#include "gallery/profile_charts.hpp"
+#include "gallery/index_page.hpp"
 
 namespace lobelia::gallery {
 namespace {
 
-/// Enough for a colour and a number on a page; 2000 cells of forty metrics stay under a megabyte or two.
+/// Enough for a colour and a number on a page: 2000 cells of forty metrics stay under two megabytes.
 double four_digits(double value) {
   return std::isfinite(value) ? std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr) : value;
 }
 
-/// Metrics by column: a name stands once, not once a cell.
+/// Metrics by column, so that each name is written once, not once per cell.
 class MetricColumns {
  public:
   MetricColumns(const Metrics& metrics, std::vector<records::GridMetric>& list)
@@ -60,7 +56,7 @@ records::GridCell grid_cell(const CellSummary& cell, MetricColumns& columns) {
   for (const auto& [engine, numbers] : cell.metrics)
     data.metrics.emplace_back(engine, columns.row_of(numbers));
   if (cell.picture.shown()) {
-    const SmallPicture picture = cell.picture.first_look();
+    const SmallPicture picture = cell.picture.preview();
     data.picture = {link_to({"cells", entry.id, picture.file}), picture.width, picture.height};
   }
   return data;
@@ -69,7 +65,7 @@ records::GridCell grid_cell(const CellSummary& cell, MetricColumns& columns) {
 std::optional<records::ShownPicture> shown_picture(const Picture& picture) {
   if (!picture.shown()) return std::nullopt;
   const std::string& file = picture.is_published ? picture.file : picture.small.file;
-  return records::ShownPicture{link_to({file}), link_to({picture.first_look().file}), picture.width,
+  return records::ShownPicture{link_to({file}), link_to({picture.preview().file}), picture.width,
                                picture.height};
 }
 

@@ -1,14 +1,12 @@
-// The page of the paper's claims, measured.
+// The page on the paper's claims, measured.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/svg_chart.hpp"
 #include "core/text.hpp"
 #include "gallery/page.hpp"
-#include "gallery/record_page.hpp"
 #include "gallery/views.hpp"
 #include "records/pages.hpp"
 
@@ -34,7 +32,7 @@ const VerdictInfo& verdict_of(const Claim& claim) {
                                [&](const VerdictInfo& v) { return claim.verdict == v.name; });
 }
 
-/// On the page, by its place in the record.
+/// The id on the page, by the claim's place in the record.
 std::string id_of(const Claim& claim, const std::vector<Claim>& claims) {
   return fmt::format("claim-{}", &claim - claims.data() + 1);
 }
@@ -49,7 +47,7 @@ void require_drawable(records::ChartAxis& axis) {
   std::erase_if(axis.ticks, [&](double tick) { return !(tick >= axis.from && tick <= axis.to); });
 }
 
-/// The figure as it can be drawn, with its id on the page. Throws Error(kInput) for axes that cannot.
+/// The figure clipped to its axes, with its id on the page. Throws Error(kInput) for axes that cannot be drawn.
 PaperFigure drawable(PaperFigure figure, std::size_t number) {
   figure.id = fmt::format("plot-{}", number);
   require_drawable(figure.x);
@@ -68,14 +66,15 @@ Chart chart_of(const PaperFigure& figure) {
   const auto axis = [](const records::ChartAxis& a) {
     return ChartAxis{a.label, a.from, a.to, a.logarithmic.value_or(false), a.ticks};
   };
-  Chart chart;
-  chart.id = figure.id;
-  chart.title = figure.title;
-  chart.description = figure.description;
-  chart.width = 760;
-  chart.height = 400;
-  chart.x = axis(figure.x);
-  chart.y = axis(figure.y);
+  Chart chart{.id = figure.id,
+              .title = figure.title,
+              .description = figure.description,
+              .width = 760,
+              .height = 400,
+              .x = axis(figure.x),
+              .y = axis(figure.y),
+              .bands = {},
+              .series = {}};
   for (const auto& [title, from, to] : figure.bands) chart.bands.push_back({from, to, title});
   for (const auto& [name, style, x, y] : figure.series) chart.series.push_back({name, x, y, style});
   return chart;
@@ -85,12 +84,6 @@ bool shows(const PaperFigure& figure, const Claim& claim) {
   return std::ranges::find(figure.claims, claim.name) != figure.claims.end();
 }
 
-void write_verdict(Html& html, const VerdictInfo& verdict) {
-  const Tag badge(html, "span", {{"class", fmt::format("status {}", verdict.class_name)}});
-  html.element("span", {{"aria-hidden", "true"}}, verdict.mark);
-  html.text(fmt::format(" {}", verdict.word));
-}
-
 void write_counts(Html& html, const std::vector<Claim>& claims) {
   const Tag list(html, "ul", {{"class", "counts"}});
   for (const VerdictInfo& verdict : kVerdicts) {
@@ -98,7 +91,7 @@ void write_counts(Html& html, const std::vector<Claim>& claims) {
     html.element("strong",
                  std::to_string(std::ranges::count(claims, verdict.name, &Claim::verdict)));
     html.text(" ");
-    write_verdict(html, verdict);
+    write_badge(html, verdict.class_name, verdict.mark, verdict.word);
   }
 }
 
@@ -127,22 +120,16 @@ void write_claim(Html& html, const Claim& claim, const std::string& id,
                  const std::vector<PaperFigure>& figures) {
   const Tag article(html, "article",
                     {{"class", "claim"}, {"id", id}, {"data-verdict", claim.verdict}});
-  {
-    const Tag head(html, "h3");
-    html.text(claim.statement);
-  }
+  html.element("h3", claim.statement);
   {
     const Tag line(html, "p", {{"class", "verdict-line"}});
-    write_verdict(html, verdict_of(claim));
+    const VerdictInfo& verdict = verdict_of(claim);
+    write_badge(html, verdict.class_name, verdict.mark, verdict.word);
     html.element("span", {{"class", "where"}}, claim.where);
   }
   {
     const Tag pair(html, "dl", {{"class", "printed-measured"}});
-    if (!claim.printed.empty()) {
-      const Tag item(html, "div");
-      html.element("dt", "printed");
-      html.element("dd", claim.printed);
-    }
+    write_fact(html, "printed", claim.printed);
     const Tag item(html, "div");
     html.element("dt", "measured");
     const Tag value(html, "dd");
@@ -203,14 +190,12 @@ void draw(ViewPage& page, const VerifyPaper& record) {
   write_source(html, shell_join(record.command), kRecord);
 }
 
-/// Of RUN/paper/paper.json; empty where there is none.
 std::optional<ViewPage> paper_page(const std::filesystem::path& run) {
   return record_page<VerifyPaper>(run, kRecord, kTitle, draw);
 }
 
 }  // namespace
 
-extern const View paper_view;
-const View paper_view{"paper", "Paper", "paper.html", paper_page};
+extern const View paper_view{"paper", "Paper", "paper.html", paper_page};
 
 }  // namespace lobelia::gallery

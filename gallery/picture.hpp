@@ -1,8 +1,7 @@
-// A PNG beside the records: looked at just enough to know that a browser can show it.
+// A PNG beside the records, read just enough to know that a browser can show it.
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 namespace lobelia::gallery {
 
@@ -14,19 +13,19 @@ struct SmallPicture {
 struct Picture {
   std::string file;  ///< a plain name inside the cell's directory; empty: the record names none
   int width = 0, height = 0;
-  std::string why_not;       ///< why it cannot be shown, in words; empty if it can
-  SmallPicture small = {};   ///< published for a first look where this one is heavy
-  bool is_published = true;  ///< false: a page has the small one alone
+  std::string why_not;       ///< why it cannot be shown, as a sentence; empty if it can
+  SmallPicture small = {};   ///< published as a preview where this one is heavy
+  bool is_published = true;  ///< false: only the small one is published
 
   bool shown() const { return width > 0 && why_not.empty(); }
-  /// What a page shows first.
-  SmallPicture first_look() const {
+  /// The picture that a page shows first.
+  SmallPicture preview() const {
     return small.file.empty() ? SmallPicture{file, width, height} : small;
   }
 };
 
-/// Reads the header and the end of `file` in `directory`: a missing, truncated or foreign file
-/// becomes words on the page in place of a broken image.
-Picture look_at_picture(const std::filesystem::path& directory, const std::string& file);
+/// Reads the header and the end of `file` in `directory`. A missing, truncated or foreign file
+/// becomes a sentence on the page in place of a broken image.
+Picture inspect_picture(const std::filesystem::path& directory, const std::string& file);
 
 }  // namespace lobelia::gallery

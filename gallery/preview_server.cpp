@@ -7,27 +7,22 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstring>
-#include <memory>
-#include <optional>
+#include <ranges>
 #include <regex>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
+#include "core/descriptor.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/open_beneath.hpp"
 #include "core/text.hpp"
 #include "gallery/byte_range.hpp"
-#include "gallery/link.hpp"
 #include "gallery/page.hpp"
 
 namespace lobelia::gallery {
@@ -36,33 +31,19 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// Clients at once. Each may take kRequestBytes and, while it gets a file, two descriptors.
-constexpr unsigned kMostClients = 4000;
-/// Of a request's first line and its headers, and of the library's books about them.
+/// Connections at once. Each may take kRequestBytes and, while it gets a file, two descriptors.
+constexpr unsigned kMaxClients = 4000;
+/// For a request's first line and headers, and the library's own data about them.
 constexpr std::size_t kRequestBytes = 16 << 10;
-constexpr int kMostHeaders = 100;
-/// Seconds in which a client has to do something, and in which it has to ask for something.
+constexpr int kMaxHeaders = 100;
+/// Seconds without any byte sent or received after which a connection is closed.
 constexpr unsigned kSilence = 20;
+/// Time in which a client has to complete its next request.
 constexpr std::chrono::seconds kPatience{30};
-/// Between looks for Ctrl-C and for clients who only wait.
+/// How often Ctrl-C and idle clients are checked.
 constexpr int kLookMilliseconds = 50;
 /// Descriptors for everything but clients.
 constexpr rlim_t kOwnDescriptors = 32;
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int get() const { return number_; }
-  int release() { return std::exchange(number_, -1); }
-
- private:
-  int number_;
-};
 
 const char* content_type(const std::string& name) {
   static constexpr const char* kTypes[][2] = {{".html", "text/html; charset=utf-8"},
@@ -87,23 +68,18 @@ bool is_our_host(const std::string& host) {
   return std::regex_match(host, kHost);
 }
 
-/// "%2e" is "."; empty where there is a '%' that means nothing.
+/// Decodes percent signs: "%2e" is ".". Empty if one is not followed by two hexadecimal digits.
 std::optional<std::string> decoded(std::string_view text) {
-  const auto digit = [](char c) {
-    return c >= '0' && c <= '9'                 ? c - '0'
-           : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10
-                                                : -1;
-  };
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      result += text[i];
-      continue;
-    }
-    if (i + 2 >= text.size()) return std::nullopt;
-    const int high = digit(text[i + 1]), low = digit(text[i + 2]);
-    if (high < 0 || low < 0) return std::nullopt;
-    result += char(16 * high + low);
+    result += text[i];
+    if (text[i] != '%') continue;
+    const std::string_view digits = text.substr(i + 1, 2);
+    unsigned byte = 0;
+    if (digits.size() < 2 ||
+        std::from_chars(digits.begin(), digits.end(), byte, 16).ptr != digits.end())
+      return std::nullopt;
+    result.back() = char(byte);
     i += 2;
   }
   return result;
@@ -112,23 +88,21 @@ std::optional<std::string> decoded(std::string_view text) {
 /// The names between the slashes of a request's path; empty if one of them is not plain.
 std::optional<std::vector<std::string>> names_of(std::string_view path) {
   std::vector<std::string> names;
-  while (!path.empty()) {
-    const std::string_view part = path.substr(0, path.find('/'));
-    path.remove_prefix(std::min(part.size() + 1, path.size()));
+  for (const auto& part : std::views::split(path, '/')) {
     if (part.empty()) continue;
-    auto name = decoded(part);
+    auto name = decoded({part.begin(), part.end()});
     if (!name || !is_plain_name(*name)) return std::nullopt;
     names.push_back(std::move(*name));
   }
   return names;
 }
 
-/// What a request's headers say, as far as it matters here.
+/// The headers of a request that matter here.
 struct Headers {
   int count = 0;
   bool has_body = false, if_range = false;
   std::vector<std::string> hosts, ranges;
-  std::optional<std::string> named_host;  ///< by the request's first line
+  std::optional<std::string> named_host;  ///< in the request's first line
 };
 
 MHD_Result add_header(void* into, MHD_ValueKind, const char* name, const char* value) noexcept {
@@ -136,7 +110,7 @@ MHD_Result add_header(void* into, MHD_ValueKind, const char* name, const char* v
     auto& headers = *static_cast<Headers*>(into);
     const std::string text = value ? value : "";
     const auto is = [&](const char* other) { return ::strcasecmp(name, other) == 0; };
-    if (++headers.count > kMostHeaders) return MHD_NO;
+    if (++headers.count > kMaxHeaders) return MHD_NO;
     if (is("Host")) headers.hosts.push_back(text);
     if (is("Range")) headers.ranges.push_back(text);
     if (is("If-Range")) headers.if_range = true;
@@ -176,24 +150,20 @@ MHD_Result refuse(MHD_Connection* connection, unsigned status, std::string words
   return MHD_queue_response(connection, status, answer.response);
 }
 
-/// Serves one directory, by libmicrohttpd and on the calling thread alone.
+/// Serves one directory with libmicrohttpd, on the calling thread alone.
 class Server {
  public:
-  /// `listening` becomes its own.
-  Server(int site, int listening) : site_(site) {
+  Server(int site, Descriptor listening) : site_(site) {
     const unsigned clients = clients_allowed();
     daemon_ = MHD_start_daemon(
         MHD_USE_EPOLL, 0, nullptr, nullptr, &Server::on_request, this,  //
-        MHD_OPTION_LISTEN_SOCKET, listening, MHD_OPTION_CONNECTION_LIMIT, clients,
+        MHD_OPTION_LISTEN_SOCKET, listening.get(), MHD_OPTION_CONNECTION_LIMIT, clients,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, kRequestBytes, MHD_OPTION_CONNECTION_TIMEOUT, kSilence,
         MHD_OPTION_UNESCAPE_CALLBACK, &Server::as_it_is, nullptr,  //
         MHD_OPTION_NOTIFY_CONNECTION, &Server::on_connection, this, MHD_OPTION_NOTIFY_COMPLETED,
         &Server::on_answered, this, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
-    if (!daemon_) {
-      ::close(listening);
-      throw Error(ExitCode::kOutput, "the preview's server cannot be started");
-    }
-    // Near the limit whoever has waited longest has to go.
+    if (!daemon_) throw Error(ExitCode::kOutput, "the preview's server cannot be started");
+    listening.release();  // the daemon closes it
     crowded_ = clients - clients / 16;
   }
   ~Server() { MHD_stop_daemon(daemon_); }
@@ -204,29 +174,28 @@ class Server {
     while (!interrupted()) {
       if (MHD_run_wait(daemon_, kLookMilliseconds) != MHD_YES)
         throw Error(ExitCode::kInternal, "the preview's server has failed");
-      dismiss_those_who_only_wait();
+      close_idle_clients();
     }
   }
 
  private:
-  /// A connection, by its socket.
   struct Client {
-    Clock::time_point since;  ///< it came, or got its last answer
-    bool is_asking = false;   ///< and has not all of its answer
+    Clock::time_point since;  ///< when it connected, or got its last answer
+    bool is_asking = false;   ///< its request is not answered completely
   };
 
-  /// Lets the process open enough files, as far as it may.
+  /// Raises the limit of open files as far as needed and allowed. Returns the clients that fit into it.
   static unsigned clients_allowed() {
     rlimit limit{};
     if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return 1;
-    const rlim_t wanted = std::min<rlim_t>(limit.rlim_max, 2 * kMostClients + kOwnDescriptors);
+    const rlim_t wanted = std::min<rlim_t>(limit.rlim_max, 2 * kMaxClients + kOwnDescriptors);
     if (limit.rlim_cur < wanted) {
       limit.rlim_cur = wanted;
       ::setrlimit(RLIMIT_NOFILE, &limit);
       ::getrlimit(RLIMIT_NOFILE, &limit);
     }
     const rlim_t free = limit.rlim_cur - std::min(limit.rlim_cur, kOwnDescriptors);
-    return unsigned(std::clamp<rlim_t>(free / 2, 1, kMostClients));
+    return unsigned(std::clamp<rlim_t>(free / 2, 1, kMaxClients));
   }
 
   static std::size_t as_it_is(void*, MHD_Connection*, char* text) { return std::strlen(text); }
@@ -245,8 +214,7 @@ class Server {
       }
       server.clients_[socket_of(connection)] = {.since = Clock::now()};
       if (server.clients_.size() > server.crowded_) server.dismiss_one();
-    } catch (
-        const std::bad_alloc&) {  // it is not looked after, and the library's own limits remain
+    } catch (const std::bad_alloc&) {  // only the library's own limits hold for this client
     }
   }
 
@@ -257,10 +225,10 @@ class Server {
       found->second = {.since = Clock::now()};
   }
 
-  /// The library finds the socket shut and closes it.
+  /// The library notices that the socket is shut down, and closes it.
   static void dismiss(int socket) { ::shutdown(socket, SHUT_RDWR); }
 
-  void dismiss_those_who_only_wait() {
+  void close_idle_clients() {
     const auto now = Clock::now();
     if (now - last_look_ < std::chrono::milliseconds(500)) return;
     last_look_ = now;
@@ -268,13 +236,10 @@ class Server {
       if (!client.is_asking && now - client.since > kPatience) dismiss(socket);
   }
 
-  /// The one who has waited longest, rather one who asks for nothing.
+  /// Dismisses the client that has been idle longest or, if none is idle, the one that has waited longest.
   void dismiss_one() {
-    const auto rank = [](const auto& one) {
-      return std::pair(one.second.is_asking, one.second.since);
-    };
-    dismiss(std::min_element(clients_.begin(), clients_.end(), [&](const auto& a, const auto& b) {
-              return rank(a) < rank(b);
+    dismiss(std::ranges::min_element(clients_, {}, [](const auto& one) {
+              return std::pair(one.second.is_asking, one.second.since);
             })->first);
   }
 
@@ -283,12 +248,12 @@ class Server {
                                void** request) noexcept {
     try {
       return static_cast<Server*>(self)->answer(connection, url, method, request);
-    } catch (const std::exception&) {  // for want of memory: it is closed
-      return MHD_NO;
+    } catch (const std::exception&) {  // no memory
+      return MHD_NO;                   // closes the connection
     }
   }
 
-  /// Called twice: with the headers, where a refusal also ends the connection, and with all of the request.
+  /// Called twice per request: with its headers, when a refusal also ends the connection, and with all of it.
   MHD_Result answer(MHD_Connection* connection, std::string_view url, std::string_view method,
                     void** request) {
     if (const auto found = clients_.find(socket_of(connection)); found != clients_.end())
@@ -296,12 +261,12 @@ class Server {
     Headers headers;
     MHD_get_connection_values(connection, MHD_HEADER_KIND, &add_header, &headers);
     constexpr std::string_view kScheme = "http://";
-    if (url.starts_with(kScheme)) {  // as a proxy is asked: the host that stands there counts too
+    if (url.starts_with(kScheme)) {  // the form for proxies: its host has to be ours too
       url.remove_prefix(kScheme.size());
       headers.named_host = url.substr(0, url.find('/'));
       url.remove_prefix(headers.named_host->size());
     }
-    if (headers.count > kMostHeaders)
+    if (headers.count > kMaxHeaders)
       return refuse(connection, MHD_HTTP_REQUEST_HEADER_FIELDS_TOO_LARGE, "Too many headers.");
     if (headers.hosts.size() > 1)
       return refuse(connection, MHD_HTTP_BAD_REQUEST, "More than one Host.");
@@ -318,7 +283,7 @@ class Server {
       *request = this;
       return MHD_YES;
     }
-    // Only GET has parts. No file here has a validator, so that one in If-Range can be of none.
+    // Only GET has parts. Files here have no validator, so If-Range never holds.
     const bool whole =
         method != MHD_HTTP_METHOD_GET || headers.if_range || headers.ranges.size() != 1;
     return send_file(connection, url.empty() ? "/" : url, whole ? "" : headers.ranges[0]);
@@ -341,7 +306,7 @@ class Server {
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode))
       return refuse_it();
     if (is_directory && !url.ends_with('/')) {
-      // A directory's own page: its links are relative to the directory.
+      // Links on a directory's page are relative to the directory.
       std::string place = "/";
       for (const std::string& name : *names) place += link_to({name}) + "/";
       return refuse(connection, MHD_HTTP_FOUND, "It is a directory.", {"Location", place});
@@ -368,14 +333,14 @@ class Server {
 
   int site_;
   MHD_Daemon* daemon_ = nullptr;
-  std::size_t crowded_ = 0;
-  std::unordered_map<int, Client> clients_;
+  std::size_t crowded_ = 0;                  ///< with more clients, each new one replaces another
+  std::unordered_map<int, Client> clients_;  ///< by socket
   Clock::time_point last_look_ = Clock::now();
 };
 
-/// A socket that listens on 127.0.0.1; at port 0 on any that is free. SO_REUSEADDR, so that a preview can be started
-/// again at once, but not SO_REUSEPORT, by which two would share a port in silence.
-int listen_on(int port) {
+/// A socket that listens on 127.0.0.1; port 0 is any free one. With SO_REUSEADDR, so that a preview can be started
+/// again at once, but without SO_REUSEPORT, with which two previews would share a port.
+Descriptor listen_on(int port) {
   Descriptor one(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int yes = 1;
   sockaddr_in address{};
@@ -387,7 +352,7 @@ int listen_on(int port) {
       ::listen(one.get(), SOMAXCONN) != 0)
     throw Error(ExitCode::kOutput,
                 fmt::format("127.0.0.1:{}: cannot listen there: {}", port, std::strerror(errno)));
-  return one.release();
+  return one;
 }
 
 int port_of(int socket) {
@@ -405,9 +370,10 @@ void serve_site(const fs::path& site, int port,
   if (root.get() < 0)
     throw Error(ExitCode::kInput, fmt::format("{}: no directory that can be read: {}",
                                               site.string(), std::strerror(errno)));
-  const int listening = listen_on(port);
-  Server server(root.get(), listening);
-  ready(fmt::format("http://127.0.0.1:{}/", port_of(listening)));
+  Descriptor listening = listen_on(port);
+  const int real_port = port_of(listening.get());
+  Server server(root.get(), std::move(listening));
+  ready(fmt::format("http://127.0.0.1:{}/", real_port));
   server.run_until_interrupted();
 }
 

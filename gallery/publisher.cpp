@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <vector>
+#include <ranges>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "records/farm.hpp"
@@ -25,20 +23,17 @@ namespace fs = std::filesystem;
 constexpr char kList[] = "gallery.json";
 
 bool is_path_of_plain_names(const std::string& name) {
-  std::size_t from = 0;
-  for (auto slash = name.find('/');; slash = name.find('/', from)) {
-    if (!is_plain_name(std::string_view(name).substr(from, slash - from))) return false;
-    if (slash == std::string::npos) return true;
-    from = slash + 1;
-  }
+  return !name.empty() && std::ranges::all_of(std::views::split(name, '/'), [](const auto& part) {
+    return is_plain_name({part.begin(), part.end()});
+  });
 }
 
-/// `make` a file under a temporary name, then give it its own. Not flushed to the disk as records are: there are
-/// tens of thousands, and a site that a crash has damaged is published again.
+/// Lets `make` write a file under a temporary name, then renames it. It is not flushed to the disk as records are: there
+/// are tens of thousands, and a site that a crash has damaged can be published again.
 void place(const fs::path& site, const std::string& file,
            const std::function<bool(const fs::path&)>& make) {
   const fs::path path = site / file;
-  // A link below the site leads out of it, or will.
+  // Links are refused: a link below the site may lead out of it.
   HeldDirectory held(site);
   for (const fs::path& name : fs::path(file).parent_path())
     held = held.make_below(name.string(), HeldDirectory::Border::kCross);
@@ -57,7 +52,7 @@ void place(const fs::path& site, const std::string& file,
   throw Error(ExitCode::kOutput, fmt::format("{}: {}", path.string(), error.message()));
 }
 
-/// With all links followed.
+/// Whether `path` is in `directory` after following all links.
 bool is_within(const fs::path& directory, const fs::path& path) {
   std::error_code error, other;
   const fs::path root = fs::canonical(directory, error), real = fs::canonical(path, other);
@@ -84,30 +79,23 @@ Publisher::Publisher(fs::path site) : site_(std::move(site)) {
       if (is_path_of_plain_names(name)) earlier_.insert(name);
     earlier_keys_.insert(list.made_of.begin(), list.made_of.end());
   } catch (const Error&) {
-    earlier_.clear();  // then nothing is removed, which harms nobody
+    earlier_.clear();  // nothing is removed, which does no harm
   }
 }
 
-void Publisher::publishes(const std::string& name) {
+void Publisher::add_to_list(const std::string& name) {
   const std::scoped_lock lock(mutex_);
   files_.insert(name);
 }
 
-void Publisher::count_written() {
-  const std::scoped_lock lock(mutex_);
-  ++written_;
-}
-
 void Publisher::write(const std::string& name, std::string_view content) {
-  publishes(name);
-  const fs::path path = site_ / name;
-  if (is_same_text(path, content)) return;
+  add_to_list(name);
+  if (is_same_text(site_ / name, content)) return;
   place(site_, name, [&](const fs::path& part) {
     std::ofstream out(part, std::ios::binary);
     out.write(content.data(), static_cast<std::streamsize>(content.size()));
     return bool(out.flush());
   });
-  count_written();
 }
 
 void Publisher::copy(const fs::path& run, const std::string& name) {
@@ -117,7 +105,7 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
   if (!is_within(run, from))
     throw Error(ExitCode::kInput,
                 from.string() + ": a link that leads out of the run is not published");
-  publishes(name);
+  add_to_list(name);
   const auto time = fs::last_write_time(from, error);
   if (!error && fs::file_size(from, error) == fs::file_size(to, error) && !error &&
       fs::last_write_time(to, error) == time && !error)
@@ -129,7 +117,6 @@ void Publisher::copy(const fs::path& run, const std::string& name) {
     errno = failed.value();
     return !failed;
   });
-  count_written();
 }
 
 bool Publisher::derive(const std::string& name, const std::string& key,
@@ -138,7 +125,7 @@ bool Publisher::derive(const std::string& name, const std::string& key,
   std::error_code ignored;
   if (earlier != earlier_keys_.end() && earlier->second == key &&
       fs::is_regular_file(site_ / name, ignored)) {
-    publishes(name);
+    add_to_list(name);
   } else {
     const std::string content = make();
     if (content.empty()) return false;
@@ -166,8 +153,7 @@ void Publisher::remove_stale() {
                           }});
   for (const std::string& name : earlier_) {
     if (files_.contains(name) || !removal.remove(name)) continue;
-    ++removed_;
-    // An empty directory is nobody's; any other stays.
+    // Only an empty directory is removed.
     for (fs::path up = fs::path(name).parent_path(); !up.empty() && removal.remove(up);)
       up = up.parent_path();
   }

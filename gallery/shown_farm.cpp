@@ -12,8 +12,6 @@
 namespace lobelia::gallery {
 namespace {
 
-constexpr char kFile[] = "farm.json";
-
 void fill_titles(records::Farm& farm) {
   if (farm.title.empty()) farm.title = "Sphere grid";
   for (records::Axis& axis : farm.axes)
@@ -66,15 +64,12 @@ const CellEntry* ShownFarm::find_cell(const std::vector<int>& at) const {
 }
 
 ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics) {
-  const auto path = directory / kFile;
+  const auto path = directory / "farm.json";
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: no such file; a gallery is made of a directory that 'lobelia farm' "
-                    "wrote",
-                    path.string()));
-  }
+  if (!std::filesystem::exists(path, ignored))
+    throw Error(ExitCode::kInput,
+                path.string() +
+                    ": no such file; a gallery is made of a directory that 'lobelia farm' wrote");
   records::Origin origin;
   ShownFarm farm;
   farm.record = records::read_record<records::Farm>(path, &origin);

@@ -1,10 +1,8 @@
-// farm.json with what pages add to it: labels, and the place of each cell.
+// farm.json, with labels and the place of each cell on the grid.
 #pragma once
 
 #include <filesystem>
 #include <map>
-#include <string>
-#include <vector>
 
 #include "gallery/metrics.hpp"
 #include "gallery/status.hpp"
@@ -12,19 +10,20 @@
 
 namespace lobelia::gallery {
 
-/// The engine whose pictures are ours; all others are its references.
+/// The engine of our pictures; all others are its references.
 inline constexpr char kOurEngine[] = "lobelia";
 
 struct CellEntry {
   std::string id;  ///< a plain name
   CellStatus status = CellStatus::kMissing;
-  std::vector<int> at;  ///< index of its value on each axis; -1 where the axis does not know it
+  /// Index of its value on each axis; -1 for a value that the axis does not list.
+  std::vector<int> at;
   /// "Phong (RDF) · cosine, exact · exponent 16": its labels in the order of the axes.
   std::string label;
 };
 
 struct ShownFarm {
-  records::Farm record;  ///< every title and label has words
+  records::Farm record;  ///< no title and no label is empty
   std::string made_by;
   Metrics metrics;
   std::vector<CellEntry> cells;                     ///< in the record's order
@@ -32,7 +31,7 @@ struct ShownFarm {
 
   /// The engine's title, or its name if farm.json does not know it.
   std::string engine_title(const std::string& name) const;
-  /// The title's first word where that tells the engines apart.
+  /// The title's first word if that tells the engines apart, else the title.
   std::string short_title(const records::FarmEngine& engine) const;
   /// The cell at these indices, or null.
   const CellEntry* find_cell(const std::vector<int>& at) const;

@@ -1,6 +1,4 @@
-#include "gallery/small_picture.hpp"
-
-#include <algorithm>
+#include "gallery/derived_pictures.hpp"
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
@@ -13,17 +11,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The mean of the pixels that fall into each, in light.
+constexpr int kSmallSide = 160;  // pixels, of the longer side
+/// A picture file up to this size is its own preview.
+constexpr std::uintmax_t kLightBytes = 48 << 10;
+
+/// Each pixel is the linear mean of the pixels that it covers.
 Image reduced(const Image& image, int width, int height) {
+  const auto covered = [](int i, int count, int size) {
+    const auto from = int(std::int64_t{i} * size / count);
+    return std::pair(from, std::max(from + 1, int(std::int64_t{i + 1} * size / count)));
+  };
   Image result(width, height);
   for (int y = 0; y < height; ++y) {
-    const auto y0 = static_cast<int>(std::int64_t{y} * image.height() / height);
-    const auto y1 =
-        std::max(y0 + 1, static_cast<int>(std::int64_t{y + 1} * image.height() / height));
+    const auto [y0, y1] = covered(y, height, image.height());
     for (int x = 0; x < width; ++x) {
-      const auto x0 = static_cast<int>(std::int64_t{x} * image.width() / width);
-      const auto x1 =
-          std::max(x0 + 1, static_cast<int>(std::int64_t{x + 1} * image.width() / width));
+      const auto [x0, x1] = covered(x, width, image.width());
       double sum[3] = {};
       for (int v = y0; v < y1; ++v)
         for (int u = x0; u < x1; ++u)
@@ -42,7 +44,7 @@ std::string small_png(const fs::path& picture, int width, int height) {
     write_png(file, to_display(reduced(read_image(picture), width, height), 0));
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;
-    return "";  // a broken picture stays what it is
+    return "";  // a broken picture has no preview
   }
   return read_file(file, std::uint64_t{1} << 24);
 }

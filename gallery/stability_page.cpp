@@ -1,18 +1,15 @@
-// The page of the hard cases: the textbook's float32 beside ours.
+// The page on the hard cases: the textbook's float32 formulas beside ours.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "core/error.hpp"
 #include "core/numbers.hpp"
 #include "core/svg_chart.hpp"
 #include "core/text.hpp"
-#include "gallery/link.hpp"
 #include "gallery/page.hpp"
 #include "gallery/picture.hpp"
-#include "gallery/record_page.hpp"
 #include "gallery/views.hpp"
 #include "records/pages.hpp"
 
@@ -23,7 +20,7 @@ using records::VerifyStability, records::StabilityErrors, records::StabilityCurv
 
 constexpr char kRecord[] = "stability/stability.json", kDirectory[] = "stability";
 constexpr char kTitle[] = "The hard cases";
-constexpr double kLeastError = 1e-18, kMostError = 10;  // of charts; no number is drawn at the top
+constexpr double kMinError = 1e-18, kMaxError = 10;  // in charts; a NaN is drawn at the top
 constexpr char kShownGroup[] = "lobe";
 constexpr double kShownExponent = 1e6;
 
@@ -31,30 +28,25 @@ std::string error_text(double error) {
   return std::isfinite(error) ? number_text(error, 2) : "no number";
 }
 
-double drawn(double error) {
-  return std::isfinite(error) ? std::min(error, kMostError) : kMostError;
-}
+double drawn(double error) { return std::isfinite(error) ? std::min(error, kMaxError) : kMaxError; }
 
 std::string power_text(double exponent) {
   return exponent >= 1e4 ? power_of_ten_text(int(std::lround(std::log10(exponent))))
                          : number_text(exponent, 4);
 }
 
-Chart new_chart(const char* id, const std::string& title, const std::string& description) {
-  Chart chart;
-  chart.id = id;
-  chart.title = title;
-  chart.description = description;
-  chart.width = 760;
-  chart.height = 400;
-  chart.y = {"largest error, of the peak", kLeastError, kMostError, true};
-  return chart;
-}
-
-/// The worst of all lobes over the exponent.
+/// The largest error of all lobes over the exponent. Without series if there are fewer than two exponents.
 Chart exponent_chart(const VerifyStability& data) {
-  Chart chart = new_chart("over-exponent", "Error over exponent",
-                          "The largest error of all lobes, textbook and ours, over the exponent.");
+  Chart chart{
+      .id = "over-exponent",
+      .title = "Error over exponent",
+      .description = "The largest error of all lobes, textbook and ours, over the exponent.",
+      .width = 760,
+      .height = 400,
+      .x = {},
+      .y = {"largest error, of the peak", kMinError, kMaxError, true},
+      .bands = {},
+      .series = {}};
   std::map<double, std::pair<double, double>> worst;
   for (const records::StabilityOfLobe& s : data.by_exponent) {
     if (s.group != kShownGroup || !(s.exponent > 0.0)) continue;
@@ -78,21 +70,25 @@ const StabilityCurve* shown_curve(const VerifyStability& data) {
   return data.curves.empty() ? nullptr : &data.curves.back();
 }
 
-/// The highlight itself, as the textbook draws it and as it is.
+/// The highlight over the angle, from the textbook's formula, from ours and exactly.
 Chart angle_chart(const StabilityCurve& curve) {
-  Chart chart =
-      new_chart("over-angle", "A highlight's flank",
-                "The highlight over the angle: the truth, the textbook's float32 and ours.");
   double most = 1;
   for (const double value : curve.naive)
     if (std::isfinite(value)) most = std::clamp(value, most, 2.0);
-  chart.y = {"value, of the peak", 0, most * 1.05, false};
-  chart.x = {"angle between light and mirror direction (degrees)", 0, 1, false};
-  if (!curve.degrees.empty() && curve.degrees.back() > 0) chart.x.to = curve.degrees.back();
-  chart.series = {{"truth", curve.degrees, curve.truth, 0},
-                  {"naive float32", curve.degrees, curve.naive, 2},
-                  {"ours", curve.degrees, curve.ours, 1}};
-  return chart;
+  const bool has_angles = !curve.degrees.empty() && curve.degrees.back() > 0;
+  return {
+      .id = "over-angle",
+      .title = "A highlight's flank",
+      .description = "The highlight over the angle: the truth, the textbook's float32 and ours.",
+      .width = 760,
+      .height = 400,
+      .x = {"angle between light and mirror direction (degrees)", 0,
+            has_angles ? curve.degrees.back() : 1, false},
+      .y = {"value, of the peak", 0, most * 1.05, false},
+      .bands = {},
+      .series = {{"truth", curve.degrees, curve.truth, 0},
+                 {"naive float32", curve.degrees, curve.naive, 2},
+                 {"ours", curve.degrees, curve.ours, 1}}};
 }
 
 void write_chart(Html& html, const Chart& chart, const std::string& words) {
@@ -126,11 +122,9 @@ void write_picture(Html& html, ViewPage& page, const std::filesystem::path& run,
                    const std::string& file, const std::string& words) {
   const Tag figure(html, "figure");
   html.element("figcaption", words);
-  const Picture picture = look_at_picture(run / kDirectory, file);
-  if (!picture.shown()) {
-    write_absence(html, picture.file.empty() ? "not recorded" : picture.why_not);
-    return;
-  }
+  const Picture picture = inspect_picture(run / kDirectory, file);
+  if (!picture.shown())
+    return write_absence(html, picture.file.empty() ? "not recorded" : picture.why_not);
   page.files.push_back(std::string(kDirectory) + "/" + file);
   html.empty("img", {{"src", link_to({kDirectory, file})},
                      {"alt", words},
@@ -139,7 +133,7 @@ void write_picture(Html& html, ViewPage& page, const std::filesystem::path& run,
                      {"loading", "lazy"}});
 }
 
-/// Pictures lie beside the record, wherever the command was told to put them.
+/// The pictures lie beside the record, whatever path it has for them.
 std::string name_of(const std::string& file) {
   const std::string name = std::filesystem::path(file).filename().string();
   if (!name.empty() && !is_plain_name(name))
@@ -201,11 +195,7 @@ void write_group(Html& html, const VerifyStability& data, const std::string& gro
   if (group == kShownGroup) attributes.push_back({"open", "open"});
   const Tag details(html, "details", attributes);
   html.element("summary", meaning.empty() ? group : group + ": " + meaning);
-  const Tag scroll(html, "div",
-                   {{"class", "table-wrap"},
-                    {"tabindex", "0"},
-                    {"role", "region"},
-                    {"aria-label", "Cases: " + group}});
+  const Tag scroll(html, "div", scroll_box("Cases: " + group));
   const Tag table(html, "table", {{"class", "figures cases"}});
   {
     const Tag head(html, "thead");
@@ -246,19 +236,13 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStabilit
       "what Lobelia does, each held to a reference in 50 digits that shares no code with either.");
   {
     const Tag list(html, "ul", {{"class", "counts"}});
-    {
+    for (const auto& [count, words] : {std::pair{data.cases, " cases"},
+                                       {data.outside, " outside their stated bounds"},
+                                       {data.not_compared, " not compared, for want of a bound"}}) {
       const Tag item(html, "li");
-      html.element("strong", count_text(double(data.cases)));
-      html.text(" cases");
+      html.element("strong", count_text(double(count)));
+      html.text(words);
     }
-    {
-      const Tag item(html, "li");
-      html.element("strong", count_text(double(data.outside)));
-      html.text(" outside their stated bounds");
-    }
-    const Tag item(html, "li");
-    html.element("strong", count_text(double(data.not_compared)));
-    html.text(" not compared, for want of a bound");
   }
   write_charts(html, data);
   write_pictures(page, run, data);
@@ -278,7 +262,6 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStabilit
   page.data = records::record_line(page_data(data));
 }
 
-/// Of RUN/stability/stability.json; empty where there is none.
 std::optional<ViewPage> stability_page(const std::filesystem::path& run) {
   return record_page<VerifyStability>(
       run, kRecord, kTitle,
@@ -287,7 +270,6 @@ std::optional<ViewPage> stability_page(const std::filesystem::path& run) {
 
 }  // namespace
 
-extern const View stability_view;
-const View stability_view{"stability", "Stability", "stability.html", stability_page};
+extern const View stability_view{"stability", "Stability", "stability.html", stability_page};
 
 }  // namespace lobelia::gallery

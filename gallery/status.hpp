@@ -7,8 +7,8 @@
 
 namespace lobelia::gallery {
 
-/// The first four are found on publishing: what lies there is not what the farm wrote. The others are in farm.json.
-/// Flaws from the worst.
+/// Publishing finds the first four: the cell is not as the farm wrote it. The others are in farm.json.
+/// The flaws, up to kChanged, are ordered from the worst.
 enum class CellStatus {
   kDamaged,
   kLost,
@@ -22,12 +22,13 @@ enum class CellStatus {
   kMissing
 };
 
+/// All of them, in the order of counts and legends.
 inline constexpr std::array<CellStatus, 10> kCellStatuses = {
     CellStatus::kPass,    CellStatus::kDamaged,   CellStatus::kLost,   CellStatus::kChanged,
     CellStatus::kDiffers, CellStatus::kUndecided, CellStatus::kFailed, CellStatus::kUnchecked,
     CellStatus::kMissing, CellStatus::kUnsealed};
 
-/// Whether it tells of a file that is not as the farm wrote it.
+/// Whether a file of the cell is not as the farm wrote it.
 constexpr bool is_flaw(CellStatus status) { return status <= CellStatus::kChanged; }
 
 struct StatusInfo {
@@ -38,7 +39,7 @@ struct StatusInfo {
 };
 
 const StatusInfo& info(CellStatus status);
-/// By the name that a farm's records use; empty if it is not one of them.
+/// By its name in a farm's records; empty for any other name.
 std::optional<CellStatus> find_status(std::string_view name);
 
 }  // namespace lobelia::gallery

@@ -1,35 +1,61 @@
-// The pages of the site beside the grid and the cells: each is a file, and a line in views.cpp.
+// The pages of the site beside the grid and the cells. Each is a file NAME_page.cpp and a name in views.cpp.
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
+#include "core/error.hpp"
 #include "core/html.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::gallery {
 
-/// A page as its view draws it; the head, the navigation and the foot come around it.
+/// A page's content; the head, the navigation and the foot come around it.
 struct ViewPage {
   std::string title;
-  std::string made_by;  ///< of its records, for the foot
+  std::string made_by;  ///< program that wrote the record, for the foot
   Html main;            ///< complete without script
-  std::string data;     ///< JSON: what pageData() of gallery/web gives its script; empty: nothing
+  std::string data;     ///< JSON for the page's script (pageData() in gallery/web); empty: none
   std::vector<std::string> files;  ///< that it links to, below the run's directory; copied with it
 };
 
 struct View {
-  std::string_view
-      name;  ///< also of its file in gallery/web/src/views, if a script makes more of it
+  std::string_view name;   ///< also of its script in gallery/web/src/views, if it has one
   std::string_view title;  ///< in the navigation
   std::string_view file;   ///< "cost.html"
-  /// Empty if the run has nothing for it. A record that cannot be read is said on the page.
+  /// Empty if the run has no record for it. A record that cannot be read becomes a sentence on the page.
   std::optional<ViewPage> (*draw)(const std::filesystem::path& run);
 };
 
 std::span<const View* const> views();
+
+/// A page that says in place of everything why the record cannot be shown.
+ViewPage unreadable_page(const char* title, const Error& error);
+
+/// The page that `draw` fills from the record in RUN/file; empty if there is no such file. If the record cannot be read
+/// or `draw` throws Error(kInput), the page says so.
+template <class T>
+std::optional<ViewPage> record_page(const std::filesystem::path& run, const char* file,
+                                    const char* title,
+                                    const std::function<void(ViewPage&, const T&)>& draw) {
+  if (!std::filesystem::exists(run / file)) return std::nullopt;
+  try {
+    records::Origin origin;
+    const T record =
+        records::parse_record<T>(read_file(run / file, records::kMaxRecordBytes), file, &origin);
+    ViewPage page{title, origin.made_by, {}, "", {file}};
+    draw(page, record);
+    return page;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    return unreadable_page(title, error);
+  }
+}
+
+/// <header> with the title and a sentence below it.
+void write_lead(Html& html, const char* title, const std::string& words);
+/// The command that measured the record, and a link to it.
+void write_source(Html& html, const std::string& command, const char* file);
+/// Attributes of a <div> in which a wide table scrolls.
+Attributes scroll_box(const std::string& label);
 
 }  // namespace lobelia::gallery

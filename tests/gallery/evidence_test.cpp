@@ -10,8 +10,8 @@
 #include <set>
 
 #include "core/image_io.hpp"
+#include "gallery/checked_cell.hpp"
 #include "gallery/gallery.hpp"
-#include "gallery/judgement.hpp"
 #include "records/comparison.hpp"
 #include "tests/gallery/fake_farm.hpp"
 #include "tests/gallery/site.hpp"

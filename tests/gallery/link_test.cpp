@@ -1,4 +1,4 @@
-#include "gallery/link.hpp"
+#include "gallery/page.hpp"
 
 #include <gtest/gtest.h>
 

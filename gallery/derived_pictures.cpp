@@ -1,6 +1,4 @@
-#include "gallery/packed_images.hpp"
-
-#include <algorithm>
+#include "gallery/derived_pictures.hpp"
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
@@ -9,16 +7,6 @@
 #include "records/record.hpp"
 
 namespace lobelia::gallery {
-namespace {
-constexpr std::size_t kReferencePixels = 512 * 512;
-}
-
-std::string packed_image(const Image& image, int precision, bool from_ours, int block) {
-  records::PackedPicture picture = half_picture(image, precision);
-  picture.from_ours = from_ours;
-  picture.block = block;
-  return data_script("float picture", records::record_line(picture));
-}
 
 const std::optional<Image>& CellPictures::of(const std::string& file) {
   const auto [place, is_new] = pictures_.try_emplace(file);
@@ -32,7 +20,15 @@ const std::optional<Image>& CellPictures::of(const std::string& file) {
 }
 
 std::size_t bytes_for(const Image& image, std::size_t of_512) {
+  constexpr std::size_t kReferencePixels = 512 * 512;
   return of_512 * std::max(image.pixel_count(), kReferencePixels) / kReferencePixels;
+}
+
+std::string packed_image(const Image& image, int precision, bool from_ours, int block) {
+  records::PackedPicture picture = half_picture(image, precision);
+  picture.from_ours = from_ours;
+  picture.block = block;
+  return data_script("float picture", records::record_line(picture));
 }
 
 }  // namespace lobelia::gallery
