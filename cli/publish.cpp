@@ -1,7 +1,5 @@
 #include "cli/publish.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "compare/maps/difference_map.hpp"
@@ -12,7 +10,7 @@
 namespace lobelia::cli {
 namespace {
 
-/// Those for the eye; those of values a page can draw by itself.
+/// Only maps of visible differences: a page draws differences of values itself.
 std::vector<gallery::MapKind> visual_maps() {
   std::vector<gallery::MapKind> kinds;
   for (const DifferenceMap& map : difference_maps()) {
