@@ -217,12 +217,6 @@ void print_names(const std::string& a, const std::string& b, const std::string& 
   if (!c.empty()) fmt::print("c  {}  (the second reference)\n", printable_path(c));
 }
 
-void print_display(const DisplayView* display) {
-  if (display)
-    fmt::print("shown by view {} of display {} in {}\n", printable(display->choice().view),
-               printable(display->choice().display), printable_path(display->choice().config));
-}
-
 /// "± 0.0012  "; blank for a figure without an error bar, "" where no noise is known.
 std::string error_bar_text(const Comparison& comparison, std::string_view id) {
   if (!comparison.uncertainty) return "";
@@ -281,14 +275,12 @@ SetReport compare_files(const CompareJob& job) {
 SetReport compare_folders(const CompareJob& job, const FolderPairs& names) {
   SetReport report{
       job.a, job.b, job.c, {}, names.missing, names.extra, names.passed_over, names.not_followed};
-  for (const std::string& name : names.both)
-    report.pairs.push_back({name,
-                            (fs::path(job.a) / name).string(),
-                            (fs::path(job.b) / name).string(),
-                            job.c.empty() ? "" : (fs::path(job.c) / name).string(),
-                            {},
-                            {},
-                            0});
+  for (const std::string& name : names.both) {
+    const auto within = [&](const std::string& folder) {
+      return folder.empty() ? folder : (fs::path(folder) / name).string();
+    };
+    report.pairs.push_back({name, within(job.a), within(job.b), within(job.c), {}, {}, 0});
+  }
   ComparisonOptions options = job.comparison;
   if (has_automatic_exposures(options))
     options.viewing.hdr_exposures = exposures_for_all(report.pairs, job.layers);
@@ -312,7 +304,9 @@ SetReport compare_folders(const CompareJob& job, const FolderPairs& names) {
 void print_pair(const PairReport& pair) {
   const Comparison& comparison = *pair.comparison;
   print_names(pair.a, pair.b, pair.c);
-  print_display(comparison.viewing.display.get());
+  if (const auto& display = comparison.viewing.display)
+    fmt::print("shown by view {} of display {} in {}\n", printable(display->choice().view),
+               printable(display->choice().display), printable_path(display->choice().config));
   fmt::print("\n");
   if (comparison.verdict == Verdict::kNonFinite)
     fmt::print("  {}; nothing was measured\n", why_not_pass(comparison, pair.a, pair.b));

@@ -33,18 +33,10 @@ FarmOptions farm_options(const FarmArguments& options) {
 }
 
 void dry_run(const Grid& grid, const FarmArguments& options) {
-  fmt::memory_buffer lines;
-  const auto flush = [&] {
-    std::fwrite(lines.data(), 1, lines.size(), stdout);
-    lines.clear();
-  };
-  const FarmPlan plan =
-      plan_farm(grid, options.directory, farm_options(options),
-                [&](const std::string& name, const std::string& reason) {
-                  fmt::format_to(std::back_inserter(lines), "{}: {}\n", name, reason);
-                  if (lines.size() > 1 << 16) flush();
-                });
-  flush();
+  const FarmPlan plan = plan_farm(grid, options.directory, farm_options(options),
+                                  [](const std::string& name, const std::string& reason) {
+                                    fmt::print("{}: {}\n", name, reason);
+                                  });
   for (const auto& sentence : plan.absent_engines) say("lobelia: {}\n", sentence);
   if (!plan.warning.empty()) warn(plan.warning);
   fmt::print("{} cells, {} jobs: {} to be done, {} not\n", plan.cells, plan.jobs, plan.wanted,

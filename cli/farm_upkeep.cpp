@@ -12,6 +12,25 @@
 namespace lobelia::cli {
 namespace {
 
+struct UpkeepArguments {
+  std::string directory, cell, job, max_size;
+  EnginePrograms programs;
+  bool json = false, attach = false, remove = false, all = false, dry_run = false, quiet = false;
+};
+
+struct Upkeep {
+  CLI::App* command;
+  std::shared_ptr<UpkeepArguments> options;
+};
+
+/// Adds a subcommand of `farm` with its required DIR.
+Upkeep add_upkeep(CLI::App& farm, const std::string& name, const std::string& meaning,
+                  const std::string& directory_meaning = "The farm's directory") {
+  const Upkeep upkeep{farm.add_subcommand(name, meaning), std::make_shared<UpkeepArguments>()};
+  upkeep.command->add_option("DIR", upkeep.options->directory, directory_meaning)->required();
+  return upkeep;
+}
+
 void tell_of_lost_cache(const std::string& cache) {
   fmt::print("its cache {} is not there; the farm's command makes it again\n",
              printable_path(cache));
@@ -44,17 +63,12 @@ std::string cluster_text(const std::string& directory) {
 }
 
 void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
-  struct Options {
-    std::string directory;
-    bool json = false, attach = false;
-  };
-  auto* command = farm.add_subcommand("status", "What has become of a farm's cells so far");
-  auto options = std::make_shared<Options>();
-  command->add_option("DIR", options->directory, "The farm's directory")->required();
+  const auto [command, options] =
+      add_upkeep(farm, "status", "What has become of a farm's cells so far");
   command->add_flag("--json", options->json, "As a record (kind farm-status, docs/reference)");
   command->add_flag("--attach", options->attach,
                     "Go back to a run on a cluster and follow it to its end");
-  command->callback([options, &exit_code] {
+  command->callback([options = options, &exit_code] {
     if (options->attach) {
       SlurmRunOptions slurm = SlurmSettings().run_options();
       const auto followed = follow(slurm, false, [&](const SlurmRunOptions& with_progress) {
@@ -70,7 +84,7 @@ void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
     for (const auto& failure : status.failures)
       fmt::print("failed: {}: {}: {} ({} attempts): {}\n", printable(failure.cell), failure.engine,
                  failure.failure, failure.attempts, printable(failure.message, 400));
-    std::string counts;
+    std::vector<std::string> counts;
     const records::StatusCounts& of = status.status;
     for (const auto& [name, count] : {std::pair("failed", of.failed),
                                       {"differs", of.differs},
@@ -78,8 +92,8 @@ void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
                                       {"missing", of.missing},
                                       {"unchecked", of.unchecked},
                                       {"pass", of.pass}})
-      if (count > 0) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, name);
-    fmt::print("{} cells: {}{}\n", status.cells, counts,
+      if (count > 0) counts.push_back(fmt::format("{} {}", count, name));
+    fmt::print("{} cells: {}{}\n", status.cells, fmt::join(counts, ", "),
                status.at_work ? "; a farm is at work in its cache" : "");
     if (!status.cache_is_there) tell_of_lost_cache(status.cache);
     fmt::print("{}", cluster_text(options->directory));
@@ -87,14 +101,9 @@ void add_farm_status(CLI::App& farm, ExitCode& exit_code) {
 }
 
 void add_farm_verify(CLI::App& farm, ExitCode& exit_code) {
-  struct Options {
-    std::string directory;
-    bool remove = false, quiet = false;
-  };
-  auto* command =
-      farm.add_subcommand("verify", "Read every byte of a cache again, and open every picture");
-  auto options = std::make_shared<Options>();
-  command->add_option("DIR", options->directory, "A farm's directory, or a cache")->required();
+  const auto [command, options] =
+      add_upkeep(farm, "verify", "Read every byte of a cache again, and open every picture",
+                 "A farm's directory, or a cache");
   command->add_flag("--remove", options->remove,
                     "Take away what is damaged; the next farm makes it again");
   command->add_flag("-q,--quiet", options->quiet, "No progress");
@@ -103,7 +112,7 @@ void add_farm_verify(CLI::App& farm, ExitCode& exit_code) {
       "cache has every result that they name.\n\n"
       "Exit codes: 0 all is whole, or what was damaged has been taken away; 1 something is damaged or missing,\n"
       "3 no farm and no cache, 4 with --remove while a farm is at work.");
-  command->callback([options, &exit_code] {
+  command->callback([options = options, &exit_code] {
     ProgressLine line(!options->quiet);
     const auto show = [&](std::size_t done, std::size_t all) {
       line.show(double(done) / double(all), fmt::format("{}/{}", done, all));
@@ -115,27 +124,22 @@ void add_farm_verify(CLI::App& farm, ExitCode& exit_code) {
     line.clear();
     for (const auto& text : report.damaged) fmt::print("damaged: {}\n", printable_path(text));
     if (!place.is_there) tell_of_lost_cache(place.cache.string());
-    std::string found;
+    std::vector<std::string> found;
     if (!report.damaged.empty())
-      found =
-          fmt::format("{} damaged{}", report.damaged.size(), options->remove ? ", taken away" : "");
-    if (report.missing > 0)
-      found += fmt::format("{}{} missing", found.empty() ? "" : "; ", report.missing);
+      found.push_back(fmt::format("{} damaged{}", report.damaged.size(),
+                                  options->remove ? ", taken away" : ""));
+    if (report.missing > 0) found.push_back(fmt::format("{} missing", report.missing));
+    if (found.empty()) found.push_back("all whole");
     fmt::print("{} results, {} files, {}: {}\n", report.results, report.files,
-               size_text(report.bytes), found.empty() ? "all whole" : found);
+               size_text(report.bytes), fmt::join(found, "; "));
     if (report.missing > 0 || (!report.damaged.empty() && !options->remove))
       exit_code = ExitCode::kDiffers;
   });
 }
 
 void add_farm_gc(CLI::App& farm) {
-  struct Options {
-    std::string directory, max_size;
-    bool dry_run = false;
-  };
-  auto* command = farm.add_subcommand("gc", "Make a cache smaller");
-  auto options = std::make_shared<Options>();
-  command->add_option("DIR", options->directory, "A farm's directory, or a cache")->required();
+  const auto [command, options] =
+      add_upkeep(farm, "gc", "Make a cache smaller", "A farm's directory, or a cache");
   command->add_option(
       "--max-size", options->max_size,
       "What was not used for longest goes until the rest is at most this: 10G, 500M");
@@ -143,7 +147,7 @@ void add_farm_gc(CLI::App& farm) {
   command->footer(
       "Without a size only what killed farms left half-made goes. Results that a farm's directory shows\n"
       "stay on the disk as long as they lie there too (they are links).");
-  command->callback([options] {
+  command->callback([options = options] {
     std::optional<std::uint64_t> most;
     if (!options->max_size.empty()) most = parse_size(options->max_size);
     const CachePlace place = cache_of(options->directory);
@@ -163,21 +167,15 @@ void add_farm_gc(CLI::App& farm) {
 }
 
 void add_farm_clean(CLI::App& farm) {
-  struct Options {
-    std::string directory;
-    bool all = false, dry_run = false;
-  };
-  auto* command =
-      farm.add_subcommand("clean", "Take away cells that are not of a farm's grid any more");
-  auto options = std::make_shared<Options>();
-  command->add_option("DIR", options->directory, "The farm's directory")->required();
+  const auto [command, options] =
+      add_upkeep(farm, "clean", "Take away cells that are not of a farm's grid any more");
   command->add_flag("--all", options->all,
                     "Every cell, what failed jobs left, and the farm's record; the cache stays");
   command->add_flag("--dry-run", options->dry_run, "Only list what would go, path by path");
   command->footer(
       "What neither a farm nor its gallery wrote stays, and is told. Exit codes: 0, 3 no farm's directory,\n"
       "4 a farm is at work there.");
-  command->callback([options] {
+  command->callback([options = options] {
     const CleanReport report =
         clean_farm(options->directory, options->all, removal_options(options->dry_run));
     tell_what_stays(report.stays);
@@ -214,15 +212,9 @@ bool is_unchanged(const records::ExplainedJob& job) {
 }
 
 void add_farm_explain(CLI::App& farm, ExitCode& exit_code) {
-  struct Options {
-    std::string directory, cell, job;
-    EnginePrograms programs;
-    bool json = false;
-  };
-  auto* command = farm.add_subcommand(
-      "explain", "What the key of each result of a cell was made of, and what has changed since");
-  auto options = std::make_shared<Options>();
-  command->add_option("DIR", options->directory, "The farm's directory")->required();
+  const auto [command, options] =
+      add_upkeep(farm, "explain",
+                 "What the key of each result of a cell was made of, and what has changed since");
   command->add_option("CELL", options->cell, "The cell's id, as in DIR/cells")->required();
   command->add_option("JOB", options->job, "One of its jobs: render, reference-povray, profile...");
   options->programs.add_to(*command);
@@ -231,7 +223,7 @@ void add_farm_explain(CLI::App& farm, ExitCode& exit_code) {
       "Hashes are shown by their beginning; --json has all of them. Exit codes: 0 all results are in the\n"
       "cache, and nothing has changed on this machine, 1 something has, 3 no such farm, cell or job.\n\n"
       "Example: lobelia farm explain out/gallery phong_rdf-n16 reference-povray");
-  command->callback([options, &exit_code] {
+  command->callback([options = options, &exit_code] {
     const records::FarmExplanation explanation =
         explain_cell(options->directory, options->cell, options->job, options->programs.given());
     if (options->json) {

@@ -1,3 +1,5 @@
+#include <ranges>
+
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
@@ -88,13 +90,6 @@ void run_reference(const ReferenceArguments& options) {
         record.witness);
 }
 
-std::string engine_list() {
-  std::string list;
-  for (const EngineInfo& engine : engine_infos())
-    list += (list.empty() ? "" : " or ") + std::string(engine.name);
-  return list;
-}
-
 /// "half or float (povray), float (blender)"
 std::string precision_list() {
   std::string list;
@@ -121,7 +116,11 @@ void add_reference(CLI::App& app, ExitCode&) {
   OptionGroup group(*command);
   ReferenceOptions& reference = options->reference;
   group.add("SCENE", options->scene, "", "Scene file (see lobelia scene-format)")->required();
-  group.add("--engine", options->engine, "", fmt::format("Who renders: {}", engine_list()))
+  group
+      .add(
+          "--engine", options->engine, "",
+          fmt::format("Who renders: {}",
+                      fmt::join(engine_infos() | std::views::transform(&EngineInfo::name), " or ")))
       ->required();
   group
       .add("-o,--output", options->output, "OUT.exr",

@@ -10,10 +10,10 @@ declare global {
 
 window.lobelia = (name, json) => { received.set(name, JSON.parse(json)); };
 
-/** What a script of the page's head has brought, if there is one. */
+/** The data from the script in the page's head, if there is one. */
 export function pageData<T>(): T | undefined { return received.get('page') as T | undefined; }
 
-/** Loads `source` (relative to the page) once, and gives what it calls itself `name`. */
+/** Loads the script `source` (relative to the page) once and returns its data called `name`. */
 export function load<T>(name: string, source: string): Promise<T> {
   let promise = waiting.get(source);
   if (!promise) {
@@ -23,7 +23,7 @@ export function load<T>(name: string, source: string): Promise<T> {
       script.addEventListener('load', () => {
         if (received.has(name)) resolve(received.get(name));
         else reject(new Error(source + ' holds no "' + name + '"'));
-        received.delete(name);  // the caller has it; nobody else keeps megabytes
+        received.delete(name);  // the caller has it; frees megabytes
         script.remove();
       });
       script.addEventListener('error', () => reject(new Error(source + ' cannot be read')));
