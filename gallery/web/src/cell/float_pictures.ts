@@ -9,22 +9,17 @@ export interface Worst { readonly value: number; readonly x: number; readonly y:
 export class FloatPictures {
   /** By the engine's index in the data. */
   readonly all = new Map<number, FloatPicture>();
-  private readonly loading = new Map<number, Promise<void>>();
+  private readonly asked = new Set<number>();
   private readonly largest = new Map<string, Worst>();
 
   /** Calls `come` when a picture is loaded, `missing` when it cannot be, with the reason if there is one of its own. */
   constructor(private readonly data: CellPage, private readonly come: () => void,
               private readonly missing: (engine: number, why?: string) => void) {}
 
-  need(engine: number): Promise<void> {
-    const known = this.loading.get(engine);
-    if (known) return known;
-    const promise = this.loadOne(engine);
-    this.loading.set(engine, promise);
-    return promise;
-  }
-
-  private async loadOne(engine: number): Promise<void> {
+  /** Loads a picture, unless that was asked for before. */
+  async need(engine: number): Promise<void> {
+    if (this.asked.has(engine)) return;
+    this.asked.add(engine);
     const source = this.data.engines[engine]?.floatScript;
     if (!source) return this.missing(engine);
     try {

@@ -62,14 +62,12 @@ let before: Promise<unknown> = Promise.resolve();
 
 /** One after the other, because all scripts use one name. Throws an error for the reader. */
 export function loadFloatPicture(source: string): Promise<FloatPicture> {
-  const picture = before.then(() => loadOne(source));
+  const picture = before.then(async () => {
+    const packed = await load<PackedPicture>('float picture', source);
+    const bytes = await inflated(packed.planes);
+    if (bytes.length !== 6 * packed.width * packed.height) throw new Error(source + ' is damaged');
+    return { ...packed, values: unpacked(bytes, packed) };
+  });
   before = picture.catch(() => undefined);
   return picture;
-}
-
-async function loadOne(source: string): Promise<FloatPicture> {
-  const packed = await load<PackedPicture>('float picture', source);
-  const bytes = await inflated(packed.planes);
-  if (bytes.length !== 6 * packed.width * packed.height) throw new Error(source + ' is damaged');
-  return { ...packed, values: unpacked(bytes, packed) };
 }

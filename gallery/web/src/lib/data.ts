@@ -2,7 +2,6 @@
 // lobelia("name",'JSON'), and JSON.parse keeps a hostile record from being anything but data.
 
 const received = new Map<string, unknown>();
-const waiting = new Map<string, Promise<unknown>>();
 
 declare global {
   interface Window { lobelia: (name: string, json: string) => void }
@@ -13,23 +12,18 @@ window.lobelia = (name, json) => { received.set(name, JSON.parse(json)); };
 /** The data from the script in the page's head, if there is one. */
 export function pageData<T>(): T | undefined { return received.get('page') as T | undefined; }
 
-/** Loads the script `source` (relative to the page) once and returns its data called `name`. */
+/** Loads the script `source` (relative to the page) and returns its data called `name`. For each script once. */
 export function load<T>(name: string, source: string): Promise<T> {
-  let promise = waiting.get(source);
-  if (!promise) {
-    promise = new Promise((resolve, reject) => {
-      const script = document.createElement('script');
-      script.src = source;
-      script.addEventListener('load', () => {
-        if (received.has(name)) resolve(received.get(name));
-        else reject(new Error(source + ' holds no "' + name + '"'));
-        received.delete(name);  // the caller has it; frees megabytes
-        script.remove();
-      });
-      script.addEventListener('error', () => reject(new Error(source + ' cannot be read')));
-      document.head.append(script);
+  return new Promise((resolve, reject) => {
+    const script = document.createElement('script');
+    script.src = source;
+    script.addEventListener('load', () => {
+      if (received.has(name)) resolve(received.get(name) as T);
+      else reject(new Error(source + ' holds no "' + name + '"'));
+      received.delete(name);  // the caller has it; frees megabytes
+      script.remove();
     });
-    waiting.set(source, promise);
-  }
-  return promise as Promise<T>;
+    script.addEventListener('error', () => reject(new Error(source + ' cannot be read')));
+    document.head.append(script);
+  });
 }
