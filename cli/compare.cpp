@@ -111,26 +111,28 @@ std::optional<FileId> file_id(const fs::path& path) {
   return FileId{status.st_dev, status.st_ino};
 }
 
+/// The pictures of the pair `name`, and those of their noise; "": the files or folders as they were given.
+std::vector<fs::path> pictures_of(const CompareJob& job, const std::string& name) {
+  std::vector<fs::path> files = job.noise.files(name);
+  for (const std::string& given : {job.a, job.b, job.c})
+    if (!given.empty()) files.push_back(file_of(given, name));
+  return files;
+}
+
 /// All files that are read. `names`: the pairs of two folders; null for two files.
 std::set<FileId> inputs_of(const CompareArguments& options, const FolderPairs* names) {
-  const CompareJob& job = options.job;
   std::set<FileId> inputs;
-  const auto add = [&](const fs::path& file) {
-    if (const auto id = file_id(file)) inputs.insert(*id);
+  const auto add = [&](const std::vector<fs::path>& files) {
+    for (const fs::path& file : files)
+      if (const auto id = file_id(file)) inputs.insert(*id);
   };
-  add(job.scene);
-  add(options.display.config);
+  add({options.job.scene, options.display.config});
   if (!names) {
-    for (const std::string& file : {job.a, job.b, job.c}) add(file);
-    for (const fs::path& file : job.noise.files("")) add(file);
+    add(pictures_of(options.job, ""));
     return inputs;
   }
   for (const auto* list : {&names->both, &names->missing, &names->extra})
-    for (const std::string& name : *list) {
-      for (const std::string& folder : {job.a, job.b, job.c})
-        if (!folder.empty()) add(fs::path(folder) / name);
-      for (const fs::path& file : job.noise.files(name)) add(file);
-    }
+    for (const std::string& name : *list) add(pictures_of(options.job, name));
   return inputs;
 }
 
@@ -139,10 +141,7 @@ std::set<FileId> inputs_of(const CompareArguments& options, const FolderPairs* n
 void require_outside(const fs::path& directory, const CompareJob& job) {
   std::error_code unknown;
   const fs::path real = fs::weakly_canonical(fs::absolute(directory, unknown), unknown);
-  std::vector<fs::path> folders = job.noise.files("");
-  for (const std::string& folder : {job.a, job.b, job.c})
-    if (!folder.empty()) folders.emplace_back(folder);
-  for (const fs::path& folder : folders)
+  for (const fs::path& folder : pictures_of(job, ""))
     if (const fs::path there = fs::canonical(folder, unknown); !unknown && is_below(real, there))
       throw Error(ExitCode::kUsage,
                   fmt::format("--diff-image {}: lies in {}, which is read by this command; choose "

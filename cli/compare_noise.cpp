@@ -7,14 +7,6 @@
 #include "core/image_io.hpp"
 
 namespace lobelia::cli {
-namespace {
-
-std::filesystem::path file_of(const std::filesystem::path& given, const std::string& name) {
-  return name.empty() ? given : given / name;
-}
-
-}  // namespace
-
 void NoiseFlags::add_to(CLI::App& command) {
   OptionGroup group(command, "Noise of Monte-Carlo pictures");
   for (const auto& [letter, picture, side] :

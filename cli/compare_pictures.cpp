@@ -277,7 +277,7 @@ SetReport compare_folders(const CompareJob& job, const FolderPairs& names) {
       job.a, job.b, job.c, {}, names.missing, names.extra, names.passed_over, names.not_followed};
   for (const std::string& name : names.both) {
     const auto within = [&](const std::string& folder) {
-      return folder.empty() ? folder : (fs::path(folder) / name).string();
+      return folder.empty() ? folder : file_of(folder, name).string();
     };
     report.pairs.push_back({name, within(job.a), within(job.b), within(job.c), {}, {}, 0});
   }

@@ -12,6 +12,11 @@
 
 namespace lobelia::cli {
 
+/// `given`, or if `name` is not empty the file of that name in the folder `given`.
+inline std::filesystem::path file_of(const std::filesystem::path& given, const std::string& name) {
+  return name.empty() ? given : given / name;
+}
+
 /// The options of `lobelia compare` on the noise of the pictures.
 class NoiseFlags {
  public:

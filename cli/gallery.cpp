@@ -66,9 +66,9 @@ void add_gallery(CLI::App& app, ExitCode& exit_code) {
   command->callback([command, run, options, &exit_code] {
     if (!command->get_subcommands().empty()) return;
     if (run->empty()) throw CLI::RequiredError("RUN");
-    const Published published = publish(*run, *options);
-    fmt::print("{}\n", published.index.string());
-    exit_code = published.code;
+    const gallery::PublishedGallery made = publish(*run, *options);
+    fmt::print("{}\n", made.index.string());
+    if (!made.doubts.empty()) exit_code = ExitCode::kDiffers;
   });
 }
 

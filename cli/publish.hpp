@@ -6,15 +6,12 @@
 
 namespace lobelia::cli {
 
-struct Published {
-  std::filesystem::path index;
-  ExitCode code = ExitCode::kSuccess;  ///< kDiffers if a cell is not as the farm wrote it
-};
-
 /// write_gallery() with a map of every visible difference. Lists on stderr the cells that are not as the farm wrote them.
-Published publish(const std::filesystem::path& run, gallery::GalleryOptions options);
+gallery::PublishedGallery publish(const std::filesystem::path& run,
+                                  gallery::GalleryOptions options);
 
-/// publish() of a finished farm into `site`, and its path on stderr. Does nothing if `site` is empty.
+/// publish() of a finished farm into `site`, and its path on stderr. Does nothing if `site` is empty. kDiffers if a
+/// cell is not as the farm wrote it.
 ExitCode publish_if_wanted(const std::filesystem::path& run, const std::filesystem::path& site);
 
 }  // namespace lobelia::cli

@@ -22,9 +22,7 @@ struct RenderArguments {
   std::string scene, output, png, standard_error, accuracy;
   std::string effects = "as-called-for", precision = "sufficient", accuracy_check = "truth";
   double exposure = 0;
-  int threads = 0;
-  std::optional<double> target_error, time_limit;
-  std::optional<int> max_samples;
+  RenderOptions render;
   bool quiet = false;
   SceneOverrides overrides;
 };
@@ -70,7 +68,8 @@ RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
 std::optional<accuracy::Choice> choice_of(const Scene& scene, const RenderArguments& options) {
   if (options.accuracy.empty()) return std::nullopt;
   const accuracy::Accuracy asked = accuracy::parse_accuracy(options.accuracy);
-  return accuracy::choose(scene, asked, options.max_samples.value_or(accuracy::kMostChosenSamples));
+  return accuracy::choose(scene, asked,
+                          options.render.max_samples.value_or(accuracy::kMostChosenSamples));
 }
 
 /// Measures the accuracy that was reached, unless --accuracy-check is none; prints and records it.
@@ -98,14 +97,10 @@ void run_render(const RenderArguments& options, ExitCode& code) {
 
   warn_of(scene);
   ProgressLine progress(!options.quiet);
-  RenderOptions render_options;
-  render_options.threads = options.threads;
+  RenderOptions render_options = options.render;
   render_options.effects =
       options.effects == "all" ? EffectPolicy::kAll : EffectPolicy::kAsCalledFor;
   render_options.precision = find_precision(options.precision);
-  render_options.target_error = options.target_error;
-  render_options.time_limit = options.time_limit;
-  render_options.max_samples = options.max_samples;
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
   if (!options.accuracy.empty()) progress.show(0, "choosing");
   const std::optional<accuracy::Choice> choice = choice_of(scene, options);
@@ -153,7 +148,7 @@ void add_render(CLI::App& app, ExitCode& code) {
   group.add("--png", options->png, "FILE", "Write a picture for the eye too (8 bits, sRGB)");
   group.add_number("--exposure", options->exposure, -100, 100,
                    "Stops by which the --png is brightened");
-  group.add_number("--threads", options->threads, 0, 1024, "Threads; 0 is all processors");
+  group.add_number("--threads", options->render.threads, 0, 1024, "Threads; 0 is all processors");
   group.add_choice("--effects", options->effects, {"as-called-for", "all"},
                    "Simulate effects as the scene calls for them, or all");
   auto* precision = group.add_choice(
@@ -161,17 +156,17 @@ void add_render(CLI::App& app, ExitCode& code) {
       "Shade with the narrowest precision whose error bound allows it (sufficient), "
       "or with this one");
   auto* target_error =
-      group.add("--target-error", options->target_error, "",
+      group.add("--target-error", options->render.target_error, "",
                 "Take samples until the picture's estimated relative error is this small");
   target_error->check(between(1e-9, 1.0));
-  auto* time_limit = group.add("--time-limit", options->time_limit, "",
+  auto* time_limit = group.add("--time-limit", options->render.time_limit, "",
                                "Take no more samples once rendering would take longer, seconds");
   time_limit->check(between(1e-3, 1e7));
   group.add("--standard-error", options->standard_error, "ERROR.exr",
             fmt::format("Picture of the error of each value, from {} more renders with the next "
                         "seeds; for compare: --a-error ERROR.exr --shared-noise none",
                         kErrorRenders));
-  group.add("--max-samples", options->max_samples, "", "Take at most so many rays a pixel")
+  group.add("--max-samples", options->render.max_samples, "", "Take at most so many rays a pixel")
       ->check(between(1, 1 << 20));
   auto* accuracy = group.add(
       "--accuracy", options->accuracy, "X|de2000=X",
