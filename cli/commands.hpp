@@ -1,4 +1,4 @@
-// The subcommands: one file each. Each adds itself to the command line; its callback throws Error or
+// The subcommands, one file each. Each adds itself to the command line. Its callback throws Error or
 // sets `exit_code`.
 #pragma once
 

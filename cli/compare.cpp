@@ -1,15 +1,9 @@
 #include "compare/compare.hpp"
 
-#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <memory>
-#include <optional>
 #include <set>
-#include <utility>
-#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/compare_pictures.hpp"
@@ -18,7 +12,6 @@
 #include "compare/metrics/catalogue.hpp"
 #include "core/display_view.hpp"
 #include "core/files.hpp"
-#include "core/text.hpp"
 #include "core/threads.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
@@ -31,14 +24,14 @@ namespace fs = std::filesystem;
 
 struct CompareArguments {
   CompareJob job;
-  std::string json, csv, junit, tolerance, exposures, scene;
+  std::string json, csv, junit, tolerance, exposures;
   std::vector<std::string> fail, warn;
   DisplayViewChoice display;
   int threads = 0;
 };
 
 MetricLimit parse_limit(std::string_view option, const std::string& text) {
-  // The last one: an id may have one of its own, as relmse.eps=0.01 has.
+  // The last one, because an id may hold another: relmse.eps=0.01.
   const std::size_t equals = text.rfind('=');
   MetricLimit limit{text.substr(0, equals), 0};
   if (equals == std::string::npos || !parse_number(text.substr(equals + 1), limit.limit))
@@ -48,53 +41,51 @@ MetricLimit parse_limit(std::string_view option, const std::string& text) {
   return limit;
 }
 
-Tolerance parse_tolerance(const std::string& text) {
+/// Reads "NUMBER,NUMBER,COUNT" into `first` and `second`, and returns the count.
+long long parse_three(std::string_view option, const std::string& text, std::string_view expected,
+                      double& first, double& second) {
   const std::vector<std::string> parts = split(text, ",");
-  Tolerance tolerance;
-  long long outliers = 0;
-  if (parts.size() != 3 || !parse_number(parts[0], tolerance.relative) ||
-      !parse_number(parts[1], tolerance.of_peak) || !parse_integer(parts[2], outliers))
+  long long count = 0;
+  if (parts.size() != 3 || !parse_number(parts[0], first) || !parse_number(parts[1], second) ||
+      !parse_integer(parts[2], count))
     throw Error(ExitCode::kUsage,
-                fmt::format("--tolerance {}: expected RELATIVE,OF_PEAK,OUTLIERS, for example "
-                            "6e-4,1e-6,3",
-                            printable(text)));
-  tolerance.allowed_outliers = outliers;
+                fmt::format("{} {}: expected {}", option, printable(text), expected));
+  return count;
+}
+
+Tolerance parse_tolerance(const std::string& text) {
+  Tolerance tolerance;
+  tolerance.allowed_outliers =
+      parse_three("--tolerance", text, "RELATIVE,OF_PEAK,OUTLIERS, for example 6e-4,1e-6,3",
+                  tolerance.relative, tolerance.of_peak);
   return tolerance;
 }
 
-constexpr std::string_view kAutomatic = "auto", kStdout = "-";
-
 HdrExposures parse_exposures(const std::string& text) {
-  // Of an automatic range the numbers come from the reference, once it is read.
-  if (text == kAutomatic) return {0, 0, 2, true};
-  const std::vector<std::string> parts = split(text, ",");
+  // The numbers of an automatic range come from the reference, once it is read.
+  if (text == "auto") return {0, 0, 2, true};
   HdrExposures range;
-  long long count = 0;
-  if (parts.size() != 3 || !parse_number(parts[0], range.start_stops) ||
-      !parse_number(parts[1], range.stop_stops) || !parse_integer(parts[2], count))
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--exposures {}: expected START,STOP,COUNT, for example -6,2,9, or auto",
-                    printable(text)));
+  const long long count =
+      parse_three("--exposures", text, "START,STOP,COUNT, for example -6,2,9, or auto",
+                  range.start_stops, range.stop_stops);
   range.count = int(std::clamp<long long>(count, 0, kMaxHdrExposures + 1));
   return range;
 }
 
-/// Both files, or both folders; a third like them.
-bool are_folders(const CompareArguments& options) {
+constexpr std::string_view kStdout = "-";
+
+/// Whether the pictures are folders. Throws Error(kInput) if only some of them are.
+bool are_folders(const CompareJob& job) {
   const auto is_folder = [](const std::string& path) {
     std::error_code unknown;
-    return std::filesystem::is_directory(path, unknown);
+    return fs::is_directory(path, unknown);
   };
-  const bool folders = is_folder(options.job.a);
-  const auto check = [&](const std::string& path) {
-    if (is_folder(path) != folders)
+  const bool folders = is_folder(job.a);
+  for (const std::string& path : {job.b, job.c})
+    if (!path.empty() && is_folder(path) != folders)
       throw Error(ExitCode::kInput,
                   fmt::format("{} is {}a folder, but {} is{}; compare two files or two folders",
-                              options.job.a, folders ? "" : "not ", path, folders ? " not" : ""));
-  };
-  check(options.job.b);
-  if (!options.job.c.empty()) check(options.job.c);
+                              job.a, folders ? "" : "not ", path, folders ? " not" : ""));
   return folders;
 }
 
@@ -111,7 +102,7 @@ void check_difference(const DifferencePicture& difference, bool folders) {
                             difference.of == kChannels ? "" : " (colours) or .exr (values)"));
 }
 
-/// Two paths to one file have the same, by whatever links.
+/// The same for all paths and links to a file.
 using FileId = std::pair<dev_t, ino_t>;
 
 std::optional<FileId> file_id(const fs::path& path) {
@@ -120,38 +111,37 @@ std::optional<FileId> file_id(const fs::path& path) {
   return FileId{status.st_dev, status.st_ino};
 }
 
-/// Every file that is read.
+/// The pictures of the pair `name`, and those of their noise; "": the files or folders as they were given.
+std::vector<fs::path> pictures_of(const CompareJob& job, const std::string& name) {
+  std::vector<fs::path> files = job.noise.files(name);
+  for (const std::string& given : {job.a, job.b, job.c})
+    if (!given.empty()) files.push_back(file_of(given, name));
+  return files;
+}
+
+/// All files that are read. `names`: the pairs of two folders; null for two files.
 std::set<FileId> inputs_of(const CompareArguments& options, const FolderPairs* names) {
-  const CompareJob& job = options.job;
   std::set<FileId> inputs;
-  const auto add = [&](const fs::path& file) {
-    if (const auto id = file_id(file)) inputs.insert(*id);
+  const auto add = [&](const std::vector<fs::path>& files) {
+    for (const fs::path& file : files)
+      if (const auto id = file_id(file)) inputs.insert(*id);
   };
-  add(options.scene);
-  add(options.display.config);
+  add({options.job.scene, options.display.config});
   if (!names) {
-    for (const std::string& file : {job.a, job.b, job.c}) add(file);
-    for (const fs::path& file : job.noise.files("")) add(file);
+    add(pictures_of(options.job, ""));
     return inputs;
   }
   for (const auto* list : {&names->both, &names->missing, &names->extra})
-    for (const std::string& name : *list) {
-      for (const std::string& folder : {job.a, job.b, job.c})
-        if (!folder.empty()) add(fs::path(folder) / name);
-      for (const fs::path& file : job.noise.files(name)) add(file);
-    }
+    for (const std::string& name : *list) add(pictures_of(options.job, name));
   return inputs;
 }
 
-/// Throws Error(kUsage) for a folder of difference pictures that lies in one that is compared: the next run
-/// would read them.
+/// Throws Error(kUsage) if the folder for difference pictures lies in a folder that is read: the next run would compare
+/// them.
 void require_outside(const fs::path& directory, const CompareJob& job) {
   std::error_code unknown;
   const fs::path real = fs::weakly_canonical(fs::absolute(directory, unknown), unknown);
-  std::vector<fs::path> folders = job.noise.files("");
-  for (const std::string& folder : {job.a, job.b, job.c})
-    if (!folder.empty()) folders.emplace_back(folder);
-  for (const fs::path& folder : folders)
+  for (const fs::path& folder : pictures_of(job, ""))
     if (const fs::path there = fs::canonical(folder, unknown); !unknown && is_below(real, there))
       throw Error(ExitCode::kUsage,
                   fmt::format("--diff-image {}: lies in {}, which is read by this command; choose "
@@ -159,7 +149,7 @@ void require_outside(const fs::path& directory, const CompareJob& job) {
                               directory.string(), folder.string()));
 }
 
-/// All can be written, each is a file of its own, and none is a file that is read, by any path.
+/// Throws unless all outputs can be written, are different files, and are not inputs under another path.
 void require_outputs(const CompareArguments& options, const FolderPairs* names) {
   const CompareJob& job = options.job;
   std::vector<fs::path> reports, pictures;
@@ -180,8 +170,8 @@ void require_outputs(const CompareArguments& options, const FolderPairs* names) 
     for (const fs::path& file : *files) {
       std::error_code unknown;
       const auto id = file_id(file);
-      fs::path target = fs::weakly_canonical(fs::absolute(file, unknown), unknown);
-      if ((id && inputs.contains(*id)) || !taken.insert(std::move(target)).second)
+      if ((id && inputs.contains(*id)) ||
+          !taken.insert(fs::weakly_canonical(fs::absolute(file, unknown), unknown)).second)
         throw Error(ExitCode::kUsage,
                     fmt::format("{}: is read or written by this command already", file.string()));
     }
@@ -199,7 +189,6 @@ bool prints_report(const CompareArguments& options) {
   return count == 1;
 }
 
-/// Files get their names together.
 void write_reports(const CompareArguments& options, const SetReport& report, bool folders,
                    FilesTogether& files) {
   std::string printed;
@@ -230,8 +219,8 @@ ExitCode run_compare(CompareArguments options) {
   if (!options.exposures.empty())
     comparison.viewing.hdr_exposures = parse_exposures(options.exposures);
   comparison.viewing.display = DisplayView::open(options.display);
-  if (!options.scene.empty()) {
-    const Scene scene = read_scene(options.scene);
+  if (!options.job.scene.empty()) {
+    const Scene scene = read_scene(options.job.scene);
     comparison.mask = truth::surface_mask(scene);
     if (comparison.tolerance) comparison.tolerance->edges = truth::edge_ring(scene);
   }
@@ -244,13 +233,12 @@ ExitCode run_compare(CompareArguments options) {
                 "--allow-equal-nonfinite: a value that is not finite has no noise; leave out the "
                 "noise of A and B");
   check_options(comparison);
-  const bool folders = are_folders(options);
+  const bool folders = are_folders(options.job);
   const bool has_table = !prints_report(options);
   check_difference(options.job.difference, folders);
   std::optional<FolderPairs> names;
   if (folders) names = pair_by_name(options.job.a, options.job.b);
   require_outputs(options, names ? &*names : nullptr);
-  options.job.scene = options.scene;
 
   FilesTogether files;
   SetReport report;
@@ -258,12 +246,8 @@ ExitCode run_compare(CompareArguments options) {
     report = names ? compare_folders(options.job, *names) : compare_files(options.job);
   });
   write_reports(options, report, folders, files);
-  if (has_table) {
-    if (folders)
-      print_set(report);
-    else
-      print_pair(report.pairs.front());
-  }
+  if (has_table && folders) print_set(report);
+  if (has_table && !folders) print_pair(report.pairs.front());
   return set_exit_code(report);
 }
 
@@ -324,18 +308,16 @@ void add_difference_options(OptionGroup& output, DifferencePicture& difference) 
       "Write where the two differ, in colours (.png, with the scale in its metadata) or as values "
       "(.exr); of folders, a folder of .png");
   output
-      .add("--diff-of", difference.of, "",
-           "What it shows: channels is |A - B| of each in its own colour, the others are one "
-           "value a pixel")
-      ->check(CLI::IsMember(maps))
-      ->needs(picture)
-      ->capture_default_str();
+      .add_choice(
+          "--diff-of", difference.of, maps,
+          "What it shows: channels is |A - B| of each in its own colour, the others are one "
+          "value a pixel")
+      ->needs(picture);
   output
-      .add("--diff-colours", difference.colour_map, "",
-           fmt::format("Its colour map; default {}, of signed values {}", kDefaultColourMap,
-                       kSignedColourMap))
-      ->check(CLI::IsMember(
-          std::vector<std::string>(colour_map_names().begin(), colour_map_names().end())))
+      .add_choice("--diff-colours", difference.colour_map,
+                  {colour_map_names().begin(), colour_map_names().end()},
+                  fmt::format("Its colour map; default {}, of signed values {}", kDefaultColourMap,
+                              kSignedColourMap))
       ->needs(picture);
   output
       .add("--diff-scale", difference.scale, "NUMBER",
@@ -357,10 +339,9 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
                    "Reference picture, of the same size, or a folder of references: pictures are "
                    "paired by their name within the folders")
       ->required();
-  command
-      ->add_option("--reference-floor", job.c,
-                   "A second reference: how far it is from B is shown beside how far A is")
-      ->type_name("C");
+  OptionGroup(*command).add(
+      "--reference-floor", job.c, "C",
+      "A second reference: how far it is from B is shown beside how far A is");
   add_any_format(*command);
   OptionGroup layers(*command, "Layers"), verdict(*command, "Verdict"), look(*command, "Viewing"),
       output(*command, "Output");
@@ -384,21 +365,17 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       ->trigger_on_parse()  // before A and B are asked for
       ->group("Output");
 
-  verdict
-      .add(
-          "--fail", options->fail, "METRIC=LIMIT",
-          "Verdict 'differs' if METRIC is over LIMIT (a likeness, such as psnr: below it); may be given again")
-      ->expected(1)
-      ->take_all();
-  verdict
-      .add("--warn", options->warn, "METRIC=LIMIT",
-           "As --fail, but a line and no verdict; may be given again")
-      ->expected(1)
-      ->take_all();
+  const auto add_limits = [&](const char* name, auto& limits, const char* help) {
+    verdict.add(name, limits, "METRIC=LIMIT", help)->expected(1)->take_all();
+  };
+  add_limits(
+      "--fail", options->fail,
+      "Verdict 'differs' if METRIC is over LIMIT (a likeness, such as psnr: below it); may be given again");
+  add_limits("--warn", options->warn, "As --fail, but a line and no verdict; may be given again");
   verdict.add("--tolerance", options->tolerance, "REL,PEAK,COUNT",
               "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
               "any channel; verdict 'differs' if there are more than COUNT");
-  verdict.add("--scene", options->scene, "",
+  verdict.add("--scene", job.scene, "",
               "Measure errors on the pixels that see a surface of this scene as well (ids in "
               ".mask); with --tolerance, outliers may lie only on its silhouettes, terminators "
               "and shadow edges");
@@ -409,17 +386,17 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
 
   job.noise.add_to(*command);
 
-  look.add("--exposure", viewing.exposure_stops, "STOPS",
-           "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted")
-      ->check(between(-kMaxExposureStops, kMaxExposureStops))
-      ->capture_default_str();
+  look.add_number(
+          "--exposure", viewing.exposure_stops, -kMaxExposureStops, kMaxExposureStops,
+          "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted")
+      ->type_name("STOPS");
   look.add("--exposures", options->exposures, "START,STOP,COUNT|auto",
            "Measure HDR-FLIP over COUNT exposures from START to STOP, in stops, shown through "
            "the ACES curve; with auto over the range that the reference alone suggests");
-  look.add("--pixels-per-degree", viewing.pixels_per_degree, "NUMBER",
-           "How many pixels of the display a degree of the viewer's eye sees, for FLIP")
-      ->check(between(kMinPixelsPerDegree, kMaxPixelsPerDegree))
-      ->capture_default_str();
+  look.add_number("--pixels-per-degree", viewing.pixels_per_degree, kMinPixelsPerDegree,
+                  kMaxPixelsPerDegree,
+                  "How many pixels of the display a degree of the viewer's eye sees, for FLIP")
+      ->type_name("NUMBER");
   add_display_options(look, options->display);
 
   output.add("--json", options->json, "FILE|-",

@@ -1,31 +1,16 @@
-#include "cli/compare_noise.hpp"
+#include <tuple>
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <utility>
-
+#include "cli/compare_pictures.hpp"
 #include "cli/options.hpp"
 #include "compare/require_same_size.hpp"
 #include "compare/uncertainty/z_test.hpp"
-#include "core/error.hpp"
 #include "core/image_io.hpp"
 
 namespace lobelia::cli {
-namespace {
-
-namespace fs = std::filesystem;
-
-fs::path file_of(const std::string& given, const std::string& name) {
-  return name.empty() ? fs::path(given) : fs::path(given) / name;
-}
-
-}  // namespace
-
 void NoiseFlags::add_to(CLI::App& command) {
   OptionGroup group(command, "Noise of Monte-Carlo pictures");
-  for (const auto& [letter, side] : {std::pair("a", &a_), {"b", &b_}}) {
-    const std::string picture = letter == std::string("a") ? "A" : "B";
+  for (const auto& [letter, picture, side] :
+       {std::tuple{'a', 'A', &a_}, std::tuple{'b', 'B', &b_}}) {
     auto* replicate = group.add(
         fmt::format("--{}-replicate", letter), side->replicates, "FILE|DIR",
         fmt::format(
@@ -42,36 +27,27 @@ void NoiseFlags::add_to(CLI::App& command) {
         ->excludes(replicate);
   }
   group
-      .add("--freedom", freedom_, "NUMBER",
-           "Degrees of freedom of those errors: independent estimates less one")
-      ->check(between(1, 1e9))
-      ->capture_default_str();
-  group
-      .add("--shared-noise", shared_, "",
-           "Whose pixels err together, as they share their points or were filtered: a, b, both "
-           "or none; default: what has a picture of errors")
-      ->check(CLI::IsMember({"a", "b", "both", "none"}));
-  group
-      .add("--significance", judged_.significance, "",
-           "Chance of finding a difference beyond the noise where there is none")
-      ->check(between(kLeastSignificance, kMostSignificance))
-      ->capture_default_str();
-  group
-      .add("--bootstrap", judged_.bootstraps, "",
-           "Pairs with noise that error bars are made of; each figure is measured twice as often")
-      ->check(between(kFewestBootstraps, kMostBootstraps))
-      ->capture_default_str();
-  group.add("--noise-seed", judged_.seed, "", "Chooses that noise")
-      ->check(between(0, 1 << 30))
-      ->capture_default_str();
+      .add_number("--freedom", freedom_, 1, 1e9,
+                  "Degrees of freedom of those errors: independent estimates less one")
+      ->type_name("NUMBER");
+  group.add_choice(
+      "--shared-noise", shared_, {"a", "b", "both", "none"},
+      "Whose pixels err together, as they share their points or were filtered: a, b, both "
+      "or none; default: what has a picture of errors");
+  group.add_number("--significance", judged_.significance, kLeastSignificance, kMostSignificance,
+                   "Chance of finding a difference beyond the noise where there is none");
+  group.add_number(
+      "--bootstrap", judged_.bootstraps, kFewestBootstraps, kMostBootstraps,
+      "Pairs with noise that error bars are made of; each figure is measured twice as often");
+  group.add_number("--noise-seed", judged_.seed, 0, 1 << 30, "Chooses that noise");
 }
 
 void NoiseFlags::apply(ComparisonOptions& options) const {
   if (a_.given() || b_.given()) options.noise = judged_;
 }
 
-std::vector<fs::path> NoiseFlags::files(const std::string& name) const {
-  std::vector<fs::path> result;
+std::vector<std::filesystem::path> NoiseFlags::files(const std::string& name) const {
+  std::vector<std::filesystem::path> result;
   for (const Side* side : {&a_, &b_}) {
     if (!side->error.empty()) result.push_back(file_of(side->error, name));
     for (const std::string& replicate : side->replicates)
@@ -83,7 +59,7 @@ std::vector<fs::path> NoiseFlags::files(const std::string& name) const {
 std::optional<PictureNoise> NoiseFlags::read_side(const Side& side, const std::string& letter,
                                                   const std::string& name, Image& image) const {
   const auto read = [&](const std::string& given) {
-    const fs::path file = file_of(given, name);
+    const auto file = file_of(given, name);
     Image picture = read_image(file);
     require_same_size(image, picture, "the picture", file.string());
     return picture;

@@ -1,6 +1,5 @@
 #include "cli/compare_pictures.hpp"
 
-#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -9,8 +8,6 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <optional>
-#include <string_view>
 #include <utility>
 
 #include "compare/maps/difference_map.hpp"
@@ -31,13 +28,13 @@ bool has_automatic_exposures(const ComparisonOptions& options) {
   return options.viewing.hdr_exposures && options.viewing.hdr_exposures->automatic;
 }
 
-/// `options.layer`, or where all are asked for and one file has no picture, the first that both have.
+/// `options.layer`; if all layers are asked for and a file has no picture, the first layer that both have.
 std::string main_layer(const std::string& a, const std::string& b, const LayerOptions& options) {
   if (!options.all || !options.layer.empty()) return options.layer;
   return common_layers(a, b).both.front();
 }
 
-/// A map's values as they are, in a picture of three equal channels.
+/// A map's values in three equal channels.
 Image grey_picture(std::span<const float> values, int width, int height) {
   Image image(width, height);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -45,10 +42,15 @@ Image grey_picture(std::span<const float> values, int width, int height) {
   return image;
 }
 
+/// Without --diff-scale the largest difference has the last colour.
+double scale_of(const DifferencePicture& wanted, double largest) {
+  return wanted.scale > 0 ? wanted.scale : largest > 0 ? largest : 1.0;
+}
+
 void write_channels(const DifferencePicture& wanted, const fs::path& path, const Image& a,
                     const Image& b, double largest) {
-  // Without a scale the largest difference is white; one that is not finite is magenta anyway.
-  const double scale = wanted.scale > 0 ? wanted.scale : largest > 0 ? largest : 1.0;
+  // A difference that is not finite is magenta.
+  const double scale = scale_of(wanted, largest);
   write_png(path, difference_picture(a, b, scale),
             {{"Description", fmt::format("|A - B| of R, G and B (radiance), 0 to {:.6g}", scale)},
              {"lobelia:difference", std::string(kChannels)},
@@ -68,7 +70,7 @@ void write_difference(const DifferencePicture& wanted, const fs::path& path, con
   const DifferenceMap& map = *find_difference_map(wanted.of);
   const std::vector<float> values = measure_difference_map(map, a, b, comparison.viewing);
   const double largest = largest_magnitude(values);
-  const double scale = wanted.scale > 0 ? wanted.scale : largest > 0 ? largest : 1.0;
+  const double scale = scale_of(wanted, largest);
   const std::string_view colours = !wanted.colour_map.empty() ? std::string_view(wanted.colour_map)
                                    : map.is_signed            ? kSignedColourMap
                                                               : kDefaultColourMap;
@@ -84,7 +86,7 @@ void write_difference(const DifferencePicture& wanted, const fs::path& path, con
       largest);
 }
 
-/// For a finite picture; others are not measured.
+/// The exposures that suit `reference`, or no range and the reason.
 HdrExposures exposures_or_why_not(const Image& reference) {
   try {
     return automatic_exposures(reference);
@@ -93,7 +95,7 @@ HdrExposures exposures_or_why_not(const Image& reference) {
   }
 }
 
-/// Values that are not finite in both references are judged as those of the pictures are.
+/// With `equal_allowed`, values that are not finite in both references are no difference.
 ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, const Image& b,
                         bool equal_allowed, const ComparisonOptions& options) {
   Image c = read_picture(pair.c, layer).image;
@@ -104,7 +106,7 @@ ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, const 
   return measure_reference_floor(c, cleared, options);
 }
 
-/// `name_within`: of folders the pair's name, which the pictures of noise have in theirs; else empty.
+/// `name_within`: the pair's name in folders, which the pictures of noise have in theirs; empty for two files.
 PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOptions options,
                         bool choose_exposures, const std::string& name_within,
                         const fs::path& difference_path) {
@@ -118,7 +120,6 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOption
     throw Error(ExitCode::kInput,
                 fmt::format("{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
                             a.height(), job.scene, options.mask.size()));
-  // One that is not finite is a verdict, and nothing is measured.
   if (choose_exposures) options.viewing.hdr_exposures = exposures_or_why_not(b);
   std::optional<ReferenceFloor> floor;
   if (!pair.c.empty())
@@ -132,8 +133,8 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOption
   return pair;
 }
 
-/// Calls work(i) for i < count, in parallel. A thread that waits for a part of its own pair does not begin
-/// another one: as many pairs are in memory as there are threads.
+/// Calls work(i) for i < count, in parallel. A thread that waits for a part of its own pair does not start another one,
+/// so no more pairs are in memory than there are threads.
 template <class Work>
 void for_each_pair(std::size_t count, Work work) {
   oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
@@ -141,7 +142,7 @@ void for_each_pair(std::size_t count, Work work) {
   });
 }
 
-/// One range for the set: what one number means must not change from pair to pair.
+/// One range for the set, so that a number means the same in every pair.
 HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const LayerOptions& layers) {
   std::mutex mutex;
   std::optional<HdrExposures> all;
@@ -203,7 +204,7 @@ void print_layers(const OtherLayers& layers, const std::string& a, const std::st
     fmt::print("  not compared: {}\n", to_text(layers.not_compared));
 }
 
-/// A line for each file whose ICC profile says other colours than were assumed.
+/// Names each file with an ICC profile that is not applied.
 void print_profiles(const PicturePairSource& sources) {
   for (const auto& [name, source] : {std::pair('a', &sources.a), {'b', &sources.b}})
     if (!source->icc_profile.empty() && !source->icc_is_srgb)
@@ -216,13 +217,7 @@ void print_names(const std::string& a, const std::string& b, const std::string& 
   if (!c.empty()) fmt::print("c  {}  (the second reference)\n", printable_path(c));
 }
 
-void print_display(const DisplayView* display) {
-  if (display)
-    fmt::print("shown by view {} of display {} in {}\n", printable(display->choice().view),
-               printable(display->choice().display), printable_path(display->choice().config));
-}
-
-/// "± 0.0012  " where noise is known; a column that is empty for figures without an error bar.
+/// "± 0.0012  "; blank for a figure without an error bar, "" where no noise is known.
 std::string error_bar_text(const Comparison& comparison, std::string_view id) {
   if (!comparison.uncertainty) return "";
   const ErrorBar* bar = records::find(comparison.error_bars, id);
@@ -256,7 +251,7 @@ void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view 
                limit.limit);
 }
 
-/// A line for each metric, with the reason of the first pair.
+/// A line for each metric that some pairs lack, with the reason of the first of them.
 void print_not_measured(const std::vector<PairReport>& pairs) {
   std::map<std::string_view, std::pair<std::size_t, std::string>> reasons;
   for (const PairReport& pair : pairs)
@@ -280,14 +275,12 @@ SetReport compare_files(const CompareJob& job) {
 SetReport compare_folders(const CompareJob& job, const FolderPairs& names) {
   SetReport report{
       job.a, job.b, job.c, {}, names.missing, names.extra, names.passed_over, names.not_followed};
-  for (const std::string& name : names.both)
-    report.pairs.push_back({name,
-                            (fs::path(job.a) / name).string(),
-                            (fs::path(job.b) / name).string(),
-                            job.c.empty() ? "" : (fs::path(job.c) / name).string(),
-                            {},
-                            {},
-                            0});
+  for (const std::string& name : names.both) {
+    const auto within = [&](const std::string& folder) {
+      return folder.empty() ? folder : file_of(folder, name).string();
+    };
+    report.pairs.push_back({name, within(job.a), within(job.b), within(job.c), {}, {}, 0});
+  }
   ComparisonOptions options = job.comparison;
   if (has_automatic_exposures(options))
     options.viewing.hdr_exposures = exposures_for_all(report.pairs, job.layers);
@@ -311,7 +304,9 @@ SetReport compare_folders(const CompareJob& job, const FolderPairs& names) {
 void print_pair(const PairReport& pair) {
   const Comparison& comparison = *pair.comparison;
   print_names(pair.a, pair.b, pair.c);
-  print_display(comparison.viewing.display.get());
+  if (const auto& display = comparison.viewing.display)
+    fmt::print("shown by view {} of display {} in {}\n", printable(display->choice().view),
+               printable(display->choice().display), printable_path(display->choice().config));
   fmt::print("\n");
   if (comparison.verdict == Verdict::kNonFinite)
     fmt::print("  {}; nothing was measured\n", why_not_pass(comparison, pair.a, pair.b));
@@ -342,7 +337,7 @@ void print_set(const SetReport& report) {
     fmt::print("  {:<12}{}{}{}\n", what, printable_path(name), why.empty() ? "" : ": ",
                printable_path(why));
   };
-  // What a person has to act on comes first.
+  // Problems come first.
   for (const PairReport& pair : report.pairs)
     if (!pair.comparison) line("error", pair.name, pair.error);
   for (const std::string& name : report.missing) line("missing", name, "there is only a reference");

@@ -1,11 +1,8 @@
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <memory>
+#include <algorithm>
 
 #include "cli/commands.hpp"
-#include "cli/engine_programs.hpp"
-#include "cli/progress.hpp"
+#include "cli/messages.hpp"
+#include "cli/options.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "records/record.hpp"
@@ -24,16 +21,15 @@ struct CostArguments {
   bool all = false, quick = false, thorough = false, quiet = false;
 };
 
-/// Those that were named, or all that have something to measure.
+/// The levels named by --level, or all that have something to measure.
 std::vector<const cost::Benchmark*> chosen_levels(const CostArguments& options) {
   std::vector<const cost::Benchmark*> chosen;
   for (const cost::Benchmark& level : cost::benchmarks()) {
-    const bool named =
-        std::find(options.levels.begin(), options.levels.end(), level.name) != options.levels.end();
-    if (named && level.needs_scenes && options.scenes.empty())
+    const bool named = std::ranges::count(options.levels, level.name) > 0;
+    const bool lacks_scene = level.needs_scenes && options.scenes.empty();
+    if (named && lacks_scene)
       throw Error(ExitCode::kUsage, fmt::format("--level {} needs a SCENE", level.name));
-    if (named || (options.levels.empty() && !(level.needs_scenes && options.scenes.empty())))
-      chosen.push_back(&level);
+    if (named || (options.levels.empty() && !lacks_scene)) chosen.push_back(&level);
   }
   return chosen;
 }
@@ -71,10 +67,8 @@ void run_cost(const CostArguments& options) {
     cost::write_cost(report, options.directory);
     files.commit();
   }
-  if (options.json == "-")
-    fmt::print("{}", record_text(report));
-  else
-    fmt::print("{}", cost::cost_text(report, options.all));
+  fmt::print("{}",
+             options.json == "-" ? record_text(report) : cost::cost_text(report, options.all));
 }
 
 std::string level_lines() {
@@ -103,18 +97,13 @@ void add_cost(CLI::App& app, ExitCode&) {
   command->add_flag("--thorough", options->thorough, "More rounds and samples: up to an hour")
       ->excludes(quick);
   options->programs.add_to(*command);
-  command
-      ->add_option("-o,--output", options->directory,
-                   "Write cost.json, cost.csv and a chart (.svg) of each table's front into DIR")
-      ->type_name("DIR")
-      ->group("Output");
-  command->add_option("--json", options->json, "With -, print the record in place of the tables")
-      ->type_name("-")
-      ->check(CLI::IsMember({"-"}))
-      ->group("Output");
-  command->add_flag("--all", options->all, "Print the ways that others dominate as well")
-      ->group("Output");
-  command->add_flag("-q,--quiet", options->quiet, "No progress line")->group("Output");
+  OptionGroup output(*command, "Output");
+  output.add("-o,--output", options->directory, "DIR",
+             "Write cost.json, cost.csv and a chart (.svg) of each table's front into DIR");
+  output.add("--json", options->json, "-", "With -, print the record in place of the tables")
+      ->check(CLI::IsMember({"-"}));
+  output.add_flag("--all", options->all, "Print the ways that others dominate as well");
+  output.add_flag("-q,--quiet", options->quiet, "No progress line");
   command->footer(
       "Levels:\n" + level_lines() +
       "\nTimes are medians of interleaved rounds, +- half the spread between quartiles. "

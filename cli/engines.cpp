@@ -1,11 +1,6 @@
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "cli/commands.hpp"
-#include "cli/engine_programs.hpp"
+#include "cli/options.hpp"
 #include "core/standard_streams.hpp"
-#include "core/text.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 
@@ -59,7 +54,7 @@ ExitCode run_engines(const EnginesArguments& options) {
   records::Engines record;
   std::vector<std::string> problems;
   for (const EngineInfo& info : engine_infos()) {
-    const auto engine = make_engine(info.name, options.programs.of(std::string(info.name)));
+    const auto engine = make_engine(info.name, options.programs.of(info.name));
     const EngineStatus& status = engine->status();
     if (options.json)
       record.engines.push_back(engine_record(info, status));

@@ -1,13 +1,9 @@
 // lobelia export MODEL...
 #include "shaders/export.hpp"
 
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "cli/commands.hpp"
+#include "cli/messages.hpp"
 #include "cli/options.hpp"
-#include "cli/warnings.hpp"
 #include "core/files.hpp"
 
 namespace lobelia::cli {
@@ -44,9 +40,9 @@ void run_export(const ExportArguments& options) {
 void add_export(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand("export", "Write models as shader functions, to take home");
   auto options = std::make_shared<ExportArguments>();
-  command->add_option("MODEL", options->models, fmt::format("Models: {}", join(model_names())))
+  OptionGroup group(*command);
+  group.add("MODEL", options->models, "", fmt::format("Models: {}", join(model_names())))
       ->required();
-  OptionGroup group(*command, "Options");
   group
       .add("--language", options->language, "",
            fmt::format("Language: {}", join(shader_language_names())))

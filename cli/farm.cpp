@@ -1,20 +1,9 @@
-#include "farm/farm.hpp"
-
-#include <fmt/format.h>
-
-#include <memory>
-
+#include "cli/farm.hpp"
 #include "cli/commands.hpp"
-#include "cli/engine_programs.hpp"
-#include "cli/farm_slurm.hpp"
-#include "cli/farm_upkeep.hpp"
+#include "cli/messages.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
 #include "cli/publish.hpp"
-#include "cli/warnings.hpp"
 #include "core/interrupt.hpp"
-#include "core/standard_streams.hpp"
-#include "core/text.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/upkeep.hpp"
 
@@ -22,12 +11,12 @@ namespace lobelia::cli {
 namespace {
 
 struct FarmArguments {
-  std::string grid, directory, cache, filter, gallery, memory = "4G", disk = "4G";
+  std::string grid, directory, filter, memory = "4G", disk = "4G";
   EnginePrograms programs;
   SlurmSettings slurm;
   FarmOptions farm;
   double time_limit = 600, no_progress_limit = 300;
-  bool memory_given = false, quiet = false, dry_run = false, keep_going = false;
+  bool memory_given = false, quiet = false, dry_run = false;
 };
 
 FarmOptions farm_options(const FarmArguments& options) {
@@ -38,33 +27,23 @@ FarmOptions farm_options(const FarmArguments& options) {
   farm.memory = parse_size(options.memory);
   farm.disk = parse_size(options.disk);
   farm.failed_directory = std::filesystem::absolute(options.directory) / FailedJobs::kName;
-  farm.cache = options.cache;
   farm.filter = JobFilter(options.filter);
   farm.command = command_line();
-  farm.gallery = options.gallery;
   return farm;
 }
 
 void dry_run(const Grid& grid, const FarmArguments& options) {
-  fmt::memory_buffer lines;
-  const auto flush = [&] {
-    std::fwrite(lines.data(), 1, lines.size(), stdout);
-    lines.clear();
-  };
-  const FarmPlan plan =
-      plan_farm(grid, options.directory, farm_options(options),
-                [&](const std::string& name, const std::string& reason) {
-                  fmt::format_to(std::back_inserter(lines), "{}: {}\n", name, reason);
-                  if (lines.size() > 1 << 16) flush();
-                });
-  flush();
+  const FarmPlan plan = plan_farm(grid, options.directory, farm_options(options),
+                                  [](const std::string& name, const std::string& reason) {
+                                    fmt::print("{}: {}\n", name, reason);
+                                  });
   for (const auto& sentence : plan.absent_engines) say("lobelia: {}\n", sentence);
   if (!plan.warning.empty()) warn(plan.warning);
   fmt::print("{} cells, {} jobs: {} to be done, {} not\n", plan.cells, plan.jobs, plan.wanted,
              plan.jobs - plan.wanted);
 }
 
-/// How well the machine was used, and what the farm itself cost.
+/// The share of the machine that was used, and the farm's own cost.
 std::string work_text(const FarmSummary& summary) {
   const JobRunWork& work = summary.work;
   std::string text;
@@ -79,10 +58,10 @@ std::string work_text(const FarmSummary& summary) {
   return text;
 }
 
-ExitCode report(const FarmSummary& summary, const FarmArguments& options) {
+void print_summary(const FarmSummary& summary, const FarmArguments& options) {
   for (const auto& problem : summary.problems) say("lobelia: {}\n", printable(problem, 2000));
-  for (const auto& sentence : summary.absent_engines) say("lobelia: {}\n", sentence);
-  for (const auto& sentence : summary.refusals) say("lobelia: {}\n", sentence);
+  for (const auto* sentences : {&summary.absent_engines, &summary.refusals})
+    for (const auto& sentence : *sentences) say("lobelia: {}\n", sentence);
   if (summary.foreign > 0)
     say("lobelia: {}/cells also holds {} cells that are not of this grid\n",
         printable_path(options.directory), summary.foreign);
@@ -98,13 +77,14 @@ ExitCode report(const FarmSummary& summary, const FarmArguments& options) {
              some(summary.undecided, "undecided"), some(summary.unchecked, "not compared"),
              some(summary.missing, "not done"), summary.rendered, summary.kept);
   if (!options.quiet) fmt::print("{}", work_text(summary));
-  if (summary.failed > 0) return ExitCode::kOutput;
-  return summary.differs + summary.undecided > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
 }
 
-/// The exit code of a farm and its gallery.
-ExitCode worse(ExitCode farm, ExitCode gallery) {
-  return farm == ExitCode::kSuccess ? gallery : farm;
+/// Prints the summary, publishes the gallery if it is wanted, and returns the exit code of both.
+ExitCode report(const FarmSummary& summary, const FarmArguments& options) {
+  print_summary(summary, options);
+  const ExitCode gallery = publish_if_wanted(options.directory, options.farm.gallery);
+  if (summary.failed > 0) return ExitCode::kOutput;
+  return summary.differs + summary.undecided > 0 ? ExitCode::kDiffers : gallery;
 }
 
 ExitCode run_on_cluster(const Grid& grid, const FarmArguments& options) {
@@ -123,8 +103,7 @@ ExitCode run_on_cluster(const Grid& grid, const FarmArguments& options) {
                printable_path(options.directory));
     return ExitCode::kSuccess;
   }
-  ExitCode code = report(summary.farm, options);
-  code = worse(code, publish_if_wanted(options.directory, options.gallery));
+  const ExitCode code = report(summary.farm, options);
   if (code != ExitCode::kOutput && !summary.slurm.missing.empty()) {
     say("lobelia: {} jobs have no result after {} rounds; the same command tries again\n",
         summary.slurm.missing.size(), summary.slurm.rounds);
@@ -156,8 +135,7 @@ ExitCode run_farm_command(const FarmArguments& options) {
                 "interrupted; what is done is kept, and the same command goes on from there");
   }
   line.clear();
-  const ExitCode code = report(summary, options);
-  return worse(code, publish_if_wanted(options.directory, options.gallery));
+  return report(summary, options);
 }
 
 }  // namespace
@@ -166,59 +144,46 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("farm", "Render, reference and compare every cell of a grid");
   auto options = std::make_shared<FarmArguments>();
   FarmOptions& farm = options->farm;
-  const auto number = [&](const char* name, auto& value, double least, double most,
-                          const char* what) {
-    command->add_option(name, value, what)->check(between(least, most))->capture_default_str();
-  };
-  command->add_option("GRID", options->grid, "Grid file (docs/grid_format.md)");
-  command->add_option("-o,--output", options->directory, "Directory for pictures and records")
-      ->type_name("DIR");
-  command
-      ->add_option(
-          "--cache", options->cache,
-          "Where results are kept, for any number of grids; $LOBELIA_CACHE, else DIR/cache")
-      ->type_name("DIR");
-  command->add_flag("--dry-run", options->dry_run, "Only list the jobs and why each is to be done");
-  command
-      ->add_option(
-          "--filter", options->filter,
-          "Only jobs of these names: 'phong*:-*blender' is those that begin with phong and do "
-          "not end in blender")
-      ->type_name("PATTERNS");
-  number("--threads", farm.threads, 0, 1024, "Threads; 0 is all processors");
-  number("--time-limit", options->time_limit, 0.1, 1e6, "Seconds that a picture may take");
-  number("--no-progress-limit", options->no_progress_limit, 0, 1e6,
-         "Seconds in which an engine may say and write nothing; 0 is any");
-  number("--attempts", farm.attempts, 1, 100,
-         "At a picture that fails in a way that may not repeat itself");
-  auto* memory = command->add_option(
-      "--memory", options->memory,
+  OptionGroup group(*command);
+  group.add("GRID", options->grid, "", "Grid file (docs/grid_format.md)");
+  group.add("-o,--output", options->directory, "DIR", "Directory for pictures and records");
+  group.add("--cache", farm.cache, "DIR",
+            "Where results are kept, for any number of grids; $LOBELIA_CACHE, else DIR/cache");
+  group.add_flag("--dry-run", options->dry_run, "Only list the jobs and why each is to be done");
+  group.add("--filter", options->filter, "PATTERNS",
+            "Only jobs of these names: 'phong*:-*blender' is those that begin with phong and do "
+            "not end in blender");
+  group.add_number("--threads", farm.threads, 0, 1024, "Threads; 0 is all processors");
+  group.add_number("--time-limit", options->time_limit, 0.1, 1e6,
+                   "Seconds that a picture may take");
+  group.add_number("--no-progress-limit", options->no_progress_limit, 0, 1e6,
+                   "Seconds in which an engine may say and write nothing; 0 is any");
+  group.add_number("--attempts", farm.attempts, 1, 100,
+                   "At a picture that fails in a way that may not repeat itself");
+  auto* memory = group.add(
+      "--memory", options->memory, "SIZE",
       "What a job's processes may use together: 4G; 0 is any. On a cluster an element asks for it for "
       "each of its threads, and 512M");
-  memory->type_name("SIZE")->capture_default_str();
-  command->add_option("--disk", options->disk, "What an engine may write for a picture; 0 is any")
-      ->type_name("SIZE")
+  memory->capture_default_str();
+  group.add("--disk", options->disk, "SIZE", "What an engine may write for a picture; 0 is any")
       ->capture_default_str();
-  number(
+  group.add_number(
       "--give-up-after", farm.give_up_after, 0, 1000000,
       "Pictures in a row that an engine fails at before it is not tried any more; 0 is any number");
-  auto* fail_fast = command->add_flag("--fail-fast", farm.fail_fast, "Stop at the first failure");
+  auto* fail_fast = group.add_flag("--fail-fast", farm.fail_fast, "Stop at the first failure");
   command
-      ->add_flag("--keep-going", options->keep_going,
-                 "A failure stops nothing else (as without it)")
+      ->add_flag_callback(
+          "--keep-going", [] {}, "A failure stops nothing else (as without it)")
       ->excludes(fail_fast);
-  command
-      ->add_option("--gallery", options->gallery,
-                   "Then publish its gallery there (DIR itself, or another directory)")
-      ->type_name("SITE");
-  command->add_flag("--again", farm.again, "Make everything again, in the cache or not");
-  command->add_flag("--require-engines", farm.require_engines,
-                    "An engine that is not installed is an error");
-  command->add_flag("-q,--quiet", options->quiet, "No progress");
+  group.add("--gallery", farm.gallery, "SITE",
+            "Then publish its gallery there (DIR itself, or another directory)");
+  group.add_flag("--again", farm.again, "Make everything again, in the cache or not");
+  group.add_flag("--require-engines", farm.require_engines,
+                 "An engine that is not installed is an error");
+  group.add_flag("-q,--quiet", options->quiet, "No progress");
   options->programs.add_to(*command);
   options->slurm.add_to(*command);
   add_farm_upkeep(*command, exit_code);
-  add_farm_explain(*command, exit_code);
   add_farm_slurm(*command, exit_code);
   command->footer(
       "What the cache has is not made again, whichever grid it was made for. Ctrl-C leaves nothing\n"
@@ -229,7 +194,7 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
       "given by its path is not that engine, too), or absent with --require-engines, 130 Ctrl-C, 143 SIGTERM.\n\n"
       "Example: lobelia farm reference_scenes/grids/sphere_grid.xml -o out/gallery\n"
       "         lobelia gallery out/gallery");
-  // A farm has engines to stop and records to write; on a cluster it asks what becomes of the jobs.
+  // On Ctrl-C a farm stops its engines and writes its records; on a cluster it asks whether to cancel the jobs.
   command->preparse_callback([](std::size_t) { end_by_ourselves_when_interrupted(); });
   command->callback([command, memory, options, &exit_code] {
     options->memory_given = memory->count() > 0;

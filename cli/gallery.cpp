@@ -3,11 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <string>
-
 #include "cli/commands.hpp"
 #include "cli/publish.hpp"
 #include "core/interrupt.hpp"
@@ -30,10 +25,10 @@ void add_serve(CLI::App& gallery) {
       "no server; this is for seeing one as a server will give it.\n\n"
       "Example: lobelia gallery serve out/gallery");
   command->callback([directory, port] {
-    end_by_ourselves_when_interrupted();  // Ctrl-C is how it is stopped
+    end_by_ourselves_when_interrupted();  // Ctrl-C stops the server
     gallery::serve_site(*directory, *port, [](const std::string& url) {
       fmt::print("{}\n", url);
-      if (std::fflush(stdout) != 0)  // nobody would ever learn the address
+      if (std::fflush(stdout) != 0)  // otherwise the address would be lost
         throw Error(ExitCode::kOutput, "standard output: cannot write");
     });
   });
@@ -45,7 +40,7 @@ void add_gallery(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("gallery", "Draw a farm's records as a static site");
   auto run = std::make_shared<std::string>();
   auto options = std::make_shared<gallery::GalleryOptions>();
-  // Not required by the parser: it would be asked for with 'serve' too.
+  // Not required by the parser, which would ask for it with 'serve' too.
   command->add_option("RUN", *run, "The directory that 'lobelia farm' wrote");
   command->add_option("-o,--output", options->site, "Directory for the site; by default RUN itself")
       ->type_name("DIR");
@@ -71,9 +66,9 @@ void add_gallery(CLI::App& app, ExitCode& exit_code) {
   command->callback([command, run, options, &exit_code] {
     if (!command->get_subcommands().empty()) return;
     if (run->empty()) throw CLI::RequiredError("RUN");
-    const Published published = publish(*run, *options);
-    fmt::print("{}\n", published.index.string());
-    exit_code = published.code;
+    const gallery::PublishedGallery made = publish(*run, *options);
+    fmt::print("{}\n", made.index.string());
+    if (!made.doubts.empty()) exit_code = ExitCode::kDiffers;
   });
 }
 

@@ -36,7 +36,7 @@ constexpr char kFooter[] =
 constexpr char kStdoutFailed[] = "standard output: cannot write";
 constexpr char kOutOfMemory[] = "lobelia: not enough memory (ulimit -v or -d, cgroup memory.max)\n";
 
-/// Each message on a line of its own, whatever bytes a file's name brings into it.
+/// Prints each message on its own line, with unprintable bytes escaped, and returns the exit code.
 int fail(ExitCode code, std::span<const std::string> messages) noexcept {
   take_over_end();
   if (code == ExitCode::kInterrupted) code = interrupt_exit_code();
@@ -50,7 +50,7 @@ int fail(ExitCode code, std::span<const std::string> messages) noexcept {
 
 int fail(ExitCode code, const std::string& message) { return fail(code, std::span(&message, 1)); }
 
-/// The exit code, once everything printed has arrived.
+/// Flushes stdout and returns the exit code.
 int flushed(ExitCode code) {
   if (interrupted_in_time()) throw_if_interrupted();
   std::cout.flush();  // CLI11 prints its help there
@@ -60,7 +60,7 @@ int flushed(ExitCode code) {
   return int(code);
 }
 
-/// "" or the message about the first word that should be a subcommand and is none. CLI11 would only
+/// A message about the first word that should be a subcommand and is not, or "". CLI11 would only
 /// say that one is missing.
 std::string unknown_subcommand(CLI::App& app, int argc, char** argv) {
   CLI::App* command = &app;
@@ -69,7 +69,7 @@ std::string unknown_subcommand(CLI::App& app, int argc, char** argv) {
     for (const auto* sub : command->get_subcommands({})) names.push_back(sub->get_name());
     if (names.empty()) break;
     if (std::ranges::count(names, std::string_view(argv[i])) == 0) {
-      // `farm GRID` and `farm status DIR`: what is no subcommand is a file.
+      // `farm GRID` and `farm status DIR`: a word that is no subcommand is a file.
       if (command->get_require_subcommand_min() == 0) break;
       return fmt::format("unknown subcommand '{}'; allowed: {}{}", printable(argv[i]), join(names),
                          did_you_mean(argv[i], names));
@@ -106,7 +106,7 @@ int run(int argc, char** argv) {
   return flushed(exit_code);
 }
 
-/// Memory may also end where nothing may be thrown: the destructor of a JSON value allocates.
+/// Memory may run out where nothing may be thrown: the destructor of a JSON value allocates.
 [[noreturn]] void end_for_want_of_memory() noexcept {
   try {
     if (const auto current = std::current_exception()) std::rethrow_exception(current);

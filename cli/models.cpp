@@ -1,12 +1,8 @@
-#include <fmt/format.h>
-
-#include <memory>
 #include <numbers>
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "core/files.hpp"
-#include "core/text.hpp"
 #include "records/record.hpp"
 #include "renderer/albedo.hpp"
 #include "renderer/catalogue_record.hpp"
@@ -100,9 +96,8 @@ struct ModelsArguments {
 void run_models(const ModelsArguments& options, bool has_exponent) {
   if (!options.tables.empty()) {
     require_writable(options.tables);
-    const std::vector<double> exponents =
-        has_exponent ? std::vector{options.exponent} : table_exponents();
-    write_record(options.tables, highlight_tables(exponents));
+    write_record(options.tables, highlight_tables(has_exponent ? std::vector{options.exponent}
+                                                               : table_exponents()));
     return;
   }
   if (options.json) {
@@ -120,12 +115,11 @@ void add_models(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "models", "List models, lobes and normalisations: formulas, cost, what was measured of them");
   auto options = std::make_shared<ModelsArguments>();
-  auto* json = command->add_flag("--json", options->json, "Print the catalogue as JSON");
-  auto* exponent =
-      command->add_option("--exponent", options->exponent, "Exponent n at which to measure")
-          ->check(between(kMinExponent, kMaxExponent))
-          ->capture_default_str();
-  OptionGroup(*command, "Options")
+  OptionGroup group(*command);
+  auto* json = group.add_flag("--json", options->json, "Print the catalogue as JSON");
+  auto* exponent = group.add_number("--exponent", options->exponent, kMinExponent, kMaxExponent,
+                                    "Exponent n at which to measure");
+  group
       .add(
           "--tables", options->tables, "FILE",
           "Write curves and albedos of every highlight over the exponent (kind highlight-tables) to "

@@ -1,10 +1,28 @@
 #include "cli/options.hpp"
 
+#include <algorithm>
+
 #include "core/contained_reader.hpp"
 #include "core/files.hpp"
 #include "core/picture_bytes.hpp"
+#include "reference_scenes/engine.hpp"
+#include "renderer/scene/scene_format.hpp"
 
 namespace lobelia::cli {
+namespace {
+
+template <class Number, class Target>
+void replace(const std::optional<Number>& value, std::string_view option, double min, double max,
+             Target& target) {
+  if (!value) return;
+  // Written so that a NaN is refused too.
+  if (!(double(*value) >= min && double(*value) <= max))
+    throw Error(ExitCode::kUsage, fmt::format("{} {} is out of range; allowed: {:g} to {:g}",
+                                              option, *value, min, max));
+  target = Target(*value);
+}
+
+}  // namespace
 
 CLI::Validator between(double min, double max) {
   return {[=](std::string& text) {
@@ -22,6 +40,14 @@ void add_any_format(CLI::App& command) {
       fmt::format("Read every format that OpenImageIO knows, not only {}", kPictureFormats));
 }
 
+std::size_t chosen_place(const std::string& value, std::string_view option,
+                         std::span<const std::string_view> names) {
+  return chosen(value, option, names, join(names), [&](const std::string& name) {
+    const auto place = std::size_t(std::ranges::find(names, name) - names.begin());
+    return place < names.size() ? std::optional(place) : std::nullopt;
+  });
+}
+
 std::filesystem::path checked_record_path(const std::filesystem::path& image) {
   if (image.extension() != ".exr")
     throw Error(ExitCode::kUsage,
@@ -31,6 +57,64 @@ std::filesystem::path checked_record_path(const std::filesystem::path& image) {
   require_writable(image);
   require_writable(record);
   return record;
+}
+
+void EnginePrograms::add_to(CLI::App& command) {
+  for (const EngineInfo& engine : engine_infos())
+    if (engine.is_program)
+      command
+          .add_option(fmt::format("--{}", engine.name), typed_[std::string(engine.name)],
+                      fmt::format("Program to use for {}, if not the one in $PATH", engine.title))
+          ->type_name("PATH");
+}
+
+std::map<std::string, std::filesystem::path> EnginePrograms::given() const {
+  std::map<std::string, std::filesystem::path> programs;
+  for (const auto& [engine, program] : typed_)
+    if (!program.empty()) programs[engine] = program;
+  return programs;
+}
+
+std::filesystem::path EnginePrograms::of(std::string_view engine) const {
+  const auto found = typed_.find(engine);
+  return found == typed_.end() ? std::filesystem::path() : found->second;
+}
+
+void SceneOverrides::add_to(CLI::App& command) {
+  OptionGroup group(command, "In place of what the scene says");
+  group.add("--model", model_, "", fmt::format("Model: {}", join(model_names())));
+  group.add("--lobe", lobe_, "", fmt::format("Lobe: {}", allowed_lobes()));
+  group.add("--normalisation", normalisation_, "",
+            fmt::format("Coefficient: {}", join(normalisation_names())));
+  group.add("--exponent", exponent_, "",
+            fmt::format("Sharpness n, {} to {:g}", kMinExponent, kMaxExponent));
+  group.add("--width", width_, "", "Width of the picture in pixels");
+  group.add("--height", height_, "", "Height of the picture in pixels");
+  group.add("--samples", samples_, "", "Rays a pixel; 1 is the pixel's centre");
+  group.add("--seed", seed_, "", "Chooses the positions of more than one sample");
+}
+
+void SceneOverrides::apply(Scene& scene) const {
+  Highlight unused;  // wrong values are refused for a scene without materials too
+  std::vector<Highlight*> highlights{&unused};
+  for (auto& material : scene.materials) highlights.push_back(&material.highlight);
+  for (Highlight* const highlight : highlights) {
+    if (model_)
+      highlight->model = chosen(*model_, "--model", model_names(), join(model_names()), find_model);
+    if (lobe_) highlight->lobe = chosen(*lobe_, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+    if (normalisation_)
+      highlight->normalisation = chosen(*normalisation_, "--normalisation", normalisation_names(),
+                                        join(normalisation_names()), find_normalisation);
+    replace(exponent_, "--exponent", kMinExponent, kMaxExponent, highlight->exponent);
+  }
+  replace(width_, "--width", 1, kMaxImageSide, scene.film.width);
+  replace(height_, "--height", 1, kMaxImageSide, scene.film.height);
+  if (std::int64_t{scene.film.width} * scene.film.height > kMaxImagePixels)
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} x {} pixels are too many; allowed: {} in all", scene.film.width,
+                            scene.film.height, kMaxImagePixels));
+  replace(samples_, "--samples", 1, 65536, scene.sampler.sample_count);
+  replace(seed_, "--seed", 0, 0x1p53, scene.sampler.seed);  // what a scene file can hold
 }
 
 }  // namespace lobelia::cli

@@ -1,30 +1,49 @@
-// What the options of several subcommands share.
+// Options that several subcommands share.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace lobelia::cli {
+
+/// Checks that an option's number lies in a range. CLI::Range accepts a NaN.
+CLI::Validator between(double min, double max);
 
 /// Adds options under one heading of a command's help.
 class OptionGroup {
  public:
-  OptionGroup(CLI::App& command, std::string heading) : command_(command), heading_(heading) {}
+  explicit OptionGroup(CLI::App& command, std::string heading = "Options")
+      : command_(command), heading_(std::move(heading)) {}
 
-  /// `type` stands for the value in the help; empty: as CLI11 names the variable's type.
+  /// `type` names the value in the help; empty: CLI11's name for the variable's type.
   template <class T>
   CLI::Option* add(const std::string& name, T& value, const std::string& type,
                    const std::string& help) {
     CLI::Option* const option = command_.add_option(name, value, help)->group(heading_);
     return type.empty() ? option : option->type_name(type);
+  }
+  /// A number from `min` to `max`. The help shows its default.
+  template <class T>
+  CLI::Option* add_number(const std::string& name, T& value, double min, double max,
+                          const std::string& help) {
+    return add(name, value, "", help)->check(between(min, max))->capture_default_str();
+  }
+  /// One of `words`. The help shows its default.
+  CLI::Option* add_choice(const std::string& name, std::string& value,
+                          const std::vector<std::string>& words, const std::string& help) {
+    return add(name, value, "", help)->check(CLI::IsMember(words))->capture_default_str();
   }
   CLI::Option* add_flag(const std::string& name, bool& value, const std::string& help) {
     return command_.add_flag(name, value, help)->group(heading_);
@@ -35,15 +54,11 @@ class OptionGroup {
   std::string heading_;
 };
 
-/// Checks that an option's number lies in a range. CLI::Range lets a NaN pass, which is neither below `min` nor
-/// above `max`.
-CLI::Validator between(double min, double max);
-
-/// --any-format, for the commands that take pictures of others.
+/// --any-format, for commands that read pictures from other programs.
 void add_any_format(CLI::App& command);
 
-/// Looks up `value` with `find`. Throws Error(kUsage) that says what is `allowed`, and which of the `names` may have
-/// been meant.
+/// Looks up `value` with `find`. Throws Error(kUsage) that lists the `allowed` values and suggests the nearest of
+/// `names`.
 template <class Find>
 auto chosen(const std::string& value, std::string_view option,
             std::span<const std::string_view> names, const std::string& allowed, Find find) {
@@ -55,8 +70,41 @@ auto chosen(const std::string& value, std::string_view option,
   return *found;
 }
 
+/// The position of `value` in `names`. Throws as chosen().
+std::size_t chosen_place(const std::string& value, std::string_view option,
+                         std::span<const std::string_view> names);
+
 /// Throws Error(kUsage) unless `image` ends in .exr, Error(kOutput) unless it and the record beside
 /// it can be written; returns the record's path (OUT.exr -> OUT.json).
 std::filesystem::path checked_record_path(const std::filesystem::path& image);
+
+/// --povray PATH and --blender PATH: an option for every engine of the catalogue.
+class EnginePrograms {
+ public:
+  /// This object has to live as long as `command`.
+  void add_to(CLI::App& command);
+  /// By engine, without those that the user left out.
+  std::map<std::string, std::filesystem::path> given() const;
+  /// Empty if the user left it out: the one in $PATH.
+  std::filesystem::path of(std::string_view engine) const;
+
+ private:
+  std::map<std::string, std::filesystem::path, std::less<>> typed_;
+};
+
+/// The options that change a scene, the same for every subcommand that takes one.
+class SceneOverrides {
+ public:
+  /// This object has to live as long as `command`.
+  void add_to(CLI::App& command);
+  /// Changes every material of the scene. Throws Error(kUsage) naming the value and what is allowed.
+  void apply(Scene& scene) const;
+
+ private:
+  std::optional<std::string> model_, lobe_, normalisation_;
+  std::optional<double> exponent_;
+  std::optional<int> width_, height_, samples_;
+  std::optional<std::uint64_t> seed_;
+};
 
 }  // namespace lobelia::cli

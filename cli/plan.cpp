@@ -1,10 +1,6 @@
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "cli/commands.hpp"
-#include "cli/scene_overrides.hpp"
-#include "cli/warnings.hpp"
+#include "cli/messages.hpp"
+#include "cli/options.hpp"
 #include "records/record.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"

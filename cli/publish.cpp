@@ -1,7 +1,5 @@
 #include "cli/publish.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "compare/maps/difference_map.hpp"
@@ -12,7 +10,7 @@
 namespace lobelia::cli {
 namespace {
 
-/// Those for the eye; those of values a page can draw by itself.
+/// Only maps of visible differences: a page draws differences of values itself.
 std::vector<gallery::MapKind> visual_maps() {
   std::vector<gallery::MapKind> kinds;
   for (const DifferenceMap& map : difference_maps()) {
@@ -37,35 +35,31 @@ std::vector<gallery::MetricInfo> metric_infos() {
   return infos;
 }
 
-constexpr std::size_t kMostNamed = 20;
+}  // namespace
 
-void say_doubts(const gallery::PublishedGallery& made) {
+gallery::PublishedGallery publish(const std::filesystem::path& run,
+                                  gallery::GalleryOptions options) {
+  options.maps = visual_maps();
+  options.metrics = metric_infos();
+  gallery::PublishedGallery made = write_gallery(run, options);
+  constexpr std::size_t kMostNamed = 20;
   const std::size_t count = made.doubts.size();
   for (std::size_t i = 0; i < std::min(count, kMostNamed); ++i)
     say("lobelia: gallery: {}\n", printable(made.doubts[i], 400));
-  say("lobelia: gallery: {} of {} cells {} not what the farm wrote{}\n", count, made.cells,
-      count == 1 ? "is" : "are",
-      count > kMostNamed ? fmt::format("; {} are named here", kMostNamed) : "");
-}
-
-}  // namespace
-
-Published publish(const std::filesystem::path& run, gallery::GalleryOptions options) {
-  options.maps = visual_maps();
-  options.metrics = metric_infos();
-  const gallery::PublishedGallery made = write_gallery(run, options);
-  if (made.doubts.empty()) return {made.index};
-  say_doubts(made);
-  return {made.index, ExitCode::kDiffers};
+  if (count > 0)
+    say("lobelia: gallery: {} of {} cells {} not what the farm wrote{}\n", count, made.cells,
+        count == 1 ? "is" : "are",
+        count > kMostNamed ? fmt::format("; {} are named here", kMostNamed) : "");
+  return made;
 }
 
 ExitCode publish_if_wanted(const std::filesystem::path& run, const std::filesystem::path& site) {
   if (site.empty()) return ExitCode::kSuccess;
   gallery::GalleryOptions options;
   options.site = site;
-  const Published published = publish(run, options);
-  say("lobelia: gallery: {}\n", printable_path(published.index.string()));
-  return published.code;
+  const gallery::PublishedGallery made = publish(run, options);
+  say("lobelia: gallery: {}\n", printable_path(made.index.string()));
+  return made.doubts.empty() ? ExitCode::kSuccess : ExitCode::kDiffers;
 }
 
 }  // namespace lobelia::cli

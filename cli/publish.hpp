@@ -1,23 +1,17 @@
 // A farm's directory as a site, with the maps that this program can make.
 #pragma once
 
-#include <filesystem>
-
 #include "core/error.hpp"
 #include "gallery/gallery.hpp"
 
 namespace lobelia::cli {
 
-struct Published {
-  std::filesystem::path index;
-  ExitCode code = ExitCode::kSuccess;  ///< kDiffers if a cell is not as the farm wrote it
-};
+/// write_gallery() with a map of every visible difference. Lists on stderr the cells that are not as the farm wrote them.
+gallery::PublishedGallery publish(const std::filesystem::path& run,
+                                  gallery::GalleryOptions options);
 
-/// write_gallery() with a map of every difference for the eye. Names on stderr the cells that are not as the farm wrote
-/// them.
-Published publish(const std::filesystem::path& run, gallery::GalleryOptions options);
-
-/// The same of a farm that has ended, where somebody wants that; tells on stderr where it is. `site` empty: nobody does.
+/// publish() of a finished farm into `site`, and its path on stderr. Does nothing if `site` is empty. kDiffers if a
+/// cell is not as the farm wrote it.
 ExitCode publish_if_wanted(const std::filesystem::path& run, const std::filesystem::path& site);
 
 }  // namespace lobelia::cli

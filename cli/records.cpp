@@ -1,11 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <memory>
-
 #include "cli/commands.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "records/catalogue.hpp"

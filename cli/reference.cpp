@@ -1,19 +1,10 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <memory>
-#include <optional>
+#include <ranges>
 
 #include "cli/commands.hpp"
-#include "cli/engine_programs.hpp"
+#include "cli/messages.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
-#include "cli/scene_overrides.hpp"
-#include "cli/warnings.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
-#include "core/standard_streams.hpp"
-#include "core/text.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/keep_input.hpp"
@@ -25,44 +16,28 @@ namespace lobelia::cli {
 namespace {
 
 struct ReferenceArguments {
-  std::string scene, engine, output, log_directory, keep_input;
-  int threads = 0;
+  std::string scene, engine, output, standard_error, log_directory, keep_input;
+  std::string precision, shading{kShadingNames[0]};
   double time_limit = 600;
-  int points = ReferenceOptions{}.points;
-  std::uint64_t point_seed = 0;
-  std::string precision, shading{kShadingNames[0]}, standard_error;
+  ReferenceOptions reference;
   bool quiet = false;
   EnginePrograms programs;
   SceneOverrides overrides;
 };
 
-/// The place of a name among those that are allowed.
-std::size_t chosen_place(const std::string& typed, const std::string& option,
-                         std::span<const std::string_view> names) {
-  return chosen(typed, option, names, join(names),
-                [&](const std::string& name) -> std::optional<std::size_t> {
-                  const auto found = std::ranges::find(names, name);
-                  if (found == names.end()) return std::nullopt;
-                  return std::size_t(found - names.begin());
-                });
-}
-
-/// Of the engine's number formats: one, or the finer one after it.
+/// The engine's number formats: one, or two with the finer one last.
 std::vector<std::string_view> precisions(const EngineInfo& engine) {
   if (engine.fine.empty()) return {engine.plain};
   return {engine.plain, engine.fine};
 }
 
 ReferenceOptions reference_options(const EngineInfo& engine, const ReferenceArguments& options) {
-  ReferenceOptions reference;
+  ReferenceOptions reference = options.reference;
   if (!options.precision.empty())
     reference.fine = chosen_place(options.precision, fmt::format("--precision of {}", engine.name),
                                   precisions(engine)) == 1;
   reference.shading = Shading(chosen_place(options.shading, "--shading", kShadingNames));
-  reference.threads = options.threads;
   reference.time_limit = std::chrono::duration<double>(options.time_limit);
-  reference.points = options.points;
-  reference.seed = options.point_seed;
   return reference;
 }
 
@@ -95,7 +70,7 @@ void run_reference(const ReferenceArguments& options) {
   FilesTogether files;
   write_exr(options.output, result.image, reference_metadata(scene, result.record));
   if (!options.standard_error.empty()) {
-    // Of a picture that is no average there is no error to know.
+    // Only an average has an error; any other picture gets zeros.
     const Image none(result.image.width(), result.image.height());
     write_exr(options.standard_error,
               result.standard_error.pixel_count() > 0 ? result.standard_error : none,
@@ -115,13 +90,6 @@ void run_reference(const ReferenceArguments& options) {
         record.witness);
 }
 
-std::string engine_list() {
-  std::string list;
-  for (const EngineInfo& engine : engine_infos())
-    list += (list.empty() ? "" : " or ") + std::string(engine.name);
-  return list;
-}
-
 /// "half or float (povray), float (blender)"
 std::string precision_list() {
   std::string list;
@@ -131,7 +99,7 @@ std::string precision_list() {
   return list;
 }
 
-/// What a picture of each is worth, as the catalogue says it.
+/// Each engine's shading and precision, from the catalogue.
 std::string engine_words() {
   std::string words;
   for (const EngineInfo& engine : engine_infos())
@@ -145,49 +113,42 @@ void add_reference(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
       "reference", "Render a scene with an engine that is not ours, to the same kind of EXR");
   auto options = std::make_shared<ReferenceArguments>();
-  command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
-  command->add_option("--engine", options->engine, fmt::format("Who renders: {}", engine_list()))
+  OptionGroup group(*command);
+  ReferenceOptions& reference = options->reference;
+  group.add("SCENE", options->scene, "", "Scene file (see lobelia scene-format)")->required();
+  group
+      .add(
+          "--engine", options->engine, "",
+          fmt::format("Who renders: {}",
+                      fmt::join(engine_infos() | std::views::transform(&EngineInfo::name), " or ")))
       ->required();
-  command
-      ->add_option("-o,--output", options->output,
-                   "Picture to write, OUT.exr; its record goes to OUT.json")
-      ->required()
-      ->type_name("OUT.exr");
+  group
+      .add("-o,--output", options->output, "OUT.exr",
+           "Picture to write, OUT.exr; its record goes to OUT.json")
+      ->required();
   options->programs.add_to(*command);
-  command
-      ->add_option("--time-limit", options->time_limit, "Seconds after which the engine is stopped")
-      ->check(between(0.1, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--points", options->points,
-          "Points of each light with a size, of the lens and of the pixel; a multiple of 16")
-      ->check(between(kReplicates, 1 << 20))
-      ->capture_default_str();
-  command->add_option(
-      "--precision", options->precision,
+  group.add_number("--time-limit", options->time_limit, 0.1, 1e6,
+                   "Seconds after which the engine is stopped");
+  group.add_number(
+      "--points", reference.points, kReplicates, 1 << 20,
+      "Points of each light with a size, of the lens and of the pixel; a multiple of 16");
+  group.add(
+      "--precision", options->precision, "",
       fmt::format("Number format of the engine: {}; the first if not given", precision_list()));
-  command
-      ->add_option(
-          "--shading,--witness", options->shading,
-          "Who shades a highlight: the engine itself (native), our formula in the engine's "
-          "language (expressed), or whichever is usual (any)")
+  group
+      .add("--shading,--witness", options->shading, "",
+           "Who shades a highlight: the engine itself (native), our formula in the engine's "
+           "language (expressed), or whichever is usual (any)")
       ->capture_default_str();
-  command
-      ->add_option(
-          "--standard-error", options->standard_error,
-          "Picture of the error of each value where lights with a size, lens or pixel are averaged")
-      ->type_name("ERROR.exr");
-  command->add_option("--point-seed", options->point_seed, "Chooses those points")
-      ->check(between(0, 1 << 30))
-      ->capture_default_str();
-  command->add_option("--threads", options->threads, "Threads; 0 is all processors")
-      ->check(between(0, 1024))
-      ->capture_default_str();
-  command->add_option("--log-dir", options->log_directory, "Directory for the engine's own output");
-  command->add_option("--keep-input", options->keep_input,
-                      "Directory for what the engine is given, with the command that renders it");
-  command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  group.add(
+      "--standard-error", options->standard_error, "ERROR.exr",
+      "Picture of the error of each value where lights with a size, lens or pixel are averaged");
+  group.add_number("--point-seed", reference.seed, 0, 1 << 30, "Chooses those points");
+  group.add_number("--threads", reference.threads, 0, 1024, "Threads; 0 is all processors");
+  group.add("--log-dir", options->log_directory, "", "Directory for the engine's own output");
+  group.add("--keep-input", options->keep_input, "",
+            "Directory for what the engine is given, with the command that renders it");
+  group.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
       engine_words() +

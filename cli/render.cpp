@@ -1,20 +1,13 @@
-#include <fmt/format.h>
-
-#include <memory>
-#include <optional>
+#include <algorithm>
 
 #include "accuracy/accuracy.hpp"
 #include "cli/commands.hpp"
+#include "cli/messages.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
-#include "cli/scene_overrides.hpp"
-#include "cli/warnings.hpp"
 #include "core/colour.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
-#include "core/standard_streams.hpp"
-#include "core/text.hpp"
 #include "core/timing.hpp"
 #include "records/record.hpp"
 #include "renderer/render.hpp"
@@ -26,23 +19,22 @@ namespace lobelia::cli {
 namespace {
 
 struct RenderArguments {
-  std::string scene, output, png, standard_error, effects = "as-called-for";
+  std::string scene, output, png, standard_error, accuracy;
+  std::string effects = "as-called-for", precision = "sufficient", accuracy_check = "truth";
   double exposure = 0;
-  std::string precision = "sufficient";
-  int threads = 0;
-  std::optional<double> target_error, time_limit;
-  std::optional<int> max_samples;
-  std::string accuracy, accuracy_check = "truth";
+  RenderOptions render;
   bool quiet = false;
   SceneOverrides overrides;
 };
 
-void require_png(const std::filesystem::path& png, const std::filesystem::path& exr,
-                 const std::filesystem::path& record) {
-  if (png == exr || png == record)
+/// Throws unless `path` can be written and is none of the `others`. Does nothing if it is empty.
+void require_output(std::string_view option, const std::filesystem::path& path,
+                    std::initializer_list<std::filesystem::path> others) {
+  if (path.empty()) return;
+  if (std::ranges::find(others, path) != others.end())
     throw Error(ExitCode::kUsage,
-                fmt::format("--png {}: is written by this command already", png.string()));
-  require_writable(png);
+                fmt::format("{} {}: is written by this command already", option, path.string()));
+  require_writable(path);
 }
 
 /// Seconds of the stages around rendering. Packing rows is part of rendering; in a large picture it runs while other
@@ -51,8 +43,8 @@ struct Stages {
   double read = 0, pack = 0, write = 0;
 };
 
-/// Rows are packed and written while the next ones are rendered. A picture for the eye too, or one whose
-/// accuracy is measured, is kept whole.
+/// Packs and writes rows while the next ones are rendered. Keeps the whole picture in memory if a PNG or a measurement of
+/// its accuracy needs it.
 RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
                               const RenderArguments& options, Stages& stages) {
   const bool checked = !options.accuracy.empty() && options.accuracy_check != "none";
@@ -72,16 +64,17 @@ RenderResult render_and_write(const Scene& scene, const RenderOptions& how,
   return result;
 }
 
-/// The cheapest way to the accuracy that was asked for.
+/// The cheapest variant that reaches --accuracy; none without that option.
 std::optional<accuracy::Choice> choice_of(const Scene& scene, const RenderArguments& options) {
   if (options.accuracy.empty()) return std::nullopt;
   const accuracy::Accuracy asked = accuracy::parse_accuracy(options.accuracy);
-  return accuracy::choose(scene, asked, options.max_samples.value_or(accuracy::kMostChosenSamples));
+  return accuracy::choose(scene, asked,
+                          options.render.max_samples.value_or(accuracy::kMostChosenSamples));
 }
 
-/// Says what was reached, where that was measured, and puts it into the record.
-ExitCode settle(const Scene& scene, const accuracy::Choice& choice, const Image& picture,
-                const RenderArguments& options, records::Render& record) {
+/// Measures the accuracy that was reached, unless --accuracy-check is none; prints and records it.
+ExitCode report_accuracy(const Scene& scene, const accuracy::Choice& choice, const Image& picture,
+                         const RenderArguments& options, records::Render& record) {
   std::optional<accuracy::Reached> reached;
   if (options.accuracy_check != "none") reached = accuracy::measure_reached(scene, choice, picture);
   record.accuracy = accuracy::accuracy_record(choice, reached);
@@ -99,27 +92,15 @@ void run_render(const RenderArguments& options, ExitCode& code) {
     options.overrides.apply(scene);
   });
   const auto record_path = checked_record_path(options.output);
-
-  if (!options.png.empty()) require_png(options.png, options.output, record_path);
-
-  if (!options.standard_error.empty()) {
-    if (options.standard_error == options.output || options.standard_error == options.png)
-      throw Error(ExitCode::kUsage,
-                  fmt::format("--standard-error {}: is written by this command already",
-                              options.standard_error));
-    require_writable(options.standard_error);
-  }
+  require_output("--png", options.png, {options.output, record_path});
+  require_output("--standard-error", options.standard_error, {options.output, options.png});
 
   warn_of(scene);
   ProgressLine progress(!options.quiet);
-  RenderOptions render_options;
-  render_options.threads = options.threads;
+  RenderOptions render_options = options.render;
   render_options.effects =
       options.effects == "all" ? EffectPolicy::kAll : EffectPolicy::kAsCalledFor;
   render_options.precision = find_precision(options.precision);
-  render_options.target_error = options.target_error;
-  render_options.time_limit = options.time_limit;
-  render_options.max_samples = options.max_samples;
   render_options.on_progress = [&](double fraction) { progress.show(fraction, "rendering"); };
   if (!options.accuracy.empty()) progress.show(0, "choosing");
   const std::optional<accuracy::Choice> choice = choice_of(scene, options);
@@ -143,7 +124,7 @@ void run_render(const RenderArguments& options, ExitCode& code) {
   record.seconds.read = stages.read;
   record.seconds.pack = stages.pack;
   record.seconds.write = stages.write;
-  if (choice) code = settle(scene, *choice, result.image, options, record);
+  if (choice) code = report_accuracy(scene, *choice, result.image, options, record);
   write_record(record_path, record);
   files.commit();
   if (!options.quiet)
@@ -159,41 +140,33 @@ void add_render(CLI::App& app, ExitCode& code) {
   auto* command = app.add_subcommand("render", "Render a scene to a linear float32 EXR");
   auto options = std::make_shared<RenderArguments>();
   command->add_option("SCENE", options->scene, "Scene file (see lobelia scene-format)")->required();
-  OptionGroup group(*command, "Options");
+  OptionGroup group(*command);
   group
       .add("-o,--output", options->output, "OUT.exr",
            "Picture to write, OUT.exr; its record goes to OUT.json")
       ->required();
   group.add("--png", options->png, "FILE", "Write a picture for the eye too (8 bits, sRGB)");
-  group.add("--exposure", options->exposure, "", "Stops by which the --png is brightened")
-      ->check(between(-100.0, 100.0))
-      ->capture_default_str();
-  group.add("--threads", options->threads, "", "Threads; 0 is all processors")
-      ->check(between(0, 1024))
-      ->capture_default_str();
-  group
-      .add("--effects", options->effects, "",
-           "Simulate effects as the scene calls for them, or all")
-      ->check(CLI::IsMember({"as-called-for", "all"}))
-      ->capture_default_str();
-  auto* precision =
-      group.add("--precision", options->precision, "",
-                "Shade with the narrowest precision whose error bound allows it (sufficient), "
-                "or with this one");
-  precision->check(CLI::IsMember({"sufficient", "float32", "mixed", "float64"}))
-      ->capture_default_str();
+  group.add_number("--exposure", options->exposure, -100, 100,
+                   "Stops by which the --png is brightened");
+  group.add_number("--threads", options->render.threads, 0, 1024, "Threads; 0 is all processors");
+  group.add_choice("--effects", options->effects, {"as-called-for", "all"},
+                   "Simulate effects as the scene calls for them, or all");
+  auto* precision = group.add_choice(
+      "--precision", options->precision, {"sufficient", "float32", "mixed", "float64"},
+      "Shade with the narrowest precision whose error bound allows it (sufficient), "
+      "or with this one");
   auto* target_error =
-      group.add("--target-error", options->target_error, "",
+      group.add("--target-error", options->render.target_error, "",
                 "Take samples until the picture's estimated relative error is this small");
   target_error->check(between(1e-9, 1.0));
-  auto* time_limit = group.add("--time-limit", options->time_limit, "",
+  auto* time_limit = group.add("--time-limit", options->render.time_limit, "",
                                "Take no more samples once rendering would take longer, seconds");
   time_limit->check(between(1e-3, 1e7));
   group.add("--standard-error", options->standard_error, "ERROR.exr",
             fmt::format("Picture of the error of each value, from {} more renders with the next "
                         "seeds; for compare: --a-error ERROR.exr --shared-noise none",
                         kErrorRenders));
-  group.add("--max-samples", options->max_samples, "", "Take at most so many rays a pixel")
+  group.add("--max-samples", options->render.max_samples, "", "Take at most so many rays a pixel")
       ->check(between(1, 1 << 20));
   auto* accuracy = group.add(
       "--accuracy", options->accuracy, "X|de2000=X",
@@ -201,12 +174,10 @@ void add_render(CLI::App& app, ExitCode& code) {
       "the peak, 1e-3, or this CIEDE2000 of 99 % of the pixels, de2000=1 (docs/cost.md)");
   accuracy->excludes(precision)->excludes(target_error)->excludes(time_limit);
   group
-      .add("--accuracy-check", options->accuracy_check, "",
-           "Measure afterwards what --accuracy reached against the truth, or none")
-      ->check(CLI::IsMember({"truth", "none"}))
-      ->needs(accuracy)
-      ->capture_default_str();
-  command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+      .add_choice("--accuracy-check", options->accuracy_check, {"truth", "none"},
+                  "Measure afterwards what --accuracy reached against the truth, or none")
+      ->needs(accuracy);
+  group.add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   options->overrides.add_to(*command);
   command->footer(
       "One ray at each pixel's centre unless --samples says otherwise. The same scene gives\n"

@@ -1,9 +1,221 @@
+// lobelia verify paper | stability | references
 #include "cli/commands.hpp"
-#include "cli/verify_paper.hpp"
-#include "cli/verify_references.hpp"
-#include "cli/verify_stability.hpp"
+#include "cli/messages.hpp"
+#include "cli/options.hpp"
+#include "core/files.hpp"
+#include "records/record.hpp"
+#include "studies/agreement/report.hpp"
+#include "studies/paper/plots.hpp"
+#include "studies/paper/report.hpp"
+#include "studies/stability/cases.hpp"
+#include "studies/stability/pictures.hpp"
+#include "studies/stability/report.hpp"
+#include "studies/stability/timing.hpp"
 
 namespace lobelia::cli {
+namespace {
+
+struct VerifyPaperArguments {
+  std::string json, plots;
+  bool errata = false;
+};
+
+void run_verify_paper(const VerifyPaperArguments& options) {
+  if (!options.json.empty()) require_writable(options.json);
+  if (!options.plots.empty()) make_directories(options.plots);
+  const auto claims = paper::measure_all();
+  std::vector<paper::Plot> plots;
+  FilesTogether files;
+  if (!options.plots.empty()) {
+    plots = paper::plots();
+    paper::write_plots(options.plots, plots);
+  }
+  if (!options.json.empty())
+    write_record(options.json, paper::paper_record(claims, command_line(), figure_records(plots)));
+  files.commit();
+  fmt::print("{}", options.errata ? paper::errata_document(claims) : paper::table_text(claims));
+}
+
+void add_verify_paper(CLI::App& verify) {
+  auto* command = verify.add_subcommand(
+      "paper", "Recompute every figure and claim of the paper, and say what is true");
+  auto options = std::make_shared<VerifyPaperArguments>();
+  OptionGroup group(*command);
+  group.add("--json", options->json, "FILE", "Write the record (kind verify-paper) to FILE");
+  group.add("--plots", options->plots, "DIR",
+            "Write the curves as SVG files into DIR, and into the record of --json");
+  group.add_flag("--errata", options->errata, "Print docs/errata.md instead of the table");
+  command->footer(
+      "A claim is confirmed or not reproduced; 'found' is what the paper does not speak of.\n"
+      "docs/errata.md has the definitions and the reasons.\n"
+      "\n"
+      "Exit codes: 0 measured, however much the paper gets wrong; 2 usage, 4 an output cannot\n"
+      "be written.");
+  command->callback([options] { run_verify_paper(*options); });
+}
+
+struct VerifyStabilityArguments {
+  std::string json, pictures, lobe;
+  bool all = false, no_timing = false, quiet = false;
+};
+
+ExitCode run_verify_stability(const VerifyStabilityArguments& options) {
+  std::vector<LobeId> lobes = stability::lobes_under_test();
+  if (!options.lobe.empty())
+    lobes = {chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe)};
+  if (!options.json.empty()) require_writable(options.json);
+  if (!options.pictures.empty()) {
+    make_directories(options.pictures);
+    require_writable(std::filesystem::path(options.pictures) / "stability.png");
+  }
+  records::VerifyStability report;
+  report.command = command_line();
+  ProgressLine progress(!options.quiet);
+  report.rows = stability::all_rows(lobes, [&](double done) { progress.show(done, "hard cases"); });
+  progress.clear();
+  stability::summarise(report);
+  if (!options.json.empty()) report.curves = stability::error_curves();
+  // Timed on one thread, after everything else, so that our own work does not disturb it.
+  if (!options.no_timing) {
+    report.stalls = stability::measure_stalls(lobes);
+    report.price = stability::measure_prices(lobes);
+  }
+  FilesTogether files;
+  if (!options.pictures.empty()) {
+    const auto from = std::filesystem::absolute(options.json).parent_path();
+    report.pictures = stability::write_pictures(
+        options.pictures, std::filesystem::absolute(options.pictures).lexically_relative(from));
+  }
+  const std::string text = stability::report_text(report, options.all);
+  if (!options.all) stability::keep_rows_outside(report);
+  if (!options.json.empty()) write_record(options.json, report);
+  files.commit();
+  fmt::print("{}", text);
+  return report.outside == 0 ? ExitCode::kSuccess : ExitCode::kDiffers;
+}
+
+void add_verify_stability(CLI::App& verify, ExitCode& exit_code) {
+  auto* command = verify.add_subcommand(
+      "stability", "Hold float32 and geometry to a reference of 50 digits, in the hard cases");
+  auto options = std::make_shared<VerifyStabilityArguments>();
+  OptionGroup group(*command);
+  group.add("--json", options->json, "FILE", "Write the record (kind verify-stability) to FILE");
+  group.add("--pictures", options->pictures, "DIR",
+            "Write a highlight by the textbook's float32 and by ours into DIR");
+  group.add("--lobe", options->lobe, "LOBE", "This lobe alone, listed or not");
+  group.add_flag("--all", options->all, "Print and record every case, not the worst alone");
+  group.add_flag("--no-timing", options->no_timing,
+                 "Do not measure what denormal results and precision cost");
+  group.add_flag("-q,--quiet", options->quiet, "No progress line");
+  command->footer(
+      "naive is the textbook formula in float32 without care. 'of peak' is the error relative to\n"
+      "the highlight's middle, 'ulp' that in units in the last place that float32 has at the true\n"
+      "value, 'pixels' are those that show the wrong sphere, none, or no number.\n"
+      "docs/numerics.md has the bounds and why they hold.\n"
+      "\n"
+      "Where no bound below the whole peak is stated, a case is counted as not compared.\n"
+      "\n"
+      "Exit codes: 0 no case is outside its stated bound, 1 some are; 2 usage, 4 an output\n"
+      "cannot be written.");
+  command->callback([options, &exit_code] { exit_code = run_verify_stability(*options); });
+}
+
+struct VerifyReferencesArguments {
+  std::string output;
+  std::vector<std::string> engines;
+  int size = 0;
+  bool small = false, json = false, markdown = false, require_engines = false, quiet = false;
+  EnginePrograms programs;
+};
+
+/// The engines named by --engine, which have to be available; without it all.
+std::vector<std::unique_ptr<Engine>> engines_of(const VerifyReferencesArguments& options) {
+  std::vector<std::string_view> names;
+  for (const EngineInfo& engine : engine_infos())
+    if (engine.is_program) names.push_back(engine.name);
+  std::vector<bool> wanted(names.size(), options.engines.empty());
+  for (const std::string& typed : options.engines)
+    wanted[chosen_place(typed, "--engine", names)] = true;
+  std::vector<std::unique_ptr<Engine>> engines;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!wanted[i]) continue;
+    const auto& engine = engines.emplace_back(make_engine(names[i], options.programs.of(names[i])));
+    if (!options.engines.empty() || options.require_engines ||
+        engine->status().state == EngineState::kBroken)
+      require_available(engine->info(), engine->status());
+  }
+  return engines;
+}
+
+/// The command that gives the same table, without where its files go.
+std::string command_for(const VerifyReferencesArguments& options) {
+  std::string command = "lobelia verify references";
+  if (options.small) command += " --small";
+  if (options.size > 0) command += fmt::format(" --size {}", options.size);
+  for (const std::string& engine : options.engines) command += " --engine " + engine;
+  return command;
+}
+
+ExitCode run_verify_references(const VerifyReferencesArguments& options) {
+  agreement::Scope scope{options.small,
+                         options.small ? agreement::kSmallSize : agreement::kFullSize};
+  if (options.size > 0) scope.size = options.size;
+  const auto engines = engines_of(options);
+  const std::filesystem::path directory = options.output;
+  if (!options.output.empty()) {
+    make_directories(directory);
+    require_writable(directory / "agreement.json");
+  }
+  ProgressLine progress(!options.quiet);
+  const auto result = agreement::measure(
+      scope, engines, [&](double done, std::string_view what) { progress.show(done, what); });
+  progress.clear();
+  const records::Agreement record = agreement::report_record(result, command_line());
+  const std::string page = agreement::report_markdown(result, command_for(options));
+  if (!options.output.empty()) {
+    FilesTogether files;
+    write_record(directory / "agreement.json", record);
+    write_file(directory / "agreement.csv", agreement::report_csv(result));
+    write_file(directory / "agreement.md", page);
+    files.commit();
+  }
+  fmt::print("{}", options.json       ? record_text(record)
+                   : options.markdown ? page
+                                      : agreement::report_text(result));
+  if (result.count(agreement::Verdict::kFailed) > 0) return ExitCode::kEngine;
+  return result.count(agreement::Verdict::kMissed) > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
+}
+
+void add_verify_references(CLI::App& verify, ExitCode& exit_code) {
+  auto* command = verify.add_subcommand(
+      "references", "Hold ours and every engine to the formulas, and engines to one another");
+  auto options = std::make_shared<VerifyReferencesArguments>();
+  OptionGroup group(*command);
+  group.add("-o,--output", options->output, "DIR",
+            "Directory for agreement.json (kind agreement), agreement.csv and agreement.md");
+  group.add_flag("--small", options->small, "A part of it that takes less than a minute");
+  group.add("--size", options->size, "", "Width of pictures; usually 96, with --small 64")
+      ->check(between(agreement::kSmallestSize, agreement::kLargestSize));
+  group.add("--engine", options->engines, "NAME",
+            "These engines alone, which have to be there; otherwise all that are");
+  options->programs.add_to(*command);
+  group.add_flag("--require-engines", options->require_engines,
+                 "An engine that is not installed is an error");
+  auto* json = group.add_flag("--json", options->json, "Print the record instead of the table");
+  group.add_flag("--markdown", options->markdown, "Print docs/agreement.md instead of the table")
+      ->excludes(json);
+  group.add_flag("-q,--quiet", options->quiet, "No progress line");
+  command->footer(
+      "Differences are from pictures evaluated from the formulas in double or 50 digits. Those of\n"
+      "the value are what number formats leave, those of the peak what arithmetic leaves; pixels\n"
+      "on edges are counted apart. docs/agreement.md has the outcome and says what columns mean.\n"
+      "\n"
+      "Exit codes: 0 every target is met, 1 some are missed; 2 usage, 4 an output cannot be\n"
+      "written, 5 an engine that was named or required is absent, one is broken, or one failed.");
+  command->callback([options, &exit_code] { exit_code = run_verify_references(*options); });
+}
+
+}  // namespace
 
 void add_verify(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("verify", "Hold claims to a measurement");

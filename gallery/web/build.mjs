@@ -8,7 +8,7 @@ import path from 'node:path';
 const here = path.dirname(fileURLToPath(import.meta.url));
 const out = path.resolve(process.argv[2] ?? path.join(here, 'dist'));
 
-/** src/views.d.ts, of what is in src/views. */
+/** The module './views' (src/views.d.ts), from the files in src/views. */
 const views = {
   name: 'views',
   setup(builder) {

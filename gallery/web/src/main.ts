@@ -1,10 +1,10 @@
-// Comforts; every page is complete without them.
+// Interactive additions to pages that are complete without them.
 import './style/main.css';
 import { addCopyButtons } from './lib/copy';
 import './lib/data';
 import views from './views';
 
-// The data's scripts stand after this one, and this event after all of them.
+// The scripts with the data come after this one and before this event.
 addEventListener('DOMContentLoaded', () => {
   document.documentElement.classList.add('scripted');
   const main = document.querySelector('main');

@@ -1,4 +1,4 @@
-// Which part of the picture the stage shows, and how large.
+// The part of the picture that the stage shows, and its zoom.
 import { clamp } from '../lib/numbers';
 import type { Choice } from './choice';
 import type { Rectangle, Viewport } from './painter';
@@ -6,7 +6,7 @@ import type { Rectangle, Viewport } from './painter';
 const kMostZoom = 64;
 
 export class Camera {
-  /** Of the picture, in pixels. */
+  /** Of the picture in pixels. */
   size = { width: 1, height: 1 };
 
   constructor(private readonly stage: HTMLElement, private readonly choice: Choice,
@@ -33,12 +33,16 @@ export class Camera {
     return { x: x - at.width / 2 / zoom, y: y - at.height / 2 / zoom, zoom };
   }
 
-  zoomTo(zoom: number, about?: { x: number; y: number }): void {
+  /** The point of the picture in the middle of the stage. */
+  private centre(): { x: number; y: number } {
     const view = this.view(), at = this.rectangles()[0]!;
+    return { x: view.x + at.width / 2 / view.zoom, y: view.y + at.height / 2 / view.zoom };
+  }
+
+  /** `about` stays where it is on the stage. */
+  zoomTo(zoom: number, about?: { x: number; y: number }): void {
     const next = clamp(zoom * devicePixelRatio, Math.min(this.fitZoom(), 1), kMostZoom * devicePixelRatio);
-    const centre = { x: view.x + at.width / 2 / view.zoom, y: view.y + at.height / 2 / view.zoom };
-    // What is under the pointer stays there.
-    const fixed = about ?? centre, share = view.zoom / next;
+    const centre = this.centre(), fixed = about ?? centre, share = this.view().zoom / next;
     this.moveTo(fixed.x + (centre.x - fixed.x) * share, fixed.y + (centre.y - fixed.y) * share, next / devicePixelRatio);
   }
 
@@ -50,6 +54,12 @@ export class Camera {
     this.change({
       x: clamp(x, 0, this.size.width).toFixed(2), y: clamp(y, 0, this.size.height).toFixed(2), z: String(Number(zoom.toPrecision(5))),
     });
+  }
+
+  /** By pixels of the picture. */
+  moveBy(dx: number, dy: number): void {
+    const { x, y } = this.centre();
+    this.moveTo(x + dx, y + dy, this.view().zoom / devicePixelRatio);
   }
 
   fit(): void { this.change({ x: '', y: '', z: '' }); }

@@ -1,9 +1,10 @@
-// What the reader chose of a cell, as the link has it and within what there is.
+// The reader's choices on a cell's page: from the link, limited to what the page has.
 import { clamp, toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import type { CellPage } from '../records';
-import type { Line } from './line';
 import type { Measure } from './painter';
+
+interface Line { readonly x0: number; readonly y0: number; readonly x1: number; readonly y1: number }
 
 export const kModes = [
   { value: 'slide', label: 'Divider', key: 'l' },
@@ -28,7 +29,7 @@ export const viewerState = (): ViewerState => new HashState(kDefaults);
 export class Choice {
   constructor(readonly data: CellPage, readonly state: ViewerState) {}
 
-  /** Those that have a picture, by their places in the data. */
+  /** Indices of the engines that have a picture. */
   engines(): number[] {
     return this.data.engines.flatMap((e, i) => (e.picture ? [i] : []));
   }
@@ -37,7 +38,7 @@ export class Choice {
     const shown = this.engines();
     const named = this.data.engines.findIndex((e) => e.name === this.state.get(which) && e.picture);
     if (named >= 0) return named;
-    // Ours, and the one that is furthest from being ours: an engine, not the formula.
+    // Ours, and another engine rather than our formula.
     const others = shown.filter((i) => i !== shown[0]);
     return (which === 'a' ? shown[0] : others.find((i) => this.data.engines[i]!.name !== 'analytic') ?? others[0]) ?? 0;
   }
@@ -48,7 +49,7 @@ export class Choice {
 
   measure(): Measure { return kMeasures.find((m) => m.value === this.state.get('measure'))?.value ?? 'absolute'; }
 
-  /** Maps by a metric that this cell has of some pair. */
+  /** The maps that any pair of this cell has. */
   mapChoices(): { value: string; label: string }[] {
     const titles = new Map(this.data.comparisons.flatMap((c) => c.maps.map((m) => [m.id, m.title] as const)));
     return [...titles].map(([value, label]) => ({ value, label }));
@@ -76,7 +77,7 @@ export class Choice {
     return a === b ? undefined : this.data.comparisons.find((c) => names.includes(c.a) && names.includes(c.b) && c.a !== c.b);
   }
 
-  /** Across the picture, from pixel to pixel. */
+  /** From pixel to pixel. */
   line(): Line | undefined {
     const ends = this.state.get('line').split(',').map(Number);
     if (ends.length !== 4 || !ends.every((v) => Number.isFinite(v) && Math.abs(v) < 1e6)) return undefined;

@@ -1,4 +1,4 @@
-// The float pictures of a cell: loaded when they are asked for, and their values and differences.
+// The float pictures of a cell, loaded on demand, and their values and differences.
 import { clamp, shortText } from '../lib/numbers';
 import type { CellPage } from '../records';
 import { loadFloatPicture, roundingAt, type FloatPicture } from './half_picture';
@@ -7,24 +7,19 @@ import type { Measure } from './painter';
 export interface Worst { readonly value: number; readonly x: number; readonly y: number }
 
 export class FloatPictures {
-  /** By the engine's place in the data. */
+  /** By the engine's index in the data. */
   readonly all = new Map<number, FloatPicture>();
-  private readonly loading = new Map<number, Promise<void>>();
+  private readonly asked = new Set<number>();
   private readonly largest = new Map<string, Worst>();
 
-  /** `come`: a picture is there. `missing`: it cannot be had, and why if there is a reason of its own. */
+  /** Calls `come` when a picture is loaded, `missing` when it cannot be, with the reason if there is one of its own. */
   constructor(private readonly data: CellPage, private readonly come: () => void,
               private readonly missing: (engine: number, why?: string) => void) {}
 
-  need(engine: number): Promise<void> {
-    const known = this.loading.get(engine);
-    if (known) return known;
-    const promise = this.loadOne(engine);
-    this.loading.set(engine, promise);
-    return promise;
-  }
-
-  private async loadOne(engine: number): Promise<void> {
+  /** Loads a picture, unless that was asked for before. */
+  async need(engine: number): Promise<void> {
+    if (this.asked.has(engine)) return;
+    this.asked.add(engine);
     const source = this.data.engines[engine]?.floatScript;
     if (!source) return this.missing(engine);
     try {
@@ -43,14 +38,14 @@ export class FloatPictures {
     const value = (c: number): number => {
       const stored = picture.values[at + c]!;
       if (!picture.fromOurs) return stored;
-      // Ours was rounded, the difference from it was not: what is left may be nothing but that.
+      // Ours was rounded and the difference was not, so a sum this small may be nothing but the rounding.
       const sum = stored + ours!.values[at + c]!;
       return Math.abs(sum) <= roundingAt(ours!, ours!.values[at + c]!) ? 0 : sum;
     };
     return [value(0), value(1), value(2)];
   }
 
-  /** As many digits as it was stored with: that of ours and of the difference from it. */
+  /** With as many digits as were stored for ours and for the difference from it. */
   valueText(engine: number, x: number, y: number, c: number, value: number): string {
     const picture = this.all.get(engine), ours = this.all.get(0);
     if (!picture || !ours || value === 0 || !Number.isFinite(value)) return shortText(value);
@@ -64,21 +59,23 @@ export class FloatPictures {
     const va = this.valueAt(a, x, y), vb = this.valueAt(b, x, y);
     if (!first || !second || !va || !vb) return undefined;
     const at = 3 * (y * first.width + x);
-    const raw = (p: FloatPicture, engine: number, c: number): number =>
-      p.fromOurs ? p.values[at + c]! : engine === 0 ? 0 : NaN;
-    const exact = (c: number): number => {
-      const d = raw(first, a, c) - raw(second, b, c);  // both from ours: keeps all digits
-      return Number.isFinite(d) ? d : va[c]! - vb[c]!;
-    };
-    return [exact(0), exact(1), exact(2)];
+    const difference = (c: number): number => this.subtract(first, second, at + c, va[c]!, vb[c]!);
+    return [difference(0), difference(1), difference(2)];
   }
 
-  /** The largest difference of the two, or the largest value of one. */
+  /** first − second at a place in `values`. Two stored differences from ours keep digits that the values `va` and `vb` have lost. */
+  private subtract(first: FloatPicture, second: FloatPicture, at: number, va: number, vb: number): number {
+    const fromOurs = (p: FloatPicture): number => (p.fromOurs ? p.values[at]! : p === this.all.get(0) ? 0 : NaN);
+    const exact = fromOurs(first) - fromOurs(second);
+    return Number.isFinite(exact) ? exact : va - vb;
+  }
+
+  /** The largest difference of the two, or with 'value' the largest value of `a`. */
   largestOf(a: number, b: number, measure: Measure | 'value'): number {
     return this.worst(a, b, measure)?.value || 1;
   }
 
-  /** And where it is; undefined until the pictures are there. */
+  /** The same with its pixel; undefined until the pictures are loaded. */
   worst(a: number, b: number, measure: Measure | 'value'): Worst | undefined {
     const key = `${a} ${b} ${measure}`, known = this.largest.get(key);
     if (known) return known;
@@ -89,13 +86,8 @@ export class FloatPictures {
       const base = ours.values[i]!;
       const va = first.values[i]! + (first.fromOurs ? base : 0), vb = second.values[i]! + (second.fromOurs ? base : 0);
       let size = measure === 'value' ? va : 0;
-      if (measure !== 'value') {
-        const da = first.fromOurs ? first.values[i]! : first === ours ? 0 : NaN;
-        const db = second.fromOurs ? second.values[i]! : second === ours ? 0 : NaN;
-        const exact = da - db;
-        size = Math.abs(Number.isFinite(exact) ? exact : va - vb);
-        if (measure === 'relative') size = size === 0 ? 0 : size / Math.max(Math.abs(vb), 1e-37);
-      }
+      if (measure !== 'value') size = Math.abs(this.subtract(first, second, i, va, vb));
+      if (measure === 'relative' && size !== 0) size /= Math.max(Math.abs(vb), 1e-37);
       if (Number.isFinite(size) && size > largest) { largest = size; where = i; }
     }
     if (measure === 'relative') largest = Math.min(largest, 1);

@@ -1,4 +1,4 @@
-// Float pictures through WebGL 2, pixel by pixel: nothing is filtered.
+// Paints float pictures with WebGL 2, without filtering.
 import { kStopCount, stopsOf } from './colours';
 import type { FloatPicture } from './half_picture';
 import type { Look, Painter, Pane } from './painter';
@@ -54,7 +54,7 @@ void main() {
     return;
   }
   vec3 b = texelFetch(second, pixel, 0).rgb;
-  // Two differences from ours are subtracted as they are: that keeps digits that the values have lost.
+  // Subtracting two stored differences from ours keeps digits that the values have lost.
   vec3 d = fromOurs.x == fromOurs.y ? a - b : (fromOurs.x ? base + a : a) - (fromOurs.y ? base + b : b);
   if (isBad(d)) { shown = vec4(1.0, 0.0, 1.0, 1.0); return; }
   if (what == 2) {
@@ -81,7 +81,7 @@ export class GlPainter implements Painter {
   private readonly textures = new Map<FloatPicture, WebGLTexture>();
   private readonly places = new Map<string, WebGLUniformLocation | null>();
 
-  /** `pictures` by their engine's number; those that are not loaded yet are missing. Throws without WebGL 2. */
+  /** `pictures`: the loaded ones, by the engine's index. Throws without WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly gl: WebGL2RenderingContext,
               private readonly pictures: ReadonlyMap<number, FloatPicture>) {
     this.program = this.linked();

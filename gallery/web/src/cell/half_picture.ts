@@ -1,9 +1,9 @@
-// Reads what gallery/half_picture.cpp and float_pictures.cpp wrote.
+// Reads the pictures that gallery/half_picture.cpp and float_pictures.cpp write.
 import { load } from '../lib/data';
 import type { PackedPicture } from '../records';
 
 export interface FloatPicture extends Omit<PackedPicture, 'planes' | 'predicted'> {
-  /** Values, or where `fromOurs` their difference from ours: three to a pixel, row 0 on top. */
+  /** Three values a pixel, row 0 on top; with `fromOurs` their difference from ours. */
   readonly values: Float32Array;
 }
 
@@ -13,7 +13,7 @@ async function inflated(base64: string): Promise<Uint8Array> {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** The value of every half float that is not negative, by its bits. */
+/** The values of all half floats from +0 on, by their bits. */
 function halfValues(scaleLog2: number): Float64Array {
   const table = new Float64Array(0x8000);
   for (let bits = 0; bits < 0x8000; ++bits) {
@@ -51,7 +51,7 @@ function unpacked(bytes: Uint8Array, packed: PackedPicture): Float32Array {
   return values;
 }
 
-/** How far a value may be from the one that it was stored for. */
+/** The largest rounding error of a stored value. */
 export function roundingAt(picture: FloatPicture, value: number): number {
   const size = Math.abs(value) * 2 ** picture.scaleLog2;
   const exponent = size >= 2 ** -14 ? Math.floor(Math.log2(size)) : -14;  // below, steps are all the same
@@ -60,16 +60,14 @@ export function roundingAt(picture: FloatPicture, value: number): number {
 
 let before: Promise<unknown> = Promise.resolve();
 
-/** Throws what a reader may be told. One after the other: scripts hand over under one name. */
+/** One after the other, because all scripts use one name. Throws an error for the reader. */
 export function loadFloatPicture(source: string): Promise<FloatPicture> {
-  const picture = before.then(() => loadOne(source));
+  const picture = before.then(async () => {
+    const packed = await load<PackedPicture>('float picture', source);
+    const bytes = await inflated(packed.planes);
+    if (bytes.length !== 6 * packed.width * packed.height) throw new Error(source + ' is damaged');
+    return { ...packed, values: unpacked(bytes, packed) };
+  });
   before = picture.catch(() => undefined);
   return picture;
-}
-
-async function loadOne(source: string): Promise<FloatPicture> {
-  const packed = await load<PackedPicture>('float picture', source);
-  const bytes = await inflated(packed.planes);
-  if (bytes.length !== 6 * packed.width * packed.height) throw new Error(source + ' is damaged');
-  return { ...packed, values: unpacked(bytes, packed) };
 }

@@ -1,4 +1,4 @@
-// The line below the pictures that says what their colours stand for.
+// The line below the pictures that explains their colours.
 import { h } from '../lib/dom';
 import { numberText, percentText } from '../lib/numbers';
 import { cssGradient } from './colours';
@@ -6,7 +6,6 @@ import { kDecades, type Viewer } from './viewer';
 
 const kLeastOfMap = 2 ** -10;  // gallery/difference_maps.hpp
 
-/** What colours and greys of the picture stand for. */
 export function legendOf(viewer: Viewer, a: number, b: number): (HTMLElement | string)[] {
   const mode = viewer.choice.mode();
   const ramp = h('span', { class: 'ramp' });
@@ -34,14 +33,14 @@ export function legendOf(viewer: Viewer, a: number, b: number): (HTMLElement | s
   return [h('span', {}, `radiance times ${numberText(2 ** viewer.choice.stops())}, as sRGB`)];
 }
 
-/** Why the difference of values stands in place of a map that was asked for. */
+/** Why the difference of values is shown in place of a chosen map. */
 function missingMap(viewer: Viewer): HTMLElement | undefined {
   const asked = viewer.choice.mapAsked(), there = asked && viewer.choice.comparison(viewer.choice.engine('a'), viewer.choice.engine('b'))?.maps.some((m) => m.id === asked.value);
   return !asked ? undefined : h('span', {}, there ? viewer.isFloat ? `${asked.label} is on its way` : `${asked.label} needs float pictures and WebGL 2`
     : `|a − b|: ${asked.label} was made of ours and each engine`);
 }
 
-/** How exactly this page has a difference: differences from ours are stored as such. */
+/** The precision of a difference on this page, which stores differences from ours. */
 function precisionNote(viewer: Viewer, a: number, b: number): HTMLElement {
   const stored = [a, b].flatMap((i) => { const p = viewer.pictures.all.get(i); return p?.fromOurs ? [p] : []; });
   if (stored.length === 0) return h('span', {}, viewer.isFloat || a === b ? '' : 'the recorded picture');

@@ -1,8 +1,18 @@
 // The values along a line across the picture, as a chart.
 import { Chart, rangeOf } from '../lib/chart';
 import { h } from '../lib/dom';
-import { lineAcross, sampled } from './line';
+import type { Camera } from './camera';
+import type { Choice } from './choice';
 import type { Viewer } from './viewer';
+
+/** Pixels under the line inside the picture, one pixel apart, and how far along the line they are. */
+function pixelsUnder({ x0, y0, x1, y1 }: NonNullable<ReturnType<Choice['line']>>, { width, height }: Camera['size']): { x: number; y: number; along: number }[] {
+  const length = Math.hypot(x1 - x0, y1 - y0), count = Math.min(1e5, Math.ceil(length));
+  return Array.from({ length: count + 1 }, (_, i) => {
+    const share = count === 0 ? 0 : i / count;
+    return { x: Math.round(x0 + share * (x1 - x0)), y: Math.round(y0 + share * (y1 - y0)), along: share * length };
+  }).filter(({ x, y }) => x >= 0 && y >= 0 && x < width && y < height);
+}
 
 export class LineBox {
   private readonly chart = new Chart('Values along the line', 300);
@@ -16,13 +26,14 @@ export class LineBox {
     const key = `${viewer.choice.state.get('line')} ${a} ${b} ${viewer.pictures.all.size}`;
     if (!line || !viewer.isFloat || key === this.shown) return;
     this.shown = key;
-    const points = lineAcross(line, viewer.camera.size.width, viewer.camera.size.height);
+    const points = pixelsUnder(line, viewer.camera.size);
+    const mean = (value?: readonly number[]): number => (value ? (value[0]! + value[1]! + value[2]!) / 3 : NaN);
     const series = [...new Set([a, b])].filter((i) => viewer.pictures.all.has(i)).map((i) => ({
-      name: viewer.choice.data.engines[i]!.shortTitle, style: 1 + i % 5, ...sampled(points, (x, y) => viewer.pictures.valueAt(i, x, y)),
+      name: viewer.choice.data.engines[i]!.shortTitle, style: 1 + i % 5,
+      x: points.map((p) => p.along), y: points.map((p) => mean(viewer.pictures.valueAt(i, p.x, p.y))),
     }));
-    const xs = series[0]?.x ?? [];
     this.chart.update({
-      x: { label: 'pixels along the line', from: 0, to: Math.max(1, xs[xs.length - 1] ?? 1) },
+      x: { label: 'pixels along the line', from: 0, to: Math.max(1, series[0]?.x.at(-1) ?? 1) },
       y: { label: 'radiance (mean of R, G, B)', ...rangeOf(series.flatMap((s) => s.y), false) }, series,
     });
     this.caption.textContent =

@@ -1,10 +1,11 @@
-// Where two pictures look different, by a metric: made by the program, of pairs that it compared.
+// Maps of visible differences, which the program made of the pairs that it compared.
+import type { Worst } from './float_pictures';
 import { loadFloatPicture, type FloatPicture } from './half_picture';
 import type { ShownMap } from '../records';
 
 export interface LoadedMap extends ShownMap {
   readonly picture: FloatPicture;
-  readonly worst: { readonly value: number; readonly x: number; readonly y: number };
+  readonly worst: Worst;
 }
 
 /** The first channel; all three are the same. */
@@ -28,7 +29,7 @@ export class DifferenceMaps {
 
   constructor(private readonly repaint: () => void, private readonly tell: (words: string) => void) {}
 
-  /** Undefined until it is there; the first time it is asked for it is on its way. */
+  /** Undefined until it is loaded; the first call starts that. */
   of(map: ShownMap): LoadedMap | undefined {
     if (!this.asked.has(map.script)) {
       this.asked.add(map.script);

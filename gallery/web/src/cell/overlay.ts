@@ -1,4 +1,4 @@
-// What lies over the pictures: the line, the pixel under the cursor, the divider.
+// Drawn over the pictures: the line, the pixel under the cursor, the divider.
 import { svg } from '../lib/dom';
 import { clamp } from '../lib/numbers';
 import type { Choice } from './choice';

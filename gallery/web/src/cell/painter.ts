@@ -1,8 +1,8 @@
-// What a stage wants painted. Two can: gl_painter.ts from float pictures, png_painter.ts from what is for the eye.
+// What a stage shows. gl_painter.ts paints it from float pictures, png_painter.ts from 8-bit pictures.
 
 import type { FloatPicture } from './half_picture';
 
-/** Pixel (x, y) of the picture is at the pane's left top; `zoom` device pixels to one of its. */
+/** Pixel (x, y) of the picture is at the pane's top left; a pixel has `zoom` device pixels. */
 export interface Viewport { readonly x: number; readonly y: number; readonly zoom: number }
 
 export interface Rectangle { readonly x: number; readonly y: number; readonly width: number; readonly height: number }
@@ -19,7 +19,7 @@ export interface Pane { readonly at: Rectangle; readonly view: Viewport; readonl
 export interface Look {
   readonly stops: number;
   readonly falseColour: boolean;
-  /** The largest value of false colour, and how many powers of ten below it are told apart. */
+  /** The largest value of false colour, and the number of decades below it. */
   readonly top: number;
   readonly decades: number;
 }

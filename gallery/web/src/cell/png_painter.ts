@@ -1,4 +1,4 @@
-// Where there are no float pictures, or no WebGL 2: the 8-bit pictures, at the one exposure that they have.
+// Without float pictures or WebGL 2: the 8-bit pictures, at their only exposure.
 import type { CellPage, ShownPicture } from '../records';
 import type { Painter, Pane, Viewport } from './painter';
 
@@ -44,7 +44,7 @@ export class PngPainter implements Painter {
   private draw(context: CanvasRenderingContext2D, file: ShownPicture | null | undefined,
                at: Pane['at'], view: Viewport): void {
     if (!file) return;
-    // The whole picture only where no float picture is to come.
+    // The full-size file is needed only if no float picture is coming.
     const source = this.isWaiting() ? file.small : file.src;
     let image = this.images.get(source);
     if (!image) {

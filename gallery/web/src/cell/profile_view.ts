@@ -1,5 +1,5 @@
-// The highlight's curves of profile.json, linear and logarithmic, and their ratio to the formula.
-import { Chart, rangeOf, type Band, type Series } from '../lib/chart';
+// The curves of a highlight: radiance, ratio to the formula, or difference from it.
+import { Chart, rangeOf, type Series } from '../lib/chart';
 import { h, select } from '../lib/dom';
 import { toNumber } from '../lib/numbers';
 import type { HashState } from '../lib/state';
@@ -33,11 +33,10 @@ export function profileView(data: CellPage, state: HashState<'scale'>): HTMLElem
   const all = curves(data, profile);
   const formula = all.find((s) => s.style === 0);
   const choices = kScales.filter((s) => formula || (s.value !== 'ratio' && s.value !== 'error'));
-  const bands: Band[] = profile.zones.map((z) => ({ title: z.title, from: toNumber(z.from), to: toNumber(z.to) }));
   const chart = new Chart('The highlight as a curve', 380);
   const box = select('Show', choices, 'linear', (value) => { state.set({ scale: value }); draw(); }, 'profile-scale');
 
-  const limit = Math.max(0, ...bands.map((b) => b.to)) * 1.25 || 180;
+  const limit = Math.max(0, ...profile.zones.map((z) => z.to)) * 1.25 || 180;
   const end = Math.min(limit, Math.max(...all.flatMap((s) => s.x.filter((v) => v <= 180)), 1));
   const xAxis = {
     label: profile.angle.includes('half') ? 'angle between normal and half vector (degrees)'
@@ -47,30 +46,24 @@ export function profileView(data: CellPage, state: HashState<'scale'>): HTMLElem
   function draw(): void {
     const scale = choices.find((c) => c.value === state.get('scale'))?.value ?? 'linear';
     box.set(scale);
-    let series = all, label = 'radiance (linear light)', level: number | undefined;
+    let series = all, label = 'radiance (linear light)';
     const logarithmic = scale === 'log' || scale === 'error';
-    if (formula && scale === 'ratio') {
-      series = all.filter((s) => s !== formula)
-        .map((s) => ({ ...s, y: s.y.map((v, i) => (formula.y[i] ? v / formula.y[i]! : NaN)) }));
-      label = 'engine / formula';
-      level = 1;
-    } else if (formula && scale === 'error') {
-      series = all.filter((s) => s !== formula)
-        .map((s) => ({ ...s, y: s.y.map((v, i) => Math.abs(v - formula.y[i]!)) }));
-      label = '|engine − formula| (radiance)';
+    if (formula && (scale === 'ratio' || scale === 'error')) {
+      const beside = (v: number, truth: number): number => (scale === 'error' ? Math.abs(v - truth) : truth ? v / truth : NaN);
+      series = all.filter((s) => s !== formula).map((s) => ({ ...s, y: s.y.map((v, i) => beside(v, formula.y[i]!)) }));
+      label = scale === 'ratio' ? 'engine / formula' : '|engine − formula| (radiance)';
     }
     const inView = series.flatMap((s) => s.y.filter((_, i) => s.x[i]! <= end));
     let range = rangeOf(scale === 'linear' ? [0, ...inView] : inView, logarithmic);
     if (scale === 'ratio') {
-      // Around 1, as wide as where there is light: at the lobe's very end a ratio says nothing.
+      // Around 1, wide enough for where there is light: at the lobe's very end a ratio says nothing.
       const peak = Math.max(...(formula?.y ?? [1]).filter(Number.isFinite));
       const lit = series.flatMap((s) => s.y.filter((v, i) => Number.isFinite(v) && (formula?.y[i] ?? 0) > 1e-3 * peak));
       const off = Math.max(1e-6, ...lit.map((v) => Math.abs(v - 1))) * 1.1;
       range = { from: 1 - off, to: 1 + off };
     }
     chart.update({
-      x: xAxis, y: { label, ...range, logarithmic }, series, bands,
-      ...(level === undefined ? {} : { level }),
+      x: xAxis, y: { label, ...range, logarithmic }, series, bands: profile!.zones, level: scale === 'ratio' ? 1 : undefined,
     });
   }
   state.onChange(draw);

@@ -1,5 +1,5 @@
-// Any two pictures of a cell: with a divider, flipped, side by side, or their difference; one zoom for all, the
-// values under the cursor, and what a line across them sees.
+// Compares two pictures of a cell: with a divider, flipped, side by side, or their difference. Shows the values under the
+// cursor and along a line.
 import { announce, button, h, select, svg } from '../lib/dom';
 import { clamp, numberText, toNumber } from '../lib/numbers';
 import type { CellPage } from '../records';
@@ -118,7 +118,7 @@ export class Viewer {
     this.change({ a: name('b'), b: name('a') });
   }
 
-  /** Where it is asked for, there of these two, and has come. */
+  /** The map that is asked for, if these two have it and it is loaded. */
   mapOf(a: number, b: number): LoadedMap | undefined {
     const asked = this.choice.mode() === 'diff' && this.isFloat ? this.choice.mapAsked() : undefined;
     const map = asked && this.choice.comparison(a, b)?.maps.find((m) => m.id === asked.value);
@@ -130,7 +130,6 @@ export class Viewer {
     this.refresh();
   }
 
-  /** Everything that shows the state. */
   private refresh(): void {
     const a = this.choice.engine('a'), b = this.choice.engine('b'), mode = this.choice.mode();
     this.pick.a.set(this.data.engines[a]?.name ?? '');
@@ -146,10 +145,10 @@ export class Viewer {
     this.exposure.min = String(mode === 'diff' ? -kMostGain : base + kStops.from);
     this.exposure.max = String(mode === 'diff' ? kMostGain : base + kStops.to);
     const chosen = mode === 'diff' ? this.choice.gain() : this.choice.stops();
-    this.exposure.value = String(chosen);  // which has steps
+    this.exposure.value = String(chosen);  // the slider rounds it to its steps
     const stops = numberText(Math.round(100 * chosen) / 100, 5);
     this.exposureName.textContent = mode === 'diff' ? `Gain of the difference ${stops} stops` : `Exposure ${stops} stops`;
-    // A finger scrolls the page, but over an enlarged picture or with a line to draw.
+    // A finger scrolls the page, unless the picture is enlarged or a line is drawn.
     this.stage.style.touchAction = this.state.get('z') === '' && !this.drawing ? 'pan-y pinch-zoom' : 'none';
     for (const which of [a, b, 0]) void this.pictures.need(which);
     this.schedule();
@@ -168,7 +167,7 @@ export class Viewer {
           Object.assign(this, { canvas });
           this.isFloat = true;
         } catch {
-          // Told below.
+          // The message below says so.
         }
       }
       this.isWaiting = this.isFloat;
@@ -190,7 +189,7 @@ export class Viewer {
     }
   }
 
-  /** As it was recorded, from all bits; of two that were not compared, as this page has them. */
+  /** As recorded, from all bits; for two that were not compared, from this page's pictures. */
   worstPixel(a: number, b: number): Worst | undefined {
     const map = this.mapOf(a, b);
     if (map) return map.worst;
@@ -208,10 +207,10 @@ export class Viewer {
     announce(`Largest difference at pixel ${worst.x}, ${worst.y}: ${numberText(worst.value)}`);
   }
 
-  /** What white stands for in a difference. */
+  /** The difference that is white. */
   white(a: number, b: number): number {
     const map = this.mapOf(a, b);
-    // What nobody notices stays dark, however large it is beside the rest.
+    // Differences too small to notice stay dark.
     if (map) return Math.max(1, map.worst.value) / 2 ** this.choice.gain();
     const measure = this.choice.measure(), whiteAt = toNumber(this.choice.comparison(a, b)?.whiteAt);
     const base = measure !== 'relative' && whiteAt > 0 ? whiteAt : this.isFloat ? this.pictures.largestOf(a, b, measure) : 1;
@@ -232,8 +231,8 @@ export class Viewer {
     const isFlipped = mode === 'flip' && this.state.get('shown') === 'b';
     if (mode === 'slide') {
       const left = Math.round(all.width * clamp(this.state.number('split'), 0, 100) / 100);
-      list.push({ at: { ...all, width: left }, view, content: picture(a) });
-      list.push({ at: { ...all, x: left, width: all.width - left }, view: { ...view, x: view.x + left / view.zoom }, content: picture(b) });
+      list.push({ at: { ...all, width: left }, view, content: picture(a) },
+        { at: { ...all, x: left, width: all.width - left }, view: { ...view, x: view.x + left / view.zoom }, content: picture(b) });
     } else if (mode === 'side') {
       list.push({ at: panes[0]!, view, content: picture(a) }, { at: panes[1]!, view, content: picture(b) });
     } else if (mode === 'flip') {
@@ -274,18 +273,23 @@ export class Viewer {
   }
 
   private lineThrough(isRow: boolean): void {
-    const { x, y } = this.cursorNow(this.choice.engine('a'), this.choice.engine('b')) ?? { x: Math.floor(this.camera.size.width / 2), y: Math.floor(this.camera.size.height / 2) };
+    const { x, y } = this.cursorOrMiddle();
     this.change({ line: isRow ? `0,${y},${this.camera.size.width - 1},${y}` : `${x},0,${x},${this.camera.size.height - 1}` });
   }
 
-  /** Under the pointer; else where the link says; else where the two differ most. */
+  /** Under the pointer; else from the link; else where the two differ most. */
   cursorNow(a: number, b: number): { x: number; y: number } | undefined {
     const [x = NaN, y = NaN] = this.state.get('at').split(',').map(Number);
     const linked = Number.isInteger(x) && Number.isInteger(y) && x >= 0 && y >= 0 && x < this.camera.size.width && y < this.camera.size.height;
     return this.cursor ?? (linked ? { x, y } : this.isFloat ? this.worstPixel(a, b) : undefined);
   }
 
-  /** `keep`: a link has it too. */
+  cursorOrMiddle(): { x: number; y: number } {
+    const { width, height } = this.camera.size;
+    return this.cursorNow(this.choice.engine('a'), this.choice.engine('b')) ?? { x: Math.floor(width / 2), y: Math.floor(height / 2) };
+  }
+
+  /** `keep`: the link gets it too. */
   setCursor(x: number, y: number, keep = false): void {
     this.cursor = { x: clamp(Math.floor(x), 0, this.camera.size.width - 1), y: clamp(Math.floor(y), 0, this.camera.size.height - 1) };
     if (keep) this.state.set({ at: `${this.cursor.x},${this.cursor.y}` });

@@ -1,4 +1,4 @@
-// What the pointer and the keys do to the viewer of a cell.
+// Pointer and keys of a cell's viewer.
 import { announce, isTyping } from '../lib/dom';
 import { clamp, numberText } from '../lib/numbers';
 import type { Viewer } from './viewer';
@@ -27,8 +27,7 @@ export function listenToPointer(viewer: Viewer): void {
       const box = stage.getBoundingClientRect();
       viewer.change({ split: clamp(100 * (event.clientX - box.left) / box.width, 0, 100).toFixed(1) });
     } else {
-      const view = camera.view(), at = camera.rectangles()[0]!;
-      camera.moveTo(view.x + at.width / 2 / view.zoom + held.x - point.x, view.y + at.height / 2 / view.zoom + held.y - point.y, view.zoom / devicePixelRatio);
+      camera.moveBy(held.x - point.x, held.y - point.y);
     }
   });
   const release = (): void => {
@@ -60,12 +59,10 @@ function moveByKey(viewer: Viewer, event: KeyboardEvent): void {
   event.preventDefault();
   const [dx = 0, dy = 0] = step;
   if (event.shiftKey) {
-    const view = camera.view(), at = camera.rectangles()[0]!;
-    const stride = at.width / view.zoom / 8;
-    camera.moveTo(view.x + at.width / 2 / view.zoom + dx * stride, view.y + at.height / 2 / view.zoom + dy * stride, view.zoom / devicePixelRatio);
-    return;
+    const stride = camera.rectangles()[0]!.width / camera.view().zoom / 8;
+    return camera.moveBy(dx * stride, dy * stride);
   }
-  const { x, y } = viewer.cursorNow(choice.engine('a'), choice.engine('b')) ?? { x: Math.floor(camera.size.width / 2), y: Math.floor(camera.size.height / 2) };
+  const { x, y } = viewer.cursorOrMiddle();
   viewer.setCursor(x + dx, y + dy, true);
   const ours = viewer.pictures.valueAt(choice.engine('a'), viewer.cursor!.x, viewer.cursor!.y);
   if (ours) announce(`Pixel ${viewer.cursor!.x}, ${viewer.cursor!.y}: ${ours.map((v) => numberText(v)).join(', ')}`);
@@ -82,11 +79,12 @@ function actByKey(viewer: Viewer, event: KeyboardEvent): void {
     announce(picked.title);
     return event.preventDefault();
   }
-  const stops = choice.mode() === 'diff' ? 'gain' : 'ev';
-  const now = choice.mode() === 'diff' ? choice.gain() : choice.stops();
+  const isDifference = choice.mode() === 'diff';
+  const stops = (): number => (isDifference ? choice.gain() : choice.stops());
+  const setStops = (value: number): void => viewer.change({ [isDifference ? 'gain' : 'ev']: String(value) });
   const brighten = (by: number): void => {
-    viewer.change({ [stops]: String(now + by) });
-    viewer.change({ [stops]: String(choice.mode() === 'diff' ? choice.gain() : choice.stops()) });
+    setStops(stops() + by);
+    setStops(stops());  // which is within the limits
   };
   const acts: Record<string, () => void> = {
     f: () => viewer.change({ mode: 'flip', shown: choice.mode() === 'flip' && choice.state.get('shown') === 'a' ? 'b' : 'a' }),

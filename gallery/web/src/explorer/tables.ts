@@ -1,13 +1,12 @@
-// Tables that the library wrote (docs/records.md, highlight-tables; gallery/explorer_page.cpp), interpolated over the
-// exponent. What a lobe or a model is stands nowhere here.
-
+// Interpolates the tables of gallery/explorer_page.cpp (docs/records.md, highlight-tables) over the exponent. Knows no
+// formula of a lobe or a model.
 import type { HighlightTable, HighlightTables, LobeTable } from '../records';
 
-export interface Curve { readonly x: number[]; readonly y: number[] }
+interface Curve { readonly x: number[]; readonly y: number[] }
 
 const kDegree = Math.PI / 180, kFiner = 4;
 
-/** Rows of second differences: how the page's data keeps them, because they are short. */
+/** Rows from their second differences, which the page's data has because they are short. */
 function summed(rows: readonly (readonly number[])[]): number[][] {
   const result: number[][] = [];
   rows.forEach((row, r) => {
@@ -17,8 +16,8 @@ function summed(rows: readonly (readonly number[])[]): number[][] {
   return result;
 }
 
-/** Four times as many points, by the cubic through the four nearest: for a line without corners. */
-export function refined(values: readonly number[]): number[] {
+/** Four times as many points, by the cubic through the four nearest, for a smooth line. */
+function refined(values: readonly number[]): number[] {
   const last = values.length - 1, result: number[] = [];
   for (let i = 0; i <= last * kFiner; ++i) {
     const at = i / kFiner, first = Math.max(0, Math.min(last - 3, Math.floor(at) - 1));
@@ -42,13 +41,13 @@ export function unpacked(packed: HighlightTables): HighlightTables {
   };
 }
 
-/** Angles that crowd where a highlight is. */
+/** Angles from 0 to `reach`, closer together where a highlight is bright. */
 function spread(reach: number, n: number, count: number): number[] {
   const most = Math.asinh(reach * Math.sqrt(n));
   return Array.from({ length: count }, (_, i) => reach * Math.sinh(most * i / (count - 1)) / Math.sinh(most));
 }
 
-/** Everything about one exponent. */
+/** The tables at one exponent. */
 export class AtExponent {
   private readonly first: number;
   private readonly weights: number[];
@@ -76,7 +75,7 @@ export class AtExponent {
   /** Degrees beyond which the lobe is 0. */
   reach(lobe: LobeTable): number { return this.number(lobe.reach) / kDegree; }
 
-  /** The lobe over the angle that it sees, in degrees; 1 at 0. */
+  /** The lobe over its angle in degrees; 1 at 0. */
   curve(lobe: LobeTable): Curve {
     const numbers = this.row(lobe.curves);
     return {
@@ -89,12 +88,12 @@ export class AtExponent {
     return this.number((normalisation === 'paper' && highlight.paper) || highlight.exact);
   }
 
-  /** Over incidence in degrees from 0 on: seen under a uniform sky, or (`lit`) what leaves of a beam. */
+  /** The albedo over incidence in degrees: seen under a uniform sky, or (`lit`) the share of a beam that leaves. */
   albedo(highlight: HighlightTable, normalisation: string, lit: boolean): Curve {
     const values = refined(this.row((lit && highlight.lit) || highlight.seen));
     const times = this.coefficient(highlight, normalisation) / this.coefficient(highlight, 'exact');
     const grazing = this.tables.mostGrazing, x = spread(grazing, this.n, values.length).map((a) => grazing - a);
-    // What is lit is kept without its 1/(N.L), which has no bound.
+    // The table for `lit` lacks the factor 1/(N.L), which has no bound.
     const y = values.map((v, i) => times * Math.exp(v * highlight.unit) / (lit && highlight.lit ? Math.cos(x[i]!) : 1));
     return { x: x.map((a) => a / kDegree).reverse(), y: y.reverse() };
   }

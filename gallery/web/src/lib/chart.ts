@@ -1,4 +1,5 @@
-// A chart of lines or points that tells the values under the pointer, or at the arrow keys.
+// A line chart that shows the values under the pointer, or at the arrow keys.
+import type { ChartAxis, ChartBand } from '../records';
 import { h, svg } from './dom';
 import { clamp, numberText } from './numbers';
 
@@ -6,36 +7,25 @@ export interface Series {
   readonly name: string;
   readonly x: readonly number[];
   readonly y: readonly number[];
-  /** 0 is broad and pale, to lie under the others; 1 to 5 have colours and dashes of their own. */
+  /** 0 is broad and pale, under the others; 1 to 5 have their own colours and dashes. */
   readonly style: number;
 }
 
-export interface Axis {
-  readonly label: string;
-  readonly from: number;
-  readonly to: number;
-  readonly logarithmic?: boolean;
-  /** In place of round numbers. */
-  readonly ticks?: readonly number[];
-}
-
-export interface Band { readonly title: string; readonly from: number; readonly to: number }
-
-export interface ChartContent {
-  readonly x: Axis;
-  readonly y: Axis;
+interface ChartContent {
+  readonly x: ChartAxis;
+  readonly y: ChartAxis;
   readonly series: readonly Series[];
-  readonly bands?: readonly Band[];
-  /** A value that everything is held to: 1 of a ratio. */
-  readonly level?: number;
+  readonly bands?: readonly ChartBand[];
+  /** A value with a line of its own, such as 1 of a ratio. */
+  readonly level?: number | undefined;
 }
 
 let charts = 0;
 const kWidth = 900, kLeft = 76, kRight = 16, kTop = 20, kBottom = 44;
-export const kDashes = ['', '', '7 4', '2 3', '10 3 2 3', '5 2'];
+const kDashes = ['', '', '7 4', '2 3', '10 3 2 3', '5 2'];
 
 /** Round numbers from `from` to `to`, about `count` of them; decades on a logarithmic axis. */
-export function ticks(axis: Axis, count: number): number[] {
+function ticks(axis: ChartAxis, count: number): number[] {
   if (axis.ticks?.length) return [...axis.ticks];
   const result: number[] = [];
   if (axis.logarithmic) {
@@ -48,6 +38,16 @@ export function ticks(axis: Axis, count: number): number[] {
   const step = [1, 2, 5, 10].map((n) => n * power).find((s) => s >= rough) ?? rough;
   for (let i = Math.ceil(axis.from / step - 1e-9); i * step <= axis.to + 1e-9 * step; ++i) result.push(i * step);
   return result;
+}
+
+/** The attributes of a series' line. */
+function lineLook(style: number, width: number): Record<string, string | number> {
+  return { class: `series series-${style}`, 'stroke-width': style === 0 ? 6 : width, 'stroke-dasharray': kDashes[style] ?? '' };
+}
+
+/** The position of a value along an axis, from 0 to 1. */
+function shareOf(value: number, { from, to, logarithmic }: ChartAxis): number {
+  return logarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
 }
 
 export class Chart {
@@ -76,12 +76,11 @@ export class Chart {
 
   update(content: ChartContent): void {
     this.content = content;
-    this.drawLegend();
+    this.drawLegend(content.series);
     this.draw();
   }
 
-  private drawLegend(): void {
-    const series = this.content?.series ?? [];
+  private drawLegend(series: readonly Series[]): void {
     this.legend.replaceChildren(...series.map((s) => {
       const box = h('input', { type: 'checkbox' });
       box.checked = !this.hidden.has(s.name);
@@ -90,8 +89,7 @@ export class Chart {
         this.draw();
       });
       const sample = svg('svg', { class: 'chart sample', width: 28, height: 10, 'aria-hidden': 'true' },
-        svg('line', { class: `series series-${s.style}`, x1: 0, x2: 28, y1: 5, y2: 5,
-          'stroke-width': s.style === 0 ? 6 : 2, 'stroke-dasharray': kDashes[s.style] ?? '' }));
+        svg('line', { ...lineLook(s.style, 2), x1: 0, x2: 28, y1: 5, y2: 5 }));
       return h('label', {}, box, sample, s.name);
     }));
   }
@@ -103,20 +101,18 @@ export class Chart {
   }
 
   private across(value: number): number {
-    const { from, to, logarithmic } = this.content!.x;
-    const share = logarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
-    return kLeft + share * (kWidth - kLeft - kRight);
+    return kLeft + shareOf(value, this.content!.x) * (kWidth - kLeft - kRight);
   }
 
   private down(value: number): number {
-    const { from, to, logarithmic } = this.content!.y;
-    const share = logarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
-    return kTop + (1 - clamp(share, -100, 100)) * (this.height - kTop - kBottom);
+    return kTop + (1 - clamp(shareOf(value, this.content!.y), -100, 100)) * (this.height - kTop - kBottom);
   }
+
+  private visible(): Series[] { return this.content?.series.filter((s) => !this.hidden.has(s.name)) ?? []; }
 
   private draw(): void {
     if (!this.content) return;
-    const { x, y, series, bands = [], level } = this.content;
+    const { x, y, bands = [], level } = this.content;
     const bottom = this.height - kBottom, right = kWidth - kRight;
     const parts: SVGElement[] = [];
     bands.forEach((band, i) => {
@@ -147,11 +143,7 @@ export class Chart {
     // A curve that leaves the chart ends at its edge.
     const inside = svg('g', { 'clip-path': `url(#${this.clip})` });
     parts.push(svg('clipPath', { id: this.clip }, svg('rect', { x: kLeft, y: kTop - 3, width: right - kLeft + 3, height: bottom - kTop + 6 })), inside);
-    for (const s of series) {
-      if (this.hidden.has(s.name)) continue;
-      inside.append(svg('path', { class: `series series-${s.style}`, fill: 'none', d: this.path(s),
-        'stroke-width': s.style === 0 ? 6 : 1.8, 'stroke-dasharray': kDashes[s.style] ?? '' }));
-    }
+    for (const s of this.visible()) inside.append(svg('path', { ...lineLook(s.style, 1.8), fill: 'none', d: this.path(s) }));
     this.drawing.replaceChildren(...parts, this.rule);
     this.show(this.at);
   }
@@ -177,11 +169,10 @@ export class Chart {
     this.show(xs[clamp(now + step, 0, xs.length - 1)]);
   }
 
-  /** The values at the point that is nearest to `value`. */
+  /** Shows the values at the point nearest to `value`. */
   private show(value: number | undefined): void {
     this.at = value;
-    const series = this.content?.series.filter((s) => !this.hidden.has(s.name)) ?? [];
-    const xs = series[0]?.x;
+    const series = this.visible(), xs = series[0]?.x;
     if (value === undefined || !xs?.length || !this.content) {
       this.rule.replaceChildren();
       this.readout.textContent = 'Point at the chart, or use its arrow keys, to read values.';
@@ -200,7 +191,7 @@ export class Chart {
   }
 }
 
-/** The series' line at x; no number where it has none. */
+/** The series interpolated at x; NaN outside of it. */
 function between(s: Series, x: number): number {
   const after = s.x.findIndex((v, i) => v >= x && (i === 0 ? v === x : s.x[i - 1]! <= x));
   if (after <= 0) return after < 0 ? NaN : s.y[0]!;
@@ -208,7 +199,7 @@ function between(s: Series, x: number): number {
   return from === to ? s.y[after]! : s.y[after - 1]! + (s.y[after]! - s.y[after - 1]!) * (x - from) / (to - from);
 }
 
-function tickText(value: number, axis: Axis): string {
+function tickText(value: number, axis: ChartAxis): string {
   if (axis.ticks?.length) return numberText(value, 4);
   if (!axis.logarithmic) {
     const size = Math.max(Math.abs(axis.from), Math.abs(axis.to));
@@ -225,7 +216,7 @@ function nearest(sorted: readonly number[], value: number): number {
   return best;
 }
 
-/** From a round number under the least to one over the largest; of values that are drawn. */
+/** Round limits of an axis that shows all finite values. */
 export function rangeOf(values: Iterable<number>, logarithmic: boolean, mostDecades = 10): { from: number; to: number } {
   let low = Infinity, high = -Infinity;
   for (const value of values) {

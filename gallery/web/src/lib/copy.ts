@@ -1,9 +1,9 @@
-// A copy button on everything that somebody may want to type elsewhere: commands and hashes.
+// A copy button on commands and hashes.
 import { button } from './dom';
 
-export function addCopyButtons(root: ParentNode = document): void {
+export function addCopyButtons(): void {
   if (!navigator.clipboard) return;
-  for (const place of root.querySelectorAll<HTMLElement>('pre.command, code.copied')) {
+  for (const place of document.querySelectorAll<HTMLElement>('pre.command, code.copied')) {
     const text = place.textContent ?? '';
     const what = place.dataset['what'] ?? 'the command';
     const control = button('Copy', () => {

@@ -2,7 +2,6 @@
 // lobelia("name",'JSON'), and JSON.parse keeps a hostile record from being anything but data.
 
 const received = new Map<string, unknown>();
-const waiting = new Map<string, Promise<unknown>>();
 
 declare global {
   interface Window { lobelia: (name: string, json: string) => void }
@@ -10,26 +9,21 @@ declare global {
 
 window.lobelia = (name, json) => { received.set(name, JSON.parse(json)); };
 
-/** What a script of the page's head has brought, if there is one. */
+/** The data from the script in the page's head, if there is one. */
 export function pageData<T>(): T | undefined { return received.get('page') as T | undefined; }
 
-/** Loads `source` (relative to the page) once, and gives what it calls itself `name`. */
+/** Loads the script `source` (relative to the page) and returns its data called `name`. For each script once. */
 export function load<T>(name: string, source: string): Promise<T> {
-  let promise = waiting.get(source);
-  if (!promise) {
-    promise = new Promise((resolve, reject) => {
-      const script = document.createElement('script');
-      script.src = source;
-      script.addEventListener('load', () => {
-        if (received.has(name)) resolve(received.get(name));
-        else reject(new Error(source + ' holds no "' + name + '"'));
-        received.delete(name);  // the caller has it; nobody else keeps megabytes
-        script.remove();
-      });
-      script.addEventListener('error', () => reject(new Error(source + ' cannot be read')));
-      document.head.append(script);
+  return new Promise((resolve, reject) => {
+    const script = document.createElement('script');
+    script.src = source;
+    script.addEventListener('load', () => {
+      if (received.has(name)) resolve(received.get(name) as T);
+      else reject(new Error(source + ' holds no "' + name + '"'));
+      received.delete(name);  // the caller has it; frees megabytes
+      script.remove();
     });
-    waiting.set(source, promise);
-  }
-  return promise as Promise<T>;
+    script.addEventListener('error', () => reject(new Error(source + ' cannot be read')));
+    document.head.append(script);
+  });
 }

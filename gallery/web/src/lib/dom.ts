@@ -2,7 +2,7 @@
 // record is ever parsed as markup, and the pages' policy would refuse to run it.
 
 type Value = string | number | boolean | undefined;
-export type Child = Node | string | undefined | null | false;
+type Child = Node | string | undefined | null | false;
 
 const kSvg = 'http://www.w3.org/2000/svg';
 
@@ -28,7 +28,6 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
-/** A button that says what it does, and by which key if it has one. */
 export function button(label: string, act: () => void, attributes: Record<string, Value> = {}): HTMLButtonElement {
   const element = h('button', { type: 'button', ...attributes }, label);
   element.addEventListener('click', act);
@@ -47,7 +46,7 @@ export function select(label: string, choices: readonly Choice[], chosen: string
   return { element: h('label', {}, h('span', {}, label), list), set: (value) => { list.value = value; } };
 }
 
-/** True while the reader types: letters are then no commands. */
+/** True while the reader types, when letters are no commands. */
 export function isTyping(event: KeyboardEvent): boolean {
   if (event.ctrlKey || event.metaKey || event.altKey) return true;
   const at = event.target;
@@ -55,7 +54,7 @@ export function isTyping(event: KeyboardEvent): boolean {
   return at instanceof HTMLSelectElement || at instanceof HTMLTextAreaElement;
 }
 
-/** Says something to screen readers, once. */
+/** Tells screen readers something once. */
 export function announce(words: string): void {
   let place = document.getElementById('announcer');
   if (!place) {
@@ -63,4 +62,11 @@ export function announce(words: string): void {
     (document.querySelector('main') ?? document.body).append(place);
   }
   place.textContent = words;
+}
+
+/** Puts `element` in place of a drawing that the page has for readers without script. */
+export function replaceDrawing(drawing: Element, element: HTMLElement): void {
+  drawing.classList.add('without-script');
+  element.classList.add('scripted-only');
+  drawing.after(element);
 }

@@ -2,7 +2,7 @@
 
 const kNames: Record<string, number> = { nan: NaN, inf: Infinity, '-inf': -Infinity };
 
-/** A record's number: JSON has no names for what is not finite, so records have. */
+/** A number of a record. JSON has no NaN and no infinities, so records spell them. */
 export type RecordNumber = number | string | null | undefined;
 
 export function toNumber(value: RecordNumber): number {
@@ -44,15 +44,9 @@ function trimmed(text: string): string {
   return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 }
 
-/** Two digits, as a share of something is rarely worth more. */
+/** With two digits. */
 export function percentText(share: number): string {
   return numberText(100 * share, 2) + (Number.isNaN(share) ? '' : ' %');
-}
-
-export function secondsText(seconds: number): string {
-  if (seconds < 1e-3) return numberText(seconds * 1e6) + ' µs';
-  if (seconds < 1) return numberText(seconds * 1e3) + ' ms';
-  return numberText(seconds) + ' s';
 }
 
 export const clamp = (value: number, low: number, high: number): number => Math.min(high, Math.max(low, value));

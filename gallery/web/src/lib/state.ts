@@ -1,11 +1,11 @@
-// What the reader sees, in the URL's hash, so that a link shows the same: #a=lobelia&b=povray&mode=slide.
+// The state of a page in the URL's hash, so that a link shows the same: #a=lobelia&b=povray&mode=slide.
 // A hash without '=' is an anchor of the page and left alone.
 
 export class HashState<Key extends string> {
   private values = new Map<string, string>();
   private readonly listeners: (() => void)[] = [];
 
-  /** What is at its default does not stand in the link. */
+  /** Values at their default are left out of the link. */
   constructor(private readonly defaults: Readonly<Record<Key, string>>) {
     this.read();
     addEventListener('hashchange', () => {
@@ -21,7 +21,7 @@ export class HashState<Key extends string> {
     return Number.isFinite(value) ? value : Number(this.defaults[key]);
   }
 
-  /** Replaces the address in place: the way back leads to the page before, not through every drag. */
+  /** Replaces the address, so that the back button leads to the page before and not through every drag. */
   set(changes: Partial<Record<Key, string>>): void {
     for (const [key, value] of Object.entries(changes) as [Key, string][]) {
       if (value === this.defaults[key]) this.values.delete(key);
@@ -32,7 +32,7 @@ export class HashState<Key extends string> {
     history.replaceState(history.state, '', query === '' ? '#top' : '#' + query);
   }
 
-  /** Called when somebody else changed the hash: a link, the way back. */
+  /** Called when a link or the back button changed the hash. */
   onChange(listener: () => void): void { this.listeners.push(listener); }
 
   private read(): boolean {

@@ -1,11 +1,11 @@
-// The page of a cell: a viewer in place of the row of pictures, and curves that can be read.
+// The page of a cell: a viewer in place of the row of pictures, and an interactive profile.
 import type { CellPage } from '../records';
 import { profileView } from '../cell/profile_view';
 import { viewerState } from '../cell/choice';
 import { Viewer } from '../cell/viewer';
 import { pageData } from '../lib/data';
 
-/** The next cell is seen as this one is: the link takes the state along. */
+/** Links to other cells keep the state of this page. */
 function takeStateAlong(main: HTMLElement): void {
   const take = (event: Event): void => {
     const link = event.target instanceof Element ? event.target.closest<HTMLAnchorElement>('nav.axes a') : null;

@@ -1,4 +1,4 @@
-// What accuracy costs: a way is marked in all charts of its table and in the table beside them, by pointer or key.
+// The page on cost: the pointer or a key marks a variant in its table and in all charts of that table.
 import { h } from '../lib/dom';
 import { clamp } from '../lib/numbers';
 import { HashState } from '../lib/state';
@@ -20,8 +20,8 @@ class CostTable {
     this.number = section.id.slice('table-'.length);
     this.rows = [...section.querySelectorAll<HTMLElement>('tr[data-key]')];
     this.points = [...section.querySelectorAll<SVGGElement>('g.point[data-key]')];
-    const details = section.querySelector('details.ways');
-    if (details instanceof HTMLDetailsElement) details.open = true;
+    const details = section.querySelector<HTMLDetailsElement>('details.ways');
+    if (details) details.open = true;
     for (const row of this.rows) {
       row.tabIndex = 0;
       this.listen(row);
@@ -37,10 +37,10 @@ class CostTable {
     this.readouts.push({ chart, place });
     chart.after(place);
     const points = this.points.filter((p) => chart.contains(p));
-    // Along the time axis, whether on the front or not.
+    // In the order of the time axis.
     const across = (p: SVGGElement): number => p.getBBox().x + p.getBBox().width / 2;
     points.sort((a, b) => across(a) - across(b));
-    // A picture to read, and then points to choose: one stop for the tab key.
+    // The points of a chart are one stop for the tab key; arrow keys go from point to point.
     chart.setAttribute('role', 'group');
     chart.setAttribute('aria-roledescription', 'chart');
     points.forEach((point, i) => {
@@ -65,7 +65,9 @@ class CostTable {
     element.addEventListener('blur', () => this.mark(this.pinned()));
     element.addEventListener('click', () => this.pin(key));
     element.addEventListener('keydown', (event) => {
-      if (event instanceof KeyboardEvent && (event.key === 'Enter' || event.key === ' ')) { event.preventDefault(); this.pin(key); }
+      if (!(event instanceof KeyboardEvent) || (event.key !== 'Enter' && event.key !== ' ')) return;
+      event.preventDefault();
+      this.pin(key);
     });
   }
 
@@ -97,7 +99,7 @@ class CostTable {
   }
 }
 
-/** Moves the table's own scroll, never the page's. */
+/** Scrolls the table to a row, never the page. */
 function scrollWithin(row: HTMLElement): void {
   const box = row.closest<HTMLElement>('.table-wrap');
   if (!box || box.scrollHeight <= box.clientHeight) return;

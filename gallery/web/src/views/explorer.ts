@@ -1,4 +1,4 @@
-// One highlight, or two laid over each other: curve, coefficient, peak, width and energy, as the exponent moves.
+// One highlight, or two over each other: curve, coefficient, peak, width and energy at any exponent.
 import { AtExponent, unpacked } from '../explorer/tables';
 import { Chart, rangeOf, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
@@ -10,7 +10,7 @@ import type { HighlightTable, HighlightTables, LobeTable, ModelTable } from '../
 type Field = 'lobe' | 'model' | 'norm' | 'n';
 type Key = Field | `${Field}2` | 'two' | 'scale' | 'unit';
 const kSides = [{ suffix: '', name: 'A' }, { suffix: '2', name: 'B' }] as const;
-const kDecades = 6;  // of a logarithmic curve below its peak
+const kDecades = 6;  // below the peak on a logarithmic axis
 
 interface Chosen {
   readonly name: string; readonly lobe: LobeTable; readonly model: ModelTable; readonly highlight: HighlightTable;
@@ -68,10 +68,10 @@ class Explorer {
     this.refresh();
   }
 
-  /** What the link says, held to what there is. */
+  /** From the link, within the range of the tables. */
   private exponent(key: 'n' | 'n2'): number {
     const { exponents } = this.tables;
-    return clamp(this.state.number(key), exponents[0]!, exponents[exponents.length - 1]!);
+    return clamp(this.state.number(key), exponents[0]!, exponents.at(-1)!);
   }
 
   private chosen(side: (typeof kSides)[number]): Chosen | undefined {
@@ -89,7 +89,7 @@ class Explorer {
     const model = select('Model', models.map((m) => ({ value: m.name, label: m.title })), '', (v) => this.change({ [`model${suffix}`]: v }), `model${suffix}`);
     const norm = select('Normalisation', [{ value: 'exact', label: 'exact' }, { value: 'paper', label: 'as the paper prints it' }], '',
       (v) => this.change({ [`norm${suffix}`]: v }), `norm${suffix}`);
-    const first = exponents[0]!, last = exponents[exponents.length - 1]!;
+    const first = exponents[0]!, last = exponents.at(-1)!;
     const slider = h('input', { type: 'range', min: Math.log2(first), max: Math.log2(last), step: 0.01, id: `slide${suffix}`,
       'aria-label': `Exponent ${name}` });
     const number = h('input', { type: 'number', min: first, max: last, step: 'any', id: `n${suffix}` });
@@ -143,21 +143,21 @@ class Explorer {
       return { name: `${c.name} ${c.lobe.title}`, x: curve.x, y: curve.y.map((v) => v * times), style: 1 + i };
     });
     const angles = new Set(shown.map((c) => c.model.angle));
-    const top = rangeOf([0, peak], false).to;
-    const y = logarithmic ? { from: 10 ** (Math.ceil(Math.log10(peak)) - kDecades), to: 10 ** Math.ceil(Math.log10(peak)) } : { from: 0, to: top };
+    const decade = Math.ceil(Math.log10(peak));
+    const y = logarithmic ? { from: 10 ** (decade - kDecades), to: 10 ** decade } : { from: 0, to: rangeOf([0, peak], false).to };
     this.curves.update({
       x: { label: `angle between ${[...angles].join(' (A), ')}${angles.size > 1 ? ' (B)' : ''}, degrees`, from: 0, to: Math.min(90, end) || 90 },
       y: { label: ofPeak ? 'of the peak' : 'radiance per unit irradiance', ...y, logarithmic },
-      // Below the chart there is no line, and no value to read there either.
+      // Values below the chart are neither drawn nor shown.
       series: logarithmic ? series.map((s) => ({ ...s, y: s.y.map((v) => (v < y.from / 2 ? NaN : v)) })) : series,
     });
   }
 
   private drawEnergy(shown: readonly Chosen[]): void {
     const series: Series[] = shown.flatMap((c, i) => {
-      const seen = c.at.albedo(c.highlight, c.norm, false);
-      if (!c.highlight.lit) return [{ name: `${c.name} seen and lit`, ...seen, style: 1 + i }];
-      return [{ name: `${c.name} seen`, ...seen, style: 1 + i }, { name: `${c.name} lit`, ...c.at.albedo(c.highlight, c.norm, true), style: 3 + i }];
+      const seen = { ...c.at.albedo(c.highlight, c.norm, false), style: 1 + i };
+      if (!c.highlight.lit) return [{ name: `${c.name} seen and lit`, ...seen }];
+      return [{ name: `${c.name} seen`, ...seen }, { name: `${c.name} lit`, ...c.at.albedo(c.highlight, c.norm, true), style: 3 + i }];
     });
     const most = Math.max(1, ...series.flatMap((s) => s.y));
     this.note.textContent = most > 2.5 ? `Up to ${numberText(most)} at 89.99°, beyond the chart.` : '';

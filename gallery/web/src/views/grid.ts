@@ -6,11 +6,11 @@ import { numberText, percentText, toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import type { GridCell, GridMetric, GridPage } from '../records';
 
-/** Worst first: what a reader has to look at. */
+/** Worst first. */
 const kFlaws = ['damaged', 'lost', 'changed'];
 const kSeverity = [...kFlaws, 'failed', 'differs', 'undecided', 'unsealed', 'unchecked', 'missing', 'pass'];
 const kNone = '-1';
-/** In place of an engine: the worst that any has. */
+/** In place of an engine: the worst of all engines. */
 const kAll = '*';
 
 export function grid(main: HTMLElement): void {
@@ -19,11 +19,23 @@ export function grid(main: HTMLElement): void {
   if (data && first && data.cells.length > 0) new GridView(main, first, data);
 }
 
-export function metricText(metric: GridMetric, value: number): string {
+function metricText(metric: GridMetric, value: number): string {
   return metric.unit === 'share' ? percentText(value) : metric.unit === 'count' ? numberText(value, 9) : numberText(value);
 }
 
 const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+function groupedBy(cells: readonly GridCell[], keyOf: (cell: GridCell) => string): Map<string, GridCell[]> {
+  const groups = new Map<string, GridCell[]>();
+  for (const cell of cells) {
+    const key = keyOf(cell), group = groups.get(key);
+    if (group) group.push(cell); else groups.set(key, [cell]);
+  }
+  return groups;
+}
+
+type AxisKey = 'rows' | 'cols' | 'group';
+interface CellParts { readonly element: HTMLElement; readonly value: HTMLElement; readonly swatch: HTMLElement }
 
 class GridView {
   private readonly state;
@@ -31,11 +43,11 @@ class GridView {
   private readonly count = h('output', { class: 'count' });
   private readonly legend = h('div', { class: 'legend-bar' });
   private readonly find = h('input', { type: 'search', placeholder: 'blinn 128', id: 'find', 'aria-keyshortcuts': '/' });
-  private readonly axes: Record<'rows' | 'cols' | 'group', ReturnType<typeof select>>;
-  private readonly colour: ReturnType<typeof select>;
-  private readonly status: ReturnType<typeof select>;
-  private readonly order: ReturnType<typeof select>;
-  private readonly made = new Map<GridCell, { element: HTMLElement; value: HTMLElement; swatch: HTMLElement }>();
+  private readonly axes: Record<AxisKey, ReturnType<typeof select>>;
+  private readonly colour;
+  private readonly status;
+  private readonly order;
+  private readonly made = new Map<GridCell, CellParts>();
   private readonly haystack = new Map<GridCell, string>();
 
   constructor(main: HTMLElement, first: Element, private readonly data: GridPage) {
@@ -45,7 +57,7 @@ class GridView {
       colour: this.colourChoices()[0]?.value ?? 'status',
     });
     const named = data.axes.map((axis, i) => ({ value: String(i), label: axis.name }));
-    const axis = (label: string, key: 'rows' | 'cols' | 'group'): ReturnType<typeof select> =>
+    const axis = (label: string, key: AxisKey): ReturnType<typeof select> =>
       select(label, key === 'cols' ? named : [...named, { value: kNone, label: 'none' }], '', (value) => this.takeAxis(key, value));
     this.axes = { rows: axis('Rows', 'rows'), cols: axis('Columns', 'cols'), group: axis('Grouped by', 'group') };
     this.colour = select('Colour', [...this.colourChoices(), { value: 'status', label: 'status alone' }], '',
@@ -91,8 +103,8 @@ class GridView {
     event.preventDefault();
   }
 
-  /** An axis has one place: whoever had it takes what is given up for it. */
-  private takeAxis(key: 'rows' | 'cols' | 'group', value: string): void {
+  /** Uses an axis in one place only: the place that had it gets the axis it replaces. */
+  private takeAxis(key: AxisKey, value: string): void {
     const before = this.state.get(key), changes: Partial<Record<typeof key, string>> = { [key]: value };
     for (const other of ['rows', 'cols', 'group'] as const)
       if (other !== key && value !== kNone && this.state.get(other) === value) changes[other] = before;
@@ -105,12 +117,11 @@ class GridView {
     this.refresh();
   }
 
-  /** What the link says; of one that makes no sense, what would be there without. */
-  private axis(key: 'rows' | 'cols' | 'group'): number {
+  /** The axis from the link; if that is no axis, the usual one. */
+  private axis(key: AxisKey): number {
     const { rows, groups, columns } = this.data.layout, usual = { rows, cols: columns, group: groups }[key];
     const asked = this.state.number(key), isAxis = Number.isInteger(asked) && asked >= 0 && asked < this.data.axes.length;
     const axis = isAxis || (asked === -1 && key !== 'cols') ? asked : usual;
-    // An axis has one place.
     const taken = key === 'cols' ? [] : key === 'rows' ? [this.axis('cols')] : [this.axis('cols'), this.axis('rows')];
     return taken.includes(axis) ? -1 : axis;
   }
@@ -156,7 +167,7 @@ class GridView {
     return by!.metric.moreIsBetter ? Math.min(...values) : values.reduce((p, q) => (Math.abs(q) > Math.abs(p) ? q : p));
   }
 
-  /** How large it is: of an error that has a sign, without it. */
+  /** An error's value without its sign. */
   private sizeOf(cell: GridCell): number {
     const value = this.valueOf(cell);
     return this.metric()?.metric.moreIsBetter ? value : Math.abs(value);
@@ -167,7 +178,7 @@ class GridView {
     const values = by ? this.data.cells.map((c) => this.sizeOf(c)).filter(Number.isFinite) : [];
     const isSigned = by !== undefined && this.data.cells.some((c) => this.valueOf(c) < 0);
     const positive = values.filter((v) => v > 0), low = Math.min(...positive), high = Math.max(...positive);
-    // Errors span decades; what has a best value does not.
+    // Errors span decades; likenesses do not.
     const logarithmic = by !== undefined && !by.metric.moreIsBetter && positive.length > 0 && high > 20 * low;
     const from = logarithmic ? low : Math.min(...values), to = logarithmic ? high : Math.max(...values);
     for (const cell of shown) {
@@ -187,7 +198,7 @@ class GridView {
 
   // ---- cells
 
-  private cell(cell: GridCell): { element: HTMLElement; value: HTMLElement; swatch: HTMLElement } {
+  private cell(cell: GridCell): CellParts {
     const known = this.made.get(cell);
     if (known) return known;
     const status = this.data.statuses.find((s) => s.name === cell.status);
@@ -220,14 +231,8 @@ class GridView {
   private sections(shown: readonly GridCell[]): HTMLElement[] {
     const { axes } = this.data, rows = this.axis('rows'), cols = this.axis('cols'), group = this.axis('group');
     const rest = axes.map((_, i) => i).filter((i) => ![rows, cols, group].includes(i));
-    const bySection = new Map<string, GridCell[]>();
-    const homeless: GridCell[] = [];
-    for (const cell of shown) {
-      if (cell.at.includes(-1)) { homeless.push(cell); continue; }
-      const key = rest.map((i) => String(cell.at[i]).padStart(6, '0')).join(' ');
-      const list = bySection.get(key);
-      if (list) list.push(cell); else bySection.set(key, [cell]);
-    }
+    const isPlaced = (cell: GridCell): boolean => !cell.at.includes(-1), homeless = shown.filter((cell) => !isPlaced(cell));
+    const bySection = groupedBy(shown.filter(isPlaced), (cell) => rest.map((i) => String(cell.at[i]).padStart(6, '0')).join(' '));
     const sections = [...bySection].sort(([p], [q]) => (p < q ? -1 : 1)).map(([, cells], i) => {
       const label = rest.map((axis) => `${axes[axis]!.name}: ${axes[axis]!.values[cells[0]!.at[axis]!]}`).join(' · ');
       return this.section(`grid-${i + 1}`, sentence(label) || 'The grid', cells, rows, cols, group);
@@ -241,11 +246,7 @@ class GridView {
     const values = (axis: number): number[] =>
       axis < 0 ? [-1] : [...new Set(cells.map((c) => c.at[axis]!))].sort((p, q) => p - q);
     const at = (cell: GridCell, axis: number): number => (axis < 0 ? -1 : cell.at[axis]!);
-    const byPlace = new Map<string, GridCell[]>();
-    for (const cell of cells) {
-      const key = `${at(cell, rows)} ${at(cell, group)} ${at(cell, cols)}`, there = byPlace.get(key);
-      if (there) there.push(cell); else byPlace.set(key, [cell]);
-    }
+    const byPlace = groupedBy(cells, (cell) => `${at(cell, rows)} ${at(cell, group)} ${at(cell, cols)}`);
     const groups = values(group), columns = values(cols), { axes } = this.data;
     const name = (axis: number, value: number): string => {
       const text = axes[axis]?.values[value] ?? '';
@@ -266,10 +267,9 @@ class GridView {
         return h('td', { class: index > 0 && i === 0 ? 'first' : undefined }, ...there.map((cell) => this.cell(cell).element));
       })))));
     const count = groups.length * columns.length;
-    const isWide = count > 12;
-    const table = h('table', { class: isWide ? 'grid wide' : 'grid', 'aria-labelledby': id },
+    const table = h('table', { class: count > 12 ? 'grid wide' : 'grid', 'aria-labelledby': id },
       h('colgroup', {}, rows < 0 ? null : h('col', { class: 'heads' }), ...Array.from({ length: count }, () => h('col'))), head, body);
-    // Cells of one size, as large as is of use, and no smaller than can be seen: then the section scrolls.
+    // All cells have one size, no larger than useful. If they would get too small, the section scrolls.
     table.style.width = `min(100%, ${8 + 11.7 * count}rem)`;
     table.style.setProperty('--columns', String(count));
     return h('section', { class: 'grid-section', 'aria-labelledby': id }, h('h2', { id }, label), table);

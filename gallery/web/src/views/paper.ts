@@ -1,7 +1,7 @@
-// The paper's claims: filtered by verdict and words, and curves that can be read.
-import { Chart, type Series } from '../lib/chart';
+// The paper's claims, filtered by verdict and words, and their charts.
+import { Chart } from '../lib/chart';
 import { pageData } from '../lib/data';
-import { h, select } from '../lib/dom';
+import { h, replaceDrawing, select } from '../lib/dom';
 import { toNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import type { PaperFigure, PaperPage } from '../records';
@@ -40,7 +40,7 @@ export function paper(main: HTMLElement): void {
     verdict.set(state.get('verdict'));
     if (find.value !== state.get('find')) find.value = state.get('find');
   }
-  // A link to a claim shows it, whatever was filtered.
+  // A link to a claim that is filtered out clears the filters.
   addEventListener('hashchange', () => {
     if (document.getElementById(location.hash.slice(1))?.hidden) { state.set({ verdict: '', find: '' }); refresh(); }
   });
@@ -53,10 +53,7 @@ function drawCharts(main: HTMLElement, charts: readonly PaperFigure[]): void {
     const drawing = main.querySelector(`[data-chart="${CSS.escape(content.id)}"] > svg`);
     if (!drawing) continue;
     const chart = new Chart(content.title, 340);
-    const series: Series[] = content.series.map((s) => ({ name: s.name, style: s.style, x: s.x.map(toNumber), y: s.y.map(toNumber) }));
-    drawing.classList.add('without-script');
-    chart.element.classList.add('scripted-only');
-    drawing.after(chart.element);
-    chart.update({ x: content.x, y: content.y, bands: content.bands, series });
+    replaceDrawing(drawing, chart.element);
+    chart.update({ ...content, series: content.series.map((s) => ({ ...s, x: s.x.map(toNumber), y: s.y.map(toNumber) })) });
   }
 }

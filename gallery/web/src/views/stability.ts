@@ -1,14 +1,14 @@
 // The hard cases: the error of the textbook and of ours over exponent and angle, chosen by group, lobe and exponent.
 import { Chart, rangeOf, type Series } from '../lib/chart';
 import { pageData } from '../lib/data';
-import { h, select } from '../lib/dom';
+import { h, replaceDrawing, select } from '../lib/dom';
 import { numberText, toNumber, type RecordNumber } from '../lib/numbers';
 import { HashState } from '../lib/state';
 import type { StabilityPage } from '../records';
 
 const kLabels = ['largest error, of the peak', 'largest error, units in the last place'];
-const kNoNumber = [10, 1e10];  // where it is drawn
-const kNaive = 2, kOurs = 1;  // styles, as the page's static charts have them
+const kNoNumber = [10, 1e10];  // where NaN and infinity are drawn
+const kNaive = 2, kOurs = 1;  // styles, as in the page's charts without script
 type State = HashState<'group' | 'lobe' | 'kind' | 'n' | 'show'>;
 
 export function stability(main: HTMLElement): void {
@@ -17,7 +17,7 @@ export function stability(main: HTMLElement): void {
   const exponents = data.curves.map((c) => String(toNumber(c.exponent)));
   const state: State = new HashState({
     group: 'lobe', lobe: '', kind: '0', show: 'value',
-    n: exponents.includes('1000000') ? '1000000' : exponents[exponents.length - 1] ?? '',
+    n: exponents.includes('1000000') ? '1000000' : exponents.at(-1) ?? '',
   });
   if (data.summaries.length > 0) replace(main, 'over-exponent-figure', overExponent(data, state));
   if (data.curves.length > 0) replace(main, 'over-angle-figure', overAngle(data, exponents, state));
@@ -26,11 +26,9 @@ export function stability(main: HTMLElement): void {
 function replace(main: HTMLElement, id: string, content: HTMLElement): void {
   const drawing = main.querySelector(`#${id} > svg`);
   if (!drawing) return;
-  drawing.classList.add('without-script');
-  content.classList.add('scripted-only');
-  // It tells of what the drawing shows; what is chosen stands in the lists.
+  // The caption describes the drawing; the lists show what is chosen.
   drawing.parentElement?.querySelector('figcaption')?.classList.add('without-script');
-  drawing.after(content);
+  replaceDrawing(drawing, content);
 }
 
 function overExponent(data: StabilityPage, state: State): HTMLElement {
@@ -56,7 +54,7 @@ function overExponent(data: StabilityPage, state: State): HTMLElement {
     const x = [...worst.keys()].sort((a, b) => a - b);
     const values = x.flatMap((n) => [worst.get(n)!.naive, worst.get(n)!.ours]);
     const range = rangeOf(values.some((v) => v === Infinity) ? [...values, kNoNumber[k]!] : values, true, 45);
-    // What is no number is at the top, what is exact below the chart.
+    // Infinity is at the top, an exact result below the chart.
     const y = (name: 'naive' | 'ours'): number[] => x.map((n) => Math.min(worst.get(n)![name], range.to));
     chart.update({
       x: { label: 'exponent n', from: x[0] ?? 1, to: x.length > 1 ? x[x.length - 1]! : (x[0] ?? 1) * 10, logarithmic: true },

@@ -1,4 +1,4 @@
-// lobelia farm --executor slurm, doctor, and what the elements of a run call.
+// The parts of `lobelia farm`: its options for Slurm, and its subcommands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,17 +20,17 @@ class SlurmSettings {
 
  private:
   std::string executor_ = "local";
-  SlurmOptions slurm_;
-  double chunk_seconds_ = 60, poll_seconds_ = 1;
-  int rounds_ = 3;
-  bool detach_ = false;
+  SlurmRunOptions run_;
+  double poll_seconds_ = 1;
 };
 
 /// Follows a run on a cluster to its end, with its progress on stderr.
 SlurmFarmSummary follow(SlurmRunOptions options, bool quiet,
                         const std::function<SlurmFarmSummary(const SlurmRunOptions&)>& run);
 
-/// doctor, and the hidden exec-chunk, finish and doctor-on-node.
+/// doctor, and the hidden exec-chunk, finish and doctor-on-node, which the elements of a run call.
 void add_farm_slurm(CLI::App& farm, ExitCode& exit_code);
+/// status, verify, gc, clean and explain.
+void add_farm_upkeep(CLI::App& farm, ExitCode& exit_code);
 
 }  // namespace lobelia::cli

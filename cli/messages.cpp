@@ -1,13 +1,14 @@
-#include "cli/progress.hpp"
+#include "cli/messages.hpp"
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
-#include "core/standard_streams.hpp"
+#include "core/text.hpp"
+#include "renderer/scene/remarks.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -19,7 +20,29 @@ std::size_t terminal_width() {
   return ::ioctl(2, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80u;
 }
 
+/// "3 s", "2 min 10 s", "1 h 5 min"
+std::string duration_text(double seconds) {
+  const long whole = std::lround(seconds);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
 }  // namespace
+
+void warn(std::string_view text) { say("lobelia: warning: {}\n", printable(text, 2000)); }
+
+void warn_of(const Scene& scene) {
+  std::set<std::string> lines;
+  for (const Material& material : scene.materials) lines.insert(warning(material.highlight));
+  lines.erase("");
+  for (const std::string& line : lines) warn(line);
+  for (const std::string& line : remarks(scene)) warn(line);
+}
+
+void warn_of(const Highlight& highlight) {
+  if (const std::string line = warning(highlight); !line.empty()) warn(line);
+}
 
 ProgressLine::ProgressLine(bool enabled) : enabled_(enabled), terminal_(::isatty(2) == 1) {}
 
@@ -49,13 +72,6 @@ void ProgressLine::clear() {
   const std::scoped_lock lock(mutex_);
   if (drawn_) write_message_if_room("\r\x1b[K");
   drawn_ = false;
-}
-
-std::string duration_text(double seconds) {
-  const long whole = std::lround(seconds);
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
 }  // namespace lobelia::cli

@@ -1,12 +1,20 @@
-// One line on stderr that shows how far long work has come.
+// Messages on stderr: warnings, and how far long work has come.
 #pragma once
 
 #include <chrono>
 #include <mutex>
-#include <string>
 #include <string_view>
 
+#include "core/standard_streams.hpp"
+#include "renderer/scene/scene.hpp"
+
 namespace lobelia::cli {
+
+void warn(std::string_view text);
+
+/// Warns of each highlight and remark of a scene that is allowed and yet unusual, once.
+void warn_of(const Scene& scene);
+void warn_of(const Highlight& highlight);
 
 class ProgressLine {
  public:
@@ -16,7 +24,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// May be called from any thread and as often as one likes.
+  /// May be called often and from any thread.
   void show(double fraction, std::string_view what);
   void clear();
 
@@ -26,8 +34,5 @@ class ProgressLine {
   bool enabled_, terminal_, drawn_ = false;
   Clock::time_point started_ = Clock::now(), last_drawn_ = started_;
 };
-
-/// "3 s", "2 min 10 s", "1 h 5 min"
-std::string duration_text(double seconds);
 
 }  // namespace lobelia::cli
