@@ -11,7 +11,6 @@
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/povray/povray_input.hpp"
 #include "reference_scenes/engines/povray/povray_options.hpp"
-#include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
