@@ -89,7 +89,7 @@ class Tracer {
     using std::floor, std::sqrt;
     const int spheres = int(balls_.size());
     Met<Real> met;
-    Real nearest;
+    Real nearest{};
     const auto is_nearest = [&](const Real& t) {
       return t > 0 && (met.surface < 0 || t < nearest);
     };
