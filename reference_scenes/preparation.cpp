@@ -118,9 +118,9 @@ std::string lamp_close_to_surface(const Scene& given, double distance) {
     };
     for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
       const Sphere& sphere = scene.spheres[k];
-      const Vec3 way = lamp->position - sphere.center;
-      if (std::abs(length(way) - sphere.radius) < distance && !lies_on(light, sphere, close) &&
-          !faces_away(*lamp, normalize(way)))
+      const Vec3 from_center = lamp->position - sphere.center;
+      if (std::abs(length(from_center) - sphere.radius) < distance &&
+          !lies_on(light, sphere, close) && !faces_away(*lamp, normalize(from_center)))
         return found("sphere", k);
     }
     for (std::size_t k = 0; k < scene.planes.size(); ++k) {

@@ -95,10 +95,9 @@ class Nodes:
 
 
 class Surface(Nodes):
-    """A material in which one lamp and any number of mirrors can be seen. It is a diffuse surface
-    (radiance: colour/pi times N.L times the lamp's light) whose colour at each point is what the
-    highlight asks for. The lamp is real: horizon, shadow, N.L and the light that arrives are Cycles'
-    own. (A surface that shines with the finished radiance is not closer to the truth, and sees no
+    """A material that shows one lamp and any number of mirrors. It is a diffuse surface (radiance: colour/pi times N.L times
+    the lamp's light) with the colour at each point set to show the highlight. The lamp is real: Cycles does horizon, shadow,
+    N.L and the arriving light. (A surface that emits the finished radiance is not closer to the truth, and sees no
     shadow.)"""
 
     def __init__(self, light, lamp):

@@ -136,7 +136,7 @@ class Tracer {
     return met;
   }
 
-  /// Nothing where the light is below the horizon, shines the other way or is hidden.
+  /// Nothing if the light is below the horizon, faces away or is hidden.
   std::optional<Arrival<Real>> arrival(std::size_t light, const Met<Real>& at) const {
     using std::sqrt;
     Arrival<Real> arrival;
@@ -148,9 +148,9 @@ class Tracer {
       return arrival;
     }
     const NearLamp& lamp = lamps_[light];
-    const V way = lamp.position - at.point;
-    const Real square = dot(way, way), distance = sqrt(square);
-    arrival.to_light = Real(1 / distance) * way;
+    const V to_lamp = lamp.position - at.point;
+    const Real square = dot(to_lamp, to_lamp), distance = sqrt(square);
+    arrival.to_light = Real(1 / distance) * to_lamp;
     const Real towards = lamp.has_normal ? Real(-dot(lamp.normal, arrival.to_light)) : Real(1);
     if (towards <= 0) return std::nullopt;
     arrival.falloff = towards / square;
@@ -228,8 +228,8 @@ class Tracer {
       return height <= closeness && -height <= closeness;
     };
     for (const Sphere& sphere : scene_.spheres) {
-      const V way = lamp.position - V(sphere.center);
-      lamp.lies_on.push_back(is_close(sqrt(dot(way, way)) - Real(sphere.radius)));
+      const V from_center = lamp.position - V(sphere.center);
+      lamp.lies_on.push_back(is_close(sqrt(dot(from_center, from_center)) - Real(sphere.radius)));
     }
     for (const Ground& ground : grounds_) {
       const Real height = ground.height(lamp.position);
@@ -242,8 +242,8 @@ class Tracer {
   /// Whether the point is inside a sphere, where no light comes.
   bool is_enclosed(const Met<Real>& at) const {
     for (int k = 0; k < int(balls_.size()); ++k) {
-      const V way = balls_[k].center - at.point;
-      if (k != at.surface && dot(way, way) < balls_[k].inside_squared) return true;
+      const V to_center = balls_[k].center - at.point;
+      if (k != at.surface && dot(to_center, to_center) < balls_[k].inside_squared) return true;
     }
     return false;
   }
