@@ -7,8 +7,6 @@
 #include "core/image_io.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
-#include "reference_scenes/keep_input.hpp"
-#include "reference_scenes/reference_metadata.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
 

@@ -10,7 +10,6 @@
 #include "core/process_memory.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
-#include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/replicates.hpp"
 #include "renderer/scene/scene_io.hpp"
 

@@ -12,7 +12,6 @@
 #include "core/image_values.hpp"
 #include "farm/profile_scene.hpp"
 #include "records/record.hpp"
-#include "reference_scenes/reference_metadata.hpp"
 
 namespace lobelia {
 

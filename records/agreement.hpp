@@ -9,18 +9,15 @@ struct AgreementEngine {
   std::string name, title;
   bool available = false;
   std::string state, version, why;
-  static const Struct& type();
 };
 
 struct Ring {
   int pixels = 0, over = 0, allowed = 0;
   double max_of_peak = 0;
-  static const Struct& type();
 };
 
 struct Target {
   std::optional<double> relative, of_peak;
-  static const Struct& type();
 };
 
 struct AgreementRow {
@@ -34,21 +31,18 @@ struct AgreementRow {
   std::string why;
   std::optional<Target> target;
   std::string verdict;
-  static const Struct& type();
 };
 
 struct SoftCount {
   int points = 0;
   std::size_t values = 0, beyond = 0;
   double rms_of_peak = 0;
-  static const Struct& type();
 };
 
 struct SoftRow {
   std::string what, witness;
   std::vector<SoftCount> counts;
   std::string why, verdict;
-  static const Struct& type();
 };
 
 struct Agreement {
@@ -58,7 +52,8 @@ struct Agreement {
   Named<std::size_t> verdicts;
   std::vector<AgreementRow> rows;
   std::vector<SoftRow> soft;
-  static const Struct& type();
 };
+
+void define_agreement_tables(Tables& tables);
 
 }  // namespace lobelia::records

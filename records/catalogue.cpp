@@ -25,7 +25,7 @@ namespace {
 
 template <class... T>
 constexpr std::array<Kind, sizeof...(T)> kinds_of() {
-  return {Kind{T::type, [](std::string_view text, const std::string& where) {
+  return {Kind{struct_type<T>, [](std::string_view text, const std::string& where) {
                  return record_text(parse_record<T>(text, where));
                }}...};
 }
@@ -102,6 +102,20 @@ std::string table_of(const Struct& type) {
 
 }  // namespace
 
+const Struct& detail::find_struct(const std::type_info& type) {
+  static const Tables tables = [] {
+    Tables all;
+    for (auto* const define :
+         {define_agreement_tables, define_chart_tables, define_cluster_tables,
+          define_comparison_tables, define_cost_tables, define_farm_tables, define_highlight_tables,
+          define_model_tables, define_page_tables, define_paper_tables, define_profile_tables,
+          define_render_tables, define_result_tables, define_stability_tables})
+      define(all);
+    return all;
+  }();
+  return tables[type];
+}
+
 std::span<const Kind> kinds() { return kKinds; }
 
 std::string schema_text(const Kind& kind) {
@@ -140,8 +154,9 @@ std::string reference_index() {
 
 std::string typescript_text() {
   Definitions definitions;
-  for (const Struct* page : {&GridPage::type(), &CellPage::type(), &PackedPicture::type(),
-                             &StabilityPage::type(), &PaperPage::type(), &ExplorerPage::type()})
+  for (const Struct* page :
+       {&struct_type<GridPage>(), &struct_type<CellPage>(), &struct_type<PackedPicture>(),
+        &struct_type<StabilityPage>(), &struct_type<PaperPage>(), &struct_type<ExplorerPage>()})
     definitions.add(*page);
   std::string text =
       "// What the program gives the pages' scripts. Written by `lobelia records --typescript > "

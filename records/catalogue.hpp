@@ -12,7 +12,7 @@ namespace lobelia::records {
 
 struct Kind {
   const Struct& (*type)();
-  /// Reads the text of a record of this kind and writes it again. Throws as parse_record().
+  /// Reads a record of this kind and writes it again. Throws as parse_record().
   std::string (*reread)(std::string_view text, const std::string& where);
 };
 
@@ -25,7 +25,7 @@ std::string schema_text(const Kind& kind);
 std::string reference_page(const Kind& kind);
 /// The list of all kinds, in Markdown: docs/reference/README.md.
 std::string reference_index();
-/// gallery/web/src/records.ts: an interface for each struct that a page's script is given.
+/// gallery/web/src/records.ts: an interface for each struct that the pages' scripts receive.
 std::string typescript_text();
 
 }  // namespace lobelia::records

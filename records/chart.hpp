@@ -10,20 +10,19 @@ struct ChartAxis {
   double from = 0, to = 0;
   std::optional<bool> logarithmic;
   std::vector<double> ticks;
-  static const Struct& type();
 };
 
 struct ChartBand {
   std::string title;
   double from = 0, to = 0;
-  static const Struct& type();
 };
 
 struct ChartSeries {
   std::string name;
   int style = 0;
   std::vector<double> x, y;
-  static const Struct& type();
 };
+
+void define_chart_tables(Tables& tables);
 
 }  // namespace lobelia::records

@@ -1,4 +1,4 @@
-// A run of a farm on a cluster: what its elements are given and tell.
+// A run of a farm on a cluster: input and reports of its array elements.
 #pragma once
 
 #include "records/farm.hpp"
@@ -12,12 +12,10 @@ struct ChunkLimits {
   int attempts = 0;
   std::uint64_t memory = 0, disk = 0;
   int give_up_after = 0;
-  static const Struct& type();
 };
 
 struct ChunkEngine {
   std::string name, version, content, program;
-  static const Struct& type();
 };
 
 struct ChunkCell {
@@ -25,7 +23,6 @@ struct ChunkCell {
   std::vector<std::string> engines;
   std::string scene;
   std::vector<std::string> jobs;
-  static const Struct& type();
 };
 
 struct FarmChunk {
@@ -36,18 +33,15 @@ struct FarmChunk {
   std::optional<std::string> failed;
   std::vector<ChunkEngine> engines;
   std::vector<ChunkCell> cells;
-  static const Struct& type();
 };
 
 struct LeftUndone {
   std::string engine, why;
-  static const Struct& type();
 };
 
 struct FarmChunkReport {
   std::string node;
   std::vector<LeftUndone> left;
-  static const Struct& type();
 };
 
 struct FarmRun {
@@ -57,7 +51,6 @@ struct FarmRun {
   std::vector<std::string> command;
   std::string gallery;
   Named<std::string> programs;
-  static const Struct& type();
 };
 
 struct SlurmArray {
@@ -65,7 +58,6 @@ struct SlurmArray {
   std::size_t first_chunk = 0, chunks = 0;
   int phase = 0, round = 0;
   std::string time, memory;
-  static const Struct& type();
 };
 
 struct SlurmRun {
@@ -73,12 +65,12 @@ struct SlurmRun {
   int round = 0;
   std::size_t next_chunk = 0, first_report = 0;
   std::vector<SlurmArray> arrays;
-  static const Struct& type();
 };
 
 struct SlurmDoctor {
   std::string host, version, token, rename, link, lock;
-  static const Struct& type();
 };
+
+void define_cluster_tables(Tables& tables);
 
 }  // namespace lobelia::records

@@ -17,15 +17,12 @@ std::string contradiction_of_place(const NonfinitePlace& place) {
 
 }  // namespace
 
-const Struct& Window::type() {
-  return define<Window>("A part of a picture's plane, y down.", [](auto& t) {
+void define_comparison_tables(Tables& tables) {
+  tables.define<Window>("A part of a picture's plane, y down.", [](auto& t) {
     t.keys({"x", "y"}).unit("pixels");
     t.keys({"width", "height"}).unit("pixels").at_least(1);
   });
-}
-
-const Struct& PictureRead::type() {
-  return define<PictureRead>("How a file was read.", [](auto& t) {
+  tables.define<PictureRead>("How a file was read.", [](auto& t) {
     t.key("format", "OpenImageIO's name: openexr, png");
     t.key("layer", "empty for the picture itself");
     t.key("channels", "names in the file: three, one for grey, or the two or three of a vector")
@@ -43,25 +40,15 @@ const Struct& PictureRead::type() {
     t.key("iccProfile", "the profile's own name; it is not applied").if_any();
     t.key("iccProfileIsSrgb", "its primaries and curves are those of sRGB, which is assumed");
   });
-}
-
-const Struct& PicturesRead::type() { return define<PicturesRead>("How both files were read."); }
-
-const Struct& NonfinitePlace::type() {
-  return define<NonfinitePlace>("A value that is not finite.", [](auto& t) {
+  tables.define<PicturesRead>("How both files were read.");
+  tables.define<NonfinitePlace>("A value that is not finite.", [](auto& t) {
     t.keys({"x", "y"}).unit("pixels");
     t.key("channel", "its name in the file");
     t.key("value", R"("nan", "inf" or "-inf")").may_be_nonfinite();
     t.check(contradiction_of_place);
   });
-}
-
-const Struct& NonfinitePlaces::type() {
-  return define<NonfinitePlaces>("The first such value of each picture, in reading order.");
-}
-
-const Struct& Nonfinite::type() {
-  return define<Nonfinite>(
+  tables.define<NonfinitePlaces>("The first such value of each picture, in reading order.");
+  tables.define<Nonfinite>(
       "Pixels with a NaN or an infinity. Any makes the verdict non-finite, and nothing is "
       "measured.",
       [](auto& t) {
@@ -71,45 +58,27 @@ const Struct& Nonfinite::type() {
             .unit("pixels")
             .at_least(0);
       });
-}
-
-const Struct& HdrExposures::type() {
-  return define<HdrExposures>("The exposures that HDR-FLIP looked at.", [](auto& t) {
+  tables.define<HdrExposures>("The exposures that HDR-FLIP looked at.", [](auto& t) {
     t.keys({"startStops", "stopStops"}).unit("stops");
     t.key("count").at_least(2);
     t.key("automatic", "chosen from the reference");
     t.key("toneCurve").one_of(kToneCurves);
   });
-}
-
-const Struct& Display::type() {
-  return define<Display>("What OpenColorIO showed the perceptual metrics.", [](auto& t) {
+  tables.define<Display>("What OpenColorIO showed the perceptual metrics.", [](auto& t) {
     t.key("configId", "hash of the configuration");
     t.key("decodedBy", "XYZ if the configuration says what light the display gives, else sRGB")
         .one_of(kDecoders);
   });
-}
-
-const Struct& Viewing::type() {
-  return define<Viewing>("How the pictures are looked at.", [](auto& t) {
+  tables.define<Viewing>("How the pictures are looked at.", [](auto& t) {
     t.key("exposureStops").unit("stops");
     t.key("pixelsPerDegree").at_least(1e-300);
     t.key("hdrExposures", "missing if HDR-FLIP was not measured");
     t.key("display", "missing for a plain sRGB display");
   });
-}
-
-const Struct& Mask::type() {
-  return define<Mask>("The part in which metrics were measured again.",
+  tables.define<Mask>("The part in which metrics were measured again.",
                       [](auto& t) { t.key("pixels", "inside the mask").at_least(0); });
-}
-
-const Struct& NotMeasured::type() {
-  return define<NotMeasured>("A metric that could not be computed. A limit on it fails.");
-}
-
-const Struct& Limit::type() {
-  return define<Limit>("A limit, and what was measured.", [](auto& t) {
+  tables.define<NotMeasured>("A metric that could not be computed. A limit on it fails.");
+  tables.define<Limit>("A limit, and what was measured.", [](auto& t) {
     t.key("limit", "the last value that passes; the metric says which way");
     t.key("value").may_be_nonfinite();
     t.key("standing", "with noise: for the whole error bar, or up to it")
@@ -119,51 +88,33 @@ const Struct& Limit::type() {
         .at_least(0)
         .may_be_nonfinite();
   });
-}
-
-const Struct& PictureNoise::type() {
-  return define<PictureNoise>("The known noise of a picture.", [](auto& t) {
+  tables.define<PictureNoise>("The known noise of a picture.", [](auto& t) {
     t.key("freedom", "degrees of freedom of each value's error").at_least(1).may_be_nonfinite();
     t.key("shared", "its pixels err together");
   });
-}
-
-const Struct& Uncertainty::type() {
-  return define<Uncertainty>("How the noise of the pictures was taken into account.", [](auto& t) {
+  tables.define<Uncertainty>("How the noise of the pictures was taken into account.", [](auto& t) {
     t.key("significance").between(0, 1);
     t.key("tests", "values and regions that were tested").at_least(0);
     t.key("each", "significance level of one test").between(0, 1);
     t.key("bootstraps").at_least(4);
   });
-}
-
-const Struct& ErrorBar::type() {
-  return define<ErrorBar>(
+  tables.define<ErrorBar>(
       "How far noise alone moves a metric; docs/metrics.md defines the figures.", [](auto& t) {
         t.key("standardError").at_least(0).may_be_nonfinite();
         t.keys({"noiseFloor", "noiseFloorMost", "low", "high"}).may_be_nonfinite();
       });
-}
-
-const Struct& Tolerance::type() {
-  return define<Tolerance>("How far each value may be from the reference.", [](auto& t) {
+  tables.define<Tolerance>("How far each value may be from the reference.", [](auto& t) {
     t.key("relative", "share of the reference's value").at_least(0);
     t.key("ofPeak", "share of the reference's brightest value").at_least(0);
     t.key("allowedOutliers").unit("pixels").at_least(0);
     t.key("onEdgesOnly", "no outlier but on silhouettes, terminators and shadow edges");
   });
-}
-
-const Struct& ReferenceFloor::type() {
-  return define<ReferenceFloor>("How far a second reference is from b.", [](auto& t) {
+  tables.define<ReferenceFloor>("How far a second reference is from b.", [](auto& t) {
     t.key("c", "file of the second reference");
     t.key("nonfinite").unit("pixels").at_least(0);
     t.key("metrics", "of c against b").may_be_nonfinite();
   });
-}
-
-const Struct& LayerComparison::type() {
-  return define<LayerComparison>("The comparison of another layer of both files.", [](auto& t) {
+  tables.define<LayerComparison>("The comparison of another layer of both files.", [](auto& t) {
     t.key("verdict").one_of(kVerdicts);
     t.key("overscan",
           "this is the comparison of all data on this window, seen from the display window's "
@@ -178,24 +129,15 @@ const Struct& LayerComparison::type() {
     t.key("notMeasured").if_any();
     t.needs({{"nonfinite", "metrics", "limits"}, {"identical"}, {"problem"}});
   });
-}
-
-const Struct& NotCompared::type() {
-  return define<NotCompared>("What the verdict does not depend on.", [](auto& t) {
+  tables.define<NotCompared>("What the verdict does not depend on.", [](auto& t) {
     t.key("layers", "names of layers of either file; the picture's is empty");
     t.key("alpha", "one of the pictures has an alpha that was not judged");
     t.key("overscanPixels", "outside of the display window").at_least(0);
     t.key("mipLevels", "besides the first").at_least(0);
   });
-}
-
-const Struct& LayersInOne::type() {
-  return define<LayersInOne>(
+  tables.define<LayersInOne>(
       "Layers that one file alone has. One that b alone has is a difference.");
-}
-
-const Struct& Comparison::type() {
-  return define<Comparison>("A picture compared with a reference.", [](auto& t) {
+  tables.define<Comparison>("A picture compared with a reference.", [](auto& t) {
     t.kind("comparison");
     t.key("verdict",
           "the worst of the picture's and its layers'; the last three "
@@ -214,45 +156,30 @@ const Struct& Comparison::type() {
           "and with --all-layers the other layers of both files");
     t.key("layersInOne", "with --all-layers");
   });
-}
-
-const Struct& SetSummary::type() {
-  return define<SetSummary>("How many pairs there are of each kind.", [](auto& t) {
+  tables.define<SetSummary>("How many pairs there are of each kind.", [](auto& t) {
     t.key("errors", "pairs that could not be compared");
     t.key("missing", "only b has them");
     t.key("extra", "only a has them");
     t.key("passedOver", "files of both that are no pictures by their ending");
   });
-}
-
-const Struct& SetNotCompared::type() {
-  return define<SetNotCompared>(
+  tables.define<SetNotCompared>(
       "What was not compared of all pairs: names once, pixels added up, levels at their most.",
       [](auto& t) {
         t.keys({"overscanPixels", "mipLevels"}).at_least(0);
         t.key("pairs", "that have something");
       });
-}
-
-const Struct& WorstOfSet::type() {
-  return define<WorstOfSet>("A metric over all pairs that have it.", [](auto& t) {
+  tables.define<WorstOfSet>("A metric over all pairs that have it.", [](auto& t) {
     t.key("value", "furthest the wrong way").may_be_nonfinite();
     t.key("pair", "the first pair that has it");
     t.key("mean").may_be_nonfinite();
   });
-}
-
-const Struct& PairOfSet::type() {
-  return define<PairOfSet>("A pair of files of one name.", [](auto& t) {
+  tables.define<PairOfSet>("A pair of files of one name.", [](auto& t) {
     t.key("name", "the path within both folders");
     t.key("error", "why there is no comparison").not_empty().if_any();
     t.needs({{"comparison"}, {"error"}});
     t.check(contradiction_of_pair);
   });
-}
-
-const Struct& ComparisonSet::type() {
-  return define<ComparisonSet>(
+  tables.define<ComparisonSet>(
       "All pictures of a folder compared with those of another one.", [](auto& t) {
         t.kind("comparison-set");
         t.key("a", "the folder that was judged");

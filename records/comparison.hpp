@@ -1,20 +1,19 @@
-// Comparisons: of two pictures, and of a set of pairs.
+// Comparisons of two pictures, and of a set of pairs.
 #pragma once
 
 #include "records/struct_type.hpp"
 
 namespace lobelia::records {
 
-/// The last three for pictures with noise.
+/// The last three are for pictures with noise.
 inline constexpr std::string_view kVerdicts[] = {"pass", "differs",   "non-finite",
                                                  "same", "different", "undecided"};
-/// A limit, for the whole error bar.
+/// Whether a limit holds over the whole error bar.
 inline constexpr std::string_view kStandings[] = {"holds", "broken", "open"};
 
 /// Pixels x to x + width - 1, y to y + height - 1; y down.
 struct Window {
   int x = 0, y = 0, width = 0, height = 0;
-  static const Struct& type();
 };
 
 /// How a file was read.
@@ -27,31 +26,26 @@ struct PictureRead {
   std::vector<double> chromaticities;
   std::string icc_profile;
   std::optional<bool> icc_profile_is_srgb;
-  static const Struct& type();
 };
 
 struct PicturesRead {
   PictureRead a, b;
-  static const Struct& type();
 };
 
 struct NonfinitePlace {
   int x = 0, y = 0;
   std::string channel;
   double value = 0;
-  static const Struct& type();
 };
 
 struct NonfinitePlaces {
   std::optional<NonfinitePlace> a, b;
-  static const Struct& type();
 };
 
 struct Nonfinite {
   std::int64_t a = 0, b = 0;
   std::optional<NonfinitePlaces> first;
   std::optional<std::int64_t> equal_allowed;
-  static const Struct& type();
 };
 
 struct HdrExposures {
@@ -59,29 +53,24 @@ struct HdrExposures {
   int count = 2;
   bool automatic = false;
   std::string tone_curve = "aces";
-  static const Struct& type();
 };
 
 struct Display {
   std::string config, config_id, display, view, input_space, decoded_by;
-  static const Struct& type();
 };
 
 struct Viewing {
   double exposure_stops = 0, pixels_per_degree = 0;
   std::optional<HdrExposures> hdr_exposures;
   std::optional<Display> display;
-  static const Struct& type();
 };
 
 struct Mask {
   std::int64_t pixels = 0;
-  static const Struct& type();
 };
 
 struct NotMeasured {
   std::string metric, because;
-  static const Struct& type();
 };
 
 struct Limit {
@@ -90,13 +79,11 @@ struct Limit {
   bool pass = false;
   std::string standing;  ///< "holds", "broken", "open"; empty without noise
   std::optional<double> more_samples;
-  static const Struct& type();
 };
 
 struct PictureNoise {
   double freedom = 0;
   bool shared = false;
-  static const Struct& type();
 };
 
 struct Uncertainty {
@@ -104,29 +91,25 @@ struct Uncertainty {
   double significance = 0, tests = 0, each = 0;
   int bootstraps = 0;
   std::uint64_t seed = 0;
-  static const Struct& type();
 };
 
 struct ErrorBar {
   double standard_error = 0, noise_floor = 0, noise_floor_most = 0, low = 0, high = 0;
-  static const Struct& type();
 };
 
 struct Tolerance {
   double relative = 0, of_peak = 0;
   std::int64_t allowed_outliers = 0;
   bool on_edges_only = false;
-  static const Struct& type();
 };
 
 struct ReferenceFloor {
   std::string c;
   std::int64_t nonfinite = 0;
   Named<double> metrics;
-  static const Struct& type();
 };
 
-/// Another layer of both files.
+/// A further layer of both files.
 struct LayerComparison {
   std::string layer, verdict;
   std::optional<Window> overscan;
@@ -138,7 +121,6 @@ struct LayerComparison {
   std::optional<std::vector<std::string>> disagreement;
   std::vector<NotMeasured> not_measured;
   PicturesRead pictures;
-  static const Struct& type();
 };
 
 struct NotCompared {
@@ -146,12 +128,10 @@ struct NotCompared {
   bool alpha = false;
   std::int64_t overscan_pixels = 0;
   int mip_levels = 0;
-  static const Struct& type();
 };
 
 struct LayersInOne {
   std::vector<std::string> a, b;
-  static const Struct& type();
 };
 
 struct Comparison {
@@ -171,13 +151,11 @@ struct Comparison {
   std::optional<NotCompared> not_compared;
   std::optional<std::vector<LayerComparison>> layers;
   std::optional<LayersInOne> layers_in_one;
-  static const Struct& type();
 };
 
 struct SetSummary {
   std::size_t pairs = 0, pass = 0, differs = 0, undecided = 0, non_finite = 0, errors = 0,
               missing = 0, extra = 0, passed_over = 0, links_not_followed = 0;
-  static const Struct& type();
 };
 
 struct SetNotCompared {
@@ -186,21 +164,18 @@ struct SetNotCompared {
   std::int64_t overscan_pixels = 0;
   int mip_levels = 0;
   std::size_t pairs = 0;
-  static const Struct& type();
 };
 
 struct WorstOfSet {
   double value = 0;
   std::string pair;
   double mean = 0;
-  static const Struct& type();
 };
 
 struct PairOfSet {
   std::string name;
   std::optional<Comparison> comparison;
   std::string error;
-  static const Struct& type();
 };
 
 struct ComparisonSet {
@@ -210,7 +185,8 @@ struct ComparisonSet {
   Named<WorstOfSet> worst;
   std::vector<std::string> missing, extra, links_not_followed;
   std::vector<PairOfSet> pairs;
-  static const Struct& type();
 };
+
+void define_comparison_tables(Tables& tables);
 
 }  // namespace lobelia::records

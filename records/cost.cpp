@@ -2,59 +2,37 @@
 
 namespace lobelia::records {
 
-const Struct& CostError::type() { return define<CostError>("A kind of error of a table."); }
-
-const Struct& CostSeconds::type() {
-  return define<CostSeconds>(
+void define_cost_tables(Tables& tables) {
+  tables.define<CostError>("A kind of error of a table.");
+  tables.define<CostSeconds>(
       "Time of one of what the table counts. The spread is half the distance of the quartiles, of the median.");
-}
-
-const Struct& LobeErrors::type() {
-  return define<LobeErrors>("Errors of a lobe by itself.",
+  tables.define<LobeErrors>("Errors of a lobe by itself.",
                             [](auto& t) { t.all().may_be_nonfinite(); });
-}
-
-const Struct& CircuitErrors::type() {
-  return define<CircuitErrors>("Errors of a circuit in fixed point, by source.", [](auto& t) {
+  tables.define<CircuitErrors>("Errors of a circuit in fixed point, by source.", [](auto& t) {
     t.keys({"shape", "rounding", "quantisation"}).may_be_nonfinite();
   });
-}
-
-const Struct& CostFacts::type() {
-  return define<CostFacts>("What else was counted.", [](auto& t) {
+  tables.define<CostFacts>("What else was counted.", [](auto& t) {
     t.key("kernel").if_any();
     t.keys({"secondsSaved", "stageSeconds", "secondsOfTinyCall"}).unit("seconds");
     t.key("work", "by effect");
   });
-}
-
-const Struct& CostWay::type() {
-  return define<CostWay>("A variant: one way of making what the table is about.", [](auto& t) {
+  tables.define<CostWay>("A variant: one way of making what the table is about.", [](auto& t) {
     t.key("errors").at_least(0).may_be_nonfinite();
     t.key("count", "in place of seconds, where there is nothing to time");
     t.key("errorSpreads", "standard deviations, where something is random").may_be_nonfinite();
     t.key("errorsAtMost", "bounds of errors that are only the largest seen");
   });
-}
-
-const Struct& CostFront::type() {
-  return define<CostFront>("The variants that no other beats in both time and error.", [](auto& t) {
+  tables.define<CostFront>("The variants that no other beats in both time and error.", [](auto& t) {
     t.key("ways", "from the fastest on");
     t.key("dominatedBy", "the fastest of the front that is as accurate");
     t.key("chart").plain_name();
   });
-}
-
-const Struct& CostTable::type() {
-  return define<CostTable>("Variants of one thing, measured in one run.", [](auto& t) {
+  tables.define<CostTable>("Variants of one thing, measured in one run.", [](auto& t) {
     t.key("id").plain_name();
     t.key("per", "what times are of");
     t.key("fronts", "by error");
   });
-}
-
-const Struct& Cost::type() {
-  return define<Cost>("What accuracy costs: 'lobelia cost -o DIR'.",
+  tables.define<Cost>("What accuracy costs: 'lobelia cost -o DIR'.",
                       [](auto& t) { t.kind("cost"); });
 }
 

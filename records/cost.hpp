@@ -10,25 +10,21 @@ namespace lobelia::records {
 
 struct CostError {
   std::string id, meaning;
-  static const Struct& type();
 };
 
 struct CostSeconds {
   double median = 0, spread = 0, least = 0, most = 0;
   int rounds = 0;
-  static const Struct& type();
 };
 
 struct LobeErrors {
   double max = 0, rms = 0, energy = 0;
   std::optional<double> max_at_most;
-  static const Struct& type();
 };
 
 struct CircuitErrors {
   double shape = 0, rounding = 0, quantisation = 0;
   std::size_t steps = 0, steps_looked_at = 0;
-  static const Struct& type();
 };
 
 struct CostFacts {
@@ -44,7 +40,6 @@ struct CostFacts {
   std::optional<Named<Work>> work;
   std::optional<Named<double>> stage_seconds;
   std::optional<double> seconds_of_tiny_call;
-  static const Struct& type();
 };
 
 struct CostWay {
@@ -55,7 +50,6 @@ struct CostWay {
   std::optional<double> count;
   std::optional<Named<double>> error_spreads, errors_at_most;
   std::optional<CostFacts> facts;
-  static const Struct& type();
 };
 
 struct CostFront {
@@ -63,7 +57,6 @@ struct CostFront {
   Named<std::string> dominated_by;
   std::vector<std::string> in_words;
   std::string chart;
-  static const Struct& type();
 };
 
 struct CostTable {
@@ -76,7 +69,6 @@ struct CostTable {
   std::vector<CostWay> ways;
   Named<CostFront> fronts;
   std::vector<std::string> remarks;
-  static const Struct& type();
 };
 
 struct Cost {
@@ -84,7 +76,8 @@ struct Cost {
   Host host;
   std::string instruction_set;
   std::vector<CostTable> tables;
-  static const Struct& type();
 };
+
+void define_cost_tables(Tables& tables);
 
 }  // namespace lobelia::records

@@ -10,14 +10,10 @@ constexpr std::string_view kStatuses[] = {"pass",   "differs",   "undecided",
 
 }  // namespace
 
-const Struct& AxisValue::type() { return define<AxisValue>("A value of an axis."); }
-
-const Struct& Axis::type() {
-  return define<Axis>("An axis of a grid.", [](auto& t) { t.key("values").items(1); });
-}
-
-const Struct& FarmEngine::type() {
-  return define<FarmEngine>(
+void define_farm_tables(Tables& tables) {
+  tables.define<AxisValue>("A value of an axis.");
+  tables.define<Axis>("An axis of a grid.", [](auto& t) { t.key("values").items(1); });
+  tables.define<FarmEngine>(
       "An engine of a farm. An absent one has the version and content of the last run in which "
       "it was there.",
       [](auto& t) {
@@ -29,63 +25,36 @@ const Struct& FarmEngine::type() {
         t.key("install", "the command that installs it").if_any();
         t.key("refusedCells", "cells that the engine cannot show");
       });
-}
-
-const Struct& FarmCell::type() {
-  return define<FarmCell>("A cell and its verdict.", [](auto& t) {
+  tables.define<FarmCell>("A cell and its verdict.", [](auto& t) {
     t.key("id").plain_name();
     t.key("status").one_of(kStatuses);
   });
-}
-
-const Struct& Locks::type() {
-  return define<Locks>("Whether other machines see the locks in the cache.");
-}
-
-const Struct& Farm::type() {
-  return define<Farm>("The grid, the engines, the cells and their verdicts.", [](auto& t) {
+  tables.define<Locks>("Whether other machines see the locks in the cache.");
+  tables.define<Farm>("The grid, the engines, the cells and their verdicts.", [](auto& t) {
     t.kind("farm");
     t.key("grid", "file name");
     t.key("cache", "directory, relative to the farm's").if_any();
     t.key("axes", "in the grid's order").items(1);
     t.key("engines").items(1);
   });
-}
-
-const Struct& CellImage::type() {
-  return define<CellImage>("A picture of a cell.", [](auto& t) {
+  tables.define<CellImage>("A picture of a cell.", [](auto& t) {
     t.keys({"engine", "record"}).plain_name();
     t.key("exr", "linear float32").plain_name().if_any();
     t.key("png", "at the cell's exposure").plain_name().if_any();
     t.key("sha256", "of the EXR");
   });
-}
-
-const Struct& NotComparable::type() {
-  return define<NotComparable>("An engine that cannot show what the cell is about.");
-}
-
-const Struct& CellProblem::type() {
-  return define<CellProblem>("What failed.",
+  tables.define<NotComparable>("An engine that cannot show what the cell is about.");
+  tables.define<CellProblem>("What failed.",
                              [](auto& t) { t.key("failure", "a class of docs/farm.md"); });
-}
-
-const Struct& MadeFrom::type() {
-  return define<MadeFrom>("What a cell was made of.", [](auto& t) {
+  tables.define<MadeFrom>("What a cell was made of.", [](auto& t) {
     t.key("program", "to the build");
     t.key("libraries", "SHA-256");
     t.key("scene", "SHA-256 of scene.xml");
     t.key("contents", "SHA-256 by engine");
     t.key("engines", "version by engine");
   });
-}
-
-const Struct& CellFile::type() {
-  return define<CellFile>("A file of a cell.", [](auto& t) { t.key("name").plain_name(); });
-}
-
-const Struct& Cell::type() {
-  return define<Cell>("One scene of a grid: its pictures, comparisons and verdict.", [](auto& t) {
+  tables.define<CellFile>("A file of a cell.", [](auto& t) { t.key("name").plain_name(); });
+  tables.define<Cell>("One scene of a grid: its pictures, comparisons and verdict.", [](auto& t) {
     t.kind("cell", Seal::kYes);
     t.key("id").plain_name();
     t.key("status").one_of(kStatuses);
@@ -96,47 +65,26 @@ const Struct& Cell::type() {
     t.key("results", "key of the result of each job");
     t.key("files", "of all results; records of earlier versions have none").if_any();
   });
-}
-
-const Struct& StatusCounts::type() {
-  return define<StatusCounts>("How many cells there are of each status.");
-}
-
-const Struct& FailureOfCell::type() {
-  return define<FailureOfCell>("What failed, and in which cell.",
+  tables.define<StatusCounts>("How many cells there are of each status.");
+  tables.define<FailureOfCell>("What failed, and in which cell.",
                                [](auto& t) { t.key("failure", "a class of docs/farm.md"); });
-}
-
-const Struct& FarmStatus::type() {
-  return define<FarmStatus>("How far a farm is: 'lobelia farm status DIR --json'.", [](auto& t) {
+  tables.define<FarmStatus>("How far a farm is: 'lobelia farm status DIR --json'.", [](auto& t) {
     t.kind("farm-status");
     t.key("cells", "how many there are");
     t.key("cache", "its path");
     t.key("atWork", "a farm uses the cache now");
   });
-}
-
-const Struct& ExplainedPart::type() {
-  return define<ExplainedPart>("A part of a result's key, then and now.", [](auto& t) {
+  tables.define<ExplainedPart>("A part of a result's key, then and now.", [](auto& t) {
     t.key("files", "sentences: which files changed, at most five").if_any();
   });
-}
-
-const Struct& ExplainedJob::type() {
-  return define<ExplainedJob>("A job, and what its result was made of.",
+  tables.define<ExplainedJob>("A job, and what its result was made of.",
                               [](auto& t) { t.key("why", "why it is not in the cache").if_any(); });
-}
-
-const Struct& FarmExplanation::type() {
-  return define<FarmExplanation>(
+  tables.define<FarmExplanation>(
       "Why a cell's results are made again: 'lobelia farm explain DIR CELL --json'.", [](auto& t) {
         t.kind("farm-explanation");
         t.key("without", "sentences: why an engine has no result");
       });
-}
-
-const Struct& GalleryList::type() {
-  return define<GalleryList>(
+  tables.define<GalleryList>(
       "The files that publishing wrote. The next time only these are replaced or removed.",
       [](auto& t) {
         t.kind("gallery");

@@ -1,4 +1,4 @@
-// What lies in a farm's directory, and what `lobelia farm` prints of it.
+// The records in a farm's directory, and those that `lobelia farm` prints.
 #pragma once
 
 #include "records/highlight.hpp"
@@ -9,13 +9,11 @@ namespace lobelia::records {
 
 struct AxisValue {
   std::string value, label;
-  static const Struct& type();
 };
 
 struct Axis {
   std::string name;
   std::vector<AxisValue> values;
-  static const Struct& type();
 };
 
 struct FarmEngine {
@@ -23,19 +21,16 @@ struct FarmEngine {
   bool available = false;
   std::string state, version, content, why, install;
   std::optional<std::size_t> refused_cells;
-  static const Struct& type();
 };
 
 struct FarmCell {
   std::string id, status;
   Named<std::string> axes;
-  static const Struct& type();
 };
 
 struct Locks {
   bool shared = false;
   std::string why;
-  static const Struct& type();
 };
 
 struct Farm {
@@ -46,23 +41,19 @@ struct Farm {
   std::vector<Axis> axes;
   std::vector<FarmEngine> engines;
   std::vector<FarmCell> cells;
-  static const Struct& type();
 };
 
 struct CellImage {
   std::string engine, exr, png, record, sha256;
-  static const Struct& type();
 };
 
 struct NotComparable {
   std::string engine, because;
-  static const Struct& type();
 };
 
 struct CellProblem {
   std::string engine, message, failure;
   int attempts = 0;
-  static const Struct& type();
 };
 
 struct MadeFrom {
@@ -71,13 +62,11 @@ struct MadeFrom {
   std::string scene;
   Named<std::string> contents, engines;
   bool operator==(const MadeFrom&) const = default;
-  static const Struct& type();
 };
 
 struct CellFile {
   std::string name, sha256;
   bool operator==(const CellFile&) const = default;
-  static const Struct& type();
 };
 
 struct Cell {
@@ -95,19 +84,16 @@ struct Cell {
   MadeFrom made_from;
   Named<std::string> results;
   std::vector<CellFile> files;
-  static const Struct& type();
 };
 
 struct StatusCounts {
   std::size_t failed = 0, differs = 0, undecided = 0, missing = 0, unchecked = 0, pass = 0;
-  static const Struct& type();
 };
 
 struct FailureOfCell {
   std::string cell, engine, failure;
   int attempts = 0;
   std::string message;
-  static const Struct& type();
 };
 
 struct FarmStatus {
@@ -117,14 +103,12 @@ struct FarmStatus {
   std::string cache;
   bool cache_is_there = false, at_work = false;
   std::vector<FailureOfCell> failures;
-  static const Struct& type();
 };
 
 struct ExplainedPart {
   std::string part, was, now;
   bool same = false;
   std::vector<std::string> files;
-  static const Struct& type();
 };
 
 struct ExplainedJob {
@@ -132,20 +116,19 @@ struct ExplainedJob {
   bool in_cache = false;
   std::string why;
   std::vector<ExplainedPart> parts;
-  static const Struct& type();
 };
 
 struct FarmExplanation {
   std::string cell, status;
   std::vector<ExplainedJob> jobs;
   std::vector<std::string> without;
-  static const Struct& type();
 };
 
 struct GalleryList {
   std::vector<std::string> files;
   Named<std::string> made_of;
-  static const Struct& type();
 };
+
+void define_farm_tables(Tables& tables);
 
 }  // namespace lobelia::records

@@ -8,10 +8,6 @@
 
 namespace lobelia::records {
 
-const Struct& Host::type() {
-  return define<Host>("The machine.", [](auto& t) { t.key("name").if_any(); });
-}
-
 Host this_host() {
   utsname system{};
   ::uname(&system);
@@ -25,8 +21,9 @@ Host this_node() {
   return host;
 }
 
-const Struct& Highlight::type() {
-  return define<Highlight>("A normalised highlight.", [](auto& t) {
+void define_highlight_tables(Tables& tables) {
+  tables.define<Host>("The machine.", [](auto& t) { t.key("name").if_any(); });
+  tables.define<Highlight>("A normalised highlight.", [](auto& t) {
     t.key("exponent").at_least(0);
     t.key("coefficient", "of the radiance").may_be_nonfinite();
     t.key("warning", "where the model is not what it promises").if_any();

@@ -1,4 +1,4 @@
-// What every record may say: on which machine, of which highlight.
+// Parts of many records: the machine and the highlight.
 #pragma once
 
 #include "records/struct_type.hpp"
@@ -9,20 +9,20 @@ struct Host {
   std::string processor;
   unsigned threads = 0;
   std::string system;
-  std::string name;  ///< empty in records that say nothing of nodes
-  static const Struct& type();
+  std::string name;  ///< empty in records that do not name nodes
 };
 
 /// This machine, without its name.
 Host this_host();
-/// The same with it.
+/// This machine with its name.
 Host this_node();
 
 struct Highlight {
   std::string model, lobe, normalisation;
   double exponent = 0, coefficient = 0;
   std::string warning;
-  static const Struct& type();
 };
+
+void define_highlight_tables(Tables& tables);
 
 }  // namespace lobelia::records

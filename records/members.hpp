@@ -1,5 +1,5 @@
-// The members of a plain struct: keys, types and places. Until C++26 tells them, a structured binding takes the struct
-// apart and the compiler's own text for a pointer to a member has its name.
+// The members of a plain struct: keys, types and offsets. Before C++26 has reflection, a structured binding takes the struct
+// apart, and the compiler's text for a pointer to a member has its name.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace lobelia::records::detail {
 
-/// Initialises a member of any type. Never called.
+/// Converts to any member's type; never called.
 struct AnyMember {
   template <class T>
   operator T() const;
@@ -23,7 +23,7 @@ consteval std::size_t count_members() {
     return sizeof...(Members);
 }
 
-/// Room for a T that is never made, so that its members have addresses.
+/// Storage of a T that is never constructed, so that its members have addresses.
 template <class T>
 union Unmade {
   constexpr Unmade() : none() {}
@@ -34,7 +34,7 @@ union Unmade {
 template <class T>
 inline constexpr Unmade<T> kUnmade;
 
-/// A tuple of pointers that compiles faster than std::tuple.
+/// A tuple of pointers; compiles faster than std::tuple.
 template <std::size_t I, class Member>
 struct Slot {
   const Member* pointer;
@@ -91,7 +91,7 @@ inline constexpr auto kMembers = member_pointers<T>();
 template <class T>
 using MemberIndices = std::make_index_sequence<count_members<T>()>;
 
-/// A pointer as a template's argument, which Clang 14 takes only within a class.
+/// Clang 14 accepts a pointer as a template argument only inside a class.
 template <class Pointer>
 struct Pointed {
   Pointer pointer;

@@ -2,94 +2,57 @@
 
 namespace lobelia::records {
 
-const Struct& Formulas::type() {
-  return define<Formulas>("Coefficients of a model.", [](auto& t) {
+void define_model_tables(Tables& tables) {
+  tables.define<Formulas>("Coefficients of a model.", [](auto& t) {
     t.key("exact", "integrated, in double");
     t.key("exactCosine", "closed form with the lobe cosine");
     t.key("paperCosine", "as the paper prints it");
     t.key("paperCs16", "as the paper prints it");
   });
-}
-
-const Struct& Operations::type() {
-  return define<Operations>(
+  tables.define<Operations>(
       "Operations per point. What depends on the exponent alone is computed once.");
-}
-
-const Struct& Model::type() {
-  return define<Model>("A reflection model.", [](auto& t) {
+  tables.define<Model>("A reflection model.", [](auto& t) {
     t.key("angle", "what its lobe sees");
     t.key("normalised", "what its coefficient makes 1");
   });
-}
-
-const Struct& Lobe::type() {
-  return define<Lobe>("A lobe, measured at one exponent.", [](auto& t) {
+  tables.define<Lobe>("A lobe, measured at one exponent.", [](auto& t) {
     t.key("moments", "M_j, the integral of the lobe times s^j for s = 0 to S");
     t.keys({"halfWidthDegrees", "supportDegrees"}).unit("degrees");
     t.key("aboveCosine", "most that it exceeds the lobe cosine");
   });
-}
-
-const Struct& Normalisation::type() {
-  return define<Normalisation>("Where coefficients come from.");
-}
-
-const Struct& Parameter::type() {
-  return define<Parameter>("A parameter of a highlight.", [](auto& t) {
+  tables.define<Normalisation>("Where coefficients come from.");
+  tables.define<Parameter>("A parameter of a highlight.", [](auto& t) {
     t.key("defaultValue").renamed("default");
     t.key("allowed").if_any();
   });
-}
-
-const Struct& AlbedoPeak::type() {
-  return define<AlbedoPeak>("The largest albedo over all incidences.", [](auto& t) {
+  tables.define<AlbedoPeak>("The largest albedo over all incidences.", [](auto& t) {
     t.key("atDegrees").unit("degrees");
     t.key("aboveOneFromDegrees", "null if it stays within 1").or_null().unit("degrees");
   });
-}
-
-const Struct& CatalogueHighlight::type() {
-  return define<CatalogueHighlight>("A model with a lobe and a normalisation.", [](auto& t) {
+  tables.define<CatalogueHighlight>("A model with a lobe and a normalisation.", [](auto& t) {
     t.key("albedo", "towards the eye");
     t.key("albedoOfLight", "of a beam");
   });
-}
-
-const Struct& Models::type() {
-  return define<Models>(
+  tables.define<Models>(
       "All models, lobes, normalisations and parameters: 'lobelia models --json'.", [](auto& t) {
         t.kind("models");
         t.key("lobeFamilies", "lobes that a number chooses");
       });
-}
-
-const Struct& TableErrors::type() {
-  return define<TableErrors>(
+  tables.define<TableErrors>(
       "How far an interpolated value may be off: of the peak for a curve, else relative.");
-}
-
-const Struct& ModelTable::type() { return define<ModelTable>("A model, for the explorer."); }
-
-const Struct& LobeTable::type() {
-  return define<LobeTable>("A lobe over the exponents. docs/decisions/0015 defines the tables.",
+  tables.define<ModelTable>("A model, for the explorer.");
+  tables.define<LobeTable>("A lobe over the exponents. docs/decisions/0015 defines the tables.",
                            [](auto& t) {
                              t.key("unit", "curves are in multiples of it");
                              t.keys({"reach", "halfWidth"}).unit("radians");
                            });
-}
-
-const Struct& HighlightTable::type() {
-  return define<HighlightTable>("A model with a lobe over the exponents.", [](auto& t) {
+  tables.define<HighlightTable>("A model with a lobe over the exponents.", [](auto& t) {
     t.key("exact", "coefficients");
     t.key("paper", "coefficients; missing if the paper has none").if_any();
     t.key("unit", "seen and lit are logarithms in multiples of it");
     t.key("lit", "missing if it is the same as seen").if_any();
   });
-}
-
-const Struct& HighlightTables::type() {
-  return define<HighlightTables>(
+  tables.define<HighlightTables>(
       "Every highlight over the exponent, as numbers that a page can interpolate.", [](auto& t) {
         t.kind("highlight-tables");
         t.key("mostGrazing").unit("radians");

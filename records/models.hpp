@@ -7,12 +7,10 @@ namespace lobelia::records {
 
 struct Formulas {
   std::string exact, exact_cosine, paper_cosine, paper_cs16;
-  static const Struct& type();
 };
 
 struct Operations {
   int multiply = 0, add = 0, divide = 0, root = 0, transcendental = 0, compare = 0;
-  static const Struct& type();
 };
 
 struct Model {
@@ -22,7 +20,6 @@ struct Model {
   Formulas coefficient;
   Operations operations;
   std::string source;
-  static const Struct& type();
 };
 
 struct Lobe {
@@ -31,25 +28,21 @@ struct Lobe {
   double float32_error_of_peak = 0, half_width_degrees = 0, support_degrees = 0, above_cosine = 0,
          below_cosine = 0;
   std::string source;
-  static const Struct& type();
 };
 
 struct Normalisation {
   std::string name, meaning;
-  static const Struct& type();
 };
 
 struct Parameter {
   std::string name, default_value;
   std::optional<double> min, max;
   std::string allowed, meaning;
-  static const Struct& type();
 };
 
 struct AlbedoPeak {
   double largest = 0, at_degrees = 0;
   std::optional<double> above_one_from_degrees;
-  static const Struct& type();
 };
 
 struct CatalogueHighlight {
@@ -57,7 +50,6 @@ struct CatalogueHighlight {
   double coefficient = 0, energy_at_normal_incidence = 0;
   AlbedoPeak albedo, albedo_of_light;
   double reciprocity_gap = 0;
-  static const Struct& type();
 };
 
 struct Models {
@@ -68,19 +60,16 @@ struct Models {
   std::vector<Normalisation> normalisations;
   std::vector<Parameter> parameters;
   std::vector<CatalogueHighlight> highlights;
-  static const Struct& type();
 };
 
 struct TableErrors {
   double curve = 0, albedo = 0, half_width = 0, coefficient = 0;
-  static const Struct& type();
 };
 
 struct ModelTable {
   std::string name, title, angle;
   bool applies_cosine = false;
   std::string normalised, coefficient;
-  static const Struct& type();
 };
 
 struct LobeTable {
@@ -89,7 +78,6 @@ struct LobeTable {
   double unit = 0;
   std::vector<double> reach, half_width;
   std::vector<std::vector<std::int64_t>> curves;
-  static const Struct& type();
 };
 
 struct HighlightTable {
@@ -97,7 +85,6 @@ struct HighlightTable {
   std::vector<double> exact, paper;
   double unit = 0;
   std::vector<std::vector<std::int64_t>> seen, lit;
-  static const Struct& type();
 };
 
 struct HighlightTables {
@@ -108,7 +95,8 @@ struct HighlightTables {
   std::vector<ModelTable> models;
   std::vector<LobeTable> lobes;
   std::vector<HighlightTable> highlights;
-  static const Struct& type();
 };
+
+void define_model_tables(Tables& tables);
 
 }  // namespace lobelia::records

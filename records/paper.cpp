@@ -7,30 +7,21 @@ constexpr std::string_view kClaimVerdicts[] = {"confirmed", "not reproduced", "f
 
 }  // namespace
 
-const Struct& Measured::type() {
-  return define<Measured>("What was measured.", [](auto& t) {
+void define_paper_tables(Tables& tables) {
+  tables.define<Measured>("What was measured.", [](auto& t) {
     t.key("value").may_be_nonfinite();
     t.key("text", "the value with the digits that are the same on every machine");
     t.key("at", "where the value was found").if_any();
   });
-}
-
-const Struct& Claim::type() {
-  return define<Claim>("A claim of the paper, or a finding.", [](auto& t) {
+  tables.define<Claim>("A claim of the paper, or a finding.", [](auto& t) {
     t.key("where", "in the paper");
     t.key("printed", "figure or formula as printed; empty without one");
     t.key("measured", "the verdict is about the first").items(1);
     t.key("definition", "what was measured");
     t.key("verdict", "found: the paper does not speak of it").one_of(kClaimVerdicts);
   });
-}
-
-const Struct& PaperFigure::type() {
-  return define<PaperFigure>("A chart and the claims that it shows.");
-}
-
-const Struct& VerifyPaper::type() {
-  return define<VerifyPaper>("The paper, measured: 'lobelia verify paper --json FILE'.",
+  tables.define<PaperFigure>("A chart and the claims that it shows.");
+  tables.define<VerifyPaper>("The paper, measured: 'lobelia verify paper --json FILE'.",
                              [](auto& t) {
                                t.kind("verify-paper");
                                t.key("command").if_any();

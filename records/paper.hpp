@@ -1,4 +1,4 @@
-// What came out when the claims of the paper were measured.
+// The paper's claims with the measured values.
 #pragma once
 
 #include "records/chart.hpp"
@@ -10,7 +10,6 @@ struct Measured {
   std::string what;
   double value = 0;
   std::string text, at;
-  static const Struct& type();
 };
 
 struct Claim {
@@ -22,7 +21,6 @@ struct Claim {
   std::string definition = {};
   std::string verdict = "found";
   std::string reason = {};
-  static const Struct& type();
 };
 
 struct PaperFigure {
@@ -31,7 +29,6 @@ struct PaperFigure {
   std::vector<ChartBand> bands;
   std::vector<ChartSeries> series;
   std::vector<std::string> claims;
-  static const Struct& type();
 };
 
 struct VerifyPaper {
@@ -39,7 +36,8 @@ struct VerifyPaper {
   std::size_t confirmed = 0, not_reproduced = 0, found = 0;
   std::vector<Claim> claims;
   std::vector<PaperFigure> figures;
-  static const Struct& type();
 };
+
+void define_paper_tables(Tables& tables);
 
 }  // namespace lobelia::records

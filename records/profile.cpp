@@ -20,28 +20,19 @@ std::string contradiction_of_curve(const ProfileCurve& curve) {
 
 }  // namespace
 
-const Struct& Point::type() {
-  return define<Point>("A place or a direction in the picture, y down.",
+void define_profile_tables(Tables& tables) {
+  tables.define<Point>("A place or a direction in the picture, y down.",
                        [](auto& t) { t.all().unit("pixels").may_be_nonfinite(); });
-}
-
-const Struct& Peak::type() {
-  return define<Peak>("The brightest place, to a fraction of a pixel.", [](auto& t) {
+  tables.define<Peak>("The brightest place, to a fraction of a pixel.", [](auto& t) {
     t.keys({"x", "y"}).unit("pixels").may_be_nonfinite();
     t.key("radiance").may_be_nonfinite();
     t.key("found", "how").one_of(kPeakFound);
   });
-}
-
-const Struct& HalfWidth::type() {
-  return define<HalfWidth>("Half of the width at half of the peak.", [](auto& t) {
+  tables.define<HalfWidth>("Half of the width at half of the peak.", [](auto& t) {
     t.key("pixels").may_be_nonfinite();
     t.key("degrees", "angle of the lobe there, the mean of both sides").may_be_nonfinite();
   });
-}
-
-const Struct& CosineLobe::type() {
-  return define<CosineLobe>("The power of a cosine that fits best.", [](auto& t) {
+  tables.define<CosineLobe>("The power of a cosine that fits best.", [](auto& t) {
     t.key("exponent").within(0.001, 1e8);
     t.keys({"standardError", "rmsOfPeak"}).at_least(0);
     t.key("coefficient").between(0, kNoBound);
@@ -49,10 +40,7 @@ const Struct& CosineLobe::type() {
     t.key("because", "why there are no figures").not_empty().if_any();
     t.needs({{"exponent", "standardError", "coefficient", "rmsOfPeak", "pixels"}, {"because"}});
   });
-}
-
-const Struct& HighlightFigures::type() {
-  return define<HighlightFigures>(
+  tables.define<HighlightFigures>(
       "The highlight alone, without what lies beneath it; docs/profiles.md defines each figure.",
       [](auto& t) {
         t.key("halfWidthAlong", "the plane of incidence");
@@ -60,34 +48,19 @@ const Struct& HighlightFigures::type() {
         t.key("energy").unit("W/m^2").may_be_nonfinite();
         t.key("because", "why something could not be told").if_any();
       });
-}
-
-const Struct& HighlightShape::type() {
-  return define<HighlightShape>("The curve of one picture, in figures.", [](auto& t) {
+  tables.define<HighlightShape>("The curve of one picture, in figures.", [](auto& t) {
     t.key("peak", "largest radiance of a lit pixel").may_be_nonfinite();
     t.keys({"peakAngleDegrees", "halfWidthDegrees"}).unit("degrees").may_be_nonfinite();
     t.key("energy").unit("W/m^2").may_be_nonfinite();
   });
-}
-
-const Struct& ZoneError::type() {
-  return define<ZoneError>("How far two pictures are apart in a zone.", [](auto& t) {
+  tables.define<ZoneError>("How far two pictures are apart in a zone.", [](auto& t) {
     t.keys({"maxAbs", "rms"}).may_be_nonfinite();
     t.key("maxRelPeak", "of the peak").may_be_nonfinite();
   });
-}
-
-const Struct& ZoneErrors::type() {
-  return define<ZoneErrors>("How far two pictures are apart, by zone.");
-}
-
-const Struct& ZoneRanges::type() {
-  return define<ZoneRanges>("Where the zones begin and end: angles that the lobe sees.",
+  tables.define<ZoneErrors>("How far two pictures are apart, by zone.");
+  tables.define<ZoneRanges>("Where the zones begin and end: angles that the lobe sees.",
                             [](auto& t) { t.all().unit("degrees").within(0, 90); });
-}
-
-const Struct& ProfileCurve::type() {
-  return define<ProfileCurve>(
+  tables.define<ProfileCurve>(
       "Mean radiance by the angle that the lobe sees. Bins without a pixel are left out.",
       [](auto& t) {
         t.key("angleDegrees").unit("degrees").may_be_nonfinite();
@@ -95,15 +68,9 @@ const Struct& ProfileCurve::type() {
         t.rest("radiance", "of each picture, the mean of R, G and B").may_be_nonfinite();
         t.check(contradiction_of_curve);
       });
-}
-
-const Struct& Subtracted::type() {
-  return define<Subtracted>("What the curves do not contain, of the highlight's peak.",
+  tables.define<Subtracted>("What the curves do not contain, of the highlight's peak.",
                             [](auto& t) { t.all().may_be_nonfinite(); });
-}
-
-const Struct& Profile::type() {
-  return define<Profile>("The highlight of one light on one sphere, as curves.", [](auto& t) {
+  tables.define<Profile>("The highlight of one light on one sphere, as curves.", [](auto& t) {
     t.kind("profile");
     t.key("light", "counted from 0").at_least(0);
     t.key("sphere", "counted from 0").at_least(0);
@@ -113,27 +80,15 @@ const Struct& Profile::type() {
     t.key("differences", R"(by "A-B"; B is the reference)");
     t.key("lobe", "missing for a material without a highlight");
   });
-}
-
-const Struct& Profiles::type() {
-  return define<Profiles>("All highlights of a scene.", [](auto& t) {
+  tables.define<Profiles>("All highlights of a scene.", [](auto& t) {
     t.kind("profiles");
     t.key("profiles").items(1);
   });
-}
-
-const Struct& ZoneEnds::type() {
-  return define<ZoneEnds>("Shares of the peak at which the zones end.",
+  tables.define<ZoneEnds>("Shares of the peak at which the zones end.",
                           [](auto& t) { t.all().within(0, 1); });
-}
-
-const Struct& AxisPair::type() {
-  return define<AxisPair>("A length along both axes of a blob.",
+  tables.define<AxisPair>("A length along both axes of a blob.",
                           [](auto& t) { t.all().unit("pixels").may_be_nonfinite(); });
-}
-
-const Struct& BlobFigures::type() {
-  return define<BlobFigures>(
+  tables.define<BlobFigures>(
       "The brightest blob of a picture; docs/profiles.md defines each figure.", [](auto& t) {
         t.key("peak", "over the background");
         t.key("background", "radiance around the blob").may_be_nonfinite();
@@ -145,18 +100,12 @@ const Struct& BlobFigures::type() {
         t.key("because", "why there is no blob").not_empty().if_any();
         t.key("remark", "what makes it doubtful").not_empty().if_any();
       });
-}
-
-const Struct& BlobCurve::type() {
-  return define<BlobCurve>("Radiance along an axis of the reference's blob, through its peak.",
+  tables.define<BlobCurve>("Radiance along an axis of the reference's blob, through its peak.",
                            [](auto& t) {
                              t.key("offsetPixels").unit("pixels");
                              t.rest("radiance", "of each picture").may_be_nonfinite();
                            });
-}
-
-const Struct& Blob::type() {
-  return define<Blob>("A highlight in pictures without a scene.", [](auto& t) {
+  tables.define<Blob>("A highlight in pictures without a scene.", [](auto& t) {
     t.kind("blob");
     t.key("images").items(1, 2);
     t.key("curves", "by axis: major, minor");

@@ -57,7 +57,7 @@ Origin origin_of(const Json& json, std::string_view text) {
 
 Json sealed(const Struct& type, const void* record) {
   Json json = type.write(record);
-  // Of what a reader gets: some numbers are not read again as they were written.
+  // Hash the record as a reader gets it, because some numbers are not read back unchanged.
   if (type.is_sealed()) json[kSealKey] = seal_of(Json::parse(json.dump()));
   return json;
 }

@@ -9,86 +9,51 @@ constexpr std::string_view kWitnesses[] = {"native", "expressed", "analytic"};
 
 }  // namespace
 
-const Struct& Work::type() { return define<Work>("How much work an effect took."); }
-
-const Struct& Effect::type() {
-  return define<Effect>("Whether an effect of light is simulated, and why.");
-}
-
-const Struct& ExpectedRays::type() {
-  return define<ExpectedRays>("Rays that a render will trace.");
-}
-
-const Struct& Plan::type() {
-  return define<Plan>("What a scene calls for, before it is rendered.", [](auto& t) {
+void define_render_tables(Tables& tables) {
+  tables.define<Work>("How much work an effect took.");
+  tables.define<Effect>("Whether an effect of light is simulated, and why.");
+  tables.define<ExpectedRays>("Rays that a render will trace.");
+  tables.define<Plan>("What a scene calls for, before it is rendered.", [](auto& t) {
     t.kind("plan");
     t.key("precision", "and why");
     t.key("kernel", "which inner loops");
   });
-}
-
-const Struct& PlanOfRender::type() {
-  return define<PlanOfRender>("The plan that a render followed.", [](auto& t) {
+  tables.define<PlanOfRender>("The plan that a render followed.", [](auto& t) {
     t.key("precision", "and why");
     t.key("kernel", "which inner loops");
   });
-}
-
-const Struct& Rays::type() { return define<Rays>("Rays that were traced, counted."); }
-
-const Struct& EngineUsed::type() {
-  return define<EngineUsed>("The engine that made a picture.",
+  tables.define<Rays>("Rays that were traced, counted.");
+  tables.define<EngineUsed>("The engine that made a picture.",
                             [](auto& t) { t.key("title").if_any(); });
-}
-
-const Struct& ImageFile::type() {
-  return define<ImageFile>("A picture beside its record.", [](auto& t) {
+  tables.define<ImageFile>("A picture beside its record.", [](auto& t) {
     t.keys({"width", "height"}).unit("pixels").at_least(1);
   });
-}
-
-const Struct& AccuracyChoice::type() {
-  return define<AccuracyChoice>("What was chosen to reach an accuracy.", [](auto& t) {
+  tables.define<AccuracyChoice>("What was chosen to reach an accuracy.", [](auto& t) {
     t.key("lobe", "null if the highlights keep lobes that differ").or_null();
     t.key("samples", "per pixel").at_least(1);
   });
-}
-
-const Struct& AccuracyOperations::type() {
-  return define<AccuracyOperations>("Weighted operations per point.", [](auto& t) {
+  tables.define<AccuracyOperations>("Weighted operations per point.", [](auto& t) {
     t.key("ownInFloat64", "of the scene's own lobe");
   });
-}
-
-const Struct& AccuracyReached::type() {
-  return define<AccuracyReached>("What a check of the finished picture found.", [](auto& t) {
+  tables.define<AccuracyReached>("What a check of the finished picture found.", [](auto& t) {
     t.key("value", "0 for a black picture").may_be_nonfinite();
     t.key("against", "the ground truth");
     t.key("seconds", "to make the ground truth").unit("seconds");
   });
-}
-
-const Struct& Accuracy::type() {
-  return define<Accuracy>("A picture by the accuracy that was asked for; see docs/cost.md.",
+  tables.define<Accuracy>("A picture by the accuracy that was asked for; see docs/cost.md.",
                           [](auto& t) {
                             t.key("unit").one_of(kAccuracyUnits);
                             t.key("basis").one_of(kBases);
                             t.key("predicted", "will not be exceeded");
                             t.key("reached", "missing with --accuracy-check none");
                           });
-}
-
-const Struct& RenderSeconds::type() {
-  return define<RenderSeconds>("Time by stage, in seconds.", [](auto& t) {
+  tables.define<RenderSeconds>("Time by stage, in seconds.", [](auto& t) {
     t.key("total", "plan and render");
     t.key("read", "the scene");
     t.key("pack", "rows of the picture; part of render");
     t.key("write", "the finished file");
   });
-}
-
-const Struct& Render::type() {
-  return define<Render>("A picture by Lobelia.", [](auto& t) {
+  tables.define<Render>("A picture by Lobelia.", [](auto& t) {
     t.kind("render");
     t.key("command", "makes it again, in the cell's directory");
     t.key("highlights", "as rendered, by material");
@@ -101,17 +66,11 @@ const Struct& Render::type() {
     t.key("standardError", "file with the standard error of each value").if_any();
     t.key("accuracy", "with --accuracy");
   });
-}
-
-const Struct& EngineSeconds::type() {
-  return define<EngineSeconds>("Time that an engine took, in seconds.", [](auto& t) {
+  tables.define<EngineSeconds>("Time that an engine took, in seconds.", [](auto& t) {
     t.key("total", "the engine's work: POV-Ray's processes added up, Blender's render call alone")
         .at_least(0);
   });
-}
-
-const Struct& Reference::type() {
-  return define<Reference>("A picture by a reference engine.", [](auto& t) {
+  tables.define<Reference>("A picture by a reference engine.", [](auto& t) {
     t.kind("reference");
     t.key("witness",
           "the engine's own shading of the model, the model written in the "
@@ -131,10 +90,7 @@ const Struct& Reference::type() {
     t.key("standardError", "file with the standard error of each value").if_any();
     t.key("highlights").if_any();
   });
-}
-
-const Struct& EngineFound::type() {
-  return define<EngineFound>("A reference engine and what is known of it here.", [](auto& t) {
+  tables.define<EngineFound>("A reference engine and what is known of it here.", [](auto& t) {
     t.key("name", "as --engine takes it");
     t.key("state").one_of(kEngineStates);
     t.key("program", "missing if none was found").if_any();
@@ -145,10 +101,7 @@ const Struct& EngineFound::type() {
     t.key("effects", "that scenes for it may have");
     t.key("install", "the command that installs it");
   });
-}
-
-const Struct& Engines::type() {
-  return define<Engines>("The reference engines.", [](auto& t) { t.kind("engines"); });
+  tables.define<Engines>("The reference engines.", [](auto& t) { t.kind("engines"); });
 }
 
 }  // namespace lobelia::records

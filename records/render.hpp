@@ -1,4 +1,4 @@
-// Pictures: what a plan decided, how a render and a reference were made.
+// Pictures: plans, renders and references.
 #pragma once
 
 #include "records/highlight.hpp"
@@ -6,13 +6,12 @@
 
 namespace lobelia::records {
 
-/// The states of an engine: not installed, cannot be driven, can be driven.
+/// The states of an engine: not installed, not usable, usable.
 inline constexpr std::string_view kEngineStates[] = {"absent", "broken", "ready"};
 
 struct Work {
   std::string unit;
   std::uint64_t count = 0;
-  static const Struct& type();
 };
 
 struct Effect {
@@ -20,54 +19,45 @@ struct Effect {
   bool on = false;
   std::string reason;
   std::optional<Work> work;
-  static const Struct& type();
 };
 
 struct ExpectedRays {
   std::uint64_t camera = 0, shadow_at_most = 0, mirror_at_most = 0, scattered_at_most = 0;
-  static const Struct& type();
 };
 
 struct Plan {
   std::vector<Effect> effects;
   std::string precision, kernel;
   ExpectedRays expected_rays;
-  static const Struct& type();
 };
 
-/// A plan as it stands in the record of a render.
+/// The plan in the record of a render.
 struct PlanOfRender {
   std::vector<Effect> effects;
   std::string precision, kernel;
-  static const Struct& type();
 };
 
 struct Rays {
   std::uint64_t camera = 0, shadow = 0, mirror = 0, scattered = 0;
-  static const Struct& type();
 };
 
 struct EngineUsed {
   std::string name, title, version;
-  static const Struct& type();
 };
 
 struct ImageFile {
   std::string file;
   int width = 0, height = 0;
-  static const Struct& type();
 };
 
 struct AccuracyChoice {
-  std::string lobe;  ///< empty where the highlights keep lobes of their own
+  std::string lobe;  ///< empty if the highlights keep their own lobes
   std::string precision;
   std::optional<int> samples;
-  static const Struct& type();
 };
 
 struct AccuracyOperations {
   double chosen = 0, own_in_float64 = 0;
-  static const Struct& type();
 };
 
 struct AccuracyReached {
@@ -75,7 +65,6 @@ struct AccuracyReached {
   bool held = false;
   std::string against;
   double seconds = 0;
-  static const Struct& type();
 };
 
 struct Accuracy {
@@ -87,13 +76,11 @@ struct Accuracy {
   std::string basis;
   double predicted = 0;
   std::optional<AccuracyReached> reached;
-  static const Struct& type();
 };
 
 struct RenderSeconds {
   double plan = 0, render = 0, total = 0;
   std::optional<double> read, pack, write;
-  static const Struct& type();
 };
 
 struct Render {
@@ -112,13 +99,11 @@ struct Render {
   RenderSeconds seconds;
   std::string standard_error;
   std::optional<Accuracy> accuracy;
-  static const Struct& type();
 };
 
 struct EngineSeconds {
   double total = 0;
   std::optional<double> start, parse, trace, write;
-  static const Struct& type();
 };
 
 struct Reference {
@@ -138,21 +123,20 @@ struct Reference {
   std::vector<std::string> command;
   std::string standard_error;
   std::vector<Highlight> highlights;
-  static const Struct& type();
 };
 
-/// An engine of this machine, or of a run.
+/// An engine on this machine.
 struct EngineFound {
   std::string name, title;
   bool available = false;
   std::string state, program, version, why, supported_versions, witness, precision, effects,
       install;
-  static const Struct& type();
 };
 
 struct Engines {
   std::vector<EngineFound> engines;
-  static const Struct& type();
 };
+
+void define_render_tables(Tables& tables);
 
 }  // namespace lobelia::records

@@ -22,16 +22,13 @@ std::uint64_t Result::bytes() const {
   return sum;
 }
 
-const Struct& Arithmetic::type() {
-  return define<Arithmetic>("How a machine calculates.", [](auto& t) {
+void define_result_tables(Tables& tables) {
+  tables.define<Arithmetic>("How a machine calculates.", [](auto& t) {
     t.key("libm", "SHA-256 of what its functions return");
     t.key("kernels", "instruction set of the inner loops");
     t.key("processor", "instruction sets that libm may choose by");
   });
-}
-
-const Struct& ResultInputs::type() {
-  return define<ResultInputs>("What decides a result.", [](auto& t) {
+  tables.define<ResultInputs>("What decides a result.", [](auto& t) {
     t.key("program", "to the build");
     t.key("libraries", "SHA-256");
     t.key("scene", "SHA-256");
@@ -39,37 +36,22 @@ const Struct& ResultInputs::type() {
     t.key("engineContent", "SHA-256").if_any();
     t.rest("pictures", "keys of the results that it is made from, by engine");
   });
-}
-
-const Struct& ResultSeconds::type() {
-  return define<ResultSeconds>("Time that a result took, in seconds.", [](auto& t) {
+  tables.define<ResultSeconds>("Time that a result took, in seconds.", [](auto& t) {
     t.key("wall", "of an engine's picture from when its turn came");
   });
-}
-
-const Struct& ResultFile::type() {
-  return define<ResultFile>("A file of a result.", [](auto& t) {
+  tables.define<ResultFile>("A file of a result.", [](auto& t) {
     t.key("name").plain_name();
     t.key("modified", "time of change").unit("nanoseconds");
   });
-}
-
-const Struct& Difference::type() {
-  return define<Difference>("The scale of a difference picture, |a - b| / whiteAt, clipped at 1.",
+  tables.define<Difference>("The scale of a difference picture, |a - b| / whiteAt, clipped at 1.",
                             [](auto& t) {
                               t.key("whiteAt", "radiance").may_be_nonfinite();
                               t.key("relativeToPeak", "of the reference's brightest value");
                             });
-}
-
-const Struct& CellComparison::type() {
-  return define<CellComparison>("Where a cell has a comparison.", [](auto& t) {
+  tables.define<CellComparison>("Where a cell has a comparison.", [](auto& t) {
     t.keys({"a", "b", "record", "png"}).plain_name();
   });
-}
-
-const Struct& Result::type() {
-  return define<Result>(
+  tables.define<Result>(
       "A result in the cache: results/ab/KEY/result.json beside its files.", [](auto& t) {
         t.kind("result", Seal::kYes);
         t.key("job").one_of(kJobs);
@@ -83,28 +65,16 @@ const Struct& Result::type() {
         t.key("peakMemoryBytes", "of what ran in this process, that of the process so far")
             .unit("bytes");
       });
-}
-
-const Struct& Failure::type() {
-  return define<Failure>("Why there is no result: failures/ab/KEY.json in the cache.", [](auto& t) {
+  tables.define<Failure>("Why there is no result: failures/ab/KEY.json in the cache.", [](auto& t) {
     t.kind("failure");
     t.key("failure", "a class of docs/farm.md");
   });
-}
-
-const Struct& ContentFile::type() {
-  return define<ContentFile>("A file that a program runs, loads or reads.");
-}
-
-const Struct& Content::type() {
-  return define<Content>("What libraries or an engine of one hash consist of.", [](auto& t) {
+  tables.define<ContentFile>("A file that a program runs, loads or reads.");
+  tables.define<Content>("What libraries or an engine of one hash consist of.", [](auto& t) {
     t.kind("content");
     t.key("files", "the first 10000");
   });
-}
-
-const Struct& KnownHashes::type() {
-  return define<KnownHashes>("Hashes of files that seldom change, of one user on one machine.",
+  tables.define<KnownHashes>("Hashes of files that seldom change, of one user on one machine.",
                              [](auto& t) {
                                t.kind("file-hashes", Seal::kYes);
                                t.key("files", "path, identity, SHA-256").items(0, 50000);

@@ -1,4 +1,4 @@
-// What lies in a cache: results, failures, what programs are made of. Also the hashes that a user's machine remembers.
+// The records of a cache: results, failures and the content of programs. Also a user's remembered hashes of files.
 #pragma once
 
 #include "records/highlight.hpp"
@@ -9,20 +9,17 @@ namespace lobelia::records {
 struct Arithmetic {
   std::string libm, kernels, processor;
   bool operator==(const Arithmetic&) const = default;
-  static const Struct& type();
 };
 
 struct ResultInputs {
   std::string program, libraries;
   Arithmetic arithmetic;
   std::string scene, engine_version, engine_content;
-  Named<std::string> pictures;  ///< keys of the results that it was made from
-  static const Struct& type();
+  Named<std::string> pictures;  ///< keys of the results that it was made from, by engine
 };
 
 struct ResultSeconds {
   double wall = 0, cpu = 0;
-  static const Struct& type();
 };
 
 struct ResultFile {
@@ -30,19 +27,16 @@ struct ResultFile {
   std::uint64_t bytes = 0;
   std::string sha256;
   std::int64_t modified = 0;
-  static const Struct& type();
 };
 
 struct Difference {
   double white_at = 0, relative_to_peak = 0;
-  static const Struct& type();
 };
 
-/// A comparison as a cell shows it.
+/// A comparison in a cell.
 struct CellComparison {
   std::string a, b, record, png;
   Difference difference;
-  static const Struct& type();
 };
 
 struct Result {
@@ -50,26 +44,25 @@ struct Result {
   ResultInputs inputs;
   Host host;
   int attempts = 0;
-  // Of a render:
+  // A render only:
   std::vector<std::string> command;
   std::optional<double> exposure_stops;
   std::optional<Highlight> highlight;
   std::optional<std::vector<std::string>> warnings;
-  // Of a reference:
+  // A reference only:
   std::optional<std::vector<std::string>> engine_commands;
   std::string witness;
-  // Of a comparison:
+  // A comparison only:
   std::string verdict;
   std::optional<CellComparison> entry;
   std::string not_comparable;
-  // Of a comparison and a profile: the hash of each picture by engine.
+  // A comparison or a profile only: the hash of each picture, by engine.
   std::optional<Named<std::string>> from;
   int threads = 1;
   ResultSeconds seconds;
   std::uint64_t peak_memory_bytes = 0;
   std::string key;
   std::vector<ResultFile> files;
-  static const Struct& type();
 
   /// The SHA-256 of one of its files; empty if it has no such file.
   std::string hash_of(const std::string& file) const;
@@ -80,26 +73,24 @@ struct Failure {
   std::string job, key, failure, message;
   int attempts = 0;
   Host host;
-  static const Struct& type();
 };
 
 struct ContentFile {
   std::string path;
   std::uint64_t bytes = 0;
   std::string sha256;
-  static const Struct& type();
 };
 
 struct Content {
   std::string sha256;
   std::size_t file_count = 0;
   std::vector<ContentFile> files;
-  static const Struct& type();
 };
 
 struct KnownHashes {
   std::vector<std::array<std::string, 3>> files;  ///< path, identity, SHA-256
-  static const Struct& type();
 };
+
+void define_result_tables(Tables& tables);
 
 }  // namespace lobelia::records

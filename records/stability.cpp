@@ -14,77 +14,44 @@ std::string curve_contradiction(const StabilityCurve& curve) {
 
 }  // namespace
 
-const Struct& StabilityGroup::type() { return define<StabilityGroup>("A group of cases."); }
-
-const Struct& StabilityErrors::type() {
-  return define<StabilityErrors>("The largest errors.", [](auto& t) {
+void define_stability_tables(Tables& tables) {
+  tables.define<StabilityGroup>("A group of cases.");
+  tables.define<StabilityErrors>("The largest errors.", [](auto& t) {
     t.key("ofPeak").may_be_nonfinite();
     t.key("ulp", "units in the last place").may_be_nonfinite();
   });
-}
-
-const Struct& StabilityAnswer::type() {
-  return define<StabilityAnswer>("A value and its errors.", [](auto& t) {
+  tables.define<StabilityAnswer>("A value and its errors.", [](auto& t) {
     t.keys({"value", "ofPeak"}).may_be_nonfinite();
     t.key("ulp", "units in the last place").may_be_nonfinite();
   });
-}
-
-const Struct& StabilityBound::type() {
-  return define<StabilityBound>("What was promised.", [](auto& t) { t.all().may_be_nonfinite(); });
-}
-
-const Struct& StabilityOfLobe::type() {
-  return define<StabilityOfLobe>("The worst of a lobe.", [](auto& t) {
+  tables.define<StabilityBound>("What was promised.", [](auto& t) { t.all().may_be_nonfinite(); });
+  tables.define<StabilityOfLobe>("The worst of a lobe.", [](auto& t) {
     t.key("ofBound", "largest part of a stated bound that is used").may_be_nonfinite();
   });
-}
-
-const Struct& StabilityOfCase::type() {
-  return define<StabilityOfCase>("The worst of a case.", [](auto& t) {
+  tables.define<StabilityOfCase>("The worst of a case.", [](auto& t) {
     t.key("name").renamed("case");
     t.key("meaning").if_any();
     t.key("ofBound", "largest part of a stated bound that is used").may_be_nonfinite();
   });
-}
-
-const Struct& StabilityCurve::type() {
-  return define<StabilityCurve>("One highlight along a line across it, of the peak.", [](auto& t) {
+  tables.define<StabilityCurve>("One highlight along a line across it, of the peak.", [](auto& t) {
     t.key("degrees").unit("degrees");
     t.keys({"truth", "naive", "ours"}).may_be_nonfinite();
     t.check(curve_contradiction);
   });
-}
-
-const Struct& StabilityRow::type() {
-  return define<StabilityRow>("A case.", [](auto& t) {
+  tables.define<StabilityRow>("A case.", [](auto& t) {
     t.key("name").renamed("case");
     t.key("model", "missing where the lobe alone is looked at").if_any();
     t.key("truth").may_be_nonfinite();
     t.key("outcome", "not compared: no bound below the whole peak is stated").one_of(kOutcomes);
   });
-}
-
-const Struct& Nanoseconds::type() {
-  return define<Nanoseconds>("Time of one value. The spread is between the quartiles.",
+  tables.define<Nanoseconds>("Time of one value. The spread is between the quartiles.",
                              [](auto& t) { t.all().unit("ns"); });
-}
-
-const Struct& StabilityStall::type() { return define<StabilityStall>("What underflow costs."); }
-
-const Struct& StabilityPrice::type() { return define<StabilityPrice>("What precision costs."); }
-
-const Struct& StabilityPicture::type() {
-  return define<StabilityPicture>("Files of a picture, relative to the record.",
+  tables.define<StabilityStall>("What underflow costs.");
+  tables.define<StabilityPrice>("What precision costs.");
+  tables.define<StabilityPicture>("Files of a picture, relative to the record.",
                                   [](auto& t) { t.key("largestErrorOfPeak").may_be_nonfinite(); });
-}
-
-const Struct& StabilityPictures::type() {
-  return define<StabilityPictures>("A picture by naive formulas and by ours.");
-}
-
-const Struct& VerifyStability::type() {
-  return define<VerifyStability>(
+  tables.define<StabilityPictures>("A picture by naive formulas and by ours.");
+  tables.define<VerifyStability>(
       "How stable highlights are: 'lobelia verify stability --json FILE'.", [](auto& t) {
         t.kind("verify-stability");
         t.keys({"groups", "curves"}).if_any();

@@ -7,24 +7,20 @@ namespace lobelia::records {
 
 struct StabilityGroup {
   std::string name, meaning;
-  static const Struct& type();
 };
 
 struct StabilityErrors {
   double of_peak = 0, ulp = 0;
   int wrong_pixels = 0;
-  static const Struct& type();
 };
 
 struct StabilityAnswer {
   double value = 0, of_peak = 0, ulp = 0;
   int wrong_pixels = 0;
-  static const Struct& type();
 };
 
 struct StabilityBound {
   double of_peak = 0, ulp = 0;
-  static const Struct& type();
 };
 
 struct StabilityOfLobe {
@@ -33,7 +29,6 @@ struct StabilityOfLobe {
   std::size_t cases = 0, outside = 0, not_compared = 0;
   StabilityErrors naive, ours;
   double of_bound = 0;
-  static const Struct& type();
 };
 
 struct StabilityOfCase {
@@ -41,14 +36,12 @@ struct StabilityOfCase {
   std::size_t cases = 0, outside = 0, not_compared = 0;
   StabilityErrors naive, ours;
   double of_bound = 0;
-  static const Struct& type();
 };
 
 struct StabilityCurve {
   double exponent = 0;
   std::string model, lobe;
   std::vector<double> degrees, truth, naive, ours;
-  static const Struct& type();
 };
 
 struct StabilityRow {
@@ -57,36 +50,30 @@ struct StabilityRow {
   StabilityAnswer naive, ours;
   StabilityBound bound;
   std::string outcome;
-  static const Struct& type();
 };
 
 struct Nanoseconds {
   double median = 0, spread = 0;
-  static const Struct& type();
 };
 
 struct StabilityStall {
   std::string lobe, precision;
   Nanoseconds ordinary_nanoseconds, underflow_nanoseconds;
-  static const Struct& type();
 };
 
 struct StabilityPrice {
   std::string lobe, model;
   Nanoseconds float32_nanoseconds, mixed_nanoseconds, float64_nanoseconds;
-  static const Struct& type();
 };
 
 struct StabilityPicture {
   std::string exr, png, error;
   double largest_error_of_peak = 0;
-  static const Struct& type();
 };
 
 struct StabilityPictures {
   double exponent = 0;
   StabilityPicture naive, ours;
-  static const Struct& type();
 };
 
 struct VerifyStability {
@@ -102,7 +89,8 @@ struct VerifyStability {
   std::vector<StabilityStall> stalls;
   std::vector<StabilityPrice> price;
   std::vector<StabilityPictures> pictures;
-  static const Struct& type();
 };
+
+void define_stability_tables(Tables& tables);
 
 }  // namespace lobelia::records

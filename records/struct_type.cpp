@@ -30,7 +30,7 @@ Json Struct::write(const void* value) const {
     object = {
         {"schemaVersion", kRecordSchemaVersion}, {"kind", kind_}, {"madeBy", kNameAndVersion}};
   for (const Field& field : fields_) {
-    // A record is not changed by being written; reading needs the same accessor.
+    // Writing does not change the record; member_of() also serves the reader.
     const void* member = field.member_of(const_cast<void*>(value));
     const bool is_empty = field.presence != Presence::kAlways && field.type->is_empty(member);
     if (is_empty && field.presence == Presence::kIfAny) continue;
@@ -103,7 +103,7 @@ Json Struct::definition() const {
     }
     if (field.presence == Presence::kOrNull)
       schema = {{"anyOf", Json::array({std::move(schema), Json{{"type", "null"}}})}};
-    // Draft 7 ignores what stands beside $ref.
+    // JSON Schema draft 7 ignores keys beside $ref.
     const std::string text = field.description();
     if (!text.empty() && schema.contains("$ref"))
       schema = {{"allOf", Json::array({std::move(schema)})}};
@@ -133,7 +133,7 @@ std::string Struct::interface() const {
     if (const std::string meaning = field.description(); !meaning.empty())
       text += fmt::format("  /** {} */\n", meaning);
     if (field.is_rest()) {
-      // Wide enough for the keys above it, as TypeScript asks.
+      // TypeScript requires this type to cover the keys above.
       text += "  [name: string]: unknown;\n";
       continue;
     }

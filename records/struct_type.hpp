@@ -1,11 +1,14 @@
-// The table of a record's struct: key, member, meaning, unit, bounds.
+// The table of a struct: key, member, meaning, unit and bounds.
 #pragma once
 
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <typeindex>
+#include <typeinfo>
 #include <vector>
 
 #include "records/members.hpp"
@@ -13,22 +16,21 @@
 
 namespace lobelia::records {
 
-/// When a key is there.
+/// When a key is written.
 enum class Presence : std::uint8_t {
   kAlways,
-  kIfAny,   ///< missing where the member is empty: an optional, a list, a text
-  kOrNull,  ///< null where the member is empty
+  kIfAny,   ///< missing if the member (an optional, a list, a text) is empty
+  kOrNull,  ///< null if the member is empty
 };
 
 /// A key of a struct's table.
 struct Field {
-  std::string_view key;  ///< empty: of all keys that the others do not name
+  std::string_view key;  ///< empty: all keys that the others do not name
   const Type* type = nullptr;
   std::size_t offset = 0;  ///< of the member within the struct
   Presence presence = Presence::kAlways;
-  /// One sentence for the reference page; empty where the key says it all.
-  std::string_view meaning = {};
-  std::string_view unit = {};  ///< "seconds", "bytes"; empty for none
+  std::string_view meaning = {};  ///< for the reference page; empty if the key is clear
+  std::string_view unit = {};     ///< "seconds", "bytes"; empty for none
   Bounds bounds = {};
 
   bool is_rest() const { return key.empty(); }
@@ -47,25 +49,25 @@ class Keys {
   Keys& at_least(double least) { return set(&Bounds::least, least); }
   Keys& at_most(double most) { return set(&Bounds::most, most); }
   Keys& within(double least, double most) { return at_least(least).at_most(most); }
-  /// Neither `least` nor `most` itself.
+  /// Without `least` and `most` themselves.
   Keys& between(double least, double most) {
     return set(&Bounds::without_ends, true).within(least, most);
   }
-  /// A number that is not finite is allowed, and is the text "nan", "inf" or "-inf".
+  /// Allows numbers that are not finite, as the texts "nan", "inf" and "-inf".
   Keys& may_be_nonfinite() { return set(&Bounds::nonfinite, true); }
   Keys& one_of(std::span<const std::string_view> texts) { return set(&Bounds::one_of, texts); }
-  /// A file beside the record: see is_plain_name().
+  /// A file beside the record; see is_plain_name().
   Keys& plain_name() { return set(&Bounds::plain_name, true); }
   Keys& not_empty() { return set(&Bounds::least_text, 1); }
   Keys& most_text(std::size_t bytes) { return set(&Bounds::most_text, bytes); }
   Keys& items(std::size_t least, std::size_t most = kMaxItems) {
     return set(&Bounds::least_items, least).set(&Bounds::most_items, most);
   }
-  /// Missing where it is empty, as an optional is without more words.
+  /// Missing if it is empty; the default of optionals.
   Keys& if_any() { return set(&Field::presence, Presence::kIfAny); }
-  /// null where it is empty.
+  /// Null if it is empty.
   Keys& or_null() { return set(&Field::presence, Presence::kOrNull); }
-  /// Another key than the member's name.
+  /// A key that differs from the member's name.
   Keys& renamed(std::string_view key) { return set(&Field::key, key); }
 
  private:
@@ -88,14 +90,14 @@ enum class Seal : bool { kNo, kYes };
 /// A struct with its table.
 class Struct final : public Type {
  public:
-  /// `name` is that of the TypeScript interface and of the schema's definition.
+  /// `name` names the TypeScript interface and the schema's definition.
   Struct(std::string_view name, std::string_view meaning) : name_(name), meaning_(meaning) {}
 
   void add_key(std::string_view key, const Type& type, std::size_t offset, Presence presence);
 
   std::string_view name() const { return name_; }
   std::string_view meaning() const { return meaning_; }
-  std::string_view kind() const { return kind_; }  ///< empty of a part of records
+  std::string_view kind() const { return kind_; }  ///< empty for a part of records
   bool is_sealed() const { return is_sealed_; }
   const std::vector<Field>& fields() const { return fields_; }
 
@@ -113,7 +115,7 @@ class Struct final : public Type {
  private:
   template <class>
   friend class Table;
-  /// The keys of `json` that the table does not have.
+  /// The keys of `json` that are not in the table.
   Json others(const Json& json) const;
 
   std::string_view name_, meaning_, kind_;
@@ -134,7 +136,7 @@ void add_member(Struct& type, std::string_view key, const V* member, const void*
 
 }  // namespace detail
 
-/// Fills in what the struct does not say. A key without a member does not compile.
+/// Adds what the struct does not say. A key without a member does not compile.
 template <class T>
 class Table {
  public:
@@ -156,16 +158,16 @@ class Table {
     for (Field& field : type_.fields_) all.add(field);
     return all;
   }
-  /// A Named member for all keys that the table does not have, which are data; follows the others.
+  /// A Named member for all keys that are not in the table. It is the last member.
   Keys rest(Key key, std::string_view meaning = "") { return this->key(key, meaning).renamed(""); }
-  /// It is a record by itself, with kind and version in front, and a `seal` at the end if it has one.
+  /// Makes it a record of its own: kind and version come first, and a `seal` last if it has one.
   void kind(std::string_view kind, Seal seal = Seal::kNo) {
     type_.kind_ = kind;
     type_.is_sealed_ = seal == Seal::kYes;
   }
-  /// All keys of one of these lists are there, whatever else is.
+  /// Requires all keys of at least one of these lists.
   void needs(std::vector<std::vector<std::string_view>> lists) { type_.needs_ = std::move(lists); }
-  /// Finds what contradicts itself where every key is right by itself: a sentence; empty if nothing does.
+  /// Checks keys against each other. `contradiction` returns a sentence, or an empty text if all is well.
   void check(std::string (*contradiction)(const T&)) {
     type_.contradiction_ = [contradiction](const void* record) {
       return contradiction(*static_cast<const T*>(record));
@@ -182,29 +184,51 @@ class Table {
   Struct& type_;
 };
 
-/// The table of T, built at its first use. Every member is a key: `white_at` is whiteAt.
-///
-///   const Struct& Place::type() {
-///     return define<Place>("Where a pixel is.", [](auto& t) {
-///       t.key("x", "from the left");
-///       t.key("y", "from the top");
-///       t.all().unit("pixels").at_least(0);
-///     });
-///   }
+namespace detail {
+
 template <class T>
-[[gnu::cold]] const Struct& define(std::string_view meaning, void (*fill)(Table<T>&) = nullptr) {
-  static const Struct type = [&] {
-    Struct made(detail::type_name<T>(), meaning);
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (detail::add_member(made, detail::kKeys<T>[I], detail::get<I>(detail::kMembers<T>),
-                          &detail::kUnmade<T>),
-       ...);
-    }
-    (detail::MemberIndices<T>());
-    Table<T> table(made);
-    if (fill) fill(table);
-    return made;
-  }();
+[[gnu::cold]] Struct make_struct(std::string_view meaning, void (*fill)(Table<T>&)) {
+  Struct made(type_name<T>(), meaning);
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (add_member(made, kKeys<T>[I], get<I>(kMembers<T>), &kUnmade<T>), ...);
+  }
+  (MemberIndices<T>());
+  Table<T> table(made);
+  if (fill) fill(table);
+  return made;
+}
+
+const Struct& find_struct(const std::type_info& type);
+
+}  // namespace detail
+
+/// The tables of all structs. Each file of records defines its own; records/catalogue.cpp collects them.
+class Tables {
+ public:
+  /// Every member of T is a key: `white_at` is whiteAt. `fill` adds what the struct does not say. It runs at the first use.
+  ///
+  ///   tables.define<Place>("Where a pixel is.", [](auto& t) {
+  ///     t.key("x", "from the left");
+  ///     t.key("y", "from the top");
+  ///     t.all().unit("pixels").at_least(0);
+  ///   });
+  template <class T>
+  void define(std::string_view meaning, void (*fill)(Table<T>&) = nullptr) {
+    tables_[typeid(T)] = [=]() -> const Struct& {
+      static const Struct type = detail::make_struct<T>(meaning, fill);
+      return type;
+    };
+  }
+  const Struct& operator[](const std::type_info& type) const { return tables_.at(type)(); }
+
+ private:
+  std::map<std::type_index, std::function<const Struct&()>> tables_;
+};
+
+/// The table of T.
+template <class T>
+const Struct& struct_type() {
+  static const Struct& type = detail::find_struct(typeid(T));
   return type;
 }
 

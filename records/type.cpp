@@ -14,7 +14,7 @@
 namespace lobelia::records {
 namespace {
 
-/// Names of the numbers within bounds that are not finite.
+/// The names of numbers that are not finite but within the bounds.
 Json nonfinite_names(const Bounds& bounds) {
   Json names = {"nan"};
   if (bounds.most == kNoBound) names.push_back("inf");
@@ -132,7 +132,7 @@ class IntegerType final : public Type {
   Json write(const void* value) const override { return *static_cast<const T*>(value); }
   void read(const Json& json, const Bounds& bounds, const Place& place,
             void* value) const override {
-    // A program that has no integers writes 3.0.
+    // Programs without integers write 3.0.
     const double number = json.is_number() ? json.get<double>() : std::nan("");
     if (!json.is_number() || number != std::floor(number)) place.fail("not an integer");
     const bool fits = json.is_number_unsigned()  ? std::in_range<T>(json.get<std::uint64_t>())
@@ -159,7 +159,7 @@ class IntegerType final : public Type {
   static constexpr double kBeyond = 2.0 * double(std::numeric_limits<T>::max() / 2 + 1);
 };
 
-/// An item that is empty is null; a key that is empty may be left out.
+/// An empty item of a list is null. (An empty key may be left out.)
 std::string null_text(const Type& item) { return item.may_be_null() ? " | null" : ""; }
 
 void require_items(std::size_t size, std::size_t fixed, const Bounds& bounds, const Place& place) {
@@ -242,7 +242,7 @@ void ListType::read(const Json& json, const Bounds& bounds, const Place& place, 
   reset(value, json.size());
   std::size_t i = 0;
   for (auto one = json.begin(); one != json.end(); ++one, ++i) {
-    // Writable again: the list is ours to fill.
+    // at() returns const pointers, but this list is ours to fill.
     const auto [name, into] = at(value, i);
     if (name) *const_cast<std::string*>(name) = one.key();
     item().read(*one, inner, name ? Place(place, *name) : Place(place, i), const_cast<void*>(into));

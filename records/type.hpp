@@ -1,8 +1,7 @@
-// The types that keys of a record have: how a value is written, read again and described.
+// The types of a record's keys: how a value is written, read again and described.
 //
-// A record is a plain struct. Its table (Struct, struct_type.hpp) names each member's key, meaning and bounds, and
-// everything else comes from it: the writer, the strict reader, the JSON Schema, the TypeScript types and the
-// reference pages. docs/decisions/0023 says why.
+// A record is a plain struct. Its table (struct_type.hpp) has each member's key, meaning and bounds. The writer, the strict
+// reader, the JSON Schema, the TypeScript types and the reference pages come from it. docs/decisions/0023 says why.
 #pragma once
 
 #include <array>
@@ -19,14 +18,14 @@
 
 namespace lobelia::records {
 
-/// Keys stay in the order they were written, so that a person can read a record from the top.
+/// Keeps the order of keys, so that people can read a record from the top.
 using Json = nlohmann::ordered_json;
 
-/// A JSON object with keys that are data: engines, metrics, axes. In order.
+/// A JSON object with keys that are data, such as engines, metrics and axes, in order.
 template <class T>
 using Named = std::vector<std::pair<std::string, T>>;
 
-/// The way to a value inside a record, for error messages: "images[2].sha256".
+/// The path of a value inside a record, for error messages: "images[2].sha256".
 class Place {
  public:
   Place() = default;
@@ -42,7 +41,7 @@ class Place {
   std::size_t index_ = 0;
 };
 
-/// The value of that name; null if there is none.
+/// The value with that name; null if there is none.
 template <class T>
 const T* find(const Named<T>& values, std::string_view name) {
   for (const auto& [key, value] : values)
@@ -51,25 +50,25 @@ const T* find(const Named<T>& values, std::string_view name) {
 }
 
 inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
-/// Longest text and list of a record, unless its table says otherwise.
+/// Longest text and list, unless the table says otherwise.
 inline constexpr std::size_t kMaxText = 1u << 20, kMaxItems = 10'000'000;
 
-/// Limits that a table adds to the C++ type. They apply to the numbers and texts at the bottom of lists and objects,
-/// `least_items` and `most_items` to the outermost list or object.
+/// Limits that a table adds to the C++ type. They apply to the numbers and texts inside lists and objects, but `least_items`
+/// and `most_items` to the outermost list or object.
 struct Bounds {
   double least = -kNoBound, most = kNoBound;
-  bool without_ends = false;                         ///< least and most themselves are not allowed
-  bool nonfinite = false;                            ///< "nan", "inf" and "-inf" are numbers too
-  std::span<const std::string_view> one_of{};        ///< all texts that are allowed; empty: any
-  bool plain_name = false;                           ///< is_plain_name() holds for a text
+  bool without_ends = false;                         ///< least and most are not allowed themselves
+  bool nonfinite = false;                            ///< "nan", "inf" and "-inf" are allowed
+  std::span<const std::string_view> one_of{};        ///< the allowed texts; empty: any
+  bool plain_name = false;                           ///< a text must be an is_plain_name()
   std::size_t least_text = 0, most_text = kMaxText;  ///< bytes
   std::size_t least_items = 0, most_items = kMaxItems;
-  Bounds of_items() const;  ///< those of each item of a list with these
+  Bounds of_items() const;  ///< the bounds of each item of a list
 };
 
 class Struct;
 
-/// Structs that a schema or a TypeScript file has to define, each after what it is made of.
+/// Structs that a schema or a TypeScript file has to define, each after its members' structs.
 class Definitions {
  public:
   void add(const Struct& type);
@@ -79,15 +78,15 @@ class Definitions {
   std::vector<const Struct*> all_;
 };
 
-/// One C++ type of values. `value` points to such a value.
+/// A C++ type. `value` points to a value of it.
 class Type {
  public:
   virtual ~Type() = default;
   virtual Json write(const void* value) const = 0;
-  /// Throws Error(kInput) with the place.
+  /// Throws Error(kInput), naming the place.
   virtual void read(const Json& json, const Bounds& bounds, const Place& place,
                     void* value) const = 0;
-  /// Whether there is nothing to write: an optional without a value, an empty list or text.
+  /// Whether it is an optional without a value, or an empty list or text.
   virtual bool is_empty(const void* value) const = 0;
   /// Whether an empty item of a list is written as null.
   virtual bool may_be_null() const { return false; }
@@ -96,20 +95,22 @@ class Type {
   virtual void define(Definitions& definitions) const = 0;
 };
 
-/// The type of T: bool, integers, double, std::string, std::array, std::vector, Named, std::optional and structs
-/// with a static type().
+/// The type of T: bool, integers, double, std::string, std::array, std::vector, Named, std::optional and structs that have a
+/// table.
 template <class T>
 const Type& type_of();
+template <class T>
+const Struct& struct_type();
 
 namespace detail {
 
 const Type& bool_type();
 const Type& string_type();
 const Type& double_type();
-/// `size` bytes, with a sign or without.
+/// An integer of `size` bytes.
 const Type& integer_type(std::size_t size, bool is_signed);
 
-/// A type that is made of another one.
+/// A type that contains another one.
 class TypeOfItems : public Type {
  public:
   void define(Definitions& definitions) const final { item().define(definitions); }
@@ -118,7 +119,7 @@ class TypeOfItems : public Type {
   virtual const Type& item() const = 0;
 };
 
-/// Lists, and objects with keys that are data, without the C++ type of their items.
+/// Lists and Named objects, independent of the C++ type of their items.
 class ListType : public TypeOfItems {
  public:
   Json write(const void* value) const final;
@@ -212,9 +213,7 @@ const Type& only_one() {
 
 template <class T>
 const Type& type_of() {
-  if constexpr (requires { T::type(); })
-    return T::type();
-  else if constexpr (std::is_same_v<T, bool>)
+  if constexpr (std::is_same_v<T, bool>)
     return detail::bool_type();
   else if constexpr (std::is_same_v<T, double>)
     return detail::double_type();
@@ -224,8 +223,10 @@ const Type& type_of() {
     return detail::integer_type(sizeof(T), std::is_signed_v<T>);
   else if constexpr (detail::kIsOptional<T>)
     return detail::only_one<detail::OptionalTypeOf<T>>();
-  else
+  else if constexpr (requires { typename T::value_type; })
     return detail::only_one<detail::ListTypeOf<T>>();
+  else
+    return struct_type<T>();
 }
 
 }  // namespace lobelia::records

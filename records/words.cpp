@@ -15,7 +15,7 @@ std::string words(const Json& value) {
   if (value.is_number_integer()) return count_text(value.get<double>());
   if (value.is_number()) return number_text(value.get<double>(), 6);
   std::string all;
-  // One level is enough for every record.
+  // No record needs a deeper level.
   for (const auto& [key, member] : value.items())
     if (!member.is_structured()) all += (all.empty() ? "" : ", ") + key + " " + words(member);
   return all;

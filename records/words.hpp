@@ -1,4 +1,4 @@
-// Parts of a record as people read them, for pages that print them without understanding them.
+// Parts of a record as text, for pages that print them without knowing their keys.
 #pragma once
 
 #include <string>
@@ -13,22 +13,22 @@ std::string in_words(const Struct& type, const void* part);
 Named<double> numbers_of(const Struct& type, const void* part);
 }  // namespace detail
 
-/// Every key that is there with its value in words, in the table's order.
+/// Every key that is present with its value as text, in the table's order.
 template <class T>
 Named<std::string> words_of(const T& part) {
-  return detail::words_of(T::type(), &part);
+  return detail::words_of(struct_type<T>(), &part);
 }
 
-/// "camera 4, shadow 0", without what lies deeper.
+/// "camera 4, shadow 0", without deeper levels.
 template <class T>
 std::string in_words(const T& part) {
-  return detail::in_words(T::type(), &part);
+  return detail::in_words(struct_type<T>(), &part);
 }
 
-/// Every key that is there and a number.
+/// Every key that is present and a number.
 template <class T>
 Named<double> numbers_of(const T& part) {
-  return detail::numbers_of(T::type(), &part);
+  return detail::numbers_of(struct_type<T>(), &part);
 }
 
 }  // namespace lobelia::records

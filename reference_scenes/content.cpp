@@ -1,26 +1,139 @@
 #include "reference_scenes/content.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <map>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/sha256.hpp"
+#include "core/text.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
-constexpr int kDeepest = 12;
+
+constexpr int kDeepestFolder = 12;
 constexpr std::size_t kMostListedFiles = 10000;
 constexpr char kUnreadable[] = "unreadable";
+constexpr std::size_t kMostEntries = 50000;  // also in the table of records::KnownHashes
+constexpr std::time_t kSettledAfterSeconds = 2;
+
+std::string identity_of(const struct stat& status) {
+  return fmt::format("{} {} {} {}.{:09} {}.{:09}", std::uint64_t(status.st_dev),
+                     std::uint64_t(status.st_ino), std::uint64_t(status.st_size),
+                     status.st_mtim.tv_sec, status.st_mtim.tv_nsec, status.st_ctim.tv_sec,
+                     status.st_ctim.tv_nsec);
+}
+
+struct stat status_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+  if (!S_ISREG(status.st_mode))
+    throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
+  return status;
+}
+
+/// Whether no other user can write it.
+bool only_we_can_write(const fs::path& file) {
+  struct stat status {};
+  return ::lstat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+         status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+fs::path file_of_user() {
+  const auto set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return fs::path(value ? value : "");
+  };
+  fs::path directory = set("XDG_CACHE_HOME");
+  if (!directory.is_absolute()) {
+    directory = set("HOME");
+    if (!directory.is_absolute()) return {};
+    directory /= ".cache";
+  }
+  // Machines that share a home may have different files at the same paths.
+  std::string host = host_name();
+  std::ranges::replace(host, '/', '_');
+  return directory / "lobelia" / fmt::format("file-hashes-{}.json", host);
+}
+
 }  // namespace
+
+FileHashes& FileHashes::of_user() {
+  static FileHashes hashes(file_of_user());
+  return hashes;
+}
+
+FileHashes::FileHashes(fs::path file) : file_(std::move(file)) {
+  if (file_.empty() || !only_we_can_write(file_)) return;
+  try {
+    for (auto& [path, identity, sha256] : records::read_record<records::KnownHashes>(file_).files) {
+      Sha256Digest ignored;
+      if (from_hex(sha256, ignored))
+        entries_[std::move(path)] = {std::move(identity), std::move(sha256)};
+    }
+  } catch (const std::exception&) {
+    entries_.clear();
+  }
+}
+
+records::ContentFile FileHashes::hash(const fs::path& path) {
+  const struct stat before = status_of(path);
+  const std::string identity = identity_of(before);
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto known = entries_.find(path.native());
+    if (known != entries_.end() && known->second.identity == identity)
+      return {path.string(), std::uint64_t(before.st_size), known->second.sha256};
+  }
+  records::ContentFile hashed{path.string(), std::uint64_t(before.st_size),
+                              hex(sha256_of_file(path))};
+  const struct stat after = status_of(path);
+  const bool settled = identity_of(after) == identity &&
+                       std::time(nullptr) - std::max(after.st_mtim.tv_sec, after.st_ctim.tv_sec) >=
+                           kSettledAfterSeconds;
+  const std::scoped_lock lock(mutex_);
+  ++read_count_;
+  if (settled && (entries_.size() < kMostEntries || entries_.contains(path.native()))) {
+    entries_[path.native()] = {identity, hashed.sha256};
+    changed_ = true;
+  }
+  return hashed;
+}
+
+void FileHashes::save() {
+  const std::scoped_lock lock(mutex_);
+  if (!changed_ || file_.empty()) return;
+  try {
+    std::erase_if(entries_,
+                  [](const auto& entry) { return ::access(entry.first.c_str(), F_OK) != 0; });
+    records::KnownHashes record;
+    for (const auto& [path, entry] : entries_)
+      if (escape_invalid_utf8(path) == path)  // other names would not be read back unchanged
+        record.files.push_back({path, entry.identity, entry.sha256});
+    make_directories(file_.parent_path());
+    records::write_record(file_, record);
+    changed_ = false;
+  } catch (const std::exception&) {  // a read-only home, a full disk
+  }
+}
 
 void ContentReader::add(std::string_view part, std::string_view name, const fs::path& file) {
   records::ContentFile hashed{file.string(), 0, kUnreadable};
   try {
     hashed = hashes_.hash(file);
-  } catch (const Error&) {  // one that may be executed and not read, say
+  } catch (const Error&) {  // such as one that may be executed but not read
   }
   parts_.push_back(fmt::format("{}:{}:{}:{}\n", part, name.size(), name, hashed.sha256));
   files_.push_back(std::move(hashed));
@@ -32,7 +145,7 @@ void ContentReader::add_directory(const fs::path& directory) {
       directory, fs::directory_options::skip_permission_denied, error);
   for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
     std::error_code ignored;
-    if (entry->path().filename() == "__pycache__" || entry.depth() > kDeepest)
+    if (entry->path().filename() == "__pycache__" || entry.depth() > kDeepestFolder)
       entry.disable_recursion_pending();
     else if (entry->is_regular_file(ignored) && parts_.size() < kMostListedFiles)
       add("data", entry->path().lexically_relative(directory).native(), entry->path());
@@ -40,14 +153,13 @@ void ContentReader::add_directory(const fs::path& directory) {
 }
 
 Content ContentReader::content() {
-  const auto unique = [](auto& values, const auto& before, const auto& same) {
-    std::sort(values.begin(), values.end(), before);
-    values.erase(std::unique(values.begin(), values.end(), same), values.end());
+  const auto keep_each_once = [](auto& values, auto key) {
+    std::ranges::sort(values, {}, key);
+    const auto repeated = std::ranges::unique(values, {}, key);
+    values.erase(repeated.begin(), repeated.end());
   };
-  unique(parts_, std::less<>(), std::equal_to<>());
-  unique(
-      files_, [](const auto& a, const auto& b) { return a.path < b.path; },
-      [](const auto& a, const auto& b) { return a.path == b.path; });
+  keep_each_once(parts_, std::identity());
+  keep_each_once(files_, &records::ContentFile::path);
   Content content;
   if (!parts_.empty()) content.sha256 = hex(sha256(fmt::format("{}", fmt::join(parts_, ""))));
   content.file_count = files_.size();

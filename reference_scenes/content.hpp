@@ -1,28 +1,58 @@
-// The content of a program: the files that it runs and loads, and one hash of all of them.
+// The content of a program: the files that it runs and loads, with one hash over all of them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "records/result.hpp"
-#include "reference_scenes/file_hashes.hpp"
 
 namespace lobelia {
 
-/// Files by path; `sha256` is of every file's part, name (not of programs, nor directories) and content, and empty
+/// Hashes of files that seldom change, remembered from one run to the next. A hash stays valid while the file's device,
+/// inode, size, and times of change of content and inode stay the same. A file changed within the last two seconds is not
+/// remembered: it may change again within one tick of the clock.
+class FileHashes {
+ public:
+  /// Reads what `file` remembers. A damaged, too large, foreign or absent file counts as empty.
+  explicit FileHashes(std::filesystem::path file);
+  /// The user's hashes on this machine: $XDG_CACHE_HOME/lobelia/file-hashes-HOST.json, or below ~/.cache. Remembers nothing
+  /// if neither folder exists.
+  static FileHashes& of_user();
+
+  /// Throws Error(kInput) if the file cannot be read or is not a regular file.
+  records::ContentFile hash(const std::filesystem::path& path);
+  /// Writes new hashes and drops those of deleted files. If it cannot write, the next run reads the files again.
+  void save();
+  std::size_t read_count() const { return read_count_; }  ///< files hashed by reading them
+
+ private:
+  struct Entry {
+    std::string identity, sha256;
+  };
+  std::filesystem::path file_;
+  std::mutex mutex_;
+  std::map<std::string, Entry> entries_;  ///< by path
+  bool changed_ = false;
+  std::size_t read_count_ = 0;
+};
+
+/// Files by path. `sha256` covers each file's part, content and name (except of programs and directories); it is empty
 /// without files.
 using Content = records::Content;
 
 class ContentReader {
  public:
   explicit ContentReader(FileHashes& hashes) : hashes_(hashes) {}
-  /// A file that cannot be read counts by its name alone. `part` is "program", "library"...; `name` what it is called
-  /// wherever it lies, empty if that makes no difference.
+  /// `part` is "program", "library" and so on. `name` is the same wherever the file lies; empty if it makes no difference.
+  /// An unreadable file counts by its name only.
   void add(std::string_view part, std::string_view name, const std::filesystem::path& file);
-  /// All regular files below `directory`, by their relative names; without Python's caches, and not through links to
-  /// directories. Nothing if it is not there.
+  /// All regular files below `directory`, if it exists, by their relative names. Skips Python's caches and links to
+  /// directories.
   void add_directory(const std::filesystem::path& directory);
   Content content();
 

@@ -16,28 +16,28 @@ namespace {
 constexpr char kTraceName[] = "loaded";
 constexpr std::size_t kMostTraces = 500, kMostFiles = 5000;
 constexpr std::uint64_t kMostTraceBytes = 32 << 20;
-/// Programs of ours between us and an engine: no part of it.
+/// Lobelia's own programs between us and an engine are no part of it.
 constexpr std::string_view kOurPrograms = "lobelia_";
 
-/// The text behind `what` in a line; empty if it is not there.
-std::string_view behind(std::string_view line, std::string_view what) {
+/// The text after `what` in a line; empty if it is not there.
+std::string_view text_after(std::string_view line, std::string_view what) {
   const auto at = line.find(what);
   return at == line.npos ? std::string_view() : line.substr(at + what.size());
 }
 
-/// As the loader tells them, of one process: libraries, and then the program that they are for.
-void take(const std::string& trace, EngineFiles& files) {
+/// Adds the files in the log of one process, which lists libraries and then the program that loaded them.
+void add_files(const std::string& trace, EngineFiles& files) {
   std::vector<fs::path> libraries;
   for (const auto& line : split(trace, "\n")) {
-    if (const auto library = behind(line, "calling init: "); library.starts_with('/'))
+    if (const auto library = text_after(line, "calling init: "); library.starts_with('/'))
       libraries.emplace_back(library);
-    const auto program = behind(line, "transferring control: ");
+    const auto program = text_after(line, "transferring control: ");
     if (program.empty()) continue;
     if (fs::path(program).filename().native().starts_with(kOurPrograms)) {
       libraries.clear();
       continue;
     }
-    // Told as it was called.
+    // The log has the name by which it was called.
     if (const fs::path found = find_program(std::string(program)); !found.empty())
       files.programs.push_back(found);
   }
@@ -64,8 +64,8 @@ EngineFiles LoaderTrace::files() const {
     if (!entry.path().filename().native().starts_with(kTraceName) || ++traces > kMostTraces)
       continue;
     try {
-      take(read_file(entry.path(), kMostTraceBytes), files);
-    } catch (const Error&) {  // of a program that writes where it should not
+      add_files(read_file(entry.path(), kMostTraceBytes), files);
+    } catch (const Error&) {  // the program wrote something else there
     }
   }
   keep_each_once(files.programs);

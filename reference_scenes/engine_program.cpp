@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <limits>
+#include <iterator>
 #include <thread>
 
 #include "core/contained_reader.hpp"
@@ -16,6 +16,7 @@
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_content.hpp"
+#include "renderer/render_record.hpp"
 
 namespace lobelia {
 namespace {
@@ -23,7 +24,7 @@ namespace {
 constexpr double kProbeSeconds = 60;  // a cold disk under Blender may take ten
 constexpr std::size_t kMaxWords = 300;
 constexpr std::uint64_t kSmallPicture = 1 << 20;     // pixels
-constexpr int kSignalBase = 128, kMostSignals = 64;  // beyond, it is an exit code of its own: 255
+constexpr int kSignalBase = 128, kMostSignals = 64;  // above both it is an exit code: 255
 
 /// "3.7.0.10" out of "POV-Ray 3.7.0.10.unofficial".
 std::string version_after(std::string_view line, std::string_view prefix) {
@@ -45,8 +46,48 @@ bool is_supported(const std::string& version, const EngineProbe& probe) {
          probe.supports(int(major), int(minor));
 }
 
-}  // namespace
+/// Runs the program with --version and fills in its version and files. Returns why it is not ready.
+std::string why_not_ready(const EngineInfo& engine, const EngineProbe& probe,
+                          EngineStatus& status) {
+  const TemporaryDirectory home;
+  const LoaderTrace trace(home.path());
+  ProcessOptions options;
+  options.timeout = std::chrono::duration<double>(kProbeSeconds);
+  options.environment = engine_environment(home.path());
+  options.only_environment = true;
+  std::ranges::copy(trace.environment(), std::back_inserter(options.environment));
+  // POV-Ray prints its version on stderr, after complaints about missing configuration files.
+  options.on_line = [&](std::string_view line) {
+    if (status.version.empty()) status.version = version_after(line, probe.version_prefix);
+  };
+  const std::string name = status.program.string();
+  ProcessResult result;
+  try {
+    result = run_process({name, "--version"}, options);
+    // Once more if it was killed: otherwise it would be missing from the whole run.
+    if (status.version.empty() && result.exit_code > kSignalBase && !result.timed_out &&
+        !result.interrupted)
+      result = run_process({name, "--version"}, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
+  if (result.timed_out)
+    return fmt::format("'{}' did not tell its version within {} s", name, kProbeSeconds);
+  if (result.exit_code > kSignalBase)
+    return fmt::format("'{}' --version ended with signal {}", name, result.exit_code - kSignalBase);
+  if (result.exit_code != 0)
+    return fmt::format("'{}' --version ended with exit code {}", name, result.exit_code);
+  if (status.version.empty())
+    return fmt::format("'{}' does not answer --version as {} does", name, engine.title);
+  if (!is_supported(status.version, probe))
+    return fmt::format("'{}' is {} {}; what can be driven is {}", name, engine.title,
+                       status.version, engine.supported_versions);
+  status.files = trace.files();
+  return {};
+}
 
+/// Finds the program (`program` if not empty) and asks for its version.
 EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
                           const std::filesystem::path& program) {
   EngineStatus status;
@@ -54,63 +95,29 @@ EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
   status.program = find_program(wanted);
   if (status.program.empty()) {
     std::error_code ignored;
-    // In $PATH what cannot be executed is passed over, as a shell does.
+    // A file in $PATH that is not executable counts as absent, as in a shell.
     if (!program.empty() && std::filesystem::exists(program, ignored))
       status.state = EngineState::kBroken;
     status.why = program.empty() ? fmt::format("no program '{}' in $PATH", probe.program)
                                  : fmt::format("'{}' is not a program", printable(wanted, 400));
     return status;
   }
-  status.state = EngineState::kBroken;
-  const TemporaryDirectory home;
-  const LoaderTrace trace(home.path());
-  ProcessOptions options;
-  options.timeout = std::chrono::duration<double>(kProbeSeconds);
-  options.environment = engine_environment(home.path());
-  options.only_environment = true;
-  for (auto& variable : trace.environment()) options.environment.push_back(std::move(variable));
-  // POV-Ray prints its version on stderr, after complaints about missing configuration files.
-  options.on_line = [&](std::string_view line) {
-    if (status.version.empty()) status.version = version_after(line, probe.version_prefix);
-  };
-  ProcessResult result;
-  try {
-    result = run_process({status.program.string(), "--version"}, options);
-    // An engine that was killed here would be left out of all that follows.
-    if (status.version.empty() && result.exit_code > kSignalBase && !result.timed_out &&
-        !result.interrupted)
-      result = run_process({status.program.string(), "--version"}, options);
-  } catch (const Error& error) {
-    status.why = error.what();
-    return status;
-  }
-  if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
-  if (result.timed_out)
-    status.why = fmt::format("'{}' did not tell its version within {} s", status.program.string(),
-                             kProbeSeconds);
-  else if (result.exit_code != 0)
-    status.why = fmt::format(
-        "'{}' --version ended with {} {}", status.program.string(),
-        result.exit_code > kSignalBase ? "signal" : "exit code",
-        result.exit_code > kSignalBase ? result.exit_code - kSignalBase : result.exit_code);
-  else if (status.version.empty())
-    status.why = fmt::format("'{}' does not answer --version as {} does", status.program.string(),
-                             engine.title);
-  else if (!is_supported(status.version, probe))
-    status.why = fmt::format("'{}' is {} {}; what can be driven is {}", status.program.string(),
-                             engine.title, status.version, engine.supported_versions);
-  else
-    status.state = EngineState::kReady;
-  if (!status.available()) return status;
-  status.files = trace.files();
-  if (probe.directories) {
-    std::vector<std::filesystem::path> programs = status.files.programs;
-    programs.push_back(status.program);
-    for (const auto& one : programs)
-      for (auto& directory : probe.directories(one, status.version))
-        status.files.directories.push_back(std::move(directory));
-  }
+  status.why = why_not_ready(engine, probe, status);
+  status.state = status.why.empty() ? EngineState::kReady : EngineState::kBroken;
+  if (!status.available() || !probe.directories) return status;
+  std::vector<std::filesystem::path> programs = status.files.programs;
+  programs.push_back(status.program);
+  for (const auto& one : programs)
+    std::ranges::copy(probe.directories(one, status.version),
+                      std::back_inserter(status.files.directories));
   return status;
+}
+
+}  // namespace
+
+const EngineStatus& ProgramEngine::status() {
+  if (!status_) status_ = probe_engine(info_, probe_, program_);
+  return *status_;
 }
 
 void require_available(const EngineInfo& engine, const EngineStatus& status) {
@@ -125,7 +132,7 @@ std::vector<std::string> engine_environment(const std::filesystem::path& directo
   std::vector<std::string> environment{"LC_ALL=C.UTF-8", "TZ=UTC"};
   for (const char* name : {"HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "TMPDIR", "TMP", "TEMP"})
     environment.push_back(fmt::format("{}={}", name, directory.string()));
-  for (const char* name : kPassedOn)
+  for (const char* name : {"PATH", "LD_LIBRARY_PATH"})
     if (const char* value = std::getenv(name))
       environment.push_back(fmt::format("{}={}", name, value));
   return environment;
@@ -133,7 +140,7 @@ std::vector<std::string> engine_environment(const std::filesystem::path& directo
 
 std::string last_words(const std::string& output_tail) {
   auto lines = split(output_tail, "\n");
-  // Progress explains nothing: our script's messages and Cycles' frames.
+  // Drop progress: our script's messages and Cycles' frames.
   std::erase_if(lines, [](const std::string& line) {
     return line.starts_with("lobelia: ") || line.starts_with("Fra:");
   });
@@ -188,9 +195,12 @@ Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
 }
 
 Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arguments,
-                   ProcessOptions process, const ReferenceOptions& options, ProcessResult& result) {
+                   const std::filesystem::path& directory, ProcessOptions process,
+                   const ReferenceOptions& options, ProcessResult& result) {
   bool started = false;
+  process.working_directory = process.writable = process.progress_directory = directory;
   process.only_environment = true;
+  process.no_progress_limit = options.no_progress_limit;
   process.memory_limit = options.memory_limit;
   process.disk_limit = options.disk_limit;
   process.on_start = [&started, told = std::move(process.on_start)](const ProcessLimits& limits) {
@@ -200,18 +210,17 @@ Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arg
   try {
     result = run_process(arguments, process);
   } catch (const Error& error) {
-    if (started) throw;  // by whoever listens to it
+    if (started) throw;  // from on_line or on_start
     return {find_program(arguments.front()).empty() ? FailureClass::kEngineMissing
                                                     : FailureClass::kCrash,
             error.what()};
   }
   if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
   Failure failure = process_failure(engine, result, options);
-  // It is gone when anybody reads this.
-  const std::string directory = process.working_directory.string();
-  for (std::size_t at;
-       !directory.empty() && (at = failure.message.find(directory)) != std::string::npos;)
-    failure.message.replace(at, directory.size(), kEngineDirectory);
+  // The directory is gone when someone reads the message.
+  const std::string path = directory.string();
+  for (std::size_t at; (at = failure.message.find(path)) != std::string::npos;)
+    failure.message.replace(at, path.size(), kEngineDirectory);
   return failure;
 }
 
@@ -221,7 +230,7 @@ Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::pat
   if (!std::filesystem::exists(file, ignored))
     return {FailureClass::kNoOutput, fmt::format("{} wrote no picture", engine.title)};
   try {
-    // Room for one of another size, so that the message can say which.
+    // Allows a larger picture too, so that the message can tell its size.
     const std::uint64_t pixels = 4 * std::uint64_t(film.width) * std::uint64_t(film.height);
     image = read_contained(file, "", {std::max(pixels, kSmallPicture), 0}).image;
   } catch (const std::exception& error) {
@@ -251,8 +260,10 @@ int threads_of(const ReferenceOptions& options) {
                              : int(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b) {
-  return {a.writes_limited && b.writes_limited, std::min(a.contained, b.contained)};
+void EngineCost::add(const EngineCost& more) {
+  seconds += more.seconds;
+  cpu_seconds += more.cpu_seconds;
+  peak_memory_bytes = std::max(peak_memory_bytes, more.peak_memory_bytes);
 }
 
 void record_limits(records::Reference& record, const ProcessLimits& limits) {
@@ -260,10 +271,9 @@ void record_limits(records::Reference& record, const ProcessLimits& limits) {
   record.contained = containment_name(limits.contained);
 }
 
-void record_cost(records::Reference& record, double cpu_seconds, std::uint64_t peak_memory_bytes,
-                 int threads) {
-  record.cpu_seconds = cpu_seconds;
-  record.peak_memory_bytes = peak_memory_bytes;
+void record_cost(records::Reference& record, const EngineCost& cost, int threads) {
+  record.cpu_seconds = cost.cpu_seconds;
+  record.peak_memory_bytes = cost.peak_memory_bytes;
   record.threads = threads;
 }
 
@@ -273,6 +283,14 @@ records::Reference reference_record(const EngineInfo& engine, const EngineStatus
   record.engine = {std::string(engine.name), std::string(engine.title), status.version};
   record.image = {"", scene.film.width, scene.film.height};
   return record;
+}
+
+ImageMetadata reference_metadata(const Scene& scene, const records::Reference& record) {
+  ImageMetadata metadata = render_metadata(scene);
+  metadata.emplace_back("lobelia:engine",
+                        fmt::format("{} {}", record.engine.title, record.engine.version));
+  metadata.emplace_back("lobelia:witness", record.witness);
+  return metadata;
 }
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Finding an engine's program, asking its version, and saying in one line why it failed.
+// Running an engine's program: finding it, asking for its version, and saying in one line why it failed.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,16 @@
 
 namespace lobelia {
 
-/// How to find an engine's program and ask its version.
+/// How to find an engine's program and ask for its version.
 struct EngineProbe {
-  std::string_view program;         ///< as in $PATH
-  std::string_view version_prefix;  ///< what stands before the version in `--version`: "Blender "
+  std::string_view program;  ///< as in $PATH
+  std::string_view
+      version_prefix;  ///< text before the version in the output of --version: "Blender "
   bool (*supports)(int major, int minor) = nullptr;  ///< EngineInfo::supported_versions
-  /// Where a program of this version has its scripts and data; those that are not there do no harm. Null: nowhere.
+  /// Where a program of this version has its scripts and data; not all need exist. Null: nowhere.
   std::vector<std::filesystem::path> (*directories)(const std::filesystem::path& program,
                                                     std::string_view version) = nullptr;
 };
-
-/// Looks for the program (`program` if not empty) and runs it with --version.
-EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
-                          const std::filesystem::path& program);
 
 /// An engine that is a program. Both references must outlive it.
 class ProgramEngine : public Engine {
@@ -33,50 +30,45 @@ class ProgramEngine : public Engine {
   ProgramEngine(const EngineInfo& info, const EngineProbe& probe, std::filesystem::path program)
       : info_(info), probe_(probe), program_(std::move(program)) {}
   const EngineInfo& info() const final { return info_; }
-  const EngineStatus& status() final {
-    if (!status_) status_ = probe_engine(info_, probe_, program_);
-    return *status_;
-  }
+  const EngineStatus& status() final;
 
  private:
   const EngineInfo& info_;
   const EngineProbe& probe_;
-  const std::filesystem::path program_;
+  const std::filesystem::path program_;  ///< empty: the one in $PATH
   std::optional<EngineStatus> status_;
 };
 
-/// All that an engine gets of our environment: other variables could change its pictures (CYCLES_*, OCIO, PYTHON*) or how it
-/// runs (LD_PRELOAD, GLIBC_TUNABLES, MALLOC_*, OMP_*).
-inline constexpr const char* kPassedOn[] = {"PATH", "LD_LIBRARY_PATH"};
-
-/// The whole environment of an engine: kPassedOn, one language and time zone for all, and `directory` in place of the
-/// user's home, where it finds no settings and leaves its caches and temporary files.
+/// The whole environment of an engine: $PATH and $LD_LIBRARY_PATH, a fixed language and time zone, and `directory` as home
+/// directory, without settings and with room for caches and temporary files. Other variables could change its pictures
+/// (CYCLES_*, OCIO, PYTHON*) or how it runs (LD_PRELOAD, GLIBC_TUNABLES, MALLOC_*, OMP_*).
 std::vector<std::string> engine_environment(const std::filesystem::path& directory);
 
-/// The most telling words of an engine's output about a failure, in one line.
+/// The part of an engine's output that explains a failure, in one line.
 std::string last_words(const std::string& output_tail);
 
-/// Why a process failed: "POV-Ray stopped with exit code 1: ...". Nothing if it ended as it should.
+/// Why a process failed: "POV-Ray stopped with exit code 1: ...".
 Failure process_failure(const EngineInfo& engine, const ProcessResult& result,
                         const ReferenceOptions& options);
 
-/// run_process in `process.environment` and nothing else; one that cannot be started is a failure. Throws
-/// Error(kInterrupted).
+/// run_process() with the limits of `options` and only `process.environment`, in `directory`, the only place where it may
+/// write. A program that does not start is a failure. Throws Error(kInterrupted).
 Failure run_engine(const EngineInfo& engine, const std::vector<std::string>& arguments,
-                   ProcessOptions process, const ReferenceOptions& options, ProcessResult& result);
+                   const std::filesystem::path& directory, ProcessOptions process,
+                   const ReferenceOptions& options, ProcessResult& result);
 
-/// Reads what should be a picture of the film's size.
+/// Reads a picture, which must have the film's size.
 Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::path& file,
                             const Film& film, Image& image);
 
-/// A scene's result where there is no picture.
+/// The result of a scene without a picture.
 ReferenceResult failed_result(const EngineInfo& engine, const EngineStatus& status,
                               const Scene& scene, const Failure& failure);
 
-/// As many as were asked for, or one for each processor.
+/// ReferenceOptions::threads, or one for each processor.
 int threads_of(const ReferenceOptions& options);
 
-/// An engine's output on one scene; of one that never ends what it says, the beginning.
+/// The beginning of an engine's output on one scene.
 class EngineLog {
  public:
   void add(std::string_view line) {
@@ -89,17 +81,21 @@ class EngineLog {
   std::string text_;
 };
 
-/// The limits that hold for both of two processes.
-ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b);
+/// The time and memory of an engine's processes.
+struct EngineCost {
+  double seconds = 0;  ///< wall time
+  double cpu_seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;  ///< of the largest process
+  void add(const EngineCost& more);
+};
 
 /// Writes into a record how an engine's processes were contained.
 void record_limits(records::Reference& record, const ProcessLimits& limits);
 
-/// Writes into a record what a program took.
-void record_cost(records::Reference& record, double cpu_seconds, std::uint64_t peak_memory_bytes,
-                 int threads);
+/// Writes a cost into a record, with the number of threads of each process.
+void record_cost(records::Reference& record, const EngineCost& cost, int threads);
 
-/// The record, as far as all engines fill it alike.
+/// A record with the fields that all engines fill in alike.
 records::Reference reference_record(const EngineInfo& engine, const EngineStatus& status,
                                     const Scene& scene);
 

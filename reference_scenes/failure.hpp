@@ -1,4 +1,4 @@
-// The ways in which an engine fails to make a picture.
+// Classes of failures of an engine.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@ namespace lobelia {
 
 enum class FailureClass {
   kNone,
-  kCrash,          ///< ended by a signal, or it could not be started though it is there
+  kCrash,          ///< ended by a signal, or does not start although it exists
   kTimedOut,       ///< over the time limit of a picture
-  kNoProgress,     ///< no output and no file written for longer than was allowed
-  kNoOutput,       ///< ended as if all were well, and there is no picture
-  kWrongSize,      ///< a picture of another size than was asked for
-  kNonFinite,      ///< a picture with values that are infinite or no numbers
-  kBadOutput,      ///< what should be a picture cannot be read
+  kNoProgress,     ///< neither output nor a written file for longer than allowed
+  kNoOutput,       ///< exit code 0, but no picture
+  kWrongSize,      ///< the picture has the wrong size
+  kNonFinite,      ///< the picture has a NaN or an infinity
+  kBadOutput,      ///< the picture cannot be read
   kEngineMissing,  ///< there is no such program
   kRefused,        ///< the engine cannot show this scene
-  kExitCode,       ///< it said itself that it failed
-  kOutOfMemory,    ///< it used more than was allowed, or the machine had no more
-  kDiskLimit,      ///< its files came to more than was allowed
-  kGivenUp,        ///< not tried: the engine had failed too often
+  kExitCode,       ///< it reported an error
+  kOutOfMemory,    ///< over the memory limit, or the machine had no more
+  kDiskLimit,      ///< its files exceed the limit
+  kGivenUp,        ///< not tried, because the engine had failed too often
 };
 
 /// In the order of FailureClass.
@@ -34,16 +34,16 @@ constexpr std::string_view failure_name(FailureClass failure) {
   return kFailureNames[std::size_t(failure)];
 }
 
-/// Whether the same again may end otherwise; for want of memory only with more of it.
+/// Whether a retry may succeed; after kOutOfMemory only with more memory.
 constexpr bool worth_retrying(FailureClass failure) {
   return failure != FailureClass::kNone && failure != FailureClass::kEngineMissing &&
          failure != FailureClass::kRefused && failure != FailureClass::kGivenUp;
 }
 
-/// Why a picture could not be made. `kind` is kNone on success.
+/// Why a picture could not be made.
 struct Failure {
-  FailureClass kind = FailureClass::kNone;
-  std::string message;  ///< one line
+  FailureClass kind = FailureClass::kNone;  ///< kNone on success
+  std::string message;                      ///< one line
   explicit operator bool() const { return kind != FailureClass::kNone; }
 };
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/constants.hpp"
 #include "core/error.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/contact.hpp"
@@ -13,16 +13,15 @@
 namespace lobelia {
 namespace {
 
-/// Beyond this many smallest radii from the first sphere POV-Ray's largest ray (1e7) and Cycles'
-/// float32 coordinates are not to be relied on.
+/// In smallest radii from the first sphere. Farther away POV-Ray's largest ray (1e7) and Cycles' float32 are not reliable.
 constexpr double kMaxExtent = 1e5;
 
-/// Whether the lamp lights nothing beneath a surface that it stands above in the unit direction `up`.
+/// Whether the lamp lights nothing below it, in the unit direction -`up`.
 bool faces_away(const Lamp& lamp, Vec3 up) {
   return lamp.has_normal() && dot(lamp.normal, up) > 1 - 1e-9;
 }
 
-/// f(light, lamp, surface) for each near lamp and each surface that it lies on.
+/// Calls f(light, lamp, surface) for each near lamp and each surface that it lies on.
 template <class F>
 void for_lamps_on_surfaces(const Scene& scene, const F& f) {
   const Contacts contacts = find_contacts(scene);
@@ -42,7 +41,7 @@ std::string lamp_on_sphere(const Scene& scene, bool though_it_faces_away) {
   return found;
 }
 
-/// Takes what the change of units has put beside a surface back to it.
+/// Puts lamps back on their surfaces after the change of units.
 void lay_on_surfaces(const Scene& before, Scene& scene) {
   for_lamps_on_surfaces(before, [&](std::size_t l, const Lamp&, std::size_t surface) {
     Light& light = scene.lights[l];
@@ -60,22 +59,21 @@ void lay_on_surfaces(const Scene& before, Scene& scene) {
   });
 }
 
-/// Engines' units in a unit of the scene.
+/// Engine units per unit of the scene.
 double engine_scale(const Scene& scene) {
   if (scene.spheres.empty()) return 1;
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = kInfinity;
   for (const Sphere& sphere : scene.spheres) smallest = std::min(smallest, sphere.radius);
-  // POV-Ray ignores shadows nearer than 1e-3 and has other absolute tolerances, which are made
-  // for spheres of about this size.
+  // POV-Ray's absolute tolerances, such as 1e-3 for shadows, are made for spheres of about this size.
   return std::exp2(-std::floor(std::log2(smallest)));
 }
 
 }  // namespace
 
 bool has_mirror(const Scene& scene) {
-  return scene.depth.mirror > 0 &&
-         std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const Material& m) { return !is_black(m.mirror_reflectance); });
+  return scene.depth.mirror > 0 && std::ranges::any_of(scene.materials, [](const Material& m) {
+           return !is_black(m.mirror_reflectance);
+         });
 }
 
 std::string why_not_comparable(const Scene& scene) {
@@ -83,9 +81,7 @@ std::string why_not_comparable(const Scene& scene) {
     return "light that goes on by highlights and diffuse bases is in no engine what it is here: "
            "POV-Ray gathers it for diffuse surfaces alone, and Cycles has none of the models to draw "
            "directions by (a glossy_depth of 0 is comparable)";
-  const bool sized_light = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                       [](const Light& l) { return !is_delta(l); });
-  if (sized_light && has_mirror(scene))
+  if (has_mirror(scene) && !std::ranges::all_of(scene.lights, is_delta))
     return "a mirror shows a light that has a size, and the engines' lamps cannot be seen";
   if (scene.spheres.size() > kMaxSpheresByRay)
     return fmt::format(
@@ -122,9 +118,9 @@ std::string lamp_close_to_surface(const Scene& given, double distance) {
     };
     for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
       const Sphere& sphere = scene.spheres[k];
-      const Vec3 way = lamp->position - sphere.center;
-      if (std::abs(length(way) - sphere.radius) < distance && !lies_on(light, sphere, close) &&
-          !faces_away(*lamp, normalize(way)))
+      const Vec3 from_center = lamp->position - sphere.center;
+      if (std::abs(length(from_center) - sphere.radius) < distance &&
+          !lies_on(light, sphere, close) && !faces_away(*lamp, normalize(from_center)))
         return found("sphere", k);
     }
     for (std::size_t k = 0; k < scene.planes.size(); ++k) {

@@ -1,4 +1,4 @@
-// Preparation of a scene for any engine.
+// Prepares a scene for any engine.
 #pragma once
 
 #include <string>
@@ -9,37 +9,34 @@
 
 namespace lobelia {
 
-/// Whether a mirror is to be followed.
+/// Whether rays follow mirrors.
 bool has_mirror(const Scene& scene);
 
-/// Why no engine can be asked for this scene, as a sentence; empty if some can. Those that cannot have
-/// reasons of their own (Engine::why_not).
+/// Why no engine can show this scene, as a sentence; empty if some can. Engine::why_not adds an engine's own reasons.
 std::string why_not_comparable(const Scene& scene);
 
-/// Why none of the engines that are programs can, though formulas may.
+/// Why no engine that is a program can show it, though the formulas may.
 std::string why_not_for_programs(const Scene& scene);
 
-/// The first pair of a lamp and a sphere that it lies on, in words ("light 0 lies on sphere 2"); empty if there
-/// is none. Or of one that does not face away from the sphere, and shines below its own horizon.
+/// The first pair of a lamp and a sphere that it lies on: "light 0 lies on sphere 2"; empty if there is none.
 std::string lamp_on_sphere(const Scene& scene);
+/// The first such lamp that does not face away from the sphere, and so shines below its own horizon.
 std::string lamp_below_horizon(const Scene& scene);
-/// The same of a lamp that lies on no surface but is nearer to one than `distance`, in the engines' units,
-/// and does not face away from it.
+/// The first lamp that is nearer than `distance` (in engine units) to a surface but does not lie on it or face away from it.
 std::string lamp_close_to_surface(const Scene& scene, double distance);
 
-/// The same picture in the engines' units: the first sphere's centre is the origin and the smallest
-/// radius lies in [1, 2); a scene without lights has a black one. The factor is a power of two, so
-/// a scene that is there already keeps its numbers, bit for bit. Lamps that lie on a surface still do.
+/// The same picture in engine units: the first sphere's centre is the origin, and the smallest radius is in [1, 2). The
+/// scale is a power of two, so that a scene in these units keeps its numbers bit for bit. Lamps on surfaces stay there. A
+/// scene without lights gets a black one.
 Scene in_engine_units(Scene scene);
 
-/// The greatest distance from the origin of anything in the scene, and at least 1.
+/// The greatest distance of anything in the scene from the origin, at least 1.
 double extent(const Scene& scene);
 
-/// Pixel by pixel in double precision, in the order given. All sizes are equal.
+/// Pixel by pixel in double precision, in the given order. All sizes are equal.
 Image sum_of(const std::vector<Image>& passes);
 
-/// Text of a number that reads back to the same number. Throws Error(kInternal) if not finite: it
-/// would be code, not a number, in an engine's input.
+/// Reads back to the same number. Throws Error(kInternal) if it is not finite, because an engine would read that as code.
 std::string exact_text(double value);
 
 }  // namespace lobelia

@@ -1,11 +1,11 @@
 #include "reference_scenes/replicates.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <numbers>
 
+#include "core/constants.hpp"
+#include "reference_scenes/engine.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/lights/prepared_light.hpp"
 #include "renderer/sobol.hpp"
@@ -38,11 +38,10 @@ bool camera_varies(const Scene& scene) {
   return scene.sampler.sample_count > 1 || scene.camera.aperture_radius > 0;
 }
 
-/// A pinhole at a point of the lens, its film moved so that the plane of focus stays where it is.
+/// Makes a pinhole at a point of the lens, with the film moved so that the plane of focus stays in place.
 void look_through(const Scene& scene, Points& points, Camera& camera) {
   const auto [u, v] = points();
-  const double radius = scene.camera.aperture_radius * std::sqrt(u),
-               turn = 2 * std::numbers::pi * v;
+  const double radius = scene.camera.aperture_radius * std::sqrt(u), turn = 2 * kPi * v;
   const double x = radius * std::cos(turn), y = radius * std::sin(turn);
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
   const Vec3 aside = x * frame.right + y * frame.up;
@@ -53,8 +52,8 @@ void look_through(const Scene& scene, Points& points, Camera& camera) {
   camera.aperture_radius = 0;
 }
 
-/// Every pixel's ray through the same place of the filter; how much it counts. Which part of the filter the
-/// place is in is drawn too, so that a single point will do.
+/// Sends every pixel's ray through the same place of the filter and returns its weight. Also draws which part of the filter,
+/// positive or negative, so that one point is enough.
 double move_film(const Film& film, const FilterSampler& filter, Points& points, Camera& camera) {
   const auto [u, v] = points();
   const double scale = 1 + 2 * filter.negative_weight();  // of |filter|
@@ -66,7 +65,7 @@ double move_film(const Film& film, const FilterSampler& filter, Points& points, 
   return negative ? -scale : scale;
 }
 
-/// Everything but camera and lights.
+/// The scene with one sample, no filter and no lights.
 Scene without_softness(const Scene& scene) {
   Scene simple = scene;
   simple.sampler.sample_count = 1;
@@ -75,11 +74,28 @@ Scene without_softness(const Scene& scene) {
   return simple;
 }
 
+struct SeenSurface {
+  double distance = kInfinity;
+  int index = -1;  ///< spheres first, then planes; -1: none
+};
+
+/// The nearest surface along a ray of unit direction.
+SeenSurface first_surface(const Scene& scene, Vec3 origin, Vec3 direction) {
+  SeenSurface nearest;
+  if (const auto hit = nearest_hit(scene, origin, direction))
+    nearest = {length(hit->point - origin), hit->sphere};
+  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
+    const Plane& plane = scene.planes[k];
+    const double t = dot(plane.point - origin, plane.normal) / dot(direction, plane.normal);
+    if (t > 0 && t < nearest.distance) nearest = {t, int(scene.spheres.size() + k)};
+  }
+  return nearest;
+}
+
 }  // namespace
 
 bool needs_replicates(const Scene& scene) {
-  return camera_varies(scene) || std::any_of(scene.lights.begin(), scene.lights.end(),
-                                             [](const Light& l) { return !is_delta(l); });
+  return camera_varies(scene) || !std::ranges::all_of(scene.lights, is_delta);
 }
 
 std::vector<Replicate> replicates(const Scene& scene, int count, int points, std::uint64_t seed) {
@@ -121,35 +137,14 @@ std::vector<Replicate> replicates(const Scene& scene, int count, int points, std
   return result;
 }
 
-namespace {
-
-struct SeenSurface {
-  double distance = std::numeric_limits<double>::infinity();
-  int index = -1;  ///< spheres first, then planes; -1: none
-};
-
-/// The nearest surface along a ray of unit direction.
-SeenSurface first_surface(const Scene& scene, Vec3 origin, Vec3 direction) {
-  SeenSurface nearest;
-  if (const auto hit = nearest_hit(scene, origin, direction))
-    nearest = {length(hit->point - origin), hit->sphere};
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    const Plane& plane = scene.planes[k];
-    const double t = dot(plane.point - origin, plane.normal) / dot(direction, plane.normal);
-    if (t > 0 && t < nearest.distance) nearest = {t, int(scene.spheres.size() + k)};
-  }
-  return nearest;
-}
-
-}  // namespace
-
 SizedLights::SizedLights(const Scene& scene)
     : lights_(scene.lights), contacts_(find_contacts(scene)), prepared_(prepare(scene.lights)) {}
+
 SizedLights::~SizedLights() = default;
 
 Image SizedLights::seen_in(const Scene& simple) const {
   Image image(simple.film.width, simple.film.height);
-  if (std::all_of(lights_.begin(), lights_.end(), is_delta)) return image;
+  if (std::ranges::all_of(lights_, is_delta)) return image;
   const CameraFrame frame = camera_frame(simple.camera, simple.film);
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) {
@@ -172,6 +167,33 @@ Image SizedLights::seen_in(const Scene& simple) const {
       pixel[2] = float(sum.b);
     }
   return image;
+}
+
+ReplicateStatistics replicate_statistics(const ReferenceResult& result, const Image& truth,
+                                         int points, double rounding) {
+  ReplicateStatistics s;
+  s.values = truth.values().size();
+  const double peak = *std::ranges::max_element(truth.values());
+  // Independent estimates of each value differ from the truth by a t-distribution.
+  const boost::math::students_t t(kReplicates - 1);
+  const double any = boost::math::quantile(
+      boost::math::complement(t, (1 - std::pow(1 - 1e-3, 1 / double(s.values))) / 2));
+  const double one_in_twenty = boost::math::quantile(t, 0.975);
+  double squares = 0;
+  for (std::size_t i = 0; i < s.values; ++i) {
+    // An edge that one point in a thousand sees may be missed by all, and that alone is no error.
+    const double error = std::max(double(result.standard_error.values()[i]), peak / points / 4);
+    const double apart = std::abs(double(result.image.values()[i]) - double(truth.values()[i]));
+    squares += apart * apart;
+    // Where nothing varies, only rounding is left.
+    const double rounded = rounding * double(truth.values()[i]) + 1e-6;
+    if (apart <= rounded) continue;
+    ++s.random;
+    s.of_twenty += apart > one_in_twenty * error;
+    s.beyond += apart - rounded > any * error;
+  }
+  s.rms = std::sqrt(squares / double(s.values));
+  return s;
 }
 
 }  // namespace lobelia

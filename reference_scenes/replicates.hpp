@@ -1,7 +1,8 @@
-// A scene with lights of some size, a lens or several rays a pixel as an average of scenes that have none:
-// what engines that agree with us pixel by pixel can render, and what their average must agree with.
+// A scene with area lights, a lens or several rays per pixel as an average of scenes without them. Engines that agree with
+// us pixel by pixel can render those, and their average must agree with the picture.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -13,32 +14,32 @@
 namespace lobelia {
 
 class PreparedLight;
+struct ReferenceResult;
 
-/// Whether a single ray through each pixel's centre under lamps without a size does not tell it all.
+/// Whether one ray through each pixel's centre under lights without size does not show the whole scene.
 bool needs_replicates(const Scene& scene);
 
-/// Delta lights, a pinhole, one ray a pixel; it counts `weight` times.
+/// Delta lights, a pinhole, one ray per pixel.
 struct SimpleScene {
   Scene scene;
-  double weight = 1;  ///< negative where the pixel's filter is
+  double weight = 1;  ///< in the mean; negative where the pixel's filter is
 };
 
 /// One estimate of the picture: the weighted mean of its scenes. Its expectation is the picture.
 using Replicate = std::vector<SimpleScene>;
 
-/// `count` independent estimates. In each, `points` points are spread over every light, the lens and the
-/// filter by Sobol's sequence, scrambled for each replicate anew (renderer/sobol.hpp). Where only lights
-/// vary, one scene has all points as its lamps. The lights themselves, as the camera sees them, are not in
-/// it: see SizedLights.
+/// `count` independent estimates. Each spreads `points` points over every area light, the lens and the filter by Sobol's
+/// sequence, scrambled anew (renderer/sobol.hpp). If only lights vary, one scene has all points as its lamps. The area
+/// lights themselves, as the camera sees them, are missing: SizedLights adds them.
 std::vector<Replicate> replicates(const Scene& scene, int count, int points, std::uint64_t seed);
 
-/// The lights of a scene that have a size, as its camera sees them: engines' lamps cannot be seen.
+/// A scene's area lights as the camera sees them, because engines' lamps are invisible.
 class SizedLights {
  public:
   explicit SizedLights(const Scene& scene);
   ~SizedLights();
 
-  /// In the view of one of the scene's simple ones, one ray through each pixel's centre, behind no surface.
+  /// In the view of one of the simple scenes: one ray through each pixel's centre, hidden by surfaces.
   Image seen_in(const Scene& simple) const;
 
  private:
@@ -46,5 +47,21 @@ class SizedLights {
   Contacts contacts_;
   std::vector<std::unique_ptr<const PreparedLight>> prepared_;
 };
+
+/// How an average of replicates differs from the truth. Counts are of values, three per pixel.
+struct ReplicateStatistics {
+  std::size_t values = 0;
+  std::size_t random = 0;     ///< the difference is more than rounding
+  std::size_t of_twenty = 0;  ///< of these, farther off than one in twenty is by chance
+  /// Farther off than any value of the picture is by chance in one picture out of a thousand: Student's t with Sidak's
+  /// correction for that many values.
+  std::size_t beyond = 0;
+  double rms = 0;  ///< of the difference, in radiance
+};
+
+/// `result` is an average of kReplicates estimates with `points` points in all. `rounding` is the relative error of the
+/// engine's number format.
+ReplicateStatistics replicate_statistics(const ReferenceResult& result, const Image& truth,
+                                         int points, double rounding);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Scenes with lights of some size, lenses and several rays a pixel, as averages of what engines render.
+// Scenes with area lights, lenses and several rays per pixel as averages of pictures by engines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,13 +15,13 @@
 namespace lobelia {
 namespace {
 
-/// Bytes of log for one scene. Its many parts repeat themselves.
+/// Bytes of a scene's log. Its many parts repeat each other.
 constexpr std::size_t kMostLog = 1 << 20;
 
 /// The results of each part of each replicate.
 using Parts = std::vector<std::vector<ReferenceResult>>;
 
-/// The weighted mean of a replicate's pictures, and the lights themselves.
+/// The weighted mean of a replicate's pictures, with the visible lights.
 std::vector<double> estimate(const SizedLights& lights, const Replicate& replicate,
                              const std::vector<ReferenceResult>& parts) {
   std::vector<double> sum(parts.front().image.values().size());
@@ -38,8 +38,7 @@ ReferenceResult average(const Scene& scene, const std::vector<Replicate>& all, P
                         const ReferenceOptions& options) {
   ReferenceResult result;
   result.begun = std::chrono::steady_clock::time_point::max();
-  double seconds = 0, cpu_seconds = 0;
-  std::uint64_t peak_memory_bytes = 0;
+  EngineCost cost;
   std::size_t pictures = 0, passes = 0;
   for (auto& replicate : parts)
     for (ReferenceResult& part : replicate) {
@@ -52,10 +51,9 @@ ReferenceResult average(const Scene& scene, const std::vector<Replicate>& all, P
         }
         continue;
       }
-      seconds += part.record.seconds.total;
       passes += part.record.passes;
-      cpu_seconds += part.record.cpu_seconds.value_or(0);
-      peak_memory_bytes = std::max(peak_memory_bytes, part.record.peak_memory_bytes.value_or(0));
+      cost.add({part.record.seconds.total, part.record.cpu_seconds.value_or(0),
+                part.record.peak_memory_bytes.value_or(0)});
       ++pictures;
     }
   result.record = parts.front().front().record;
@@ -89,10 +87,9 @@ ReferenceResult average(const Scene& scene, const std::vector<Replicate>& all, P
   record.points = options.points;
   record.seed = options.seed;
   record.seconds = {};
-  record.seconds.total = seconds;
-  if (record.cpu_seconds)
-    record_cost(record, cpu_seconds, peak_memory_bytes, record.threads.value_or(1));
-  // All alike but for the names of files.
+  record.seconds.total = cost.seconds;
+  if (record.cpu_seconds) record_cost(record, cost, record.threads.value_or(1));
+  // They differ only in file names.
   if (record.engine_commands.size() > 1) record.engine_commands.resize(1);
   return result;
 }

@@ -10,7 +10,6 @@
 #include "reference_scenes/engines/analytic/analytic.hpp"
 #include "reference_scenes/engines/blender/blender.hpp"
 #include "reference_scenes/engines/povray/povray.hpp"
-#include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/replicates.hpp"
 
 namespace lobelia {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reference_scenes/engine.hpp"
-#include "reference_scenes/replicate_statistics.hpp"
+#include "reference_scenes/replicates.hpp"
 #include "studies/agreement/cases.hpp"
 #include "studies/agreement/figures.hpp"
 #include "studies/agreement/variants.hpp"

@@ -15,7 +15,6 @@
 #include "tests/json.hpp"
 
 namespace lobelia::records {
-namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -25,12 +24,6 @@ constexpr std::string_view kColours[] = {"red", "green"};
 struct Part {
   int count = 0;
   std::optional<double> size;
-  static const Struct& type() {
-    return define<Part>("A part.", [](auto& t) {
-      t.key("count").at_least(0);
-      t.key("size").within(0, 1);
-    });
-  }
 };
 
 struct Sample {
@@ -40,22 +33,35 @@ struct Sample {
   Named<std::array<double, 2>> pairs;
   std::optional<int> nothing;
   std::uint64_t seed = 0;
-  static const Struct& type() {
-    return define<Sample>("A sample.", [](auto& t) {
-      t.kind("sample");
-      t.key("name").most_text(8);
-      t.key("colour").one_of(kColours);
-      t.key("file").plain_name();
-      t.key("any").may_be_nonfinite();
-      t.key("parts").items(0, 3);
-      t.key("nothing").or_null();
-      t.check(contradiction);
-    });
-  }
-  static std::string contradiction(const Sample& sample) {
-    return sample.name == "none" && !sample.parts.empty() ? "none has parts" : "";
-  }
 };
+
+template <>
+const Struct& struct_type<Part>() {
+  static const Struct type = detail::make_struct<Part>("A part.", [](auto& t) {
+    t.key("count").at_least(0);
+    t.key("size").within(0, 1);
+  });
+  return type;
+}
+
+template <>
+const Struct& struct_type<Sample>() {
+  static const Struct type = detail::make_struct<Sample>("A sample.", [](auto& t) {
+    t.kind("sample");
+    t.key("name").most_text(8);
+    t.key("colour").one_of(kColours);
+    t.key("file").plain_name();
+    t.key("any").may_be_nonfinite();
+    t.key("parts").items(0, 3);
+    t.key("nothing").or_null();
+    t.check([](const Sample& sample) -> std::string {
+      return sample.name == "none" && !sample.parts.empty() ? "none has parts" : "";
+    });
+  });
+  return type;
+}
+
+namespace {
 
 Sample sample() {
   Sample made;

@@ -1,5 +1,4 @@
-#include "reference_scenes/file_hashes.hpp"
-#include "records/record.hpp"
+#include "reference_scenes/content.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -9,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/sha256.hpp"
-#include "reference_scenes/content.hpp"
+#include "records/record.hpp"
 
 namespace lobelia {
 namespace {

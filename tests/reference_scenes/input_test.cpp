@@ -16,7 +16,6 @@
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/blender/blender_input.hpp"
 #include "reference_scenes/engines/povray/povray_input.hpp"
-#include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/render.hpp"

@@ -10,8 +10,6 @@
 #include "core/process.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/povray/povray_input.hpp"
-#include "reference_scenes/engines/povray/povray_options.hpp"
-#include "reference_scenes/keep_input.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
@@ -72,7 +70,7 @@ TEST_P(KeptInput, RendersToOurOwnRunsPictureBitForBit) {
 INSTANTIATE_TEST_SUITE_P(Engines, KeptInput, testing::Values("povray", "blender"),
                          [](const auto& test) { return test.param; });
 
-/// Its own restrictions do not see to that: povray_options.hpp.
+/// Its own restrictions do not see to that: povray_input.hpp.
 TEST(PovrayInItsDirectory, CannotWriteElsewhereThoughAFileAsksForIt) {
   const auto engine = make_engine("povray", {});
   require_engine(*engine);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "reference_scenes/replicate_statistics.hpp"
 #include "tests/reference_scenes/ourselves.hpp"
 #include "tests/reference_scenes/test_scenes.hpp"
 

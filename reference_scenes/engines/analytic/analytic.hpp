@@ -1,5 +1,5 @@
-// The formulas themselves as a reference engine: every pixel computed by reference_scenes/engines/analytic/formulas/, which has its own
-// geometry, visibility, mirrors and coefficients, and none of the renderer's kernels.
+// The formulas as a reference engine. formulas/ computes every pixel with its own geometry, visibility, mirrors and
+// coefficients, and none of the renderer's kernels.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ inline constexpr EngineInfo kAnalyticInfo{
     .seconds = {0.02, 2e-6},
 };
 
-/// Throws Error(kUsage) if a program is named: there is none.
+/// Throws Error(kUsage) if a program is named, because there is none.
 std::unique_ptr<Engine> make_analytic(const std::filesystem::path& program);
 
 /// Writes the scene and the command that evaluates it into `directory`, which exists.

@@ -6,19 +6,15 @@
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
-#include "reference_scenes/engines/blender/blender_session.hpp"
+#include "reference_scenes/engines/blender/blender_input.hpp"
 #include "reference_scenes/preparation.hpp"
 
 namespace lobelia {
-namespace embedded {
-extern const std::string_view render_scenes_py, blender_formulas_py, blender_surfaces_py,
-    blender_scene_py;
-}
 namespace {
 namespace fs = std::filesystem;
 
-/// The scripts and data of Blender: "3.4" beside the program in an unpacked release, ../share/blender in a package. Without
-/// the release's Python, which decides no pixel.
+/// Blender's scripts and data: "3.4" beside the program in an unpacked release, ../share/blender in a package. Without the
+/// release's Python, which affects no pixel.
 std::vector<fs::path> blender_directories(const fs::path& program, std::string_view version) {
   std::error_code ignored;
   const fs::path place = fs::weakly_canonical(program, ignored).parent_path();
@@ -31,7 +27,7 @@ std::vector<fs::path> blender_directories(const fs::path& program, std::string_v
   return directories;
 }
 
-/// From 3.4 there are the node groups' and point primitives' interfaces that render_scenes.py uses.
+/// render_scenes.py uses interfaces of node groups and point primitives that exist since 3.4.
 constexpr EngineProbe kBlenderProbe{
     "blender", "Blender ",
     [](int major, int minor) { return major == 4 || (major == 3 && minor >= 4); },
@@ -59,26 +55,6 @@ class Blender final : public ProgramEngine {
 };
 
 }  // namespace
-
-std::vector<std::string> blender_arguments(const std::string& program, const fs::path& directory) {
-  return {program,
-          "-b",
-          "--factory-startup",
-          "-noaudio",
-          "--python-exit-code",
-          "9",
-          "--python",
-          (directory / kBlenderScriptFile).string(),
-          "--",
-          (directory / kBlenderJobFile).string()};
-}
-
-void write_blender_scripts(const fs::path& directory) {
-  write_file(directory / kBlenderScriptFile, embedded::render_scenes_py);
-  write_file(directory / "blender_formulas.py", embedded::blender_formulas_py);
-  write_file(directory / "blender_surfaces.py", embedded::blender_surfaces_py);
-  write_file(directory / "blender_scene.py", embedded::blender_scene_py);
-}
 
 std::unique_ptr<Engine> make_blender(const fs::path& program) {
   return std::make_unique<Blender>(program);

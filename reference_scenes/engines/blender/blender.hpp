@@ -54,7 +54,7 @@ inline constexpr EngineInfo kBlenderInfo{
 
 std::unique_ptr<Engine> make_blender(const std::filesystem::path& program);
 
-/// Writes what Blender is given for `scene` into `directory`, which exists.
+/// Writes Blender's input for `scene` into `directory`, which exists.
 void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
                         const std::filesystem::path& directory);
 

@@ -1,13 +1,14 @@
-"""The models and lobes, written from their formulas and not from Lobelia's source, so that a mistake there shows as a
-difference of pictures. A model or a lobe is one entry here."""
+"""The models and lobes, written from the formulas and not from Lobelia's source, so that a mistake there makes the pictures
+differ. A model or a lobe is one entry here."""
 
 import math
 import re
 from collections import namedtuple
 
-# is_rdf: its radiance has no factor N.L. part: the lobe's angle is so much of the angle x that is integrated over.
-# by_cosine: cos x is a weight. factor: a microfacet distribution D reflects D/4. cosine: the coefficient of cos^n, in
-# closed form, with tail = 2^(-n/2). cs16: the one that the paper prints. misprint: of the paper's coefficient of cos^n.
+# is_rdf: the radiance has no factor N.L. part: the lobe's angle as a share of the integration angle x.
+# by_cosine: cos x is a weight. factor: a microfacet distribution D reflects D/4. cosine: the coefficient of cos^n in
+# closed form, with tail = 2^(-n/2). cs16: the printed coefficient of cs16. misprint: the factor by which the printed
+# coefficient of cos^n is wrong.
 Model = namedtuple("Model", "half_vector is_rdf part by_cosine factor cosine cs16 misprint",
                    defaults=(1,))
 MODELS = {
@@ -20,7 +21,7 @@ MODELS = {
     "blinn_phong_rdf": Model(True, True, 0.5, False, 1,
                              lambda n, tail: (n + 2) / (4 * math.pi * (2 - tail)),
                              lambda n: (1.068 * n + 0.96) / (8 * math.pi)),
-    # The paper prints 4 pi instead of 8 pi, and so twice the energy.
+    # The paper prints 4 pi instead of 8 pi, which doubles the energy.
     "modified_blinn_phong": Model(True, False, 0.5, True, 1,
                                   lambda n, tail: (n + 2) * (n + 4) / (8 * math.pi * (tail + n)),
                                   lambda n: (1.027 * n + 4.8) / (8 * math.pi), misprint=2),
@@ -32,8 +33,8 @@ MODELS = {
                                      lambda n: (1.063 * n + 1) / (8 * math.pi)),
 }
 
-# At s = 1 - cos(angle) below 1: its value; the same as shader nodes; and the s where it ends or has fallen to 4e-18. k is
-# the order of a family.
+# value: at s = 1 - cos(angle) < 1. node: the same as shader nodes. reach: the s where the lobe ends or has fallen to 4e-18.
+# k is the order of a family.
 Lobe = namedtuple("Lobe", "value node reach")
 LOBES = {
     "cosine": Lobe(None, lambda nodes, s, n, k: nodes.cosine_lobe(s, n), None),
@@ -68,8 +69,8 @@ def find_lobe(name):
 
 
 def integral(f, end):
-    """From 0 to end by the rule of Takahasi and Mori, whose points crowd at both ends: a lobe of any
-    sharpness is resolved at 0, and one that drops only at the horizon is there."""
+    """From 0 to end by the rule of Takahasi and Mori. Its points crowd at both ends, which resolves sharp lobes at 0 and
+    lobes that drop only at the horizon."""
     step, total = 1 / 64, 0.0
     for i in range(-205, 206):
         u = math.pi / 2 * math.sinh(i * step)
@@ -79,7 +80,7 @@ def integral(f, end):
 
 
 def coefficient(model, lobe_name, n):
-    """1 over 2 pi times the integral of the lobe over the angle x = 0..pi/2, with the model's weight."""
+    """1 / (2 pi times the integral of the lobe over the angle x = 0..pi/2, with the model's weight)."""
     if lobe_name == "cosine":
         return model.cosine(n, 2.0 ** (-n / 2))
     lobe, k = find_lobe(lobe_name)

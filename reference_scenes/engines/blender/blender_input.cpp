@@ -7,22 +7,25 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/scene/contact.hpp"
 
 namespace lobelia {
 namespace embedded {
-extern const std::string_view blender_formulas_py;
+extern const std::string_view render_scenes_py, blender_formulas_py, blender_surfaces_py,
+    blender_scene_py;
 }
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kMostSeed = 0x7fffffff;  // of Blender
-constexpr int kSmallestSide = 4;  // Blender's own limit; it would render a larger picture instead
+constexpr char kScriptFile[] = "render_scenes.py";
+constexpr std::uint64_t kMostSeed = 0x7fffffff;  // in Blender
+constexpr int kSmallestSide = 4;  // in Blender, which would render a larger picture instead
 
-/// Its tables of models and lobes are keyed by their names, and so tell what it has.
+/// Throws unless the script's tables of models and lobes, which are keyed by name, have this one.
 void require_formula(const std::string& name) {
   if (embedded::blender_formulas_py.find(fmt::format("\n    \"{}\": ", name)) ==
       std::string_view::npos)
@@ -48,7 +51,7 @@ Json material_json(const Material& material) {
   const Highlight& highlight = material.highlight;
   const std::string model(info(highlight.model).name), lobe(info(highlight.lobe).name);
   require_formula(model);
-  // A family's has no order.
+  // The name of a family has no order.
   require_formula(lobe.substr(0, lobe.find_last_not_of("0123456789") + 1));
   return {{"model", model},
           {"lobe", lobe},
@@ -91,7 +94,7 @@ Json sky_json(const Light& light, const std::string& scene) {
   return sky;
 }
 
-/// All but the lights and passes.
+/// Everything except lights and passes.
 Json scene_json(const Scene& scene, const std::string& name) {
   if (std::min(scene.film.width, scene.film.height) < kSmallestSide)
     throw Error(ExitCode::kEngine,
@@ -118,8 +121,7 @@ Json scene_json(const Scene& scene, const std::string& name) {
   return result;
 }
 
-/// A picture for each light, straight and by each number of mirrors: Cycles would choose at random between
-/// a mirror and what it lies on.
+/// A picture for each light and each number of mirrors, because Cycles chooses at random between a mirror and its base.
 Json passes_json(const Scene& scene) {
   Json passes = Json::array();
   for (std::size_t light = 0; light < scene.lights.size(); ++light)
@@ -183,6 +185,27 @@ std::string blender_job(int threads, const ReferenceOptions& options, const Blen
            {"scenes", Json::array({Json::parse(scene.json)})}};
   if (go_on) job["goOn"] = true;
   return job.dump(go_on ? -1 : 2) + "\n";
+}
+
+std::vector<std::string> blender_arguments(const std::string& program,
+                                           const std::filesystem::path& directory) {
+  return {program,
+          "-b",
+          "--factory-startup",
+          "-noaudio",
+          "--python-exit-code",
+          "9",
+          "--python",
+          (directory / kScriptFile).string(),
+          "--",
+          (directory / kBlenderJobFile).string()};
+}
+
+void write_blender_scripts(const std::filesystem::path& directory) {
+  write_file(directory / kScriptFile, embedded::render_scenes_py);
+  write_file(directory / "blender_formulas.py", embedded::blender_formulas_py);
+  write_file(directory / "blender_surfaces.py", embedded::blender_surfaces_py);
+  write_file(directory / "blender_scene.py", embedded::blender_scene_py);
 }
 
 }  // namespace lobelia

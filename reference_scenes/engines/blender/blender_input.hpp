@@ -1,36 +1,51 @@
-// A scene written down for render_scenes.py: numbers and enumerations. Nothing that a person typed
-// into the scene file (ids, paths) is in it, so nothing of it can become code.
+// A scene written down for render_scenes.py: numbers and enumerations. Nothing that a user typed into the scene file (ids,
+// paths) gets in, so none of it can become code.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "reference_scenes/engine.hpp"
-#include "renderer/scene/scene.hpp"
 
 namespace lobelia {
 
-/// Whether Cycles' own closure has all highlights.
+inline constexpr char kBlenderJobFile[] = "job.json";
+
+/// Whether Cycles' own closure can shade all highlights.
 bool is_native_in_blender(const Scene& scene);
 
 /// One entry of the job's "scenes".
 struct BlenderScene {
   std::string name;
-  std::size_t passes = 0;  ///< pictures that it makes
+  std::size_t passes = 0;  ///< number of pictures
   std::string json;        ///< in one line
 };
 
-/// `scene` is in engine units (preparation.hpp); `name` is ours; `native` is
-/// for scenes of which is_native_in_blender. Throws Error(kEngine) for what Blender cannot render.
+/// `scene` is in engine units (preparation.hpp); `native` requires is_native_in_blender. Throws Error(kEngine) for what
+/// Blender cannot render.
 BlenderScene blender_input(const Scene& scene, const std::string& name, bool native = false);
 
 /// Why Cycles' own light transport cannot show a scene, as a sentence; empty if it can.
 std::string why_not_for_cycles_transport(const Scene& scene);
 BlenderScene cycles_transport_input(const Scene& scene, const std::string& name);
-/// The file of the sky's picture, beside the job.
+/// The file with the sky's picture, beside the job.
 std::string sky_file(const std::string& scene);
 
-/// The job that a process starts with. With `go_on` it asks for further scenes.
+/// The job that a process starts with. With `go_on` it asks for more scenes afterwards.
 std::string blender_job(int threads, const ReferenceOptions& options, const BlenderScene& scene,
                         bool go_on);
+
+/// Runs render_scenes.py without the user's start-up file and add-ons; failures in Python end Blender. `directory` holds
+/// scripts and job. It is spelled out because Blender trusts $PWD more than its working directory.
+std::vector<std::string> blender_arguments(const std::string& program,
+                                           const std::filesystem::path& directory);
+/// Writes render_scenes.py and the modules that it imports.
+void write_blender_scripts(const std::filesystem::path& directory);
+
+/// Blender processes that are given one scene after another.
+std::unique_ptr<SimpleSession> open_blender(const EngineStatus& status,
+                                            const ReferenceOptions& options);
 
 }  // namespace lobelia

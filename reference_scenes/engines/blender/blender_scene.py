@@ -35,17 +35,17 @@ def empty_scene(width, height, threads, mirrors):
 
     cycles = scene.cycles
     cycles.device = "CPU"
-    # The first sample of a pixel is in the middle of the pixel filter. Only the filter's table
-    # shifts it, in proportion to its width, and .01 is the narrowest that Blender takes.
+    # The first sample of a pixel is in the middle of the filter, shifted by the filter's table in proportion to its width.
+    # Blender accepts no width below 0.01.
     cycles.samples = 1
     cycles.pixel_filter_type = "GAUSSIAN"
     cycles.filter_width = 0.01
     cycles.seed = 0
-    # No more reflections than a pass asks for, and none left out at random.
+    # Exactly the reflections of the pass, none dropped at random.
     cycles.max_bounces = cycles.glossy_bounces = cycles.min_light_bounces = mirrors
     cycles.diffuse_bounces = 0
-    # All of these are on by default and change single pixels: noise removal, clamping of bright
-    # light, blurring, and a random choice whether a dim light is worth its shadow ray.
+    # All of these are on by default and change single pixels: denoising, clamping, blurring, and skipping the shadow rays of
+    # dim lights at random.
     cycles.use_adaptive_sampling = False
     cycles.use_denoising = False
     cycles.sample_clamp_direct = 0
@@ -75,7 +75,7 @@ def empty_scene(width, height, threads, mirrors):
 
 
 def add_camera(scene, camera, width, height):
-    """From the vectors themselves: columns right, up, -forward, eye."""
+    """Sets the matrix from the vectors: columns right, up, -forward, eye."""
     forward = unit(minus(camera["target"], camera["origin"]))
     right = unit(cross(forward, camera["up"]))
     up = cross(right, forward)
@@ -83,9 +83,9 @@ def add_camera(scene, camera, width, height):
     data.type = "PERSP"
     data.sensor_fit = "HORIZONTAL"
     half_width = math.tan(math.radians(camera["fovDegrees"]) / 2)
-    data.lens = max(1.0, 16 / half_width)  # mm; Blender takes no shorter one
+    data.lens = max(1.0, 16 / half_width)  # mm, the shortest that Blender accepts is 1
     data.sensor_width = 2 * data.lens * half_width
-    # Blender moves the picture the other way, and counts both in widths.
+    # Blender shifts the picture in the opposite direction, and measures both shifts in widths.
     data.shift_x = -camera["offset"][0]
     data.shift_y = -camera["offset"][1]*height/width
     data.clip_start, data.clip_end = 0.01, 1e6
@@ -97,8 +97,7 @@ def add_camera(scene, camera, width, height):
 
 
 def add_lamp(scene, light):
-    """A lamp without extent: sun angle or radius 0. Its strength is its brightest channel, because
-    a colour above 1 need not survive."""
+    """A lamp without size: sun angle or radius 0. Its energy is the brightest channel, because colours above 1 may be lost."""
     directional = light["kind"] == "directional"
     power = light["irradiance"] if directional else light["intensity"]
     peak = max(power)
@@ -119,8 +118,8 @@ def add_lamp(scene, light):
 
 
 def add_sphere(scene, sphere, material):
-    """A point primitive, which Cycles intersects as a true sphere with its true normal. A mesh of
-    64 x 32 faces is 2 % of the peak off at n = 64, even when shaded smooth."""
+    """A point primitive, which Cycles renders as an exact sphere with exact normals. A smooth-shaded mesh of 64 x 32 faces is
+    off by 2 % of the peak at n = 64."""
     mesh = bpy.data.meshes.new("point")
     mesh.from_pydata([(0, 0, 0)], [], [])
     mesh.materials.append(material)
@@ -150,8 +149,8 @@ def add_sphere(scene, sphere, material):
 
 
 def add_plane(scene, plane, eye, material):
-    """Squares within squares around the point below the eye, each ten times the last, to beyond what
-    a pixel of the horizon shows: a single large one would be uneven where it is seen from near."""
+    """Nested squares around the point below the eye, each ten times larger, to beyond the last pixel before the horizon. One
+    large square would be uneven near the eye."""
     u, v = plane["u"], plane["v"]
     offset = minus(eye, plane["point"])
     middle = [p + dot(offset, u)*a + dot(offset, v)*b for p, a, b in zip(plane["point"], u, v)]

@@ -1,11 +1,10 @@
-#include "reference_scenes/engines/blender/blender_session.hpp"
-
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <condition_variable>
 #include <cstring>
 #include <deque>
 #include <exception>
@@ -13,7 +12,6 @@
 #include <mutex>
 #include <optional>
 #include <thread>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -23,6 +21,7 @@
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/blender/blender.hpp"
+#include "reference_scenes/engines/blender/blender_input.hpp"
 #include "reference_scenes/preparation.hpp"
 
 namespace lobelia {
@@ -32,14 +31,14 @@ using Clock = std::chrono::steady_clock;
 
 constexpr char kNextFile[] = "next.json";
 constexpr int kSigAlrm = 14;
-/// Processes in a row that came to no scene at all: then none will.
-constexpr int kMostIdleStarts = 3;
-/// How long a process waits for a further scene.
+/// After so many processes in a row that began no scene, all scenes fail.
+constexpr int kMostFailedStarts = 3;
+/// How long a process waits for another scene.
 constexpr std::chrono::duration<double> kIdle{1};
-/// Between two looks at whether the user has pressed Ctrl-C.
-constexpr auto kLookAgain = std::chrono::milliseconds(50);
+/// How often waiting threads look for Ctrl-C.
+constexpr auto kPollInterval = std::chrono::milliseconds(50);
 
-/// Adds up a scene's passes, and removes them.
+/// Adds up the pictures of a scene's passes, and removes their files.
 Failure read_passes(const fs::path& directory, const std::string& name, const Scene& scene,
                     std::size_t passes, Image& sum) {
   std::vector<Image> images(passes);
@@ -53,7 +52,7 @@ Failure read_passes(const fs::path& directory, const std::string& name, const Sc
   return {};
 }
 
-/// Our end, and the one that a program has as its stdin.
+/// Two connected sockets: ours, and the program's stdin.
 class SocketPair {
  public:
   SocketPair() {
@@ -66,7 +65,7 @@ class SocketPair {
   SocketPair(const SocketPair&) = delete;
   SocketPair& operator=(const SocketPair&) = delete;
   int program_end() const { return ends_[1]; }
-  /// Few enough bytes that it never waits. A program that has ended is noticed elsewhere.
+  /// So short that it never blocks. If the program has ended, run_engine() reports that.
   void send(std::string_view words) { ::send(ends_[0], words.data(), words.size(), MSG_NOSIGNAL); }
   void close() { ::shutdown(ends_[0], SHUT_WR); }
 
@@ -74,51 +73,43 @@ class SocketPair {
   int ends_[2];
 };
 
-/// Where the time of a scene goes, by when Blender says that it goes on.
+/// Measures the stages of a scene by Blender's output.
 class StageClock {
  public:
-  void restart() { *this = {}; }
+  /// Ends a stage if the line says so.
   void take(std::string_view line) {
-    const auto ends = [&](std::string_view words) { return line.find(words) != line.npos; };
-    if (ends("lobelia: begin")) {
-      end(start_);
-    } else if (ends("| Sample 0/")) {
-      end(parse_);
-    } else if (ends("| Finished")) {
-      end(trace_);
-    } else if (line.starts_with(" Time: ") || ends("lobelia: done")) {
-      end(write_);
-    }
+    const auto has = [&](std::string_view words) { return line.find(words) != line.npos; };
+    if (has("lobelia: begin"))
+      end(seconds.start);
+    else if (has("| Sample 0/"))
+      end(seconds.parse);
+    else if (has("| Finished"))
+      end(seconds.trace);
+    else if (line.starts_with(" Time: ") || has("lobelia: done"))
+      end(seconds.write);
   }
-  void report(records::EngineSeconds& seconds) const {
-    seconds.start = start_;
-    seconds.parse = parse_;
-    seconds.trace = trace_;
-    seconds.write = write_;
-  }
+  records::EngineSeconds seconds{0, 0, 0, 0, 0};
 
  private:
-  using Clock = std::chrono::steady_clock;
-  void end(double& stage) {
+  void end(std::optional<double>& stage) {
     const auto now = Clock::now();
-    stage += std::chrono::duration<double>(now - since_).count();
+    *stage += std::chrono::duration<double>(now - since_).count();
     since_ = now;
   }
   Clock::time_point since_ = Clock::now();
-  double start_ = 0, parse_ = 0, trace_ = 0, write_ = 0;
 };
 
 /// A scene that a caller waits for.
 struct Order {
   Scene scene;
   BlenderScene input;
-  int threads;  ///< of its process
+  int threads;  ///< of Blender
   Clock::time_point begun = {};
   std::promise<ReferenceResult> result = {};
 };
 using OrderPointer = std::shared_ptr<Order>;
 
-/// The scenes that wait, and whom the processes tell.
+/// The scenes that wait for a process.
 struct Queue {
   const ReferenceOptions options;
   const EngineStatus& status;
@@ -126,21 +117,21 @@ struct Queue {
   std::condition_variable changed = {};
   std::deque<OrderPointer> waiting = {};
   std::size_t idle = 0;                  ///< threads that wait for a scene
-  int idle_starts = 0;                   ///< in a row, of all processes
-  std::optional<Failure> no_start = {};  ///< no process will come to a scene
-  std::exception_ptr broken = {};        ///< what ended it all
+  int failed_starts = 0;                 ///< in a row, of all processes
+  std::optional<Failure> no_start = {};  ///< why no further process is started
+  std::exception_ptr broken = {};        ///< what ended the session
   bool closing = false;
-  std::atomic<bool> stop = false;  ///< every process
+  std::atomic<bool> stop = false;  ///< ends every process
 
   bool native() const { return options.shading == Shading::kNative; }
 
-  /// The next scene, once there is one; none at the end, or at `until`.
+  /// Waits for the next scene; none at the end of the session, or at `until`.
   OrderPointer take(std::optional<Clock::time_point> until = {}) {
     std::unique_lock lock(mutex);
     ++idle;
     while (waiting.empty() && !closing && !stop && !interrupted() &&
            (!until || Clock::now() < *until))
-      changed.wait_for(lock, kLookAgain);
+      changed.wait_for(lock, kPollInterval);
     --idle;
     throw_if_interrupted();
     if (stop) throw Error(ExitCode::kInterrupted, "interrupted");
@@ -160,21 +151,23 @@ struct Queue {
     result.begun = order->begun;
     order->result.set_value(std::move(result));
   }
-  void came_to_a_scene() {
+  /// A process has begun a scene.
+  void note_start() {
     const std::scoped_lock lock(mutex);
-    idle_starts = 0;
+    failed_starts = 0;
   }
-  void came_to_none(const Failure& failure) {
+  /// A process has ended without beginning a scene.
+  void note_failed_start(const Failure& failure) {
     std::deque<OrderPointer> hopeless;
     {
       const std::scoped_lock lock(mutex);
-      if (++idle_starts < kMostIdleStarts) return;
+      if (++failed_starts < kMostFailedStarts) return;
       no_start = failure;
       hopeless.swap(waiting);
     }
     for (const OrderPointer& order : hopeless) fail(order, failure, "");
   }
-  /// A full disk, say, or Ctrl-C.
+  /// Ends the session, on Ctrl-C or a full disk for example.
   void break_off(std::exception_ptr why) {
     std::deque<OrderPointer> left;
     {
@@ -188,7 +181,7 @@ struct Queue {
   }
 };
 
-/// Processes one after the other, each of which is given one scene after the other for as long as it lives.
+/// Runs one Blender process after another. Each gets scene after scene while it lives.
 class Worker {
  public:
   explicit Worker(Queue& queue) : queue_(queue), options_(queue.options) {}
@@ -209,13 +202,12 @@ class Worker {
   struct Done {
     OrderPointer order;
     EngineLog log;
-    StageClock clock;
-    double seconds = 0, cpu_seconds = 0;
-    std::uint64_t peak_memory_bytes = 0;
-    bool cost_told = false;
+    records::EngineSeconds stages;
+    EngineCost cost;
+    bool has_cost = false;  ///< besides cost.seconds
   };
 
-  /// Whatever happens, fewer scenes wait afterwards, or the given one does again after others were done.
+  /// Ends with fewer scenes waiting, or with the given one put back after others were done.
   void run_process() {
     write_sky();
     threads_ = given_->threads;
@@ -223,32 +215,29 @@ class Worker {
                blender_job(threads_, options_, given_->input, true));
 
     const std::string program = queue_.status.program.string();
-    // The temporary directory is of no use to a reader, and would make every record differ.
+    // Without the temporary directory, which would make every record differ.
     command_ = shell_join(blender_arguments(program, ""));
     begin_log();
-    clock_.restart();
+    clock_ = {};
     begun_ = false;
     started_ = Clock::now();
     cpu_told_ = 0;
     SocketPair line;
     line_ = &line;
     ProcessOptions process;
-    process.working_directory = process.writable = process.progress_directory = directory_.path();
     process.on_start = [&](const ProcessLimits& limits) { limits_ = limits; };
     process.environment = engine_environment(directory_.path());
-    // It is given no scene after one time limit, and each scene has an alarm of its own; this is for
-    // a Blender that never comes to that.
+    // For a Blender that hangs at its start: it gets no scene after one time limit, and each scene has its own alarm.
     process.timeout = 2 * options_.time_limit;
-    process.no_progress_limit = options_.no_progress_limit;
     process.stop = &queue_.stop;
     process.input = line.program_end();
     process.on_line = [&](std::string_view text) { take_line(text); };
     ProcessResult ended;
     Failure failure = run_engine(kBlenderInfo, blender_arguments(program, directory_.path()),
-                                 process, options_, ended);
+                                 directory_.path(), process, options_, ended);
     line_ = nullptr;
     report_done();
-    if (begun_) queue_.came_to_a_scene();
+    if (begun_) queue_.note_start();
     if (!given_) return;
     if (ended.exit_code == 128 + kSigAlrm) {
       ended.timed_out = true;
@@ -260,23 +249,23 @@ class Worker {
           fmt::format("Blender {}: {}",
                       current_ ? "stopped with exit code 0 in the middle" : "rendered nothing",
                       last_words(ended.output_tail))};
-    if (begun_ && !current_) {  // died between two
+    if (begun_ && !current_) {  // it died between two scenes
       queue_.put_back(std::exchange(given_, nullptr));
       return;
     }
-    current_ = false;  // died with a scene in its hands: that scene's result, and no one else's
+    current_ = false;
     fail_given(failure);
-    if (!begun_) queue_.came_to_none(failure);
+    if (!begun_) queue_.note_failed_start(failure);
   }
 
-  /// The picture of the sky, where the given scene has one.
+  /// Writes the sky's picture, if the given scene has one.
   void write_sky() {
     for (const Light& light : given_->scene.lights)
       if (const auto picture = picture_of(light))
         write_exr(directory_.path() / sky_file(given_->input.name), *picture, {});
   }
 
-  /// An exception from here (a full disk, say) ends Blender and comes out of run_process.
+  /// An exception from here (such as a full disk) ends Blender and leaves run_process().
   void take_line(std::string_view line) {
     log_.add(line);
     clock_.take(line);
@@ -284,7 +273,7 @@ class Worker {
   }
 
   /// "lobelia: begin NAME", "lobelia: done NAME SECONDS CPU_SECONDS PEAK_BYTES", "lobelia: failed NAME WHY" or
-  /// "lobelia: more". Between done and more nothing is read, so that Blender need not wait.
+  /// "lobelia: more". Pictures are not read between done and more, so that Blender need not wait.
   void take_message(const std::vector<std::string>& words) {
     if (words.size() == 2 && words[1] == "more") {
       go_on();
@@ -295,53 +284,52 @@ class Worker {
       report_done();
       begun_ = current_ = true;
     } else if (words[1] == "failed") {
-      std::string why;
-      for (std::size_t i = 3; i < words.size(); ++i) why += " " + words[i];
+      const auto why = fmt::format(" {}", fmt::join(words.begin() + 3, words.end(), " "));
       current_ = false;
       fail_given({FailureClass::kExitCode, "Blender Cycles:" + printable(why, 300)});
     } else if (words[1] == "done") {
       begun_ = true;
       done_.emplace();
-      if (words.size() > 3) parse_number(words[3], done_->seconds);
+      EngineCost& cost = done_->cost;
+      if (words.size() > 3) parse_number(words[3], cost.seconds);
       long long peak = 0;
       double cpu = 0;
       if (words.size() > 5 && parse_number(words[4], cpu) && parse_integer(words[5], peak)) {
-        done_->cpu_seconds = cpu - cpu_told_;
-        done_->peak_memory_bytes = std::uint64_t(std::max(0LL, peak));
-        done_->cost_told = true;
+        cost.cpu_seconds = cpu - cpu_told_;
+        cost.peak_memory_bytes = std::uint64_t(std::max(0LL, peak));
+        done_->has_cost = true;
         cpu_told_ = cpu;
       }
       done_->order = std::exchange(given_, nullptr);
       done_->log = std::exchange(log_, {});
-      done_->clock = clock_;
+      done_->stages = std::exchange(clock_, {}).seconds;
       current_ = false;
       begin_log();
-      clock_.restart();
     }
   }
 
-  /// The next scene is begun before the picture of the last is read, if one waits already.
+  /// Sends the next scene, if one waits already before the last picture is read.
   void go_on() {
-    if (!given_) {
-      const auto end = started_ + std::chrono::duration_cast<Clock::duration>(options_.time_limit);
-      const auto now = Clock::now();
-      if (now < end) given_ = queue_.take(now);
+    const auto clock_time = [](std::chrono::duration<double> time) {
+      return std::chrono::duration_cast<Clock::duration>(time);
+    };
+    if (given_) return report_done();
+    const auto end = started_ + clock_time(options_.time_limit);
+    if (Clock::now() < end) {
+      given_ = queue_.take(Clock::now());
       if (!given_) {
         report_done();
-        std::chrono::duration<double> idle = kIdle;
-        if (options_.no_progress_limit.count() > 0)
-          idle = std::min(idle, options_.no_progress_limit / 4);
-        if (now < end)
-          given_ = queue_.take(
-              std::min(end, Clock::now() + std::chrono::duration_cast<Clock::duration>(idle)));
+        const bool is_limited = options_.no_progress_limit.count() > 0;
+        const auto idle = is_limited ? std::min(kIdle, options_.no_progress_limit / 4) : kIdle;
+        given_ = queue_.take(std::min(end, Clock::now() + clock_time(idle)));
       }
-      if (given_) {
-        write_sky();
-        write_file(directory_.path() / kNextFile, given_->input.json);
-        line_->send(std::string(kNextFile) + "\n");
-      } else {
-        line_->close();
-      }
+    }
+    if (given_) {
+      write_sky();
+      write_file(directory_.path() / kNextFile, given_->input.json);
+      line_->send(std::string(kNextFile) + "\n");
+    } else {
+      line_->close();
     }
     report_done();
   }
@@ -349,32 +337,31 @@ class Worker {
   /// Reads the picture that is ready, if one is.
   void report_done() {
     if (!done_) return;
+    // It stays in done_ until it is read: run() passes on what is thrown here.
     const Done& done = *done_;
-    const Scene& scene = done.order->scene;
-    const std::size_t passes = done.order->input.passes;
-    remove_in_temporary_directory(directory_.path() / sky_file(done.order->input.name));
+    const Order& order = *done.order;
+    remove_in_temporary_directory(directory_.path() / sky_file(order.input.name));
     ReferenceResult result;
-    if (const Failure failure =
-            read_passes(directory_.path(), done.order->input.name, scene, passes, result.image)) {
-      queue_.fail(std::exchange(done_->order, nullptr), failure, done.log.text());
+    const Failure failure = read_passes(directory_.path(), order.input.name, order.scene,
+                                        order.input.passes, result.image);
+    if (failure) {
+      queue_.fail(done.order, failure, done.log.text());
       done_.reset();
       return;
     }
     result.log = done.log.text();
-    result.begun = done.order->begun;
-    result.record = reference_record(kBlenderInfo, queue_.status, scene);
-    result.record.witness = queue_.native() || options_.own_transport ? "native" : "expressed";
-    result.record.method = method();
-    result.record.passes = passes;
-    result.record.engine_commands = {command_};
-    record_limits(result.record, limits_);
-    result.record.seconds.total = done.seconds;
-    if (done.cost_told)
-      record_cost(result.record, done.cpu_seconds, done.peak_memory_bytes, threads_);
-    if (options_.stages) done.clock.report(result.record.seconds);
-    const OrderPointer order = done.order;
-    done_.reset();
-    order->result.set_value(std::move(result));
+    result.begun = order.begun;
+    records::Reference& record = result.record =
+        reference_record(kBlenderInfo, queue_.status, order.scene);
+    record.witness = queue_.native() || options_.own_transport ? "native" : "expressed";
+    record.method = method();
+    record.passes = order.input.passes;
+    record.engine_commands = {command_};
+    record_limits(record, limits_);
+    if (options_.stages) record.seconds = done.stages;
+    record.seconds.total = done.cost.seconds;
+    if (done.has_cost) record_cost(record, done.cost, threads_);
+    std::exchange(done_, std::nullopt)->order->result.set_value(std::move(result));
   }
 
   std::string method() const {
@@ -399,11 +386,11 @@ class Worker {
   Queue& queue_;
   const ReferenceOptions& options_;
   const TemporaryDirectory directory_;
-  OrderPointer given_;        ///< to the process, and not done
-  bool current_ = false;      ///< it has begun that one
-  std::optional<Done> done_;  ///< not yet read
-  // The process at work:
-  bool begun_ = false;  ///< any scene
+  OrderPointer given_;        ///< the scene that the process has, until it is done
+  bool current_ = false;      ///< the process has begun it
+  std::optional<Done> done_;  ///< not read yet
+  // Of the process:
+  bool begun_ = false;  ///< it has begun a scene
   int threads_ = 0;
   Clock::time_point started_;
   double cpu_told_ = 0;
@@ -420,7 +407,7 @@ class BlenderSession final : public SimpleSession {
   BlenderSession(const EngineStatus& status, const ReferenceOptions& options)
       : queue_{options, status},
         processors_(threads_of(options)),
-        // Preparing a scene keeps Blender on one processor for most of a small picture's time.
+        // For most of a small picture's time Blender prepares the scene on one processor.
         processes_(std::size_t(options.processes > 0 ? options.processes : processors_)) {}
   ~BlenderSession() override {
     {
@@ -430,7 +417,7 @@ class BlenderSession final : public SimpleSession {
     queue_.changed.notify_all();
   }
 
-  /// Two for each process: the next scene is there when one is done.
+  /// Two for each process, so that a next scene is ready.
   int at_once(std::size_t scenes) const override {
     return int(std::clamp(scenes, std::size_t{1}, 2 * processes_));
   }

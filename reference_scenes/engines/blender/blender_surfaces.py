@@ -8,7 +8,7 @@ from blender_formulas import MODELS, coefficient_of, find_lobe
 
 
 class Nodes:
-    """Arithmetic on sockets of a shader's node tree. Numbers and triples stand for constants."""
+    """Arithmetic on sockets of a shader's node tree. Numbers and triples are constants."""
 
     def __init__(self, tree):
         self.tree = tree
@@ -47,25 +47,25 @@ class Nodes:
         return node.outputs[0]
 
     def one_minus_cos(self, a, b):
-        """Of unit vectors, from their difference: 1 - a.b has no digits left near the peak."""
+        """For unit vectors, from their difference: 1 - a.b loses all digits near the peak."""
         difference = self.vector("SUBTRACT", a, b)
         return self.math("MULTIPLY", 0.5, self.vector("DOT_PRODUCT", difference, difference))
 
     def cosine_lobe(self, s, n):
-        """(1 - s)^n as exp(n log1p(-s)). A float32 power of 1 - s is off by 2e-5 at n = 1024; with
-        w = 1 - s as rounded, log(w) s/(1 - w) takes the rounding out again."""
+        """(1 - s)^n as exp(n log1p(-s)). A float32 power of 1 - s is off by 2e-5 at n = 1024. With the rounded w = 1 - s,
+        log(w) s/(1 - w) cancels the rounding."""
         w = self.math("MAXIMUM", self.math("SUBTRACT", 1.0, s), 0.0)
         rounded_s = self.math("SUBTRACT", 1.0, w)
         is_zero = self.math("LESS_THAN", rounded_s, 1e-12)
         ratio = self.math("DIVIDE", s, self.math("ADD", rounded_s, is_zero))
-        # A logarithm node returns 0 for 0, which would be a lobe of 1: see the last factor.
+        # The logarithm node returns 0 for 0, which would make the lobe 1; the last factor prevents that.
         logarithm = self.math("MULTIPLY", self.math("LOGARITHM", w, math.e), ratio)
         log1p = self.math("SUBTRACT", logarithm, self.math("MULTIPLY", s, is_zero))
         lobe = self.math("EXPONENT", self.math("MULTIPLY", n, log1p))
         return self.math("MULTIPLY", lobe, self.math("GREATER_THAN", w, 0.0))
 
     def half_square_of_angle(self, s):
-        """Of the angle whose 1 - cos is s. An arc cosine would lose the digits of a small one."""
+        """Half the square of the angle with 1 - cos = s. An arc cosine would lose the digits of small angles."""
         half = self.math("ARCSINE", self.math("SQRT", self.math("MULTIPLY", 0.5, s)))
         return self.math("MULTIPLY", 2.0, self.math("MULTIPLY", half, half))
 
@@ -76,7 +76,7 @@ class Nodes:
         return self.math("MULTIPLY", value, self.math("LESS_THAN", s, 1.0))
 
     def fresnel(self, kind, reflectance, cosine, at_grazing=1.0):
-        """The colour of the highlight or mirror: F0, or Schlick's F0 + (F90 - F0)(1 - cosine)^5."""
+        """Colour of the highlight or mirror: F0, or Schlick's F0 + (F90 - F0)(1 - cosine)^5."""
         if kind == "none":
             return self.constant(reflectance)
         if kind != "schlick":
@@ -88,17 +88,16 @@ class Nodes:
         return self.vector("ADD", self.vector("SCALE", rest, scale=weight), tuple(reflectance))
 
     def choose(self, condition, a, b):
-        """Of vectors: a where condition is 1, b where it is 0."""
+        """Vector a where condition is 1, vector b where it is 0."""
         other = self.math("SUBTRACT", 1.0, condition)
         return self.vector("ADD", self.vector("SCALE", a, scale=condition),
                            self.vector("SCALE", b, scale=other))
 
 
 class Surface(Nodes):
-    """A material in which one lamp and any number of mirrors can be seen. It is a diffuse surface
-    (radiance: colour/pi times N.L times the lamp's light) whose colour at each point is what the
-    highlight asks for. The lamp is real: horizon, shadow, N.L and the light that arrives are Cycles'
-    own. (A surface that shines with the finished radiance is not closer to the truth, and sees no
+    """A material that shows one lamp and any number of mirrors. It is a diffuse surface (radiance: colour/pi times N.L times
+    the lamp's light) with the colour at each point set to show the highlight. The lamp is real: Cycles does horizon, shadow,
+    N.L and the arriving light. (A surface that emits the finished radiance is not closer to the truth, and sees no
     shadow.)"""
 
     def __init__(self, light, lamp):
@@ -119,8 +118,8 @@ class Surface(Nodes):
                                       tuple(-c for c in light["normal"]))
                 self.falloff = self.math("MAXIMUM", towards, 0.0)
         else:
-            # The lamp's own direction as Blender rounded it: a different rounding would not cancel
-            # in lobe/N.L * N.L, which is 2e-4 of the peak where N.L is 1e-3.
+            # The lamp's direction as Blender has rounded it. Another rounding would not cancel in lobe/N.L * N.L: an error of
+            # 2e-4 of the peak where N.L is 1e-3.
             self.to_light = self.constant(lamp.matrix_world.col[2][:3])
 
     def highlight(self, material):
@@ -135,10 +134,10 @@ class Surface(Nodes):
             half = self.vector("NORMALIZE", self.vector("ADD", self.to_light, self.to_eye))
             s = self.one_minus_cos(self.normal, half)
 
-        # Radiance = (specular lobe + diffuse/pi) N.L E, where an RDF's lobe is without the N.L.
+        # Radiance = (specular lobe + diffuse/pi) N.L E; for an RDF the lobe's term has no N.L.
         weight = self.lobe(material["lobe"], s, n)
         if model.is_rdf:
-            # What Cycles multiplies is divided out; where N.L <= 0 it shows black in any case.
+            # Cancels Cycles' factor N.L. Where N.L <= 0 Cycles shows black anyway.
             n_dot_l = self.vector("DOT_PRODUCT", self.normal, self.to_light)
             weight = self.math("DIVIDE", weight, self.math("MAXIMUM", n_dot_l, 1e-7))
         weight = self.math("MULTIPLY", math.pi * coefficient_of(material), weight)
@@ -150,10 +149,9 @@ class Surface(Nodes):
                            tuple(material["diffuse"]))
 
     def closure(self, material):
-        """The highlight by Cycles' own closure of Ashikhmin and Shirley, whose distribution is cos^n
-        of the half-vector angle. Under a unit sun it shows
-            (n + 1)/(8 pi) (N.H)^n N.L / ((H.V) max(N.L, N.V)):
-        its colour takes out that geometry term, and puts in what the model has."""
+        """The highlight by Cycles' Ashikhmin-Shirley closure, with the distribution cos^n of the half-vector angle. Under a
+        unit sun it shows (n + 1)/(8 pi) (N.H)^n N.L / ((H.V) max(N.L, N.V)). The colour replaces this geometry term by the
+        model's."""
         model, n = MODELS[material["model"]], material["exponent"]
         if not model.half_vector or material["lobe"] != "cosine":
             raise KeyError(material["model"] + " " + material["lobe"])
@@ -178,11 +176,11 @@ class Surface(Nodes):
         if not any(material["mirror"]):
             return self.constant((0, 0, 0))
         cosine = self.vector("DOT_PRODUCT", self.normal, self.to_eye)
-        at_grazing = min(1.0, 50*max(material["mirror"]))  # a mirror of reflectance 0 is none
+        at_grazing = min(1.0, 50*max(material["mirror"]))  # 0 for reflectance 0
         return self.fresnel(material["fresnel"], material["mirror"], cosine, at_grazing)
 
     def finish(self, color, mirror, mirrors, closure=None):
-        """The base as seen by so many mirrors: before, a surface is a mirror and nothing else."""
+        """The base after this many mirrors. For fewer, the surface is only a mirror."""
         if self.falloff is not None:
             color = self.vector("SCALE", color, scale=self.falloff)
         base = self.new("ShaderNodeBsdfDiffuse")
@@ -220,7 +218,7 @@ def sphere_material(job, sphere, light, lamp, mirrors):
 
 
 def plane_material(job, plane, light, lamp, mirrors, is_lit):
-    """A lamp that lies in the plane shines along it; Cycles' rounding would light points at random."""
+    """A lamp in the plane shines along it and does not light it; Cycles' rounding would light points at random."""
     surface = Surface(light, lamp)
     first = job["materials"][plane["material"]]
     color, mirror = surface.highlight(first), surface.mirror(first)

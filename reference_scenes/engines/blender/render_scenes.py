@@ -16,22 +16,21 @@ job.json (numbers and enumerations only):
                    "material": 0, "checkerMaterial": 0, "checkerSize": 1}],
        "native": false, "passes": [{"light": 0, "mirrors": 0}]}]}
 
-Native highlights are Cycles' own closure, others are nodes. Each pass is a picture of its own,
-NAME-PASS.exr (float32, beside job.json), of the light that comes from one lamp by so many mirrors.
-The caller adds them up, in more digits than a renderer would. Progress is told in lines
+Native highlights use Cycles' own closure, others nodes. Each pass is a picture NAME-PASS.exr (float32, beside job.json) of
+the light of one lamp after a number of mirrors. The caller adds them up in higher precision. Output:
 
     lobelia: begin NAME
     lobelia: done NAME SECONDS CPU_SECONDS PEAK_BYTES
     lobelia: failed NAME WHY
     lobelia: more
 
-"more" comes with "goOn" alone, when all scenes are done: then a line of standard input names a file,
-beside job.json, with one scene more. At its end, or an empty line, so does this program.
-CPU_SECONDS and PEAK_BYTES are of the process since it started.
+"more" is written with "goOn" only, when all scenes are done. Then a line of standard input names a file beside job.json
+with another scene. An empty line or the end of the input ends this program. CPU_SECONDS and PEAK_BYTES count from the start
+of the process.
 
-A scene with "transport": {"samples": 16, "seed": 1, "bounces": 4} has one pass, by Cycles' own light
-transport: matt materials, lights of the kinds "rectangle" (center, halfU, halfV, radiance) and
-"environment" (radiance; file: a picture by latitude and longitude, +y up, -z in its middle).
+A scene with "transport": {"samples": 16, "seed": 1, "bounces": 4} has one pass by Cycles' own light transport: matt
+materials, lights of kind "rectangle" (center, halfU, halfV, radiance) and "environment" (radiance; file: a latitude-longitude
+picture, +y up, -z in the middle).
 """
 
 import json
@@ -95,7 +94,7 @@ def tell(*words):
 
 
 def jobs_scenes(job, directory):
-    """Those that the job lists; then, if someone is there to ask, those that he names files of."""
+    """The scenes in the job; with "goOn", then those that the caller sends."""
     yield from job["scenes"]
     while job.get("goOn"):
         tell("more")
@@ -107,7 +106,7 @@ def jobs_scenes(job, directory):
 
 
 def peak_memory():
-    """Bytes, resident, since Blender started. getrusage would tell at least those of the process that started it."""
+    """Resident bytes since Blender started. getrusage() would include the memory of the process that started it."""
     with open("/proc/self/status", encoding="ascii", errors="replace") as status:
         for line in status:
             if line.startswith("VmHWM:"):
@@ -120,7 +119,7 @@ def main():
     directory = os.path.dirname(job_file)
     with open(job_file, encoding="utf-8") as file:
         job = json.load(file)
-    # A hanging renderer does not listen to Python; the system's alarm ends the process regardless.
+    # A hanging renderer does not run Python, but the system's alarm ends the process.
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
     for scene in jobs_scenes(job, directory):
         name = scene["name"]
@@ -134,10 +133,10 @@ def main():
                     render_transport(scene, job["threads"], picture)
                 else:
                     render_pass(scene, index, job["threads"], picture)
-        except Exception as error:  # one scene's failure is not the next one's
+        except Exception as error:  # go on with the next scene
             tell("failed", name, type(error).__name__, " ".join(str(error).split()))
         else:
-            # Of the process since its start: what it took to start is part of its first scene.
+            # Since the process started, so the start counts for the first scene.
             used = time.process_time()
             tell("done", name, "%.3f" % (time.monotonic() - begun), "%.3f" % used, peak_memory())
         signal.setitimer(signal.ITIMER_REAL, 0)

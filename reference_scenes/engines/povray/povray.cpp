@@ -16,17 +16,16 @@
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/povray/povray_input.hpp"
-#include "reference_scenes/engines/povray/povray_options.hpp"
 #include "reference_scenes/preparation.hpp"
 
 namespace lobelia {
 namespace {
 namespace fs = std::filesystem;
 
-/// POV-Ray 3.7 sleeps through most of the 0.7 to 1.1 s that a small picture takes it; a large one works.
+/// POV-Ray 3.7 sleeps for most of the 0.7 to 1.1 s that a small picture takes.
 constexpr double kSecondsAsleep = 1;
 constexpr int kProcessesPerProcessor = 16;
-constexpr double kFirstPerProcessor = 12;  // until one has ended and told how long it worked
+constexpr double kFirstPerProcessor = 12;  // until one has ended and its CPU time is known
 constexpr std::size_t kLargePixels = 1 << 20;
 
 constexpr EngineProbe kPovrayProbe{"povray", "POV-Ray ", [](int major, int minor) {
@@ -40,9 +39,8 @@ struct PassResult {
   std::vector<std::string> commands;
   EngineLog log;
   ProcessLimits limits{true, Containment::kPidNamespace};  ///< the weakest of its processes
-  double seconds = 0, cpu_seconds = 0;
-  std::uint64_t peak_memory_bytes = 0;
-  double parse_seconds = 0, trace_seconds = 0;  ///< by its statistics, where they were asked for
+  EngineCost cost;
+  double parse_seconds = 0, trace_seconds = 0;  ///< from POV-Ray's statistics, if asked for
 };
 
 /// One scene.
@@ -54,8 +52,13 @@ struct Job {
   fs::path directory;
 };
 
-/// Also of what keep_povray_input() writes, so that messages name a file that is there.
+/// The file name of a pass, also in keep_povray_input(), so that messages name a file that exists.
 std::string pass_stem(std::size_t pass) { return fmt::format("pass{}", pass); }
+
+/// The weaker of two processes' limits.
+ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b) {
+  return {a.writes_limited && b.writes_limited, std::min(a.contained, b.contained)};
+}
 
 /// "  Trace Time:       0 hours  0 minutes  0 seconds (0.029 seconds)"; 0 for any other line.
 double seconds_in(std::string_view line, std::string_view what) {
@@ -66,25 +69,24 @@ double seconds_in(std::string_view line, std::string_view what) {
   return seconds;
 }
 
-/// Lets in so many processes that the processors are busy though each of them mostly sleeps.
+/// Admits enough processes, up to `most`, to keep the processors busy although each process mostly sleeps.
 class Gate {
  public:
-  /// For at most `most` processes at once.
   Gate(int processors, int most) : processors_(processors), most_(most) {}
-  /// One process after the other. Those of large pictures keep the processors busy by themselves.
+  /// One process after another. A large picture keeps the processors busy by itself.
   class Visit {
    public:
     Visit(Gate& gate, bool large) : gate_(gate), large_(large) { gate.enter(large); }
     ~Visit() { gate_.leave(large_, cpu_seconds); }
     Visit(const Visit&) = delete;
     Visit& operator=(const Visit&) = delete;
-    double cpu_seconds = 0;  ///< of each process; 0 where that is not known
+    double cpu_seconds = 0;  ///< of each process; 0: not known
 
    private:
     Gate& gate_;
     const bool large_;
   };
-  /// Of processes that are not there, as far as can be told.
+  /// How many more processes may start now.
   int room() {
     const std::scoped_lock lock(mutex_);
     return std::max(0, most_ - inside_);
@@ -102,7 +104,7 @@ class Gate {
       const std::scoped_lock lock(mutex_);
       --inside_;
       large_inside_ -= large;
-      // The last few count: the next scenes may be of another kind.
+      // A running mean, because the next scenes may differ.
       if (cpu_seconds > 0)
         mean_ = mean_ > 0 ? mean_ + (cpu_seconds - mean_) / processors_ / 4 : cpu_seconds;
     }
@@ -162,19 +164,17 @@ class Povray final : public ProgramEngine {
   }
 };
 
-/// Renders `stem`.pov in `home`, and adds to the result what it took.
+/// Renders `stem`.pov in `home`, and adds its picture and cost to the result.
 void PovraySession::run_pov(PassResult& result, const Job& job, const PovrayPass& pass,
                             const std::string& stem, const fs::path& home) const {
   write_povray_ini(home, stem, pass.gain, job.options);
   const std::vector<std::string> arguments{status_.program.string(), stem + ".ini"};
   ProcessOptions process;
-  process.working_directory = process.writable = process.progress_directory = home;
   process.on_start = [&](const ProcessLimits& limits) {
     result.limits = weaker(result.limits, limits);
   };
   process.environment = povray_home(home, status_.version);
   process.timeout = options_.time_limit;
-  process.no_progress_limit = options_.no_progress_limit;
   process.stop = &stop_;
   const std::string command = shell_join(arguments);
   result.log.add("$ " + command);
@@ -185,15 +185,13 @@ void PovraySession::run_pov(PassResult& result, const Job& job, const PovrayPass
     result.trace_seconds += seconds_in(line, "Trace Time:");
   };
   ProcessResult ended;
-  // It waits some seconds for its own thread to start, which is not enough on a crowded machine.
+  // POV-Ray waits a few seconds for its own thread to start, too short on a busy machine.
   constexpr std::string_view kSlowStart = "Timed out waiting for worker thread startup";
   constexpr int kMostStarts = 5;
   for (int start = 0; start < kMostStarts; ++start) {
-    result.failure = run_engine(kPovrayInfo, arguments, process, options_, ended);
+    result.failure = run_engine(kPovrayInfo, arguments, home, process, options_, ended);
     result.commands.push_back(command);
-    result.seconds += ended.seconds;
-    result.cpu_seconds += ended.cpu_seconds;
-    result.peak_memory_bytes = std::max(result.peak_memory_bytes, ended.peak_memory_bytes);
+    result.cost.add({ended.seconds, ended.cpu_seconds, ended.peak_memory_bytes});
     if (!result.failure) break;
     if (ended.output_tail.find(kSlowStart) == ended.output_tail.npos) return;
   }
@@ -204,20 +202,18 @@ void PovraySession::run_pov(PassResult& result, const Job& job, const PovrayPass
       result.failure.kind == FailureClass::kNoOutput && !words.empty())
     result.failure.message += ": " + words;
   if (result.failure) return;
-  // The second of two passes shows half of the first one's rounding.
-  const bool first = result.image.pixel_count() == 0;
-  if (first) result.image = Image(image.width(), image.height());
-  for (std::size_t i = 0; i < image.values().size(); ++i) {
-    const float value = float(image.values()[i] / pass.gain);
-    if (first)
-      result.image.values()[i] = value;
-    else
-      result.image.values()[i] += 2 * value;
+  for (float& value : image.values()) value = float(value / pass.gain);
+  if (result.image.pixel_count() == 0) {
+    result.image = std::move(image);
+    return;
   }
+  // The second of two pictures shows half of the first one's rounding error.
+  for (std::size_t i = 0; i < image.values().size(); ++i)
+    result.image.values()[i] += 2 * image.values()[i];
 }
 
-/// The pass, and where it was asked for a second one that shows what half floats left out of the first; in
-/// a directory that has nothing else, so that whatever happens there is progress of this pass.
+/// Renders the pass, and with `fine` a second picture of the first one's rounding error, in a directory of its own, so that
+/// every change there is progress of this pass.
 PassResult PovraySession::run_pass(const Job& job, std::size_t index) {
   const PovrayPass& pass = job.input.passes[index];
   const std::string stem = pass_stem(index);
@@ -237,54 +233,8 @@ PassResult PovraySession::run_pass(const Job& job, std::size_t index) {
     write_file(home / (rest + ".pov"), pass.rest(stem + ".exr"));
     run_pov(result, job, pass, rest, home);
   }
-  visit.cpu_seconds = result.cpu_seconds / double(result.commands.size());
-  remove_in_temporary_directory(home);  // of many large pictures only those at work lie on the disk
-  return result;
-}
-
-ReferenceResult finish(const Job& job, std::vector<PassResult>& passes,
-                       const ReferenceOptions& options, records::Reference record) {
-  ReferenceResult result;
-  const bool fine = options.fine;
-  double seconds = 0, cpu_seconds = 0, parse_seconds = 0, trace_seconds = 0;
-  std::uint64_t peak_memory_bytes = 0;
-  ProcessLimits limits{true, Containment::kPidNamespace};
-  std::vector<std::string> commands;
-  std::vector<Image> images;
-  result.begun = std::ranges::min(passes, {}, &PassResult::begun).begun;
-  for (PassResult& pass : passes) {
-    result.log += pass.log.text();
-    if (result.error.empty() && pass.failure) {
-      result.error = pass.failure.message;
-      result.failure = pass.failure.kind;
-    }
-    seconds += pass.seconds;
-    cpu_seconds += pass.cpu_seconds;
-    peak_memory_bytes = std::max(peak_memory_bytes, pass.peak_memory_bytes);
-    parse_seconds += pass.parse_seconds;
-    trace_seconds += pass.trace_seconds;
-    limits = weaker(limits, pass.limits);
-    for (const std::string& command : pass.commands) commands.push_back(command);
-    images.push_back(std::move(pass.image));
-  }
-  record.witness = job.input.native ? "native" : "expressed";
-  record.method = job.input.native ? "POV-Ray's own highlight under its own lamps"
-                                   : "pattern function under a real lamp, one pass per light";
-  if (fine)
-    record.method +=
-        "; twice, the second time less the first picture, for what half floats round off";
-  record.passes = passes.size();
-  record.engine_commands = std::move(commands);
-  record.engine_options = job.options;
-  record_limits(record, limits);
-  record.seconds.total = seconds;
-  record_cost(record, cpu_seconds, peak_memory_bytes, job.threads);
-  if (options.stages) {
-    record.seconds.parse = parse_seconds;
-    record.seconds.trace = trace_seconds;
-  }
-  result.record = std::move(record);
-  if (result.error.empty()) result.image = sum_of(images);
+  visit.cpu_seconds = result.cost.cpu_seconds / double(result.commands.size());
+  remove_in_temporary_directory(home);  // large pictures must not pile up on the disk
   return result;
 }
 
@@ -300,11 +250,46 @@ ReferenceResult PovraySession::render(const Scene& scene, std::size_t scenes) {
   job.threads = std::max(1, processors_ / at_once(scenes * passes.size()));
   job.options = povray_options(job.film, job.threads, options_.stages);
   job.directory = directory_.path() / fmt::format("scene{}", begun_++);
-  // Where there is room, passes go side by side; elsewhere other scenes do.
+  // Passes run side by side if there is room; otherwise other scenes do.
   for_each_at_once(
       passes.size(), 1 + gate_.room(), [&](std::size_t p) { passes[p] = run_pass(job, p); },
       [this] { stop(); });
-  return finish(job, passes, options_, reference_record(kPovrayInfo, status_, scene));
+
+  PassResult all;
+  std::vector<Image> images;
+  ReferenceResult result;
+  for (PassResult& pass : passes) {
+    result.log += pass.log.text();
+    if (!all.failure) all.failure = pass.failure;
+    all.cost.add(pass.cost);
+    all.parse_seconds += pass.parse_seconds;
+    all.trace_seconds += pass.trace_seconds;
+    all.limits = weaker(all.limits, pass.limits);
+    std::ranges::move(pass.commands, std::back_inserter(all.commands));
+    images.push_back(std::move(pass.image));
+  }
+  result.begun = std::ranges::min(passes, {}, &PassResult::begun).begun;
+  result.error = all.failure.message;
+  result.failure = all.failure.kind;
+  if (!all.failure) result.image = sum_of(images);
+  records::Reference& record = result.record = reference_record(kPovrayInfo, status_, scene);
+  record.witness = job.input.native ? "native" : "expressed";
+  record.method = job.input.native ? "POV-Ray's own highlight under its own lamps"
+                                   : "pattern function under a real lamp, one pass per light";
+  if (options_.fine)
+    record.method +=
+        "; twice, the second time less the first picture, for what half floats round off";
+  record.passes = passes.size();
+  record.engine_commands = std::move(all.commands);
+  record.engine_options = job.options;
+  record_limits(record, all.limits);
+  record.seconds.total = all.cost.seconds;
+  record_cost(record, all.cost, job.threads);
+  if (options_.stages) {
+    record.seconds.parse = all.parse_seconds;
+    record.seconds.trace = all.trace_seconds;
+  }
+  return result;
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ inline constexpr EngineInfo kPovrayInfo{
 
 std::unique_ptr<Engine> make_povray(const std::filesystem::path& program);
 
-/// Writes what POV-Ray is given for `scene` into `directory`, which exists.
+/// Writes POV-Ray's input for `scene` into `directory`, which exists.
 void keep_povray_input(const Scene& scene, const ReferenceOptions& options,
                        const std::filesystem::path& directory);
 

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/files.hpp"
+#include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/preparation.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/peak_bound.hpp"
@@ -18,12 +20,12 @@ extern const std::string_view lobelia_scene_inc;
 }
 namespace {
 
-/// The largest half float is 65504; half of it leaves room for the bound's own rounding.
+/// Half of the largest half float (65504), to leave room for the rounding of the bound.
 constexpr double kHighestHalf = 3e4;
-/// POV-Ray's shadows have tolerances up to 1e-3, and the brightest point beside a lamp sets the gain. At 1e-2
-/// every pixel was right, at 1e-3 one in ten off, at 1e-4 light came through planes.
+/// POV-Ray's shadows have tolerances up to 1e-3, and the brightest point near a lamp sets the gain. At 1e-2 every pixel was
+/// right, at 1e-3 one in ten was off, and at 1e-4 light came through planes.
 constexpr double kNearestLamp = 5e-3;
-/// Keeps lamp colours, which POV-Ray has in float32, within its range.
+/// Keeps lamp colours within the range of float32, which POV-Ray stores them in.
 constexpr int kMaxGainStops = 60;
 
 std::string sdl(double value) { return exact_text(value); }
@@ -32,24 +34,23 @@ std::string sdl(Rgb c) { return fmt::format("<{}, {}, {}>", sdl(c.r), sdl(c.g), 
 
 bool is_grey(Rgb c) { return c.r == c.g && c.g == c.b; }
 
-/// POV-Ray's highlights are these two with the lobe cos^n, in the colour of the lamp. (Of these two
-/// the paper prints the exact coefficient.) They have no Fresnel factor.
-bool is_native(const Material& material) {
-  if (!has_highlight(material)) return true;
+/// POV-Ray has two models itself, with the lobe cos^n, in the lamp's colour and without a Fresnel factor. Their coefficients
+/// are exact in the paper, too.
+bool has_native_highlight(const Material& material) {
   const std::string_view model = info(material.highlight.model).name;
   return (model == "phong_rdf" || model == "blinn_phong_rdf") &&
          info(material.highlight.lobe).name == "cosine" && material.fresnel == Fresnel::kNone &&
          is_grey(material.specular_reflectance);
 }
 
-/// Whether POV-Ray's own shading is used; `expressed` leaves it only what has no highlight at all.
-bool by_itself(const Material& material, bool expressed) {
-  return !has_highlight(material) || (!expressed && is_native(material));
+/// Whether POV-Ray's own shading is used. With `expressed`, only for materials without a highlight.
+bool is_native(const Material& material, bool expressed) {
+  return !has_highlight(material) || (!expressed && has_native_highlight(material));
 }
 
 std::string lamp_text(const Lamp& lamp, const Scene& scene) {
   if (lamp.is_distant) {
-    // In front of all that is seen of an endless plane, and not beyond POV-Ray's farthest ray, 1e7.
+    // Beyond all that is visible of an infinite plane, but within POV-Ray's farthest ray, 1e7.
     const double far = scene.planes.empty() ? 1000 * extent(scene) : 1e6;
     return fmt::format("Lobelia_Directional_Light({}, {}, {})\n", sdl(lamp.direction),
                        sdl(lamp.strength), sdl(far));
@@ -81,13 +82,13 @@ std::string expressed_texture(const Material& material) {
                      sdl(material.specular_reflectance), sdl(material.diffuse_reflectance));
 }
 
-/// Declares a texture for the surface whose normal was declared last; returns its name.
+/// Declares a texture for the surface with the last declared normal, and returns its name.
 std::string declare_texture(std::string& scene, const Material& material, bool expressed,
                             int& count) {
   const std::string name = fmt::format("Lobelia_Texture_{}", count++);
   scene += fmt::format(
       "#declare {} = {}\n", name,
-      by_itself(material, expressed) ? native_texture(material) : expressed_texture(material));
+      is_native(material, expressed) ? native_texture(material) : expressed_texture(material));
   return name;
 }
 
@@ -139,7 +140,7 @@ PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const P
   if (bound > 0)
     pass.gain = std::exp2(std::clamp(std::floor(std::log2(kHighestHalf / bound)),
                                      -double(kMaxGainStops), double(kMaxGainStops)));
-  // In the scene, because the command line rounds to six digits.
+  // Set in the scene, because the command line rounds to six digits.
   pass.view = "#version 3.7;\n";
   for (const auto& include : input.includes)
     pass.view += fmt::format("#include \"{}\"\n", include.first);
@@ -155,9 +156,9 @@ PovrayPass pass_of(const Scene& scene, const std::vector<Light>& lights, const P
   return pass;
 }
 
-bool all_by_itself(const Scene& scene, bool expressed) {
+bool all_native(const Scene& scene, bool expressed) {
   return std::ranges::all_of(materials_in_use(scene),
-                             [&](const Material* m) { return by_itself(*m, expressed); });
+                             [&](const Material* m) { return is_native(*m, expressed); });
 }
 
 }  // namespace
@@ -172,13 +173,13 @@ std::string why_not_in_povray(const Scene& scene, const ReferenceOptions& option
     return lamp + ", and in POV-Ray a rounding decides whether the sphere hides it";
   if (const std::string lamp = lamp_close_to_surface(scene, kNearestLamp); !lamp.empty())
     return lamp + ", and POV-Ray's shadows do not tell the two apart";
-  if (options.shading == Shading::kNative && !all_by_itself(scene, false))
+  if (options.shading == Shading::kNative && !all_native(scene, false))
     return "POV-Ray has itself only the highlights of Phong (RDF) and Blinn-Phong (RDF) with cos^n, grey "
            "and without Fresnel";
   if (!has_mirror(scene)) return {};
   if (options.fine)
     return "what POV-Ray's half floats round off in a mirror it cannot take away again";
-  if (!all_by_itself(scene, options.shading == Shading::kReimplemented))
+  if (!all_native(scene, options.shading == Shading::kReimplemented))
     return "a highlight that POV-Ray does not have itself is a function of the camera's place there, "
            "and a mirror shows it from another";
   return {};
@@ -187,10 +188,10 @@ std::string why_not_in_povray(const Scene& scene, const ReferenceOptions& option
 PovrayInput povray_input(const Scene& scene, const ReferenceOptions& options) {
   const bool expressed = options.shading == Shading::kReimplemented;
   PovrayInput input;
-  input.native = all_by_itself(scene, expressed);
+  input.native = all_native(scene, expressed);
   input.includes["lobelia_scene.inc"] = embedded::lobelia_scene_inc;
   for (const Material* material : materials_in_use(scene))
-    if (!by_itself(*material, expressed))
+    if (!is_native(*material, expressed))
       input.includes[povray_names(material->highlight).file] =
           povray_text(std::span(&material->highlight, 1));
   if (input.native)
@@ -199,6 +200,46 @@ PovrayInput povray_input(const Scene& scene, const ReferenceOptions& options) {
     for (const Light& light : scene.lights)
       input.passes.push_back(pass_of(scene, {light}, input, expressed));
   return input;
+}
+
+std::vector<std::string> povray_options(const Film& film, int threads, bool statistics) {
+  return {"Output_to_File=on",
+          "Output_File_Type=E",  // OpenEXR: always half float
+          fmt::format("Width={}", film.width), fmt::format("Height={}", film.height),
+          "Antialias=off",  // one ray through the middle of the pixel
+          "Jitter=off", "Quality=9", "Output_Alpha=off",
+          "Display=off",  // no window
+          "Pause_When_Done=off",
+          "Continue_Trace=off",  // never resume an older picture
+          // Not All_Console, which would hide errors too.
+          "Debug_Console=off", "Render_Console=off",
+          statistics ? "Statistic_Console=on" : "Statistic_Console=off", "Verbose=off",
+          fmt::format("Work_Threads={}", threads)};
+}
+
+void write_povray_ini(const std::filesystem::path& directory, const std::string& stem, double gain,
+                      const std::vector<std::string>& options) {
+  write_file(directory / (stem + ".ini"),
+             fmt::format(
+                 "; {0} times too bright, for half floats. The passes, divided by theirs, add up.\n"
+                 "Input_File_Name={1}.pov\nOutput_File_Name={1}.exr\n{2}\n",
+                 exact_text(gain), stem, fmt::join(options, "\n")));
+}
+
+std::vector<std::string> povray_home(const std::filesystem::path& home,
+                                     const std::string& version) {
+  const auto minor = version.find('.') + 1;
+  const std::filesystem::path settings =
+      home / ".povray" / version.substr(0, version.find('.', minor));
+  make_directories(settings);
+  write_file(settings / "povray.conf",
+             "[File I/O Security]\nrestricted\n"
+             "[Shellout Security]\nforbidden\n"
+             "[Permitted Paths]\nread* = %INSTALLDIR%/include\nread+write = .\n");
+  write_file(home / "povray.ini", "; In place of the system's and the user's.\n");
+  std::vector<std::string> environment = engine_environment(home);
+  environment.push_back(fmt::format("POVINI={}", (home / "povray.ini").string()));
+  return environment;
 }
 
 }  // namespace lobelia

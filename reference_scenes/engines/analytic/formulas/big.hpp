@@ -1,5 +1,5 @@
-// The number that truths are computed in. For .cpp files of reference_scenes/engines/analytic/formulas/ alone: it takes seconds to
-// compile. The rest of the room sees truths rounded to double.
+// The number type of ground truths. For the .cpp files of this folder only, because it takes seconds to compile; everything
+// else sees truths rounded to double.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -10,8 +10,7 @@
 
 namespace lobelia::truth {
 
-/// 50 decimal digits; no function of it is shared with the renderer, which has only those of the
-/// standard library and of Highway.
+/// 50 decimal digits. It shares no function with the renderer, which uses the standard library and Highway.
 using Big = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                           boost::multiprecision::et_off>;
 static_assert(std::numeric_limits<Big>::digits >= 113);

@@ -1,5 +1,7 @@
-// 1 / (2 pi integral of lobe times cosines times sin x, x = 0..pi/2), in pieces: about the lobe's width
-// where it is high, then ever longer ones. The lobe of a cs_k ends in a corner, where a piece ends too.
+// 1 / (2 pi integral of lobe times cosines times sin x, x = 0..pi/2), in pieces: as long as the lobe is wide near its
+// peak, then longer and longer. The lobe of a cs_k ends in a corner, and so does a piece.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/quadrature/gauss.hpp>
@@ -9,14 +11,16 @@
 #include <tuple>
 #include <vector>
 
+#include "core/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/big.hpp"
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
+#include "reference_scenes/engines/analytic/formulas/printed.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 
 namespace lobelia::truth {
 namespace {
 
-/// From where a lobe is this small its tail adds nothing: the whole is more than 1/n.
+/// The tail beyond a lobe this small adds nothing: the whole integral is more than 1/n.
 constexpr double kNothing = 1e-40;
 
 /// Ends of the pieces, from 0 to a right angle.
@@ -57,10 +61,9 @@ double integrate(const ModelRow& model, LobeId lobe, double exponent) {
     if (highest * exponent < kNothing) return normalised(sum);
     sum += boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
   }
-  // cos^n of a small n rises steeply from the right angle: the last piece from there, with points that
-  // crowd at its end.
+  // cos^n with a small n rises steeply from the right angle. The last piece starts there, with points crowded at that end.
   thread_local boost::math::quadrature::tanh_sinh<Big> corner;
-  // In parts of the piece: over less than 1, Boost's least step underflows.
+  // Over 0 to 1, in parts of the piece: over a shorter interval Boost's smallest step underflows.
   const Big piece = ends.back() - ends[ends.size() - 2];
   const auto from_right_angle = [&](const Big& part) {
     const Big right_angle = boost::math::constants::half_pi<Big>(), y = piece * part;
@@ -74,7 +77,7 @@ double integrate(const ModelRow& model, LobeId lobe, double exponent) {
 }  // namespace
 
 double coefficient(ModelId model, LobeId lobe, double exponent) {
-  // Pictures ask for the same few again and again, and each takes hundredths of a second.
+  // Pictures ask for the same few again and again, and each takes about 10 ms.
   static std::mutex mutex;
   static std::map<std::tuple<int, int, int, double>, double> known;
   const std::tuple key(model.index, lobe.index, lobe.order, exponent);
@@ -85,6 +88,19 @@ double coefficient(ModelId model, LobeId lobe, double exponent) {
   const double value = integrate(model_row(model), lobe, exponent);
   const std::lock_guard lock(mutex);
   return known[key] = value;
+}
+
+double coefficient(const Highlight& highlight) {
+  if (highlight.normalisation == Normalisation::kExact)
+    return coefficient(highlight.model, highlight.lobe, highlight.exponent);
+  const ModelRow& model = model_row(highlight.model);
+  const auto& row = *std::ranges::find(paper::kRows, model.name, &paper::Row::name);
+  const std::string_view lobe = info(highlight.lobe).name;
+  if (lobe != "cosine" && lobe != "cs16")
+    throw Error(ExitCode::kInput,
+                fmt::format("the paper prints no coefficient for the lobe '{}'", lobe));
+  const auto column = row.column(lobe == "cosine" ? paper::Lobe::kCosine : paper::Lobe::kCs16);
+  return double(column(highlight.exponent) / model.parts);
 }
 
 }  // namespace lobelia::truth

@@ -1,12 +1,12 @@
-// The textbook definition of a lobe by its id, for any type of number: the truth in 50 digits, a quick
-// search in long double, the naive formula in float32.
+// The textbook definition of a lobe by its id, for any number type: 50 digits for the truth, long double for a quick
+// search, float32 for the naive formula.
 #pragma once
 
 #include "renderer/lobes/catalogue.hpp"
 
 namespace lobelia {
 
-/// The lobe by its textbook definition. `cosine` of its angle is in (0, 1].
+/// The lobe at the angle with this cosine, in (0, 1].
 template <class Number>
 Number lobe_definition(LobeId lobe, const Number& cosine, double exponent) {
   using Definition = Number (*)(LobeParameters, const Number&);
@@ -17,8 +17,8 @@ Number lobe_definition(LobeId lobe, const Number& cosine, double exponent) {
   return kDefinitions.at(lobe.index)({exponent, lobe.order}, cosine);
 }
 
-/// The density of a lobe's draws over s is lobe times this over its integral: 1 where they follow the lobe itself.
-/// Gauss's are of x as if it were a plane's radius, Schlick's of a lobe without its numerator.
+/// A lobe is sampled over s with the density lobe times this, over its integral: 1 where the samples follow the lobe itself.
+/// Gauss draws its angle as if it were a radius in the plane; Schlick draws from its lobe without the numerator.
 template <class Number>
 Number draw_factor(LobeId lobe, const Number& cosine) {
   using std::acos, std::sin;

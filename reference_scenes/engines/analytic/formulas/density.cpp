@@ -1,4 +1,4 @@
-// The distribution that the draws of a lobe follow, over its integral in pieces of s that grow from the lobe's width on.
+// The density of a lobe's samples. Its integral is taken in pieces of s that grow from the lobe's width on.
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
@@ -11,7 +11,8 @@
 namespace lobelia::truth {
 namespace {
 
-Big followed(LobeId lobe, const Big& cosine, double exponent) {
+/// The density, not normalised.
+Big unnormalised(LobeId lobe, const Big& cosine, double exponent) {
   if (cosine <= 0) return 0;
   return lobe_of_cosine(lobe, cosine, exponent) * draw_factor(lobe, cosine);
 }
@@ -22,12 +23,12 @@ Big whole(LobeId lobe, double exponent) {
   Big sum = 0, from = 0, to = 1 / (2 * Big(exponent));
   for (; to < end; from = to, to *= 2)
     sum += boost::math::quadrature::gauss<Big, 30>::integrate(
-        [&](const Big& s) { return followed(lobe, 1 - s, exponent); }, from, to);
-  // cos^n of a small n rises steeply from the right angle: points that crowd there.
+        [&](const Big& s) { return unnormalised(lobe, 1 - s, exponent); }, from, to);
+  // cos^n with a small n rises steeply from the right angle, so the points are crowded there.
   thread_local boost::math::quadrature::tanh_sinh<Big> corner;
   const Big piece = end - from, lowest = 1 - end;
   const auto from_end = [&](const Big& part) {
-    return followed(lobe, lowest + piece * part, exponent);
+    return unnormalised(lobe, lowest + piece * part, exponent);
   };
   return sum + piece * corner.integrate(from_end, Big(0), Big(1), Big(1e-22));
 }
@@ -36,7 +37,7 @@ Big whole(LobeId lobe, double exponent) {
 
 std::function<double(double s)> density(LobeId lobe, double exponent) {
   return [=, integral = whole(lobe, exponent)](double s) {
-    return double(followed(lobe, 1 - Big(s), exponent) / integral);
+    return double(unnormalised(lobe, 1 - Big(s), exponent) / integral);
   };
 }
 

@@ -1,5 +1,6 @@
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
 #include "reference_scenes/engines/analytic/formulas/tracer.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
+#include "renderer/pixel_ray.hpp"
 
 namespace lobelia::truth {
 namespace {
@@ -26,26 +28,26 @@ Rgb reflected(Fresnel fresnel, Rgb f0, double f90, const Real& cosine) {
 /// A mirror's F90: 50 times its largest component, until that is 1.
 double mirror_f90(Rgb f0) { return std::min(50 * std::max({f0.r, f0.g, f0.b}), 1.0); }
 
-/// A material with what is the same in every pixel.
+/// A material, and what is the same for it in every pixel.
 struct Finish {
   const Material& material;
   const ModelRow& model;
-  double in_front = 0;  ///< the coefficient; 0 where there is no highlight
+  double coefficient = 0;  ///< 0 without a highlight
 
   explicit Finish(const Material& m) : material(m), model(model_row(m.highlight.model)) {
-    if (has_highlight(m)) in_front = coefficient(m.highlight);
+    if (has_highlight(m)) coefficient = truth::coefficient(m.highlight);
   }
   /// Radiance per irradiance normal to the beam.
   template <class Real>
   Rgb reflectance(const Met<Real>& at, const Arrival<Real>& light) const {
     const double n_dot_l(light.n_dot_l);
     const Rgb diffuse = n_dot_l * std::numbers::inv_pi * material.diffuse_reflectance;
-    if (in_front == 0) return diffuse;
+    if (coefficient == 0) return diffuse;
     const Highlight& highlight = material.highlight;
     const Real cosine = lobe_cosine(model.angle, at.normal, at.to_eye, light.to_light);
     const double lobe(lobe_of_cosine(highlight.lobe, cosine, highlight.exponent));
     const Real v_dot_h = dot(at.to_eye, normalize(light.to_light + at.to_eye));
-    return in_front * lobe * (model.radiance_has_cosine ? n_dot_l : 1) *
+    return coefficient * lobe * (model.radiance_has_cosine ? n_dot_l : 1) *
                reflected(material.fresnel, material.specular_reflectance, 1, v_dot_h) +
            diffuse;
   }
@@ -78,6 +80,24 @@ std::vector<Rgb> evaluate_in(const Scene& scene, const std::function<bool()>& st
 }
 
 }  // namespace
+
+std::string why_not_evaluated(const Scene& scene) {
+  if (!std::all_of(scene.lights.begin(), scene.lights.end(), is_delta))
+    return "formulas per pixel are of directional and point lights; this scene has a light with a size";
+  if (scene.camera.aperture_radius > 0)
+    return "formulas per pixel are of a pinhole camera; this scene's has a lens (aperture_radius)";
+  if (scene.sampler.sample_count > 1)
+    return fmt::format(
+        "formulas per pixel are of one ray per pixel centre; this scene asks for {} samples per pixel",
+        scene.sampler.sample_count);
+  if (scene.depth.glossy > 0)
+    return "formulas per pixel are of direct light and perfect mirrors; this scene asks for "
+           "inter-reflection (glossy_depth)";
+  if (scene.spheres.size() > kMaxSpheresByRay)
+    return fmt::format("formulas per pixel are of up to {} spheres; this scene has {}",
+                       kMaxSpheresByRay, scene.spheres.size());
+  return {};
+}
 
 std::vector<Rgb> evaluate(const Scene& scene, Digits digits, const std::function<bool()>& stop) {
   if (const std::string why = why_not_evaluated(scene); !why.empty())

@@ -1,4 +1,4 @@
-// Lobes and models for any type of number, for the .cpp files of reference_scenes/engines/analytic/formulas/.
+// Lobes and models for any number type, for the .cpp files of this folder.
 #pragma once
 
 #include "reference_scenes/engines/analytic/formulas/vector.hpp"
@@ -6,21 +6,20 @@
 
 namespace lobelia::truth {
 
-/// The lobe's textbook definition of the cosine of its angle; 0 from a right angle on. Of double and of 50
-/// digits.
+/// The lobe's textbook definition by the cosine of its angle; 0 from a right angle on. For double and Big.
 template <class Real>
 Real lobe_of_cosine(LobeId lobe, const Real& cosine, double exponent);
 
-/// A model as its row of the paper's table says it, written out again.
+/// A model by its row of the paper's table, written out again.
 struct ModelRow {
   std::string_view name;
   LobeAngle angle;
   bool radiance_has_cosine;  ///< N.L
   bool lobe_of_half_angle;   ///< in the integral: lobe(x/2), else lobe(x)
   bool integral_has_cosine;  ///< cos x
-  int parts;                 ///< radiance has this part of D: 4 for a distribution of normals
+  int parts;                 ///< the radiance is lobe / parts: 4 for a distribution of normals
 };
-/// Throws Error(kInternal) for a model that has no row.
+/// Throws Error(kInternal) for a model without a row.
 const ModelRow& model_row(std::string_view model);
 inline const ModelRow& model_row(ModelId model) { return model_row(info(model).name); }
 

@@ -1,4 +1,4 @@
-// Numbers of more digits than a double has, in several threads.
+// Number types with more digits than double, in several threads.
 #pragma once
 
 #include <boost/multiprecision/number.hpp>
@@ -6,10 +6,10 @@
 
 namespace lobelia::truth {
 
-/// Boost computes the limits of a number when they are first asked for, without a lock: another thread may get them half
-/// made. Before main() it does so for numbers with its default of expression templates (data_initializer in
-/// cpp_bin_float.hpp, Boost 1.74): these have none. But its own logarithm and power ask for those of
-/// number<Backend, et_on>. So each number has `inline const bool kXLimits = made_limits<X>();`.
+/// Computes a number type's limits. Boost computes them at first use without a lock, so another thread may read them half
+/// made. Boost's own initialiser before main() covers types with expression templates only (data_initializer in
+/// cpp_bin_float.hpp, Boost 1.74). Ours have none, yet Boost's logarithm and power use the limits of number<Backend, et_on>.
+/// So each type X has `inline const bool kXLimits = made_limits<X>();`.
 template <class Number>
 bool made_limits() {
   using Limits = std::numeric_limits<

@@ -22,7 +22,7 @@ struct Picture::Pixels {
   std::vector<int> sphere;
   std::vector<Lit> lit;
   double peak = 0;
-  /// Lobes by the angle that they see: models share them.
+  /// Values of lobes, which models with the same angle share.
   std::map<std::tuple<LobeAngle, int, int, double>, std::vector<Big>> lobes;
   std::mutex mutex;
 };
@@ -74,13 +74,13 @@ std::vector<Rgb> Picture::highlights(const Highlight& highlight) const {
     for (const auto& lit : pixels_->lit)
       values.push_back(
           lobe_of_cosine(lobe, lit.cosine[std::size_t(model.angle)], highlight.exponent));
-  const double in_front = coefficient(highlight.model, lobe, highlight.exponent);
+  const double factor = coefficient(highlight.model, lobe, highlight.exponent);
   std::vector<Rgb> radiance(pixels_->sphere.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto& lit = pixels_->lit[i];
     const Big share = model.radiance_has_cosine ? Big(values[i] * lit.n_dot_l) : values[i];
     Rgb& sum = radiance[lit.pixel];
-    sum = sum + in_front * double(share) * lit.irradiance;
+    sum = sum + factor * double(share) * lit.irradiance;
   }
   return radiance;
 }

@@ -2,8 +2,8 @@
 // S. A. Kyrylashchuk, S. O. Romanyuk, "Modelling of a specular component of colour by using
 // energy-correct models of surface reflectivity" (Vinnytsia National Technical University).
 //
-// Written out again on purpose. What the renderer computes quickly is held against these, so nothing
-// here may come from there; and long double, so that a residual of 5e-4 has ten digits left.
+// Written out again on purpose: the renderer's fast versions are checked against these, so nothing here comes from there.
+// In long double, so that a residual of 5e-4 has ten digits left.
 #pragma once
 
 #include <algorithm>
@@ -63,11 +63,11 @@ inline Real value(Lobe lobe, Real x, Real n) {
 
 using Coefficient = Real (*)(Real n);
 
-/// A row of the table: a model, the integral that its coefficient makes 1, and the two columns.
+/// A row of the table: a model, the integral that its coefficient normalises, and the two columns.
 struct Row {
   std::string_view name;   ///< as the renderer's catalogue has it
   std::string_view title;  ///< for people
-  bool half_angle;         ///< the lobe sees half the angle of the reflected ray: lobe(x/2)
+  bool half_angle;         ///< lobe(x/2), x being the angle of the reflected ray
   bool cosine;             ///< the integrand has cos x
   bool distribution;       ///< of normals: x is the angle of H, not of the reflected ray
   Coefficient cosine_column, cs16_column;

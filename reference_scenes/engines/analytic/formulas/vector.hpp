@@ -1,4 +1,4 @@
-// Vectors of any type of number, for the .cpp files of reference_scenes/engines/analytic/formulas/.
+// Vectors of any number type, for the .cpp files of this folder.
 #pragma once
 
 #include <cmath>

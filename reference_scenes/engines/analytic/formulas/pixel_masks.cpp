@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <bit>
@@ -5,16 +6,17 @@
 #include "core/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "reference_scenes/engines/analytic/formulas/tracer.hpp"
+#include "renderer/pixel_ray.hpp"
 
 namespace lobelia::truth {
 namespace {
 
-/// A hash of everything that makes a pixel's shading jump: surface, checker square, lights in sight. Two different situations
-/// have the same hash with a probability of 2^-64.
+/// A hash of everything that makes shading jump: surface, checker square, visible lights. Two situations collide with a
+/// probability of 2^-64.
 class Situation {
  public:
   void note(std::uint64_t value) {
-    // The finaliser of SplitMix64.
+    // SplitMix64's finaliser.
     state_ += 0x9e3779b97f4a7c15 + value;
     state_ = (state_ ^ (state_ >> 30)) * 0xbf58476d1ce4e5b9;
     state_ = (state_ ^ (state_ >> 27)) * 0x94d049bb133111eb;
@@ -45,8 +47,7 @@ std::vector<std::uint8_t> edge_ring(const Scene& scene) {
   if (const std::string why = why_not_evaluated(scene); !why.empty())
     throw Error(ExitCode::kInput, why);
   const Tracer<double> tracer(scene);
-  // The neighbours' centres are the rays around each pixel, so that one ray a pixel does; and a frame of one
-  // pixel around the picture.
+  // One ray per pixel is enough, because neighbours share their rays; with a frame of one pixel around the picture.
   const int width = scene.film.width, height = scene.film.height, stride = width + 2;
   std::vector<std::uint64_t> seen(std::size_t(stride) * (height + 2));
   oneapi::tbb::parallel_for(0, height + 2, [&](int y) {
@@ -61,6 +62,21 @@ std::vector<std::uint8_t> edge_ring(const Scene& scene) {
           if (seen[std::size_t(v) * stride + u] != seen[std::size_t(y + 1) * stride + x + 1])
             ring[std::size_t(y) * width + x] = 1;
   return ring;
+}
+
+std::vector<std::uint8_t> surface_mask(const Scene& scene) {
+  if (scene.spheres.size() > kMaxSpheresByRay)
+    throw Error(ExitCode::kInput, fmt::format("a mask is of up to {} spheres; this scene has {}",
+                                              kMaxSpheresByRay, scene.spheres.size()));
+  const Tracer<double> tracer(scene);
+  const int width = scene.film.width, height = scene.film.height;
+  std::vector<std::uint8_t> mask(std::size_t(width) * std::size_t(height), 0);
+  oneapi::tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      if (tracer.meet(tracer.camera_origin(), tracer.camera_ray(x + 0.5, y + 0.5)))
+        mask[std::size_t(y) * std::size_t(width) + std::size_t(x)] = 1;
+  });
+  return mask;
 }
 
 }  // namespace lobelia::truth
