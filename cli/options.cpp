@@ -2,7 +2,7 @@
 
 #include "core/contained_reader.hpp"
 #include "core/files.hpp"
-#include "core/picture_bytes.hpp"
+#include "core/picture_file.hpp"
 
 namespace lobelia::cli {
 

@@ -15,7 +15,7 @@
 
 namespace lobelia {
 
-/// Reads a layer (core/picture_layers.hpp; "" is the picture itself) of a file of kPictureFormats (core/picture_bytes.hpp)
+/// Reads a layer (core/picture_layers.hpp; "" is the picture itself) of a file of kPictureFormats (core/picture_file.hpp)
 /// into scene-linear float RGB, grey repeated: decoded from the curve that transfer_curve() says, other primaries
 /// converted to Rec. 709, colours of a file that are not multiplied by its alpha multiplied afterwards, in light. The
 /// image is the display window. Integers are 1 at their largest; in an EXR they are numbers, as they are. Of a MIP map

@@ -13,14 +13,10 @@
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
-#include "core/icc_profile.hpp"
-#include "core/picture_bytes.hpp"
-#include "core/picture_file.hpp"
+#include "core/picture.hpp"
+#include "core/picture_colour.hpp"
 #include "core/picture_layers.hpp"
-#include "core/picture_window.hpp"
-#include "core/primaries.hpp"
 #include "core/text.hpp"
-#include "core/transfer_curve.hpp"
 
 namespace lobelia {
 namespace {
@@ -264,7 +260,7 @@ void add_icc_profile(const OIIO::ImageSpec& spec, PictureSource& source) {
   const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
   if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return;
   source.icc_is_srgb = is_srgb_profile(
-      {static_cast<const std::uint8_t*>(profile->data()), std::size_t(profile->datasize())});
+      {static_cast<const char*>(profile->data()), std::size_t(profile->datasize())});
   source.icc_profile =
       spec.get_string_attribute("ICCProfile:profile_description", "without a name");
 }

@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include "core/picture_window.hpp"
-
 namespace lobelia {
 namespace {
 

@@ -1,7 +1,6 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "core/picture_bytes.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
 #include "fuzz/bundle.hpp"

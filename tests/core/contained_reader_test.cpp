@@ -24,7 +24,7 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
-#include "core/picture_bytes.hpp"
+#include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
 #include "core/reading_limits.hpp"
 #include "core/spawn.hpp"
