@@ -44,6 +44,13 @@ struct PictureSource {
   int mip_levels = 1;               ///< in the file; the first was read
 };
 
+/// How many pixels may be read from a file of a given size. A few bytes can unpack to very many pixels: callers that know
+/// the size of their pictures set a tighter limit. The header is checked before anything is unpacked.
+struct PictureLimit {
+  std::uint64_t pixels_of_any_file = std::uint64_t{1} << 24;
+  std::uint64_t pixels_per_byte = 4096;  ///< in addition, for each byte of the file
+};
+
 struct Picture {
   Image image;     ///< of the display window
   Image overscan;  ///< of the data window if that leaves the display window, else empty

@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/image_io_module.hpp"
 #include "core/process.hpp"
-#include "core/reader_protocol.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 

@@ -7,7 +7,7 @@
 
 namespace lobelia {
 
-Picture read_contained(const std::filesystem::path&, const std::string&, const PictureLimit&) {
+Picture read_picture(const std::filesystem::path&, const std::string&, const PictureLimit&) {
   std::abort();
 }
 std::string read_file(const std::filesystem::path&, std::uint64_t) { std::abort(); }

@@ -5,10 +5,10 @@
 
 namespace lobelia {
 
-Picture read_contained(const std::filesystem::path& path, const std::string&, const PictureLimit&) {
+Picture read_picture(const std::filesystem::path& path, const std::string&, const PictureLimit&) {
   throw Error(ExitCode::kInput, path.string() + ": not a readable picture");
 }
 
-Image read_image(const std::filesystem::path& path) { return read_contained(path, "", {}).image; }
+Image read_image(const std::filesystem::path& path) { return read_picture(path, "", {}).image; }
 
 }  // namespace lobelia

@@ -199,7 +199,7 @@ TEST_F(ContainedReader, HoldsAPictureToTheLimitOfWhoeverAsksBeforeItIsUnpacked) 
   const fs::path path = file("a.png", png);
   const auto why = [&](const PictureLimit& limit) -> std::string {
     try {
-      read_contained(path, "", limit);
+      read_picture(path, "", limit);
     } catch (const Error& error) {
       return error.what();
     }

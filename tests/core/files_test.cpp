@@ -17,6 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/removal.hpp"
 
 namespace lobelia {
 namespace {
