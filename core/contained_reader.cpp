@@ -24,7 +24,7 @@
 #include "core/picture_message.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
-#include "core/thread_count.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

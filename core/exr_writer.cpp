@@ -17,7 +17,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/no_resources.hpp"
-#include "core/thread_count.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia {
 namespace {

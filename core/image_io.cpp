@@ -13,7 +13,7 @@
 #include "core/image_io_module.hpp"
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
-#include "core/thread_count.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;

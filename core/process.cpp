@@ -18,11 +18,11 @@
 
 #include "core/descriptor.hpp"
 #include "core/error.hpp"
+#include "core/host.hpp"
 #include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
 #include "core/keeper_protocol.hpp"
 #include "core/no_resources.hpp"
-#include "core/process_memory.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
 #include "core/write_limit.hpp"
