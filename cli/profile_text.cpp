@@ -8,7 +8,6 @@
 
 #include "core/svg_chart.hpp"
 #include "core/text.hpp"
-#include "core/ticks.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::cli {

@@ -19,8 +19,11 @@ class Descriptor {
     return *this;
   }
   ~Descriptor() { close(); }
+  /// Keeps errno.
   void close() {
+    const int error = errno;
     if (number_ >= 0) ::close(release());
+    errno = error;
   }
   /// The caller closes it.
   int release() { return std::exchange(number_, -1); }

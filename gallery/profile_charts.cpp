@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/svg_chart.hpp"
-#include "core/ticks.hpp"
 
 namespace lobelia::gallery {
 namespace {
