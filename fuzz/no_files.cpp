@@ -1,5 +1,4 @@
-// In place of core's functions that read files, in the fuzzed program alone: a scene from memory that
-// reaches one is a find.
+// Replaces core's functions that read files in the fuzzed program: a scene from memory must not call them.
 #include <cstdlib>
 
 #include "core/contained_reader.hpp"

@@ -1,5 +1,4 @@
-// In place of core's reading of pictures, which is a process of its own: none can be read.
-#include "core/contained_reader.hpp"
+// Replaces core's reading of pictures, which needs a process of its own: no picture can be read.
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 
