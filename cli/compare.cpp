@@ -10,7 +10,7 @@
 #include "cli/options.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "core/display_view.hpp"
+#include "core/colour.hpp"
 #include "core/files.hpp"
 #include "core/threads.hpp"
 #include "records/record.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/contained_reader.hpp"
 #include "core/files.hpp"
-#include "core/picture_bytes.hpp"
+#include "core/picture_file.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/scene/scene_format.hpp"
 

@@ -8,7 +8,6 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/svg_chart.hpp"
-#include "core/ticks.hpp"
 #include "farm/profile_scene.hpp"
 #include "records/record.hpp"
 #include "renderer/scene/scene_io.hpp"

@@ -1,5 +1,5 @@
-# lobelia_embed(TARGET FILE NAME): the text of FILE as `extern const std::string_view lobelia::embedded::NAME`.
-# The program then needs no data folder at run time and cannot be separated from its scripts.
+# lobelia_embed(TARGET FILE NAME): the text of FILE as `extern const std::string_view lobelia::embedded::NAME`, so that
+# the program needs no data folder at run time.
 function(lobelia_embed target file name)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/embedded_${name}.cpp)
   set(source ${CMAKE_CURRENT_SOURCE_DIR}/${file})
@@ -26,7 +26,7 @@ ${literal};
   target_sources(${target} PRIVATE ${out})
 endfunction()
 
-# lobelia_embed_folder(TARGET FOLDER PATTERN NAME): all such files of a folder, by their names without the ending, as
+# lobelia_embed_folder(TARGET FOLDER PATTERN NAME): the files of a folder, by their names without the ending, as
 # `extern const std::span<const lobelia::EmbeddedText> lobelia::embedded::NAME` (core/embedded.hpp).
 function(lobelia_embed_folder target folder pattern name)
   file(GLOB files RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${folder}/${pattern})

@@ -1,26 +1,22 @@
-# What every target of ours is compiled with. An interface target, so that nothing global is set and
-# the user's own CMAKE_CXX_FLAGS stay as they are.
+# The options of all our targets. An interface target leaves global settings and the user's CMAKE_CXX_FLAGS alone.
 add_library(lobelia_options INTERFACE)
 target_include_directories(lobelia_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 target_compile_options(lobelia_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
-  # Kernels say themselves where a*b+c is fused (Highway's MulAdd); elsewhere a compiler that does it on
-  # some processors only would make results depend on them.
+  # Kernels fuse a*b+c explicitly (Highway's MulAdd). Elsewhere results must not depend on the processor.
   -ffp-contract=off)
-# SSE4.2 is the least that the kernels are written for (docs/decisions/0002); below it Highway would add
-# a target without registers. Every x86 processor since 2009 has it.
+# The kernels need SSE4.2 (docs/decisions/0002), which every x86 processor since 2009 has. Below it Highway would add a
+# target without vector registers.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   target_compile_options(lobelia_options INTERFACE -march=x86-64-v2)
 endif()
-# Every kernel is compiled once for each of Highway's targets. SSE4 is left out: no picture needs what it adds
-# to SSSE3, which is the baseline (SSE4 asks for AES too, and x86-64-v2 has none), and a quarter of the
-# kernels' compile time would go into it.
+# Every kernel is compiled once for each of Highway's targets. SSE4 would take a quarter of that time, and no picture needs
+# what it adds to the baseline SSSE3. (SSE4 also needs AES, which x86-64-v2 lacks.)
 set(LOBELIA_LEFT_OUT HWY_SSE4)
 if(LOBELIA_SANITIZE)
-  # Instrumented, a fused kernel takes minutes for all its targets: the narrowest registers are enough to find what
-  # is wrong with the text that they all share.
+  # Instrumented, a fused kernel takes minutes to compile for all targets. All share one source, so one target is enough.
   set(LOBELIA_LEFT_OUT "(HWY_SSE4|HWY_AVX2|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 target_compile_definitions(lobelia_options INTERFACE "HWY_DISABLED_TARGETS=${LOBELIA_LEFT_OUT}")
@@ -30,23 +26,22 @@ endif()
 if(LOBELIA_SANITIZE)
   target_compile_options(lobelia_options INTERFACE
     -fsanitize=${LOBELIA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
-    # A check at every pointer would take as long to compile as all others together. A null or wild pointer ends the
-    # process anyway, with the address sanitizer's report.
+    # Checks at every pointer would double the compile time. A null or wild pointer ends the process anyway, with the
+    # address sanitizer's report.
     -fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute)
   target_link_options(lobelia_options INTERFACE -fsanitize=${LOBELIA_SANITIZE})
 endif()
 
-# Where a test finds the sources and the program. A header, because a compiler's cache that has compiled the others in
-# one directory knows them in every other; raw, for whatever is in a path.
+# The paths of the sources and the program, for tests. In a header, so that a compiler cache can share all other files
+# between directories; as raw strings, because a path may have any characters.
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/lobelia_paths.hpp @ONLY CONTENT
 "#pragma once
 #define LOBELIA_SOURCE_DIR R\"lobelia(@PROJECT_SOURCE_DIR@)lobelia\"
 #define LOBELIA_PROGRAM R\"lobelia(@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/lobelia)lobelia\"
 ")
 
-# The presets of the sanitizers optimise nothing, which compiles fastest, except rooms that compute. There, and with
-# LOBELIA_UNITY, the files of a target are compiled as one. LOBELIA_UNITY is for a build from scratch:
-# rooms that take no time at run time are then compiled at -O1.
+# With sanitizers and with LOBELIA_UNITY the files of a target are compiled as one. Sanitizers optimise only rooms that
+# compute, which compiles fastest. LOBELIA_UNITY, for builds from scratch, compiles all other rooms at -O1.
 set(LOBELIA_COMPUTING_ROOMS core renderer compare formulas accuracy studies)
 function(lobelia_compile_quickly target room)
   if(LOBELIA_SANITIZE OR LOBELIA_UNITY)
@@ -61,9 +56,9 @@ function(lobelia_compile_quickly target room)
   endif()
 endfunction()
 
-# One library per room, of all .cpp files of its folder: lobelia_room(core LINK fmt::fmt). FOLDER is another one than that
-# of the CMakeLists.txt. EXCEPT and ALONE are regular expressions of paths: what is no part of the room, and what has names
-# in common with other files and is compiled by itself.
+# lobelia_room(core LINK fmt::fmt): a library of all .cpp files in the room's folder. FOLDER is a subfolder to use instead.
+# EXCEPT and ALONE are regular expressions of paths: files outside of the room, and files that are compiled by themselves
+# because they share names with others.
 function(lobelia_room name)
   cmake_parse_arguments(ARG "" "FOLDER;EXCEPT;ALONE" "LINK;PRIVATE_LINK" ${ARGN})
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER})

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "core/display_view.hpp"
+#include "core/colour.hpp"
 #include "core/image.hpp"
 #include "core/vec.hpp"
 

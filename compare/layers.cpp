@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
-#include "core/picture_window.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {

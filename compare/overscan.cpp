@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/picture_window.hpp"
-
 namespace lobelia {
 namespace {
 

@@ -1,4 +1,4 @@
-// Things that mostly wait, several at a time: each on a thread of its own, whatever the processors are.
+// Runs several tasks at a time that mostly wait, each on a thread of its own.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace lobelia {
 
-/// f(0) to f(count - 1), up to `most` at once, the calling thread's among them; fewer where the system starts no more
-/// threads. What one of them throws is thrown again here once the others have ended, which `stop` may hasten; what has
-/// not begun by then does not.
+/// Calls f(0) to f(count - 1), up to `most` at once including the calling thread; fewer if the system starts no more
+/// threads. After the first exception no further call begins and `stop` is called, which may make the others end sooner.
+/// Once they have ended, the exception is thrown again.
 inline void for_each_at_once(std::size_t count, int most, const std::function<void(std::size_t)>& f,
                              const std::function<void()>& stop = {}) {
   std::atomic<std::size_t> next = 0;

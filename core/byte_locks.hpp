@@ -1,22 +1,33 @@
-// Locks between processes, also of other machines that share the file system.
+// Locks between processes, on one machine or on several that share a file system.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
-#include "core/lock_sharing.hpp"
 #include "core/removal.hpp"
 
 namespace lobelia {
 
-/// Locks on single bytes of one file (fcntl F_OFD_SETLK). The kernel frees the locks of a process that dies. Objects of
-/// one process exclude each other as those of two do. Where the file cannot be made, or its file system knows no locks,
-/// every claim is granted.
+/// Whether every machine that shares a file system sees the locks on a file.
+struct LockSharing {
+  bool shared = false;
+  std::string why;  ///< "ext4, a file system of this machine", "nfs4 with local_lock=all"
+};
+
+/// Finds the mount of `device` ("0:52", "8:1") in the text of /proc/self/mountinfo; of several, the one nearest above
+/// `path`.
+LockSharing lock_sharing_of(std::string_view mountinfo, std::string_view device,
+                            std::string_view path);
+
+/// Locks on single bytes of one file (fcntl F_OFD_SETLK). The kernel frees the locks of a process that dies. Two objects
+/// exclude each other in one process as in two. If the file cannot be opened or its file system has no locks, every
+/// claim is granted.
 class ByteLocks {
  public:
-  /// Lets go of its byte at the end.
+  /// A lock on a byte, until its end. It must not outlive its ByteLocks.
   class Claim {
    public:
     Claim(Claim&& other) noexcept;
@@ -30,37 +41,34 @@ class ByteLocks {
     std::int64_t byte_;
   };
 
-  enum class Opening { kMake, kLook };  ///< with kLook a file that is not there stays so
-  /// Of the file `name` in a directory; what is no regular file is not opened.
+  enum class Opening { kMake, kLook };  ///< kLook does not create the file
+  /// Opens the file `name` in a directory, if it is a regular file.
   ByteLocks(const HeldDirectory& directory, const std::string& name,
             Opening opening = Opening::kMake);
-  ~ByteLocks();
-  ByteLocks(const ByteLocks&) = delete;
-  ByteLocks& operator=(const ByteLocks&) = delete;
 
-  /// For the place that `number` names; none while another object holds it, unless both are `shared`.
+  /// Claims `number`; none while another object holds it, unless both are `shared`.
   std::optional<Claim> try_claim(std::uint64_t number, bool shared = false) const;
-  /// Whether another object holds it, shared or not; asking keeps nobody from it.
+  /// Whether another object holds it, shared or not. Takes no lock.
   bool is_claimed(std::uint64_t number) const;
-  bool is_open() const { return fd_ >= 0; }
-  /// Whether locks mean anything here.
+  bool is_open() const { return bool(file_); }
+  /// Whether locks have an effect here.
   bool works() const { return works_; }
   const std::string& why_not() const { return why_not_; }
-  /// Puts "HOST PID" of this process into the file, for a message to whoever finds it locked.
+  /// Writes "HOST PID" of this process into the file, for messages of processes that find it locked.
   void write_holder() const;
   std::string holder() const;
-  /// The number of the open file in its file system; 0: there is none.
+  /// The inode of the open file; 0 if there is none.
   std::uint64_t inode() const { return inode_; }
-  /// Whether processes of other machines are kept out too, as far as this one can tell: locks are tried, the file has
-  /// to be the one in the directory still, and its mount must not say otherwise.
+  /// Whether locks keep out processes of other machines too, as far as this machine can tell: it tries a lock, and looks
+  /// whether the file is still the one in the directory and how it is mounted.
   LockSharing sharing() const;
 
  private:
-  int fd_ = -1;
+  Descriptor file_;
   bool works_ = false;
   std::uint64_t inode_ = 0;
   std::filesystem::path path_;
-  std::string why_not_;  ///< it does not work
+  std::string why_not_;  ///< why `works_` is false
 };
 
 }  // namespace lobelia

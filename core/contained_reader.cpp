@@ -10,7 +10,6 @@
 
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -23,10 +22,9 @@
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
-#include "core/reader_protocol.hpp"
 #include "core/spawn.hpp"
 #include "core/text.hpp"
-#include "core/thread_count.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -34,41 +32,38 @@ namespace {
 
 std::atomic<bool> g_on_one_thread{false}, g_any_format{false};
 
-/// The dynamic linker's exit code.
-constexpr int kNotLoaded = 127;
+constexpr int kNotLoaded = 127;        // exit code of the dynamic linker
+constexpr int kPollMilliseconds = 50;  // between looks for Ctrl-C
 
-/// How often a wait looks for Ctrl-C.
-constexpr int kPollMilliseconds = 50;
-
-[[noreturn]] void broken(const char* what, int error) {
+[[noreturn]] void system_failure(const char* what, int error) {
   throw failure_of(fmt::format("{}: {}", kReaderFile, what), error, ExitCode::kInternal);
 }
 
-/// Until there is something to be read, or the other side is gone. Throws Error(kInterrupted).
-void wait_for(int descriptor) {
+/// Waits until there is something to read or the other side is gone. Throws Error(kInterrupted).
+void wait_for_input(int descriptor) {
   for (;;) {
     throw_if_interrupted();
     pollfd wait{descriptor, POLLIN, 0};
     const int ready = ::poll(&wait, 1, kPollMilliseconds);
     if (ready > 0) return;
-    if (ready < 0 && errno != EINTR) broken("poll", errno);
+    if (ready < 0 && errno != EINTR) system_failure("poll", errno);
   }
 }
 
-/// Returns how much there was before the other side closed the pipe.
+/// Returns how many bytes came before the other side closed the pipe.
 std::size_t read_from_pipe(int pipe, void* target, std::size_t size) {
   std::size_t done = 0;
   while (done < size) {
-    wait_for(pipe);
+    wait_for_input(pipe);
     const ssize_t n = ::read(pipe, static_cast<char*>(target) + done, size - done);
     if (n == 0) break;
     if (n > 0) done += std::size_t(n);
-    if (n < 0 && errno != EINTR && errno != EAGAIN) broken("read", errno);
+    if (n < 0 && errno != EINTR && errno != EAGAIN) system_failure("read", errno);
   }
   return done;
 }
 
-/// The part of our environment that the reader gets: where libraries are, and what sanitizers are told.
+/// The part of our environment that the reader gets: the paths of libraries and the options of sanitizers.
 std::vector<std::string> reader_environment() {
   std::vector<std::string> result;
   for (const char* name :
@@ -81,8 +76,8 @@ std::vector<std::string> reader_environment() {
 struct Outcome {
   Picture picture;
   std::vector<std::string> names;
-  std::string problem;  ///< a whole sentence, or what a crash is called; empty if there is none
-  bool is_sentence = false;
+  std::string problem;       ///< empty if there is none
+  bool is_complete = false;  ///< the problem is a complete message, with the file's name
 };
 
 /// A running lobelia_picture_reader.
@@ -91,12 +86,12 @@ class Reader {
   Reader() {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
-      broken("socketpair", errno);
+      system_failure("socketpair", errno);
     socket_ = Descriptor(ends[0]);
     const Descriptor theirs(ends[1]);
     const Descriptor null(::open("/dev/null", O_WRONLY | O_CLOEXEC));
-    if (null.get() < 0) broken("/dev/null", errno);
-    // In a group of its own: Ctrl-C is ours to answer. It ends when it finds the socket closed.
+    if (null.get() < 0) system_failure("/dev/null", errno);
+    // In a process group of its own, because we answer Ctrl-C. It ends when the socket is closed.
     pid_ = spawn({.arguments = {companion_file(kReaderFile).string()},
                   .environment = reader_environment(),
                   .working_directory = {},
@@ -129,21 +124,19 @@ class Reader {
     return ::sendmsg(socket_.get(), &message, MSG_NOSIGNAL) == ssize_t(request.size());
   }
 
-  /// Waits until the reader has ended. Its status, as wait(2) gives it.
+  /// Waits until the reader has ended. Returns its status, as of wait(2).
   int status() {
-    while (!has_ended_ && ::waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
-    }
+    if (!has_ended_) retried([&] { return ::waitpid(pid_, &status_, 0); });
     has_ended_ = true;
     return status_;
   }
 
   /// False if the reader is gone.
-  bool verdict(ReaderVerdict& verdict) const {
-    for (;;) {
-      wait_for(socket_.get());
-      const ssize_t n = ::recv(socket_.get(), &verdict, sizeof verdict, 0);
-      if (n >= 0 || errno != EINTR) return n == sizeof verdict;
-    }
+  bool receive(ReaderVerdict& verdict) const {
+    return retried([&] {
+             wait_for_input(socket_.get());
+             return ::recv(socket_.get(), &verdict, sizeof verdict, 0);
+           }) == sizeof verdict;
   }
 
  private:
@@ -153,19 +146,18 @@ class Reader {
   int status_ = 0;
 };
 
-/// As many as threads ask at once. One that was interrupted or is gone does not come back.
+/// Idle readers. One that was interrupted or is gone is not given back.
 class Pool {
  public:
   std::unique_ptr<Reader> take() {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!idle_.empty()) {
-        auto reader = std::move(idle_.back());
-        idle_.pop_back();
-        return reader;
-      }
+    std::unique_lock lock(mutex_);
+    if (idle_.empty()) {
+      lock.unlock();
+      return std::make_unique<Reader>();
     }
-    return std::make_unique<Reader>();
+    auto reader = std::move(idle_.back());
+    idle_.pop_back();
+    return reader;
   }
   void give_back(std::unique_ptr<Reader> reader) {
     const std::lock_guard lock(mutex_);
@@ -177,8 +169,8 @@ class Pool {
   std::vector<std::unique_ptr<Reader>> idle_;
 };
 
-/// Takes the answer apart as it comes. Nothing in it is believed before it was looked at.
-Outcome receive(int pipe) {
+/// Reads the answer. Trusts nothing in it before it is checked.
+Outcome receive_answer(int pipe) {
   Outcome outcome;
   std::uint64_t size = 0;
   if (read_from_pipe(pipe, &size, sizeof size) != sizeof size || size > kMaxAnswerBytes) {
@@ -193,7 +185,7 @@ Outcome receive(int pipe) {
   try {
     ReadingAnswer answer = unpack_answer(bytes);
     outcome.names = std::move(answer.names);
-    outcome.is_sentence = answer.kind == ReadingAnswer::Kind::kRefusal;
+    outcome.is_complete = answer.kind == ReadingAnswer::Kind::kRefusal;
     outcome.problem = std::move(answer.refusal);
     if (answer.kind != ReadingAnswer::Kind::kPicture) return outcome;
     const PixelWindow& data = answer.source.data;
@@ -212,8 +204,8 @@ Outcome receive(int pipe) {
   return outcome;
 }
 
-/// Nothing if it ended as it should.
-std::string why_it_ended(const ReaderVerdict& verdict) {
+/// Empty if the decoder ended normally.
+std::string decoder_problem(const ReaderVerdict& verdict) {
   if (verdict.too_long) return "the decoder did not end; it was stopped";
   if (WIFSIGNALED(verdict.status) && WTERMSIG(verdict.status) == SIGXCPU)
     return "decoding takes longer than a file of this size justifies";
@@ -248,21 +240,21 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
   const int shown = g_any_format ? copy.get() : file.descriptor();
   for (int attempt = 0;; ++attempt) {
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) broken("pipe", errno);
+    if (::pipe2(ends, O_CLOEXEC) != 0) system_failure("pipe", errno);
     const Descriptor answer(ends[0]);
     Descriptor theirs(ends[1]);
-    ::fcntl(theirs.get(), F_SETPIPE_SZ, 1 << 20);  // a wish: larger pieces are faster
+    ::fcntl(theirs.get(), F_SETPIPE_SZ, 1 << 20);  // faster, but not necessary
     auto reader = pool.take();
     const bool sent = reader->send(message, shown, theirs.get());
     theirs.close();
     ReaderVerdict verdict;
     if (sent) {
-      Outcome outcome = receive(answer.get());
-      if (reader->verdict(verdict)) {
+      Outcome outcome = receive_answer(answer.get());
+      if (reader->receive(verdict)) {
         pool.give_back(std::move(reader));
-        const std::string why = why_it_ended(verdict);
+        const std::string why = decoder_problem(verdict);
         if (why.empty() && outcome.problem.empty()) return outcome;
-        if (why.empty() && outcome.is_sentence)
+        if (why.empty() && outcome.is_complete)
           throw Error(ExitCode::kInput, printable(outcome.problem, kMaxRequestBytes));
         unreadable_picture(path, why.empty() ? outcome.problem : why);
       }
@@ -278,7 +270,7 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
                   fmt::format("{}: cannot be loaded: a library is missing, or there is not enough "
                               "memory (ulimit -v or -d) or too many files are open (ulimit -n)",
                               kReaderFile));
-    // Nothing that a picture does ends the reader itself: somebody killed it while it waited.
+    // A picture cannot end the reader itself, so it was killed while it waited. A second try gets a new one.
     if (attempt == 1)
       throw Error(ExitCode::kInternal, fmt::format("{} ends by itself", kReaderFile));
   }
@@ -286,13 +278,11 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
 
 }  // namespace
 
-Picture read_contained(const fs::path& path, const std::string& layer, const PictureLimit& limit) {
+Picture read_picture(const fs::path& path, const std::string& layer, const PictureLimit& limit) {
   return ask(path, layer, false, limit).picture;
 }
 
-std::vector<std::string> layer_names_contained(const fs::path& path) {
-  return ask(path, "", true, {}).names;
-}
+std::vector<std::string> layer_names(const fs::path& path) { return ask(path, "", true, {}).names; }
 
 void decode_contained_on_one_thread() { g_on_one_thread = true; }
 

@@ -1,9 +1,8 @@
-// Reading pictures that nobody vouches for, in processes that can do no harm (docs/decisions/0017).
+// Reads pictures from untrusted files, in processes that can do no harm (docs/decisions/0017).
 //
-// The program opens the file and tells its format. A second program, lobelia_picture_reader, has OpenImageIO's module
-// loaded and forks itself for each picture: the child gets the open file, limits and no system calls that it
-// does not need (core/reading_limits.hpp), decodes, answers by a pipe and ends. What a file does to it, it
-// does to nothing else.
+// The program opens the file and recognises its format. A second program, lobelia_picture_reader, has OpenImageIO loaded
+// and forks for each picture. The child gets the open file, limits, and only the system calls that it needs
+// (core/reading_limits.hpp). It decodes, answers through a pipe and ends. A hostile file harms nothing but this child.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +10,27 @@
 #include <vector>
 
 #include "core/picture.hpp"
-#include "core/reading_limits.hpp"
 
 namespace lobelia {
 
-/// As read_picture() and layer_names(). Throw Error(kInput) besides if the picture is over `limit`, or the decoder crashes
-/// or needs more memory or time than the file justifies, and Error(kInterrupted) at once when interrupted() becomes true. For any number of threads.
-Picture read_contained(const std::filesystem::path& path, const std::string& layer,
-                       const PictureLimit& limit = {});
-std::vector<std::string> layer_names_contained(const std::filesystem::path& path);
+/// Reads a layer (core/picture_layers.hpp; "" is the picture itself) of a file of kPictureFormats (core/picture_file.hpp)
+/// into scene-linear float RGB, grey repeated. Values are decoded by transfer_curve(), converted to Rec. 709 primaries,
+/// and then multiplied by alpha if the file's are not. The image is the display window. The largest integer becomes 1;
+/// integers of an EXR keep their value. Of a MIP map the first level is read, of a cube map all faces.
+/// Any number of threads may call it. Throws Error(kInput) if the file is missing, not a regular file, not such a
+/// picture, truncated, over `limit`, over kMaxImageSide or kMaxImagePixels in either window, deep, CMYK or Lab, has
+/// impossible chromaticities or no such layer, crashes its decoder, or needs more memory or time than its size justifies.
+/// Throws Error(kInterrupted) as soon as interrupted().
+Picture read_picture(const std::filesystem::path& path, const std::string& layer,
+                     const PictureLimit& limit = {});
 
-/// As code_pictures_on_calling_threads().
+/// All layers of the file, first the picture ("") if it has one. Errors as read_picture().
+std::vector<std::string> layer_names(const std::filesystem::path& path);
+
+/// The part of code_pictures_on_calling_threads() for these processes.
 void decode_contained_on_one_thread();
 
-/// Whether formats other than kPictureFormats are read, too, as far as OpenImageIO knows them; at first not.
+/// Whether to read any format that OpenImageIO knows, not only kPictureFormats; false at first.
 void read_any_picture_format(bool any = true);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// The texts of a folder that are part of the program; made by lobelia_embed_folder of cmake/lobelia_embed.cmake.
+// Texts of a folder, embedded in the program by lobelia_embed_folder (cmake/lobelia_embed.cmake).
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 namespace lobelia {
 
 struct EmbeddedText {
-  std::string_view name;         ///< of the file, without its ending
-  const std::string_view& text;  ///< a reference, because it may be initialised later
+  std::string_view name;         ///< the file's, without its ending
+  const std::string_view& text;  ///< a reference, because the text may be initialised later
 };
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// How a failure travels: libraries throw Error, main prints one line and exits with its code.
+// Libraries throw Error; main prints its lines and exits with its code.
 #pragma once
 
 #include <numeric>
@@ -12,25 +12,25 @@ namespace lobelia {
 /// Exit codes of the program, documented in README.md. A user's script may rely on them.
 enum class ExitCode : int {
   kSuccess = 0,
-  kDiffers =
-      1,  ///< it ran, and the answer is no: over a threshold, non-finite pixels, cells that differ
+  /// It ran, and the answer is no: over a threshold, non-finite pixels, cells that differ.
+  kDiffers = 1,
   kUsage = 2,          ///< the command line is wrong
-  kInput = 3,          ///< an input cannot be read, is invalid, or does not fit the other one
-  kOutput = 4,         ///< an output is not there: it cannot be written, or a job of a farm failed
+  kInput = 3,          ///< an input cannot be read, is invalid, or does not match the other one
+  kOutput = 4,         ///< an output is missing: it cannot be written, or a job of a farm failed
   kEngine = 5,         ///< a reference engine is missing or failed
   kInternal = 70,      ///< a bug of ours
   kNoResources = 71,   ///< the system gives no more memory, threads, processes or open files
-  kHungUp = 129,       ///< SIGHUP: its terminal was closed
-  kInterrupted = 130,  ///< Ctrl-C; thrown for the other two as well, see interrupt_exit_code()
+  kHungUp = 129,       ///< SIGHUP: the terminal was closed
+  kInterrupted = 130,  ///< Ctrl-C; also thrown for SIGHUP and SIGTERM, see interrupt_exit_code()
   kTerminated = 143    ///< SIGTERM
 };
 
-/// A failure with the exit code it asks for. what() is complete: what, where, what was allowed.
+/// A failure with an exit code. Its message is complete: what is wrong, where, and what is allowed.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message)
       : Error(code, std::vector<std::string>{message}) {}
-  /// Several failures at once, as those of a scene file; at least one.
+  /// Several failures at once, such as those of a scene file; at least one.
   Error(ExitCode code, std::vector<std::string> lines)
       : std::runtime_error(std::accumulate(
             lines.begin() + 1, lines.end(), lines.front(),
@@ -38,7 +38,7 @@ class Error : public std::runtime_error {
         code_(code),
         lines_(std::move(lines)) {}
   ExitCode code() const { return code_; }
-  /// To be printed on a line each. A line break inside one comes from a file's name.
+  /// Each is printed on a line of its own. A line break inside one comes from a file's name.
   const std::vector<std::string>& lines() const { return lines_; }
 
  private:

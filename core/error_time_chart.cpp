@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
@@ -27,7 +28,7 @@ bool can_be_drawn(const TimedError& point) {
 
 /// A whole number of decades around all values above 0.
 void widen(ChartAxis& axis, const std::vector<double>& values) {
-  double least = std::numeric_limits<double>::infinity(), most = 0;
+  double least = kInfinity, most = 0;
   for (const double value : values)
     if (value >= kSmallestDrawn) least = std::min(least, value), most = std::max(most, value);
   if (most == 0) least = most = 1;
@@ -49,19 +50,17 @@ void add(ChartSeries& series, const TimedError& point, double x, double y, doubl
 
 Chart error_time_chart(const ErrorTimes& times) {
   std::vector<TimedError> points;
-  std::copy_if(times.points.begin(), times.points.end(), std::back_inserter(points), can_be_drawn);
-  // Along the front: from the fastest on.
-  std::stable_sort(points.begin(), points.end(),
-                   [](const TimedError& a, const TimedError& b) { return a.cost < b.cost; });
+  std::ranges::copy_if(times.points, std::back_inserter(points), can_be_drawn);
+  std::ranges::stable_sort(points, {}, &TimedError::cost);  // along the front, from the fastest on
   const Unit unit = times.cost_unit.empty() ? unit_for(points.empty() ? 1 : points.front().cost)
                                             : Unit{times.cost_unit.c_str(), 1};
   Chart chart;
   chart.id = times.id;
   chart.title = times.title;
-  chart.description = fmt::format(
-      "{} over {}; {} ways, of which {} are on the Pareto front", times.error_label,
-      times.cost_unit.empty() ? "time" : times.cost_unit, points.size(),
-      std::count_if(points.begin(), points.end(), [](const TimedError& p) { return p.on_front; }));
+  chart.description =
+      fmt::format("{} over {}; {} ways, of which {} are on the Pareto front", times.error_label,
+                  times.cost_unit.empty() ? "time" : times.cost_unit, points.size(),
+                  std::ranges::count(points, true, &TimedError::on_front));
   chart.height = 460;
   chart.x.label = fmt::format("{} per {}", unit.name, times.per);
   chart.y.label = times.error_label;
@@ -81,12 +80,12 @@ Chart error_time_chart(const ErrorTimes& times) {
     add(points[i].on_front ? on : off, points[i], x, y, unit.seconds);
     if (!points[i].on_front) continue;
     on.point_names.push_back(points[i].name);
-    // A step: between two ways there is only the faster one's error.
+    // A step: between two points the faster one's error applies.
     if (!front.x.empty()) front.x.push_back(x), front.y.push_back(front.y.back());
     front.x.push_back(x);
     front.y.push_back(y);
   }
-  chart.series = {off, front, on};  // the front over what it dominates
+  chart.series = {off, front, on};  // the front is drawn over dominated points
   return chart;
 }
 

@@ -1,4 +1,4 @@
-// Error over time as a drawing: what accuracy costs, and the ways of which none is both faster and more accurate.
+// A chart of error over time: what accuracy costs, with the Pareto front of the fastest variant for each error.
 #pragma once
 
 #include <string>
@@ -9,26 +9,26 @@
 namespace lobelia {
 
 struct TimedError {
-  std::string name;        ///< drawn beside it if it is on the front, where there is room
-  std::string label;       ///< what a reader is told who points at it
+  std::string name;        ///< drawn beside points of the front, where there is room
+  std::string label;       ///< tooltip
   double cost = 0;         ///< seconds, or in ErrorTimes::cost_unit
   double cost_error = 0;   ///< half length of its error bar
   double error = 0;        ///< not negative
   double error_error = 0;  ///< half length of its error bar
   bool on_front = false;
-  std::string key = {};  ///< of ChartSeries::point_keys
+  std::string key = {};  ///< for ChartSeries::point_keys
 };
 
 struct ErrorTimes {
   std::string id;  ///< unique on the page
   std::string title;
-  std::string per;                 ///< "evaluation": what the cost is of
+  std::string per;                 ///< what costs: "evaluation"
   std::string cost_unit;           ///< empty: seconds, shown in a unit that fits
-  std::string error_label;         ///< with what the error is relative to
-  std::vector<TimedError> points;  ///< those that are not finite are left out
+  std::string error_label;         ///< says what the error is relative to
+  std::vector<TimedError> points;  ///< points that are not finite are left out
 };
 
-/// Both axes are logarithmic, over whole decades. What has no error at all lies on the axis.
+/// Both axes are logarithmic, over whole decades. Points without any error lie on the axis.
 Chart error_time_chart(const ErrorTimes& times);
 
 /// "3.14 ns", "0.42 ms", "1.70 s": three digits.

@@ -17,7 +17,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/no_resources.hpp"
-#include "core/thread_count.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia {
 namespace {
@@ -40,8 +40,8 @@ Imf::Header header(int width, int height, const ImageMetadata& metadata, ExrOpti
   return result;
 }
 
-/// OpenEXR's output goes to a PartFile. It writes its table of offsets when it is closed, where it swallows
-/// what is thrown: the first failure is kept for finish().
+/// Sends OpenEXR's output to a PartFile. OpenEXR swallows exceptions while it writes its table of offsets on closing, so
+/// the first one is kept for finish().
 class Stream : public Imf::OStream {
  public:
   explicit Stream(const std::filesystem::path& path) : OStream(path.c_str()), file_(path) {}
@@ -49,7 +49,7 @@ class Stream : public Imf::OStream {
   void write(const char bytes[], int count) override {
     const std::span data(reinterpret_cast<const std::uint8_t*>(bytes), std::size_t(count));
     try {
-      // OpenEXR appends, but for the table.
+      // OpenEXR appends everything but the table.
       if (position_ == file_.size())
         file_.append(data);
       else
@@ -77,12 +77,12 @@ class Stream : public Imf::OStream {
   std::exception_ptr failure_;
 };
 
-int pool_threads = 0;  // of OpenEXR, as set_pool() made it
+int pool_threads = 0;  // as set_pool() has set it
 
 }  // namespace
 
 void ExrWriter::set_pool(int threads) {
-  // OpenEXR's pool is one for the process, and must not change while another writer uses it.
+  // The process has one pool, which must not change while another writer uses it.
   static std::once_flag once;
   std::call_once(once, [&] {
     Imf::setGlobalThreadCount(threads);
@@ -131,7 +131,7 @@ void ExrWriter::write_rows(int y0, int count, const float* rgb) {
   Imf::FrameBuffer rows;
   const char* names[] = {"R", "G", "B"};
   for (int c = 0; c < 3; ++c) {
-    // Where row 0 would be; OpenEXR only reads.
+    // The address that row 0 would have.
     const auto first = reinterpret_cast<std::intptr_t>(rgb + c) - std::intptr_t(row) * y0;
     rows.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(first), pixel, row));
   }

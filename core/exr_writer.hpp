@@ -1,7 +1,6 @@
-// Writing an OpenEXR picture row by row, as it is rendered: memory for a few rows, whatever the size.
+// Writes an OpenEXR picture row by row, as it is rendered, with memory for a few rows.
 //
-// By the OpenEXR library itself, not through OpenImageIO: opening that takes longer than rendering most
-// pictures does (docs/decisions/0005).
+// By the OpenEXR library itself: loading OpenImageIO takes longer than rendering most pictures (docs/decisions/0005).
 #pragma once
 
 #include <cstdint>
@@ -21,11 +20,11 @@ enum class ExrCompression : std::uint8_t {
 
 struct ExrOptions {
   ExrCompression compression = ExrCompression::kZip;
-  int zip_level = 1;  ///< 1..9; why 1, docs/decisions/0005
+  int zip_level = 1;  ///< 1..9; docs/decisions/0005 says why 1
 };
 
-/// The bytes depend on pixels, metadata and options alone: not on the number of threads, nor on how many
-/// rows come at a time. Throws Error(kOutput); without finish() nothing is left behind.
+/// The bytes depend on pixels, metadata and options only, not on the number of threads or of rows at a time. Throws
+/// Error(kOutput); without finish() nothing is left behind.
 class ExrWriter {
  public:
   /// Scene-linear float32, Rec. 709. The metadata become string attributes.
@@ -39,8 +38,8 @@ class ExrWriter {
   /// After the last row.
   void finish();
 
-  /// How many threads compress, for all writers of this process; 0: those that write. To be called before the first
-  /// writer, or without effect; otherwise there is one for each processor.
+  /// Sets how many threads compress, for all writers of this process; 0: the threads that write. Only before the first
+  /// writer; the default is one for each processor.
   static void set_pool(int threads);
 
  private:

@@ -9,9 +9,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <utility>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/no_resources.hpp"
@@ -20,14 +18,6 @@
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
-
-/// Closes on every way out; close() errors are looked at where they matter.
-struct FileDescriptor {
-  int fd = -1;
-  ~FileDescriptor() {
-    if (fd >= 0) ::close(fd);
-  }
-};
 
 [[noreturn]] void output_error(const fs::path& path, int error) {
   throw failure_of(path.string() + ": cannot write", error, ExitCode::kOutput);
@@ -38,7 +28,7 @@ bool names_directory(const fs::path& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// Where a write to `path` ends up. Throws Error(kOutput) for what is there and is not a regular file: a rename would
+/// The file that a write to `path` replaces. Throws Error(kOutput) for anything but a regular file: a rename would
 /// replace a device by a file.
 fs::path final_target(const fs::path& path, AtLink at_link) {
   std::error_code ignored;
@@ -57,7 +47,7 @@ fs::path final_target(const fs::path& path, AtLink at_link) {
   return target;
 }
 
-/// Whether the path still names what is open.
+/// Whether the path still names the open file.
 bool is_at(const fs::path& path, int fd) {
   struct stat there {
   }, open{};
@@ -68,9 +58,9 @@ bool is_at(const fs::path& path, int fd) {
 }  // namespace
 
 std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
-  const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
-  if (file.fd < 0 || ::fstat(file.fd, &status) != 0)
+  if (!file || ::fstat(file.get(), &status) != 0)
     throw failure_of(path.string() + ": cannot read", errno, ExitCode::kInput);
   if (!S_ISREG(status.st_mode))
     throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
@@ -78,17 +68,11 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
     throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read", path.string(),
                                               std::uint64_t(status.st_size), max_bytes));
   std::string text(std::size_t(status.st_size), '\0');
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t n = ::read(file.fd, text.data() + done, text.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0)
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
-    if (n == 0) break;
-    done += std::size_t(n);
-  }
-  text.resize(done);
+  const std::size_t size = read_at(file.get(), text.data(), text.size());
+  if (size < text.size() && errno != 0)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+  text.resize(size);
   return text;
 }
 
@@ -96,22 +80,22 @@ PartFile::PartFile(const fs::path& path, AtLink at_link)
     : path_(path), target_(final_target(path, at_link)), part_([&] {
         while (true) {
           const fs::path part = part_path(target_);
-          fd_ = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-          if (fd_ < 0) output_error(path, errno);
-          ::flock(fd_, LOCK_EX);  // by which others see that it is not abandoned
-          if (is_at(part, fd_)) return part;
-          ::close(fd_);  // before it was locked, a machine that knows no such process took it away
+          file_ = Descriptor(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+          if (!file_) output_error(path, errno);
+          ::flock(file_.get(), LOCK_EX);  // the lock tells others that it is not abandoned
+          if (is_at(part, file_.get())) return part;
+          // Another machine, which does not know our process, removed it before it was locked.
         }
       }) {}
 
 PartFile::~PartFile() {
-  if (fd_ < 0) return;
-  ::close(fd_);
+  if (!file_) return;
+  file_.close();
   remove_part(part_.path());
 }
 
 void PartFile::fail(int error) {
-  if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+  file_.close();
   remove_part(part_.path());
   output_error(path_, error);
 }
@@ -124,56 +108,44 @@ void PartFile::append(std::span<const std::uint8_t> bytes) {
 void PartFile::write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t n = ::pwrite(fd_, bytes.data() + done, bytes.size() - done, off_t(offset + done));
-    if (n < 0 && errno == EINTR) continue;
+    const ssize_t n = retried([&] {
+      return ::pwrite(file_.get(), bytes.data() + done, bytes.size() - done, off_t(offset + done));
+    });
     if (n < 0) fail(errno);
     done += std::size_t(n);
   }
 }
 
 void PartFile::finish() {
-  // Without it a full disk may be noticed only after the rename.
-  if (::fsync(fd_) != 0 && errno != EINVAL) fail(errno);
-  const int closed = ::close(std::exchange(fd_, -1));
-  if (closed != 0) fail(errno);
-  if (FilesTogether::add(*this)) return;
+  // Without fsync a full disk may be noticed only after the rename.
+  if (::fsync(file_.get()) != 0 && errno != EINVAL) fail(errno);
+  if (::close(file_.release()) != 0) fail(errno);
+  if (FilesTogether* const together = FilesTogether::current_) {
+    const std::lock_guard lock(together->mutex_);
+    together->finished_.push_back(std::move(*this));
+    return;
+  }
   if (::rename(part_.path().c_str(), target_.c_str()) != 0) fail(errno);
 }
 
-struct FilesTogether::State {
-  struct Waiting {
-    fs::path path, target;
-    TemporaryPath part;
-  };
-  std::mutex mutex;
-  std::vector<Waiting> files;
-};
-
 FilesTogether* FilesTogether::current_ = nullptr;
 
-FilesTogether::FilesTogether() : state_(std::make_unique<State>()) { current_ = this; }
+FilesTogether::FilesTogether() { current_ = this; }
 
 FilesTogether::~FilesTogether() {
   current_ = nullptr;
-  for (const auto& file : state_->files) remove_part(file.part.path());
-}
-
-bool FilesTogether::add(PartFile& file) {
-  if (!current_) return false;
-  const std::lock_guard lock(current_->state_->mutex);
-  current_->state_->files.push_back({file.path_, file.target_, std::move(file.part_)});
-  return true;
+  for (const PartFile& file : finished_) remove_part(file.part_.path());
 }
 
 void FilesTogether::commit() {
   const EndDelay delay;
   throw_if_interrupted();
-  for (State::Waiting& file : state_->files) {
-    if (::rename(file.part.path().c_str(), file.target.c_str()) != 0)
-      output_error(file.path, errno);
-    file.part.forget();
+  for (PartFile& file : finished_) {
+    if (::rename(file.part_.path().c_str(), file.target_.c_str()) != 0)
+      output_error(file.path_, errno);
+    file.part_.forget();
   }
-  state_->files.clear();
+  finished_.clear();
   interrupts_come_too_late();
 }
 
@@ -192,8 +164,8 @@ void require_writable(const fs::path& path) {
   if (path.filename().empty()) output_error(path, EISDIR);
   const fs::path part = part_path(final_target(path, AtLink::kFollow));
   const EndDelay delay;
-  const FileDescriptor file{::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
-  if (file.fd < 0) output_error(path, errno);
+  const Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!file) output_error(path, errno);
   remove_part(part);
 }
 
@@ -206,43 +178,35 @@ void make_directories(const fs::path& path) {
                 fmt::format("{}: cannot make the directory: {}", path.string(), error.message()));
 }
 
-TemporaryDirectory::TemporaryDirectory() {
-  std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
-  if (error)
-    throw Error(ExitCode::kOutput,
-                fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
-  path_.emplace([&] {
-    while (true) {
-      std::string name = (parent / kTemporaryName).string() + "XXXXXX";
-      if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
-      alive_ = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-      if (alive_ < 0 && errno != ENOENT) {
-        const int number = errno;
-        remove_temporary(name);
-        output_error(name, number);
-      }
-      if (alive_ >= 0) ::flock(alive_, LOCK_EX);
-      if (alive_ >= 0 && is_at(name, alive_)) return fs::path(name);
-      // Before it was locked, another farm took it for one that a dead process left behind.
-      if (alive_ >= 0) ::close(alive_);
-    }
-  });
-}
+TemporaryDirectory::TemporaryDirectory()
+    : path_([&] {
+        std::error_code error;
+        const fs::path parent = fs::temp_directory_path(error);
+        if (error)
+          throw Error(
+              ExitCode::kOutput,
+              fmt::format("$TMPDIR: no directory for temporary files: {}", error.message()));
+        while (true) {
+          std::string name = (parent / kTemporaryName).string() + "XXXXXX";
+          if (::mkdtemp(name.data()) == nullptr) output_error(name, errno);
+          lock_ = Descriptor(::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+          if (!lock_ && errno != ENOENT) {
+            const int number = errno;
+            remove_temporary(name);
+            output_error(name, number);
+          }
+          if (lock_) ::flock(lock_.get(), LOCK_EX);
+          if (lock_ && is_at(name, lock_.get())) return fs::path(name);
+          // Before it was locked, another farm took it for one that a dead process left behind.
+        }
+      }) {}
 
-TemporaryDirectory::~TemporaryDirectory() {
-  remove_temporary(path());
-  ::close(alive_);
-}
+TemporaryDirectory::~TemporaryDirectory() { remove_temporary(path()); }
 
 void remove_abandoned_temporaries() {
   std::error_code error;
   const fs::path parent = fs::temp_directory_path(error);
   if (!error) remove_dead_temporaries(parent);
-}
-
-void remove_abandoned_files(const fs::path& directory) {
-  remove_abandoned_parts(HeldDirectory(directory));
 }
 
 }  // namespace lobelia

@@ -3,12 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <optional>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/descriptor.hpp"
 #include "core/interrupt.hpp"
 
 namespace lobelia {
@@ -16,9 +17,9 @@ namespace lobelia {
 /// The whole file. Throws Error(kInput) if it is missing, not a regular file or over `max_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-/// What to do if the path to write is a symbolic link.
+/// What a write replaces where its path is a symbolic link.
 enum class AtLink {
-  kFollow,  ///< the file that it leads to is replaced: for paths that a user chose
+  kFollow,  ///< the file that the link leads to: for paths that a user chose
   kReplace  ///< the link itself: for names of ours
 };
 
@@ -29,55 +30,52 @@ void write_file(const std::filesystem::path& path, std::span<const std::uint8_t>
 void write_file(const std::filesystem::path& path, std::string_view text,
                 AtLink at_link = AtLink::kFollow);
 
-/// A file in the making, for what is too large or too slow to be written at once: under a temporary name
-/// beside `path`, which it gets by finish(). Without that nothing is left behind. Throws as write_file does.
+/// A file that is written piece by piece, under a temporary name beside `path`. finish() renames it to `path`; without
+/// that nothing is left behind. Throws as write_file does.
 class PartFile {
  public:
   explicit PartFile(const std::filesystem::path& path, AtLink at_link = AtLink::kFollow);
+  PartFile(PartFile&&) = default;
   ~PartFile();
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
   void append(std::span<const std::uint8_t> bytes);
-  /// Over what is there already.
+  /// Overwrites bytes that are there already.
   void write_at(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   std::uint64_t size() const { return size_; }
-  /// Flushes to the disk, then renames; where there is a FilesTogether, its commit() renames.
+  /// Flushes to the disk, then renames. If there is a FilesTogether, its commit() renames instead.
   void finish();
 
  private:
   friend class FilesTogether;
   [[noreturn]] void fail(int error);
-  int fd_ = -1;
+  Descriptor file_;
   std::filesystem::path path_, target_;
   TemporaryPath part_;
   std::uint64_t size_ = 0;
 };
 
-/// The files of one command: while this lives, each finished PartFile keeps its temporary name until commit()
-/// gives all of them their own. Without commit() none is left behind. One at a time in a process.
+/// Publishes all files of a command at once: while this lives, finished PartFiles keep their temporary names until
+/// commit() renames them all. Without commit() none is left behind. A process has at most one at a time.
 class FilesTogether {
  public:
   FilesTogether();
   ~FilesTogether();
   FilesTogether(const FilesTogether&) = delete;
   FilesTogether& operator=(const FilesTogether&) = delete;
-  /// Throws Error(kInterrupted) if interrupted(), and as PartFile. An interruption that comes later is
-  /// too late (core/interrupt.hpp).
+  /// Throws Error(kInterrupted) if interrupted(), and as PartFile. Later interruptions come too late
+  /// (core/interrupt.hpp).
   void commit();
 
  private:
   friend class PartFile;
-  struct State;
-  /// False where there is none.
-  static bool add(PartFile& file);
   static FilesTogether* current_;
-  std::unique_ptr<State> state_;
+  std::mutex mutex_;
+  std::vector<PartFile> finished_;
 };
 
-/// Throws Error(kOutput) unless a file could be created at `path`; asked before long work starts.
+/// Throws Error(kOutput) unless a file can be created at `path`. For before long work starts.
 void require_writable(const std::filesystem::path& path);
 
-/// create_directories, but as Error(kOutput).
+/// As create_directories, but throws Error(kOutput).
 void make_directories(const std::filesystem::path& path);
 
 /// A directory that is removed with everything in it when this object goes.
@@ -87,18 +85,14 @@ class TemporaryDirectory {
   ~TemporaryDirectory();
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  const std::filesystem::path& path() const { return path_->path(); }
+  const std::filesystem::path& path() const { return path_.path(); }
 
  private:
-  std::optional<TemporaryPath> path_;
-  int alive_ = -1;  ///< locked until this object or its process ends
+  Descriptor lock_;  ///< held until this object or its process ends
+  TemporaryPath path_;
 };
 
-/// Removes the directories of TemporaryDirectory that a killed process of this user has left behind.
+/// Removes the TemporaryDirectories that killed processes of this user left behind.
 void remove_abandoned_temporaries();
-
-/// Removes from `directory` the temporary files of write_file (".NAME.PID-N.part") whose process is
-/// gone, on this machine or another: what a killed run left behind.
-void remove_abandoned_files(const std::filesystem::path& directory);
 
 }  // namespace lobelia

@@ -1,6 +1,10 @@
-// Which machine a result was made on.
+// This machine, its processes, and this build of the program.
 #pragma once
 
+#include <sys/types.h>
+
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace lobelia {
@@ -8,10 +12,28 @@ namespace lobelia {
 /// "Intel(R) Xeon(R) Processor"; "unknown" if the system does not tell.
 std::string processor_name();
 
-/// As the system calls it: "node17". Empty if it does not tell.
+/// "node17"; empty if the system does not tell.
 std::string host_name();
 
-/// Whether a process has the number in /proc that we know it by: not in a PID namespace without a /proc of its own.
+/// Whether /proc has our process IDs: not in a PID namespace without a /proc of its own.
 bool proc_has_our_numbers();
+
+/// Bytes of memory that this machine has.
+std::uint64_t memory_of_machine();
+
+/// Peak resident bytes of a process since its exec; 0 if it has ended. getrusage differs: it includes the peak of the
+/// process that started it.
+std::uint64_t peak_memory_of(pid_t process);
+
+/// Resident bytes of a process and its descendants. Shared pages count once for each process, or with `exactly` once in
+/// all (PSS, for which the kernel looks at every page). 0 if it has ended or /proc is of another PID namespace.
+std::uint64_t memory_of_tree(pid_t process, bool exactly = false);
+
+/// How many processes this kernel has killed for lack of memory since it started; nothing if it does not tell.
+std::optional<std::uint64_t> count_of_oom_kills();
+
+/// The GNU build ID of the running program in hexadecimal, which is the same for the same code; without one, the SHA-256
+/// of the program's file. Throws Error(kInternal) if neither can be read.
+const std::string& build_id();
 
 }  // namespace lobelia

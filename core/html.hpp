@@ -1,5 +1,5 @@
-// Writing markup that cannot be malformed: tags close themselves, text and attributes are escaped.
-// The result is HTML that is well-formed XML too, so that any XML reader can check it.
+// Writes markup that cannot be malformed: tags close themselves, text and attributes are escaped. The result is HTML and
+// well-formed XML, so that any XML reader can check it.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace lobelia {
 
 struct Attribute {
-  std::string_view name;  ///< ours, never from a record
+  std::string_view name;  ///< written as it is: never from a record
   std::string value;      ///< escaped when written
 };
 using Attributes = std::vector<Attribute>;
@@ -17,11 +17,11 @@ using Attributes = std::vector<Attribute>;
 class Html {
  public:
   void text(std::string_view text);
-  /// Markup made by such an object, a chart; the only way to write without escaping.
+  /// Writes markup of another Html object without escaping it.
   void raw(std::string_view markup) { out_ += markup; }
   /// An element without content: <img ... />.
   void empty(std::string_view tag, const Attributes& attributes = {});
-  /// An element with text alone.
+  /// An element with nothing but text.
   void element(std::string_view tag, const Attributes& attributes, std::string_view text);
   void element(std::string_view tag, std::string_view text) { element(tag, {}, text); }
   const std::string& str() const { return out_; }

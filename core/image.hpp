@@ -3,19 +3,48 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <new>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/vec.hpp"
-#include "core/zeroed_memory.hpp"
 
 namespace lobelia {
 
-/// Largest picture that is read, rendered or compared: per side, and in all (1.5 GiB of float RGB).
+/// The largest picture that is read, rendered or compared: pixels per side, and in all (1.5 GiB of float RGB).
 inline constexpr int kMaxImageSide = 32768;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
+
+/// Zero because the system gives it so, in large pages where it has them. Throws std::bad_alloc.
+///
+/// The first to write a page is the thread that renders it. A first write costs up to 2 us in a virtual machine, and a
+/// picture of 12 MB has 3000 pages of the usual size, but six large ones: usual pages would take three times as long as
+/// rendering the picture (`make bench`).
+void* allocate_zeroed(std::size_t bytes);
+void free_zeroed(void* memory, std::size_t bytes);
+
+/// An allocator of such memory, for containers that are made with their final size.
+template <class T>
+struct ZeroedMemory {
+  using value_type = T;
+  ZeroedMemory() = default;
+  template <class U>
+  ZeroedMemory(const ZeroedMemory<U>&) {}
+  T* allocate(std::size_t count) {
+    if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_alloc();
+    return static_cast<T*>(allocate_zeroed(count * sizeof(T)));
+  }
+  void deallocate(T* memory, std::size_t count) { free_zeroed(memory, count * sizeof(T)); }
+  void construct(T*) {}  // it is zero
+  template <class... Arguments>
+  void construct(T* at, Arguments&&... arguments) {
+    ::new (static_cast<void*>(at)) T(std::forward<Arguments>(arguments)...);
+  }
+  friend bool operator==(ZeroedMemory, ZeroedMemory) { return true; }
+};
 
 /// Scene-linear float32 RGB, Rec. 709 primaries. Row 0 is the top; interleaved; no padding.
 class Image {
@@ -43,7 +72,7 @@ class Image {
   std::vector<float, ZeroedMemory<float>> values_;
 };
 
-/// Display-encoded 8-bit RGB (sRGB), for people to look at. Same layout as Image.
+/// Display-encoded 8-bit RGB (sRGB), in the layout of Image.
 struct DisplayImage {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;

@@ -7,14 +7,13 @@
 
 #include <cerrno>
 
-#include "core/contained_reader.hpp"
 #include "core/error.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io_module.hpp"
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
-#include "core/thread_count.hpp"
+#include "core/threads.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -35,14 +34,13 @@ namespace {
 constexpr std::size_t kModuleCode = std::size_t{400} << 20, kModuleData = std::size_t{128} << 20;
 constexpr int kModuleThreads = 8;
 
-/// Whether as much could be mapped just now.
 bool is_free(std::size_t size, int access) {
   void* const place =
       ::mmap(nullptr, size, access, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   return place != MAP_FAILED && ::munmap(place, size) == 0;
 }
 
-/// Asked before, because one of those libraries (log4cplus) waits for ever where it gets two threads and not four.
+/// Checked beforehand, because one of those libraries (log4cplus) hangs if it gets two of its four threads.
 void require_room_for_module() {
   const int error = startable_threads(kModuleThreads) < kModuleThreads ? EAGAIN
                     : !is_free(kModuleCode + kModuleData, PROT_NONE) ||
@@ -67,10 +65,6 @@ const ImageIoTable& image_io_table() {
   return table;
 }
 
-Picture read_picture(const fs::path& path, const std::string& layer) {
-  return read_contained(path, layer);
-}
-
 Image read_image(const fs::path& path) { return read_picture(path, "").image; }
 
 Image read_trusted_image(const fs::path& path) {
@@ -78,8 +72,6 @@ Image read_trusted_image(const fs::path& path) {
   const std::string bytes = file.read_all();
   return image_io_table().read_picture({path, bytes, file.known_format()}, "").image;
 }
-
-std::vector<std::string> layer_names(const fs::path& path) { return layer_names_contained(path); }
 
 void write_exr(const fs::path& path, const Image& image, const ImageMetadata& metadata) {
   ExrWriter writer(path, image.width(), image.height(), metadata);

@@ -13,31 +13,26 @@
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
-#include "core/icc_profile.hpp"
-#include "core/picture_bytes.hpp"
-#include "core/picture_file.hpp"
+#include "core/picture.hpp"
+#include "core/picture_colour.hpp"
 #include "core/picture_layers.hpp"
-#include "core/picture_window.hpp"
-#include "core/primaries.hpp"
 #include "core/text.hpp"
-#include "core/transfer_curve.hpp"
 
 namespace lobelia {
 namespace {
 
 [[noreturn]] void unreadable(const std::filesystem::path& path, std::string_view why) {
-  // The library gives one line to each thing that it noticed.
-  const std::vector<std::string> lines = split(why, "\n");
-  std::vector<std::string_view> views(lines.begin(), lines.end());
-  if (views.empty()) views.push_back("its values cannot be decoded");
-  unreadable_picture(path, join(views, "; "));
+  const std::vector<std::string> lines =
+      split(why, "\n");  // the library writes one for each problem
+  if (lines.empty()) unreadable_picture(path, "its values cannot be decoded");
+  unreadable_picture(path, fmt::format("{}", fmt::join(lines, "; ")));
 }
 
 /// A file with more parts is a film, or its directory is damaged.
 constexpr int kMaxParts = 1024;
 constexpr int kMaxChannels = 1024;
 
-/// The one plug-in that is asked reads from memory. The others, of --any-format, open a file by themselves.
+/// With a format, its plug-in reads from memory. With --any-format each plug-in opens the file by itself.
 std::shared_ptr<OIIO::ImageInput> open(const PictureBytes& file) {
   if (is_exr_that_claims_too_much(file.bytes))
     unreadable(file.path, "its header claims more than the file has");
@@ -46,7 +41,7 @@ std::shared_ptr<OIIO::ImageInput> open(const PictureBytes& file) {
                "it has no BitsPerSample: that is a TIFF of 1 bit, which is read wrongly; "
                "write it with the tag");
   OIIO::ImageSpec wishes;
-  // Otherwise a PNG's colours are multiplied by alpha while they are encoded, which is no light.
+  // Otherwise a PNG's colours are multiplied by alpha while they are still encoded.
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   if (file.format.empty()) {
     const std::string ending = file.path.extension().string();
@@ -63,10 +58,10 @@ std::shared_ptr<OIIO::ImageInput> open(const PictureBytes& file) {
   if (!created)
     throw Error(ExitCode::kInternal,
                 fmt::format("no reader for {}: {}", file.format, OIIO::geterror()));
-  // The memory has to be there as long as the input.
+  // The memory must live as long as the input.
   const std::shared_ptr<OIIO::ImageInput> input(created.release(),
                                                 [memory](OIIO::ImageInput* last) { delete last; });
-  // Told with the wishes, which some plug-ins keep: they open it anew for a row that they have passed.
+  // Given with the wishes, because some plug-ins keep those and open the file again to go back to an earlier row.
   OIIO::Filesystem::IOProxy* proxy = memory.get();
   wishes.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   OIIO::ImageSpec spec;
@@ -74,18 +69,17 @@ std::shared_ptr<OIIO::ImageInput> open(const PictureBytes& file) {
   return input;
 }
 
-/// How many the part has that `input` is at.
 int count_mip_levels(OIIO::ImageInput& input, int part) {
   constexpr int kMostLevels = 32;  // of a side of 2^31
   const std::string_view format = input.format_name();
-  // Others have none, and some of their readers cannot go back.
+  // Other formats have none, and some of their readers cannot go back.
   if (format != "openexr" && format != "tiff" && format != "dds") return 1;
   int levels = 1;
   while (levels < kMostLevels && input.seek_subimage(part, levels)) ++levels;
   return levels;
 }
 
-/// By an input of its own: some readers cannot forget that they were asked for a part that there is not.
+/// Uses an input of its own, because some readers fail for good once they are asked for a part that does not exist.
 std::vector<PicturePart> parts_of(const PictureBytes& file) {
   const auto input = open(file);
   std::vector<PicturePart> parts;
@@ -109,8 +103,8 @@ PixelWindow data_window(const OIIO::ImageSpec& spec) {
   return {spec.x, spec.y, spec.width, spec.height};
 }
 
-/// The picture's window. Elsewhere than in an EXR a window that leaves the other is a place on a page. Of a cube map
-/// OpenImageIO says the first face, of six.
+/// In other formats than EXR a data window that leaves the display window is a position on a page. For a cube map
+/// OpenImageIO gives the first of six faces.
 PixelWindow display_window(const OIIO::ImageSpec& spec, std::string_view format) {
   const PixelWindow data = data_window(spec);
   const PixelWindow display{spec.full_x, spec.full_y, spec.full_width, spec.full_height};
@@ -123,16 +117,14 @@ void check(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
            std::string_view format) {
   if (spec.deep) unreadable(path, "it is deep: a pixel has many values; flatten it first");
   if (spec.depth > 1) unreadable(path, fmt::format("it is a volume, {} pictures deep", spec.depth));
-  const PixelWindow data = data_window(spec);
-  if (const std::string problem = window_problem("its data window", data); !problem.empty())
-    unreadable(path, problem);
-  const PixelWindow display = display_window(spec, format);
-  if (const std::string problem = window_problem("its display window", display); !problem.empty())
-    unreadable(path, problem);
+  const PixelWindow data = data_window(spec), display = display_window(spec, format);
+  for (const std::string& problem :
+       {window_problem("its data window", data), window_problem("its display window", display)})
+    if (!problem.empty()) unreadable(path, problem);
   if (are_apart(data, display)) unreadable(path, "its data window lies outside its display window");
-  // In these formats attributes are texts that anybody may have written into the file.
+  // In these formats the attributes below are any text in the file.
   if (format == "png" || format == "openexr") return;
-  // OpenImageIO would make RGB of them, without the profile that says what they look like.
+  // OpenImageIO would convert such colours to RGB without their profile.
   for (const char* attribute : {"tiff:ColorSpace", "jpeg:ColorSpace", "oiio:ColorSpace"}) {
     const std::string space = spec.get_string_attribute(attribute);
     for (const char* other : {"CMYK", "YCbCrK", "color separated", "CIELAB", "ICCLAB", "ITULAB"})
@@ -158,7 +150,7 @@ struct Reader {
   }
 
  private:
-  /// An id in an EXR: OpenImageIO would make shares of 4294967295 of it.
+  /// Whether it holds IDs in an EXR, which OpenImageIO would divide by 4294967295.
   bool is_number(int channel) const {
     return spec.channelformat(channel) == OIIO::TypeDesc::UINT32 &&
            std::string_view(input.format_name()) == "openexr";
@@ -171,7 +163,7 @@ struct Reader {
   void read_as(OIIO::TypeDesc type, int first, int count, void* values,
                OIIO::stride_t stride) const {
     const bool read = input.read_image(part, 0, first, first + count, type, values, stride);
-    // Some readers leave out what is missing of a file, and succeed.
+    // Some readers succeed although a part of the file is missing.
     if (!read || input.has_error()) unreadable(path, input.geterror());
   }
 };
@@ -184,7 +176,7 @@ Image read_channels(const Reader& reader, const std::vector<std::size_t>& where)
     reader.read(int(where[0]), 3, values, 3);
     return image;
   }
-  // A vector of two leaves the third 0.
+  // With two channels, a vector, the third value stays 0.
   for (std::size_t c = 0; c < where.size(); ++c) reader.read(int(where[c]), 1, values + c, 3);
   if (where.size() == 1)
     for (std::size_t i = 0; i < image.values().size(); i += 3)
@@ -199,14 +191,13 @@ void multiply_by_alpha(const Reader& reader, Image& image) {
     for (std::size_t c = 0; c < 3; ++c) image.values()[3 * i + c] *= alpha[i];
 }
 
-/// Whether the file's colours are not multiplied by its alpha. PNG and EXR say it themselves, whatever an attribute
-/// of the library says in them.
+/// Whether the file's colours are not multiplied by its alpha. PNG and EXR define it, whatever an attribute says.
 bool is_unassociated(const OIIO::ImageSpec& spec, std::string_view format) {
   if (spec.alpha_channel < 0 || format == "openexr") return false;
   return format == "png" || spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 1;
 }
 
-/// How the values of colours become light.
+/// How the file's colours become light with Rec. 709 primaries.
 struct ColourMeaning {
   TransferCurve curve{TransferCurve::Kind::kLinear, 1, "linear"};
   std::optional<Chromaticities> primaries;  ///< nothing for Rec. 709
@@ -248,7 +239,7 @@ ColourMeaning colour_meaning(const PictureBytes& file, const OIIO::ImageSpec& sp
   return meaning;
 }
 
-/// Rec. 709 from other primaries, of three channels; grey stays as it is.
+/// To Rec. 709, for three channels.
 void convert_primaries(const std::filesystem::path& path, const Chromaticities& from,
                        Picture& picture) {
   if (are_rec709(from)) return;
@@ -264,12 +255,11 @@ void add_icc_profile(const OIIO::ImageSpec& spec, PictureSource& source) {
   const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
   if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return;
   source.icc_is_srgb = is_srgb_profile(
-      {static_cast<const std::uint8_t*>(profile->data()), std::size_t(profile->datasize())});
+      {static_cast<const char*>(profile->data()), std::size_t(profile->datasize())});
   source.icc_profile =
       spec.get_string_attribute("ICCProfile:profile_description", "without a name");
 }
 
-/// The memory that a header asks for, told before any is taken.
 PictureClaim claim_of(const OIIO::ImageSpec& spec, std::string_view format) {
   const PixelWindow display = display_window(spec, format);
   return {std::uint64_t(spec.width) * spec.height + std::uint64_t(display.width) * display.height,
@@ -323,26 +313,19 @@ std::vector<std::string> list_layers(const PictureBytes& file) {
   return names;
 }
 
-std::vector<std::uint8_t> encode(const char* extension, OIIO::ImageSpec spec, OIIO::TypeDesc type,
-                                 const void* pixels) {
-  std::vector<std::uint8_t> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create(extension);
-  if (!output)
-    throw Error(ExitCode::kInternal,
-                fmt::format("no writer for {}: {}", extension, OIIO::geterror()));
-  if (!output->set_ioproxy(&memory) || !output->open(std::string("memory.") + extension, spec) ||
-      !output->write_image(type, pixels) || !output->close())
-    throw Error(ExitCode::kOutput,
-                fmt::format("cannot encode {}: {}", extension, output->geterror()));
-  return bytes;
-}
-
 std::vector<std::uint8_t> encode_png(const DisplayImage& image, const ImageMetadata& metadata) {
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  return encode("png", spec, OIIO::TypeDesc::UINT8, image.rgb.data());
+  std::vector<std::uint8_t> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create("png");
+  if (!output)
+    throw Error(ExitCode::kInternal, fmt::format("no writer for png: {}", OIIO::geterror()));
+  if (!output->set_ioproxy(&memory) || !output->open("memory.png", spec) ||
+      !output->write_image(OIIO::TypeDesc::UINT8, image.rgb.data()) || !output->close())
+    throw Error(ExitCode::kOutput, fmt::format("cannot encode png: {}", output->geterror()));
+  return bytes;
 }
 
 ColourTable table_of_colours(std::string_view name) {
@@ -355,7 +338,7 @@ ColourTable table_of_colours(std::string_view name) {
       OIIO::ImageBufAlgo::color_map(ramp, 0, OIIO::string_view(name.data(), name.size()));
   if (colours.has_error() || colours.nchannels() != 3)
     throw Error(ExitCode::kInternal, fmt::format("colour map: {}", colours.geterror()));
-  // Its maps are linear light, whatever they were published as.
+  // OpenImageIO's maps are linear light.
   Image linear(kColourTableSize, 1);
   for (int i = 0; i < kColourTableSize; ++i) colours.getpixel(i, 0, linear.pixel(i, 0).data(), 3);
   const DisplayImage shown = to_display(linear, 0);

@@ -1,4 +1,4 @@
-// The image module's interface to its loaders: core/image_io.cpp and the reader (core/picture_reader.cpp).
+// The interface of the image module to its users: core/image_io.cpp and core/picture_reader.cpp.
 #pragma once
 
 #include <functional>
@@ -7,17 +7,17 @@
 
 namespace lobelia {
 
-/// A picture's header, before memory is taken for its values.
+/// What a picture's header claims, before memory is allocated for it.
 struct PictureClaim {
-  std::uint64_t pixels = 0;     ///< of the data window and of the display window, together
-  std::uint64_t raw_bytes = 0;  ///< of all channels, as the file holds them uncompressed
+  std::uint64_t pixels = 0;     ///< of the data window and the display window together
+  std::uint64_t raw_bytes = 0;  ///< of all channels, uncompressed
 };
 
 /// A picture's file in memory.
 struct PictureBytes {
   std::filesystem::path path;  ///< for messages
   std::string_view bytes;
-  /// The only plug-in of OpenImageIO that is asked, of picture_format(); "": any, which opens `reopen` by itself.
+  /// The plug-in of OpenImageIO to use, as picture_format(); "": any, which opens the file `reopen` by itself.
   std::string_view format;
   std::filesystem::path reopen = {};
   std::function<void(const PictureClaim&)> on_header = {};  ///< may throw
@@ -29,17 +29,18 @@ struct ImageIoTable {
   std::vector<std::uint8_t> (*encode_png)(const DisplayImage&, const ImageMetadata&);
   ColourTable (*colour_table)(std::string_view);
   void (*decode_on_calling_threads)();
-  void (*load_formats)();  ///< now, and not at the first picture
+  void (*load_formats)();  ///< now instead of at the first picture
 };
 
+inline constexpr char kReaderFile[] = "lobelia_picture_reader";
 inline constexpr char kImageIoModuleFile[] = "lobelia_image_io.so";
 inline constexpr char kImageIoTableSymbol[] = "lobelia_image_io_table";
 
 /// Loads the module at the first call. Throws Error(kInternal) if it is not there.
 const ImageIoTable& image_io_table();
 
-/// A file that is built and installed with the program: beside it in a build tree, in ../lib/lobelia once installed.
-/// Throws Error(kInternal) if it is in neither.
+/// The path of a file that is installed with the program: beside it in a build tree, else in ../lib/lobelia. Throws
+/// Error(kInternal) if it is in neither.
 std::filesystem::path companion_file(const char* name);
 
 }  // namespace lobelia

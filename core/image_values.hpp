@@ -1,4 +1,4 @@
-// What the values of a picture are like: finite, how large.
+// Properties of a picture's values.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace lobelia {
 
-/// No value of it is a NaN or an infinity.
+/// Whether no value is NaN or infinite.
 inline bool is_finite(const Image& image) {
   return std::ranges::all_of(image.values(), [](float value) { return std::isfinite(value); });
 }
 
-/// The brightest R, G or B value of the picture; 0 for a picture without a positive value.
+/// The brightest R, G or B value; 0 without a positive value.
 inline double peak_value(const Image& image) {
   float peak = 0;
   for (const float value : image.values()) peak = std::max(peak, value);

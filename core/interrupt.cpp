@@ -6,7 +6,6 @@
 
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -18,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/descriptor.hpp"
 #include "core/removal.hpp"
 #include "core/standard_streams.hpp"
 
@@ -29,16 +29,16 @@ std::atomic<int> g_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
               "a signal handler may not wait");
 
-/// Running keepers, 0 where none; more at once than any engine starts. One that finds no place
-/// still ends when we have ended.
+/// Running keepers, 0 in free places. More than any engine starts at once. A keeper without a place still ends after our
+/// end.
 std::array<std::atomic<pid_t>, 4096> g_keepers{};
 
-/// timeout(1) and others send a signal to the process and to its group: that is one wish, told twice.
-constexpr std::int64_t kOneWishNanoseconds = 300'000'000;
+/// timeout(1) and others signal both the process and its group: two signals within this time count as one.
+constexpr std::int64_t kOneRequestNanoseconds = 300'000'000;
 std::atomic<std::int64_t> g_first_time{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
-/// Two places in turn: the handler may come while one is written.
+/// Two buffers in turn: the handler may run while one is written.
 constexpr std::size_t kMaxLastWords = 1000;
 struct LastWords {
   std::size_t size = 0;
@@ -53,13 +53,13 @@ std::int64_t now() {  // clock_gettime may be called in a signal handler
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// Time to stop by itself, which removes more than the watcher knows of.
+/// Time for the process to end by itself, which cleans up more than the watcher can.
 constexpr std::chrono::milliseconds kGrace{250};
 std::atomic<bool> g_ends_soon{false};
 std::atomic<bool> g_too_late{false};
 sem_t g_signalled;  ///< posted at the first signal
 
-/// Never destroyed: the watcher may run while the process exits.
+/// Never destroyed, because the watcher may run while the process exits.
 struct Ending {
   std::recursive_mutex mutex;
   std::set<std::filesystem::path> temporary_paths;
@@ -85,17 +85,16 @@ void remove_temporary_paths() {
 }
 
 void end_after_first_signal() {
-  while (::sem_wait(&g_signalled) != 0 && errno == EINTR) {
-  }
+  retried([] { return ::sem_wait(&g_signalled); });
   std::this_thread::sleep_for(kGrace);
   if (!g_ends_soon) return;
   ending().mutex.lock();
-  if (g_too_late) {  // a little longer, for what is printed
+  if (g_too_late) {  // time to print the results
     ending().mutex.unlock();
     std::this_thread::sleep_for(kGrace);
     ending().mutex.lock();
   }
-  // Locked for good: no thread makes a temporary file from now on.
+  // Stays locked, so that no thread makes another temporary file.
   end_keepers();
   remove_temporary_paths();
   // A progress line may stand there.
@@ -112,8 +111,7 @@ void on_signal(int signal) {
     ::sem_post(&g_signalled);
     return;
   }
-  if (now() - g_first_time < kOneWishNanoseconds) return;
-  // Whoever presses Ctrl-C twice means it.
+  if (now() - g_first_time < kOneRequestNanoseconds) return;
   const LastWords& words = g_last_words[g_last_words_index];
   write_message_if_room({words.text, words.size});
   end_keepers();
@@ -134,7 +132,7 @@ void end_soon_when_interrupted() {
   g_ends_soon = true;
   try {
     std::thread(end_after_first_signal).detach();
-  } catch (const std::system_error&) {  // no more threads are allowed: it ends when it can
+  } catch (const std::system_error&) {  // without a thread, the process ends between its steps
   }
 }
 
@@ -143,14 +141,7 @@ void end_by_ourselves_when_interrupted() { g_ends_soon = false; }
 bool interrupted() { return g_signal != 0; }
 
 ExitCode interrupt_exit_code() {
-  switch (g_signal) {
-    case SIGHUP:
-      return ExitCode::kHungUp;
-    case SIGTERM:
-      return ExitCode::kTerminated;
-    default:
-      return ExitCode::kInterrupted;
-  }
+  return g_signal == 0 ? ExitCode::kInterrupted : ExitCode(128 + g_signal);
 }
 
 void throw_if_interrupted() {

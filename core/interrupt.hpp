@@ -1,4 +1,4 @@
-// Ctrl-C: a flag that long work looks at between steps, and an end for work that does not look.
+// Ctrl-C: a flag for long work to look at, and a watcher that ends work that does not look.
 #pragma once
 
 #include <sys/types.h>
@@ -11,14 +11,14 @@
 
 namespace lobelia {
 
-/// Makes SIGINT, SIGTERM and SIGHUP set the flag. A second one, 0.3 s later or more, ends the process at
-/// once, and the processes that are registered with it.
+/// Makes SIGINT, SIGTERM and SIGHUP set the flag. A second signal, at least 0.3 s later, ends this process and the
+/// registered ones at once.
 void catch_interrupts();
-/// From now on the first signal ends a process that has not ended by itself after 0.25 s, whatever it is
-/// doing: registered processes are ended, temporary files and directories are removed, one line goes to
-/// stderr, and the exit code is interrupt_exit_code(). Asked once, after catch_interrupts().
+/// Makes the first signal end this process if it has not ended by itself after 0.25 s: registered processes are ended,
+/// temporary files and directories removed, one line is written to stderr, and the exit code is interrupt_exit_code().
+/// Call it once, after catch_interrupts().
 void end_soon_when_interrupted();
-/// Takes that back, for work that needs longer to stop in good order.
+/// Undoes end_soon_when_interrupted(), for work that needs longer to stop in good order.
 void end_by_ourselves_when_interrupted();
 /// True once the user has asked to stop.
 bool interrupted();
@@ -27,15 +27,15 @@ ExitCode interrupt_exit_code();
 /// Throws Error(kInterrupted) if interrupted().
 void throw_if_interrupted();
 
-/// The results are out: the exit code is theirs, even if a signal comes now.
+/// Says that the results are written: they decide the exit code, even if a signal comes now.
 void interrupts_come_too_late();
-/// Interrupted before that, in a process that is to end soon.
+/// Whether a signal came before that, in a process that ends soon.
 bool interrupted_in_time();
 
-/// The calling thread is about to end the process, and nothing else does so any more, but a second Ctrl-C.
+/// Leaves the end of the process to the calling thread: only a second Ctrl-C can still end it otherwise.
 void take_over_end();
 
-/// While one lives, end_soon_when_interrupted() does not end the process. For short steps.
+/// Keeps end_soon_when_interrupted() from ending the process while this lives. For short steps.
 class EndDelay {
  public:
   EndDelay();
@@ -47,25 +47,25 @@ class EndDelay {
 /// A temporary file or directory that end_soon_when_interrupted() removes while this object lives.
 class TemporaryPath {
  public:
-  /// `create` makes it and returns its path; what it throws is passed on.
+  /// `create` makes it and returns its path.
   explicit TemporaryPath(const std::function<std::filesystem::path()>& create);
   ~TemporaryPath();
   TemporaryPath(TemporaryPath&& other) noexcept;
   TemporaryPath& operator=(TemporaryPath&&) = delete;
   const std::filesystem::path& path() const { return path_; }
-  /// It is gone, or has its final name.
+  /// For one that is gone or has its final name.
   void forget();
 
  private:
   std::filesystem::path path_;  ///< empty once forgotten
 };
 
-/// Sets the text that a second Ctrl-C writes to stderr before it ends the process; at most 1000 bytes. It says where
-/// work goes on without this process. Not for several threads at once.
+/// Sets the text that a second Ctrl-C writes to stderr, at most 1000 bytes: where work goes on without this process. Not
+/// for several threads at once.
 void set_last_words(std::string_view text);
 
-/// Holds a keeper (core/process_keeper.cpp) where a second Ctrl-C finds it, for as long as this object lives: SIGTERM makes
-/// it end all that it keeps.
+/// Registers a keeper (core/process_keeper.cpp) while this lives: a second Ctrl-C sends it SIGTERM, and it ends all that it
+/// keeps.
 class InterruptibleProcess {
  public:
   explicit InterruptibleProcess(pid_t keeper);

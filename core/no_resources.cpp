@@ -31,14 +31,14 @@ std::string lacking(const std::exception& error) {
     if (system->code().category() == std::generic_category() ||
         system->code().category() == std::system_category())
       return lacking(system->code().value());
-  // oneTBB has the call's name and the system's words, OpenEXR the words alone, or those of std::bad_alloc; the dynamic
-  // linker says which library does not fit.
+  // The messages of oneTBB and OpenEXR contain the system's words or std::bad_alloc. The dynamic linker names the library
+  // that does not fit.
   const std::string_view words = error.what();
   for (const int one : {EAGAIN, ENOMEM, EMFILE})
     if (words.find(std::strerror(one)) != words.npos) return lacking(one);
-  for (const char* of_memory :
+  for (const char* memory_word :
        {"std::bad_alloc", "failed to map segment", "cannot allocate memory", "cannot create cache"})
-    if (words.find(of_memory) != words.npos) return lacking(ENOMEM);
+    if (words.find(memory_word) != words.npos) return lacking(ENOMEM);
   return "";
 }
 

@@ -3,16 +3,12 @@
 #include <fcntl.h>
 #include <linux/openat2.h>
 #include <sys/syscall.h>
-#include <unistd.h>
 
-#include <cerrno>
+#include "core/descriptor.hpp"
 
 namespace lobelia {
-namespace {
 
 constexpr int kReading = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
-
-}  // namespace
 
 int open_beneath(int directory, const std::vector<std::string>& names) {
   std::string path = ".";
@@ -21,26 +17,21 @@ int open_beneath(int directory, const std::vector<std::string>& names) {
   how.flags = kReading;
   how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
   long file = -1;
-  do {  // EAGAIN: something was renamed on the way, and the kernel could not be sure
+  do {  // EAGAIN: something on the way was renamed meanwhile
     file = ::syscall(SYS_openat2, directory, path.c_str(), &how, sizeof how);
   } while (file < 0 && (errno == EAGAIN || errno == EINTR));
-  // EPERM: a container's seccomp that does not know the call.
+  // EPERM: the seccomp filter of a container does not know the call.
   if (file < 0 && (errno == ENOSYS || errno == EPERM))
     return open_beneath_by_steps(directory, names);
   return int(file);
 }
 
 int open_beneath_by_steps(int directory, const std::vector<std::string>& names) {
-  int place = ::openat(directory, ".", kReading | O_DIRECTORY);
-  for (std::size_t i = 0; i < names.size() && place >= 0; ++i) {
-    const int next = ::openat(place, names[i].c_str(),
-                              kReading | O_NOFOLLOW | (i + 1 < names.size() ? O_DIRECTORY : 0));
-    const int error = errno;
-    ::close(place);
-    errno = error;
-    place = next;
-  }
-  return place;
+  Descriptor place(::openat(directory, ".", kReading | O_DIRECTORY));
+  for (std::size_t i = 0; i < names.size() && place; ++i)
+    place = Descriptor(::openat(place.get(), names[i].c_str(),
+                                kReading | O_NOFOLLOW | (i + 1 < names.size() ? O_DIRECTORY : 0)));
+  return place.release();
 }
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// Opening a file by a name that a stranger has chosen, without leaving a directory.
+// Opens a file by an untrusted name, without leaving a directory.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 
 namespace lobelia {
 
-/// Opens what `names` lead to below the open `directory`, for reading, and never waits for a pipe's writer. A link is
-/// followed only where it stays below `directory`, whatever happens to the path meanwhile. Each name is one of a
-/// directory's: no separator, not "..". The descriptor is the caller's; -1 with errno where there is none.
+/// Opens the file of the path `names` below the open `directory` for reading, without waiting for a pipe's writer. Follows
+/// a link only if it stays below `directory`, even if the path changes meanwhile. No name may have a separator or be
+/// "..". Returns a descriptor that the caller closes, or -1 with errno.
 int open_beneath(int directory, const std::vector<std::string>& names);
 
-/// What open_beneath() does on a kernel without openat2 (before Linux 5.6): the same, but follows no link at all.
+/// open_beneath() for kernels without openat2 (before Linux 5.6): follows no link at all.
 int open_beneath_by_steps(int directory, const std::vector<std::string>& names);
 
 }  // namespace lobelia

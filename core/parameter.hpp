@@ -1,10 +1,11 @@
-// Parameter tables: each parameter of a scene element is declared once, as data. The scene reader
-// checks against it, and the documentation of the scene format is printed from it.
+// Parameter tables: each parameter of a scene element is declared once, as data. The scene reader checks against it, and
+// the documentation of the scene format is printed from it.
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <string_view>
+
+#include "core/constants.hpp"
 
 namespace lobelia {
 
@@ -19,9 +20,9 @@ constexpr std::string_view parameter_tag(ParameterType type) {
 struct Parameter {
   std::string_view name;
   ParameterType type;
-  std::string_view default_value;  ///< as it would stand in the file; empty: required
-  double min = -std::numeric_limits<double>::infinity();  ///< inclusive, of every component
-  double max = std::numeric_limits<double>::infinity();
+  std::string_view default_value;  ///< as in a file; empty: required
+  double min = -kInfinity;         ///< inclusive, of every component
+  double max = kInfinity;
   std::string_view unit;
   std::string_view meaning;
 };

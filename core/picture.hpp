@@ -1,4 +1,4 @@
-// A picture as its file has it: values, and how they were read.
+// A picture as it was read from a file.
 #pragma once
 
 #include <string>
@@ -8,32 +8,52 @@
 
 namespace lobelia {
 
-/// Pixels x to x + width - 1, y to y + height - 1; y down.
+/// Pixels x to x + width - 1, y to y + height - 1; y down. A file's data window is where it has values; its display
+/// window is the picture.
 struct PixelWindow {
   int x = 0, y = 0, width = 0, height = 0;
   bool operator==(const PixelWindow&) const = default;
 };
+
+/// Why a window cannot be read, in words that begin with `what`; empty if it can: at least one pixel, at most
+/// kMaxImageSide a side, kMaxImagePixels in all, corners no farther than 2^30 from 0.
+std::string window_problem(const std::string& what, const PixelWindow& window);
+
+/// Whether they have no pixel in common.
+bool are_apart(const PixelWindow& a, const PixelWindow& b);
+
+bool is_inside(const PixelWindow& inner, const PixelWindow& outer);
+
+/// Moves `image` from the window `data` to `display`: cut off outside, 0 where there are no data.
+Image place(Image image, const PixelWindow& data, const PixelWindow& display);
 
 struct PictureSource {
   std::string format;                 ///< "openexr", "png": OpenImageIO's name
   std::string layer;                  ///< "" for the picture itself
   std::vector<std::string> channels;  ///< in the file: three, a vector's two, or one for grey
   std::string value_type;             ///< as stored: "half", "float", "uint8", "uint16", "uint"
-  std::string transfer;               ///< of transfer_curve.hpp: "linear", "sRGB", "gamma 1.8"
-  bool multiplied_by_alpha = false;   ///< after the transfer curve; the file's colours were not
+  std::string transfer;               ///< TransferCurve::name: "linear", "sRGB", "gamma 1.8"
+  bool multiplied_by_alpha = false;   ///< by us, after the transfer curve
   /// x, y of red, green, blue and white that the colours were converted from; empty for Rec. 709
   std::vector<double> chromaticities;
-  std::string icc_profile;          ///< its description where there is one; it is not applied
-  bool icc_is_srgb = false;         ///< it says what is assumed anyway
-  PixelWindow data, display;        ///< where the file has values, and the picture
-  std::string alpha;                ///< the layer that is the alpha of this one; empty without
-  std::vector<std::string> layers;  ///< all that the file has, as layer_names()
-  int mip_levels = 1;               ///< of which the first was read
+  std::string icc_profile;   ///< description of a profile, which is not applied
+  bool icc_is_srgb = false;  ///< the profile is what is assumed anyway
+  PixelWindow data, display;
+  std::string alpha;                ///< name of the layer with its alpha; empty if there is none
+  std::vector<std::string> layers;  ///< all layers of the file, as layer_names()
+  int mip_levels = 1;               ///< in the file; the first was read
+};
+
+/// How many pixels may be read from a file of a given size. A few bytes can unpack to very many pixels: callers that know
+/// the size of their pictures set a tighter limit. The header is checked before anything is unpacked.
+struct PictureLimit {
+  std::uint64_t pixels_of_any_file = std::uint64_t{1} << 24;
+  std::uint64_t pixels_per_byte = 4096;  ///< in addition, for each byte of the file
 };
 
 struct Picture {
   Image image;     ///< of the display window
-  Image overscan;  ///< of the data window, where that leaves the display window; else empty
+  Image overscan;  ///< of the data window if that leaves the display window, else empty
   PictureSource source;
 };
 

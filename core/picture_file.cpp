@@ -5,20 +5,57 @@
 #include <sys/mman.h>
 #include <sys/sendfile.h>
 #include <sys/stat.h>
-#include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <cctype>
+#include <cmath>
 #include <cstring>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/no_resources.hpp"
-#include "core/picture_bytes.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
 namespace {
+
+using namespace std::string_view_literals;
+
+struct Mark {
+  std::string_view bytes, format;
+};
+
+constexpr Mark kMarks[] = {{"\x76\x2f\x31\x01", "openexr"},
+                           {"\x89PNG\r\n\x1a\n", "png"},
+                           {"\xff\xd8\xff", "jpeg"},
+                           {"II*\0"sv, "tiff"},
+                           {"MM\0*"sv, "tiff"},
+                           {"II+\0"sv, "tiff"},
+                           {"MM\0+"sv, "tiff"},
+                           {"#?", "hdr"},
+                           {"SDPX", "dpx"},
+                           {"XPDS", "dpx"},
+                           {"BM", "bmp"}};
+
+bool is_pnm(std::string_view head) {
+  return head.size() > 2 && head[0] == 'P' && "123456Ff"sv.find(head[1]) != head.npos &&
+         (std::isspace(static_cast<unsigned char>(head[2])) || head[2] == '#');
+}
+
+/// Truevision TGA 2.0, the header's 18 bytes.
+bool is_tga_header(std::string_view head) {
+  if (head.size() < 18) return false;
+  const auto byte = [&](std::size_t at) { return number_at(head, at, true, 1); };
+  const auto one_of = [](std::uint64_t value, std::initializer_list<std::uint64_t> allowed) {
+    return std::ranges::find(allowed, value) != allowed.end();
+  };
+  const bool has_map = byte(1) == 1;
+  return byte(1) <= 1 && one_of(byte(2), {1, 2, 3, 9, 10, 11}) &&
+         (!has_map || one_of(byte(7), {15, 16, 24, 32})) && number_at(head, 12, true, 2) > 0 &&
+         number_at(head, 14, true, 2) > 0 && one_of(byte(16), {8, 15, 16, 24, 32}) &&
+         (byte(17) & 0xc0) == 0;
+}
 
 [[noreturn]] void cannot_open(const std::filesystem::path& path, int error) {
   if (!lacking(error).empty()) throw failure_of(path.string(), error, ExitCode::kInput);
@@ -27,13 +64,132 @@ namespace {
 
 }  // namespace
 
+std::uint64_t number_at(std::string_view bytes, std::size_t at, bool little, std::size_t size) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t place = at + (little ? size - 1 - i : i);
+    value = value << 8 | (place < bytes.size() ? static_cast<unsigned char>(bytes[place]) : 0);
+  }
+  return value;
+}
+
+std::string_view picture_format(std::string_view head, std::string_view footer,
+                                std::string_view ending) {
+  for (const Mark& mark : kMarks)
+    if (head.starts_with(mark.bytes)) return mark.format;
+  if (is_pnm(head)) return "pnm";
+  if (head.starts_with("RIFF") && head.size() >= 12 && head.substr(8, 4) == "WEBP") return "webp";
+  const bool is_tga = footer.ends_with("TRUEVISION-XFILE.\0"sv) || lower_case(ending) == ".tga";
+  return is_tga && is_tga_header(head) ? "targa" : "";
+}
+
+bool is_exr_that_claims_too_much(std::string_view bytes) {
+  if (bytes.size() < 8 || !bytes.starts_with("\x76\x2f\x31\x01")) return false;
+  constexpr char kManyParts = 0x10;
+  const bool many_parts = (bytes[5] & kManyParts) != 0;
+  std::size_t at = 8;
+  const auto text = [&]() -> std::string_view {
+    const std::size_t end = std::min(bytes.find('\0', at), bytes.size());
+    const std::string_view result = bytes.substr(at, end - at);
+    at = end + 1;
+    return result;
+  };
+  // Attributes are name, type, length, value. An empty name ends the header of a part, an empty header all headers.
+  for (bool first = true;;) {
+    const std::string_view name = text();
+    if (at >= bytes.size()) return false;
+    if (name.empty()) {
+      if (first || !many_parts) return false;
+      first = true;
+      continue;
+    }
+    first = false;
+    text();  // the type
+    if (at + 4 > bytes.size()) return false;
+    const std::uint64_t length = number_at(bytes, at, true);
+    at += 4;
+    if (length > bytes.size() - at) return true;
+    at += length;
+  }
+}
+
+bool is_cut_off(std::string_view bytes, std::string_view format) {
+  if (format == "jpeg") {
+    // ITU-T T.81, B.1.1.3: within a scan neither follows 0xff, so the last of each is a marker.
+    const std::size_t scan = bytes.rfind("\xff\xda"), end = bytes.rfind("\xff\xd9");
+    return end == bytes.npos || (scan != bytes.npos && end < scan);
+  }
+  if (format != "dpx") return false;
+  // SMPTE ST 268: "SDPX" or, little-endian, "XPDS", and the file's size at 16, all ones if unknown.
+  const std::uint64_t stated = number_at(bytes, 16, bytes.starts_with("XPDS"));
+  return stated != 0xffffffffu && bytes.size() < stated;
+}
+
+bool is_tiff_without_bits(std::string_view file) {
+  constexpr std::uint64_t kBitsPerSample = 258, kMaxEntries = 65535;
+  const bool little = file.starts_with("II");
+  if (file.size() < 8 || (!little && !file.starts_with("MM"))) return false;
+  const std::uint64_t version = number_at(file, 2, little, 2);
+  const bool big = version == 43;
+  if (version != 42 && !big) return false;
+  // A directory is a count, entries, and the offset of the next directory.
+  const std::size_t offset = big ? 8 : 4, count_size = big ? 8 : 2, entry_size = big ? 20 : 12;
+  std::uint64_t at = number_at(file, big ? 8 : 4, little, offset);
+  constexpr int kMaxPages = 1024;
+  for (int page = 0; at != 0 && page < kMaxPages; ++page) {
+    if (at > file.size() || file.size() - at < count_size) return false;
+    const std::uint64_t count = number_at(file, at, little, count_size);
+    if (count > kMaxEntries) return false;
+    at += count_size;
+    if (file.size() - at < count * entry_size) return false;
+    bool has_bits = false;
+    for (std::uint64_t i = 0; i < count; ++i)
+      has_bits |= number_at(file, at + i * entry_size, little, 2) == kBitsPerSample;
+    if (!has_bits) return true;
+    at += count * entry_size;
+    // The last directory may lack the offset.
+    at = file.size() - at < offset ? 0 : number_at(file, at, little, offset);
+  }
+  return false;
+}
+
+PngColour png_colour(std::string_view file) {
+  PngColour colour;
+  constexpr std::size_t kLongest = 32;  // bytes of a chunk that is read
+  // A chunk is length, type, data, checksum.
+  for (std::size_t at = 8; at <= file.size() && file.size() - at >= 8;) {
+    const std::size_t length = number_at(file, at, false);
+    const std::string_view type = file.substr(at + 4, 4), data = file.substr(at + 8, length);
+    if (type == "IDAT") break;
+    if (type == "iCCP") colour.has_icc_profile = true;
+    at += 12 + length;
+    if (length > kLongest) continue;
+    if (at > file.size()) break;
+    const std::string_view checked = file.substr(at - 8 - length, 4 + length);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(checked.data());
+    if (::crc32(0, bytes, uInt(checked.size())) != number_at(file, at - 4, false)) continue;
+    const auto number = [&](std::size_t i) { return double(number_at(data, 4 * i, false)) / 1e5; };
+    if (type == "sRGB" && length == 1) colour.is_srgb = true;
+    if (type == "gAMA" && length == 4 && !colour.gamma)
+      // The chunk holds the inverse with five digits: 0.55556 for 1.8.
+      colour.gamma = number(0) > 0 ? std::round(1e4 / number(0)) / 1e4 : 0;
+    if (type == "cHRM" && length == 32 && !colour.chromaticities)
+      colour.chromaticities = {number(2), number(3), number(4), number(5),
+                               number(6), number(7), number(0), number(1)};
+    if (type == "cICP" && length == 4 && !colour.cicp)
+      colour.cicp = {static_cast<unsigned char>(data[0]), static_cast<unsigned char>(data[1]),
+                     static_cast<unsigned char>(data[2]), data[3] == 1};
+  }
+  return colour;
+}
+
 void unreadable_picture(const std::filesystem::path& path, std::string_view why) {
   throw Error(ExitCode::kInput,
               fmt::format("{}: not a readable picture: {}", path.string(), printable(why, 300)));
 }
 
 PictureFile::PictureFile(const std::filesystem::path& path) : path_(path) {
-  // Opening a pipe would wait for whoever writes to it.
+  // O_NONBLOCK: opening a pipe would wait for its writer.
   file_ = Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (descriptor() < 0) cannot_open(path, errno);
   struct stat status {};
@@ -53,14 +209,9 @@ PictureFile::PictureFile(const std::filesystem::path& path) : path_(path) {
 
 std::string PictureFile::read(std::uint64_t offset, std::size_t size) const {
   std::string bytes(size, '\0');
-  std::size_t done = 0;
-  while (done < size) {
-    const ssize_t n = ::pread(descriptor(), bytes.data() + done, size - done, off_t(offset + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) unreadable_picture(path_, std::strerror(errno));
-    if (n == 0) unreadable_picture(path_, "it became shorter while it was read");
-    done += std::size_t(n);
-  }
+  if (read_at(descriptor(), bytes.data(), size, offset) < size)
+    unreadable_picture(path_,
+                       errno != 0 ? std::strerror(errno) : "it became shorter while it was read");
   return bytes;
 }
 

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 
 #include "core/error.hpp"
@@ -24,7 +25,7 @@ SplitName split_name(const std::string& name) {
           lower_case(dot == name.npos ? name : name.substr(dot + 1))};
 }
 
-/// One part's channels of one prefix: position by suffix.
+/// The channels of a part with one prefix: position by suffix.
 using Group = std::map<std::string, std::size_t>;
 
 std::optional<std::size_t> find_suffix(const Group& group, std::string_view letter,
@@ -37,7 +38,7 @@ std::optional<std::size_t> find_suffix(const Group& group, std::string_view lett
 
 using SuffixNames = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
-/// The channels of these names, or none if one of them is missing.
+/// The channels with these names, or none if one is missing.
 std::vector<std::size_t> find_all(const Group& group, SuffixNames names) {
   std::vector<std::size_t> result;
   for (const auto& [letter, word] : names)
@@ -45,11 +46,11 @@ std::vector<std::size_t> find_all(const Group& group, SuffixNames names) {
   return result.size() == names.size() ? result : std::vector<std::size_t>{};
 }
 
-/// A layer before it has its part's name.
+/// A layer without the name of its part.
 struct RawLayer {
   PictureLayer layer;
   bool is_root = false;              ///< colours without a prefix
-  std::optional<std::size_t> alpha;  ///< its channel
+  std::optional<std::size_t> alpha;  ///< channel
 };
 
 std::vector<RawLayer> layers_of_part(const PicturePart& part, std::size_t index) {
@@ -75,7 +76,7 @@ std::vector<RawLayer> layers_of_part(const PicturePart& part, std::size_t index)
     const auto rgb = find_all(group, {{"r", "red"}, {"g", "green"}, {"b", "blue"}});
     auto vector = find_all(group, {{"x", "x"}, {"y", "y"}, {"z", "z"}});
     if (vector.empty()) vector = find_all(group, {{"x", "x"}, {"y", "y"}});
-    // RY and BY beside it: luminance with chroma, whose grey alone would be half a picture.
+    // RY and BY are chroma beside the luminance Y, which alone would be half a picture.
     const bool chroma = group.contains("ry") || group.contains("by");
     if (!rgb.empty())
       add(prefix, rgb, true, root);
@@ -99,11 +100,12 @@ std::string in_part(const PicturePart& part, std::size_t index, const std::strin
 template <class Names>
 std::string list(const Names& names) {
   constexpr std::size_t kShown = 40;  // a hostile file has thousands
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
-    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", printable(names[i]));
-  if (names.size() > kShown) text += fmt::format(" and {} more", names.size() - kShown);
-  return text;
+  std::vector<std::string> shown;
+  for (const auto& name : names | std::views::take(kShown))
+    shown.push_back(fmt::format("'{}'", printable(name)));
+  const std::size_t more = names.size() - shown.size();
+  return fmt::format("{}{}", fmt::join(shown, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 [[noreturn]] void no_picture(const std::string& where, std::span<const PicturePart> parts,
@@ -119,19 +121,15 @@ std::string list(const Names& names) {
                   where, list(channels), list(names)));
 }
 
-/// The layer that a part's name means: its colours, or the only one that it has.
+/// The layer that a part's name means: its colours, or its only layer.
 const PictureLayer* layer_of_part(std::size_t part, std::span<const PictureLayer> layers) {
-  std::vector<const PictureLayer*> all, colours;
   for (const PictureLayer& layer : layers)
-    if (layer.part == part) {
-      all.push_back(&layer);
-      if (layer.is_colour) colours.push_back(&layer);
-    }
-  if (!colours.empty()) return colours[0];
-  return all.size() == 1 ? all[0] : nullptr;
+    if (layer.part == part && layer.is_colour) return &layer;
+  const bool is_only = std::ranges::count(layers, part, &PictureLayer::part) == 1;
+  return is_only ? &*std::ranges::find(layers, part, &PictureLayer::part) : nullptr;
 }
 
-/// The end where there is none, or more than one that may be meant.
+/// The end if there is none, or several are possible.
 std::vector<RawLayer>::iterator find_picture(std::vector<RawLayer>& layers) {
   const auto first = [&](auto is) { return std::find_if(layers.begin(), layers.end(), is); };
   const auto is_colour = [](const RawLayer& raw) { return raw.layer.is_colour; };
@@ -190,7 +188,7 @@ PictureLayer find_layer(const std::string& where, std::span<const PicturePart> p
     is_part = true;
     if (const PictureLayer* layer = layer_of_part(p, layers)) return *layer;
   }
-  // The only layer of colours is the picture, and keeps the name that its channels have.
+  // The only layer of colours is the picture, but can also be found by the name of its channels.
   for (const PictureLayer& layer : layers) {
     const std::string& first = parts[layer.part].channels[layer.where[0]];
     const bool is_group = layer.is_colour || layer.where.size() > 1;

@@ -1,4 +1,4 @@
-// Pictures as bytes, between the program and the process that read them.
+// The messages between the program and lobelia_picture_reader (core/contained_reader.hpp), as bytes.
 #pragma once
 
 #include <cstdint>
@@ -8,28 +8,36 @@
 #include <vector>
 
 #include "core/picture.hpp"
-#include "core/reading_limits.hpp"
 
 namespace lobelia {
 
-/// The request to the process that reads.
+/// A packet on the reader's standard input, a socket. Two descriptors come with it: the picture's file and the pipe for
+/// the answer.
 struct ReadingRequest {
-  bool names_only = false;  ///< the layers' names, and not a picture
+  bool names_only = false;  ///< layer names instead of a picture
   bool on_one_thread = false;
-  std::string format;  ///< of picture_format(), or "": any
+  std::string format;  ///< as picture_format(); "": any
   std::string path, layer;
   PictureLimit limit{};
 };
 
-/// Its answer, without a picture's values: those follow as they are.
+inline constexpr int kRequestDescriptors = 2;
+
+/// The answer, without a picture's values: those follow as they are.
 struct ReadingAnswer {
   enum class Kind : std::uint64_t { kRefusal, kNames, kPicture };
   Kind kind = Kind::kRefusal;
   std::string refusal;             ///< one sentence
-  std::vector<std::string> names;  ///< of layers
+  std::vector<std::string> names;  ///< the layers'
   PictureSource source;
   std::uint64_t width = 0, height = 0;
-  bool has_overscan = false;  ///< of the data window; its values follow the picture's
+  bool has_overscan = false;  ///< the overscan's values follow the picture's
+};
+
+/// What the reader sends when the child that decodes has ended.
+struct ReaderVerdict {
+  int status = 0;         ///< as of wait(2)
+  bool too_long = false;  ///< it was killed after seconds_to_wait()
 };
 
 /// Longest request and longest answer; an answer may hold the names of a million channels.
@@ -38,8 +46,8 @@ inline constexpr std::size_t kMaxRequestBytes = 65536, kMaxAnswerBytes = std::si
 std::string pack(const ReadingRequest& request);
 std::string pack(const ReadingAnswer& answer);
 
-/// Throw std::runtime_error if the bytes are no such message, or a picture is larger than is read. An answer comes
-/// from a process that may do what a hostile file wants.
+/// Throw std::runtime_error for bytes that are no such message and for pictures over the limits of image.hpp. An answer
+/// is not trusted: a hostile file may control the process that sends it.
 ReadingRequest unpack_request(std::string_view bytes);
 ReadingAnswer unpack_answer(std::string_view bytes);
 

@@ -1,6 +1,6 @@
-// lobelia_picture_reader: decodes pictures for the program, a process for each (core/contained_reader.hpp).
+// lobelia_picture_reader: decodes pictures for the program, each in a process of its own (core/contained_reader.hpp).
 //
-// It stays single-threaded, so that a fork has all that it needs, and looks at no picture itself.
+// It stays single-threaded, so that a fork is complete, and looks at no picture itself.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <malloc.h>
@@ -14,26 +14,25 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <fstream>
 #include <new>
 
+#include "core/descriptor.hpp"
 #include "core/error.hpp"
 #include "core/image_io_module.hpp"
 #include "core/no_resources.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
-#include "core/reader_protocol.hpp"
 #include "core/reading_limits.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr int kProgram = 0;  // the socket to it
+constexpr int kProgram = 0;  // the socket to the program
 
-/// EXRs below are decoded on one thread: starting more takes longer.
+/// Smaller EXRs are decoded on one thread: starting more takes longer.
 constexpr std::size_t kManyThreadsBytes = std::size_t{1} << 20;
 
 std::uint64_t address_space() {
@@ -47,7 +46,7 @@ struct Job {
   int file = -1, answer = -1;
 };
 
-/// False at the end of all jobs.
+/// False when no more jobs come.
 bool receive(Job& job) {
   std::string bytes(kMaxRequestBytes, '\0');
   std::array<int, kRequestDescriptors> descriptors{};
@@ -58,9 +57,7 @@ bool receive(Job& job) {
   message.msg_iovlen = 1;
   message.msg_control = control;
   message.msg_controllen = sizeof control;
-  ssize_t n = 0;
-  while ((n = ::recvmsg(kProgram, &message, MSG_CMSG_CLOEXEC)) < 0 && errno == EINTR) {
-  }
+  const ssize_t n = retried([&] { return ::recvmsg(kProgram, &message, MSG_CMSG_CLOEXEC); });
   const cmsghdr* header = n > 0 ? CMSG_FIRSTHDR(&message) : nullptr;
   if (!header || header->cmsg_len != CMSG_LEN(sizeof descriptors)) return false;
   std::memcpy(descriptors.data(), CMSG_DATA(header), sizeof descriptors);
@@ -70,16 +67,17 @@ bool receive(Job& job) {
 
 void write_all(int descriptor, const void* bytes, std::size_t size) {
   for (std::size_t done = 0; done < size;) {
-    const ssize_t n = ::write(descriptor, static_cast<const char*>(bytes) + done, size - done);
-    if (n <= 0 && errno != EINTR) ::_exit(1);
-    if (n > 0) done += std::size_t(n);
+    const ssize_t n = retried(
+        [&] { return ::write(descriptor, static_cast<const char*>(bytes) + done, size - done); });
+    if (n <= 0) ::_exit(1);
+    done += std::size_t(n);
   }
 }
 
-/// OpenImageIO's own decoder of TGA leaves what a damaged file lacks as it found it, and nobody knows those of
-/// --any-format. The other libraries refuse such a file or fill it. Reading twice is dear: OpenImageIO takes 64 MB at once,
-/// which a fill makes real.
-bool may_leave_memory_as_it_was(std::string_view format) {
+/// OpenImageIO's decoder of TGA leaves the missing pixels of a damaged file uninitialised, and those of --any-format may
+/// do so too. Other libraries refuse or fill such a file. They are not checked, because it is slow: OpenImageIO allocates
+/// 64 MB at once, and a fill touches all of them.
+bool may_leave_memory_uninitialised(std::string_view format) {
   return format == "targa" || format.empty();
 }
 
@@ -89,10 +87,11 @@ bool are_same(const Image& a, const Image& b) {
          std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
 }
 
-/// A picture that is read twice, over memory that was filled in two ways: what differs was never in the file.
-Picture read_twice(const ImageIoTable& table, const PictureBytes& file, const std::string& layer) {
+/// Reads a picture twice, into memory with different fills: pixels that differ are not in the file.
+Picture read_checked(const ImageIoTable& table, const PictureBytes& file,
+                     const std::string& layer) {
   Picture picture = table.read_picture(file, layer);
-  if (!may_leave_memory_as_it_was(file.format)) return picture;
+  if (!may_leave_memory_uninitialised(file.format)) return picture;
   ::mallopt(M_PERTURB, 0x5a);
   const Picture again = table.read_picture(file, layer);
   if (!are_same(picture.image, again.image) || !are_same(picture.overscan, again.overscan))
@@ -121,14 +120,14 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
       answer.kind = ReadingAnswer::Kind::kNames;
       return answer;
     }
-    picture = read_twice(table, file, request.layer);
+    picture = read_checked(table, file, request.layer);
     answer.source = picture.source;
     answer.width = std::uint64_t(picture.image.width());
     answer.height = std::uint64_t(picture.image.height());
     answer.has_overscan = picture.overscan.pixel_count() > 0;
     answer.kind = ReadingAnswer::Kind::kPicture;
   } catch (const std::bad_alloc&) {
-    limit_memory(began_with + 2 * allowance);  // for the sentence
+    limit_memory(began_with + 2 * allowance);  // for the message
     answer.refusal = fmt::format("{}: not a readable picture: it needs more than {} MB of memory",
                                  request.path, allowance / 1'000'000);
   } catch (const std::exception& error) {
@@ -137,19 +136,19 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
   return answer;
 }
 
-/// The child's whole life.
+/// Runs in the child.
 [[noreturn]] void serve(const ImageIoTable& table, const Job& job, std::uint64_t began_with) {
   ::close(kProgram);
   struct stat status {};
   ::fstat(job.file, &status);
   const auto size = std::size_t(status.st_size);
   ::mallopt(M_ARENA_MAX, 1);  // an arena for each thread would take address space
-  if (may_leave_memory_as_it_was(job.request.format)) ::mallopt(M_PERTURB, 0xa5);
+  if (may_leave_memory_uninitialised(job.request.format)) ::mallopt(M_PERTURB, 0xa5);
   limit_memory(began_with + kMemoryToOpen + size);
   limit_processor_time(seconds_to_read({}, size));
   lock_down(job.request.format.empty());
   if (job.request.on_one_thread || size < kManyThreadsBytes) table.decode_on_calling_threads();
-  // A file that becomes shorter meanwhile ends this process and no other.
+  // If the file becomes shorter meanwhile, only this process crashes.
   const void* bytes = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, job.file, 0);
   if (bytes == MAP_FAILED) ::_exit(1);
   Picture picture;
@@ -163,8 +162,8 @@ ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view
   ::_exit(0);
 }
 
-/// Until the child has ended, the program is gone (then this process ends, too), or too much time is over.
-ReaderVerdict wait_for(pid_t child, int alive, std::uint64_t seconds) {
+/// Waits for the end of the child, and kills it after `seconds`. If the program is gone, this process ends too.
+ReaderVerdict wait_for_child(pid_t child, int alive, std::uint64_t seconds) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(seconds);
   ReaderVerdict verdict;
@@ -179,13 +178,12 @@ ReaderVerdict wait_for(pid_t child, int alive, std::uint64_t seconds) {
     verdict.too_long = true;
     break;
   }
-  while (::waitpid(child, &verdict.status, 0) < 0 && errno == EINTR) {
-  }
+  retried([&] { return ::waitpid(child, &verdict.status, 0); });
   return verdict;
 }
 
 int run() {
-  ::close_range(3, ~0u, 0);  // what the program left open without a thought
+  ::close_range(3, ~0u, 0);  // whatever the program left open
   ::signal(SIGCHLD, SIG_DFL);
   ::signal(SIGXCPU, SIG_DFL);
   const ImageIoTable& table = image_io_table();
@@ -200,7 +198,7 @@ int run() {
     if (child == 0) serve(table, job, began_with);
     for (const int mine : {alive[1], job.file, job.answer}) ::close(mine);
     if (child < 0) return int(ExitCode::kNoResources);
-    const ReaderVerdict verdict = wait_for(
+    const ReaderVerdict verdict = wait_for_child(
         child, alive[0], seconds_to_wait(std::uint64_t(status.st_size), job.request.limit));
     ::close(alive[0]);
     if (::send(kProgram, &verdict, sizeof verdict, MSG_NOSIGNAL) < 0) return 0;
@@ -214,7 +212,7 @@ int run() {
 int main() {
   try {
     return lobelia::run();
-  } catch (const lobelia::Error& error) {  // the program sees that there is no answer
+  } catch (const lobelia::Error& error) {
     return int(error.code());
   } catch (const std::exception& error) {
     return int(lobelia::lacking(error).empty() ? lobelia::ExitCode::kInternal

@@ -12,18 +12,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <optional>
 
 #include "core/descriptor.hpp"
 #include "core/error.hpp"
+#include "core/host.hpp"
 #include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
 #include "core/keeper_protocol.hpp"
 #include "core/no_resources.hpp"
-#include "core/process_memory.hpp"
-#include "core/spawn.hpp"
 #include "core/text.hpp"
 #include "core/write_limit.hpp"
 
@@ -35,10 +33,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kTailBytes = 4096;
-constexpr int kLookMilliseconds = 50;         // at whether it has to stop
-constexpr std::size_t kMaxLineBytes = 65536;  // a program that never ends its line is cut there
+constexpr int kLookMilliseconds = 50;         // between looks whether it must stop
+constexpr std::size_t kMaxLineBytes = 65536;  // longer lines are split
 
-/// Ours, with `changes` ("NAME=value") in place of the variables of those names.
+/// Our environment with `changes` ("NAME=value").
 std::vector<std::string> environment_with(const std::vector<std::string>& changes) {
   std::vector<std::string> result = changes;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -50,7 +48,7 @@ std::vector<std::string> environment_with(const std::vector<std::string>& change
   return result;
 }
 
-/// Takes output in pieces of any size and hands on lines.
+/// Logs output that comes in pieces, and calls on_line for each line.
 class OutputSink {
  public:
   explicit OutputSink(const ProcessOptions& options) : options_(options) {
@@ -72,7 +70,7 @@ class OutputSink {
     if (options_.on_line && !line_.empty()) options_.on_line(line_);
     line_.clear();
   }
-  std::string tail() const { return tail_; }
+  const std::string& tail() const { return tail_; }
 
  private:
   const ProcessOptions& options_;
@@ -81,8 +79,8 @@ class OutputSink {
 };
 
 struct DirectoryLook {
-  /// Changes whenever a file in the directory appears, goes, grows or is written. Times are only told apart,
-  /// never ordered: the clock may have been set.
+  /// Changes when a file in the directory is created, removed or written. Times are compared for equality only, because
+  /// the clock may be set.
   std::uint64_t fingerprint = 0;
   std::uint64_t bytes = 0;  ///< on the disk
 };
@@ -92,25 +90,25 @@ DirectoryLook look_at(const fs::path& directory) {
   std::error_code error;
   for (fs::recursive_directory_iterator file(directory, error), end; !error && file != end;
        file.increment(error)) {
-    std::error_code gone;  // files come and go while we look
+    std::error_code gone;  // files may vanish meanwhile
     const std::uint64_t size = file->is_regular_file(gone) ? file->file_size(gone) : 0;
     const auto written = file->last_write_time(gone).time_since_epoch().count();
     look.fingerprint += std::hash<std::string>()(
         fmt::format("{} {} {}", file->path().native(), size, std::int64_t(written)));
-    constexpr std::uint64_t kBlock = 512;  // whatever the file system has
+    constexpr std::uint64_t kBlock = 512;  // the unit of st_blocks on every file system
     if (struct stat status{}; ::lstat(file->path().c_str(), &status) == 0)
       look.bytes += std::uint64_t(status.st_blocks) * kBlock;
   }
   return look;
 }
 
-/// When the program last did something that can be seen from outside, and what it has on the disk.
+/// When the program last made visible progress, and how much disk it uses.
 class Progress {
  public:
   explicit Progress(const ProcessOptions& options) : options_(options) { look(); }
   void seen() { last_ = Clock::now(); }
-  /// Looks again now and then.
-  bool is_over() {
+  /// Whether there was none for too long. Looks about once a second.
+  bool is_stalled() {
     const auto limit = options_.no_progress_limit;
     const bool limited = limit.count() > 0;
     const std::chrono::duration<double> every =
@@ -136,7 +134,7 @@ class Progress {
   std::uint64_t fingerprint_ = 0, bytes_ = 0;
 };
 
-/// Resident memory of a keeper's processes. It is read more often as it nears the limit.
+/// Resident memory of a keeper's processes, read more often near the limit.
 class Memory {
  public:
   Memory(std::uint64_t limit, pid_t keeper) : limit_(limit), keeper_(keeper) {}
@@ -144,7 +142,7 @@ class Memory {
   std::uint64_t used_too_much() {
     if (limit_ == 0 || Clock::now() < next_) return 0;
     std::uint64_t used = memory_of_tree(keeper_);
-    // Pages that several processes share count once, where that decides: finding out is slow.
+    // Counting shared pages once is slow, so only where it decides.
     if (used > limit_)
       if (const std::uint64_t exactly = memory_of_tree(keeper_, true)) used = exactly;
     if (used > limit_) return used;
@@ -154,7 +152,7 @@ class Memory {
   }
 
  private:
-  static constexpr double kMostBytesPerSecond = 8e9;  // that a program takes
+  static constexpr double kMostBytesPerSecond = 8e9;  // fastest growth of a program
   const std::uint64_t limit_;
   const pid_t keeper_;
   Clock::time_point next_;
@@ -164,7 +162,7 @@ class Memory {
   throw failure_of(program + ": cannot be started", error, ExitCode::kEngine);
 }
 
-/// A program at work, or its keeper with it. However it is left, nothing of it goes on.
+/// A running program, with its keeper unless it is uninterruptible. The destructor ends everything that it started.
 class Running {
  public:
   Running(const std::vector<std::string>& arguments, const ProcessOptions& options, int output)
@@ -187,7 +185,7 @@ class Running {
   ~Running() {
     interruptible_.reset();
     line_.reset();
-    // The keeper ends by itself when nothing is left for it to keep.
+    // A keeper ends by itself once its line is closed.
     if (uninterruptible_) ::kill(-pid_, SIGKILL);
     if (!reaped_) wait();
   }
@@ -196,7 +194,7 @@ class Running {
 
   const ProcessLimits& limits() const { return limits_; }
   pid_t pid() const { return pid_; }
-  /// Readable as soon as it has ended.
+  /// A descriptor that is readable once it has ended.
   int end() const { return line_ ? line_->get() : end_->get(); }
   void kill() {
     if (line_)
@@ -204,13 +202,13 @@ class Running {
     else
       ::kill(-pid_, SIGKILL);
   }
-  /// When it has ended: how, and what it took.
+  /// Call it when it has ended: adds the exit code and what it used.
   void finish(ProcessResult& result) {
     KeeperReport report;
     const bool told = line_ && receive(report);
     rusage used{};
     const int own = wait(&used);
-    // A keeper that says nothing was killed itself.
+    // A keeper without a report was killed itself.
     const int status = told ? report.status : own;
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     result.cpu_seconds = told ? 1e-6 * double(report.cpu_microseconds)
@@ -226,8 +224,7 @@ class Running {
     const Spawned spawned = spawn(request);
     pid_ = spawned.pid;
     limits_ = {spawned.writes_limited, spawned.contained};
-    if (!uninterruptible_) return;
-    end_.emplace(int(::syscall(SYS_pidfd_open, pid_, 0)));
+    if (uninterruptible_) end_.emplace(int(::syscall(SYS_pidfd_open, pid_, 0)));
   }
   void start_kept(SpawnRequest request) {
     static const std::string keeper = companion_file(kKeeperFile).string();
@@ -240,8 +237,8 @@ class Running {
     Descriptor theirs(ends[1]);
     request.keeper_line = theirs.get();
     start(std::move(request));
-    theirs.close();  // else a keeper that is gone would be waited for
-    // Of a keeper that is killed before it can say anything the end is told like any other.
+    theirs.close();  // otherwise receive() would wait for a keeper that is gone
+    // The end of a keeper that is killed before its first report is found later, like any other end.
     if (KeeperReport report; receive(report) && report.start_error != 0) {
       wait();
       cannot_start(program, report.start_error);
@@ -249,15 +246,12 @@ class Running {
     interruptible_.emplace(pid_);
   }
   bool receive(KeeperReport& report) const {
-    ssize_t n = 0;
-    while ((n = ::recv(line_->get(), &report, sizeof report, 0)) < 0 && errno == EINTR) {
-    }
-    return n == sizeof report;
+    return retried([&] { return ::recv(line_->get(), &report, sizeof report, 0); }) ==
+           sizeof report;
   }
   int wait(rusage* used = nullptr) {
     int status = 0;
-    while (::wait4(pid_, &status, 0, used) < 0 && errno == EINTR) {
-    }
+    retried([&] { return ::wait4(pid_, &status, 0, used); });
     reaped_ = true;
     return status;
   }
@@ -266,11 +260,13 @@ class Running {
   pid_t pid_ = 0;
   bool reaped_ = false;
   ProcessLimits limits_;
-  std::optional<Descriptor> line_, end_;  ///< of a keeper; of a program without one
+  std::optional<Descriptor> line_;  ///< with a keeper
+  std::optional<Descriptor> end_;   ///< without one: a pidfd
   std::optional<InterruptibleProcess> interruptible_;
 };
 
 }  // namespace
+
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const ProcessOptions& options) {
   int ends[2];
@@ -279,7 +275,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   Descriptor theirs(ends[1]);
   const auto started = Clock::now();
   OutputSink sink(options);
-  // From this thread, which waits for its end: a keeper that dies with us dies with the thread that started it.
+  // Started by this thread, which waits for the end: a keeper dies with the thread that started it.
   Running running(arguments, options, theirs.get());
   theirs.close();
   if (options.on_start) options.on_start(running.limits());
@@ -294,7 +290,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
     running.kill();
   };
   char buffer[16384];
-  // Until it has ended; what one without a keeper leaves behind and still holds open is not waited for.
+  // Until it has ended. Without a keeper its descendants may still hold the pipe open; they are not waited for.
   while (!ended || open) {
     pollfd waits[] = {{ended ? -1 : running.end(), POLLIN, 0},
                       {open ? output.get() : -1, POLLIN, 0}};
@@ -316,7 +312,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
       stop(result.interrupted);
     else if (seconds() > options.timeout)
       stop(result.timed_out);
-    else if (progress.is_over())
+    else if (progress.is_stalled())
       stop(result.no_progress);
     else if (options.disk_limit > 0 && progress.bytes() > options.disk_limit) {
       result.used_bytes = progress.bytes();
@@ -330,7 +326,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   running.finish(result);
   if (!stopped && options.disk_limit > 0 && result.exit_code == 128 + SIGXFSZ)
     result.over_disk_limit = true;
-  // Somebody else may have been killed at the same time; that cannot be told.
+  // The kernel does not tell whether it killed this program or another at the same time.
   if (!stopped && result.exit_code == 128 + SIGKILL && oom_kills &&
       count_of_oom_kills() > oom_kills)
     result.out_of_memory = true;
@@ -341,7 +337,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
 
 fs::path find_program(const std::string& name) {
   const auto executable = [](const fs::path& path) {
-    std::error_code ignored;  // a directory that may not be searched has no program for us
+    std::error_code ignored;  // for example a directory that we may not search
     return fs::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
   };
   if (name.find('/') != name.npos) return executable(name) ? fs::absolute(name) : fs::path();

@@ -1,5 +1,5 @@
-// lobelia_process_keeper PROGRAM ARGUMENTS...: runs a program, and ends only when nothing is left of all that came of
-// it. Started by core/process.cpp, as process 1 of a PID namespace where that is allowed.
+// lobelia_process_keeper PROGRAM ARGUMENTS...: runs a program, and ends once the program and all of its descendants have
+// ended. Started by core/process.cpp, as process 1 of a PID namespace where the kernel allows it.
 #include <dirent.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -28,12 +28,12 @@ struct Signals {
   struct sigaction child, terminate;
 };
 
-/// Returns 0, or why the program cannot be started.
+/// Returns 0, or the errno if the program cannot be started.
 int start(char** arguments, const Signals& before, pid_t& pid) {
-  volatile int error = 0;  // written by the child, which has our memory until it is the program
+  volatile int error = 0;  // written by the child, which shares our memory until execv()
   pid = ::vfork();
   if (pid == 0) {
-    ::setpgid(0, 0);  // what it sends to its group is not for us
+    ::setpgid(0, 0);  // so that signals to its group do not reach us
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::sigaction(SIGCHLD, &before.child, nullptr);
     ::sigaction(SIGTERM, &before.terminate, nullptr);
@@ -47,7 +47,7 @@ int start(char** arguments, const Signals& before, pid_t& pid) {
   return error;
 }
 
-/// The parent of a process by /proc/PID/stat, "123 (name) S 100 ..."; 0 if it is gone.
+/// The parent of a process, by /proc/PID/stat: "123 (name) S 100 ..."; 0 if it is gone.
 pid_t parent_of(const char* process) {
   char path[300], text[512];
   std::snprintf(path, sizeof path, "/proc/%s/stat", process);
@@ -61,7 +61,7 @@ pid_t parent_of(const char* process) {
   return name_end && std::sscanf(name_end, ") %*c %d", &parent) == 1 ? parent : 0;
 }
 
-/// Kills all children of a subreaper: every process that loses its parent becomes one. Returns how many were killed.
+/// Kills all our children. As a subreaper we inherit every descendant that loses its parent. Returns how many.
 int kill_children() {
   DIR* processes = ::opendir("/proc");
   if (!processes) return 0;
@@ -69,14 +69,14 @@ int kill_children() {
   int killed = 0;
   while (const dirent* entry = ::readdir(processes)) {
     const int pid = std::atoi(entry->d_name);
-    // Nobody else gets its number before we have waited for it.
+    // The PID cannot be reused before we have waited for it.
     if (pid > 0 && parent_of(entry->d_name) == self && ::kill(pid, SIGKILL) == 0) ++killed;
   }
   ::closedir(processes);
   return killed;
 }
 
-/// Takes note of processes that have ended; waits for one if `flags` is 0. False if there is no child.
+/// Reaps children that have ended; waits for one if `flags` is 0. False if there is no child.
 bool reap(pid_t program, int flags, int& status, bool& ended) {
   for (;;) {
     int one = 0;
@@ -91,8 +91,8 @@ bool reap(pid_t program, int flags, int& status, bool& ended) {
   }
 }
 
-/// Until the program has ended, or whoever started us wants an end or is gone.
-void keep(pid_t program, int signals, int& status) {
+/// Waits until the program has ended, our parent wants an end, or our parent is gone.
+void wait_for_end(pid_t program, int signals, int& status) {
   for (bool ended = false; !ended;) {
     pollfd waits[] = {{signals, POLLIN, 0}, {kKeeperLine, POLLIN | POLLRDHUP, 0}};
     ::poll(waits, 2, -1);
@@ -106,12 +106,12 @@ void keep(pid_t program, int signals, int& status) {
 
 void end_all(pid_t program, int& status) {
   bool ignored = false;
+  int killed = 0;
   do {
-    // As process 1 all others of the namespace at once: none can slip away. Otherwise in rounds, because
-    // what we do not see yet becomes our child when its parent dies.
-    const int killed = ::getpid() == 1 ? (::kill(-1, SIGKILL) == 0 ? 1 : 0) : kill_children();
-    if (!reap(program, killed > 0 ? 0 : WNOHANG, status, ignored)) return;
-  } while (true);
+    // Process 1 kills the whole namespace at once. Otherwise in rounds: grandchildren become our children when their
+    // parents die.
+    killed = ::getpid() == 1 ? (::kill(-1, SIGKILL) == 0 ? 1 : 0) : kill_children();
+  } while (reap(program, killed > 0 ? 0 : WNOHANG, status, ignored));
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ int main(int count, char** arguments) {
   ::close_range(kKeeperLine + 1, ~0u, 0);
   ::fcntl(kKeeperLine, F_SETFD, FD_CLOEXEC);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // else a set-user-ID program could not be killed
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);  // we could not kill a set-user-ID program
   Signals before;
   struct sigaction by_default {};
   by_default.sa_handler = SIG_DFL;
@@ -138,11 +138,10 @@ int main(int count, char** arguments) {
   KeeperReport report;
   pid_t program = 0;
   report.start_error = signals < 0 ? errno : start(arguments + 1, before, program);
-  for (int i = 0; i < 3; ++i)
-    ::close(i);  // so that their other ends see when the program has closed them
+  for (int i = 0; i < 3; ++i) ::close(i);  // so that their readers see when the program closes them
   ::send(kKeeperLine, &report, sizeof report, MSG_NOSIGNAL);
   if (report.start_error != 0) return 1;
-  keep(program, signals, report.status);
+  wait_for_end(program, signals, report.status);
   end_all(program, report.status);
   rusage used{};
   ::getrusage(RUSAGE_CHILDREN, &used);

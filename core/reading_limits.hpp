@@ -1,4 +1,4 @@
-// The limits of a process that reads an untrusted picture.
+// Limits for the process that decodes an untrusted picture.
 #pragma once
 
 #include <cstdint>
@@ -8,38 +8,31 @@
 
 namespace lobelia {
 
-/// Pixels that are read of a picture, by the size of its file. A file of few bytes can unpack to very many pixels:
-/// whoever knows how large his pictures are says so, and the header is held to it before anything is unpacked.
-struct PictureLimit {
-  std::uint64_t pixels_of_any_file = std::uint64_t{1} << 24;
-  std::uint64_t pixels_per_byte = 4096;  ///< so many more for each byte of the file
-};
-
-/// Memory to open a picture with, besides what the process had when it began.
+/// Bytes of memory for opening a picture, on top of what the process had at first.
 inline constexpr std::uint64_t kMemoryToOpen = std::uint64_t{256} << 20;
 
-/// Why a picture of that claim is not read of a file of that size; empty if it is.
+/// Why a file of that size is refused for what its header claims; empty if it is read.
 std::string claim_problem(const PictureClaim& claim, std::uint64_t file_bytes,
                           const PictureLimit& limit);
 
-/// Bytes of address space that a process may have, besides what it began with, once the header is known.
+/// Bytes of address space for decoding once the header is known, on top of what the process had at first.
 std::uint64_t memory_to_read(const PictureClaim& claim, std::uint64_t file_bytes);
 
-/// Processor time, all threads together; `claim` is empty before the header is known.
+/// Processor time for all threads together; `claim` is empty before the header is known.
 std::uint64_t seconds_to_read(const PictureClaim& claim, std::uint64_t file_bytes);
 
-/// Time by the clock after which a process is ended that does nothing: far beyond what a busy machine needs.
+/// Wall time after which the process is killed: far more than a busy machine needs.
 std::uint64_t seconds_to_wait(std::uint64_t file_bytes, const PictureLimit& limit);
 
-/// Limits this process: soft limits, so that they can be raised. The sanitizers reserve terabytes of address space, so
-/// with them memory has no limit.
+/// Set soft limits of this process, which can be raised again. Under sanitizers memory has no limit, because they reserve
+/// terabytes of address space.
 void limit_memory(std::uint64_t address_space_bytes);
 void limit_processor_time(std::uint64_t seconds);
 
-/// Takes from this process, for good, what decoding does not need: it opens, makes and changes no file, starts no
-/// program and no other process, has no network and signals nobody. What it asks of that is refused (EPERM), and it
-/// goes on. With `may_open_files`, for libraries that open a file by its name, it may open files for reading, and
-/// Landlock leaves none to it but copies in memory. Returns whether the kernel took the system calls away.
+/// Takes from this process, for good, what decoding does not need: it cannot open, create or change files, start programs
+/// or processes, use the network or send signals. Such calls fail with EPERM, and it goes on. With `may_open_files`, for
+/// libraries that open a file by its name, it may open files for reading, and Landlock leaves only copies in memory to
+/// open. Returns whether the kernel installed the filter of system calls.
 bool lock_down(bool may_open_files);
 
 }  // namespace lobelia

@@ -25,11 +25,11 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of directories in one another; each is held open.
+/// Nested directories; each is held open.
 constexpr int kMaxDepth = 128;
 constexpr int kOpenDirectory = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
 
-/// What a directory may list, hidden files too. Names that others chose have to be is_plain_name().
+/// Whether a directory can have such an entry, hidden files among them. Names from elsewhere must be is_plain_name().
 bool is_entry_name(std::string_view name) {
   return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
          name.find('\0') == name.npos;
@@ -41,12 +41,12 @@ bool is_on_one_device(int a, int b) {
   return ::fstat(a, &first) == 0 && ::fstat(b, &second) == 0 && first.st_dev == second.st_dev;
 }
 
-/// What cannot be opened for want of memory or open files may well be there.
+/// A lack of memory or open files does not mean that the file is missing.
 void throw_if_lacking(const fs::path& path, int error) {
   if (!lacking(error).empty()) throw failure_of(path.string(), error, ExitCode::kOutput);
 }
 
-/// A mount of the same file system elsewhere has its device's number: only openat2 knows it.
+/// Only openat2 notices a bind mount of the same file system: its device number is the same.
 int open_directory(int parent, const std::string& name, HeldDirectory::Border border) {
   if (border == HeldDirectory::Border::kStay) {
     open_how how{};
@@ -55,9 +55,9 @@ int open_directory(int parent, const std::string& name, HeldDirectory::Border bo
     const long fd = ::syscall(SYS_openat2, parent, name.c_str(), &how, sizeof how);
     if (fd >= 0 || (errno != ENOSYS && errno != EPERM && errno != EINVAL)) return int(fd);
   }
-  const int fd = ::openat(parent, name.c_str(), kOpenDirectory);
-  if (fd < 0 || border == HeldDirectory::Border::kCross || is_on_one_device(parent, fd)) return fd;
-  ::close(fd);
+  Descriptor found(::openat(parent, name.c_str(), kOpenDirectory));
+  if (!found || border == HeldDirectory::Border::kCross || is_on_one_device(parent, found.get()))
+    return found.release();
   errno = EXDEV;
   return -1;
 }
@@ -68,14 +68,12 @@ bool is_directory(int parent, const std::string& name) {
          S_ISDIR(status.st_mode);
 }
 
-/// What an engine made may forbid even us to look into it.
+/// An engine may have made a directory that even its owner cannot read.
 void allow_owner(int parent, const std::string& name) {
-  const int fd = ::openat(parent, name.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC);
-  if (fd < 0) return;
+  const Descriptor there(::openat(parent, name.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
   struct stat status {};
-  if (::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode))
-    ::chmod(fmt::format("/proc/self/fd/{}", fd).c_str(), 0700);
-  ::close(fd);
+  if (there && ::fstat(there.get(), &status) == 0 && S_ISDIR(status.st_mode))
+    ::chmod(fmt::format("/proc/self/fd/{}", there.get()).c_str(), 0700);
 }
 
 bool is_temporary_name(std::string_view name) {
@@ -85,20 +83,7 @@ bool is_temporary_name(std::string_view name) {
                              [](unsigned char c) { return std::isalnum(c) != 0; });
 }
 
-/// The path's part below its first directory of TemporaryDirectory; empty: there is none.
-fs::path below_temporary(const fs::path& path, fs::path& temporary) {
-  fs::path above, below;
-  for (const fs::path& part : path) {
-    if (!below.empty() || is_temporary_name(above.filename().native()))
-      below /= part;
-    else
-      above /= part;
-  }
-  temporary = above;
-  return below;
-}
-
-/// Of this user's own temporary directory, which is the marker: its name, its owner, and whoever holds its lock.
+/// Removes a TemporaryDirectory, known by its name and its owner.
 Removal removal_of_temporary(const fs::path& path) {
   return Removal(path.parent_path(), {[name = path.filename().string()](const HeldDirectory& root) {
                                         struct stat status {};
@@ -115,46 +100,32 @@ Removal removal_of_temporary(const fs::path& path) {
 }  // namespace
 
 HeldDirectory::HeldDirectory(const fs::path& path)
-    : fd_(::open(path.empty() ? "." : path.c_str(),
-                 O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK)),
-      error_(fd_ < 0 ? errno : 0),
+    : open_(::open(path.empty() ? "." : path.c_str(),
+                   O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK)),
+      error_(open_ ? 0 : errno),
       path_(path) {
   throw_if_lacking(path_, error_);
-}
-
-HeldDirectory::~HeldDirectory() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
-HeldDirectory::HeldDirectory(HeldDirectory&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), error_(other.error_), path_(std::move(other.path_)) {}
-
-HeldDirectory& HeldDirectory::operator=(HeldDirectory&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  std::swap(error_, other.error_);
-  std::swap(path_, other.path_);
-  return *this;
 }
 
 HeldDirectory HeldDirectory::below(const std::string& name, Border border) const {
   HeldDirectory found;
   found.path_ = path_ / name;
-  found.error_ = fd_ < 0 ? error_ : !is_entry_name(name) ? EINVAL : 0;
+  found.error_ = !open_ ? error_ : !is_entry_name(name) ? EINVAL : 0;
   if (found.error_ != 0) return found;
-  found.fd_ = open_directory(fd_, name, border);
-  if (found.fd_ >= 0) return found;
+  found.open_ = Descriptor(open_directory(fd(), name, border));
+  if (found) return found;
   found.error_ = errno;
   throw_if_lacking(found.path_, found.error_);
   struct stat status {};
-  if (::fstatat(fd_, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode))
+  if (::fstatat(fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISLNK(status.st_mode))
     found.error_ = ELOOP;
   return found;
 }
 
 HeldDirectory HeldDirectory::make_below(const std::string& name, Border border) const {
   HeldDirectory made = below(name, border);
-  if (made.is_missing() && fd_ >= 0) {
-    if (::mkdirat(fd_, name.c_str(), 0777) != 0 && errno != EEXIST)
+  if (made.is_missing() && open_) {
+    if (::mkdirat(fd(), name.c_str(), 0777) != 0 && errno != EEXIST)
       throw Error(ExitCode::kOutput, fmt::format("{}: cannot make the directory: {}",
                                                  made.path().string(), std::strerror(errno)));
     made = below(name, border);
@@ -166,38 +137,33 @@ HeldDirectory HeldDirectory::make_below(const std::string& name, Border border) 
 }
 
 std::string HeldDirectory::why_not() const {
-  switch (error_) {
-    case ELOOP:
-      return "a symbolic link, which is not followed";
-    case EXDEV:
-      return "another file system";
-    default:
-      return std::strerror(error_);
-  }
+  if (error_ == ELOOP) return "a symbolic link, which is not followed";
+  if (error_ == EXDEV) return "another file system";
+  return std::strerror(error_);
 }
 
-bool HeldDirectory::is_missing() const { return fd_ < 0 && error_ == ENOENT; }
+bool HeldDirectory::is_missing() const { return !open_ && error_ == ENOENT; }
 
 std::vector<std::string> HeldDirectory::names() const { return list(false); }
 std::vector<std::string> HeldDirectory::links() const { return list(true); }
 
 std::vector<std::string> HeldDirectory::list(bool links_only) const {
   std::vector<std::string> found;
-  // An open file of its own: the place in the list belongs to that.
-  const int fd = fd_ < 0 ? -1 : ::openat(fd_, ".", kOpenDirectory);
-  DIR* const directory = fd < 0 ? nullptr : ::fdopendir(fd);
+  if (!open_) return found;
+  // Opened again, because descriptors of one open file share its position in the list.
+  Descriptor again(::openat(fd(), ".", kOpenDirectory));
+  DIR* const directory = again ? ::fdopendir(again.get()) : nullptr;
   if (!directory) {
-    const int error = fd_ < 0 ? 0 : errno;
-    if (fd >= 0) ::close(fd);
-    throw_if_lacking(path_, error);
+    throw_if_lacking(path_, errno);
     return found;
   }
+  const int listed = again.release();  // closedir() closes it
   while (const dirent* entry = ::readdir(directory)) {
     struct stat status {};
     if (!is_entry_name(entry->d_name)) continue;
     if (links_only && entry->d_type != DT_LNK &&
         (entry->d_type != DT_UNKNOWN ||
-         ::fstatat(fd, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 ||
+         ::fstatat(listed, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 ||
          !S_ISLNK(status.st_mode)))
       continue;
     found.emplace_back(entry->d_name);
@@ -209,42 +175,33 @@ std::vector<std::string> HeldDirectory::list(bool links_only) const {
 
 std::optional<std::string> HeldDirectory::read(const std::string& name,
                                                std::uint64_t max_bytes) const {
-  if (fd_ < 0 || !is_entry_name(name)) return std::nullopt;
-  const int fd = ::openat(fd_, name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) {
-    throw_if_lacking(path_ / name, errno);
-    return std::nullopt;
-  }
+  if (!open_ || !is_entry_name(name)) return std::nullopt;
+  const Descriptor file(
+      ::openat(fd(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
+  if (!file) throw_if_lacking(path_ / name, errno);
   struct stat status {};
-  std::optional<std::string> text;
-  if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
-      std::uint64_t(status.st_size) <= max_bytes) {
-    text.emplace(std::size_t(status.st_size), '\0');
-    std::size_t done = 0;
-    while (done < text->size()) {
-      const ssize_t n = ::pread(fd, text->data() + done, text->size() - done, off_t(done));
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) break;
-      done += std::size_t(n);
-    }
-    text->resize(done);
-  }
-  ::close(fd);
+  if (!file || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
+      std::uint64_t(status.st_size) > max_bytes)
+    return std::nullopt;
+  std::string text(std::size_t(status.st_size), '\0');
+  text.resize(read_at(file.get(), text.data(), text.size()));
   return text;
 }
 
 bool HeldDirectory::is_same_as(const HeldDirectory& other) const {
   struct stat a {
   }, b{};
-  return ::fstat(fd_, &a) == 0 && ::fstat(other.fd_, &b) == 0 && a.st_dev == b.st_dev &&
+  return ::fstat(fd(), &a) == 0 && ::fstat(other.fd(), &b) == 0 && a.st_dev == b.st_dev &&
          a.st_ino == b.st_ino;
 }
 
 HeldDirectory HeldDirectory::copy() const {
   HeldDirectory held;
   held.path_ = path_;
-  held.fd_ = fd_ < 0 ? -1 : ::fcntl(fd_, F_DUPFD_CLOEXEC, 0);
-  held.error_ = held.fd_ < 0 ? (fd_ < 0 ? error_ : errno) : 0;
+  held.error_ = error_;
+  if (!open_) return held;
+  held.open_ = Descriptor(::fcntl(fd(), F_DUPFD_CLOEXEC, 0));
+  if (!held) held.error_ = errno;
   throw_if_lacking(path_, held.error_);
   return held;
 }
@@ -293,7 +250,7 @@ bool Removal::remove(const fs::path& relative) {
 
 bool Removal::remove_at_once(const fs::path& relative, const fs::path& away) {
   if (mode_ == Mode::kDryRun) return remove(relative);
-  // What would stay of it stays where it is.
+  // A dry run first: what must stay is not moved.
   Removal first(root_.path(), ours_, Mode::kDryRun);
   std::vector<fs::path> paths;
   first.on_removed([&](const fs::path& path) { paths.push_back(path); });
@@ -353,54 +310,50 @@ fs::path part_path(const fs::path& path) {
          fmt::format(".{}.{}-{}.part", path.filename().string(), ::getpid(), device());
 }
 
-bool is_part_name(std::string_view name, long long& pid) {
-  if (!name.starts_with('.') || !name.ends_with(".part")) return false;
+long long process_of_part(std::string_view name) {
+  if (!name.starts_with('.') || !name.ends_with(".part")) return 0;
   name.remove_suffix(5);
   const auto dash = name.rfind('-'), dot = name.rfind('.', dash);
-  long long number = 0;
-  return dash != name.npos && dot != name.npos && dot > 0 &&
-         parse_integer(name.substr(dot + 1, dash - dot - 1), pid) && pid > 0 &&
-         parse_integer(name.substr(dash + 1), number) && number >= 0;
+  if (dash == name.npos || dot == name.npos || dot == 0) return 0;
+  long long process = 0, number = 0;
+  return parse_integer(name.substr(dot + 1, dash - dot - 1), process) && process > 0 &&
+                 parse_integer(name.substr(dash + 1), number) && number >= 0
+             ? process
+             : 0;
 }
+
+bool is_part_name(std::string_view name) { return process_of_part(name) > 0; }
 
 void remove_part(const fs::path& path) try {
   Removal(path.parent_path(), {[](const HeldDirectory&) { return true; },
                                [](const fs::path& relative) {
-                                 long long pid = 0;
-                                 return is_part_name(relative.native(), pid) ? Owned::kFile
-                                                                             : Owned::kNo;
+                                 return is_part_name(relative.native()) ? Owned::kFile : Owned::kNo;
                                }})
       .remove(path.filename());
-} catch (const Error&) {  // stays, for the next farm to remove
+} catch (const Error&) {  // it stays, and the next farm removes it
 }
 
-AbandonedPart::AbandonedPart(const HeldDirectory& directory, const std::string& name) {
-  long long pid = 0;
-  if (!is_part_name(name, pid) || ::kill(pid_t(pid), 0) == 0 || errno != ESRCH) return;
-  // There is no such process here; on another machine there may be.
-  const int fd =
-      ::openat(directory.fd(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+Descriptor lock_abandoned_part(const HeldDirectory& directory, const std::string& name) {
+  const auto process = pid_t(process_of_part(name));
+  if (process == 0 || ::kill(process, 0) == 0 || errno != ESRCH) return Descriptor();
+  // No such process runs here. One on another machine would hold the lock.
+  Descriptor file(
+      ::openat(directory.fd(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
-  if (fd >= 0 && ::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
-      ::flock(fd, LOCK_EX | LOCK_NB) == 0)
-    fd_ = fd;
-  else if (fd >= 0)
-    ::close(fd);
-}
-
-AbandonedPart::~AbandonedPart() {
-  if (fd_ >= 0) ::close(fd_);
+  if (file && (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
+               ::flock(file.get(), LOCK_EX | LOCK_NB) != 0))
+    file.close();
+  return file;
 }
 
 void remove_abandoned_parts(const HeldDirectory& directory) {
   for (const std::string& name : directory.names())
-    if (const AbandonedPart part(directory, name); part)
+    if (const Descriptor lock = lock_abandoned_part(directory, name))
       ::unlinkat(directory.fd(), name.c_str(), 0);
 }
 
 bool remove_temporary(const fs::path& path) try {
-  long long pid = 0;
-  if (is_part_name(path.filename().native(), pid)) {
+  if (is_part_name(path.filename().native())) {
     remove_part(path);
     return true;
   }
@@ -412,8 +365,10 @@ bool remove_temporary(const fs::path& path) try {
 }
 
 void remove_in_temporary_directory(const fs::path& path) {
-  fs::path temporary;
-  const fs::path below = below_temporary(path, temporary);
+  // Split at the first TemporaryDirectory in the path.
+  fs::path temporary, below;
+  for (const fs::path& part : path)
+    (is_temporary_name(temporary.filename().native()) ? below : temporary) /= part;
   if (below.empty() || !removal_of_temporary(temporary).root()) return;
   Removal(temporary,
           {[](const HeldDirectory&) { return true; }, [](const fs::path&) { return Owned::kTree; }})
@@ -426,7 +381,7 @@ std::vector<fs::path> remove_dead_temporaries(const fs::path& parent) {
   for (const std::string& name : held.names()) {
     if (!is_temporary_name(name)) continue;
     Removal removal = removal_of_temporary(parent / name);
-    // Held until it is gone: whoever makes one locks it and looks whether it is there still.
+    // The lock is kept until it is gone: its maker locks it too, and then looks whether it is still there.
     const HeldDirectory dead = removal.directory(name);
     if (dead && ::flock(dead.fd(), LOCK_EX | LOCK_NB) == 0 && removal.remove(name))
       removed.push_back(parent / name);

@@ -1,5 +1,5 @@
-// Removing files and directories: nothing else in the program does. What goes lies below a directory that is held open,
-// is reached without following a symbolic link or entering another file system, and is known as ours.
+// The only code of the program that removes files and directories. It removes what lies below a directory that is held
+// open, is reached without following a symbolic link or entering another file system, and is known as ours.
 #pragma once
 
 #include <cstdint>
@@ -9,81 +9,77 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include "core/descriptor.hpp"
 
 namespace lobelia {
 
 /// A directory that is held open, whatever becomes of its path. Names in it are looked up without following links.
-/// Whatever opens something throws Error(kNoResources) for want of memory or open files: that is no "not there".
+/// Everything that opens a file throws Error(kNoResources) for lack of memory or open files, instead of "not there".
 class HeldDirectory {
  public:
   HeldDirectory() = default;  ///< holds none
-  /// Links on the way to `path` are followed: it is where somebody said. Holds none if that fails.
+  /// Follows links on the way to `path`, which a user chose. Holds none if it cannot be opened.
   explicit HeldDirectory(const std::filesystem::path& path);
-  ~HeldDirectory();
-  HeldDirectory(HeldDirectory&& other) noexcept;
-  HeldDirectory& operator=(HeldDirectory&& other) noexcept;
 
-  explicit operator bool() const { return fd_ >= 0; }
-  int fd() const { return fd_; }
+  explicit operator bool() const { return bool(open_); }
+  int fd() const { return open_.get(); }
   const std::filesystem::path& path() const { return path_; }
 
-  enum class Border { kStay, kCross };  ///< of file systems
-  /// The directory of that name in it. Holds none if that is a link, anything else or, unless `border` is kCross, the
-  /// root of another file system; why_not() says which.
+  enum class Border { kStay, kCross };  ///< whether to enter another file system
+  /// The directory `name` in it. Holds none if `name` is missing, a link, no directory or, with kStay, the root of another
+  /// file system; why_not() says which.
   HeldDirectory below(const std::string& name, Border border = Border::kStay) const;
-  /// Likewise, and makes it if there is nothing of that name. Throws Error(kOutput) where there is a link or something
-  /// else, or it cannot be made.
+  /// The same, and makes a missing directory. Throws Error(kOutput) if it holds none.
   HeldDirectory make_below(const std::string& name, Border border = Border::kStay) const;
   /// Why it holds none: "a symbolic link, which is not followed".
   std::string why_not() const;
-  /// Nothing is there.
   bool is_missing() const;
 
-  std::vector<std::string> names() const;  ///< in it, sorted
-  std::vector<std::string> links() const;  ///< of these the symbolic links
-  /// A regular file's text; empty if it is none, is longer than that or cannot be opened.
+  std::vector<std::string> names() const;  ///< all entries, sorted
+  std::vector<std::string> links() const;  ///< the symbolic links among them
+  /// The text of a regular file; nothing if it is no such file, is over `max_bytes` or cannot be opened.
   std::optional<std::string> read(const std::string& name, std::uint64_t max_bytes) const;
   bool is_same_as(const HeldDirectory& other) const;
   HeldDirectory copy() const;
 
  private:
   std::vector<std::string> list(bool links_only) const;
-  int fd_ = -1;
+  Descriptor open_;
   int error_ = 0;
   std::filesystem::path path_;
 };
 
-/// What of a directory may be removed.
+/// What may be removed under a name.
 enum class Owned {
   kNo,
-  kFile,       ///< anything but a directory; of a link the link
+  kFile,       ///< anything but a directory; a link itself, not its target
   kDirectory,  ///< once it is empty
-  kTree,       ///< with all that is in it
+  kTree,       ///< with everything in it
 };
 
-/// Whose a directory is, and what in it was made by us.
+/// Tells what was made by us.
 struct Ownership {
-  /// By its marker: a file that nobody else puts there.
+  /// Whether the root is ours, by a marker: a file that only we put there.
   std::function<bool(const HeldDirectory& root)> is_ours;
-  /// By its name: `relative` is plain names below the root.
+  /// What is ours below the root, by its name: `relative` is plain names.
   std::function<Owned(const std::filesystem::path& relative)> owned;
 };
 
-/// Removes what is ours from a directory, or tells what it would remove.
+/// Removes what is ours from a directory, or in a dry run tells what it would remove.
 class Removal {
  public:
   enum class Mode { kForReal, kDryRun };
-  /// Of a root that is not ours it removes nothing.
+  /// Removes nothing if the root is not ours.
   Removal(const std::filesystem::path& root, Ownership ours, Mode mode = Mode::kForReal);
 
-  /// False if it is not there, or stays: then kept() says why.
+  /// False if it is not there or is kept; kept() says why.
   bool remove(const std::filesystem::path& relative);
-  /// The same for a tree, which is renamed to `away` first: nobody sees it half removed.
+  /// The same for a tree, which is first renamed to `away`, so that nobody sees it half removed.
   bool remove_at_once(const std::filesystem::path& relative, const std::filesystem::path& away);
 
-  /// Gets every file and directory that goes, or would go.
+  /// Calls `listener` with the path of everything that is removed, or would be.
   void on_removed(std::function<void(const std::filesystem::path&)> listener);
   struct Kept {
     std::filesystem::path path;
@@ -91,9 +87,9 @@ class Removal {
   };
   const std::vector<Kept>& kept() const { return kept_; }
 
-  /// None if it is not ours.
+  /// Holds none if the root is not ours.
   const HeldDirectory& root() const { return root_; }
-  /// What is in the root or, by its plain names, below it.
+  /// A directory below the root, by plain names; the root itself if `relative` is empty.
   HeldDirectory directory(const std::filesystem::path& relative) const;
 
  private:
@@ -106,41 +102,30 @@ class Removal {
   Mode mode_;
   HeldDirectory root_;
   std::function<void(const std::filesystem::path&)> on_removed_;
-  std::set<std::filesystem::path> would_go_;  ///< of a dry run, as it was asked for
+  std::set<std::filesystem::path> would_go_;  ///< in a dry run, what remove() was asked for
   std::vector<Kept> kept_;
 };
 
-/// A new name beside `path` for a file in the making: ".NAME.PID-N.part". N is by chance, because another machine may have
-/// a process of that number too.
+/// A new name beside `path` for an unfinished file: ".NAME.PID-N.part". N is random, because a process of another
+/// machine may have the same PID.
 std::filesystem::path part_path(const std::filesystem::path& path);
-/// Whether `name` is such a name; `pid` gets its process.
-bool is_part_name(std::string_view name, long long& pid);
-/// Removes such a file of this process, if it can. Nothing else of any name. Throws nothing.
+bool is_part_name(std::string_view name);
+/// The PID in a name of part_path(); 0 for any other name.
+long long process_of_part(std::string_view name);
+/// Removes a file of part_path() if it can, and nothing with another name. Throws nothing.
 void remove_part(const std::filesystem::path& path);
-
-/// A file in the making whose process is gone, here and on other machines; locked while this lives.
-class AbandonedPart {
- public:
-  AbandonedPart(const HeldDirectory& directory, const std::string& name);
-  ~AbandonedPart();
-  AbandonedPart(const AbandonedPart&) = delete;
-  AbandonedPart& operator=(const AbandonedPart&) = delete;
-  explicit operator bool() const { return fd_ >= 0; }
-
- private:
-  int fd_ = -1;
-};
-
-/// Removes all of these from a directory.
+/// Locks an unfinished file if its process is gone, here and on other machines; otherwise returns none.
+Descriptor lock_abandoned_part(const HeldDirectory& directory, const std::string& name);
+/// Removes all unfinished files of processes that are gone: what killed runs left behind.
 void remove_abandoned_parts(const HeldDirectory& directory);
 
 inline constexpr char kTemporaryName[] = "lobelia-temporary-";  ///< and six letters or digits
 
-/// Removes a TemporaryDirectory of this process, or what a TemporaryPath names. False if something of it is left.
+/// Removes a TemporaryDirectory of this process, or the file of a TemporaryPath. False if anything is left.
 bool remove_temporary(const std::filesystem::path& path);
 /// Removes a file or a directory in one of this user's temporary directories.
 void remove_in_temporary_directory(const std::filesystem::path& path);
-/// Removes from `parent` the temporary directories that a killed process of this user left behind. Returns their paths.
+/// Removes from `parent` the TemporaryDirectories that killed processes of this user left behind. Returns their paths.
 std::vector<std::filesystem::path> remove_dead_temporaries(const std::filesystem::path& parent);
 
 }  // namespace lobelia

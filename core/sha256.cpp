@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
+#include <charconv>
+#include <memory>
 #include <vector>
 
+#include "core/descriptor.hpp"
 #include "core/error.hpp"
 #include "core/no_resources.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::size_t kPieceBytes = 1 << 17;
 
-/// OpenSSL looks its algorithms up by name, which takes longer than hashing a short text: once for each thread.
+/// One for each thread, because OpenSSL looks up an algorithm by its name, which takes longer than hashing a short text.
 class Hasher {
  public:
   Hasher() : context_(::EVP_MD_CTX_new(), ::EVP_MD_CTX_free) {
@@ -58,47 +59,28 @@ Sha256Digest sha256_of_file(const std::filesystem::path& path) {
   const auto fail = [&](int error) {
     throw failure_of(path.string() + ": cannot read", error, ExitCode::kInput);
   };
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) fail(errno);
-  const std::unique_ptr<const int, void (*)(const int*)> closed(&fd,
-                                                                [](const int* f) { ::close(*f); });
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
-  if (::fstat(fd, &status) != 0) fail(errno);
+  if (!file || ::fstat(file.get(), &status) != 0) fail(errno);
   if (!S_ISREG(status.st_mode))
     throw Error(ExitCode::kInput, fmt::format("{}: not a regular file", path.string()));
   Hasher& one = hasher();
   std::vector<char> piece(kPieceBytes);
   while (true) {
-    const ssize_t n = ::read(fd, piece.data(), piece.size());
-    if (n < 0 && errno == EINTR) continue;
+    const ssize_t n = retried([&] { return ::read(file.get(), piece.data(), piece.size()); });
     if (n < 0) fail(errno);
     if (n == 0) return one.finish();
     one.take(piece.data(), std::size_t(n));
   }
 }
 
-std::string hex(const Sha256Digest& digest) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  text.reserve(2 * digest.size());
-  for (const std::uint8_t byte : digest) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return text;
-}
+std::string hex(const Sha256Digest& digest) { return fmt::format("{:02x}", fmt::join(digest, "")); }
 
 bool from_hex(std::string_view text, Sha256Digest& digest) {
   if (text.size() != 2 * digest.size()) return false;
-  const auto value = [](char c) {
-    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-  };
-  for (std::size_t i = 0; i < digest.size(); ++i) {
-    const int high = value(text[2 * i]), low = value(text[2 * i + 1]);
-    if (high < 0 || low < 0) return false;
-    digest[i] = std::uint8_t(high << 4 | low);
-  }
-  return true;
+  for (std::size_t i = 0; i < digest.size(); ++i)
+    std::from_chars(&text[2 * i], &text[2 * i] + 2, digest[i], 16);
+  return hex(digest) == text;
 }
 
 }  // namespace lobelia

@@ -1,11 +1,9 @@
-// SHA-256 (FIPS 180-4), by OpenSSL: names for what is stored by its content.
+// SHA-256 (FIPS 180-4), by OpenSSL.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,7 +16,7 @@ Sha256Digest sha256(std::string_view bytes);
 /// Hashes the whole file. Throws Error(kInput) if it cannot be read.
 Sha256Digest sha256_of_file(const std::filesystem::path& path);
 
-/// 64 lower-case hexadecimal digits, and back; `from_hex` returns false for anything else.
+/// 64 lower-case hexadecimal digits, and back. from_hex() returns false for any other text.
 std::string hex(const Sha256Digest& digest);
 bool from_hex(std::string_view text, Sha256Digest& digest);
 

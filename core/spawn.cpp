@@ -19,10 +19,14 @@
 #include "core/error.hpp"
 #include "core/no_resources.hpp"
 
-/// clone(2) by the other name that glibc has for it: what the thread sanitizer puts in place of the first takes the
-/// child for a fork and keeps books in it, in our memory.
+/// clone(2) under glibc's other name. The thread sanitizer replaces the first name, takes the child for a fork and does
+/// its bookkeeping there, in our memory.
 extern "C" int plain_clone(int (*)(void*), void* stack, int flags, void* argument,
                            ...) __asm__("__clone");
+
+/// Functions that run between clone() and execve(), in our address space while the calling thread waits: system calls
+/// only, no allocation, no locks, and no sanitizer.
+#define LOBELIA_IN_CHILD __attribute__((noinline, no_sanitize("address", "thread", "undefined")))
 
 namespace lobelia {
 namespace {
@@ -31,16 +35,16 @@ constexpr int kSignals = 64;
 constexpr std::size_t kSignalSetBytes = kSignals / 8;  // the kernel's set; glibc's is longer
 constexpr int kNotStarted = 127;
 
-/// All that the child needs, made ready beforehand, and what it has to tell.
+/// What the child needs, prepared by the parent, and what it reports.
 struct Child {
   char* const* arguments;
   char* const* environment;
   const char* working_directory;  // null: ours
-  int input, output, line;        // -1: /dev/null, -, none
+  int input, output, line;        // input -1: /dev/null; line -1: none
   int ruleset;                    // -1: none
-  std::uint64_t keep;             // bit i: leave signal i + 1 as it is
-  rlimit largest_file;            // where it is not 0
-  // Of a user namespace that is to have our user and group and no others; null: none.
+  std::uint64_t ignored;          // bit i: signal i + 1 stays ignored
+  rlimit largest_file;            // 0: no limit
+  // The maps of a new user namespace, which get our user and group only; null: no such namespace.
   const char *user_map = nullptr, *group_map = nullptr;
   std::size_t user_map_size = 0, group_map_size = 0;
   bool dies_with_us = false;
@@ -49,60 +53,68 @@ struct Child {
   int error = 0;
 };
 
-constexpr int kFirstFreeDescriptor = 10;  // beyond all that a program is given
+constexpr int kFirstFreeDescriptor = 10;  // above those that a program gets
 
-/// Like become(), of which it is a part.
-__attribute__((noinline, no_sanitize("address", "thread", "undefined"))) bool write_text(
-    const char* file, const char* text, std::size_t size) {
+LOBELIA_IN_CHILD bool write_text(const char* file, const char* text, std::size_t size) {
   const int descriptor = int(::syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_CLOEXEC, 0));
   return descriptor >= 0 && ::syscall(SYS_write, descriptor, text, size) == long(size) &&
          ::syscall(SYS_close, descriptor) == 0;
 }
 
-/// What the child does until it is the program. It has our memory while the calling thread stands still, so it may
-/// neither allocate nor lock, and a handler of ours must never run in it. System calls alone, and no sanitizer, whose
-/// books are ours too.
-__attribute__((noinline, no_sanitize("address", "thread", "undefined"))) int become(
-    void* argument) {
-  Child& child = *static_cast<Child*>(argument);
-  const std::uint64_t default_action[8] = {};  // of the kernel's structure: all zeros
-  for (int i = 0; i < kSignals; ++i)
-    if (!(child.keep >> i & 1))
-      ::syscall(SYS_rt_sigaction, i + 1, default_action, nullptr, kSignalSetBytes);
-  bool ready = ::syscall(SYS_setpgid, 0, 0) == 0;
-  // The kernel takes a group's map only from who cannot drop groups.
-  if (ready && child.user_map)
-    ready = write_text("/proc/self/setgroups", "deny", 4) &&
-            write_text("/proc/self/uid_map", child.user_map, child.user_map_size) &&
-            write_text("/proc/self/gid_map", child.group_map, child.group_map_size);
+/// Moves a descriptor above those that a program gets. False with errno.
+LOBELIA_IN_CHILD bool move_up(int& descriptor) {
+  descriptor = int(::syscall(SYS_fcntl, descriptor, F_DUPFD_CLOEXEC, kFirstFreeDescriptor));
+  return descriptor >= 0;
+}
+
+/// Gives the program its descriptors 0, 1, 2 and maybe 3. Moves `ruleset` if it is in the way. False with errno.
+LOBELIA_IN_CHILD bool set_descriptors(const Child& child, int& ruleset) {
   int input = child.input;
-  if (ready && input < 0)
-    ready =
-        (input = int(::syscall(SYS_openat, AT_FDCWD, "/dev/null", O_RDONLY | O_CLOEXEC, 0))) >= 0;
+  if (input < 0) input = int(::syscall(SYS_openat, AT_FDCWD, "/dev/null", O_RDONLY | O_CLOEXEC, 0));
+  if (input < 0) return false;
   int descriptors[4] = {input, child.output, child.output, child.line};
   const int wanted = child.line >= 0 ? 4 : 3;
+  if (ruleset >= 0 && ruleset < wanted && !move_up(ruleset)) return false;
+  for (int i = 0; i < wanted; ++i)
+    if (descriptors[i] != i && descriptors[i] < wanted && !move_up(descriptors[i])) return false;
+  for (int i = 0; i < wanted; ++i)  // one that has its number already only has to stay open
+    if ((descriptors[i] == i ? ::syscall(SYS_fcntl, i, F_SETFD, 0)
+                             : ::syscall(SYS_dup3, descriptors[i], i, 0)) < 0)
+      return false;
+  return true;
+}
+
+/// Everything before execve(). False with errno.
+LOBELIA_IN_CHILD bool prepare_child(Child& child) {
+  const std::uint64_t default_action[8] = {};  // the kernel's structure, all zeros
+  for (int i = 0; i < kSignals; ++i)           // none of our handlers may run here
+    if (!(child.ignored >> i & 1))
+      ::syscall(SYS_rt_sigaction, i + 1, default_action, nullptr, kSignalSetBytes);
+  if (::syscall(SYS_setpgid, 0, 0) != 0) return false;
+  // The kernel accepts a group map only from a process that cannot drop groups.
+  if (child.user_map && !(write_text("/proc/self/setgroups", "deny", 4) &&
+                          write_text("/proc/self/uid_map", child.user_map, child.user_map_size) &&
+                          write_text("/proc/self/gid_map", child.group_map, child.group_map_size)))
+    return false;
   int ruleset = child.ruleset;
-  if (ready && ruleset >= 0 && ruleset < wanted)  // another one comes to be in its place
-    ready =
-        (ruleset = int(::syscall(SYS_fcntl, ruleset, F_DUPFD_CLOEXEC, kFirstFreeDescriptor))) >= 0;
-  for (int i = 0; i < wanted; ++i)  // out of the way of those that come before it
-    if (ready && descriptors[i] != i && descriptors[i] < wanted)
-      ready = (descriptors[i] = int(::syscall(SYS_fcntl, descriptors[i], F_DUPFD_CLOEXEC,
-                                              kFirstFreeDescriptor))) >= 0;
-  for (int i = 0; i < wanted; ++i)  // one that is in its place already only has to stay open
-    ready = ready && (descriptors[i] == i ? ::syscall(SYS_fcntl, i, F_SETFD, 0)
-                                          : ::syscall(SYS_dup3, descriptors[i], i, 0)) >= 0;
-  if (ready && child.working_directory) ready = ::syscall(SYS_chdir, child.working_directory) == 0;
-  // If we have died before that, the keeper finds its line closed.
-  if (ready && child.dies_with_us)
-    ready = ::syscall(SYS_prctl, PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) == 0;
-  if (ready && child.largest_file.rlim_cur > 0)
-    ready = ::syscall(SYS_prlimit64, 0, RLIMIT_FSIZE, &child.largest_file, nullptr) == 0;
-  // Without root's rights the kernel wants to be sure that no set-user-ID program is misled.
-  if (ready && ruleset >= 0)
-    ready = child.writes_limited = ::syscall(SYS_prctl, PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
-                                   ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
-  if (ready) {
+  if (!set_descriptors(child, ruleset)) return false;
+  if (child.working_directory && ::syscall(SYS_chdir, child.working_directory) != 0) return false;
+  // If we have died before this call, the keeper finds its line closed.
+  if (child.dies_with_us && ::syscall(SYS_prctl, PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) != 0)
+    return false;
+  if (child.largest_file.rlim_cur > 0 &&
+      ::syscall(SYS_prlimit64, 0, RLIMIT_FSIZE, &child.largest_file, nullptr) != 0)
+    return false;
+  if (ruleset < 0) return true;
+  // Without root's rights the kernel demands PR_SET_NO_NEW_PRIVS, so that no set-user-ID program is misled.
+  child.writes_limited = ::syscall(SYS_prctl, PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+                         ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
+  return child.writes_limited;
+}
+
+LOBELIA_IN_CHILD int exec_child(void* argument) {
+  Child& child = *static_cast<Child*>(argument);
+  if (prepare_child(child)) {
     ::syscall(SYS_rt_sigprocmask, SIG_SETMASK, &child.mask, nullptr, kSignalSetBytes);
     ::syscall(SYS_execve, child.arguments[0], child.arguments, child.environment);
   }
@@ -127,12 +139,12 @@ std::uint64_t ignored_signals() {
   return result;
 }
 
-/// clone(2) with these namespaces, up to where the child is its program. Returns 0 or an errno.
+/// Calls clone(2) with these namespaces and returns once the child has called execve(). Returns 0 or an errno.
 int start(Child& child, unsigned long namespaces, pid_t& pid) {
   alignas(16) std::array<std::byte, 16384> stack;
   child.error = 0;
-  // posix_spawn does the same, but has no word for namespaces, PR_SET_PDEATHSIG and Landlock.
-  pid = plain_clone(become, stack.data() + stack.size(),
+  // posix_spawn has no namespaces, PR_SET_PDEATHSIG and Landlock.
+  pid = plain_clone(exec_child, stack.data() + stack.size(),
                     int(CLONE_VM | CLONE_VFORK | SIGCHLD | namespaces), &child);
   if (pid < 0) return errno;
   if (child.error != 0) ::waitpid(pid, nullptr, 0);
@@ -152,11 +164,11 @@ Spawned spawn(const SpawnRequest& request) {
               .output = request.output,
               .line = request.keeper_line,
               .ruleset = request.limit ? request.limit->ruleset() : -1,
-              .keep = ignored_signals(),
+              .ignored = ignored_signals(),
               .largest_file = {request.largest_file, request.largest_file},
               .mask = {}};
-  // Else a file that is too large would be an error like any other.
-  if (request.largest_file > 0) child.keep &= ~(std::uint64_t{1} << (SIGXFSZ - 1));
+  // If SIGXFSZ were ignored, a file over the limit would be an error like any other.
+  if (request.largest_file > 0) child.ignored &= ~(std::uint64_t{1} << (SIGXFSZ - 1));
   const std::string user_map = fmt::format("{0} {0} 1", ::geteuid()),
                     group_map = fmt::format("{0} {0} 1", ::getegid());
   sigset_t all;
@@ -179,7 +191,7 @@ Spawned spawn(const SpawnRequest& request) {
         child.user_map = nullptr;
       }
     }
-    // Whatever there is against a namespace is nothing against the program.
+    // Without a namespace the program can still start.
     if (error != 0) contained = Containment::kSubreaper;
     child.dies_with_us = false;
   }

@@ -13,7 +13,7 @@
 namespace lobelia {
 namespace {
 
-constexpr int kWaitMilliseconds = 100;  // between looks whether somebody interrupts the wait
+constexpr int kWaitMilliseconds = 100;  // between looks for Ctrl-C
 
 enum class Room { kYes, kNotYet, kNever };
 
@@ -24,8 +24,8 @@ Room wait_for_room(int milliseconds) {
   return ready > 0 && (stream.revents & POLLOUT) != 0 ? Room::kYes : Room::kNever;
 }
 
-/// Writes the beginning of `text` and takes it away; false if that will never be possible. A pipe with room has it for
-/// PIPE_BUF bytes, so that this does not wait.
+/// Writes the beginning of `text` and removes it from `text`; false if stderr cannot be written. Does not wait: a pipe
+/// with room takes PIPE_BUF bytes.
 bool write_piece(std::string_view& text) {
   const ssize_t written =
       ::write(STDERR_FILENO, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
@@ -39,10 +39,9 @@ bool write_piece(std::string_view& text) {
 void hold_standard_descriptors() noexcept {
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(fd, F_GETFD) >= 0) continue;
-    // The lowest number that is free is this one. Stdout is opened for reading, so that writing to it is an error.
+    // open() gives the lowest free number, which is `fd`. Stdout is opened for reading, so that writing to it fails.
     const int held = ::open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY);
-    if (held < 0 && ::open("/", O_PATH) < 0)
-      return;  // no descriptor is left: no file will be opened either
+    if (held < 0 && ::open("/", O_PATH) < 0) return;
   }
 }
 
@@ -55,7 +54,7 @@ void write_message(std::string_view text) noexcept {
 }
 
 void write_message_if_room(std::string_view text) noexcept {
-  const int error = errno;  // of what a signal handler interrupts
+  const int error = errno;  // of the code that a signal handler interrupts
   std::size_t left = text.size() + 1;
   while (!text.empty() && text.size() < left && wait_for_room(0) == Room::kYes) {
     left = text.size();

@@ -1,5 +1,5 @@
-// What a person is told on stderr. It is never an error that a message cannot be written: whoever closed stderr, or
-// filled the disk behind it, wants the work done without.
+// Messages on stderr. It is no error if one cannot be written, for example because stderr is closed or its disk is full:
+// the work goes on.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,16 +9,16 @@
 
 namespace lobelia {
 
-/// Opens what is closed of the descriptors 0, 1 and 2, before any other file is: else the first picture that is opened
-/// would get the number of stderr, and the messages. Writing to a stdout opened here fails as it did before.
+/// Opens those of the descriptors 0, 1 and 2 that are closed, before any other file is opened. Otherwise a picture could
+/// get the number of stderr, and the messages. Writing to a stdout opened here fails as before.
 void hold_standard_descriptors() noexcept;
 
-/// Writes to stderr, past a reader that is slow, until interrupted(). What cannot be written is dropped.
+/// Writes to stderr, and waits for a slow reader until interrupted(). Drops the rest.
 void write_message(std::string_view text) noexcept;
-/// The same, but drops what there is no room for at once: for progress. May be called in a signal handler.
+/// The same without waiting, for progress. May be called in a signal handler.
 void write_message_if_room(std::string_view text) noexcept;
 
-/// write_message() of a text with arguments, as fmt::format has them. Throws nothing, not even for want of memory.
+/// write_message() with fmt::format. Throws nothing, not even without memory.
 template <class... Arguments>
 void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) noexcept {
   try {

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/html.hpp"
 #include "core/numbers.hpp"
-#include "core/ticks.hpp"
 
 namespace lobelia {
 
@@ -18,17 +16,28 @@ extern const std::string_view chart_style;
 
 namespace {
 
+double round_step(double rough) {
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double share = rough / power;
+  return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+}
+
 constexpr double kLeft = 78, kRight = 12, kTop = 34, kBottom = 50;
-constexpr double kTitle = 36, kMargin = 16;  // of a chart alone: above, and on the right
-constexpr double kCharacter = 7.2;           // typical width at the size that the styles set
-constexpr double kNameCharacter = 6.3;       // the same of a point's name
+constexpr double kTitle = 36, kMargin = 16;  // above and on the right, in a file of its own
+constexpr double kCharacter = 7.2;           // typical width at the font size of the styles
+constexpr double kNameCharacter = 6.3;       // the same in the name of a point
 
 struct LineStyle {
-  std::string_view dashes;
-  double width;
+  const char *name, *dashes, *width;
 };
-constexpr std::array<LineStyle, 6> kLineStyles = {
-    {{"none", 7}, {"none", 1.8}, {"9 5", 2.2}, {"2 4", 2.6}, {"12 4 2 4", 2.2}, {"5 3", 2.2}}};
+
+const LineStyle& line_style(const ChartSeries& series) {
+  static constexpr LineStyle kStyles[] = {
+      {"series series-0", "none", "7"},       {"series series-1", "none", "1.8"},
+      {"series series-2", "9 5", "2.2"},      {"series series-3", "2 4", "2.6"},
+      {"series series-4", "12 4 2 4", "2.2"}, {"series series-5", "5 3", "2.2"}};
+  return kStyles[std::clamp(series.style, 0, int(std::size(kStyles)) - 1)];
+}
 
 std::string number(double value) {
   std::string text = fmt::format("{:.2f}", value);
@@ -36,8 +45,7 @@ std::string number(double value) {
 }
 
 int text_length(std::string_view text) {
-  return static_cast<int>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  return int(std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
 class Drawing {
@@ -90,7 +98,7 @@ class Drawing {
     draw_legend();
   }
 
-  /// Where an axis is marked: as it says itself, otherwise at about `count` round numbers.
+  /// The axis's own ticks, otherwise about `count` round numbers.
   static std::vector<Tick> ticks_of(const ChartAxis& axis, int count) {
     if (axis.ticks.empty())
       return axis.logarithmic ? log_ticks(axis.from, axis.to)
@@ -184,7 +192,7 @@ class Drawing {
         drawing = false;
         continue;
       }
-      // Far outside the frame is as good as just outside, and keeps the numbers short.
+      // Points far outside the frame are moved nearer, which keeps the numbers short.
       const double py = std::clamp(at_y(y), -10.0 * chart_.height, 10.0 * chart_.height);
       const double px = std::clamp(at_x(x), -10.0 * chart_.width, 10.0 * chart_.width);
       path += fmt::format("{}{} {}", drawing ? "L" : "M", number(px), number(py));
@@ -193,7 +201,7 @@ class Drawing {
     return path;
   }
 
-  /// Circle, diamond, square: shapes tell the styles apart without colour.
+  /// A circle, diamond or square, so that styles differ without colour.
   void draw_marker(const ChartSeries& series, double x, double y) {
     constexpr double kRadius = 4.5;
     const std::string name = fmt::format("marker marker-{}", series.style);
@@ -240,7 +248,7 @@ class Drawing {
     const double width = kNameCharacter * text_length(name), at = y + kDown;
     const bool left = x - kAway - width > kLeft;
     const double from = left ? x - kAway - width : x + kAway;
-    const bool free = std::none_of(names_.begin(), names_.end(), [&](const Name& other) {
+    const bool free = std::ranges::none_of(names_, [&](const Name& other) {
       return from < other.to && other.from < from + width && std::abs(at - other.y) < kLine;
     });
     if (!free || at >= bottom()) return;
@@ -259,31 +267,31 @@ class Drawing {
     if (series.markers) return draw_markers(series);
     const std::string path = path_of(series);
     if (path.empty()) return;
-    const int style = std::clamp(series.style, 0, static_cast<int>(kLineStyles.size()) - 1);
+    const LineStyle& style = line_style(series);
     const Tag shape(html_, "path",
-                    {{"class", fmt::format("series series-{}", style)},
+                    {{"class", style.name},
                      {"d", path},
                      {"fill", "none"},
                      {"clip-path", "url(#" + chart_.id + "-clip)"},
-                     {"stroke-dasharray", std::string(kLineStyles[style].dashes)},
-                     {"stroke-width", fmt::format("{}", kLineStyles[style].width)}});
+                     {"stroke-dasharray", style.dashes},
+                     {"stroke-width", style.width}});
     html_.element("title", series.label);
   }
 
   void draw_legend() {
     double x = kLeft;
     for (const ChartSeries& series : chart_.series) {
-      const int style = std::clamp(series.style, 0, static_cast<int>(kLineStyles.size()) - 1);
+      const LineStyle& style = line_style(series);
       if (series.markers)
         draw_marker(series, x + 18, 14);
       else
-        html_.empty("line", {{"class", fmt::format("series series-{}", style)},
+        html_.empty("line", {{"class", style.name},
                              {"x1", number(x)},
                              {"y1", "14"},
                              {"x2", number(x + 36)},
                              {"y2", "14"},
-                             {"stroke-dasharray", std::string(kLineStyles[style].dashes)},
-                             {"stroke-width", fmt::format("{}", kLineStyles[style].width)}});
+                             {"stroke-dasharray", style.dashes},
+                             {"stroke-width", style.width}});
       text("legend", x + 44, 18, "start", series.label);
       x += 44 + kCharacter * text_length(series.label) + 28;
     }
@@ -295,10 +303,47 @@ class Drawing {
 
   const Chart& chart_;
   Html html_;
-  std::vector<Name> names_;  ///< of points, as drawn
+  std::vector<Name> names_;  ///< of points, drawn so far
 };
 
 }  // namespace
+
+std::vector<Tick> linear_ticks(double from, double to, int count) {
+  std::vector<Tick> ticks;
+  if (!(to > from) || count < 1) return ticks;
+  const double step = round_step((to - from) / count);
+  // Multiples of a whole number, so that 0.3 is not 0.1 + 0.2.
+  const double first = std::ceil(from / step - 1e-9), last = std::floor(to / step + 1e-9);
+  for (double i = first; i <= last && ticks.size() < 100; ++i) {
+    const double value = i == 0 ? 0 : i * step;
+    ticks.push_back({value, number_text(value)});
+  }
+  return ticks;
+}
+
+std::vector<Tick> log_ticks(double from, double to) {
+  std::vector<Tick> ticks;
+  if (!(from > 0) || !(to > from)) return ticks;
+  const int first = static_cast<int>(std::floor(std::log10(from) - 1e-9));
+  const int last = static_cast<int>(std::ceil(std::log10(to) + 1e-9));
+  const int every = std::max(1, (last - first + 7) / 8);
+  for (int power = first; power <= last; ++power) {
+    const double base = std::pow(10.0, power);
+    for (int digit = 1; digit <= (every == 1 ? 9 : 1); ++digit) {
+      const double value = digit * base;
+      if (value < from * (1 - 1e-9) || value > to * (1 + 1e-9)) continue;
+      const bool labelled = digit == 1 && power % every == 0;
+      ticks.push_back({value, labelled ? power_of_ten_text(power) : ""});
+    }
+  }
+  return ticks;
+}
+
+double round_up(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 1;
+  const double step = round_step(value / 5);
+  return step * std::ceil(value / step - 1e-9);
+}
 
 std::string draw_chart(const Chart& chart) { return Drawing(chart).draw(); }
 std::string draw_chart_file(const Chart& chart) { return Drawing(chart).draw_file(); }

@@ -11,8 +11,7 @@
 namespace lobelia {
 namespace {
 
-/// Letters inserted, dropped, changed, or exchanged with their neighbour (Damerau's distance without
-/// edits inside an exchange).
+/// Letters inserted, dropped, changed, or swapped with their neighbour (Damerau's distance without edits inside a swap).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -38,38 +37,34 @@ std::string_view trim(std::string_view text) {
 }
 
 struct Character {
-  std::uint32_t code = 0;  ///< of what is no UTF-8 the byte
-  std::size_t length = 0;  ///< in bytes; 0 of what is no UTF-8
+  std::uint32_t code = 0;  ///< the byte itself where it is not UTF-8
+  std::string_view bytes;
+  bool is_valid = false;
 };
 
-/// The character that `text` begins with (RFC 3629: the shortest form, no surrogates, up to U+10FFFF).
-Character first_character(std::string_view text) {
+/// Takes the first character off `text` (RFC 3629: the shortest form, no surrogates, up to U+10FFFF). Where it is not
+/// UTF-8 takes one byte.
+Character take_character(std::string_view& text) {
   const auto byte = [&](std::size_t i) {
     return std::uint32_t(static_cast<unsigned char>(text[i]));
   };
   const std::uint32_t first = byte(0);
-  if (first < 0x80) return {first, 1};
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || text.size() < length) return {first, 0};
-  std::uint32_t code = first & (0xFFu >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return {first, 0};
+  const std::size_t length = first < 0x80 ? 1 : first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  bool valid = first < 0x80 || (first >= 0xC2 && first <= 0xF4 && text.size() >= length);
+  std::uint32_t code = first < 0x80 ? first : first & (0xFFu >> (length + 1));
+  for (std::size_t i = 1; valid && i < length; ++i) {
+    valid = (byte(i) & 0xC0) == 0x80;
     code = code << 6 | (byte(i) & 0x3F);
   }
   constexpr std::uint32_t kShortest[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xD800 && code < 0xE000;
-  if (code < kShortest[length] || surrogate || code > 0x10FFFF) return {first, 0};
-  return {code, length};
+  const bool is_surrogate = code >= 0xD800 && code < 0xE000;
+  valid = valid && code >= kShortest[length] && !is_surrogate && code <= 0x10FFFF;
+  const std::string_view bytes = text.substr(0, valid ? length : 1);
+  text.remove_prefix(bytes.size());
+  return {valid ? code : first, bytes, valid};
 }
 
-/// Takes it off; of what is no UTF-8 a byte.
-Character take_character(std::string_view& text) {
-  const Character first = first_character(text);
-  text.remove_prefix(std::max<std::size_t>(first.length, 1));
-  return first;
-}
-
-/// Controls, marks that turn the direction of writing, line separators, and what XML has no place for.
+/// Control characters, marks that change the direction of writing, line separators, and characters that XML forbids.
 bool is_hidden(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x061C ||
          (code >= 0x200B && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
@@ -77,18 +72,12 @@ bool is_hidden(std::uint32_t code) {
 }
 
 std::string escaped(const Character& character) {
-  switch (character.code) {
-    case '\t':
-      return "\\t";
-    case '\n':
-      return "\\n";
-    case '\r':
-      return "\\r";
-    default:
-      return character.code < 0x80 || character.length == 0
-                 ? fmt::format("\\x{:02x}", character.code)
-                 : fmt::format("\\u{:04x}", character.code);
-  }
+  if (character.code == '\t') return "\\t";
+  if (character.code == '\n') return "\\n";
+  if (character.code == '\r') return "\\r";
+  const bool one_byte = character.code < 0x80 || !character.is_valid;
+  return one_byte ? fmt::format("\\x{:02x}", character.code)
+                  : fmt::format("\\u{:04x}", character.code);
 }
 
 template <class Number>
@@ -102,7 +91,7 @@ bool parse_whole(std::string_view text, Number& value) {
 }  // namespace
 
 std::string closest(std::string_view word, std::span<const std::string_view> candidates) {
-  if (word.size() > 64) return "";  // nobody mistypes that much; bounds the work on hostile input
+  if (word.size() > 64) return "";  // bounds the work on hostile input
   std::string_view best;
   std::size_t best_distance = 0;
   for (const auto candidate : candidates) {
@@ -129,12 +118,7 @@ std::string lower_case(std::string_view text) {
 }
 
 std::string join(std::span<const std::string_view> items, std::string_view separator) {
-  std::string result;
-  for (const auto item : items) {
-    if (!result.empty()) result += separator;
-    result += item;
-  }
-  return result;
+  return fmt::format("{}", fmt::join(items, separator));
 }
 
 std::vector<std::string> split(std::string_view text, std::string_view separators) {
@@ -180,12 +164,9 @@ std::string shell_quote(std::string_view argument) {
 }
 
 std::string shell_join(std::span<const std::string> arguments) {
-  std::string result;
-  for (const auto& argument : arguments) {
-    if (!result.empty()) result += ' ';
-    result += shell_quote(argument);
-  }
-  return result;
+  std::vector<std::string> quoted;
+  for (const std::string& argument : arguments) quoted.push_back(shell_quote(argument));
+  return fmt::format("{}", fmt::join(quoted, " "));
 }
 
 std::string csv_field(std::string_view text) {
@@ -198,9 +179,8 @@ std::string csv_field(std::string_view text) {
 std::string valid_utf8(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const std::string_view before = text;
     const Character next = take_character(text);
-    result += next.length > 0 ? before.substr(0, next.length) : "\xEF\xBF\xBD";
+    result += next.is_valid ? next.bytes : "\xEF\xBF\xBD";
   }
   return result;
 }
@@ -208,9 +188,8 @@ std::string valid_utf8(std::string_view text) {
 std::string escape_invalid_utf8(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const std::string_view before = text;
     const Character next = take_character(text);
-    result += next.length > 0 ? std::string(before.substr(0, next.length)) : escaped(next);
+    result += next.is_valid ? std::string(next.bytes) : escaped(next);
   }
   return result;
 }
@@ -218,11 +197,9 @@ std::string escape_invalid_utf8(std::string_view text) {
 std::string printable(std::string_view text, std::size_t max_length) {
   std::string result;
   while (!text.empty()) {
-    const std::string_view before = text;
     const Character next = take_character(text);
-    const std::string shown = next.length == 0 || is_hidden(next.code)
-                                  ? escaped(next)
-                                  : std::string(before.substr(0, next.length));
+    const std::string shown =
+        next.is_valid && !is_hidden(next.code) ? std::string(next.bytes) : escaped(next);
     if (result.size() + shown.size() > max_length) return result + "...";
     result += shown;
   }
@@ -230,7 +207,8 @@ std::string printable(std::string_view text, std::size_t max_length) {
 }
 
 bool is_plain_name(std::string_view name) {
-  return !name.empty() && name.size() <= kMaxNameBytes && name.front() != '.' &&
+  constexpr std::size_t kMaxBytes = 255;
+  return !name.empty() && name.size() <= kMaxBytes && name.front() != '.' &&
          std::ranges::all_of(name, [](char c) {
            const auto byte = static_cast<unsigned char>(c);
            return c != '/' && c != '\\' && byte >= 0x20 && byte != 0x7f;

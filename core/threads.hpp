@@ -1,4 +1,4 @@
-// How many threads work, where the user says so.
+// How many threads work: as many as the user wants and the system allows.
 #pragma once
 
 #include <oneapi/tbb/global_control.h>
@@ -9,17 +9,23 @@
 #include <optional>
 #include <utility>
 
-#include "core/thread_count.hpp"
-
 namespace lobelia {
 
-/// Runs work on `threads` threads, the calling one among them; 0 is one for each processor. Fewer where the system does
-/// not allow as many.
+/// How many threads could be started just now, at most `wanted`. Starts them and ends them again, because no limit tells
+/// how much of it is left.
+int startable_threads(int wanted) noexcept;
+
+/// Threads for work, including the calling one: one for each processor, or fewer if the system does not allow as many as
+/// our libraries start then. Looks once.
+int usual_threads() noexcept;
+
+/// Runs work on `threads` threads, including the calling one; 0 is one for each processor. Fewer if the system does not
+/// allow as many.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads)
       : arena_(threads > 0 ? threads : oneapi::tbb::task_arena::automatic) {
-    // oneTBB warns on stderr and gives fewer if more than the processors are asked for.
+    // Asked for more threads than processors, oneTBB warns on stderr and gives fewer.
     if (threads > oneapi::tbb::info::default_concurrency())
       more_.emplace(oneapi::tbb::global_control::max_allowed_parallelism,
                     std::size_t(1 + startable_threads(threads - 1)));
@@ -34,8 +40,8 @@ class ThreadLimit {
   oneapi::tbb::task_arena arena_;
 };
 
-/// Keeps oneTBB to usual_threads(), because it ends the process where it cannot start a thread. For good: once it may
-/// have more it starts them, also as the process ends.
+/// Limits oneTBB to usual_threads(), because it ends the process if it cannot start a thread. For good: without the limit
+/// it would start more, even while the process ends.
 inline void keep_to_usual_threads() {
   if (usual_threads() >= oneapi::tbb::info::default_concurrency()) return;
   static const auto* const fewer = new oneapi::tbb::global_control(

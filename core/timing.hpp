@@ -1,5 +1,5 @@
-// Timing as an experiment: cases in turn, round after round, so that a change in the machine's speed meets
-// them alike; the median counts, and the spread says how much to trust it.
+// Timing in rounds: each round runs every case once, so that changes of the machine's speed affect all cases alike. The
+// median counts, and the spread says how far to trust it.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ inline Times summary(std::vector<double> seconds) {
           (seconds[n * 3 / 4] - seconds[n / 4]) / 2 / median, int(n)};
 }
 
-/// Each case once in each round, after one that does not count.
+/// Times each case once in each round, after one warm-up.
 inline std::vector<Times> interleaved(const std::vector<std::function<void()>>& cases, int rounds) {
   std::vector<std::vector<double>> seconds(cases.size());
   for (const auto& work : cases) work();
@@ -43,7 +43,7 @@ inline std::vector<Times> interleaved(const std::vector<std::function<void()>>& 
   return result;
 }
 
-/// The same for a part of the work that was timed: an evaluation of a million.
+/// Times of one of `parts` equal parts of the work, such as one evaluation of a million.
 inline Times per(const Times& times, double parts) {
   return {times.least / parts, times.median / parts, times.most / parts, times.spread,
           times.rounds};

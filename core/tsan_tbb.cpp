@@ -1,10 +1,8 @@
-// Linked into builds with the thread sanitizer only. oneTBB is not instrumented, so the sanitizer does
-// not see that a task starts after it was spawned and that a wait ends after the tasks it waits for: it
-// would take whatever a task reads for a race with the code that spawned it. Suppressions cannot
-// tell those from true races, because every loop of ours runs inside oneTBB. So oneTBB's entry points are
-// replaced here by ones that tell the sanitizer what the library guarantees, no more, and call it:
-// two bodies of one loop stay unordered, and a race between them is found.
-// For the interface of oneTBB 2021 (libtbb.so.12).
+// Only for builds with the thread sanitizer. oneTBB is not instrumented, so the sanitizer does not see that a task starts
+// after it was spawned and that a wait ends after its tasks, and would report a race for everything that a task reads.
+// Suppressions would hide true races too, because all our loops run inside oneTBB. So these functions replace oneTBB's
+// entry points, tell the sanitizer exactly what the library guarantees, and call it. Two bodies of one loop stay
+// unordered, and a race between them is found. For oneTBB 2021 (libtbb.so.12).
 #include <dlfcn.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -16,10 +14,10 @@
 
 namespace tbb::detail::r1 {
 
-/// A friend of wait_context by its name: one of the library's own classes, of which no header says more.
+/// wait_context declares a class of this name, which no header defines, as a friend.
 class external_waiter {
  public:
-  /// Loads the counter that every finished task has released, as wait() did where nobody saw it.
+  /// Loads the counter that every finished task has released, as wait() did in code without instrumentation.
   static void synchronise(const d1::wait_context& wait) { (void)wait.continue_execution(); }
 };
 
@@ -33,7 +31,7 @@ Function* original(const char* name) {
   std::abort();
 }
 
-/// Runs a task, and says that everything before its spawning was before it.
+/// Runs a task after everything that happened before it was spawned.
 class Spawned final : public d1::task {
  public:
   static d1::task& make(d1::task& inner) {
@@ -43,7 +41,7 @@ class Spawned final : public d1::task {
   }
   d1::task* execute(d1::execution_data& data) override {
     __tsan_acquire(this);
-    d1::task* next = inner_.execute(data);  // where it throws, cancel() is called next
+    d1::task* next = inner_.execute(data);  // if it throws, cancel() is called next
     delete this;
     return next;
   }
@@ -59,7 +57,7 @@ class Spawned final : public d1::task {
   d1::task& inner_;
 };
 
-/// An arena without a free place lets another thread run what it was given.
+/// An arena without a free place lets another thread run the work.
 class Delegated final : public d1::delegate_base {
  public:
   explicit Delegated(const d1::delegate_base& inner) : inner_(inner) { __tsan_release(this); }
@@ -123,8 +121,7 @@ void execute(d1::task_arena_base& arena, d1::delegate_base& work) {
   next(arena, delegated);
 }
 
-// Memory that goes from one thread to another through the library's pools: whoever gets it comes after
-// whoever gave it back.
+// Memory goes from thread to thread through the library's pools: it is allocated after it was freed.
 void* allocate(d1::small_object_pool*& pool, std::size_t bytes) {
   static auto* next = original<void*(d1::small_object_pool*&, std::size_t)>(
       "_ZN3tbb6detail2r18allocateERPNS0_2d117small_object_poolEm");

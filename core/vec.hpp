@@ -1,4 +1,4 @@
-// Three-vectors and RGB triples: the nouns that every room shares.
+// Three-vectors and RGB triples.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ inline Vec3 normalize(Vec3 a) {
   const double l = length(b);
   return {b.x / l, b.y / l, b.z / l};
 }
-/// The same, but a unit vector stays what it is: a scene that is written and read again keeps every bit.
+/// The same, but keeps every bit of a unit vector, so that a scene survives writing and reading.
 inline Vec3 as_unit(Vec3 a) { return std::abs(length(a) - 1) < 1e-15 ? a : normalize(a); }
 
 /// Linear-light RGB, primaries of Rec. 709 (see docs/conventions.md).

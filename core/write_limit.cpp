@@ -3,9 +3,7 @@
 #include <fcntl.h>
 #include <linux/landlock.h>
 #include <sys/syscall.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstdint>
 
 #include "core/no_resources.hpp"
@@ -15,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kTruncate = 1 << 14;  // in the headers from Linux 6.2 on
 
-/// Everything that alters a file or a directory, as far as this kernel can forbid it.
+/// Every right to change files or directories that this kernel can take away.
 std::uint64_t writing(long version) {
   std::uint64_t rights = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
                          LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
@@ -27,16 +25,14 @@ std::uint64_t writing(long version) {
   return rights;
 }
 
-bool allow(int ruleset, const std::filesystem::path& path, std::uint64_t rights) {
-  const int place = ::open(path.c_str(), O_PATH | O_CLOEXEC);
-  if (place < 0) return false;
-  const landlock_path_beneath_attr rule{rights, place};
-  const long added =
-      ::syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
-  const int error = errno;
-  ::close(place);
-  errno = error;
-  return added == 0;
+/// Returns 0 or an errno.
+int allow(int ruleset, const std::filesystem::path& path, std::uint64_t rights) {
+  const Descriptor place(::open(path.c_str(), O_PATH | O_CLOEXEC));
+  if (!place) return errno;
+  const landlock_path_beneath_attr rule{rights, place.get()};
+  return ::syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0
+             ? 0
+             : errno;
 }
 
 }  // namespace
@@ -47,20 +43,15 @@ WriteLimit::WriteLimit(const std::filesystem::path& directory) {
   if (version < 1) return;
   landlock_ruleset_attr attributes{};
   attributes.handled_access_fs = writing(version);
-  ruleset_ = int(::syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes, 0));
-  if (ruleset_ < 0 || !allow(ruleset_, directory, attributes.handled_access_fs)) {
-    const int error = errno;
-    if (ruleset_ >= 0) ::close(ruleset_);
-    // A kernel that can limit a program is not to start one without a limit.
+  ruleset_ =
+      Descriptor(int(::syscall(SYS_landlock_create_ruleset, &attributes, sizeof attributes, 0)));
+  const int error = ruleset_ ? allow(ruleset(), directory, attributes.handled_access_fs) : errno;
+  // Where the kernel can limit a program, none is started without a limit.
+  if (error != 0)
     throw failure_of(directory.string() + ": no program can be held to it", error,
                      ExitCode::kEngine);
-  }
-  allow(ruleset_, "/dev/null",
+  allow(ruleset(), "/dev/null",
         attributes.handled_access_fs & (LANDLOCK_ACCESS_FS_WRITE_FILE | kTruncate));
-}
-
-WriteLimit::~WriteLimit() {
-  if (ruleset_ >= 0) ::close(ruleset_);
 }
 
 }  // namespace lobelia

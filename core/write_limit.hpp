@@ -1,25 +1,23 @@
-// Keeping another program from writing where it has no business, without any rights of our own.
+// Limits where another program may write. Needs no special rights.
 #pragma once
 
 #include <filesystem>
 
+#include "core/descriptor.hpp"
+
 namespace lobelia {
 
-/// What core/spawn.hpp holds a program and all that it starts to: they create, change and remove files
-/// below `directory` only, /dev/null aside; reading stays free.
+/// A Landlock ruleset for core/spawn.hpp: the program and all that it starts may create, change and remove files below
+/// `directory` only, and write to /dev/null. Reading stays free.
 class WriteLimit {
  public:
-  /// Throws Error(kEngine or kNoResources) where the kernel has limits and does not give this one.
+  /// Throws Error(kEngine or kNoResources) if the kernel has Landlock but refuses this limit.
   explicit WriteLimit(const std::filesystem::path& directory);
-  ~WriteLimit();
-  WriteLimit(const WriteLimit&) = delete;
-  WriteLimit& operator=(const WriteLimit&) = delete;
-  /// Of Landlock, ours; -1 where the kernel has none (Linux 5.13 and later, unless it was left out or is
-  /// forbidden by a container).
-  int ruleset() const { return ruleset_; }
+  /// -1 if the kernel has no Landlock: before Linux 5.13, left out, or forbidden by a container.
+  int ruleset() const { return ruleset_.get(); }
 
  private:
-  int ruleset_ = -1;
+  Descriptor ruleset_;
 };
 
 }  // namespace lobelia

@@ -132,7 +132,7 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   remove_abandoned_temporaries();
   cache_.keep_content(own_libraries());
   for (const auto& engine : work_.engines) cache_.keep_content(engine.files);
-  remove_abandoned_files(directory_);
+  remove_abandoned_parts(HeldDirectory(directory_));
   look_at_cells();
   FailedJobs(options.failed_directory)
       .forget_if([&](const std::string& cell, const std::string& job) {

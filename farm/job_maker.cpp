@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/process_memory.hpp"
+#include "core/host.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/replicates.hpp"

@@ -15,8 +15,7 @@
 #include "core/image_io.hpp"
 #include "core/no_resources.hpp"
 #include "core/numbers.hpp"
-#include "core/process_memory.hpp"
-#include "core/thread_count.hpp"
+#include "core/threads.hpp"
 #include "farm/job_maker.hpp"
 #include "reference_scenes/replicates.hpp"
 

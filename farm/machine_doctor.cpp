@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/process.hpp"
-#include "core/process_memory.hpp"
 
 namespace lobelia {
 namespace {

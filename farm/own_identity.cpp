@@ -5,11 +5,10 @@
 
 #include <cstdlib>
 
-#include "core/build_id.hpp"
 #include "core/error.hpp"
+#include "core/host.hpp"
 #include "core/image_io_module.hpp"
 #include "core/process.hpp"
-#include "core/reader_protocol.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 

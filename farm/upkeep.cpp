@@ -80,14 +80,13 @@ std::pair<std::int64_t, std::int64_t> changed(const fs::path& path) {
 Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_gallery) {
   std::vector<std::string> parts;
   for (const fs::path& part : relative) parts.push_back(part.string());
-  long long pid = 0;
   const std::string& name = parts.back();
-  if (parts.size() == 1 && (name == "farm.json" || is_part_name(name, pid))) return Owned::kFile;
+  if (parts.size() == 1 && (name == "farm.json" || is_part_name(name))) return Owned::kFile;
   if (parts[0] == FailedJobs::kName && parts.size() <= 3)
     return parts.size() < 3 ? Owned::kDirectory : Owned::kTree;
   if (parts[0] != "cells" || parts.size() > 3) return Owned::kNo;
   if (parts.size() < 3) return Owned::kDirectory;
-  return is_cell_file(name) || is_part_name(name, pid) || of_gallery.contains(relative.string())
+  return is_cell_file(name) || is_part_name(name) || of_gallery.contains(relative.string())
              ? Owned::kFile
              : Owned::kNo;
 }
@@ -350,15 +349,14 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
   const auto remove_parts = [&](const fs::path& where) {
     const HeldDirectory held = removal.directory(where);
     for (const std::string& name : held.names())
-      if (const AbandonedPart part(held, name); part) removal.remove(where / name);
+      if (const Descriptor lock = lock_abandoned_part(held, name)) removal.remove(where / name);
   };
   for (const std::string& id : cells.names()) {
     const fs::path cell = fs::path("cells") / id;
     remove_parts(cell);
     if (ids.contains(id)) continue;
-    long long pid = 0;
     for (const std::string& name : removal.directory(cell).names())
-      if (!is_part_name(name, pid)) removal.remove(cell / name);
+      if (!is_part_name(name)) removal.remove(cell / name);
     if (removal.remove(cell)) ++report.cells;
   }
   std::size_t directories = report.cells;

@@ -10,14 +10,13 @@
 
 namespace lobelia::fuzz {
 
-/// "=== NAME" on a line of its own begins a file; what comes before the first is dropped. A name that is longer than
-/// 40 bytes, hidden or a path begins none.
+/// A line "=== NAME" begins a file, unless the name is hidden, a path or over 40 bytes. Text before the first is dropped.
 std::map<std::string, std::string> files_of_bundle(std::string_view bundle);
 
-/// A directory for files, the same for each input: made once, emptied by whoever uses it.
+/// A directory for files, the same for each input. Each check empties its part.
 const std::filesystem::path& scratch();
 
-/// Without core's write_file, which waits for the disk.
+/// Unlike write_file() does not wait for the disk.
 void write_plainly(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace lobelia::fuzz

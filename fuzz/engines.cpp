@@ -1,4 +1,4 @@
-// In place of the engines, in the fuzzed programs alone: a grid names them, and no more of them is needed.
+// Replaces the engines in the fuzzed programs: a grid needs only their names.
 #include <array>
 
 #include "reference_scenes/engine.hpp"

@@ -1,4 +1,4 @@
-// The entry of libFuzzer, once for each check: `make fuzz`. tests/fuzz replays the corpora without it.
+// The entry point of libFuzzer, compiled once for each check (`make fuzz`). tests/fuzz replays the corpora without it.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,5 +1,4 @@
-// In place of core's functions that read files, in the fuzzed program alone: a scene from memory that
-// reaches one is a find.
+// Replaces core's functions that read files in the fuzzed program: a scene from memory must not call them.
 #include <cstdlib>
 
 #include "core/contained_reader.hpp"
@@ -7,7 +6,7 @@
 
 namespace lobelia {
 
-Picture read_contained(const std::filesystem::path&, const std::string&, const PictureLimit&) {
+Picture read_picture(const std::filesystem::path&, const std::string&, const PictureLimit&) {
   std::abort();
 }
 std::string read_file(const std::filesystem::path&, std::uint64_t) { std::abort(); }

@@ -1,14 +1,13 @@
-// In place of core's reading of pictures, which is a process of its own: none can be read.
-#include "core/contained_reader.hpp"
+// Replaces core's reading of pictures, which needs a process of its own: no picture can be read.
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 
 namespace lobelia {
 
-Picture read_contained(const std::filesystem::path& path, const std::string&, const PictureLimit&) {
+Picture read_picture(const std::filesystem::path& path, const std::string&, const PictureLimit&) {
   throw Error(ExitCode::kInput, path.string() + ": not a readable picture");
 }
 
-Image read_image(const std::filesystem::path& path) { return read_contained(path, "", {}).image; }
+Image read_image(const std::filesystem::path& path) { return read_picture(path, "", {}).image; }
 
 }  // namespace lobelia

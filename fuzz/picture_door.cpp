@@ -1,7 +1,4 @@
-#include <stdexcept>
 
-#include "core/error.hpp"
-#include "core/picture_bytes.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
 #include "fuzz/bundle.hpp"
@@ -21,7 +18,7 @@ void check_message(std::string_view bytes, Message (*unpack)(std::string_view)) 
     if (std::string_view(error.what()).empty()) throw std::logic_error("refused without a word");
     return;
   }
-  // Numbers in it may be larger than what they stand for: true is 1, but 2 as well.
+  // The bytes may differ from ours: a flag that is 2 means true, and is packed as 1.
   const std::string packed = pack(message);
   if (pack(unpack(packed)) != packed)
     throw std::logic_error("a message is accepted and packed to another one");
@@ -47,8 +44,7 @@ void check_picture_door(std::string_view bytes) {
       throw std::logic_error("a picture's file is read as another");
     if (file.known_format().empty()) throw std::logic_error("a format without a name");
   } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput)
-      throw std::logic_error(std::string("refused as no fault of the input: ") + error.what());
+    check_refusal(error);
   }
   check_message<ReadingRequest>(bytes, unpack_request);
   check_message<ReadingAnswer>(bytes, unpack_answer);

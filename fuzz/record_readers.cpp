@@ -1,7 +1,5 @@
 #include <array>
-#include <stdexcept>
 
-#include "core/error.hpp"
 #include "core/removal.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
@@ -18,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFarmCells = 3;
 
-/// The record with the hashes of the files that it names in `directory`, and its seal; as it is if it is none.
+/// The record with a valid seal, and the hashes of the files in `directory` that it names; unchanged if it is no record.
 std::string sealed(const std::string& text, const fs::path& directory, const char* key) {
   Json record = Json::parse(text, nullptr, false);
   if (!record.is_object()) return text;
@@ -52,8 +50,7 @@ void check_gallery(const std::map<std::string, std::string>& files, bool seal) {
   try {
     farm = gallery::read_farm(run);
   } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput)
-      throw std::logic_error(std::string("refused as no fault of the input: ") + error.what());
+    check_refusal(error);
     return;
   }
   if (farm.record.axes.empty()) throw std::logic_error("a farm without axes");

@@ -1,5 +1,5 @@
-// Whether two scenes are the same but for the names of their materials. The text that we write would
-// not tell: what the writer forgets, it forgets twice.
+// Compares two scenes except for the names of their materials. Comparing their written text would not find what the writer
+// leaves out.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace lobelia::fuzz {
 
-// Structured bindings name every field, so that a new one does not compile until it stands here too.
+// Structured bindings name every field, so that a struct with a new one does not compile until it is added here.
 
 inline auto fields(const Camera& c) {
   const auto& [origin, target, up, fov, aperture, focus, offset_x, offset_y] = c;

@@ -1,5 +1,5 @@
-// Prints the words of the scene format, from its tables, as a dictionary for libFuzzer: what has to stand
-// in a file letter by letter, and would not be found by changing bytes.
+// Prints the words of the scene format, from its tables, as a dictionary for libFuzzer, which would not find them by
+// changing bytes.
 #include <fmt/format.h>
 
 #include <set>

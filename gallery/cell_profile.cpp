@@ -4,7 +4,6 @@
 
 #include "core/numbers.hpp"
 #include "core/svg_chart.hpp"
-#include "core/ticks.hpp"
 #include "gallery/cell_page.hpp"
 
 namespace lobelia::gallery {

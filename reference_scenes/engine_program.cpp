@@ -232,7 +232,7 @@ Failure read_engine_picture(const EngineInfo& engine, const std::filesystem::pat
   try {
     // Allows a larger picture too, so that the message can tell its size.
     const std::uint64_t pixels = 4 * std::uint64_t(film.width) * std::uint64_t(film.height);
-    image = read_contained(file, "", {std::max(pixels, kSmallPicture), 0}).image;
+    image = read_picture(file, "", {std::max(pixels, kSmallPicture), 0}).image;
   } catch (const std::exception& error) {
     throw_if_interrupted();
     return {FailureClass::kBadOutput,

@@ -66,7 +66,7 @@ std::shared_ptr<const Image> EnvironmentMaps::read(const std::string& file) {
   const fs::path path = inside(file);
   auto& known = images_[path];
   if (known) return known;
-  auto image = std::make_shared<const Image>(read_contained(path, "", kSkyLimit).image);
+  auto image = std::make_shared<const Image>(read_picture(path, "", kSkyLimit).image);
   check_values(file, *image);
   pixels_ += std::int64_t(image->pixel_count());
   if (pixels_ > kMaxImagePixels)

@@ -24,7 +24,7 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/interrupt.hpp"
-#include "core/picture_bytes.hpp"
+#include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
 #include "core/reading_limits.hpp"
 #include "core/spawn.hpp"
@@ -199,7 +199,7 @@ TEST_F(ContainedReader, HoldsAPictureToTheLimitOfWhoeverAsksBeforeItIsUnpacked) 
   const fs::path path = file("a.png", png);
   const auto why = [&](const PictureLimit& limit) -> std::string {
     try {
-      read_contained(path, "", limit);
+      read_picture(path, "", limit);
     } catch (const Error& error) {
       return error.what();
     }

@@ -1,5 +1,5 @@
 // Displays by OpenColorIO: a configuration of which every value can be computed by hand.
-#include "core/display_view.hpp"
+#include "core/colour.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 

@@ -17,6 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/removal.hpp"
 
 namespace lobelia {
 namespace {
@@ -177,7 +178,7 @@ TEST(AbandonedFiles, GoIfTheirProcessIsGoneAndStayIfItLives) {
   const auto alive = directory.path() / fmt::format(".a.exr.{}-0.part", ::getpid());
   const auto foreign = directory.path() / ".notes.part";
   for (const auto& path : {dead, alive, foreign}) write_file(path, "x");
-  remove_abandoned_files(directory.path());
+  remove_abandoned_parts(HeldDirectory(directory.path()));
   EXPECT_FALSE(fs::exists(dead));
   EXPECT_TRUE(fs::exists(alive));
   EXPECT_TRUE(fs::exists(foreign));

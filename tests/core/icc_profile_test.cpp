@@ -1,5 +1,5 @@
 // Profiles made byte by byte (ICC.1:2022), and one in a JPEG.
-#include "core/icc_profile.hpp"
+#include "core/picture_colour.hpp"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ std::string profile(const std::string& curve, const std::string& red = kSrgbRed)
 }
 
 bool is_srgb(const std::string& bytes) {
-  return is_srgb_profile({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  return is_srgb_profile(bytes);
 }
 
 TEST(IccProfile, OfSrgbIsKnownByItsColoursAndCurves) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/ticks.hpp"
+#include "core/svg_chart.hpp"
 
 namespace lobelia {
 namespace {

@@ -1,5 +1,5 @@
 // Primaries of files against OpenEXR's own matrices.
-#include "core/primaries.hpp"
+#include "core/picture_colour.hpp"
 #include "core/constants.hpp"
 
 #include <ImathMatrix.h>

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/build_id.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/host.hpp"
 
 namespace lobelia {
 namespace {

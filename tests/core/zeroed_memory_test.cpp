@@ -1,12 +1,10 @@
-#include "core/zeroed_memory.hpp"
+#include "core/image.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
-
-#include "core/image.hpp"
 
 namespace lobelia {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/files.hpp"
-#include "core/process_memory.hpp"
+#include "core/host.hpp"
 #include "gallery/byte_range.hpp"
 #include "lobelia_paths.hpp"
 

@@ -1,8 +1,7 @@
-#include "core/zeroed_memory.hpp"
+#include "core/image.hpp"
 
 #include <sys/mman.h>
 
-#include <cstdint>
 #include <cstdlib>
 
 namespace lobelia {
@@ -10,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
-/// From here on in pages of our own; below, large ones would be mostly empty.
+/// Smaller pieces come from calloc(): large pages would be mostly empty.
 constexpr std::size_t kLarge = 2 * kLargePage;
 
 std::size_t in_large_pages(std::size_t bytes) {
@@ -26,7 +25,7 @@ void* allocate_zeroed(std::size_t bytes) {
     if (!memory) throw std::bad_alloc();
     return memory;
   }
-  // A page more, of which what lies before and behind the first whole large page is given back.
+  // One page more than needed: the parts before and behind the aligned large pages are given back.
   const std::size_t size = in_large_pages(bytes), reserved = size + kLargePage;
   void* memory =
       ::mmap(nullptr, reserved, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -1,6 +1,5 @@
-#include "core/thread_count.hpp"
+#include "core/threads.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <latch>
@@ -10,9 +9,9 @@
 namespace lobelia {
 namespace {
 
-/// oneTBB's workers, OpenEXR's, and threads of our own: each may be as many as the processors.
+/// oneTBB's, OpenEXR's and our own: each may have a thread for each processor.
 constexpr int kPools = 3;
-/// For what starts beside them: the watcher of interrupts, the process that decodes pictures, an engine.
+/// Threads and processes beside them: the watcher of interrupts, the process that decodes pictures, an engine.
 constexpr int kSpare = 4;
 
 }  // namespace
@@ -26,11 +25,11 @@ int startable_threads(int wanted) noexcept {
     try {
       for (; started < wanted; ++started)
         threads.emplace_back([&end] {
-          std::free(
-              std::malloc(1));  // the C library reserves memory for a thread at its first piece
+          // The C library reserves memory for a thread at its first allocation.
+          std::free(std::malloc(1));
           end.wait();
         });
-    } catch (const std::exception&) {  // that is what we wanted to know
+    } catch (const std::exception&) {  // the limit is reached
     }
     end.count_down();
   } catch (const std::exception&) {

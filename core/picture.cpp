@@ -1,4 +1,4 @@
-#include "core/picture_window.hpp"
+#include "core/picture.hpp"
 
 #include <fmt/format.h>
 
