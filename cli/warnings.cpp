@@ -6,7 +6,7 @@
 
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
-#include "renderer/scene/remarks.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace lobelia::cli {
 
