@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/text.hpp"
-#include "renderer/scene/remarks.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace lobelia::cli {
 namespace {

@@ -6,7 +6,6 @@
 #include "records/record.hpp"
 #include "renderer/albedo.hpp"
 #include "renderer/catalogue_record.hpp"
-#include "renderer/highlight_tables.hpp"
 #include "renderer/scene/scene_format.hpp"
 
 namespace lobelia::cli {

@@ -11,7 +11,6 @@
 #include "core/timing.hpp"
 #include "records/record.hpp"
 #include "renderer/render.hpp"
-#include "renderer/render_error.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
 

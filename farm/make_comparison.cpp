@@ -6,7 +6,7 @@
 #include "records/record.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
-#include "renderer/render_error.hpp"
+#include "renderer/render.hpp"
 
 namespace lobelia {
 namespace {

@@ -9,7 +9,7 @@
 #include "farm/make_result.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/replicates.hpp"
-#include "renderer/render_error.hpp"
+#include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
 #include "renderer/scene/scene_io.hpp"
 

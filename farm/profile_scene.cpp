@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "renderer/highlight_map.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/reflector.hpp"

@@ -2,32 +2,26 @@
 
 #include <embree3/rtcore.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "core/constants.hpp"
 #include "core/error.hpp"
 #include "renderer/chord.hpp"
 
 namespace lobelia {
 namespace {
 
-/// Embree's boxes and rays are float32, ours are made of doubles. Both are given from the middle of all
-/// spheres, where no coordinate is beyond twice the extent, and boxes are wider by so much of it: some
-/// sixteen roundings.
+/// Embree's boxes and rays are float32. They are relative to the middle of all spheres, so that no coordinate is
+/// beyond twice the extent, and boxes are wider by this share of it: some sixteen roundings.
 constexpr double kMargin = 0x1p-20;
 
 float below(double x) { return std::nextafter(float(x), -std::numeric_limits<float>::infinity()); }
 float above(double x) { return std::nextafter(float(x), std::numeric_limits<float>::infinity()); }
 
-/// A ray's search. Embree hands it to the callbacks.
+/// The search of one ray, which Embree passes to the callbacks.
 struct Search : RTCIntersectContext {
   Vec3 origin, direction;
-  double start;  ///< of the ray that Embree traces, along ours
+  double start;  ///< along our ray, where Embree's ray starts
   int leaves;
   std::span<const int> touched;
-  double distance;  ///< nearest so far, or how far to look
+  double distance;  ///< of the nearest so far, or the limit
   int found;
 };
 
@@ -71,7 +65,7 @@ struct Accelerator::State {
     search.distance = t;
     search.found = index;
     auto* ray = reinterpret_cast<RTCRayHit*>(a->rayhit);
-    // Spheres that are farther by less than the margin are still tried.
+    // Still tries spheres that are farther by less than the margin.
     ray->ray.tfar = above(t - search.start + kMargin * state.extent);
     ray->hit.geomID = a->geomID;
     ray->hit.primID = a->primID;
@@ -91,7 +85,7 @@ struct Accelerator::State {
     reinterpret_cast<RTCRay*>(a->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 
-  /// The part of the ray near the spheres, in Embree's numbers; false where it passes all by.
+  /// Sets `ray` to the part near the spheres, in Embree's numbers; false if the ray passes them all.
   bool begin(Search& search, RTCRay& ray) const {
     rtcInitIntersectContext(&search);
     const Vec3 from = search.origin - middle;

@@ -1,6 +1,5 @@
-// Which of very many spheres a ray meets: Embree's bounding volume hierarchy over them, and our own test of
-// ray and sphere in double (renderer/chord.hpp), so that the answer is that of a loop of it over all, bit for
-// bit.
+// Finds the sphere that a ray meets among very many. Embree's bounding volume hierarchy narrows the search, and our
+// test in double (renderer/chord.hpp) decides, so the answer is bit for bit that of a loop over all spheres.
 #pragma once
 
 #include <memory>
@@ -12,7 +11,7 @@ namespace lobelia {
 
 class Accelerator {
  public:
-  /// Refers to the spheres, and builds with the threads of the caller's arena.
+  /// The spheres must outlive it. Builds with the threads of the caller's arena.
   explicit Accelerator(std::span<const Sphere> spheres);
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
@@ -22,11 +21,11 @@ class Accelerator {
     int sphere = -1;  ///< -1: none
     double distance = 0;
   };
-  /// The nearest sphere in front of `origin` but for `leaves` (-1: none); of two at the same distance
-  /// the one with the lower index. `direction` is of unit length.
+  /// The nearest sphere in front of `origin` except `leaves` (-1: none); of two at the same distance the one with the
+  /// lower index. `direction` has unit length.
   Hit nearest(Vec3 origin, Vec3 direction, int leaves) const;
-  /// Whether one but for `leaves` and those that the light lies on stands between the point and what is
-  /// at `distance`.
+  /// Whether a sphere stands between the point and a light at `distance`, except `leaves` and those in `touched`,
+  /// which the light lies on.
   bool blocked(Vec3 point, Vec3 to_light, double distance, int leaves,
                std::span<const int> touched = {}) const;
 

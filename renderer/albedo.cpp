@@ -15,17 +15,17 @@
 namespace lobelia {
 namespace {
 
-constexpr double kNarrowestPiece = 1e-12;  ///< radians: no piece is narrower
-constexpr double kSame = 1e-9;             ///< a peak is one only if it stands out by more
+constexpr double kNarrowestPiece = 1e-12;  ///< radians
+constexpr double kSame = 1e-9;             ///< smaller differences are rounding
 
-/// The integral of coefficient * lobe * (a factor of N.L) over all directions of the one vector while
-/// the other stays. Lobes treat the two alike, so it serves for light and for eye.
+/// The integral of coefficient * lobe * (a factor of N.L) over all directions of one vector while the other stays.
+/// Lobes treat light and eye alike, so either may move.
 ///
-/// Over the lobe's own angle t and its azimuth p, with c and e the cosine and the sine of the incidence:
-/// the Phong models' moving vector is turned by x = t out of the mirror direction, the Blinn models' by
-/// x = 2 t, because H is turned by t. Either way
+/// The integral runs over the lobe's angle t and its azimuth p. With c and e the cosine and the sine of the
+/// incidence, the Phong models turn the moving vector by x = t out of the mirror direction, and the Blinn models by
+/// x = 2 t, because they turn H by t. Then
 ///   N.L = c cos x + e sin x cos p,
-/// whose sign says analytically at which azimuths the surface cuts the lobe off, and
+/// with the azimuths of the horizon where it is 0, and
 ///   dL = sin t dt dp,   for a half vector times 4 (V.H) = 4 (c cos t + e sin t cos p).
 class HemisphereIntegral {
  public:
@@ -64,11 +64,11 @@ class HemisphereIntegral {
     return 2 * boost::math::quadrature::gauss<double, 15>::integrate(integrand, 0.0, end);
   }
 
-  /// Where the lobe and the horizon bend, with steps by a factor of four in between.
+  /// The places where the lobe or the horizon bends, with steps by a factor of four in between.
   std::vector<double> pieces_of(double incidence) const {
     const double scale = half_vector_ ? 0.5 : 1, cut_begins = scale * (kPi / 2 - incidence);
     std::array<double, 3> bends{cut_begins, scale * (kPi / 2 + incidence), end_};
-    std::sort(bends.begin(), bends.end());
+    std::ranges::sort(bends);
     std::vector<double> pieces{0};
     for (const double bend : bends) {
       const double end = std::min(bend, end_);
@@ -80,7 +80,7 @@ class HemisphereIntegral {
     return pieces;
   }
 
-  /// The azimuths cut off begin like the root of the distance from a bend; u^2 (3 - 2 u) undoes it.
+  /// The cut-off azimuths begin like the root of the distance from a bend; u^2 (3 - 2 u) makes that smooth.
   static double over_piece(auto&& integrand, double begin, double end) {
     const auto smooth = [&](double u) {
       return integrand(begin + (end - begin) * u * u * (3 - 2 * u)) * 6 * u * (1 - u);
@@ -95,7 +95,7 @@ class HemisphereIntegral {
   double width_, end_;
 };
 
-/// The incidences that are looked at, in radians; 89.99 degrees is the last.
+/// The incidences to measure at, in radians.
 std::vector<double> incidences() {
   std::vector<double> result;
   for (int degree = 0; degree < 90; ++degree) result.push_back(degree * kPi / 180);
@@ -104,7 +104,7 @@ std::vector<double> incidences() {
   return result;
 }
 
-/// The largest value of a function of the incidence, to 20 bits of the incidence: a maximum is flat.
+/// The largest value of a function of the incidence. 20 bits of the incidence are enough, because a maximum is flat.
 AlbedoPeak peak(auto&& albedo) {
   const std::vector<double> at = incidences();
   AlbedoPeak largest{albedo(0.0), 0, std::nullopt};

@@ -12,7 +12,7 @@ namespace {
 constexpr auto kFilterNames =
     map_types<std::string_view>(Filters{}, []<class F>() { return F::kName; });
 
-/// Steps of the cumulative distribution: the filter is taken as linear within one, off by 1e-7 of it.
+/// Steps of the cumulative distribution, which is linear within one: a relative error of 1e-7.
 constexpr int kSteps = 4096;
 
 }  // namespace
@@ -55,7 +55,7 @@ FilterSampler::FilterSampler(Filter filter) : box_(filter.index == 0), radius_(f
 
 FilterSampler::Place FilterSampler::place(std::uint32_t k) const {
   if (negative_every_ == 0) return {false, k};
-  // The second sample is negative, so that two are of both parts.
+  // The second sample is negative, so that two samples cover both parts.
   const bool negative = k % negative_every_ == 1;
   const std::uint32_t before = k / negative_every_ + (k % negative_every_ > 1);
   return {negative, negative ? before : k - before};
@@ -63,7 +63,7 @@ FilterSampler::Place FilterSampler::place(std::uint32_t k) const {
 
 FilterSampler::Offset FilterSampler::operator()(bool negative, double u, double v) const {
   if (box_) return {radius_ * (2 * u - 1), radius_ * (2 * v - 1)};
-  // Negative is a product of one factor below 0, along either axis; positive one of none or two.
+  // The product of the two axes is negative with one factor below 0, positive with none or two.
   const double share = negative ? 0.5 : above_share_;
   const bool first = u < share;
   const Axis& x = first ? above_ : below_;

@@ -1,4 +1,4 @@
-// Reconstruction filters: how much a sample counts by its distance from the pixel's centre.
+// Reconstruction filters: the weight of a sample by its distance from the pixel's centre.
 #pragma once
 
 #include <cstddef>
@@ -19,21 +19,20 @@ struct Filter {
 
 std::span<const std::string_view> filter_names();
 std::string_view name(Filter filter);
-/// How many pixels away samples may tell of what a pixel shows: the filter reaches into pixels whose centres are
-/// less than half a pixel beyond its radius, and one more is for safety.
+/// The distance in pixels up to which samples may affect a pixel: the radius and half a pixel, rounded up.
 int reach_of(Filter filter);
-/// With the radius that its source gives it.
+/// The filter with the default radius of its source.
 std::optional<Filter> find_filter(std::string_view name);
 
-/// Draws offsets from a pixel's centre with a density proportional to |filter|, of the filter's positive and of its
-/// negative part apart (after Ernst, Stamminger, Greiner 2006: filter importance sampling). Which part sample k
-/// is of is fixed, so that a picture divides by numbers that nothing random decides
+/// Draws offsets from a pixel's centre with a density proportional to |filter|, separately for the filter's
+/// positive and negative parts (after Ernst, Stamminger, Greiner 2006: filter importance sampling). The part of
+/// sample k is fixed, so that the numbers of samples in the parts are not random
 /// (docs/decisions/0018-filters-have-two-parts.md).
 class FilterSampler {
  public:
   explicit FilterSampler(Filter filter);
 
-  /// Sample k of a pixel: the part it is of, and how many of that part come before it.
+  /// The part of sample k, and its index among the samples of that part.
   struct Place {
     bool negative;
     std::uint32_t index;
@@ -43,15 +42,15 @@ class FilterSampler {
   struct Offset {
     double x, y;  ///< pixels, each at most the radius
   };
-  /// In one part; u and v in [0, 1).
+  /// An offset in one part; u and v in [0, 1).
   Offset operator()(bool negative, double u, double v) const;
 
-  /// The weight of the negative part's mean; that of the positive part counts 1 more. 0 where the filter
-  /// is nowhere negative.
+  /// The weight of the negative part's mean; the positive part's is larger by 1. 0 for a filter without negative
+  /// values.
   double negative_weight() const { return negative_weight_; }
 
  private:
-  /// The inverse of a distribution along one axis: from [0, 1) to [-radius, radius].
+  /// The inverse of a distribution along one axis, from [0, 1) to [-radius, radius].
   struct Axis {
     std::vector<double> cumulative;  ///< over equal steps, 0 to 1
     double operator()(double u, double radius) const;
@@ -59,10 +58,10 @@ class FilterSampler {
 
   bool box_;
   double radius_;
-  Axis above_, below_;      ///< of where the filter along an axis is positive, and negative
-  double above_share_ = 1;  ///< of the positive part: not negative along both axes
+  Axis above_, below_;      ///< of the filter's positive and negative values along an axis
+  double above_share_ = 1;  ///< share of the positive part that is positive along both axes
   double negative_weight_ = 0;
-  std::uint32_t negative_every_ = 0;  ///< samples; 0: never
+  std::uint32_t negative_every_ = 0;  ///< every how many samples one is negative; 0: never
 };
 
 }  // namespace lobelia

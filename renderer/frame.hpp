@@ -1,4 +1,4 @@
-// Two directions at right angles to a third.
+// An orthonormal frame around a direction.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ inline Tangents tangents(Vec3 axis) {
           {b, sign + axis.y * axis.y * a, -axis.y}};
 }
 
-/// A vector at an angle of s = 1 - cos from the unit vector `axis`, turned by `v` of a full turn.
+/// A unit vector at the angle with 1 - cos = s from the unit vector `axis`, turned about it by `v` of a full turn.
 inline Vec3 about(Vec3 axis, double s, double v) {
   const Tangents t = tangents(axis);
   const double sine = std::sqrt(s * (2 - s)), turn = 2 * std::numbers::pi * v;

@@ -1,7 +1,5 @@
 #include "renderer/fresnel.hpp"
 
-#include <algorithm>
-
 #include "core/text.hpp"
 
 namespace lobelia {

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include "renderer/chord.hpp"
 #include "renderer/kernels/kernels.hpp"
 
@@ -26,7 +21,7 @@ FusedSphere prepare(const Scene& scene, const Plan& plan, std::size_t index) {
   result.radius = sphere.radius;
   result.highlight = material.highlight;
   if (!scene.lights.empty()) result.precision = plan.precision[0][index];
-  // A term that adds 0 to every pixel changes none.
+  // A black base adds 0 to every pixel.
   result.diffuse = !is_black(material.diffuse_reflectance);
   result.fresnel = material.fresnel == Fresnel::kSchlick;
   const double coefficient = radiance_coefficient(material.highlight);
@@ -56,7 +51,7 @@ bool FusedRenderer::can_render(const Scene& scene, const Plan& plan) {
       if (!occluders.empty()) return false;
   for (const auto& touched : plan.contacts)
     if (!touched.empty()) return false;
-  // A sphere's kernel is of one precision.
+  // The kernel of a sphere has one precision for all lights.
   for (const auto& by_sphere : plan.precision)
     if (by_sphere != plan.precision[0]) return false;
   return true;
@@ -75,7 +70,7 @@ FusedRenderer::FusedRenderer(const Scene& scene, const Plan& plan)
     const Vec3 to_center = sphere.center - frame_.origin;
     Outline outline{dot(to_center, frame_.forward), dot(to_center, frame_.right),
                     dot(to_center, frame_.up), 0, false};
-    // A hair wider than the sphere; rounding is far below it but for an eye close to the surface.
+    // Slightly wider than the sphere, by far more than rounding unless the eye is close to the surface.
     const double reach = dot(to_center, to_center), radius = sphere.radius * (1 + 1e-6);
     outline.tangent_squared = reach - radius * radius;
     outline.whole_rows = !(outline.tangent_squared > 1e-6 * reach);
@@ -88,16 +83,16 @@ FusedRenderer::FusedRenderer(const Scene& scene, const Plan& plan)
   }
 }
 
-/// The ray of (u, v) meets the sphere where (c.d)^2 > |d|^2 K, d = forward + u right + v up, c the way to
-/// the centre and K the square of the tangent from the eye: between the two roots of a quadratic in u.
+/// The ray of (u, v), d = forward + u right + v up, meets the sphere if (c.d)^2 > |d|^2 K, with c the vector to the
+/// centre and K the squared tangent from the eye: between the two roots of a quadratic in u.
 PixelSpan FusedRenderer::span(const Outline& outline, double v) const {
   const PixelSpan whole{0, width_};
   if (outline.whole_rows) return whole;
   const double a = outline.ahead + v * outline.above, b = outline.aside;
   const double k = outline.tangent_squared, rest = k - b * b, stretch = 1 + v * v;
-  // The outline is no ellipse: it reaches to the side of the eye or behind it.
+  // The outline is not an ellipse: it reaches beside the eye or behind it.
   if (!(rest > 1e-6 * k)) return whole;
-  // A quarter of the discriminant over K; more than a tiny and distant sphere's rounding is added.
+  // A quarter of the discriminant over K, plus more than the rounding of a tiny and distant sphere.
   const double room = a * a - stretch * rest + 1e-12 * (a * a + stretch * k);
   if (room < 0 || a < 0) return {0, 0};
   const double middle = a * b / rest, half = std::sqrt(k * room) / rest;
@@ -126,7 +121,6 @@ void FusedRenderer::render_row(int y, float* rgb) const {
                 std::min(width_, down_to_block(exact.end + kFusedBlock - 1))};
     order[count++] = int(i);
   }
-  // Few, and nearly in order from row to row.
   std::sort(order.begin(), order.begin() + count,
             [&](int i, int j) { return spans[i].begin < spans[j].begin; });
   int done = 0;
@@ -141,11 +135,11 @@ void FusedRenderer::render_row(int y, float* rgb) const {
   std::fill(rgb + 3 * done, rgb + 3 * width_, 0.0f);
 }
 
-/// Spheres whose pixels may overlap; one alone overwrites.
+/// Renders spheres with overlapping pixels; a single sphere overwrites.
 void FusedRenderer::render_group(const FusedRow& row, const int* spheres, int count,
                                  const PixelSpan* spans, PixelSpan all) const {
   if (count > 1) std::fill(row.rgb + 3 * all.begin, row.rgb + 3 * all.end, 0.0f);
-  // Each sphere's kernel works out the ray again; it is one all the same.
+  // Counts a ray once, though each sphere's kernel computes it again.
   rays_.fetch_add(std::uint64_t(all.end - all.begin), std::memory_order_relaxed);
   std::array<FusedRival, kMostSpheres> rivals;
   for (int i = 0; i < count; ++i) {
@@ -181,8 +175,8 @@ std::string FusedRenderer::kernel_text() {
 
 std::unique_ptr<const FusedKernel> make_fused_kernel(const FusedSphere& sphere) {
   if (sphere.diffuse)
-    return sphere.fresnel ? make_fused_diffuse_fresnel(sphere) : make_fused_diffuse(sphere);
-  return sphere.fresnel ? make_fused_fresnel(sphere) : make_fused_plain(sphere);
+    return sphere.fresnel ? make_fused<true, true>(sphere) : make_fused<true, false>(sphere);
+  return sphere.fresnel ? make_fused<false, true>(sphere) : make_fused<false, false>(sphere);
 }
 
 }  // namespace lobelia

@@ -1,6 +1,6 @@
-// Pictures of a few spheres without shadows, one ray a pixel: each row is cut into the pixels that a
-// sphere can cover, found from its outline, and one kernel does all that such a pixel needs
-// (renderer/kernels/fused.hpp). Bit for bit the picture that the kernels one by one make.
+// Renders pictures of a few spheres without shadows, with one ray a pixel. In each row it finds the pixels that a
+// sphere can cover from the sphere's outline, and renders them by one kernel (renderer/kernels/fused.hpp). The
+// picture is the same bit for bit as that of the separate kernels.
 #pragma once
 
 #include <atomic>
@@ -23,25 +23,25 @@ struct PixelSpan {
 
 class FusedRenderer {
  public:
-  /// Whether the scene is of this kind and the plan asks for no more.
+  /// Whether the scene is that simple, and the plan asks for no more.
   static bool can_render(const Scene& scene, const Plan& plan);
 
-  /// The scene must be of that kind.
+  /// For a scene that it can render.
   FusedRenderer(const Scene& scene, const Plan& plan);
 
-  /// The rows y0..y1 - 1, 3 * width floats each, all of them written. From any thread.
+  /// Writes the rows y0..y1 - 1, 3 * width floats each. From any thread.
   void render_rows(int y0, int y1, float* rgb) const;
 
-  /// The work so far. Pixels that no sphere can cover take none.
+  /// The work so far; none for pixels that no sphere can cover.
   Work work() const;
-  /// In words, for the plan.
+  /// A description for the plan.
   static std::string kernel_text();
 
  private:
   struct Outline {
-    double ahead, aside, above;  ///< the way to the centre in the camera's frame
-    double tangent_squared;      ///< of the length of a tangent from the eye; the least it may be
-    bool whole_rows;             ///< nothing is known: the eye is in the sphere or close to it
+    double ahead, aside, above;  ///< from the eye to the centre, in the camera's frame
+    double tangent_squared;      ///< lower bound of a tangent from the eye, squared
+    bool whole_rows;             ///< the eye is too close to the sphere for an outline
   };
   struct Body {
     Outline outline;

@@ -25,17 +25,15 @@ constexpr auto kModelNames =
 constexpr std::string_view kNormalisationNames[] = {"exact", "paper"};
 constexpr std::string_view kNormalisedNames[] = {"radiance", "normals", "projected normals"};
 
-/// How one model uses its lobe, for code that meets models by id.
+/// The numbers of one model, for code that has its id.
 struct ModelUse {
-  double (*foreshortening)(double n_dot_l);
   double (*paper_cosine)(double n);
   double (*paper_cs16)(double n);
   EnergyIntegral energy;
   double share;
 };
 constexpr auto kModelUses = map_types<ModelUse>(Models{}, []<class M>() {
-  return ModelUse{[](double n_dot_l) { return M::foreshortening(n_dot_l); }, M::paper_cosine,
-                  M::paper_cs16, M::kEnergy, M::kShare};
+  return ModelUse{M::paper_cosine, M::paper_cs16, M::kEnergy, M::kShare};
 });
 
 /// The functions of one lobe, for code that has its id.
@@ -61,7 +59,7 @@ constexpr auto kLobeUses = map_types<LobeUse>(Lobes{}, []<class L>() {
                  [](LobeParameters p) { return L(p).float32_error(); }};
 });
 
-/// The entry of a family as one of its members has it: k is a number.
+/// The texts of one member of a family, with the number k.
 struct MemberText {
   std::string name, title, formula, moments;
   MemberText(const LobeInfo& family, int order)
@@ -121,7 +119,7 @@ class LobeTable {
 
   std::vector<std::vector<LobeInfo>> infos_;
   std::vector<bool> families_;
-  std::deque<MemberText> texts_;  // whose addresses stay
+  std::deque<MemberText> texts_;  // addresses stay valid
 };
 
 const LobeTable& lobe_table() {
@@ -135,7 +133,7 @@ constexpr auto kModelIds = [] {
   return ids;
 }();
 
-/// A formula of a shader as people write it: "(2.0 * %pi%)" is "(2 pi)".
+/// A formula of a shader in the usual notation: "(2.0 * %pi%)" becomes "(2 pi)".
 std::string for_people(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kWords[] = {
       {"exp2(-0.5 * n)", "2^(-n/2)"},
@@ -260,7 +258,7 @@ Float32Error lobe_float32_error(LobeId lobe, double exponent) {
 }
 
 double foreshortening(ModelId model, double n_dot_l) {
-  return kModelUses.at(model.index).foreshortening(n_dot_l);
+  return info(model).applies_cosine ? n_dot_l : 1;
 }
 
 double highlight_radiance(const Highlight& highlight, double n_dot_l, double s) {

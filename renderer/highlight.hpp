@@ -1,5 +1,5 @@
-// A highlight by name: which model, which lobe, how normalised, how sharp. The catalogues of
-// renderer/lobes and renderer/models as every other room sees them.
+// A highlight: a model, a lobe, a normalisation and an exponent. The other rooms see the catalogues of
+// renderer/lobes and renderer/models through this file.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,7 @@ struct ModelId {
   std::uint8_t index = 0;
   friend constexpr bool operator==(ModelId, ModelId) = default;
 };
-/// Position in the catalogue of lobes (renderer/lobes/catalogue.hpp) and, for a family of lobes, which
-/// member: the k of cs_k.
+/// Position in the catalogue of lobes (renderer/lobes/catalogue.hpp) and, in a family, the order k of cs_k.
 struct LobeId {
   std::uint8_t index = 0;
   std::uint16_t order = 0;  ///< even, 2 to kMaxOrder, for a family; 0 for a single lobe
@@ -25,26 +24,26 @@ struct LobeId {
 };
 inline constexpr int kMaxOrder = 1024;
 
-/// Where the coefficient in front of the lobe comes from.
+/// The source of the coefficient in front of the lobe.
 enum class Normalisation : std::uint8_t {
   kExact,  ///< from the integral itself: energy 1 at normal incidence
   kPaper,  ///< as the paper prints it for that model and lobe
 };
 
-/// The exponents for which the paper gives its coefficients. Others are allowed, and warned of.
+/// The exponents for which the paper gives its coefficients. Others are allowed, with a warning.
 inline constexpr double kPaperMinExponent = 16, kPaperMaxExponent = 1024;
 
-/// Which angle the lobe sees; s = 1 - cos of it.
+/// The angle that the lobe sees; s is 1 - its cosine.
 enum class LobeAngle : std::uint8_t {
   kReflection,  ///< between L and R, the mirror direction of V (Phong family)
   kHalfVector,  ///< between the normal and the half vector (Blinn family)
 };
 
-/// The integral that the exact coefficient makes 1. Models differ in it (docs/conventions.md).
+/// The integral that the exact coefficient makes 1, by model (docs/conventions.md).
 enum class NormalisedQuantity : std::uint8_t {
-  kRadiance,          ///< what is reflected at normal incidence, over all directions
+  kRadiance,          ///< the energy reflected at normal incidence, over all directions
   kNormals,           ///< the integral of a distribution D of normals over their hemisphere
-  kProjectedNormals,  ///< the integral of D (N.H): the area that they cover, as a heightfield's do
+  kProjectedNormals,  ///< the integral of D (N.H): the projected area of a heightfield
 };
 
 struct LobeInfo {
@@ -61,13 +60,13 @@ struct ModelInfo {
   LobeAngle angle;
   bool applies_cosine;  ///< radiance carries N.L; false for an RDF, which is 0 where N.L <= 0
   NormalisedQuantity normalised;
-  std::string_view integral;  ///< that the exact coefficient makes equal to 1
+  std::string_view integral;  ///< the exact coefficient makes it 1
   std::string_view source;
 };
 
 /// Coefficients as formulas of n, "(n + 1) / (2 pi)".
 struct CoefficientFormulas {
-  std::string exact_cosine;  ///< what the integral gives for the cosine lobe
+  std::string exact_cosine;  ///< from the integral, for the cosine lobe
   std::string paper_cosine;  ///< as the paper prints it
   std::string paper_cs16;    ///< as the paper prints it
 };
@@ -82,21 +81,19 @@ struct Highlight {
 inline constexpr double kMinExponent = 1e-3;
 inline constexpr double kMaxExponent = 1e8;
 
-/// The catalogues, in their order. Of a family of lobes the usual members are listed; find_lobe knows
-/// all of them.
+/// The catalogues, in their order. Only the usual members of a family are listed; find_lobe() knows all.
 std::span<const ModelId> all_models();
 std::span<const ModelInfo> models();
 std::span<const LobeId> all_lobes();
 std::span<const std::string_view> model_names();
 std::span<const std::string_view> lobe_names();
 std::span<const std::string_view> normalisation_names();  ///< "exact", "paper"
-/// "cosine, cs2, ..., csK with any even K from 2 to 1024, ...": what find_lobe takes, for messages.
+/// The names that find_lobe() takes, for messages: "cosine, cs2, ...; csK for any even K from 2 to 1024".
 std::string allowed_lobes();
 
 const ModelInfo& info(ModelId id);
 CoefficientFormulas formulas(ModelId id);
-/// The exact coefficient of any lobe by its moments M_j, the integrals of lobe s^j:
-/// "1/(2 pi (M0 - M1)), s = 0 to 1".
+/// The exact coefficient from the moments M_j, the integrals of lobe s^j: "1/(2 pi (M0 - M1)), s = 0 to 1".
 std::string exact_formula(ModelId id);
 const LobeInfo& info(LobeId id);
 std::string_view name(Normalisation normalisation);
@@ -106,11 +103,11 @@ std::optional<ModelId> find_model(std::string_view name);
 std::optional<LobeId> find_lobe(std::string_view name);
 std::optional<Normalisation> find_normalisation(std::string_view name);
 
-/// The number that multiplies lobe (and N.L, where the model applies it) to give radiance per unit
-/// irradiance. For the microfacet models it is a quarter of the coefficient of D: f_r = D F / 4.
+/// The factor of the lobe (and N.L, where the model applies it) in radiance per unit irradiance. For the microfacet
+/// models it is a quarter of the coefficient of D: f_r = D F / 4.
 double radiance_coefficient(const Highlight& highlight);
 
-/// Whether the paper prints a coefficient for the lobe at all: it does for cosine and cs16.
+/// Whether the paper prints a coefficient for the lobe: only for cosine and cs16.
 bool has_paper_coefficient(LobeId lobe);
 
 /// A warning about a highlight that is allowed but odd, or "".
@@ -119,20 +116,19 @@ std::string warning(const Highlight& highlight);
 /// The lobe at s = 1 - cos(angle), s in [0, 2], in double precision: in [0, 1], value 1 at s = 0.
 double lobe_value(LobeId lobe, double s, double exponent);
 
-/// A lobe at one exponent with its constants worked out once, for code that asks it many times.
+/// A lobe at one exponent with its constants computed once, for repeated use.
 struct PreparedLobe {
   std::function<double(double s)> value;  ///< lobe_value
-  /// A random s of the lobe from a number uniform in [0, 1), and the density of such s over [0, 1].
-  /// Follows the lobe itself, by the closed form, for cosine, cs_k and spherical Gaussian; nearly so for
-  /// the rest.
+  /// A random s from a uniform number in [0, 1), and its density over [0, 1]. Follows the lobe exactly for cosine,
+  /// cs_k and spherical Gaussian, nearly for the others.
   std::function<double(double xi)> sample;
   std::function<double(double s)> density;
 };
 PreparedLobe prepare(LobeId lobe, double exponent);
 
-/// Bound of what float32 arithmetic adds to a lobe at a given float32 s: relative to the peak, and in
-/// units in the last place of the result, which grow by `ulp_per_nat` for each factor e that the result
-/// is below the peak. `lobelia verify stability` holds every lobe to it.
+/// Bound of the error of float32 arithmetic in a lobe at a given float32 s: relative to the peak, and in units in
+/// the last place of the result, which grow by `ulp_per_nat` for each factor e below the peak. `lobelia verify
+/// stability` checks every lobe against it.
 struct Float32Error {
   double of_peak, ulp, ulp_per_nat = 0;
 };

@@ -1,14 +1,14 @@
 #include "renderer/lobe_properties.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/constants.hpp"
 
 namespace lobelia {
+
 double lobe_angle_at(const PreparedLobe& lobe, double value) {
   double above = 0, below = kRightAngle;
-  // Each step halves the interval; 80 leave an exponent of 1e8 its digits too.
+  // Each step halves the interval; 80 steps are exact even for an exponent of 1e8.
   for (int step = 0; step < 80; ++step) {
     const double middle = (above + below) / 2;
     (lobe.value(versine(middle)) > value ? above : below) = middle;
@@ -19,7 +19,7 @@ double lobe_angle_at(const PreparedLobe& lobe, double value) {
 LobeProperties measure(LobeId id, double exponent) {
   const PreparedLobe lobe = prepare(id, exponent), cosine = prepare(*find_lobe("cosine"), exponent);
   LobeProperties properties{lobe_angle_at(lobe, 0.5), lobe_angle_at(lobe, 0), 0, 0};
-  // Across the peak, on the scale on which a lobe of that exponent bends, and across the rest.
+  // Across the peak, on the scale of a lobe with that exponent, and across the rest.
   const auto compare_at = [&](double angle) {
     const double s = versine(angle), difference = lobe.value(s) - cosine.value(s);
     properties.above_cosine = std::max(properties.above_cosine, difference);

@@ -1,4 +1,4 @@
-// The shape of a lobe at one exponent, measured on the lobe itself.
+// Measures the shape of a lobe at one exponent.
 #pragma once
 
 #include <cmath>
@@ -13,13 +13,13 @@ inline double versine(double angle) {
   return 2 * half_sine * half_sine;
 }
 
-/// The smallest angle, radians, at which the lobe is at most `value`; pi/2 if there is none before.
+/// The smallest angle, radians, at which the lobe is at most `value`; pi/2 if there is none below.
 double lobe_angle_at(const PreparedLobe& lobe, double value);
 
 struct LobeProperties {
-  double half_width;  ///< angle at which it has fallen to half, radians; pi/2 if it nowhere does
-  double support;     ///< angle beyond which it is 0, radians; pi/2 at most
-  double above_cosine, below_cosine;  ///< most by which it is above and below cos^n, of the peak
+  double half_width;                  ///< angle at which it falls to half, radians; pi/2 at most
+  double support;                     ///< angle beyond which it is 0, radians; pi/2 at most
+  double above_cosine, below_cosine;  ///< largest differences from cos^n, relative to the peak
 };
 
 LobeProperties measure(LobeId lobe, double exponent);

@@ -9,7 +9,7 @@ namespace {
 
 thread_local OperationCount g_count;
 
-/// A number that counts what is done to it.
+/// A number that counts its operations.
 struct Counted {
   using Scalar = double;
   double x = 0;
@@ -49,14 +49,14 @@ struct CountedVec3 {
   friend Counted dot(CountedVec3 a, CountedVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
 
-/// The same for textbook formulas, in which n and k are numbers too: what is made of those alone is free.
+/// The same for textbook formulas, where operations on the constants n and k alone are free.
 struct CountedTextbook {
   double x = 0;
   bool varies = false;
   explicit CountedTextbook(double constant) : x(constant) {}
   CountedTextbook(double value, bool is_varying) : x(value), varies(is_varying) {}
 
-  /// One operation, if any of it has to be done for each point.
+  /// Counts one operation if it is done for each point.
   static CountedTextbook did(int OperationCount::*what, double value, bool varying) {
     if (varying) ++(g_count.*what);
     return {value, varying};
@@ -83,24 +83,24 @@ OperationCount counted(F f) {
   return g_count;
 }
 
+/// Counts f(lobe), with n > k, so that a family's lobe ends before the horizon.
+template <class F>
+OperationCount counted_lobe(LobeId lobe, F) {
+  using Count = OperationCount (*)(LobeParameters);
+  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::Lobes{}, []<class L>() -> Count {
+    return [](LobeParameters p) { return counted([&] { F()(L(p)); }); };
+  });
+  return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe.order});
+}
+
 }  // namespace
 
 OperationCount operations(LobeId lobe) {
-  using Count = OperationCount (*)(LobeParameters);
-  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::Lobes{}, []<class L>() -> Count {
-    return [](LobeParameters p) { return counted([&] { L(p).value(Counted(1e-3)); }); };
-  });
-  return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe.order});  // n > k: of finite support
+  return counted_lobe(lobe, [](const auto& l) { l.value(Counted(1e-3)); });
 }
 
 OperationCount textbook_operations(LobeId lobe) {
-  using Count = OperationCount (*)(LobeParameters);
-  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::Lobes{}, []<class L>() -> Count {
-    return [](LobeParameters p) {
-      return counted([&] { L(p).definition(CountedTextbook(0.999, true)); });
-    };
-  });
-  return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe.order});
+  return counted_lobe(lobe, [](const auto& l) { l.definition(CountedTextbook(0.999, true)); });
 }
 
 OperationCount operations(ModelId model) {
@@ -110,10 +110,10 @@ OperationCount operations(ModelId model) {
       return counted([] {
         const CountedVec3 up{0, 0, 1};
         const Counted s = HWY_NAMESPACE::one_minus_cos<M::kInfo.angle, Counted>(up, up, up);
-        // An RDF needs N.L for its sign only, the others also as a factor.
+        // An RDF needs only the sign of N.L.
         const Counted n_dot_l = dot(up, up);
         Counted value = s;
-        if constexpr (M::kInfo.applies_cosine) value = value * M::foreshortening(n_dot_l);
+        if constexpr (M::kInfo.applies_cosine) value = value * n_dot_l;
         where_less(Counted(0), n_dot_l, value);
       });
     };

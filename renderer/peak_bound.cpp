@@ -1,10 +1,5 @@
 #include "renderer/peak_bound.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "renderer/scene/contact.hpp"
 
 namespace lobelia {
@@ -25,7 +20,7 @@ double nearest_surface(const Lamp& lamp, const Scene& scene) {
 }
 
 double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
-  double reflected = 0, mirrored = 0;  // of unit irradiance, and of unit radiance, by any surface
+  double reflected = 0, mirrored = 0;  // at most, of unit irradiance and of unit radiance
   const auto add = [&](int index) {
     const Material& m = scene.materials.at(std::size_t(index));
     const bool schlick = m.fresnel != Fresnel::kNone;
@@ -49,7 +44,7 @@ double peak_bound(const Scene& scene, const std::vector<Light>& lights) {
       irradiance += max_component(strength(light));
     }
   }
-  double sum = 1, power = 1;  // over the mirrors that show one another
+  double sum = 1, power = 1;  // over mirrors that show each other
   for (int i = 0; i < scene.depth.mirror; ++i) sum += power *= mirrored;
   return reflected * irradiance * sum;
 }

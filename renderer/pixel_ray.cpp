@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
-
 #include "core/error.hpp"
 #include "renderer/chord.hpp"
 #include "renderer/scene/contact.hpp"
 
 namespace lobelia {
+namespace {
+
+/// The angle between unit vectors, without the cancellation of acos near 0.
+double angle_between(Vec3 a, Vec3 b) { return 2 * std::atan2(length(a - b), length(a + b)); }
+
+}  // namespace
 
 std::string beyond_single_rays(const Scene& scene) {
   std::string found = beyond_delta_lights(scene);
@@ -32,7 +35,7 @@ Vec3 centre_ray(const CameraFrame& frame, int x, int y) {
 
 std::optional<Hit> nearest_hit(const Scene& scene, Vec3 origin, Vec3 direction) {
   std::optional<Hit> nearest;
-  double nearest_t = std::numeric_limits<double>::infinity();
+  double nearest_t = kInfinity;
   for (int k = 0; k < int(scene.spheres.size()); ++k) {
     const Sphere& sphere = scene.spheres[k];
     const Chord chord = chord_of(sphere, origin, direction);
@@ -53,7 +56,7 @@ void for_each_pixel_of(const Scene& scene, int sphere,
   for (int y = 0; y < scene.film.height; ++y)
     for (int x = 0; x < scene.film.width; ++x) {
       const Vec3 direction = normalize(centre_ray(frame, x, y));
-      // Most pixels miss the one sphere, and need not be tried on all.
+      // Most pixels miss this sphere and need no test of the others.
       if (!(chord_of(wanted, frame.origin, direction).half_squared > 0)) continue;
       const auto hit = nearest_hit(scene, frame.origin, direction);
       if (hit && hit->sphere == sphere)
@@ -67,13 +70,46 @@ std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& h
   if (!(dot(hit.normal, here.to_light) > 0)) return std::nullopt;
   for (int k = 0; k < int(scene.spheres.size()); ++k)
     if (k != hit.sphere && is_inside(scene.spheres[std::size_t(k)], hit.point)) return std::nullopt;
-  // Above the horizon the sphere itself is behind the ray and never met.
+  // Above the horizon the ray never meets the sphere itself.
   const auto before = nearest_hit(scene, hit.point, here.to_light);
   if (!before || !(length(before->point - hit.point) < here.distance)) return here;
   const Sphere& sphere = scene.spheres[std::size_t(before->sphere)];
   if (!lies_on(lamp, sphere, closeness(scene)) || horizon_of(lamp, sphere)->is_below(hit.point))
     return std::nullopt;
   return here;
+}
+
+HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
+  require_single_rays(scene, "the angles of a highlight");
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  const int width = scene.film.width, height = scene.film.height;
+  const std::size_t pixels = std::size_t(width) * height;
+  const std::vector nowhere(pixels, kNaN);
+  HighlightMap map{width, height, nowhere, nowhere, nowhere, std::vector(pixels, 0.0)};
+  const Material& material = scene.materials.at(scene.spheres.at(sphere).material);
+  const LobeAngle lobe_angle = info(material.highlight.model).angle;
+  const double pixel_area = 4 * frame.half_width * frame.half_height / double(pixels);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double distance = length(centre_ray(frame, x, y));
+      map.solid_angle[std::size_t(y) * width + x] = pixel_area / (distance * distance * distance);
+    }
+
+  for_each_pixel_of(scene, sphere, [&](std::size_t i, const Hit& hit, Vec3 to_eye) {
+    const auto here = light_at(scene, light, hit);
+    if (!here) return;
+    const Vec3 to_light = here->to_light;
+    map.n_dot_l[i] = dot(hit.normal, to_light);
+    const Rgb reflected =
+        here->irradiance *
+        fresnel_factor(material.fresnel, material.specular_reflectance, to_eye, to_light);
+    map.scale[i] = foreshortening(material.highlight.model, map.n_dot_l[i]) *
+                   (reflected.r + reflected.g + reflected.b) / 3;
+    map.angle[i] = lobe_angle == LobeAngle::kReflection
+                       ? angle_between(2 * dot(hit.normal, to_eye) * hit.normal - to_eye, to_light)
+                       : angle_between(hit.normal, normalize(to_light + to_eye));
+  });
+  return map;
 }
 
 }  // namespace lobelia

@@ -1,11 +1,7 @@
-// One ray at a time, apart from the kernels on purpose: what judges a picture is not the code that
-// made it.
+// One ray at a time, without the kernels: a picture is not judged by the code that made it.
 #pragma once
 
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
 
 #include "renderer/scene/scene.hpp"
 
@@ -16,12 +12,12 @@ struct Hit {
   Vec3 point, normal;
 };
 
-/// Every sphere is looked at for every ray: with more of them it would take hours.
+/// Each ray is tested against each sphere: more spheres would take hours.
 inline constexpr std::size_t kMaxSpheresByRay = 1024;
 
-/// The parts of a scene that single rays through the pixels' centres cannot show, in words; empty if there are none.
+/// The parts of a scene that single rays through the pixels' centres cannot show, in words; empty if none.
 std::string beyond_single_rays(const Scene& scene);
-/// Throws Error(kInput) where there is such a thing; `what`, "edges", is what was asked for.
+/// Throws Error(kInput) if there are such parts; `what` was asked for: "edges".
 void require_single_rays(const Scene& scene, std::string_view what);
 
 /// From the camera through the centre of pixel (x, y), to the film at distance 1; not normalised.
@@ -35,8 +31,23 @@ void for_each_pixel_of(
     const Scene& scene, int sphere,
     const std::function<void(std::size_t i, const Hit& hit, Vec3 to_eye)>& visit);
 
-/// The light from a directional or point light at a point of a sphere. Nothing if it is below the horizon or hidden by
-/// another sphere. (A sphere hides a lamp that lies on it below the lamp's horizon.)
+/// The light from a directional or point light at a point of a sphere. Nothing if it is below the horizon or hidden
+/// by another sphere. (A sphere hides a lamp that lies on it below the lamp's horizon.)
 std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& hit);
+
+/// The geometry of the highlight of one light on one sphere, at the pixels' centres in reading order. NaN where a
+/// pixel does not see the sphere, or the light does not reach it: it is below the horizon (N.L <= 0) or another
+/// sphere hides it.
+struct HighlightMap {
+  int width = 0, height = 0;
+  std::vector<double> angle;    ///< the lobe's angle, radians
+  std::vector<double> n_dot_l;  ///< cosine at the light's side
+  /// Radiance over coefficient * lobe, as the mean of R, G and B: irradiance, reflectance with its Fresnel factor,
+  /// and foreshortening.
+  std::vector<double> scale;
+  std::vector<double> solid_angle;  ///< of the pixel as seen from the camera, steradian; never NaN
+};
+/// Throws as require_single_rays().
+HighlightMap highlight_map(const Scene& scene, int light, int sphere);
 
 }  // namespace lobelia

@@ -14,14 +14,13 @@ namespace {
 constexpr std::string_view kNames[] = {"float32", "mixed", "float64"};
 constexpr double kUnit32 = 0x1p-24, kUnit64 = 0x1p-53;  ///< largest relative error of one rounding
 
-/// The rounding error of the difference of the two unit vectors whose angle the lobe sees, in units of one rounding.
-/// docs/numerics.md counts it.
+/// The error of the difference of the lobe's two unit vectors, in roundings. docs/numerics.md counts them.
 double roundings(LobeAngle angle, double min_half_length) {
   return angle == LobeAngle::kReflection ? 20 : 5 + 4 / min_half_length;
 }
 
-/// The most that the lobe changes where the difference of the vectors, its chord, changes by
-/// `absolute + relative * chord`.
+/// The largest change of the lobe if the length of that difference, its chord, changes by `absolute + relative *
+/// chord`.
 double modulus(const Highlight& highlight, double absolute, double relative) {
   const auto value = [&](double chord) {
     return lobe_value(highlight.lobe, chord * chord / 2, highlight.exponent);
@@ -30,8 +29,8 @@ double modulus(const Highlight& highlight, double absolute, double relative) {
     const double step = absolute + relative * chord;
     return value(std::max(0.0, chord - step)) - value(chord + step);
   };
-  // A lobe bends over a chord of 1/sqrt(n); 64 points of that scale find the steepest place to a few
-  // per cent. The right angle, where every lobe ends, is one more.
+  // On the lobe's scale, a chord of 1/sqrt(n), 64 points find the steepest place to a few per cent. The right angle,
+  // where every lobe ends, is one more point.
   constexpr int kPoints = 64;
   const double end = std::min(std::numbers::sqrt2, 6 / std::sqrt(highlight.exponent));
   double most = change(std::numbers::sqrt2);
@@ -51,7 +50,7 @@ double shading_error_bound(Precision precision, const Highlight& highlight,
                            double min_half_length) {
   const double roundings_here = roundings(info(highlight.model).angle, min_half_length);
   const double in_float64 = modulus(highlight, roundings_here * kUnit64, 0);
-  // The lobe's own arithmetic; the product with N.L is float64.
+  // The lobe's arithmetic, and the product with N.L in float64.
   const double in_lobe =
       lobe_float32_error(highlight.lobe, highlight.exponent).of_peak + 2 * kUnit64;
   switch (precision) {

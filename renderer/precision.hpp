@@ -1,7 +1,5 @@
-// How many digits a highlight is shaded with.
-//
-// Rays always meet spheres in double precision, so that a hit is a hit whatever follows. What follows
-// may be narrower where a bound on its error allows it.
+// The precision of shading a highlight. Rays always meet spheres in double precision, so that it does not change
+// hits. Shading may be narrower where a bound on its error allows it.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +12,9 @@
 namespace lobelia {
 
 enum class Precision : std::uint8_t {
-  kFloat32,  ///< unit vectors are rounded to float32, and all that follows is float32
+  kFloat32,  ///< unit vectors are rounded to float32, the rest is float32
   kMixed,    ///< s = 1 - cos is computed in float64 and rounded; the lobe is float32
-  kFloat64,  ///< all of it
+  kFloat64,  ///< everything is float64
 };
 
 /// "float32", "mixed", "float64"
@@ -28,12 +26,11 @@ std::optional<Precision> find_precision(std::string_view name);
 /// float's step at the peak, and a third of the error of Cycles' float32.
 inline constexpr double kAllowedShadingError = 1e-5;
 
-/// Upper bound of |shaded - true| / peak, for unit vectors whose sum L + V is at least
-/// `min_half_length` long (it only matters to half-vector models; 0 where nothing is known). The
-/// derivation is in docs/numerics.md.
+/// Upper bound of |shaded - true| / peak, for unit vectors with |L + V| of at least `min_half_length` (0 where
+/// nothing is known), which matters only to half-vector models. docs/numerics.md derives it.
 double shading_error_bound(Precision precision, const Highlight& highlight, double min_half_length);
 
-/// The narrowest precision whose bound is within kAllowedShadingError.
+/// The narrowest precision with a bound within kAllowedShadingError.
 Precision sufficient_precision(const Highlight& highlight, double min_half_length);
 
 }  // namespace lobelia

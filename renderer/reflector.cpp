@@ -1,9 +1,5 @@
 #include "renderer/reflector.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "renderer/frame.hpp"
 
 namespace lobelia {
@@ -38,7 +34,7 @@ double Reflector::one_minus_cos(const Directions& d) const {
   return dot(difference, difference) / 2;
 }
 
-/// How many of the draws follow the highlight: as much as it is of the reflectance at this angle.
+/// The share of draws that follow the highlight: its share of the reflectance at this angle.
 double Reflector::specular_share(double n_dot_v) const {
   if (!has_highlight_) return 0;
   const double base = std::max(0.0, 1 - n_dot_v), weight = base * base * base * base * base;
@@ -104,7 +100,7 @@ std::optional<ReflectorSample> Reflector::sample_above(Vec3 normal, Vec3 to_eye,
       to_light = 2 * dot(half, to_eye) * half - to_eye;
     }
   } else {
-    // Malley's method: a point of the disc, lifted. N.L = sqrt(1 - u).
+    // Malley's method: lifts a point of the disc. N.L = sqrt(1 - u).
     to_light = about(normal, u / (1 + std::sqrt(1 - u)), v);
   }
   to_light = 1 / std::sqrt(dot(to_light, to_light)) * to_light;
@@ -112,7 +108,7 @@ std::optional<ReflectorSample> Reflector::sample_above(Vec3 normal, Vec3 to_eye,
   if (!(dot(normal, to_light) > 0)) return std::nullopt;
   const double s = has_highlight_ ? one_minus_cos(d) : 0;
   const ReflectorSample drawn{to_light, eval(d, s), pdf(d, s)};
-  // A pdf may underflow to 0 far from the lobe, where no draw is expected.
+  // A pdf may underflow to 0 far from the lobe.
   if (!(drawn.pdf > 0)) return std::nullopt;
   return drawn;
 }

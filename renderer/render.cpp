@@ -6,10 +6,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_group.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 
 #include "core/interrupt.hpp"
 #include "core/threads.hpp"
@@ -26,7 +24,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Rows that are rendered together where a sink takes them: some 4 million pixels.
+/// Rows that are rendered together for a sink: some 4 million pixels.
 int band_rows(const Film& film) {
   const int rows = std::max(1, (4 << 20) / film.width);
   return std::max(kTileSide, rows / kTileSide * kTileSide);
@@ -34,7 +32,7 @@ int band_rows(const Film& film) {
 
 class Render {
  public:
-  Render(const Scene& scene, const RenderOptions& options, const RowSink* sink)
+  Render(const Scene& scene, const RenderOptions& options, const RowSink& sink)
       : scene_(scene), options_(options), sink_(sink) {}
 
   RenderResult run() {
@@ -48,8 +46,7 @@ class Render {
         fused();
         return;
       }
-      const WaveRenderer renderer(scene_, result_.plan);
-      tiles_ = std::make_unique<TileRenderer>(scene_, result_.plan, renderer);
+      tiles_ = std::make_unique<TileRenderer>(scene_, result_.plan);
       if (options_.target_error || options_.time_limit)
         in_rounds();
       else
@@ -83,16 +80,16 @@ class Render {
     });
   }
 
-  /// f(y0, y1, rgb) makes rows y0..y1 - 1 of the picture: all of them, or if a sink takes them, bands of
-  /// them one after the other, each while the one before is taken.
+  /// f(y0, y1, rgb) renders rows y0..y1 - 1. Without a sink it is called once for all rows; with one it is called for
+  /// band after band, each while the sink takes the one before.
   template <class F>
   void in_bands(const F& f) {
-    const int rows = sink_ ? std::min(band_rows(scene_.film), height()) : height();
     if (!sink_) {
       result_.image = Image(width(), height());
       f(0, height(), result_.image.values().data());
       return;
     }
+    const int rows = std::min(band_rows(scene_.film), height());
     std::vector<float> buffers[2];
     oneapi::tbb::task_group writing;
     for (int y0 = 0, band = 0; y0 < height() && !interrupted(); y0 += rows, ++band) {
@@ -102,12 +99,12 @@ class Render {
       f(y0, y1, buffer.data());
       if (interrupted()) break;
       writing.wait();
-      writing.run([this, y0, y1, &buffer] { (*sink_)(y0, y1 - y0, buffer.data()); });
+      writing.run([this, y0, y1, &buffer] { sink_(y0, y1 - y0, buffer.data()); });
     }
     writing.wait();
   }
 
-  /// One ray a pixel, everything in one kernel.
+  /// One ray a pixel, by one kernel.
   void fused() {
     const FusedRenderer renderer(scene_, result_.plan);
     std::atomic<int> done{0};
@@ -147,7 +144,7 @@ class Render {
     if (tiles_->is_random() && samples > tiles_->least_samples()) result_.error = sum.error();
   }
 
-  /// All pixels with some samples, then with as many again, until it is enough.
+  /// Takes a few samples of all pixels, then as many again, until that is enough.
   void in_rounds() {
     const int most =
         options_.target_error ? options_.max_samples.value_or(kMostSamples) : all_samples();
@@ -176,7 +173,7 @@ class Render {
         result_.stop_reason = "after one sample a pixel: nothing in the scene is random";
         break;
       }
-      // One sample against one says little; from 8 on the halves' difference is an error.
+      // Below 8 samples the difference of the halves says little about the error.
       if (options_.target_error && done >= 8 && *result_.error <= *options_.target_error) {
         result_.stop_reason =
             fmt::format("after {} samples a pixel: an error of {:.3g}, {:g} asked", done,
@@ -191,13 +188,13 @@ class Render {
     Image image(width(), height());
     frame.resolve(image);
     if (sink_)
-      (*sink_)(0, height(), image.values().data());
+      sink_(0, height(), image.values().data());
     else
       result_.image = std::move(image);
   }
 
-  /// As many again; fewer where the error, which falls about as the power 0.7 of the samples, will be
-  /// reached before.
+  /// Doubles the samples, or less if the target will be reached before: the error falls about as the power 0.7 of the
+  /// samples.
   int more_than(int done) const {
     if (done == 0) return tiles_->least_samples();
     double growth = 2;
@@ -220,12 +217,12 @@ class Render {
     if (options_.on_progress) options_.on_progress(fraction);
   }
 
-  /// Sample indices are 32 bits, and the error by then is below float32's own.
+  /// Sample indices have 32 bits, and so many samples leave less error than float32.
   static constexpr int kMostSamples = 1 << 20;
 
   const Scene& scene_;
   const RenderOptions& options_;
-  const RowSink* sink_;
+  const RowSink& sink_;
   Clock::time_point started_;
   std::unique_ptr<TileRenderer> tiles_;
   oneapi::tbb::enumerable_thread_specific<std::unique_ptr<Workspace>> workspaces_{
@@ -235,12 +232,38 @@ class Render {
 
 }  // namespace
 
-RenderResult render(const Scene& scene, const RenderOptions& options) {
-  return Render(scene, options, nullptr).run();
+RenderResult render(const Scene& scene, const RenderOptions& options, const RowSink& sink) {
+  return Render(scene, options, sink).run();
 }
 
-RenderResult render(const Scene& scene, const RenderOptions& options, const RowSink& sink) {
-  return Render(scene, options, &sink).run();
+Image standard_error_of_render(const Scene& scene, RenderOptions options) {
+  const auto on_progress = options.on_progress;
+  Image first;
+  std::vector<double> sums, squares;
+  for (int k = 0; k < kErrorRenders; ++k) {
+    if (on_progress)
+      options.on_progress = [&](double fraction) { on_progress((k + fraction) / kErrorRenders); };
+    Scene again = scene;
+    again.sampler.seed += std::uint64_t(k) + 1;
+    Image image = render(again, options).image;
+    sums.resize(image.values().size());
+    squares.resize(image.values().size());
+    if (k == 0)
+      first = std::move(image);
+    else
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        // Relative to the first render: no digits are lost where the values are nearly the same.
+        const double apart = double(image.values()[i]) - double(first.values()[i]);
+        sums[i] += apart;
+        squares[i] += apart * apart;
+      }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double variance =
+        std::max(0.0, squares[i] - sums[i] * sums[i] / kErrorRenders) / kErrorFreedom;
+    first.values()[i] = float(std::sqrt(variance));
+  }
+  return first;
 }
 
 }  // namespace lobelia

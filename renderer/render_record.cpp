@@ -1,16 +1,15 @@
 #include "renderer/render_record.hpp"
 
 #include "core/version.hpp"
-#include "renderer/scene/remarks.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
 namespace {
 
-/// Beyond it a scene is left out of its picture: readers of EXR headers expect small ones.
+/// A larger scene is not written into its picture: readers of EXR expect small headers.
 constexpr std::size_t kMaxSceneAttribute = 64 << 10;
 
-/// With what each took, where a picture was made.
+/// With the work of each effect, if a picture was rendered.
 std::vector<records::Effect> effects_record(const Plan& plan, const Work* work) {
   std::vector<records::Effect> effects;
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
@@ -30,7 +29,7 @@ ImageMetadata render_metadata(const Scene& scene) {
   ImageMetadata metadata{{"Software", kNameAndVersion},
                          {"lobelia:samples", std::to_string(scene.sampler.sample_count)},
                          {"lobelia:seed", std::to_string(scene.sampler.seed)}};
-  // A sphere takes over 64 bytes: a crowd's text is not even made.
+  // A sphere takes over 64 bytes, so the text of many spheres is not even written.
   if (scene.spheres.size() > kMaxSceneAttribute / 64) return metadata;
   if (std::string xml = scene_to_xml(scene); xml.size() <= kMaxSceneAttribute)
     metadata.emplace_back("lobelia:scene", std::move(xml));

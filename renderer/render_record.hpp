@@ -1,4 +1,4 @@
-// The attributes in a rendered picture, and the record beside it.
+// The attributes of a rendered picture, and the record beside it.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +11,16 @@
 
 namespace lobelia {
 
-/// Attributes of the EXR: what made it, samples, seed, and the scene itself, so that a picture can be
-/// rendered again from nothing else. No times and no paths: the same render is the same file.
+/// Attributes of the EXR: program, samples, seed, and the scene, so that the picture alone is enough to render it
+/// again. No times and no paths: the same render gives the same file.
 ImageMetadata render_metadata(const Scene& scene);
 
-/// `command` is what to type to make it again.
+/// `command` renders the picture again.
 records::Render render_record(const Scene& scene, const RenderResult& result,
                               const std::vector<std::string>& command,
                               const std::string& image_file);
 
-/// The effects with their reasons, and the rays expected.
+/// The effects with their reasons, and bounds of the rays.
 records::Plan plan_record(const Plan& plan);
 
 records::Highlight highlight_record(const Highlight& highlight);

@@ -1,17 +1,16 @@
 // The samples of a pixel: Sobol's sequence, Owen-scrambled by hashing.
 //
 // Each pair of dimensions is Sobol's first two, with its own order and scrambling (Burley 2020, "Practical
-// hash-based Owen scrambling"; the hash is Laine and Karras' with Vegdahl's constants). So any power of
-// two of a pixel's samples is a (0, m, 2)-net in every pair, pairs are independent of each other and
-// pixels of their neighbours, and sample k of pixel p is a function of (seed, p, k): no state, the same
-// whatever the number of threads and whichever samples were drawn before.
+// hash-based Owen scrambling"; the hash is Laine and Karras' with Vegdahl's constants). So any power of two of a
+// pixel's samples is a (0, m, 2)-net in every pair, and pairs and pixels are independent. Sample k of pixel p is a
+// function of (seed, p, k), without state: it does not depend on threads or on other samples.
 #pragma once
 
 #include <cstdint>
 
 namespace lobelia::sobol {
 
-/// Avalanches (Wellons 2018, "lowbias32").
+/// Every bit of the result depends on every bit of x (Wellons 2018, "lowbias32").
 constexpr std::uint32_t hash(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352du;
@@ -28,7 +27,7 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
   return (x >> 16) | (x << 16);
 }
 
-/// Owen's scrambling of a number whose bits are reversed: a bit flips by a hash of those below it.
+/// Owen's scrambling of a bit-reversed number: a hash of the lower bits flips each bit.
 constexpr std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -38,8 +37,8 @@ constexpr std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   return x;
 }
 
-/// Sobol's second dimension of the index, with its bits reversed: its matrix is Pascal's triangle modulo
-/// 2, which is a product of five steps.
+/// Sobol's second dimension of the index, bit-reversed. Its matrix is Pascal's triangle modulo 2, a product of five
+/// steps.
 constexpr std::uint32_t second_reversed(std::uint32_t i) {
   i ^= (i & 0xaaaaaaaau) >> 1;
   i ^= (i & 0xccccccccu) >> 2;
@@ -56,7 +55,7 @@ struct Pair {
 constexpr Pair pair(std::uint32_t pixel, std::uint32_t index, std::uint32_t dimension) {
   const std::uint32_t seed = hash(pixel ^ hash(dimension + 0x9e3779b9u));
   const std::uint32_t order = reverse_bits(scramble_reversed(reverse_bits(index), seed));
-  // The first dimension is the index with its bits reversed, so its reversal is the index itself.
+  // The first dimension is the bit-reversed index, so its reversal is the index itself.
   const std::uint32_t x = scramble_reversed(order, hash(seed + 1));
   const std::uint32_t y = scramble_reversed(second_reversed(order), hash(seed + 2));
   return {reverse_bits(x) * 0x1p-32, reverse_bits(y) * 0x1p-32};

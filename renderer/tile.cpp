@@ -1,11 +1,6 @@
 #include "renderer/tile.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "renderer/peak_bound.hpp"
-#include "renderer/plan/sharpness.hpp"
 
 namespace lobelia {
 namespace {
@@ -24,11 +19,11 @@ PixelSum::Part difference(const PixelSum::Part& a, const PixelSum::Part& b) {
   return {difference(a.radiance, b.radiance), a.count - b.count};
 }
 
-/// The surfaces that the first samples of some pixels met.
+/// The brightness and the surface that the first samples of some pixels met.
 struct Seen {
   static constexpr int kNothingYet = -2, kSeveral = -3;
   double least = 1e300, most = -1e300;
-  int surface = kNothingYet;  ///< or a sample's, or kSeveral
+  int surface = kNothingYet;
   void add(const Seen& other) {
     least = std::min(least, other.least);
     most = std::max(most, other.most);
@@ -39,7 +34,7 @@ struct Seen {
   }
 };
 
-/// For each pixel of a field, what was met in the square of `reach` pixels around it.
+/// For each pixel of a field, all that was seen in the square of `reach` pixels around it.
 std::vector<Seen> look_around(const std::vector<Seen>& field, int width, int height, int reach) {
   const auto along = [&](const std::vector<Seen>& from, int stride, int size) {
     std::vector<Seen> to(from.size());
@@ -51,6 +46,13 @@ std::vector<Seen> look_around(const std::vector<Seen>& field, int width, int hei
     return to;
   };
   return along(along(field, 1, width), width, height);
+}
+
+std::vector<PixelSample> pixels_of(const Tile& tile) {
+  std::vector<PixelSample> pixels;
+  for (int y = tile.y; y < tile.y + tile.height; ++y)
+    for (int x = tile.x; x < tile.x + tile.width; ++x) pixels.push_back({x, y, 0});
+  return pixels;
 }
 
 }  // namespace
@@ -89,8 +91,8 @@ double Frame::error(int done, int next) const {
   Spread spread;
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     const Rgb mean = sums_[i].mean(negative_weight_);
-    // With `more` samples added to `done`, mean - kept has more / done times the variance of the mean;
-    // half of `apart` has that of the mean.
+    // With `more` samples added to `done`, mean - kept has more / done times the variance of the mean. `apart` is
+    // scaled so that half of it has that variance.
     const double more = next - done;
     const Rgb apart = 2 * std::sqrt(done / more) * difference(mean, kept_[i]);
     spread += {squared(apart), squared(mean)};
@@ -104,17 +106,18 @@ void Frame::resolve(Image& image) const {
       write(sums_[index(x, y)].mean(negative_weight_), image.pixel(x, y).data());
 }
 
-TileRenderer::TileRenderer(const Scene& scene, const Plan& plan, const WaveRenderer& renderer)
-    : scene_(scene),
-      plan_(plan),
-      renderer_(renderer),
-      random_(std::any_of(scene.lights.begin(), scene.lights.end(),
-                          [](const Light& l) { return !is_delta(l); }) ||
-              plan.depth.glossy > 0 || scene.camera.aperture_radius > 0),
-      negative_weight_(renderer.filter().negative_weight()),
-      too_little_(effects::Antialiasing::kBlack * peak_bound(scene, scene.lights)) {}
+TileRenderer::TileRenderer(const Scene& scene, const Plan& plan)
+    : prepared_(scene, plan),
+      random_(prepared_.any_sized || plan.depth.glossy > 0 || scene.camera.aperture_radius > 0),
+      negative_weight_(prepared_.filter.negative_weight()),
+      invisible_(effects::Antialiasing::kBlack * peak_bound(scene, scene.lights)) {}
 
-/// Samples first..last - 1 of all pixels, a chunk at a time; take_result(pixel, sample, result).
+float* TileRenderer::pixel(int x, int y, float* rgb, int first_row) const {
+  return rgb + 3 * (std::size_t(y - first_row) * std::size_t(prepared_.scene.film.width) +
+                    std::size_t(x));
+}
+
+/// Calls take_result(pixel, sample, result) for samples first..last - 1 of all pixels, rendered a chunk at a time.
 template <class Take>
 void TileRenderer::take(std::span<const PixelSample> pixels, int first, int last,
                         Workspace& workspace, const Take& take_result) const {
@@ -124,11 +127,11 @@ void TileRenderer::take(std::span<const PixelSample> pixels, int first, int last
   for (std::size_t begin = 0; begin < all; begin += kChunk) {
     const std::size_t count = std::min(kChunk, all - begin);
     for (std::size_t i = 0; i < count; ++i) {
-      // A pixel's samples side by side: most of them meet the same surface.
+      // Keeps a pixel's samples together: most of them meet the same surface.
       samples[i] = pixels[(begin + i) / each];
       samples[i].index = std::uint32_t(std::size_t(first) + (begin + i) % each);
     }
-    renderer_.render({samples.data(), count}, {results.data(), count}, workspace);
+    waves::render(prepared_, {samples.data(), count}, {results.data(), count}, workspace);
     for (std::size_t i = 0; i < count; ++i)
       take_result((begin + i) / each, int(samples[i].index), results[i]);
   }
@@ -136,7 +139,7 @@ void TileRenderer::take(std::span<const PixelSample> pixels, int first, int last
 
 Spread TileRenderer::render(const Tile& tile, int samples, float* rgb, int first_row,
                             Workspace& workspace) const {
-  if (plan_.first_samples >= samples)
+  if (prepared_.plan.first_samples >= samples)
     return render_everywhere(tile, samples, rgb, first_row, workspace);
   render_where_needed(tile, samples, rgb, first_row, workspace);
   return {};
@@ -144,9 +147,7 @@ Spread TileRenderer::render(const Tile& tile, int samples, float* rgb, int first
 
 Spread TileRenderer::render_everywhere(const Tile& tile, int samples, float* rgb, int first_row,
                                        Workspace& workspace) const {
-  std::vector<PixelSample> pixels;
-  for (int y = 0; y < tile.height; ++y)
-    for (int x = 0; x < tile.width; ++x) pixels.push_back({tile.x + x, tile.y + y, 0});
+  const std::vector<PixelSample> pixels = pixels_of(tile);
   std::vector<PixelSum> sums(pixels.size()), halves(pixels.size());
   take(pixels, 0, samples, workspace,
        [&](std::size_t pixel, int sample, const SampleResult& result) {
@@ -156,8 +157,7 @@ Spread TileRenderer::render_everywhere(const Tile& tile, int samples, float* rgb
   Spread spread;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const Rgb mean = sums[i].mean(negative_weight_);
-    write(mean, rgb + 3 * (std::size_t(pixels[i].y - first_row) * std::size_t(scene_.film.width) +
-                           std::size_t(pixels[i].x)));
+    write(mean, pixel(pixels[i].x, pixels[i].y, rgb, first_row));
     if (samples <= least_samples()) continue;
     const PixelSum& half = halves[i];
     const PixelSum other{difference(sums[i].positive, half.positive),
@@ -168,56 +168,50 @@ Spread TileRenderer::render_everywhere(const Tile& tile, int samples, float* rgb
   return spread;
 }
 
-/// A few samples of every pixel, and of those around the tile; then the rest where these, of all pixels that
-/// the filter reaches, show more than an even surface.
+/// Takes a few samples of every pixel in the tile and around it. Takes the rest only where these show more than an
+/// even surface within the filter's reach.
 void TileRenderer::render_where_needed(const Tile& tile, int samples, float* rgb, int first_row,
                                        Workspace& workspace) const {
-  const Film& film = scene_.film;
+  const Film& film = prepared_.scene.film;
   const PixelRange columns = looked_at({tile.x, tile.x + tile.width}, film.width, film.filter);
   const PixelRange rows = looked_at({tile.y, tile.y + tile.height}, film.height, film.filter);
   const int width = columns.end - columns.begin, height = rows.end - rows.begin;
-  std::vector<PixelSample> pixels;
-  for (int y = rows.begin; y < rows.end; ++y)
-    for (int x = columns.begin; x < columns.end; ++x) pixels.push_back({x, y, 0});
+  const std::vector<PixelSample> pixels = pixels_of({columns.begin, rows.begin, width, height});
   std::vector<PixelSum> sums(pixels.size());
   std::vector<Seen> seen(pixels.size());
-  take(pixels, 0, plan_.first_samples, workspace,
-       [&](std::size_t pixel, int, const SampleResult& result) {
-         sums[pixel].add(result);
-         const double value = brightness(result.radiance);
-         seen[pixel].add({value, value, result.surface});
-       });
+  const int first = prepared_.plan.first_samples;
+  take(pixels, 0, first, workspace, [&](std::size_t pixel, int, const SampleResult& result) {
+    sums[pixel].add(result);
+    const double value = brightness(result.radiance);
+    seen[pixel].add({value, value, result.surface});
+  });
   const std::vector<Seen> around = look_around(seen, width, height, reach_of(film.filter));
   std::vector<PixelSample> needing;
   std::vector<std::size_t> place;
   const auto index = [&](int x, int y) {
     return std::size_t(y - rows.begin) * std::size_t(width) + std::size_t(x - columns.begin);
   };
-  for (int y = tile.y; y < tile.y + tile.height; ++y)
-    for (int x = tile.x; x < tile.x + tile.width; ++x) {
-      const Seen& s = around[index(x, y)];
-      const double mean = std::abs(brightness(sums[index(x, y)].mean(negative_weight_)));
-      if (s.surface == Seen::kSeveral ||
-          s.most - s.least > std::max(effects::Antialiasing::kSame * mean, too_little_)) {
-        needing.push_back({x, y, 0});
-        place.push_back(index(x, y));
-      }
+  const std::vector<PixelSample> own = pixels_of(tile);
+  for (const PixelSample& p : own) {
+    const std::size_t i = index(p.x, p.y);
+    const double mean = std::abs(brightness(sums[i].mean(negative_weight_)));
+    if (around[i].surface == Seen::kSeveral ||
+        around[i].most - around[i].least >
+            std::max(effects::Antialiasing::kSame * mean, invisible_)) {
+      needing.push_back(p);
+      place.push_back(i);
     }
-  take(needing, plan_.first_samples, samples, workspace,
+  }
+  take(needing, first, samples, workspace,
        [&](std::size_t pixel, int, const SampleResult& result) { sums[place[pixel]].add(result); });
-  for (int y = tile.y; y < tile.y + tile.height; ++y)
-    for (int x = tile.x; x < tile.x + tile.width; ++x)
-      write(
-          sums[index(x, y)].mean(negative_weight_),
-          rgb + 3 * (std::size_t(y - first_row) * std::size_t(scene_.film.width) + std::size_t(x)));
+  for (const PixelSample& p : own)
+    write(sums[index(p.x, p.y)].mean(negative_weight_), pixel(p.x, p.y, rgb, first_row));
 }
 
 void TileRenderer::add(const Tile& tile, int first, int last, Frame& frame,
                        Workspace& workspace) const {
   frame.keep(tile, first);
-  std::vector<PixelSample> pixels;
-  for (int y = 0; y < tile.height; ++y)
-    for (int x = 0; x < tile.width; ++x) pixels.push_back({tile.x + x, tile.y + y, 0});
+  const std::vector<PixelSample> pixels = pixels_of(tile);
   take(pixels, first, last, workspace, [&](std::size_t pixel, int, const SampleResult& result) {
     frame.sum(pixels[pixel].x, pixels[pixel].y).add(result);
   });

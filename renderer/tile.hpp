@@ -1,19 +1,18 @@
-// A square of a picture: which samples its pixels take, and what they come to.
+// Renders a square of a picture: chooses the samples of its pixels, and averages them.
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "core/image.hpp"
-#include "renderer/waves/wave_renderer.hpp"
+#include "renderer/waves/waves.hpp"
 
 namespace lobelia {
+
+using waves::Workspace;
 
 struct Tile {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// How far the two halves of the samples are apart, summed over pixels and channels.
+/// The difference between the two halves of the samples, summed over pixels and channels.
 struct Spread {
   double difference_squared = 0, value_squared = 0;
   Spread& operator+=(const Spread& other) {
@@ -33,19 +32,19 @@ struct PixelSum {
   };
   Part positive, negative;  ///< of the filter
   void add(const SampleResult& sample);
-  /// negative_weight: of the filter. While only positive ones were drawn, their mean.
+  /// `negative_weight` is the filter's. The mean of the positive samples while there are no others.
   Rgb mean(double negative_weight) const;
 };
 
-/// A whole picture of sums.
+/// The sums of a whole picture.
 class Frame {
  public:
-  /// negative_weight: of the filter.
+  /// `negative_weight` is the filter's.
   Frame(int width, int height, double negative_weight);
   PixelSum& sum(int x, int y) { return sums_[index(x, y)]; }
-  /// Keeps what the first `done` samples came to, then says how far the next ones are from it.
+  /// Keeps the means of the first `done` samples for error().
   void keep(const Tile& tile, int done);
-  /// After samples done..next - 1 were added to the `done` that were kept; done > 0.
+  /// RenderResult::error, after samples done..next - 1 were added to the `done` kept ones; done > 0.
   double error(int done, int next) const;
   void resolve(Image& image) const;
 
@@ -61,7 +60,8 @@ class Frame {
 
 class TileRenderer {
  public:
-  TileRenderer(const Scene& scene, const Plan& plan, const WaveRenderer& renderer);
+  /// Both must outlive it.
+  TileRenderer(const Scene& scene, const Plan& plan);
 
   /// All samples; row y of the picture goes to `rgb` + 3 * width * (y - first_row).
   Spread render(const Tile& tile, int samples, float* rgb, int first_row,
@@ -71,7 +71,7 @@ class TileRenderer {
 
   /// Whether more samples give another picture, apart from antialiasing.
   bool is_random() const { return random_; }
-  /// The fewest that show the whole filter: one of each part.
+  /// One sample for each part of the filter.
   int least_samples() const { return negative_weight_ > 0 ? 2 : 1; }
   double negative_weight() const { return negative_weight_; }
 
@@ -84,12 +84,12 @@ class TileRenderer {
   void render_where_needed(const Tile& tile, int samples, float* rgb, int first_row,
                            Workspace& workspace) const;
 
-  const Scene& scene_;
-  const Plan& plan_;
-  const WaveRenderer& renderer_;
+  float* pixel(int x, int y, float* rgb, int first_row) const;
+
+  waves::PreparedScene prepared_;
   bool random_;
   double negative_weight_;  ///< of the filter
-  double too_little_;       ///< to be seen: a difference of radiance
+  double invisible_;        ///< a difference of radiance that is too small to see
 };
 
 }  // namespace lobelia

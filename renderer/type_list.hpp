@@ -1,4 +1,4 @@
-// A list of types: what a catalogue is.
+// A list of types, such as every catalogue.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ constexpr std::array<Result, sizeof...(Types)> map_types(TypeList<Types...>, F f
   return {f.template operator()<Types>()...};
 }
 
-/// Where Type stands in the list.
+/// The position of Type in the list.
 template <class Type, class... Types>
 constexpr std::size_t index_of(TypeList<Types...>) {
   static_assert((std::is_same_v<Type, Types> || ...), "not in the list");

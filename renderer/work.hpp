@@ -1,4 +1,4 @@
-// The work of a picture, counted while it is rendered.
+// The work of a picture, counted during rendering.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace lobelia {
 
 struct Work {
-  /// By effect, in its own unit; zero where it is off.
+  /// By effect, in the effect's unit; zero if it is off.
   std::array<std::uint64_t, Effects::kSize> of_effect{};
   std::uint64_t camera_rays = 0, shadow_rays = 0, mirror_rays = 0, scattered_rays = 0;
 

@@ -1,4 +1,4 @@
-// `lobelia export`: models as shader functions that need nothing of Lobelia.
+// `lobelia export`: models as shader functions that do not depend on Lobelia.
 #pragma once
 
 #include <optional>
@@ -23,11 +23,11 @@ struct ShaderExport {
   std::vector<ModelId> models;  ///< not empty
   LobeId lobe;
   Normalisation normalisation = Normalisation::kExact;
-  std::optional<double> exponent;  ///< else a parameter of the function
+  std::optional<double> exponent;  ///< without one it is a parameter of the function
 };
 
-/// The text of the file. Throws Error(kUsage) where the language or the lobe asks for an exponent, or
-/// for none, and Error(kInput) where the paper has no coefficient for the lobe.
+/// The text of the file. Throws Error(kUsage) if the language or the lobe needs an exponent or does not allow one,
+/// and Error(kInput) if the paper has no coefficient for the lobe.
 std::string shader_text(const ShaderExport& request);
 
 }  // namespace lobelia

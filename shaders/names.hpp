@@ -1,22 +1,19 @@
-// What an exported highlight is called, and its text in parts: what several highlights need stands in it once, and two
-// exports can be used together.
+// Names and texts of exported highlights. A text has parts with guards: a part that several highlights need is
+// written once, and two exports can be used together.
 #pragma once
 
 #include <initializer_list>
 #include <set>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include "renderer/highlight.hpp"
 
 namespace lobelia {
 
-/// "lobelia_modified_phong_cs16", with "_paper" for that normalisation, and with "_n64" for an exponent
-/// that is fixed: the name of the function, and of its file.
+/// The name of the function and of its file: "lobelia_modified_phong_cs16", with "_paper" for that normalisation
+/// and "_n64" for a fixed exponent.
 std::string function_name(const Highlight& highlight, bool fixed_exponent = false);
 
-/// "Modified_Phong" out of "modified_phong".
+/// "Modified_Phong" from "modified_phong".
 std::string capitalised(std::string_view name);
 
 /// Explains "Romanyuk et al." to a reader who has only the exported file.
@@ -34,7 +31,7 @@ std::string fill(std::string_view text,
 
 class Parts {
  public:
-  /// How the language skips what it has read before; "%name%" is the part's name.
+  /// The language's guard against reading a part twice; "%name%" is the part's name.
   Parts(std::string_view begin, std::string_view end) : begin_(begin), end_(end) {}
 
   /// Appends the part unless it is there already.

@@ -24,7 +24,7 @@ std::string_view formula(std::span<const EmbeddedText> formulas, std::string_vie
   return found->text;
 }
 
-/// Of a family, whose file has its name without the order.
+/// The file of a family has the lobe's name without the order.
 std::string lobe_text(LobeId lobe) {
   std::string name(info(lobe).name);
   const std::string order = std::to_string(lobe.order);
@@ -32,7 +32,7 @@ std::string lobe_text(LobeId lobe) {
   return fill(formula(embedded::povray_lobes, name), {{"K", order}});
 }
 
-/// For cos^n both columns are closed forms, and so is what the paper has for cs16.
+/// The closed form for cos^n and for the paper's cs16; otherwise the quadrature.
 std::string coefficient_text(const Highlight& highlight) {
   const std::string model = capitalised(info(highlight.model).name),
                     lobe = capitalised(info(highlight.lobe).name);
@@ -85,7 +85,7 @@ std::string povray_text(std::span<const Highlight> highlights) {
   Parts parts("#ifndef (Lobelia_Part_%name%)\n#declare Lobelia_Part_%name% = 1;\n",
               "#end   // of Lobelia_Part_%name%\n");
   for (const Highlight& highlight : highlights) {
-    radiance_coefficient(highlight);  // says what the paper has not
+    radiance_coefficient(highlight);  // throws if the paper has none
     parts.add("Geometry", embedded::povray_geometry);
     parts.add("Quadrature", embedded::povray_quadrature);
     parts.add(capitalised(info(highlight.lobe).name), lobe_text(highlight.lobe));

@@ -1,13 +1,10 @@
-// A highlight in POV-Ray's scene description language: an include file with the lobe as a pattern
-// function and the coefficient as a macro.
+// A highlight in POV-Ray's scene description language: an include file with the lobe as a pattern function and the
+// coefficient as a macro.
 //
-// The formulas in shaders/povray/ are written by hand from the models' definitions and not from
-// renderer/, so that a mistake on either side shows as a difference of pictures. They know no exponent:
-// POV-Ray computes the coefficient when it reads the scene.
+// The formulas in shaders/povray/ are written by hand from the models' definitions and not from renderer/, so that
+// a mistake on either side shows in the pictures. The exponent is not fixed: POV-Ray computes the coefficient when
+// it reads the scene.
 #pragma once
-
-#include <span>
-#include <string>
 
 #include "renderer/highlight.hpp"
 
@@ -22,8 +19,8 @@ struct PovrayNames {
 };
 PovrayNames povray_names(const Highlight& highlight);
 
-/// The include file. Throws Error(kInput) where the paper has no coefficient for the lobe, and
-/// Error(kInternal) where shaders/povray/ has no formula.
+/// The include file. Throws Error(kInput) if the paper has no coefficient for the lobe, and Error(kInternal) if
+/// shaders/povray/ has no formula.
 std::string povray_text(std::span<const Highlight> highlights);
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// The four-term Blackman-Harris window (Harris 1978), which Blender's Cycles takes unless told otherwise.
+// The four-term Blackman-Harris window (Harris 1978), the default of Blender's Cycles.
 #pragma once
 
 #include <cmath>

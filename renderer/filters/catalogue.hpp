@@ -1,4 +1,4 @@
-// Every filter, once: the file and a place in this list are all that one takes.
+// The catalogue of filters. To add one: write its file, include it here, add it to the list.
 #pragma once
 
 #include "renderer/filters/blackman_harris.hpp"
@@ -10,7 +10,7 @@
 
 namespace lobelia {
 
-/// The box first: it is what a scene has that names none.
+/// The box is first: it is the default.
 using Filters = TypeList<filters::Box, filters::Tent, filters::Gaussian, filters::BlackmanHarris,
                          filters::Mitchell>;
 

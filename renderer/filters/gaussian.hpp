@@ -1,5 +1,5 @@
-// A Gaussian of standard deviation radius / 3, lowered to reach 0 at the radius (as Mitsuba's and
-// pbrt's); the default radius gives their standard deviation of half a pixel.
+// A Gaussian with a standard deviation of radius / 3, lowered to reach 0 at the radius, like Mitsuba's and pbrt's.
+// The default radius gives their standard deviation of half a pixel.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Mitchell and Netravali 1988 with B = C = 1/3: sharper than a Gaussian, by being negative from 4/7 of
-// its radius on. A picture may overshoot beside an edge, below 0 too.
+// Mitchell and Netravali 1988 with B = C = 1/3: sharper than a Gaussian, because it is negative from 4/7 of its
+// radius on. A picture may overshoot beside an edge, even below 0.
 #pragma once
 
 #include <cmath>

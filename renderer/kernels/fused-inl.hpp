@@ -1,15 +1,8 @@
-// The fused kernel itself. Operation by operation it is what the kernels of kernels.cpp do one after
-// the other, so that its pictures are theirs bit for bit; what is the same for a whole row or picture is
-// worked out once. Compiled once for each instruction set.
-#include <hwy/highway.h>
-
-#include <algorithm>
-#include <iterator>
-#include <type_traits>
-
+// The fused kernel. It does the same operations as the kernels of kernels.cpp one after the other, so its pictures
+// are the same bit for bit. The constants of a row or a picture are computed once. Compiled once for each
+// instruction set.
 #include "renderer/kernels/fused.hpp"
 #include "renderer/kernels/geometry-inl.hpp"
-#include "renderer/kernels/lanes-inl.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "renderer/models/lobe_angle.hpp"
@@ -21,7 +14,7 @@
 #define LOBELIA_RENDERER_KERNELS_FUSED_INL_HPP
 #endif
 
-/// A lambda that becomes part of its caller's loop, with the caller's instructions.
+/// For a lambda that is inlined into its caller's loop, with the caller's instructions.
 #ifndef LOBELIA_INLINE
 #define LOBELIA_INLINE HWY_ATTR __attribute__((always_inline))
 #endif
@@ -30,12 +23,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace fused {
 
-/// Pixels that go through one loop after the other. A single loop from ray to colour would have to wait
-/// for its own roots and divisions: a processor looks about a hundred instructions ahead, less than one
-/// round of it. All that is kept between the loops stays in the first-level cache.
+/// Pixels that go through one loop after the other. A single loop from ray to colour would wait for its own roots
+/// and divisions, because a processor looks only about a hundred instructions ahead, less than one round of it. The
+/// values between the loops fit in the first-level cache.
 constexpr int kStretch = 128;
 
-/// A value for each pixel of a stretch. A cache line longer, so that no two begin at the same place in a page.
+/// A value for each pixel of a stretch. One cache line longer, so that no two start at the same place in a page.
 struct Values {
   HWY_ALIGN double at[kStretch + 8];
   HWY_INLINE Lanes load(int i) const { return Lanes::load(at + i); }
@@ -52,16 +45,16 @@ struct Vectors {
 };
 struct Stretch {
   Vectors to_eye;
-  Vectors normal;  ///< 0 where the sphere is not seen, so that nothing is lit there
+  Vectors normal;  ///< 0 where the sphere is not seen, so that no light is reflected
   Values s, n_dot_l;
   HWY_ALIGN float s32[kStretch + 16];
-  Vectors to_light;  ///< of a point light, as is the next
-  Values falloff;
+  Vectors to_light;  ///< of a point light
+  Values falloff;    ///< of a point light
   Values fresnel;
   Vectors sum;  ///< red, green, blue, where there are several lights
 };
 
-/// to_eye_of_ray (geometry-inl.hpp) in two loops, up to the division and from there on.
+/// to_eye_of_ray (geometry-inl.hpp) in two loops, up to the division and after it.
 inline void trace_rays(const FusedRow& row, int begin, int count, Stretch& stretch) {
   const Lanes3 forward = broadcast(row.forward), right = broadcast(row.right);
   const Lanes3 v_up = broadcast(row.v_up);
@@ -122,11 +115,7 @@ inline void reach_point_light(const FusedSphere& sphere, const FusedLight& light
   }
 }
 
-HWY_INLINE Lanes3Of<float> rounded(Lanes3 low, Lanes3 high) {
-  return {narrow(low.x, high.x), narrow(low.y, high.y), narrow(low.z, high.z)};
-}
-
-/// s and N.L, for one light.
+/// Computes s and N.L for one light.
 template <LobeAngle kAngle, Precision kPrecision, bool kDirectional>
 void find_angles(const FusedLight& light, int count, Stretch& stretch) {
   Lanes3 l_low = broadcast(light.vector), l_high = l_low;
@@ -142,8 +131,8 @@ void find_angles(const FusedLight& light, int count, Stretch& stretch) {
     stretch.n_dot_l.store(i, dot(n_low, l_low));
     stretch.n_dot_l.store(j, dot(n_high, l_high));
     if constexpr (kPrecision == Precision::kFloat32) {
-      one_minus_cos<kAngle, Lanes32>(rounded(n_low, n_high), rounded(v_low, v_high),
-                                     rounded(l_low, l_high))
+      one_minus_cos<kAngle, Lanes32>(narrow(n_low, n_high), narrow(v_low, v_high),
+                                     narrow(l_low, l_high))
           .store(stretch.s32 + i);
     } else {
       const Lanes low = one_minus_cos<kAngle, Lanes>(n_low, v_low, l_low);
@@ -168,7 +157,7 @@ inline void find_fresnel(const FusedLight& light, int count, Stretch& stretch) {
 
 struct Rgb3 {
   Lanes r, g, b;
-  // Written out: a constructor that the compiler makes is not compiled for this instruction set.
+  // Not left to the compiler, which would not compile it for this instruction set.
   HWY_INLINE Rgb3() {}
   HWY_INLINE void set(Lanes weight, Rgb colour) {
     r = weight * Lanes(colour.r);
@@ -192,13 +181,13 @@ struct Rgb3 {
   }
 };
 
-/// Two registers of pixels to the picture.
+/// Writes two registers of pixels to the picture.
 HWY_INLINE void write(const Rgb3& low, const Rgb3& high, bool adds, float* rgb) {
   const hn::ScalableTag<float> d;
   using Floats = hn::Vec<hn::ScalableTag<float>>;
   Floats r = narrow(low.r, high.r).v, g = narrow(low.g, high.g).v, b = narrow(low.b, high.b).v;
   if (adds) {
-    // Each pixel is of one sphere; the others add 0 to it.
+    // Each pixel shows one sphere; the others add 0.
     Floats r0, g0, b0;
     hn::LoadInterleaved3(d, rgb, r0, g0, b0);
     r = hn::Add(r0, r), g = hn::Add(g0, g), b = hn::Add(b0, b);
@@ -214,34 +203,27 @@ HWY_INLINE void write_grey(Lanes low, Lanes high, double colour, float* rgb) {
 
 using FindAngles = void (*)(const FusedLight&, int, Stretch&);
 
-template <LobeAngle kAngle, Precision kPrecision>
-FindAngles find_angles_of(bool directional) {
-  return directional ? &find_angles<kAngle, kPrecision, true>
-                     : &find_angles<kAngle, kPrecision, false>;
-}
+/// By precision, then by whether the light is directional.
 template <LobeAngle kAngle>
-FindAngles find_angles_of(Precision precision, bool directional) {
-  if (precision == Precision::kFloat32)
-    return find_angles_of<kAngle, Precision::kFloat32>(directional);
-  return precision == Precision::kMixed ? find_angles_of<kAngle, Precision::kMixed>(directional)
-                                        : find_angles_of<kAngle, Precision::kFloat64>(directional);
-}
-inline FindAngles find_angles_of(LobeAngle angle, Precision precision, bool directional) {
-  return angle == LobeAngle::kReflection
-             ? find_angles_of<LobeAngle::kReflection>(precision, directional)
-             : find_angles_of<LobeAngle::kHalfVector>(precision, directional);
-}
+constexpr FindAngles kFindAngles[3][2] = {
+    {&find_angles<kAngle, Precision::kFloat32, false>,
+     &find_angles<kAngle, Precision::kFloat32, true>},
+    {&find_angles<kAngle, Precision::kMixed, false>, &find_angles<kAngle, Precision::kMixed, true>},
+    {&find_angles<kAngle, Precision::kFloat64, false>,
+     &find_angles<kAngle, Precision::kFloat64, true>}};
 
-/// `kOrder` is the k of a family of lobes where it is compiled in, else 0; `Real` is what the lobe is
-/// computed in.
+/// `kOrder` is the k of a family of lobes if it is compiled in, otherwise 0; `Real` is the type of the lobe's
+/// arithmetic.
 template <class L, int kOrder, class Real, bool kForeshortened, bool kDiffuse, bool kFresnel>
 class Kernel final : public FusedKernel {
  public:
   explicit Kernel(const FusedSphere& sphere)
       : sphere_(sphere), lobe_({sphere.highlight.exponent, sphere.highlight.lobe.order}) {
+    const auto& table = info(sphere.highlight.model).angle == LobeAngle::kReflection
+                            ? kFindAngles<LobeAngle::kReflection>
+                            : kFindAngles<LobeAngle::kHalfVector>;
     for (const FusedLight& light : sphere.lights)
-      find_angles_.push_back(find_angles_of(info(sphere.highlight.model).angle, sphere.precision,
-                                            light.is_directional));
+      find_angles_.push_back(table[std::size_t(sphere.precision)][light.is_directional]);
   }
 
   void render(const FusedRow& row, int begin, int end,
@@ -284,7 +266,7 @@ class Kernel final : public FusedKernel {
     });
   }
 
-  /// block(i, where pixel i's floats go) for whole registers; what is over at a row's end by a detour.
+  /// block(i, target of pixel i's floats) for whole registers; the rest of a row goes through a buffer.
   template <class Block>
   static HWY_INLINE void in_blocks(int count, float* rgb, Block block) {
     const int pixels = int(Lanes32::count());
@@ -295,11 +277,11 @@ class Kernel final : public FusedKernel {
     if (over > 0) std::copy_n(rest, over, rgb + 3 * whole);
   }
 
-  /// One light's share: to the picture if it is the only one, else to the sums.
+  /// Adds the light of one lamp, to the picture if it is the only one, otherwise to the sums.
   template <bool kOnly>
   void colour(const FusedLight& light, int count, bool first, bool adds, float* rgb,
               Stretch& stretch) const {
-    // Copies, whose numbers stay in registers while the picture is written.
+    // Copies, so that their numbers stay in registers while the picture is written.
     L lobe = lobe_;
     if constexpr (kOrder != 0) lobe.k = kOrder;
     const Rgb specular = light.specular, grazing = light.grazing, diffuse = light.diffuse;
@@ -363,21 +345,21 @@ class Kernel final : public FusedKernel {
   L lobe_;
 };
 
-using Kernels = std::unique_ptr<const FusedKernel>;
+using KernelPointer = std::unique_ptr<const FusedKernel>;
 
 template <class L, int kOrder, class Real, bool kDiffuse, bool kFresnel>
-Kernels make_of_model(const FusedSphere& sphere) {
+KernelPointer make_of_model(const FusedSphere& sphere) {
   if (info(sphere.highlight.model).applies_cosine)
     return std::make_unique<Kernel<L, kOrder, Real, true, kDiffuse, kFresnel>>(sphere);
   return std::make_unique<Kernel<L, kOrder, Real, false, kDiffuse, kFresnel>>(sphere);
 }
 
-/// The order whose squarings are worth compiling in: the paper's.
+/// The order that is compiled in, for speed: the paper's.
 template <class L>
 inline constexpr int kUsualOrder = std::size(L::kOrders) > 0 ? 16 : 0;
 
 template <class L, bool kDiffuse, bool kFresnel>
-Kernels make_of_lobe(const FusedSphere& sphere) {
+KernelPointer make_of_lobe(const FusedSphere& sphere) {
   if (constexpr int kOrder = kUsualOrder<L>; kOrder != 0 && sphere.highlight.lobe.order == kOrder &&
                                              sphere.precision != Precision::kFloat64)
     return make_of_model<L, kOrder, float, kDiffuse, kFresnel>(sphere);
@@ -387,8 +369,8 @@ Kernels make_of_lobe(const FusedSphere& sphere) {
 }
 
 template <bool kDiffuse, bool kFresnel>
-Kernels make(const FusedSphere& sphere) {
-  using Make = Kernels (*)(const FusedSphere&);
+KernelPointer make(const FusedSphere& sphere) {
+  using Make = KernelPointer (*)(const FusedSphere&);
   static constexpr auto kTable = map_types<Make>(
       Lobes{}, []<class L>() -> Make { return &make_of_lobe<L, kDiffuse, kFresnel>; });
   return kTable.at(sphere.highlight.lobe.index)(sphere);

@@ -1,6 +1,6 @@
-// The inner loop of the simple pictures: ray, sphere, lights and the three floats of a pixel in one go,
-// all of it in registers. Compiled for each combination of lobe, angle, foreshortening, precision and
-// effects; made for one sphere of one picture, with the lobe's constants worked out.
+// The inner loop of simple pictures: from the ray to the three floats of a pixel in one kernel, in registers.
+// Compiled for each combination of lobe, foreshortening, precision and effects. A kernel is made for one sphere of
+// one picture, with the lobe's constants.
 #pragma once
 
 #include <memory>
@@ -13,15 +13,15 @@
 
 namespace lobelia {
 
-/// Pixels are computed in blocks of as many: a multiple of every register's lanes.
+/// Pixels of a block, which are computed together: a multiple of every register's lanes.
 inline constexpr int kFusedBlock = 16;
 
-/// The part of a light that is the same for all pixels.
+/// The constants of a light for one sphere.
 struct FusedLight {
   bool is_directional = true;
-  Vec3 vector;    ///< to the light, or where it stands
+  Vec3 vector;    ///< direction to the light, or its position
   Rgb specular;   ///< strength times specular reflectance times coefficient
-  Rgb grazing{};  ///< what Schlick's factor adds to it at grazing angles, at most
+  Rgb grazing{};  ///< the most that Schlick's factor adds to it, at grazing angles
   Rgb diffuse{};  ///< strength times diffuse reflectance / pi
 };
 
@@ -45,15 +45,14 @@ struct FusedRow {
 struct FusedRival {
   Vec3 center;
   double radius;
-  bool wins_ties;  ///< the first of the scene does
+  bool wins_ties;  ///< it comes first in the scene
 };
 
 class FusedKernel {
  public:
   virtual ~FusedKernel() = default;
-  /// The pixels begin..end - 1 of a row; begin is a multiple of kFusedBlock, and so is end where it is
-  /// not the row's. With `rivals` it adds to what is there and leaves pixels alone where one of them is
-  /// in front; otherwise it overwrites.
+  /// Renders pixels begin..end - 1 of a row. `begin` is a multiple of kFusedBlock, and so is `end` unless it is the
+  /// row's. Overwrites the pixels; with `rivals` it adds to them, and only where no rival is in front.
   virtual void render(const FusedRow& row, int begin, int end,
                       std::span<const FusedRival> rivals) const = 0;
 };
@@ -61,10 +60,16 @@ class FusedKernel {
 /// For this processor.
 std::unique_ptr<const FusedKernel> make_fused_kernel(const FusedSphere& sphere);
 
-/// By effects, one file each so that they are compiled side by side.
-std::unique_ptr<const FusedKernel> make_fused_plain(const FusedSphere& sphere);
-std::unique_ptr<const FusedKernel> make_fused_diffuse(const FusedSphere& sphere);
-std::unique_ptr<const FusedKernel> make_fused_fresnel(const FusedSphere& sphere);
-std::unique_ptr<const FusedKernel> make_fused_diffuse_fresnel(const FusedSphere& sphere);
+/// Each variant has a .cpp file of its own, so that they compile side by side.
+template <bool kDiffuse, bool kFresnel>
+std::unique_ptr<const FusedKernel> make_fused(const FusedSphere& sphere);
+template <>
+std::unique_ptr<const FusedKernel> make_fused<false, false>(const FusedSphere& sphere);
+template <>
+std::unique_ptr<const FusedKernel> make_fused<false, true>(const FusedSphere& sphere);
+template <>
+std::unique_ptr<const FusedKernel> make_fused<true, false>(const FusedSphere& sphere);
+template <>
+std::unique_ptr<const FusedKernel> make_fused<true, true>(const FusedSphere& sphere);
 
 }  // namespace lobelia

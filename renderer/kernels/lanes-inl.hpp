@@ -1,11 +1,6 @@
-// LanesOf<double>, LanesOf<float>: a SIMD register that can be written like a number, with the functions
-// of renderer/real.hpp. Compiled once for each instruction set.
+// LanesOf<double>, LanesOf<float>: a SIMD register with the operators of a number and the functions of
+// renderer/real.hpp. Compiled once for each instruction set.
 #include <hwy/highway.h>
-
-#include <cstddef>
-#include <iterator>
-#include <limits>
-#include <type_traits>
 
 #include "renderer/real.hpp"
 
@@ -23,8 +18,8 @@ namespace lobelia::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// P(s) of 2 asin^2(sqrt(s/2)) = s + s^2 P(s), interpolated at Chebyshev's points of [0, 1], constant term
-/// first: within 4e-9 of P. Where float32's own arc sine would leave four units in the last place.
+/// P(s) of 2 asin^2(sqrt(s/2)) = s + s^2 P(s), interpolated at Chebyshev's points of [0, 1], constant term first:
+/// within 4e-9 of P. The arc sine in float32 would be off by four units in the last place.
 inline constexpr float kHalfSquareOfAngle[] = {0.1666666688f,   0.04444409844f,  0.01429481116f,
                                                0.004988465579f, 0.002371639728f, -0.0004488384646f,
                                                0.002161792173f, -0.00140708189f, 0.0006289906971f};
@@ -58,8 +53,8 @@ struct LanesOf {
   }
   friend HWY_INLINE LanesOf exp_or_zero(LanesOf x) {
     const D d;
-    // The logarithm of the smallest normal number, rounded towards 0; and what is too near to 0 to count,
-    // whose powers in a polynomial would be no normal numbers.
+    // The logarithm of the smallest normal number, rounded towards 0; and a bound of arguments that count as 0,
+    // because their powers in a polynomial would be subnormal.
     constexpr T kLowest = std::is_same_v<T, float> ? T(-87.3365402) : T(-708.3964185322640);
     constexpr T kHighest = -std::numeric_limits<T>::epsilon() / 8;
     const auto normal = hn::Ge(x.v, hn::Set(d, kLowest));
@@ -68,7 +63,7 @@ struct LanesOf {
   }
   friend HWY_INLINE LanesOf log_one_minus(LanesOf s) {
     const D d;
-    // Where s >= 1 the logarithm has no value; s = 0 there keeps the arithmetic finite.
+    // There is no logarithm for s >= 1; s = 0 instead keeps the arithmetic finite.
     const auto inside = hn::IfThenElseZero(hn::Lt(s.v, hn::Set(d, T(1))), s.v);
     return LanesOf(hn::Log1p(d, hn::Neg(inside)));
   }
@@ -123,8 +118,8 @@ HWY_INLINE void widen(Lanes32 a, Lanes& low, Lanes& high) {
   high = Lanes(hn::PromoteTo(wide, hn::UpperHalf(half, a.v)));
 }
 
-/// 1 / sqrt(a), within 1.5 units in the last place, for a from 1e-30 to 1e30: from the float32 value by a
-/// step of third order. In half the time of float64's root and division, which unit vectors would wait for.
+/// 1 / sqrt(a) within 1.5 units in the last place, for a from 1e-30 to 1e30: the float32 value and a step of third
+/// order. Takes half the time of float64's root and division.
 using Starts = hn::Rebind<float, hn::ScalableTag<double>>;
 HWY_INLINE hn::Vec<Starts> start_of_inverse_sqrt(Lanes a) {
   return hn::Div(hn::Set(Starts(), 1.0f), hn::Sqrt(hn::DemoteTo(Starts(), a.v)));
@@ -143,7 +138,7 @@ struct Lanes3Of {
   LanesOf<T> x, y, z;
   Lanes3Of() = default;
   HWY_INLINE Lanes3Of(LanesOf<T> x_, LanesOf<T> y_, LanesOf<T> z_) : x(x_), y(y_), z(z_) {}
-  // Register by register: GCC 12 copies a structure of them as bytes, through memory.
+  // Register by register: GCC 12 would copy the structure as bytes, through memory.
   HWY_INLINE Lanes3Of(const Lanes3Of& a) : x(a.x), y(a.y), z(a.z) {}
   HWY_INLINE Lanes3Of& operator=(const Lanes3Of& a) {
     x = a.x, y = a.y, z = a.z;
@@ -158,7 +153,7 @@ struct Lanes3Of {
   friend HWY_INLINE Lanes3Of operator*(LanesOf<T> k, Lanes3Of a) {
     return {k * a.x, k * a.y, k * a.z};
   }
-  // Fused where the processor can: half of the instructions, and a rounding less.
+  // Fused if the processor can: half of the instructions, and one rounding less.
   friend HWY_INLINE LanesOf<T> dot(Lanes3Of a, Lanes3Of b) {
     return LanesOf<T>(hn::MulAdd(a.z.v, b.z.v, hn::MulAdd(a.y.v, b.y.v, hn::Mul(a.x.v, b.x.v))));
   }
@@ -175,6 +170,10 @@ struct Lanes3Of {
   }
 };
 using Lanes3 = Lanes3Of<double>;
+
+HWY_INLINE Lanes3Of<float> narrow(Lanes3 low, Lanes3 high) {
+  return {narrow(low.x, high.x), narrow(low.y, high.y), narrow(low.z, high.z)};
+}
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

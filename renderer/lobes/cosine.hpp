@@ -2,17 +2,10 @@
 //
 //   value(s) = (1 - s)^n where s < 1, else 0
 //
-// The standard that the cheap lobes stand in for.
+// The standard that the cheap lobes approximate.
 #include <boost/math/special_functions/beta.hpp>
 
 #include "renderer/lobes/lobe.hpp"
-
-#if defined(LOBELIA_RENDERER_LOBES_COSINE_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_LOBES_COSINE_HPP
-#undef LOBELIA_RENDERER_LOBES_COSINE_HPP
-#else
-#define LOBELIA_RENDERER_LOBES_COSINE_HPP
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -35,14 +28,14 @@ struct CosineLobe {
     return pow(c, Number(n));
   }
 
-  /// The incomplete beta function; of order 0, (1 - (1 - s_max)^(n+1)) / (n+1).
+  /// The incomplete beta function; (1 - (1 - s_max)^(n+1)) / (n+1) for j = 0.
   double moment(int j, double s_max) const { return boost::math::beta(j + 1.0, n + 1, s_max); }
 
   double sample(double xi) const { return -std::expm1(std::log1p(-xi) / (n + 1)); }
   double density(double s) const { return (n + 1) * value(s); }
   PaperColumn paper_column() const { return PaperColumn::kCosine; }
   LobeText text() const { return {"    return exp(n * lobelia_log_one_minus(s));\n", ""}; }
-  /// The exponent n ln(1 - s) has three roundings, which the power makes as much larger as it is.
+  /// The exponent n ln(1 - s) has three roundings, which the power multiplies by the exponent.
   Float32Error float32_error() const { return {2e-7, 3, 4}; }
 
   double n;
@@ -51,5 +44,3 @@ static_assert(Lobe<CosineLobe>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

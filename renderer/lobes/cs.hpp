@@ -1,23 +1,15 @@
-// cs_k, polynomials that stand in for cos^n: log2 k squarings and one multiply-add. The paper's is
-// cs_16 (its eq. 1); cs_n is cos^n itself, and as k grows cs_k becomes the spherical Gaussian.
+// cs_k, polynomials that approximate cos^n: log2 k squarings and one multiply-add. The paper's is cs_16 (its eq.
+// 1). cs_n is cos^n itself, and cs_k approaches the spherical Gaussian as k grows.
 //
 //   value(s) = max(0, 1 - n s / k)^k where s < 1, else 0
 //
-// The paper prints (n/16 (cos x - 1) + 1)^16 for x <= theta_cr = arccos((n - 16)/n), else 0, and then
-// replaces theta_cr by 6/sqrt(n). We cut where the base reaches 0, which is theta_cr exactly; between
-// the two the paper's even power of a small negative base is at most 4e-15. Below n = k the lobe is
-// wider than a hemisphere, and is cut at s = 1 as cos^n is. By Bernoulli's inequality it is nowhere
-// above cos^n where n >= k.
+// The paper prints (n/16 (cos x - 1) + 1)^16 for x <= theta_cr = arccos((n - 16)/n), else 0, and then replaces
+// theta_cr by 6/sqrt(n). We cut the lobe where the base reaches 0, exactly at theta_cr; between the two the paper's
+// even power of a small negative base is at most 4e-15. Below n = k the lobe is wider than a hemisphere and is cut
+// at s = 1, like cos^n. By Bernoulli's inequality it is nowhere above cos^n for n >= k.
 #include <boost/math/special_functions/beta.hpp>
 
 #include "renderer/lobes/lobe.hpp"
-
-#if defined(LOBELIA_RENDERER_LOBES_CS_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_LOBES_CS_HPP
-#undef LOBELIA_RENDERER_LOBES_CS_HPP
-#else
-#define LOBELIA_RENDERER_LOBES_CS_HPP
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -43,7 +35,7 @@ struct CsLobe {
   Real value(Real s) const {
     constexpr bool kNarrow = std::is_same_v<typename ScalarOf<Real>::Type, float>;
     const Real base = one_minus_product(slope, s);
-    // Cut before it is raised: a product that is no normal number stalls even if nobody looks at it.
+    // Cut before the power: a subnormal product stalls even if it is not used.
     const Real power = to_the_k(where_less(Real(kNarrow ? smallest32 : smallest64), base, base));
     return support < 1 ? power : where_less(s, Real(1), power);
   }
@@ -55,8 +47,8 @@ struct CsLobe {
     return base > Number(0) ? Number(pow(base, Number(k))) : Number(0);
   }
 
-  /// With w = n s / k, (k/n)^(j+1) times the integral of (1 - w)^k w^j: the incomplete beta function;
-  /// of order 0 where the lobe ends before s_max, k / (n (k + 1)).
+  /// With w = n s / k, (k/n)^(j+1) times the integral of (1 - w)^k w^j: the incomplete beta function. For j = 0 and
+  /// a lobe that ends before s_max, k / (n (k + 1)).
   double moment(int j, double s_max) const {
     return std::pow(k / n, j + 1) *
            boost::math::beta(j + 1.0, k + 1.0, std::min(1.0, slope * s_max));
@@ -67,7 +59,7 @@ struct CsLobe {
   }
   double density(double s) const { return slope * (k + 1) / mass * value(s); }
   PaperColumn paper_column() const { return k == 16 ? PaperColumn::kCs16 : PaperColumn::kNone; }
-  /// By squarings up to k = 64; beyond it the power would multiply the base's rounding too often.
+  /// By squarings up to k = 64; a higher power would multiply the base's rounding too much.
   LobeText text() const {
     const std::string order = std::to_string(k) + ".0", slope_text = "n / " + order;
     if (k > 64)
@@ -82,14 +74,14 @@ struct CsLobe {
     }
     return {body + "    return " + product + ";\n", slope_text};
   }
-  /// The base has two roundings, which its power makes k times as large, and the squarings add k - 1;
-  /// beside the peak a rounding is half as large, because its numbers are just below 1.
+  /// The base has two roundings, which the power multiplies by k, and the squarings add k - 1. Near the peak a
+  /// rounding is half as large, because the numbers are just below 1.
   Float32Error float32_error() const { return {1.5 * 0x1p-24 * k, 3.0 * k}; }
 
   double n;
   int k;
   double slope, support, mass;
-  double smallest64, smallest32;  ///< bases below have a power that is no normal number
+  double smallest64, smallest32;  ///< smaller bases have a subnormal power
 
  private:
   /// By squaring, for an even k.
@@ -110,5 +102,3 @@ static_assert(Lobe<CsLobe>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

@@ -2,18 +2,11 @@
 //
 //   value(s) = exp(-n x^2 / 2), x = arccos(1 - s), where s < 1, else 0
 //
-// Accurate beside cos^n in epicentre and tail, at the price of an inverse cosine. Its energy has no
-// closed form.
+// Close to cos^n both at the centre and in the tail, at the price of an inverse cosine. Its energy has no closed
+// form.
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "renderer/lobes/lobe.hpp"
-
-#if defined(LOBELIA_RENDERER_LOBES_GAUSS_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_LOBES_GAUSS_HPP
-#undef LOBELIA_RENDERER_LOBES_GAUSS_HPP
-#else
-#define LOBELIA_RENDERER_LOBES_GAUSS_HPP
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -37,8 +30,8 @@ struct GaussLobe {
     return exp(-Number(n) * x * x / Number(2));
   }
 
-  /// By quadrature over x, up to where the bell has fallen to 1e-18; over x / end, because Boost takes
-  /// the error of an interval as if it were 2 long.
+  /// By quadrature over x, until the bell has fallen to 1e-18. Over x / end, because Boost judges errors as if the
+  /// interval had length 2.
   double moment(int j, double s_max) const {
     const double end = std::min(2 * std::asin(std::sqrt(s_max / 2)), 9.2 / std::sqrt(n));
     const auto integrand = [&](double u) {
@@ -49,8 +42,8 @@ struct GaussLobe {
     return end * Quadrature::integrate(integrand, 0.0, 1.0, 8, 1e-13);
   }
 
-  /// x as if it were a plane's radius and not a sphere's angle, which is closed: the density is that
-  /// of the lobe times x / sin x, at most pi/2.
+  /// Takes x as a radius in the plane instead of an angle on the sphere, for a closed form: the density is the
+  /// lobe's times x / sin x, at most pi/2.
   double sample(double xi) const {
     const double half_square = -std::log1p(-xi * mass) / n;
     return std::min(1.0, 2 * std::pow(std::sin(std::sqrt(half_square / 2)), 2));
@@ -85,5 +78,3 @@ static_assert(Lobe<GaussLobe>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

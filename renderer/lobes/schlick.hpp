@@ -7,13 +7,6 @@
 
 #include "renderer/lobes/lobe.hpp"
 
-#if defined(LOBELIA_RENDERER_LOBES_SCHLICK_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_LOBES_SCHLICK_HPP
-#undef LOBELIA_RENDERER_LOBES_SCHLICK_HPP
-#else
-#define LOBELIA_RENDERER_LOBES_SCHLICK_HPP
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
@@ -35,15 +28,15 @@ struct SchlickLobe {
     return c / (Number(n) - Number(n) * c + c);
   }
 
-  /// By quadrature, which crowds its points where the lobe of a large n falls.
+  /// By quadrature with more points near s = 0, where the lobe falls.
   double moment(int j, double s_max) const {
     thread_local boost::math::quadrature::tanh_sinh<double> quadrature;
     const auto integrand = [&](double s) { return (1 - s) / (1 - s + n * s) * std::pow(s, j); };
     return quadrature.integrate(integrand, 0.0, s_max, 1e-14);
   }
 
-  /// Follows 1 / (1 - s + n s), whose integral has an inverse in closed form and Schlick's has not; the
-  /// lobe is 1 - s times that.
+  /// Follows 1 / (1 - s + n s), the lobe without the factor 1 - s, because only its integral has an inverse in
+  /// closed form.
   double sample(double xi) const {
     const double m = n - 1;
     return m == 0 ? xi : std::clamp(std::expm1(xi * std::log1p(m)) / m, 0.0, 1.0);
@@ -62,5 +55,3 @@ static_assert(Lobe<SchlickLobe>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

@@ -1,16 +1,9 @@
-// The spherical Gaussian, which cs_k becomes as k grows.
+// The spherical Gaussian, the limit of cs_k for large k.
 //
 //   value(s) = exp(-n s) where s < 1, else 0
 #include <boost/math/special_functions/gamma.hpp>
 
 #include "renderer/lobes/lobe.hpp"
-
-#if defined(LOBELIA_RENDERER_LOBES_SPHERICAL_GAUSSIAN_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_LOBES_SPHERICAL_GAUSSIAN_HPP
-#undef LOBELIA_RENDERER_LOBES_SPHERICAL_GAUSSIAN_HPP
-#else
-#define LOBELIA_RENDERER_LOBES_SPHERICAL_GAUSSIAN_HPP
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -34,7 +27,7 @@ struct SphericalGaussianLobe {
     return exp(Number(n) * (c - Number(1)));
   }
 
-  /// The incomplete gamma function; of order 0, (1 - exp(-n s_max)) / n.
+  /// The incomplete gamma function; (1 - exp(-n s_max)) / n for j = 0.
   double moment(int j, double s_max) const {
     return boost::math::tgamma_lower(j + 1.0, n * s_max) / std::pow(n, j + 1);
   }
@@ -51,5 +44,3 @@ static_assert(Lobe<SphericalGaussianLobe>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

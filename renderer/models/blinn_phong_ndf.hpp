@@ -3,16 +3,9 @@
 //   D = coef * lobe(angle of N from H),   f_r = D F / 4 with implicit geometry G = (N.L)(N.V)
 //   radiance = D / 4 * (N.L) * E, with F = 1
 //
-// Row 5 of the paper's table. A distribution of normals, not of reflected light: used as an RDF it
-// would return four times the energy.
+// Row 5 of the paper's table. A distribution of normals, not of reflected light: as an RDF it would reflect four
+// times the energy.
 #include "renderer/models/model.hpp"
-
-#if defined(LOBELIA_RENDERER_MODELS_BLINN_PHONG_NDF_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_MODELS_BLINN_PHONG_NDF_HPP
-#undef LOBELIA_RENDERER_MODELS_BLINN_PHONG_NDF_HPP
-#else
-#define LOBELIA_RENDERER_MODELS_BLINN_PHONG_NDF_HPP
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -28,11 +21,6 @@ struct BlinnPhongNdf {
   static constexpr EnergyIntegral kEnergy{{1, 0, 0, 0}, 1};
   static constexpr double kShare = 0.25;
 
-  template <class Real>
-  static Real foreshortening(Real n_dot_l) {
-    return n_dot_l;
-  }
-
   static double paper_cosine(double n) { return (n + 1) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return 1.063 * n / (2 * std::numbers::pi); }
   static constexpr CoefficientTexts kTexts{"(n + 1.0) / (2.0 * %pi%)", "(n + 1.0) / (2.0 * %pi%)",
@@ -42,5 +30,3 @@ static_assert(Model<BlinnPhongNdf>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

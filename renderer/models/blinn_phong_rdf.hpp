@@ -2,17 +2,10 @@
 //
 //   radiance = coef * lobe(angle of N from H) * E,   0 where N.L <= 0
 //
-// Row 3 of the paper's table. The paper's fit for cs16 integrates the half-angle lobe only up to
-// 6/sqrt(n), half of its support; over the true support its energy is up to 5.2e-3 above 1.
-// POV-Ray's `specular albedo` is pi times the cosine coefficient.
+// Row 3 of the paper's table. The paper's fit for cs16 integrates the half-angle lobe only up to 6/sqrt(n), half of
+// its support; over the true support its energy is up to 5.2e-3 above 1. POV-Ray's `specular albedo` is pi times
+// the cosine coefficient.
 #include "renderer/models/model.hpp"
-
-#if defined(LOBELIA_RENDERER_MODELS_BLINN_PHONG_RDF_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_MODELS_BLINN_PHONG_RDF_HPP
-#undef LOBELIA_RENDERER_MODELS_BLINN_PHONG_RDF_HPP
-#else
-#define LOBELIA_RENDERER_MODELS_BLINN_PHONG_RDF_HPP
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -28,11 +21,6 @@ struct BlinnPhongRdf {
   static constexpr EnergyIntegral kEnergy{{4, -4, 0, 0}, kHalfOfRightAngle};
   static constexpr double kShare = 1;
 
-  template <class Real>
-  static Real foreshortening(Real) {
-    return Real(1);
-  }
-
   static double paper_cosine(double n) {
     return (n + 2) / (4 * std::numbers::pi * (2 - std::exp2(-n / 2)));
   }
@@ -45,5 +33,3 @@ static_assert(Model<BlinnPhongRdf>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

@@ -2,8 +2,8 @@
 //
 //   reflection: between L and R = 2 (N.V) N - V        half vector: between N and H = (L + V)/|L + V|
 //
-// As the difference of the two vectors, whose square is 2 s: 1 - cos of a small angle, computed from the
-// cosine, would have no digits left.
+// Computed from the difference of the two vectors, because its square is 2 s. The cosine of a small angle would
+// leave no digits in 1 - cos.
 #include <hwy/highway.h>
 
 #include "renderer/highlight.hpp"
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
-/// s = 1 - cos of the lobe's angle. Real and Vector are of one precision.
+/// s = 1 - cos of the lobe's angle. Real and Vector have the same precision.
 template <LobeAngle angle, class Real, class Vector>
 Real one_minus_cos(Vector normal, Vector to_eye, Vector to_light) {
   Vector difference;

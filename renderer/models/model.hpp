@@ -1,28 +1,20 @@
-// A model is the angle that its lobe sees, the place of the cosine, and the coefficient that makes the reflected energy 1
-// at normal incidence.
+// A model: the angle that its lobe sees, whether radiance carries N.L, and the coefficient that makes the reflected
+// energy 1 at normal incidence.
 //
 //   radiance per unit irradiance normal to the beam
-//     = kShare * coefficient * lobe(s, n) * foreshortening(N.L),   0 where N.L <= 0
+//     = kShare * coefficient * lobe(s, n) * (N.L, unless it is an RDF),   0 where N.L <= 0
 //
 // Compiled once for each instruction set, as lobes are (renderer/lobes/lobe.hpp).
 #pragma once
 
-#include <hwy/highway.h>
-
-#include <array>
-#include <concepts>
-#include <numbers>
-
-#include "renderer/highlight.hpp"
 #include "renderer/lobes/lobe.hpp"
-#include "renderer/real.hpp"
 
 namespace lobelia {
 
-/// The integral that the coefficient normalises, over s = 1 - cos of the lobe's own angle:
+/// The integral that the coefficient makes 1, over s = 1 - cos of the lobe's angle:
 ///   energy = coefficient * 2 pi * sum over j of weights[j] * integral of lobe(s) s^j, 0..s_max.
-/// For the half-vector models the lobe's angle is half the angle of the reflected ray, x, so that
-/// sin x dx = 4 (1 - s) ds, cos x = 1 - 4 s + 2 s^2 and x = pi/2 is s = 1 - cos(pi/4).
+/// For the half-vector models the lobe's angle is half the angle x of the reflected ray, so
+/// sin x dx = 4 (1 - s) ds, cos x = 1 - 4 s + 2 s^2, and x = pi/2 is s = 1 - cos(pi/4).
 struct EnergyIntegral {
   std::array<double, 4> weights;
   double s_max;
@@ -38,19 +30,16 @@ double exact_coefficient(const EnergyIntegral& energy, const auto& lobe) {
   return 1 / (2 * std::numbers::pi * sum);
 }
 
-/// Coefficients as formulas of n in the language that GLSL, HLSL and OSL have in common, for
-/// `lobelia export` and for people: those of the two columns of the paper, and the true one for cos^n.
-/// Their numbers have a decimal point, their products a sign.
+/// Coefficients as formulas of n in what GLSL, HLSL and OSL have in common, for `lobelia export` and for people:
+/// the true one for cos^n and the paper's two columns. Every number has a decimal point, every product a sign.
 struct CoefficientTexts {
   std::string_view exact_cosine, paper_cosine, paper_cs16;
 };
 
 template <class M>
-concept Model = requires(double n_dot_l, double n) {
+concept Model = requires(double n) {
   { M::kInfo } -> std::convertible_to<const ModelInfo&>;
   { M::kEnergy } -> std::convertible_to<const EnergyIntegral&>;
-  /// 1 for an RDF, N.L otherwise; for N.L > 0. Templated on double or Lanes.
-  { M::foreshortening(n_dot_l) } -> std::same_as<double>;
   /// 1; or 1/4 for a microfacet distribution D, because f_r = D F / 4.
   { M::kShare } -> std::convertible_to<double>;
   /// The coefficients as the paper prints them, misprints included.

@@ -2,17 +2,10 @@
 //
 //   radiance = coef * lobe(angle of N from H) * (N.L) * E
 //
-// Row 4 of the paper's table. The paper prints 4 pi in the cosine column, which reflects twice the
-// energy that arrives; 8 pi is true, and is what the paper's own bounds say. The printed constant
-// stands under the normalisation "paper". Its fit for cs16 loses up to 5.6 % of the energy.
+// Row 4 of the paper's table. The paper prints 4 pi in the cosine column, which reflects twice the energy that
+// arrives; 8 pi is right, and agrees with the paper's own bounds. The normalisation "paper" has the printed
+// constant. The paper's fit for cs16 loses up to 5.6 % of the energy.
 #include "renderer/models/model.hpp"
-
-#if defined(LOBELIA_RENDERER_MODELS_MODIFIED_BLINN_PHONG_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_MODELS_MODIFIED_BLINN_PHONG_HPP
-#undef LOBELIA_RENDERER_MODELS_MODIFIED_BLINN_PHONG_HPP
-#else
-#define LOBELIA_RENDERER_MODELS_MODIFIED_BLINN_PHONG_HPP
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -29,11 +22,6 @@ struct ModifiedBlinnPhong {
   static constexpr EnergyIntegral kEnergy{{4, -20, 24, -8}, kHalfOfRightAngle};
   static constexpr double kShare = 1;
 
-  template <class Real>
-  static Real foreshortening(Real n_dot_l) {
-    return n_dot_l;
-  }
-
   static double paper_cosine(double n) {
     return (n + 2) * (n + 4) / (4 * std::numbers::pi * (std::exp2(-n / 2) + n));
   }
@@ -47,5 +35,3 @@ static_assert(Model<ModifiedBlinnPhong>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

@@ -5,13 +5,6 @@
 // Row 2 of the paper's table. f_r = coef * lobe; reciprocal, because R.V = L.R_V.
 #include "renderer/models/model.hpp"
 
-#if defined(LOBELIA_RENDERER_MODELS_MODIFIED_PHONG_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_MODELS_MODIFIED_PHONG_HPP
-#undef LOBELIA_RENDERER_MODELS_MODIFIED_PHONG_HPP
-#else
-#define LOBELIA_RENDERER_MODELS_MODIFIED_PHONG_HPP
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
@@ -27,11 +20,6 @@ struct ModifiedPhong {
   static constexpr EnergyIntegral kEnergy{{1, -1, 0, 0}, 1};
   static constexpr double kShare = 1;
 
-  template <class Real>
-  static Real foreshortening(Real n_dot_l) {
-    return n_dot_l;
-  }
-
   static double paper_cosine(double n) { return (n + 2) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return (1.063 * n + 1) / (2 * std::numbers::pi); }
   static constexpr CoefficientTexts kTexts{"(n + 2.0) / (2.0 * %pi%)", "(n + 2.0) / (2.0 * %pi%)",
@@ -41,5 +29,3 @@ static_assert(Model<ModifiedPhong>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

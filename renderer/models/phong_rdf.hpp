@@ -2,17 +2,10 @@
 //
 //   radiance = coef * lobe(angle of R from V) * E,   0 where N.L <= 0
 //
-// Row 1 of the paper's table. The irradiance E is measured normal to the beam: there is no N.L by
-// definition. Read as a BRDF (lobe / N.L) it is not reciprocal, whatever the paper says.
-// POV-Ray's `phong albedo` is pi times this coefficient.
+// Row 1 of the paper's table. The irradiance E is measured normal to the beam: there is no N.L by definition. As a
+// BRDF (lobe / N.L) it is not reciprocal, contrary to the paper. POV-Ray's `phong albedo` is pi times this
+// coefficient.
 #include "renderer/models/model.hpp"
-
-#if defined(LOBELIA_RENDERER_MODELS_PHONG_RDF_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_MODELS_PHONG_RDF_HPP
-#undef LOBELIA_RENDERER_MODELS_PHONG_RDF_HPP
-#else
-#define LOBELIA_RENDERER_MODELS_PHONG_RDF_HPP
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
@@ -28,11 +21,6 @@ struct PhongRdf {
   static constexpr EnergyIntegral kEnergy{{1, 0, 0, 0}, 1};
   static constexpr double kShare = 1;
 
-  template <class Real>
-  static Real foreshortening(Real) {
-    return Real(1);
-  }
-
   static double paper_cosine(double n) { return (n + 1) / (2 * std::numbers::pi); }
   static double paper_cs16(double n) { return 1.063 * n / (2 * std::numbers::pi); }
   static constexpr CoefficientTexts kTexts{"(n + 1.0) / (2.0 * %pi%)", "(n + 1.0) / (2.0 * %pi%)",
@@ -42,5 +30,3 @@ static_assert(Model<PhongRdf>);
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif  // per-target guard

@@ -1,41 +1,37 @@
-#include "renderer/plan/occlusion.hpp"
-
-#include <algorithm>
-#include <cmath>
-
-#include "core/constants.hpp"
+#include "renderer/plan/plan.hpp"
 
 namespace lobelia {
 namespace {
 
-/// A hair wider than the geometry, so that rounding never rules out a grazing occluder.
+/// Makes occluders a little wider, so that rounding never rules out a grazing one.
 constexpr double kWider = 1 + 1e-9;
 
-/// An occluder must reach the tube around the line between the two centres, as wide as the larger of light and sphere.
+/// An occluder must reach the tube around the line between the centres of light and receiver, as wide as the larger
+/// one.
 bool may_occlude(const LightBounds& light, const Sphere& receiver, const Sphere& occluder) {
   if (light.kind == LightBounds::kEverywhere) return true;
   const Vec3 to_occluder = occluder.center - receiver.center;
   Vec3 axis = light.at;
   double axis_length = kInfinity, tube = receiver.radius;
   if (light.kind == LightBounds::kBall) {
-    const Vec3 way = light.at - receiver.center;
-    axis_length = length(way);
+    const Vec3 offset = light.at - receiver.center;
+    axis_length = length(offset);
     if (axis_length <= receiver.radius + light.radius) return true;  // they meet: rule nothing out
-    axis = normalize(way);
+    axis = normalize(offset);
     tube = std::max(tube, light.radius);
   }
   const double along = std::clamp(dot(to_occluder, axis), 0.0, axis_length);
   return length(to_occluder - along * axis) <= (tube + occluder.radius) * kWider;
 }
 
-/// Above the plane is positive. Of a sphere, the nearest to the plane; 0 where it meets it.
+/// The height of a sphere's centre above the plane; 0 if the two meet.
 double side(const Plane& plane, Vec3 center, double radius) {
   const double height = dot(center - plane.point, plane.normal);
   const double reach = radius * kWider + 1e-12 * length(center - plane.point);
   return std::abs(height) > reach ? height : 0;
 }
 
-/// Which side of the plane all of the light is on: 1, -1, or 0 where it is on both.
+/// The side of the plane that all of the light is on: 1 or -1; 0 if it is on both.
 int side(const Plane& plane, const LightBounds& light) {
   double height = 0;
   if (light.kind == LightBounds::kBall) height = side(plane, light.at, light.radius);
@@ -76,7 +72,7 @@ Occluders occluders_of(const Scene& scene, const LightBounds& light, std::size_t
   return found;
 }
 
-/// Takes out a surface that the light lies on.
+/// Removes a surface that the light lies on.
 void leave_out(const Scene& scene, const Light& light, int surface, Occluders& occluders) {
   const int spheres = int(scene.spheres.size());
   if (surface >= spheres) {

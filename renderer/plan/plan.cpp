@@ -2,16 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
-#include <numbers>
 
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
-#include "renderer/plan/effects/catalogue.hpp"
-#include "renderer/plan/sharpness.hpp"
 
 namespace lobelia {
 namespace {
@@ -19,14 +13,16 @@ namespace {
 template <EffectOfLight E>
 EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
   EffectDecision decision = E::decide(scene, policy, plan);
+  decision.name = E::kName;
+  decision.work = E::kWork;
   decision.hides = E::kHides;
   if (policy == EffectPolicy::kAll && decision.on)
     decision.reason += " (forced: all effects were asked for)";
   return decision;
 }
 
-/// A lower bound of |L + V| over the points of a sphere that are seen and lit: from the centre's
-/// directions, each widened by the angle that the sphere fills. 0 where there is none.
+/// A lower bound of |L + V| over the points of a sphere that are seen and lit: from the directions at its centre,
+/// each widened by the angle that the sphere fills. 0 if there is none.
 double min_half_length(const Scene& scene, const Lamp& lamp, const Sphere& sphere) {
   const auto widening = [&](Vec3 from) {
     const double distance = length(from - sphere.center);
@@ -51,8 +47,7 @@ void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& 
   std::array<std::size_t, 3> pairs{};
   for (const Material& m : scene.materials)
     plan.any_direction_precision.push_back(asked ? *asked : sufficient_precision(m.highlight, 0));
-  // For each material by the length of L + V, rounded down to a power of 2^(1/4): a crowd of spheres
-  // then asks for few bounds.
+  // By material and by |L + V|, rounded down to a power of 2^(1/4): a crowd of spheres needs few bounds then.
   std::map<std::pair<int, int>, Precision> known;
   const bool one_by_one =
       scene.spheres.size() <= kMaxPairwiseSpheres && scene.camera.aperture_radius == 0;
@@ -110,7 +105,7 @@ LightStrategy strategy_of(const Light& light, const Material& material, EffectPo
   return info(light).varies ? LightStrategy::kBoth : LightStrategy::kSurface;
 }
 
-/// Pixels along one axis that are looked at, tile by tile.
+/// The sum of looked_at() over the tiles along one axis.
 std::uint64_t looked_at_for_tiles(int size, Filter filter) {
   int sum = 0;
   for (int begin = 0; begin < size; begin += kTileSide) {
@@ -120,7 +115,7 @@ std::uint64_t looked_at_for_tiles(int size, Filter filter) {
   return std::uint64_t(sum);
 }
 
-/// At most: every camera ray meets a surface, and every ray after it.
+/// Upper bounds: every ray meets a surface.
 void expect_rays(const Scene& scene, Plan& plan) {
   const Film& film = scene.film;
   const std::uint64_t pixels = std::uint64_t(film.width) * std::uint64_t(film.height);
@@ -130,19 +125,15 @@ void expect_rays(const Scene& scene, Plan& plan) {
         std::uint64_t(plan.first_samples) * (looked_at_for_tiles(film.width, film.filter) *
                                                  looked_at_for_tiles(film.height, film.filter) -
                                              pixels);
-  const bool sized = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                 [](const Light& l) { return !is_delta(l); });
-  const bool by_surface =
-      std::any_of(plan.strategy.begin(), plan.strategy.end(), [](const auto& row) {
-        return std::any_of(row.begin(), row.end(),
-                           [](LightStrategy s) { return s != LightStrategy::kLight; });
-      });
+  const bool sized = !std::ranges::all_of(scene.lights, is_delta);
+  const bool by_surface = std::ranges::any_of(plan.strategy, [](const auto& row) {
+    return std::ranges::any_of(row, [](LightStrategy s) { return s != LightStrategy::kLight; });
+  });
   std::uint64_t shadowed_lights = 0;
   for (const auto& row : plan.occluders)
-    shadowed_lights +=
-        std::any_of(row.begin(), row.end(), [](const Occluders& o) { return !o.empty(); });
-  // A camera ray may go on as one of each kind, and each of those as one of either. What is forced is
-  // traced once.
+    shadowed_lights += !std::ranges::all_of(row, &Occluders::empty);
+  // A camera ray may go on as one ray of each kind, and each of those as one of either. Forced effects are traced
+  // once.
   const std::uint64_t forced = plan.policy == EffectPolicy::kAll;
   const std::uint64_t mirrored =
       plan.on<effects::Mirror>()

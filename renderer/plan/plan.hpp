@@ -2,41 +2,46 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
+#include <concepts>
 
-#include "renderer/plan/effect.hpp"
 #include "renderer/precision.hpp"
 #include "renderer/scene/contact.hpp"
-#include "renderer/scene/scene.hpp"
 
 namespace lobelia {
 
-/// Up to so many spheres each pair of them and a light is looked at, to find who may shadow whom.
+/// With more spheres, the plan does not look for the occluders of each.
 inline constexpr std::size_t kMaxPairwiseSpheres = 256;
-/// Up to so many spheres a ray is tested against each; beyond, Embree sorts them.
+/// With more spheres, Embree finds the one that a ray meets.
 inline constexpr std::size_t kMaxLoopSpheres = 24;
-
-/// Pictures are made in squares of so many pixels.
+/// Pictures are rendered in squares of this size, in pixels.
 inline constexpr int kTileSide = 32;
 
-/// How directions to a light with a size are drawn.
+enum class EffectPolicy { kAsCalledFor, kAll };
+
+struct EffectDecision {
+  bool on = false;
+  std::string reason;  ///< in words: "no sphere can stand between another one and a light"
+  // Set by the planner, from the effect's constants.
+  std::string_view name = {};   ///< "shadows"
+  std::string_view work = {};   ///< its cost, as counted in every record: "shadow rays"
+  std::string_view hides = {};  ///< E::kHides
+};
+
+/// Who draws the directions to a light with a size.
 enum class LightStrategy : std::uint8_t {
   kLight,    ///< the light: the surface scatters evenly
   kBoth,     ///< light and surface, weighted by the power heuristic (Veach 1997, section 9.2.4)
-  kSurface,  ///< the surface: the light is the same from everywhere
+  kSurface,  ///< the surface: the light comes evenly from everywhere
 };
 
 /// Deviations from the best plan, to measure their effect. Only studies ask for them.
 struct Experiment {
-  /// How directions to lights with a size are drawn, and those of inter-reflection.
+  /// How directions of inter-reflection, and to lights with a size, are drawn.
   enum class Directions : std::uint8_t {
     kPlanned,
     kLight,    ///< to lights: by the light alone
-    kSurface,  ///< to lights: by the surface alone, as its highlight and its cosine are
-    kEven,     ///< all: evenly over the hemisphere, without importance sampling of any kind
+    kSurface,  ///< to lights: by the surface alone, following its highlight and its cosine
+    kEven,     ///< all: evenly over the hemisphere, without importance sampling
   };
   Directions directions = Directions::kPlanned;
   bool shadows = true;  ///< false: nothing stands between a surface and a light
@@ -44,8 +49,8 @@ struct Experiment {
 
 /// The surfaces that may hide a light from a surface.
 struct Occluders {
-  bool any_sphere = false;   ///< too many to say which
-  std::vector<int> spheres;  ///< else these
+  bool any_sphere = false;   ///< there are too many to tell
+  std::vector<int> spheres;  ///< otherwise
   std::vector<int> planes;
   std::vector<Horizon> horizons;  ///< of spheres that the light lies on
   bool empty() const {
@@ -54,53 +59,84 @@ struct Occluders {
 };
 
 struct Plan {
-  std::vector<EffectDecision> effects;  ///< in the order of the catalogue
+  std::vector<EffectDecision> effects;  ///< in the catalogue's order
   EffectPolicy policy = EffectPolicy::kAsCalledFor;
   Experiment experiment;
 
-  /// A light neither lights a surface that it lies on nor is hidden by it, but for its horizon.
+  /// A surface that a light lies on is not lit by it, and hides it only below the horizon.
   Contacts contacts;
   bool lies_on(std::size_t light, int surface) const {
-    const std::vector<int>& c = contacts[light];
-    return !c.empty() && std::find(c.begin(), c.end(), surface) != c.end();
+    return std::ranges::find(contacts[light], surface) != contacts[light].end();
   }
 
-  /// occluders[light][surface]: spheres first, then planes; or one entry for all (find_occluders).
+  /// As find_occluders().
   std::vector<std::vector<Occluders>> occluders;
   const Occluders& occluders_of(std::size_t light, std::size_t surface) const {
     return occluders[light][std::min(surface, occluders[light].size() - 1)];
   }
-  /// strategy[light][material]; of no meaning where is_delta(light).
+  /// strategy[light][material]; not used where is_delta(light).
   std::vector<std::vector<LightStrategy>> strategy;
 
-  /// precision[light][sphere]: how a highlight is shaded as the camera sees it, and in words why. Empty
-  /// rows for lights with a size and beyond kMaxPairwiseSpheres: there any direction counts.
+  /// precision[light][sphere] for highlights seen by the camera, with the reason in words. Rows are empty for lights
+  /// with a size and beyond kMaxPairwiseSpheres: any direction is possible there.
   std::vector<std::vector<Precision>> precision;
-  /// By material, for every other direction of light and eye.
-  std::vector<Precision> any_direction_precision;
+  std::vector<Precision> any_direction_precision;  ///< by material, for all other directions
   std::string precision_reason;
 
-  int first_samples = 1;  ///< of each pixel; the rest only where these differ
+  int first_samples = 1;  ///< of each pixel; the rest are taken only where these differ
   std::string sample_reason;
-  Depth depth;         ///< of reflections that are traced
-  std::string kernel;  ///< which inner loops, in words
+  Depth depth;         ///< of the reflections that are traced
+  std::string kernel;  ///< the inner loops, in words
 
-  /// At most: where every pixel needs all its samples, with the first ones around tiles.
-  std::uint64_t camera_rays = 0;
-  /// At most.
-  std::uint64_t max_shadow_rays = 0, max_mirror_rays = 0, max_scattered_rays = 0;
+  /// Upper bounds; camera rays include the first samples around tiles.
+  std::uint64_t camera_rays = 0, max_shadow_rays = 0, max_mirror_rays = 0, max_scattered_rays = 0;
 
   template <class Effect>
   bool on() const;  ///< plan/effects/catalogue.hpp
 };
 
-/// `precision` for every highlight, or for each the narrowest whose error bound allows it. That all
-/// effects are asked for does not change the precision: it is no effect of light.
+/// The interface of an effect: one file in renderer/plan/effects/ and one line in catalogue.hpp there.
+template <class E>
+concept EffectOfLight = requires(const Scene& scene, EffectPolicy policy, Plan& plan,
+                                 Scene& changed, Experiment& experiment) {
+  { E::kName } -> std::convertible_to<std::string_view>;
+  { E::kWork } -> std::convertible_to<std::string_view>;
+  /// Why a few samples of a pixel do not tell whether it needs more; empty if they do.
+  { E::kHides } -> std::convertible_to<std::string_view>;
+  /// Decides whether the scene calls for the effect, and why, and writes into the plan what to do for it. With
+  /// EffectPolicy::kAll every scene calls for it.
+  { E::decide(scene, policy, plan) } -> std::same_as<EffectDecision>;
+  /// What a picture without it has instead: "a pinhole".
+  { E::kWithout } -> std::convertible_to<std::string_view>;
+  /// Changes the scene so that nothing calls for it; or the experiment, if no scene can say that.
+  E::leave_out(changed, experiment);
+};
+
+/// Every highlight gets `precision` or, without one, the narrowest precision that its error bound allows. The policy
+/// does not change the precision.
 Plan make_plan(const Scene& scene, EffectPolicy policy,
                std::optional<Precision> precision = std::nullopt, Experiment experiment = {});
 
-/// By material, a lower bound of |L + V| wherever the camera sees it lit, which is what shading_error_bound()
-/// asks for; 0 where nothing is known: on planes, in mirrors, through a lens, under lights with a size.
+/// By material, a lower bound of |L + V| wherever the camera sees it lit, for shading_error_bound(). 0 where
+/// nothing is known: on planes, in mirrors, through a lens, under lights with a size.
 std::vector<double> min_half_lengths(const Scene& scene);
+
+/// occluders[light][surface], spheres first, then planes: the surfaces that may stand between. Conservative: all
+/// others can shadow no point of the surface. With EffectPolicy::kAll every other surface is in it. With more than
+/// kMaxPairwiseSpheres there is one entry for all surfaces, with any_sphere set.
+std::vector<std::vector<Occluders>> find_occluders(const Scene& scene, const Contacts& contacts,
+                                                   EffectPolicy policy);
+
+/// Why every pixel needs all its samples, in words; empty if a few tell whether it needs the rest. Asks the plan
+/// which effects are on that were decided before antialiasing.
+std::string why_every_pixel(const Scene& scene, const Plan& plan);
+
+/// The pixels from `begin` to before `end` along one axis.
+struct PixelRange {
+  int begin, end;
+};
+/// The pixels with first samples that tell whether the given pixels need the rest, in a picture of `size` pixels. The
+/// range goes beyond the picture's edges if the filter does.
+PixelRange looked_at(PixelRange pixels, int size, Filter filter);
 
 }  // namespace lobelia

@@ -1,16 +1,12 @@
-#include "renderer/plan/sharpness.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "renderer/lobe_properties.hpp"
+#include "renderer/plan/plan.hpp"
 
 namespace lobelia {
 namespace {
 
-/// Smaller than so many pixels across, a thing may hide between the first samples.
+/// The width in pixels below which a thing may hide between the first samples.
 constexpr double kFewestPixels = 4;
 
 }  // namespace
@@ -28,8 +24,8 @@ std::string why_every_pixel(const Scene& scene, const Plan& plan) {
       return fmt::format("sphere {} is only {:.1f} pixels across", k,
                          2 * sphere.radius / (pixel * distance));
     const Highlight& h = scene.materials[std::size_t(sphere.material)].highlight;
-    // From one pixel to the next the normal turns by so much where the sphere faces the camera, and the
-    // mirror direction twice; that is where a highlight looks smallest but for the silhouette.
+    // The turn of the mirror direction from pixel to pixel, twice the normal's, where the sphere faces the camera:
+    // but for the silhouette, a highlight looks smallest there.
     const double turn = 2 * pixel * std::max(0.0, distance - sphere.radius) / sphere.radius;
     const double across = 2 * lobe_angle_at(prepare(h.lobe, h.exponent), 0.5) / turn;
     if (across < kFewestPixels)

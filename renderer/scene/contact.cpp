@@ -1,15 +1,12 @@
 #include "renderer/scene/contact.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace lobelia {
 namespace {
 
-/// Thousands of roundings of a coordinate, so that none decides.
+/// Thousands of roundings of a coordinate.
 constexpr double kCloseness = 1e-12;
 
-/// The ball that holds the light; none where it is infinitely far away.
+/// The ball that holds the light; none if it is infinitely far away.
 std::optional<LightBounds> ball_of(const Light& light) {
   const LightBounds b = bounds(light);
   return b.kind == LightBounds::kBall ? std::optional(b) : std::nullopt;
@@ -56,13 +53,13 @@ std::optional<Horizon> horizon_of(const Light& light, const Sphere& sphere) {
 Contacts find_contacts(const Scene& scene) {
   Contacts found(scene.lights.size());
   const auto is_near = [](const Light& light) { return ball_of(light).has_value(); };
-  if (std::none_of(scene.lights.begin(), scene.lights.end(), is_near)) return found;
+  if (std::ranges::none_of(scene.lights, is_near)) return found;
   const double close = closeness(scene);
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
     const Light& light = scene.lights[l];
     const auto ball = ball_of(light);
     if (!ball) continue;
-    // In a loop that is tight: there may be millions of spheres.
+    // A tight loop: there may be millions of spheres.
     for (std::size_t k = 0; k < scene.spheres.size(); ++k)
       if (lies_on(*ball, scene.spheres[k], close)) found[l].push_back(int(k));
     for (std::size_t k = 0; k < scene.planes.size(); ++k)

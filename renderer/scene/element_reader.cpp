@@ -1,20 +1,12 @@
 #include "renderer/scene/element_reader.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace lobelia {
 namespace {
 
 constexpr std::string_view kParameterTags[] = {"float", "integer", "string",
                                                "point", "vector",  "rgb"};
 
-bool is_parameter(pugi::xml_node node) {
-  return std::find(std::begin(kParameterTags), std::end(kParameterTags), node.name()) !=
-         std::end(kParameterTags);
-}
-
-/// The beginning, without line breaks and runs of spaces.
+/// The beginning of a text, without line breaks and runs of spaces.
 std::string join_words(std::string_view text) {
   std::string result;
   for (const auto& word : split(text.substr(0, 200), " \t\n\r"))
@@ -47,13 +39,15 @@ std::vector<pugi::xml_node> ElementReader::elements(pugi::xml_node parent) {
 }
 
 void ElementReader::expect_tag(pugi::xml_node node, Tags allowed) {
-  if (std::find(allowed.begin(), allowed.end(), std::string_view(node.name())) != allowed.end())
-    return;
+  if (std::ranges::find(allowed, node.name()) == allowed.end()) unknown_element(node, allowed);
+}
+
+void ElementReader::unknown_element(pugi::xml_node node,
+                                    std::span<const std::string_view> allowed) {
   if (source_.full()) return source_.count_error();
-  const std::span<const std::string_view> tags(allowed.begin(), allowed.size());
   source_.error(node, fmt::format("unknown element <{}> in <{}>; allowed: {}{}",
                                   printable(node.name()), printable(node.parent().name()),
-                                  join(tags), did_you_mean(node.name(), tags)));
+                                  join(allowed), did_you_mean(node.name(), allowed)));
 }
 
 const ElementFormat* ElementReader::format_of(pugi::xml_node node,
@@ -116,15 +110,16 @@ Values ElementReader::read_parameters(pugi::xml_node element, std::span<const Pa
                                       Tags nested) {
   Values values;
   for (const auto node : elements(element)) {
-    if (!is_parameter(node)) {
-      if (std::find(nested.begin(), nested.end(), std::string_view(node.name())) == nested.end())
-        unknown_child(node, nested);
+    if (std::ranges::find(kParameterTags, node.name()) == std::end(kParameterTags)) {
+      if (std::ranges::find(nested, node.name()) != nested.end()) continue;
+      std::vector<std::string_view> allowed(std::begin(kParameterTags), std::end(kParameterTags));
+      allowed.insert(allowed.end(), nested.begin(), nested.end());
+      unknown_element(node, allowed);
       continue;
     }
     const std::string name = source_.required(node, "name");
     if (name.empty()) continue;
-    const auto parameter = std::find_if(table.begin(), table.end(),
-                                        [&](const Parameter& p) { return p.name == name; });
+    const auto parameter = std::ranges::find(table, name, &Parameter::name);
     if (parameter == table.end()) {
       std::vector<std::string_view> names;
       for (const auto& known : table) names.push_back(known.name);
@@ -143,7 +138,7 @@ Values ElementReader::read_parameters(pugi::xml_node element, std::span<const Pa
       continue;
     }
     const std::string text = value_text(node);
-    // A value that was complained about is replaced by anything, to find the errors after it.
+    // After an error any value will do, to find the errors behind it.
     values.set(parameter->name,
                parse(node, *parameter, text).value_or(Values::Value{{1, 1, 1}, "", {}}));
   }
@@ -162,15 +157,6 @@ Values ElementReader::read_parameters(pugi::xml_node element, std::span<const Pa
 Values::Value ElementReader::default_of(const Parameter& parameter) {
   if (parameter.default_value.empty()) return {{1, 1, 1}, "", {}};  // after an error: anything
   return parse({}, parameter, std::string(parameter.default_value)).value();
-}
-
-void ElementReader::unknown_child(pugi::xml_node node, Tags nested) {
-  if (source_.full()) return source_.count_error();
-  std::vector<std::string_view> allowed(std::begin(kParameterTags), std::end(kParameterTags));
-  allowed.insert(allowed.end(), nested.begin(), nested.end());
-  source_.error(node, fmt::format("unknown element <{}> in <{}>; allowed: {}{}",
-                                  printable(node.name()), printable(node.parent().name()),
-                                  join(allowed), did_you_mean(node.name(), allowed)));
 }
 
 bool ElementReader::within(pugi::xml_node node, std::string_view what, std::int64_t limit,

@@ -1,17 +1,11 @@
-// Elements of a scene file against their tables: names, types, ranges, defaults.
+// Reads elements of a scene file by their tables: names, types, ranges, defaults.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <initializer_list>
-#include <optional>
 #include <set>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "core/text.hpp"
 #include "core/vec.hpp"
@@ -20,10 +14,10 @@
 
 namespace lobelia {
 
-/// The values of an element's parameters, every one of its table.
+/// The values of all parameters in an element's table.
 class Values {
  public:
-  /// The value of one parameter and where it stands.
+  /// The value of one parameter, and its place in the file.
   struct Value {
     std::array<double, 3> numbers{};
     std::string text;
@@ -52,10 +46,10 @@ class Values {
   std::vector<std::pair<std::string_view, Value>> values_;  ///< few: a search in order is fastest
 };
 
-/// The parts between commas and spaces; none of a text too long for three numbers.
+/// The parts between commas and spaces; none if the text is too long for three numbers.
 std::vector<std::string> split_numbers(std::string_view text);
 
-/// Notes in the source what is wrong, and goes on with a value that can do no harm.
+/// Notes errors in the source, and goes on with a harmless value.
 class ElementReader {
  public:
   using Tags = std::initializer_list<std::string_view>;
@@ -63,20 +57,20 @@ class ElementReader {
   explicit ElementReader(XmlSource& source) : source_(source) {}
   XmlSource& source() { return source_; }
 
-  /// Children that are elements; text between them is an error (a forgotten bracket).
+  /// The children that are elements. Text between them is an error: a forgotten bracket.
   std::vector<pugi::xml_node> elements(pugi::xml_node parent);
   void expect_tag(pugi::xml_node node, Tags allowed);
-  /// The format among `formats` that the element's type attribute names; null after an error.
+  /// The format with the type that the element's attribute names; null after an error.
   const ElementFormat* format_of(pugi::xml_node node, std::span<const ElementFormat> formats);
-  /// Reads the parameters of an element; children with a tag in `nested` are left to the caller.
+  /// Reads the parameters of an element. Skips children with a tag in `nested`.
   Values read_parameters(pugi::xml_node element, std::span<const Parameter> table, Tags nested);
-  /// Whether one more may be read; says so once where not. What is over the limit is not looked at.
+  /// Whether one more may be read. Notes a single error if not; the rest is not read.
   bool within(pugi::xml_node node, std::string_view what, std::int64_t limit, std::int64_t seen);
   bool once(pugi::xml_node node, int& count);
   /// A vector that must have a direction, as a unit vector.
   Vec3 direction(pugi::xml_node element, const Values& values, std::string_view name);
 
-  /// Looks up the value's name with `find`.
+  /// Sets `id` to find(value), or notes an error.
   template <class Id, class Find>
   void choose(const Values::Value& value, pugi::xml_node element, std::string_view what,
               std::span<const std::string_view> names, const std::string& allowed, Find find,
@@ -96,7 +90,7 @@ class ElementReader {
                                      const std::string& text);
   std::string value_text(pugi::xml_node node);
   Values::Value default_of(const Parameter& parameter);
-  void unknown_child(pugi::xml_node node, Tags nested);
+  void unknown_element(pugi::xml_node node, std::span<const std::string_view> allowed);
 
   XmlSource& source_;
   std::set<std::string> over_limit_;

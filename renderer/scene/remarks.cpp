@@ -1,18 +1,11 @@
-#include "renderer/scene/remarks.hpp"
-
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <optional>
 
 #include "renderer/scene/contact.hpp"
 
 namespace lobelia {
 namespace {
 
-/// The first sphere whose centre the point is nearer to than limit(sphere).
+/// The first sphere with the point nearer to its centre than limit(sphere).
 template <class Limit>
 std::optional<std::size_t> holder(const Scene& scene, Vec3 point, const Limit& limit) {
   for (std::size_t k = 0; k < scene.spheres.size(); ++k)
@@ -20,17 +13,17 @@ std::optional<std::size_t> holder(const Scene& scene, Vec3 point, const Limit& l
   return std::nullopt;
 }
 
-/// Whether some part of the sphere may be in the picture: by the cone of the picture's corners.
+/// Whether some part of the sphere may be in the picture, by the cone through the picture's corners.
 bool may_be_seen(const Scene& scene, const CameraFrame& frame, const Sphere& sphere) {
-  const Vec3 way = sphere.center - frame.origin;
-  const double distance = length(way);
+  const Vec3 to_center = sphere.center - frame.origin;
+  const double distance = length(to_center);
   if (distance <= sphere.radius + scene.camera.aperture_radius) return true;
   const double corner = std::atan(std::hypot(frame.half_width + std::abs(frame.shift_u),
                                              frame.half_height + std::abs(frame.shift_v)));
   const double widening = std::asin(std::min(1.0, sphere.radius / distance));
-  // A lens sees a little more; as much as it moves the sphere.
+  // A lens sees more, by the angle that it moves the sphere.
   const double lens = std::asin(std::min(1.0, scene.camera.aperture_radius / distance));
-  return std::acos(std::clamp(dot(way, frame.forward) / distance, -1.0, 1.0)) <=
+  return std::acos(std::clamp(dot(to_center, frame.forward) / distance, -1.0, 1.0)) <=
          corner + widening + lens;
 }
 
@@ -38,12 +31,11 @@ bool may_be_seen(const Scene& scene, const CameraFrame& frame, const Sphere& sph
 
 std::vector<std::string> remarks(const Scene& scene) {
   std::vector<std::string> found;
-  if (std::all_of(scene.lights.begin(), scene.lights.end(),
-                  [](const Light& l) { return is_black(strength(l)); }))
+  if (std::ranges::all_of(scene.lights, [](const Light& l) { return is_black(strength(l)); }))
     found.push_back(scene.lights.empty() ? "the scene has no light: the picture is black"
                                          : "no light shines: the picture is black");
-  const bool sky = std::any_of(scene.lights.begin(), scene.lights.end(), is_environment);
-  const bool area = std::any_of(scene.lights.begin(), scene.lights.end(), is_area);
+  const bool sky = std::ranges::any_of(scene.lights, is_environment);
+  const bool area = std::ranges::any_of(scene.lights, is_area);
   if (scene.spheres.empty() && scene.planes.empty())
     found.push_back(fmt::format("the scene has no shape: the picture shows {}",
                                 sky || area ? "its lights alone" : "nothing"));
@@ -55,8 +47,8 @@ std::vector<std::string> remarks(const Scene& scene) {
     found.push_back(fmt::format(
         "the camera is on sphere {}, and does not see it: spheres have no inside", *on));
   else if (!scene.spheres.empty() && scene.planes.empty() && !sky && !area &&
-           std::none_of(scene.spheres.begin(), scene.spheres.end(),
-                        [&](const Sphere& s) { return may_be_seen(scene, frame, s); }))
+           std::ranges::none_of(scene.spheres,
+                                [&](const Sphere& s) { return may_be_seen(scene, frame, s); }))
     found.push_back("the camera looks away from every sphere: the picture is black");
   const auto inside_by_more = [close = closeness(scene)](const Sphere& sphere) {
     return std::min(inner_radius(sphere), sphere.radius - close);

@@ -1,4 +1,4 @@
-// A scene as plain data, already checked: whatever holds a Scene may rely on the ranges given here.
+// A scene as plain data, already checked: every Scene keeps to the ranges given here.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct Camera {
   double fov_degrees = 28;     ///< full horizontal angle of view, (0, 180)
   double aperture_radius = 0;  ///< of a thin lens, >= 0; 0 is a pinhole
   double focus_distance = 1;   ///< > 0; along the view, of the plane that is sharp
-  /// Where the view from origin to target meets the film: how far right of its centre, in widths, and
-  /// above it, in heights; -10..10 each.
+  /// The point where the view from origin to target meets the film, relative to its centre: to the right, in
+  /// widths, and upwards, in heights; -10..10 each.
   double principal_point_offset_x = 0, principal_point_offset_y = 0;
 };
 
@@ -44,7 +44,8 @@ struct Material {
   Rgb mirror_reflectance = {};  ///< of a perfect mirror on top, each 0..1; F0 of its Fresnel factor
 };
 
-/// Whether there is a highlight at all: with Schlick's factor there is, even of a black one.
+inline bool is_mirror(const Material& material) { return !is_black(material.mirror_reflectance); }
+/// Schlick's factor makes a highlight even of a black reflectance.
 inline bool has_highlight(const Material& material) {
   return !is_black(material.specular_reflectance) || material.fresnel != Fresnel::kNone;
 }
@@ -55,8 +56,8 @@ struct Sphere {
   int material = 0;   ///< index into Scene::materials
 };
 
-/// A point nearer to the centre than the first is inside, one farther than the second is outside; a point that
-/// is between the two lies on the sphere, by the rounding of its place.
+/// A point below the inner radius is inside the sphere, one beyond the outer radius is outside. Between the two it
+/// lies on the sphere, by the rounding of its coordinates.
 double inner_radius(const Sphere& sphere);
 double outer_radius(const Sphere& sphere);
 
@@ -64,13 +65,13 @@ double outer_radius(const Sphere& sphere);
 struct Plane {
   Vec3 point, normal;  ///< normal of unit length
   int material = 0;    ///< index into Scene::materials
-  int checker_material =
-      0;  ///< of every other square; the same as `material` where there is no checker
+  /// Of every other square; the same as `material` without a checker.
+  int checker_material = 0;
   double checker_size =
-      1;  ///< side of a square, > 0; squares are aligned to tangents(normal) at `point`
+      1;  ///< side of a square, > 0; squares are along tangents(normal) from `point`
 };
 
-/// How often light may go from surface to surface before it reaches the camera.
+/// The most times that light goes on from surface to surface before it reaches the camera.
 struct Depth {
   int mirror = 0;  ///< by mirrors, 0..64
   int glossy = 0;  ///< by highlights and diffuse bases, 0..64
@@ -101,8 +102,13 @@ struct CameraFrame {
 };
 CameraFrame camera_frame(const Camera& camera, const Film& film);
 
-/// The parts of a scene that need more than direct light from delta lights on spheres, in words: "an area light, a ground
-/// plane". Empty if there are none; then every engine and every analysis can take the scene.
+/// The parts of a scene beyond direct light from delta lights on spheres, in words: "an area light, a ground plane".
+/// Every engine and every analysis can take a scene without such parts.
 std::string beyond_delta_lights(const Scene& scene);
+
+/// Warnings about a scene that can be rendered but is probably not meant that way, with the effect on the picture: no
+/// light, a camera inside a sphere or turned away from everything, a light inside a sphere. At most a few lines, with
+/// any number of spheres.
+std::vector<std::string> remarks(const Scene& scene);
 
 }  // namespace lobelia

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <vector>
-
 #include "core/text.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/fresnel.hpp"
@@ -30,7 +28,7 @@ std::string table(const ElementFormat& format) {
   return text;
 }
 
-/// The views of an ElementFormat need a home for what is not known when compiling.
+/// Holds the texts and tables that an ElementFormat refers to.
 struct FilterTables {
   std::vector<std::string> defaults;
   std::vector<Parameter> parameters;
@@ -92,46 +90,48 @@ std::string string_choices(const Parameter& p) {
 
 std::string scene_format_document() {
   std::string text = fmt::format(
-      "# Scene files, format version {}\n\n"
-      "XML in the spirit of Mitsuba's: elements with a `type`, parameters as `<float name= "
-      "value=>`,\n"
-      "a camera by `<lookat>`, materials inside their shape or by `<ref id=>`. Whoever knows that\n"
-      "format is at home. Scenes to begin with are in [reference_scenes/scenes]"
-      "(../reference_scenes/scenes),\n"
-      "those of its `effects/` with a light of some size, mirrors or a lens. This page is printed by\n"
-      "`lobelia scene-format`.\n\n"
-      "```xml\n"
-      "<scene version=\"{}\">\n"
-      "  <sensor type=\"perspective\">\n"
-      "    <float name=\"fov\" value=\"28\"/>\n"
-      "    <transform name=\"to_world\">\n"
-      "      <lookat origin=\"0, 0, 5\" target=\"0, 0, 0\" up=\"0, 1, 0\"/>\n"
-      "    </transform>\n"
-      "    <film type=\"hdrfilm\">\n"
-      "      <integer name=\"width\" value=\"256\"/>\n"
-      "      <integer name=\"height\" value=\"256\"/>\n"
-      "    </film>\n"
-      "  </sensor>\n"
-      "  <emitter type=\"directional\">\n"
-      "    <vector name=\"direction\" value=\"0, 0, -1\"/>\n"
-      "  </emitter>\n"
-      "  <shape type=\"sphere\">\n"
-      "    <bsdf type=\"modified_phong\">\n"
-      "      <float name=\"exponent\" value=\"64\"/>\n"
-      "    </bsdf>\n"
-      "  </shape>\n"
-      "</scene>\n"
-      "```\n\n"
-      "A point or a vector is `value=\"x, y, z\"` or `x= y= z=`; a colour is one number (grey) or\n"
-      "three (linear Rec. 709). Right-handed; units and directions: "
-      "[conventions](conventions.md).\n"
-      "Every error is reported with its line and column, all of them in one run. Limits: {} MiB,\n"
-      "{} emitters, {} spheres, {} planes, {} materials, {} pixels. No DOCTYPE and no entities.\n\n"
-      "`<scene version=>` holds one `<sensor>`, any `<emitter>`, `<shape>` and `<bsdf id=>`, and\n"
-      "may hold one `<integrator>`. The sensor holds `<transform name=\"to_world\">` with one\n"
-      "`<lookat origin= target= up=/>`, and may hold one `<film>`, which may hold one `<rfilter>`,\n"
-      "and one `<sampler>`. A shape holds one `<bsdf>` or `<ref id=>`, or a plane two of them, which\n"
-      "then alternate as a checker.\n",
+      R"--(# Scene files, format version {}
+
+XML in the spirit of Mitsuba's: elements with a `type`, parameters as `<float name= value=>`,
+a camera by `<lookat>`, materials inside their shape or by `<ref id=>`. Whoever knows that
+format is at home. Scenes to begin with are in [reference_scenes/scenes](../reference_scenes/scenes),
+those of its `effects/` with a light of some size, mirrors or a lens. This page is printed by
+`lobelia scene-format`.
+
+```xml
+<scene version="{}">
+  <sensor type="perspective">
+    <float name="fov" value="28"/>
+    <transform name="to_world">
+      <lookat origin="0, 0, 5" target="0, 0, 0" up="0, 1, 0"/>
+    </transform>
+    <film type="hdrfilm">
+      <integer name="width" value="256"/>
+      <integer name="height" value="256"/>
+    </film>
+  </sensor>
+  <emitter type="directional">
+    <vector name="direction" value="0, 0, -1"/>
+  </emitter>
+  <shape type="sphere">
+    <bsdf type="modified_phong">
+      <float name="exponent" value="64"/>
+    </bsdf>
+  </shape>
+</scene>
+```
+
+A point or a vector is `value="x, y, z"` or `x= y= z=`; a colour is one number (grey) or
+three (linear Rec. 709). Right-handed; units and directions: [conventions](conventions.md).
+Every error is reported with its line and column, all of them in one run. Limits: {} MiB,
+{} emitters, {} spheres, {} planes, {} materials, {} pixels. No DOCTYPE and no entities.
+
+`<scene version=>` holds one `<sensor>`, any `<emitter>`, `<shape>` and `<bsdf id=>`, and
+may hold one `<integrator>`. The sensor holds `<transform name="to_world">` with one
+`<lookat origin= target= up=/>`, and may hold one `<film>`, which may hold one `<rfilter>`,
+and one `<sampler>`. A shape holds one `<bsdf>` or `<ref id=>`, or a plane two of them, which
+then alternate as a checker.
+)--",
       kSceneFormatVersion, kSceneFormatVersion, kMaxSceneBytes >> 20, kMaxLights, kMaxSpheres,
       kMaxPlanes, kMaxMaterials, kMaxImagePixels);
   for (const auto& format : {kPerspective, kThinLens, kFilm}) text += table(format);

@@ -1,5 +1,5 @@
-// The scene format as data: which elements there are, and which parameters each takes. The reader
-// checks against these tables and docs/scene_format.md is printed from them.
+// The scene format as data: the elements and their parameters. The reader checks against these tables, and
+// docs/scene_format.md is printed from them.
 #pragma once
 
 #include <span>
@@ -20,7 +20,7 @@ inline constexpr int kMaxSpheres = 1 << 22;  ///< with those of lattices
 inline constexpr int kMaxPlanes = 16;
 inline constexpr int kMaxMaterials = 1024;
 inline constexpr int kMaxDepth = 64;
-/// The depth of mirrors, where a scene with a mirror does not give one.
+/// The mirror depth of a scene with a mirror that does not give one.
 inline constexpr int kDefaultMirrorDepth = 8;
 
 inline constexpr Parameter kFieldOfView{"fov",     ParameterType::kFloat,          "", 1e-3, 179,
@@ -128,15 +128,15 @@ inline constexpr ElementFormat kIntegrator{"integrator", "path", "how far light 
 
 /// <emitter type="..."> for every light, in the order of their catalogue.
 std::span<const ElementFormat> emitter_formats();
-/// <rfilter type="FILTER"> for every filter of the catalogue; its radius defaults to its source's.
+/// <rfilter type="FILTER"> for every filter, with its own default radius.
 std::span<const ElementFormat> filter_formats();
 /// <bsdf type="MODEL"> for every model.
 std::span<const ElementFormat> material_formats();
 
-/// The allowed values of a string parameter, as messages and tables list them; "" for a number.
+/// The allowed values of a string parameter, for messages and tables; "" for a number.
 std::string string_choices(const Parameter& parameter);
 
-/// docs/scene_format.md, whole; a test keeps the file the same as this.
+/// All of docs/scene_format.md; a test compares the file with it.
 std::string scene_format_document();
 
 }  // namespace lobelia

@@ -1,14 +1,4 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <optional>
-
 #include "core/files.hpp"
-#include "core/text.hpp"
-#include "renderer/scene/element_reader.hpp"
 #include "renderer/scene/lights/light_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
@@ -34,7 +24,7 @@ class SceneReader {
       source_.error(root.attribute("version"), root,
                     fmt::format("format version '{}'; this program reads version {}",
                                 printable(version), kSceneFormatVersion));
-    // Materials first, so that a shape may refer to one that stands below it.
+    // Materials first, so that a shape may refer to a later one.
     for (const auto node : root.children("bsdf")) add_material(node, true);
     for (const auto node : reader_.elements(root)) {
       const std::string_view tag = node.name();
@@ -44,9 +34,7 @@ class SceneReader {
       if (tag == "integrator" && reader_.once(node, integrators_)) read_integrator(node);
       reader_.expect_tag(node, {"sensor", "emitter", "bsdf", "shape", "integrator"});
     }
-    const auto is_mirror = [](const Material& m) { return !is_black(m.mirror_reflectance); };
-    if (integrators_ == 0 &&
-        std::any_of(scene_.materials.begin(), scene_.materials.end(), is_mirror))
+    if (integrators_ == 0 && std::ranges::any_of(scene_.materials, is_mirror))
       scene_.depth.mirror = kDefaultMirrorDepth;
     if (sensors_ == 0) source_.error(root, "the scene has no <sensor>; it needs one");
     source_.throw_if_errors();
@@ -56,10 +44,7 @@ class SceneReader {
  private:
   void read_sensor(pugi::xml_node node) {
     source_.check_attributes(node, {"type"});
-    if (++sensors_ > 1) {
-      source_.error(node, "a second <sensor>; one is allowed");
-      return;
-    }
+    if (!reader_.once(node, sensors_)) return;
     static constexpr ElementFormat kSensors[] = {kPerspective, kThinLens};
     const ElementFormat* format = reader_.format_of(node, kSensors);
     if (!format) return;
@@ -202,12 +187,9 @@ class SceneReader {
     source_.check_attributes(node, {"type", "id"});
     const ElementFormat* format = reader_.format_of(node, kShapes);
     if (!format) return;
-    if (format->type == kPlane.type)
-      read_plane(node);
-    else if (format->type == kLattice.type)
-      read_lattice(node);
-    else
-      read_sphere(node);
+    if (format->type == kPlane.type) read_plane(node);
+    if (format->type == kLattice.type) read_lattice(node);
+    if (format->type == kSphere.type) read_sphere(node);
   }
 
   void read_sphere(pugi::xml_node node) {
@@ -248,7 +230,7 @@ class SceneReader {
     if (lattice.reach() > kFar)
       source_.error(node, fmt::format("the lattice reaches to {:g}; allowed: {:g} to {:g}",
                                       lattice.reach(), -kFar, kFar));
-    // Counted first: what is over the limit is not made.
+    // Counted first: spheres over the limit are not made.
     if (!reader_.within(node, "spheres", kMaxSpheres, spheres_seen_ + lattice.count() - 1)) return;
     spheres_seen_ += lattice.count();
     if (!source_.has_errors()) lattice.append_to(scene_.spheres);

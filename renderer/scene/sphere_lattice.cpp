@@ -3,8 +3,8 @@
 namespace lobelia {
 namespace {
 
-/// SplitMix64 (Steele, Lea, Flood 2014), with its state as an argument: the value at a place needs none
-/// before it. std's distributions would give other scenes with another library.
+/// SplitMix64 (Steele, Lea, Flood 2014) with its state as an argument, so that any value can be computed alone. std's
+/// distributions would give other scenes with another library.
 std::uint64_t split_mix(std::uint64_t state) {
   std::uint64_t z = state + 0x9E3779B97F4A7C15u;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -35,7 +35,7 @@ void SphereLattice::append_to(std::vector<Sphere>& spheres) const {
   for (int k = 0; k < layers; ++k)
     for (int j = 0; j < rows; ++j)
       for (int i = 0; i < columns; ++i) {
-        // One after the other: the order of a function's arguments is the compiler's.
+        // Separate statements: a compiler may evaluate a function's arguments in any order.
         const double x = along(center.x, i, columns, step.x);
         const double y = along(center.y, j, rows, step.y);
         const double z = along(center.z, k, layers, step.z);
@@ -44,12 +44,12 @@ void SphereLattice::append_to(std::vector<Sphere>& spheres) const {
 }
 
 std::string lattice_rule() {
-  return "A lattice becomes plain spheres when it is read: layer by layer, in it row by row, in it\n"
-         "column by column. Sphere number s has along axis a (0, 1, 2 for x, y, z) the coordinate\n"
-         "`center + (i - (n - 1) / 2) step + jitter max(0, step / 2 - radius) (2 u - 1)`, where i of "
-         "0\n"
-         "to n - 1 is its place along the axis and u the top 53 bits of m(m(seed) + 3 s + a) as a\n"
-         "fraction; m is a step of SplitMix64, which adds 0x9E3779B97F4A7C15 and mixes.\n";
+  return R"(A lattice becomes plain spheres when it is read: layer by layer, in it row by row, in it
+column by column. Sphere number s has along axis a (0, 1, 2 for x, y, z) the coordinate
+`center + (i - (n - 1) / 2) step + jitter max(0, step / 2 - radius) (2 u - 1)`, where i of 0
+to n - 1 is its place along the axis and u the top 53 bits of m(m(seed) + 3 s + a) as a
+fraction; m is a step of SplitMix64, which adds 0x9E3779B97F4A7C15 and mixes.
+)";
 }
 
 }  // namespace lobelia

@@ -1,9 +1,5 @@
-// A block of equal spheres, as <shape type="sphere_lattice"> writes a crowd in a few lines.
+// A block of equal spheres: <shape type="sphere_lattice">, many spheres in a few lines.
 #pragma once
-
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "renderer/scene/scene.hpp"
 
@@ -19,12 +15,12 @@ struct SphereLattice {
   int material = 0;
 
   std::int64_t count() const { return std::int64_t{columns} * rows * layers; }
-  /// The greatest coordinate, positive or negative, that a centre may have.
+  /// The largest absolute coordinate that a centre may have.
   double reach() const;
   void append_to(std::vector<Sphere>& spheres) const;
 };
 
-/// How the centres are made, for docs/scene_format.md: enough for another program to make the same.
+/// The formula of the centres, for docs/scene_format.md: enough for another program to make the same.
 std::string lattice_rule();
 
 }  // namespace lobelia

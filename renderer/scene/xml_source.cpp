@@ -10,7 +10,7 @@
 namespace lobelia {
 namespace {
 
-constexpr std::size_t kMaxErrors = 20;  // more would hide the first ones
+constexpr std::size_t kMaxErrors = 20;  // more would hide the first
 
 }  // namespace
 
@@ -19,7 +19,7 @@ XmlSource::XmlSource(std::string text, std::string file_name, std::size_t max_by
   if (original_.size() > max_bytes)
     throw Error(ExitCode::kInput, fmt::format("{}: {} bytes; at most {} are read", file_name_,
                                               original_.size(), max_bytes));
-  // In place, so that names and values point into parsed_ and tell where they stand.
+  // In place, so that names and values point into parsed_ and give their positions.
   const auto result =
       document_.load_buffer_inplace(parsed_.data(), parsed_.size(),
                                     pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
@@ -61,8 +61,7 @@ bool XmlSource::full() const { return errors_.size() >= kMaxErrors; }
 void XmlSource::throw_if_errors() const {
   if (errors_.empty()) return;
   auto sorted = errors_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(sorted, {}, &decltype(sorted)::value_type::first);
   std::vector<std::string> lines;
   for (const auto& [offset, line] : sorted) lines.push_back(line);
   if (error_count_ > errors_.size())
@@ -79,7 +78,7 @@ void XmlSource::check_attributes(pugi::xml_node node,
 void XmlSource::check_attributes(pugi::xml_node node, std::span<const std::string_view> allowed) {
   for (const auto attribute : node.attributes()) {
     const std::string_view name = attribute.name();
-    if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
+    if (std::ranges::find(allowed, name) != allowed.end()) continue;
     if (full()) {
       count_error();
       continue;

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "renderer/sobol.hpp"
 #include "renderer/waves/waves.hpp"
@@ -14,7 +11,7 @@ void place_on_film(const PreparedScene& prepared, std::span<const PixelSample> s
   RandomPairs& film = work.film;
   const std::size_t count = samples.size();
   if (prepared.scene.sampler.sample_count > 1)
-    wave_kernels().random(count, work.pixel.data(), work.index.data(), kPixel, film.u, film.v);
+    kernels().random(count, work.pixel.data(), work.index.data(), kPixel, film.u, film.v);
   for (std::size_t i = 0; i < count; ++i) {
     FilterSampler::Offset from_center{};
     if (prepared.scene.sampler.sample_count > 1)
@@ -33,7 +30,7 @@ void place_on_lens(const PreparedScene& prepared, Wave& wave, Workspace& work) {
     std::fill_n(lens.v, wave.count, 0.0);
     return;
   }
-  wave_kernels().random(wave.count, work.pixel.data(), work.index.data(), kLens, lens.u, lens.v);
+  kernels().random(wave.count, work.pixel.data(), work.index.data(), kLens, lens.u, lens.v);
   for (std::size_t i = 0; i < wave.count; ++i) {
     // A point of the disc, evenly by area.
     const double radius = camera.aperture_radius * std::sqrt(lens.u[i]);
@@ -59,7 +56,7 @@ void start(const PreparedScene& prepared, std::span<const PixelSample> samples,
     const std::uint32_t pixel = sobol::pixel_hash(
         std::uint64_t(s.y) * std::uint64_t(prepared.scene.film.width) + std::uint64_t(s.x),
         prepared.scene.sampler.seed);
-    // The filter's parts have a sequence each.
+    // Each part of the filter has its own sequence.
     work.pixel[i] = place.negative ? sobol::hash(pixel) : pixel;
     work.index[i] = place.index;
     work.radiance[i] = {};
@@ -72,8 +69,8 @@ void start(const PreparedScene& prepared, std::span<const PixelSample> samples,
   }
   place_on_film(prepared, samples, results, work);
   place_on_lens(prepared, wave, work);
-  wave_kernels().camera_rays(prepared.frame, wave.count, work.film.u, work.film.v, work.lens.u,
-                             work.lens.v, wave.to_eye);
+  kernels().camera_rays(prepared.frame, wave.count, work.film.u, work.film.v, work.lens.u,
+                        work.lens.v, wave.to_eye);
   work.work.camera_rays += wave.count;
 }
 

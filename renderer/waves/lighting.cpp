@@ -1,20 +1,17 @@
-#include <cmath>
-#include <limits>
 
 #include "renderer/waves/waves.hpp"
 
 namespace lobelia::waves {
 namespace {
 
-/// Veach's power heuristic with an exponent of 2: the weight of a draw of density `p` that could also have been
-/// drawn with density `q`.
+/// Veach's power heuristic with an exponent of 2: the weight of a draw of density `p` against one of density `q`.
 double power_heuristic(double p, double q) {
-  // Divided first, for either may be too large to be squared.
+  // Divides first, because either may be too large to square.
   const double r = q / p;
   return std::isfinite(r) ? 1 / (1 + r * r) : 0;
 }
 
-/// Whether directions to the light are drawn by the light itself, or by it and the surface.
+/// Whether the light draws directions, alone or with the surface.
 bool draws(const PreparedScene& prepared, std::size_t light, int material) {
   return is_delta(prepared.scene.lights[light]) ||
          prepared.plan.strategy[light][std::size_t(material)] != LightStrategy::kSurface;
@@ -30,7 +27,7 @@ void weigh_against_surface(const PreparedScene& prepared, const Hits& hits, Ligh
   }
 }
 
-/// Camera rays have the one that is planned for what they see.
+/// The planned precision for a camera ray's surface, or the one for any direction.
 Precision precision_of(const PreparedScene& prepared, std::size_t light, const Wave& wave,
                        const Hits& hits) {
   const auto& as_seen = prepared.plan.precision[light];
@@ -39,7 +36,7 @@ Precision precision_of(const PreparedScene& prepared, std::size_t light, const W
   return prepared.plan.any_direction_precision[std::size_t(hits.material)];
 }
 
-/// Highlight, Fresnel factor and diffuse base under the light of work.drawn.
+/// Adds highlight, Fresnel factor and diffuse base under the light of work.drawn.
 void reflect(const PreparedScene& prepared, std::size_t light, Precision precision,
              Workspace& work) {
   const Hits& hits = work.hits;

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <numbers>
-#include <optional>
 
 #include "renderer/sobol.hpp"
 #include "renderer/waves/waves.hpp"
@@ -8,11 +5,11 @@
 namespace lobelia::waves {
 namespace {
 
-/// After so many reflections a path goes on only with a probability, by how much light it can bring.
+/// After so many reflections a path goes on with a probability that follows the light it can bring.
 constexpr int kRouletteFrom = 4;
 
-/// From the camera a path that could go on both ways does; after that one is drawn, lest the number of
-/// rays double with every reflection.
+/// A camera ray may go on as a mirrored and as a scattered ray. Later rays draw one of the two, so that the number
+/// of rays does not double with every reflection.
 bool takes_mirror(double random) { return random < 0.5; }
 
 void spawn_mirrored(const PreparedScene& prepared, const Wave& wave, bool one_of_two, Wave& next,
@@ -47,7 +44,7 @@ void spawn_scattered(const PreparedScene& prepared, const Wave& wave, bool one_o
   const bool highlight = has_highlight(material.material);
   const bool even = prepared.plan.experiment.directions == Experiment::Directions::kEven;
   const bool roulette = wave.level >= kRouletteFrom;
-  // Forced though nothing calls for it: the rays are traced and bring nothing.
+  // With all effects forced, rays that nothing calls for are traced and bring nothing.
   const bool forced = wave.left.glossy < 1 && !material.scatters_to_light;
   const RandomPairs& random = work.random;
   const std::size_t before = next.count;
@@ -56,7 +53,7 @@ void spawn_scattered(const PreparedScene& prepared, const Wave& wave, bool one_o
     work.draw(wave, kChoice);
     for (std::size_t i = 0; i < hits.count; ++i) skipped[i] = takes_mirror(random.u[i]);
   }
-  std::array<double, kChunk> choice, chance;  // between highlight and base; to go on
+  std::array<double, kChunk> choice, chance;  // of highlight or base; of going on
   if (highlight || roulette) {
     work.draw(wave, kScatter);
     std::copy_n(random.u, hits.count, choice.begin());
@@ -64,7 +61,7 @@ void spawn_scattered(const PreparedScene& prepared, const Wave& wave, bool one_o
   }
   work.draw(wave, kDirection);
   if (!highlight && !even)
-    wave_kernels().scatter_evenly(hits.count, hits.normal, random.u, random.v, work.scattered);
+    kernels().scatter_evenly(hits.count, hits.normal, random.u, random.v, work.scattered);
   for (std::size_t i = 0; i < hits.count; ++i) {
     if (skipped[i]) continue;
     const Vec3 normal = get(hits.normal, i);

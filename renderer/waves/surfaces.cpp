@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "renderer/chord.hpp"
 #include "renderer/waves/waves.hpp"
@@ -8,7 +5,7 @@
 namespace lobelia::waves {
 namespace {
 
-/// False where nothing can stand before the light.
+/// False if nothing can hide the light.
 bool hide_one_surface(const PreparedScene& prepared, std::size_t light, Workspace& work) {
   const Hits& hits = work.hits;
   const Occluders& occluders = prepared.plan.occluders_of(light, std::size_t(hits.one_surface));
@@ -20,8 +17,8 @@ bool hide_one_surface(const PreparedScene& prepared, std::size_t light, Workspac
     kernels().visibility(prepared.scene.spheres, occluders.spheres, hits.count, hits.point,
                          drawn.to_light, drawn.distance, work.visible);
   for (const int k : occluders.planes)
-    wave_kernels().plane_hides(prepared.scene.planes[std::size_t(k)], hits.count, hits.point,
-                               drawn.to_light, drawn.distance, work.visible);
+    kernels().plane_hides(prepared.scene.planes[std::size_t(k)], hits.count, hits.point,
+                          drawn.to_light, drawn.distance, work.visible);
   work.work.of<effects::Ground>() += hits.count * occluders.planes.size();
   for (const Horizon& horizon : occluders.horizons)
     for (std::size_t i = 0; i < hits.count; ++i)
@@ -36,15 +33,15 @@ void hide_behind_planes(const PreparedScene& prepared, std::size_t light, Worksp
     const int own = int(prepared.scene.spheres.size() + k);
     if (prepared.plan.lies_on(light, own)) continue;
     std::fill_n(work.visible, hits.count, 1.0);
-    wave_kernels().plane_hides(prepared.scene.planes[k], hits.count, hits.point,
-                               work.drawn.to_light, work.drawn.distance, work.visible);
+    kernels().plane_hides(prepared.scene.planes[k], hits.count, hits.point, work.drawn.to_light,
+                          work.drawn.distance, work.visible);
     for (std::size_t i = 0; i < hits.count; ++i)
       if (hits.surface[i] != own) work.drawn.factor[i] *= work.visible[i];
     work.work.of<effects::Ground>() += hits.count;
   }
 }
 
-/// No light comes into a sphere, whichever way it is looked for. Only a camera that is in one sees what else is.
+/// It is dark inside a sphere. Only a camera in a sphere sees other surfaces there.
 void darken_insides(const PreparedScene& prepared, Wave& wave) {
   for (const int k : prepared.around_camera) {
     const Sphere& sphere = prepared.scene.spheres[std::size_t(k)];
@@ -54,7 +51,7 @@ void darken_insides(const PreparedScene& prepared, Wave& wave) {
   }
 }
 
-/// The number of rays that were followed.
+/// Returns the number of shadow rays.
 std::size_t hide_any_surface(const PreparedScene& prepared, std::size_t light, Workspace& work) {
   const Hits& hits = work.hits;
   LightSamples& drawn = work.drawn;
@@ -82,7 +79,7 @@ std::size_t hide_any_surface(const PreparedScene& prepared, std::size_t light, W
 void trace(const PreparedScene& prepared, Wave& wave, Workspace& work) {
   static constexpr Sphere kAnySphere{};
   const std::size_t count = wave.count, spheres = prepared.scene.spheres.size();
-  const WaveKernels& kernels = wave_kernels();
+  const KernelTable& table = kernels();
   if (prepared.accelerator)
     for (std::size_t i = 0; i < count; ++i) {
       const auto hit = prepared.accelerator->nearest(get(wave.origin, i), -get(wave.to_eye, i),
@@ -91,14 +88,14 @@ void trace(const PreparedScene& prepared, Wave& wave, Workspace& work) {
       wave.distance[i] = hit.sphere < 0 ? std::numeric_limits<double>::infinity() : hit.distance;
     }
   else
-    kernels.nearest_sphere(prepared.scene.spheres, count, wave.origin, wave.to_eye, wave.leaves,
-                           wave.surface, wave.distance);
+    table.nearest_sphere(prepared.scene.spheres, count, wave.origin, wave.to_eye, wave.leaves,
+                         wave.surface, wave.distance);
   for (std::size_t k = 0; k < prepared.scene.planes.size(); ++k) {
-    kernels.nearest_plane(prepared.scene.planes[k], double(spheres + k), count, wave.origin,
-                          wave.to_eye, wave.leaves, wave.surface, wave.distance);
+    table.nearest_plane(prepared.scene.planes[k], double(spheres + k), count, wave.origin,
+                        wave.to_eye, wave.leaves, wave.surface, wave.distance);
     work.work.of<effects::Ground>() += count;
   }
-  // Lanes that meet no sphere are computed too.
+  // The kernel also computes rays that meet no sphere.
   bool any = false;
   for (std::size_t i = 0; i < count; ++i) {
     const bool met = wave.surface[i] >= 0 && wave.surface[i] < double(spheres);
@@ -108,11 +105,11 @@ void trace(const PreparedScene& prepared, Wave& wave, Workspace& work) {
     work.radius[i] = sphere.radius;
   }
   if (any)
-    kernels.surface(count, wave.origin, wave.to_eye, work.center, work.radius, wave.point,
-                    wave.normal);
+    table.surface(count, wave.origin, wave.to_eye, work.center, work.radius, wave.point,
+                  wave.normal);
   for (std::size_t k = 0; k < prepared.scene.planes.size(); ++k)
-    kernels.plane_surface(prepared.scene.planes[k], double(spheres + k), count, wave.origin,
-                          wave.to_eye, wave.surface, wave.distance, wave.point, wave.normal);
+    table.plane_surface(prepared.scene.planes[k], double(spheres + k), count, wave.origin,
+                        wave.to_eye, wave.surface, wave.distance, wave.point, wave.normal);
   if (wave.level == 0) darken_insides(prepared, wave);
 }
 

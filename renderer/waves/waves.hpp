@@ -1,5 +1,5 @@
-// Waves of rays: a chunk of them at a time goes from the camera to surfaces, to lights and on. What a picture needs for
-// that is worked out once; each step of a wave is a function in a file of its own.
+// Waves of rays. A chunk of rays at a time goes from the camera to surfaces, to lights and on, with every effect.
+// PreparedScene holds the constants of a picture; each step of a wave has a file of its own.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 #include "renderer/accelerator.hpp"
 #include "renderer/filter.hpp"
 #include "renderer/frame.hpp"
-#include "renderer/kernels/wave.hpp"
+#include "renderer/kernels/kernels.hpp"
 #include "renderer/plan/plan.hpp"
 #include "renderer/reflector.hpp"
 #include "renderer/scene/lights/prepared_light.hpp"
@@ -18,7 +18,6 @@
 
 namespace lobelia {
 
-/// A sample of a pixel.
 struct PixelSample {
   int x = 0, y = 0;
   std::uint32_t index = 0;
@@ -41,7 +40,7 @@ inline void put(Vec3 v, Vec3Chunk& to, std::size_t i) {
   to.x[i] = v.x, to.y[i] = v.y, to.z[i] = v.z;
 }
 
-/// Which of its pairs of random numbers a ray takes: the camera's two are for the pixel and the lens.
+/// Pairs of random numbers that a ray takes; kPixel and kLens are the camera's.
 enum Dimension : std::uint32_t { kPixel, kLens, kChoice, kScatter, kDirection, kLight = 8 };
 struct RandomPairs {
   alignas(64) double u[kChunk]{}, v[kChunk]{};
@@ -51,7 +50,7 @@ struct PreparedMaterial {
   Material material;
   Reflector reflector;
   Rgb specular;                    ///< reflectance times coefficient
-  Rgb grazing;                     ///< what Schlick's factor adds to it at grazing angles, at most
+  Rgb grazing;                     ///< the most that Schlick's factor adds to it, at grazing angles
   Rgb diffuse;                     ///< reflectance / pi
   bool scatters_to_light = false;  ///< the surface draws directions to some light
 
@@ -73,7 +72,7 @@ struct PreparedScene {
   std::vector<Tangents> checkers;            ///< by plane
   std::vector<int> around_camera;            ///< spheres that some camera rays may start in
   std::unique_ptr<Accelerator> accelerator;  ///< null where a loop is faster
-  /// Then each surface is shaded by itself, so that each has its own occluders.
+  /// Whether each surface is shaded by itself, with its own occluders.
   bool one_by_one() const { return !accelerator; }
   bool all_effects() const { return plan.policy == EffectPolicy::kAll; }
 };
@@ -89,8 +88,8 @@ struct Wave {
   std::size_t count = 0;
   Vec3Chunk origin{}, to_eye{};         ///< rays run opposite to `to_eye`
   alignas(64) double leaves[kChunk]{};  ///< the surface where a ray starts; -1: none
-  alignas(64) double distance[kChunk]{}, surface[kChunk]{};  ///< of what a ray meets; -1: nothing
-  Vec3Chunk point{}, normal{};                               ///< of a surface that is met
+  alignas(64) double distance[kChunk]{}, surface[kChunk]{};  ///< met by a ray; surface -1: none
+  Vec3Chunk point{}, normal{};                               ///< there
   std::array<Rgb, kChunk> weight;
   std::array<int, kChunk> slot;  ///< the camera ray that a ray descends from
   /// The density and material of scattered rays, to weigh them against the lights' own draws.
@@ -134,26 +133,32 @@ struct Workspace {
   Wave& new_wave(int level, Wave::Kind kind);
   /// A pair of random numbers for each hit, in `random`.
   void draw(const Wave& wave, std::uint32_t dimension) {
-    wave_kernels().random(hits.count, hits.pixel.data(), hits.index.data(), dimension ^ wave.branch,
-                          random.u, random.v);
+    kernels().random(hits.count, hits.pixel.data(), hits.index.data(), dimension ^ wave.branch,
+                     random.u, random.v);
   }
 };
+
+/// Renders at most kChunk samples, with one result for each.
+void render(const PreparedScene& prepared, std::span<const PixelSample> samples,
+            std::span<SampleResult> results, Workspace& work);
+
+// The steps of render(), by file.
 
 /// camera_rays.cpp: one ray for each sample.
 void start(const PreparedScene& prepared, std::span<const PixelSample> samples,
            std::span<SampleResult> results, Wave& wave, Workspace& work);
 
-/// surfaces.cpp: what each ray meets, and where; the material there; and, in work.drawn, a factor of 0 for hits that
-/// the light is hidden from.
+/// surfaces.cpp: finds the surface that each ray meets, and the material there. hide() sets the factor in work.drawn
+/// to 0 for hits that the light is hidden from.
 void trace(const PreparedScene& prepared, Wave& wave, Workspace& work);
 int material_at(const PreparedScene& prepared, const Wave& wave, std::size_t ray);
 void hide(const PreparedScene& prepared, std::size_t light, Workspace& work);
 
-/// lighting.cpp: the lights that rays cross on their way or end in, and what the lights bring to the hits.
+/// lighting.cpp: adds the radiance of lights that rays cross or end in, and the light that the hits reflect.
 void add_met_lights(const PreparedScene& prepared, const Wave& wave, Workspace& work);
 void light_hits(const PreparedScene& prepared, const Wave& wave, Workspace& work);
 
-/// onward_rays.cpp: empties the waves that follow this one, and adds the rays that go on from the hits to them.
+/// onward_rays.cpp: empties the waves that follow this one, then adds the rays that go on from the hits.
 void start_onward(const Wave& wave, Workspace& work);
 void spawn_onward(const PreparedScene& prepared, const Wave& wave, Workspace& work);
 

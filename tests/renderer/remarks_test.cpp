@@ -1,4 +1,4 @@
-#include "renderer/scene/remarks.hpp"
+#include "renderer/scene/scene.hpp"
 
 #include <gmock/gmock.h>
 

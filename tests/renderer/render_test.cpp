@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/highlight_map.hpp"
 #include "renderer/kernels/kernels.hpp"
+#include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
 

@@ -3,34 +3,31 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "renderer/plan/plan.hpp"
-#include "renderer/plan/sharpness.hpp"
 
 namespace lobelia::effects {
 
 struct Antialiasing {
   static constexpr std::string_view kName = "antialiasing", kWork = "rays beyond a pixel's first",
                                     kHides = "";
-  /// Samples that tell whether a pixel needs the rest: four by four, one in each cell.
+  /// The first samples, which tell whether a pixel needs the rest: four by four, one in each cell.
   static constexpr int kFirst = 16;
-  /// A pixel keeps these alone where they and those of all pixels within its filter's reach are no further apart
-  /// than this share of their mean, and all on one surface: more would then change it by less than that.
+  /// A pixel needs no more if the first samples within its filter's reach are all on one surface and differ by at
+  /// most this share of their mean: more samples would then change it by less.
   static constexpr double kSame = 1.0 / 32;
-  /// Or than this share of the brightest highlight that is possible, which is black.
+  /// A difference below this share of the brightest possible highlight is invisible.
   static constexpr double kBlack = 1e-5;
   static constexpr std::string_view kWithout = "one ray a pixel, through its centre";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const int samples = scene.sampler.sample_count;
     plan.first_samples = samples;
-    if (samples == 1) return {kName, kWork, false, "one ray a pixel, through its centre"};
+    if (samples == 1) return {false, "one ray a pixel, through its centre"};
     std::string reason =
         fmt::format("{} rays a pixel were asked for, {} filter", samples, name(scene.film.filter));
     const std::string everywhere = why_every_pixel(scene, plan);
     const int reach = reach_of(scene.film.filter);
-    // The first samples around a tile are drawn for it too: a filter that reaches far makes them many.
+    // A filter that reaches far needs many first samples around the tile.
     const double around = 1 + 2 * (reach - 1) / double(kTileSide);
     if (samples <= kFirst * around * around)
       plan.sample_reason = fmt::format("every pixel: {} are too few to choose pixels by", samples);
@@ -45,7 +42,7 @@ struct Antialiasing {
           "highlights, shadows",
           kFirst, samples, 1 / kSame, reach, reach == 1 ? "" : "s");
     }
-    return {kName, kWork, true, reason + "; " + plan.sample_reason};
+    return {true, reason + "; " + plan.sample_reason};
   }
 
   static void leave_out(Scene& scene, Experiment&) { scene.sampler.sample_count = 1; }

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "renderer/plan/plan.hpp"
 
 namespace lobelia::effects {
@@ -16,10 +14,9 @@ struct AreaLights {
   static constexpr std::string_view kWithout = "points of the same power";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
-    const auto lights = std::count_if(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
-      return is_area(l) && !is_black(strength(l));
-    });
-    return {kName, kWork, policy == EffectPolicy::kAll || lights > 0,
+    const auto lights = std::ranges::count_if(
+        scene.lights, [](const Light& l) { return is_area(l) && !is_black(strength(l)); });
+    return {policy == EffectPolicy::kAll || lights > 0,
             lights > 0 ? fmt::format("{} of {} lights have a size", lights, scene.lights.size())
                        : "no light has a size"};
   }

@@ -1,5 +1,5 @@
-// Every effect, once: the file and a place in this list are all that the plan, the records and the tests
-// of what costs nothing take.
+// The catalogue of effects. To add one: write its file, include it here, add it to the list. The plan, the records
+// and the tests find it there.
 #pragma once
 
 #include "renderer/plan/effects/antialiasing.hpp"
@@ -17,7 +17,7 @@
 
 namespace lobelia {
 
-/// In the order in which they are decided; antialiasing last, for it asks what else is random.
+/// In the order in which they are decided. Antialiasing is last: it asks which others are on.
 using Effects = TypeList<effects::Diffuse, effects::Fresnel, effects::Shadows, effects::AreaLights,
                          effects::Environment, effects::Mirror, effects::Glossy, effects::Ground,
                          effects::DepthOfField, effects::Antialiasing>;

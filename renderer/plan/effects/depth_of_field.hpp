@@ -1,4 +1,4 @@
-// A lens with a size: what is not in its plane of focus is blurred.
+// A lens with a size, which blurs everything outside its plane of focus.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ struct DepthOfField {
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
     const bool on = scene.camera.aperture_radius > 0;
-    return {kName, kWork, policy == EffectPolicy::kAll || on,
+    return {policy == EffectPolicy::kAll || on,
             on ? fmt::format("a lens of radius {:g}, sharp at {:g}", scene.camera.aperture_radius,
                              scene.camera.focus_distance)
                : "the camera is a pinhole"};

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "renderer/plan/plan.hpp"
 
 namespace lobelia::effects {
@@ -14,10 +12,9 @@ struct Diffuse {
   static constexpr std::string_view kWithout = "black beneath the highlights";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
-    const auto lambertian =
-        std::count_if(scene.materials.begin(), scene.materials.end(),
-                      [](const Material& m) { return !is_black(m.diffuse_reflectance); });
-    return {kName, kWork, policy == EffectPolicy::kAll || lambertian > 0,
+    const auto lambertian = std::ranges::count_if(
+        scene.materials, [](const Material& m) { return !is_black(m.diffuse_reflectance); });
+    return {policy == EffectPolicy::kAll || lambertian > 0,
             lambertian > 0 ? fmt::format("{} of {} materials have a diffuse reflectance",
                                          lambertian, scene.materials.size())
                            : "no material has a diffuse reflectance"};

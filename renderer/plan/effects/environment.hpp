@@ -1,4 +1,4 @@
-// Light from everywhere, and what is seen where no surface is.
+// Light from everywhere, seen where there is no surface.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ struct Environment {
       ++(info(light).varies ? images : constant);
     }
     const bool on = constant + images > 0;
-    return {kName, kWork, policy == EffectPolicy::kAll || on,
+    return {policy == EffectPolicy::kAll || on,
             on ? fmt::format("{} of one radiance, {} with an image", constant, images)
                : "no light comes from everywhere"};
   }

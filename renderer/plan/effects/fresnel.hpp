@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "renderer/plan/plan.hpp"
 
 namespace lobelia::effects {
@@ -14,10 +12,9 @@ struct Fresnel {
   static constexpr std::string_view kWithout = "the same reflectance at every angle";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
-    const auto reflecting =
-        std::count_if(scene.materials.begin(), scene.materials.end(),
-                      [](const Material& m) { return m.fresnel != lobelia::Fresnel::kNone; });
-    return {kName, kWork, policy == EffectPolicy::kAll || reflecting > 0,
+    const auto reflecting = std::ranges::count_if(
+        scene.materials, [](const Material& m) { return m.fresnel != lobelia::Fresnel::kNone; });
+    return {policy == EffectPolicy::kAll || reflecting > 0,
             reflecting > 0 ? fmt::format("{} of {} materials have a Fresnel factor", reflecting,
                                          scene.materials.size())
                            : "no material has a Fresnel factor"};

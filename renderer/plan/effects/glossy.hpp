@@ -15,11 +15,11 @@ struct Glossy {
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     const bool all = policy == EffectPolicy::kAll;
     if (scene.depth.glossy == 0)
-      return {kName, kWork, all, "no inter-reflection was asked for (glossy_depth is 0)"};
+      return {all, "no inter-reflection was asked for (glossy_depth is 0)"};
     const bool single = scene.spheres.size() + scene.planes.size() < 2;
     if (all || !single) plan.depth.glossy = scene.depth.glossy;
-    if (single) return {kName, kWork, all, "one convex body throws no light on itself"};
-    return {kName, kWork, true,
+    if (single) return {all, "one convex body throws no light on itself"};
+    return {true,
             fmt::format("inter-reflection was asked for, up to {} times", scene.depth.glossy)};
   }
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "renderer/plan/plan.hpp"
 
 namespace lobelia::effects {
@@ -15,11 +13,10 @@ struct Ground {
   static constexpr std::string_view kWithout = "no planes";
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan&) {
-    const auto checkered =
-        std::count_if(scene.planes.begin(), scene.planes.end(),
-                      [](const Plane& p) { return p.material != p.checker_material; });
+    const auto checkered = std::ranges::count_if(
+        scene.planes, [](const Plane& p) { return p.material != p.checker_material; });
     const bool on = !scene.planes.empty();
-    return {kName, kWork, policy == EffectPolicy::kAll || on,
+    return {policy == EffectPolicy::kAll || on,
             on ? fmt::format("{} planes, {} with a checker", scene.planes.size(), checkered)
                : "there is no plane"};
   }

@@ -1,9 +1,7 @@
-// Perfect mirrors: one ray for each that is seen, nothing random.
+// Perfect mirrors: one ray for each hit, nothing random.
 #pragma once
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 #include "renderer/plan/plan.hpp"
 
@@ -16,22 +14,17 @@ struct Mirror {
 
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     plan.depth.mirror = scene.depth.mirror;
-    const auto mirrors =
-        std::count_if(scene.materials.begin(), scene.materials.end(),
-                      [](const Material& m) { return !is_black(m.mirror_reflectance); });
-    const bool sized_light = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                         [](const Light& l) { return !is_delta(l); });
+    const auto mirrors = std::ranges::count_if(scene.materials, is_mirror);
+    const bool sized_light = !std::ranges::all_of(scene.lights, is_delta);
     const bool surfaces = scene.spheres.size() + scene.planes.size() > 1;
-    if (policy == EffectPolicy::kAll)
-      return {kName, kWork, true, fmt::format("{} mirrors", mirrors)};
-    if (mirrors == 0) return {kName, kWork, false, "no material is a mirror"};
-    if (sized_light) return {kName, kWork, true, "a light with a size is seen in a mirror"};
-    // A delta light is never met by a ray: its highlight is all that a surface shows of it.
-    if (!surfaces) return {kName, kWork, false, "one convex body: there is nothing to be mirrored"};
-    if (scene.depth.mirror == 0) return {kName, kWork, false, "a mirror_depth of 0 was asked for"};
-    return {kName, kWork, true,
-            fmt::format("{} of {} materials are mirrors, followed up to {} times", mirrors,
-                        scene.materials.size(), scene.depth.mirror)};
+    if (policy == EffectPolicy::kAll) return {true, fmt::format("{} mirrors", mirrors)};
+    if (mirrors == 0) return {false, "no material is a mirror"};
+    if (sized_light) return {true, "a light with a size is seen in a mirror"};
+    // A ray never meets a delta light: a mirror cannot show it.
+    if (!surfaces) return {false, "one convex body: there is nothing to be mirrored"};
+    if (scene.depth.mirror == 0) return {false, "a mirror_depth of 0 was asked for"};
+    return {true, fmt::format("{} of {} materials are mirrors, followed up to {} times", mirrors,
+                              scene.materials.size(), scene.depth.mirror)};
   }
 
   static void leave_out(Scene& scene, Experiment&) {

@@ -1,9 +1,8 @@
-// Surfaces between a surface and a light.
+// Shadows: surfaces between a surface and a light.
 #pragma once
 
 #include <fmt/format.h>
 
-#include "renderer/plan/occlusion.hpp"
 #include "renderer/plan/plan.hpp"
 
 namespace lobelia::effects {
@@ -15,7 +14,7 @@ struct Shadows {
   static EffectDecision decide(const Scene& scene, EffectPolicy policy, Plan& plan) {
     if (!plan.experiment.shadows) {
       plan.occluders.assign(scene.lights.size(), {Occluders{}});
-      return {kName, kWork, false, "left out, to see what they are worth"};
+      return {false, "left out, to see what they are worth"};
     }
     plan.occluders = find_occluders(scene, plan.contacts, policy);
     std::size_t pairs = 0;
@@ -26,16 +25,14 @@ struct Shadows {
         uncounted |= o.any_sphere;
       }
     const bool on = uncounted || pairs > 0;
-    if (scene.lights.empty()) return {kName, kWork, on, "there is no light"};
+    if (scene.lights.empty()) return {on, "there is no light"};
     if (scene.spheres.size() + scene.planes.size() < 2)
-      return {kName, kWork, on,
-              "one convex body shadows itself only where N.L <= 0, which every model knows"};
+      return {on, "one convex body shadows itself only where N.L <= 0, which every model knows"};
     if (uncounted)
-      return {kName, kWork, on,
-              fmt::format("{} spheres: too many to rule pairs of them out one by one",
-                          scene.spheres.size())};
-    if (!on) return {kName, kWork, on, "no surface can stand between another one and a light"};
-    return {kName, kWork, on,
+      return {on, fmt::format("{} spheres: too many to rule pairs of them out one by one",
+                              scene.spheres.size())};
+    if (!on) return {on, "no surface can stand between another one and a light"};
+    return {on,
             fmt::format("{} pairs of a surface and another that may stand between it and a light",
                         pairs)};
   }

@@ -1,4 +1,4 @@
-// Every light, once: its file and a place in this list are all that one takes.
+// The catalogue of lights. To add one: write its file, include it here, add it to the list.
 #include "renderer/scene/lights/constant.hpp"
 #include "renderer/scene/lights/directional.hpp"
 #include "renderer/scene/lights/envmap.hpp"
@@ -13,7 +13,7 @@
 
 namespace lobelia {
 
-/// In the order of the page of the scene format.
+/// In the order of docs/scene_format.md.
 using Lights =
     TypeList<DirectionalLight, PointLight, SphereLight, RectangleLight, ConstantLight, EnvmapLight>;
 

@@ -1,9 +1,5 @@
 // The same light from everywhere, infinitely far away.
-#ifndef LOBELIA_RENDERER_SCENE_LIGHTS_CONSTANT_HPP
-#define LOBELIA_RENDERER_SCENE_LIGHTS_CONSTANT_HPP
-
-#include <cmath>
-#include <numbers>
+#pragma once
 
 #include "renderer/scene/lights/light.hpp"
 
@@ -24,16 +20,14 @@ struct ConstantLight {
 
   DirectionSample sample(double u, double v) const {
     const double c = 1 - 2 * u, s = std::sqrt(std::max(0.0, 1 - c * c));
-    const double turn = 2 * std::numbers::pi * v;
+    const double turn = 2 * kPi * v;
     return {{s * std::cos(turn), c, s * std::sin(turn)}, kPdf, radiance};
   }
   EnvironmentLook look(Vec3) const { return {radiance, kPdf}; }
-  static constexpr double kPdf = 1 / (4 * std::numbers::pi);
+  static constexpr double kPdf = 1 / (4 * kPi);
 
   bool operator==(const ConstantLight&) const = default;
 };
 static_assert(LightType<ConstantLight>);
 
 }  // namespace lobelia
-
-#endif

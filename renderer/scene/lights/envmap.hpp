@@ -1,7 +1,6 @@
-// Light from everywhere, infinitely far away, by a picture. It holds the sky by latitude and longitude: the top row
-// is +y, the middle column -z, and +x a quarter of the width to the right of it.
-#ifndef LOBELIA_RENDERER_SCENE_LIGHTS_ENVMAP_HPP
-#define LOBELIA_RENDERER_SCENE_LIGHTS_ENVMAP_HPP
+// Light from everywhere, infinitely far away, given by a picture of the sky by latitude and longitude: the top row
+// is +y, the middle column -z, and +x a quarter of the width to its right.
+#pragma once
 
 #include "renderer/scene/lights/envmap_table.hpp"
 #include "renderer/scene/lights/light.hpp"
@@ -11,7 +10,7 @@ namespace lobelia {
 struct EnvmapLight {
   Rgb radiance;                        ///< scales the picture, >= 0
   std::shared_ptr<const Image> image;  ///< scene-linear, finite, >= 0, W/(m^2 sr)
-  std::string file;                    ///< the picture's, as the scene file names it
+  std::string file;                    ///< the picture, as the scene file names it
 
   static constexpr LightInfo kInfo{
       .type = "envmap",
@@ -43,7 +42,7 @@ struct EnvmapLight {
     explicit Ready(const EnvmapLight& light) : EnvmapTable(light.image, light.radiance) {}
   };
 
-  /// Another object with the same picture is the same.
+  /// The file stands for the picture.
   bool operator==(const EnvmapLight& other) const {
     return radiance == other.radiance && file == other.file && !image == !other.image;
   }
@@ -51,5 +50,3 @@ struct EnvmapLight {
 static_assert(LightType<EnvmapLight>);
 
 }  // namespace lobelia
-
-#endif

@@ -1,11 +1,5 @@
 #include "renderer/scene/lights/envmap_table.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
-
-#include "core/constants.hpp"
-
 namespace lobelia {
 namespace {
 
@@ -13,7 +7,7 @@ double luminance(std::span<const float, 3> p) {
   return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
 }
 
-/// Which step of a cumulative table u falls in, and where within it.
+/// The step of a cumulative table that u falls in, and the fraction within it.
 struct Draw {
   std::size_t step;
   double within;
@@ -25,7 +19,7 @@ Draw draw(std::span<const double> cumulative, double u) {
   return {step, width > 0 ? std::clamp((u - cumulative[step]) / width, 0.0, 1.0) : 0.5};
 }
 
-/// Makes sums of weights a cumulative distribution; of zeros, an even one.
+/// Turns sums of weights into a cumulative distribution; zeros into an even one.
 void normalise(std::span<double> cumulative) {
   const double total = cumulative.back();
   for (std::size_t i = 0; i < cumulative.size(); ++i)
@@ -47,7 +41,7 @@ EnvmapTable::EnvmapTable(std::shared_ptr<const Image> picture, Rgb scale)
   std::vector<double> row(stride);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      // Interpolated, a direction takes light from the neighbours too: it must not be left out.
+      // The weight includes the neighbours, which interpolation takes light from.
       double sum = 0;
       for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v)
         for (const int u : {x - 1, x, x + 1})
@@ -68,12 +62,12 @@ double EnvmapTable::row_solid_angle(int row) const {
 
 EnvmapTable::Place EnvmapTable::place(Vec3 d) const {
   const double turn = 0.5 + std::atan2(d.x, -d.z) / (2 * kPi);
-  // Near the poles it is off by 1e-8, far less than a pixel.
+  // The error near the poles is 1e-8, far less than a pixel.
   const double down = std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi;
   return {turn * width_, down * height_};
 }
 
-/// Interpolated.
+/// The interpolated radiance.
 Rgb EnvmapTable::at(Place p) const {
   const double x = p.column - 0.5, y = p.row - 0.5, fx = x - std::floor(x), fy = y - std::floor(y);
   const auto column = [&](double c) {
@@ -96,7 +90,7 @@ EnvironmentLook EnvmapTable::look(Vec3 direction) const {
                      std::size_t(std::clamp(int(p.row), 0, height_ - 1)))};
 }
 
-/// Even within a pixel.
+/// Constant within a pixel.
 double EnvmapTable::pdf(std::size_t column, std::size_t row) const {
   const double* cumulative = columns_.data() + (std::size_t(width_) + 1) * row;
   return (rows_[row + 1] - rows_[row]) * (cumulative[column + 1] - cumulative[column]) /
@@ -107,7 +101,7 @@ DirectionSample EnvmapTable::sample(double u, double v) const {
   const Draw row = draw(rows_, v);
   const std::size_t stride = std::size_t(width_) + 1;
   const Draw column = draw({columns_.data() + stride * row.step, stride}, u);
-  // Evenly in solid angle within the row: linear in the cosine.
+  // Linear in the cosine: evenly in solid angle within the row.
   const double top = cosines_[row.step], bottom = cosines_[row.step + 1];
   const double c = top + row.within * (bottom - top), s = std::sqrt(std::max(0.0, 1 - c * c));
   const double x = double(column.step) + column.within;

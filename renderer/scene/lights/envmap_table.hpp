@@ -1,18 +1,16 @@
-// A picture of the sky: directions drawn as it is bright, per solid angle.
+// Draws directions to a picture of the sky with a density proportional to its brightness.
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "core/image.hpp"
 #include "renderer/scene/lights/light.hpp"
 
 namespace lobelia {
 
-/// Made once for a picture that is rendered: 8 bytes a pixel of the sky's.
+/// Made once for a rendered picture. Takes 8 bytes for each pixel of the sky.
 class EnvmapTable {
  public:
-  /// `scale` is on every pixel.
+  /// `scale` multiplies every pixel.
   EnvmapTable(std::shared_ptr<const Image> image, Rgb scale);
 
   EnvironmentLook look(Vec3 direction) const;
@@ -32,8 +30,7 @@ class EnvmapTable {
   int width_, height_;
   std::vector<double> rows_;     ///< cumulative, 0 to 1
   std::vector<double> columns_;  ///< of each row, cumulative, 0 to 1; width + 1 each
-  std::vector<double>
-      cosines_;  ///< of the angle from +y at which each row begins, and the last ends
+  std::vector<double> cosines_;  ///< of the angles from +y of the rows' edges, height + 1
 };
 
 }  // namespace lobelia

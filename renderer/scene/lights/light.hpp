@@ -1,9 +1,9 @@
 // The interface of a light. Each light is one file in this folder and one line in catalogue.hpp.
 //
-// A light is a plain structure of its parameters. Its file has the table of these parameters, which drives the
-// reader, the writer and the page of the scene format; where the light is; the lamps that stand for it in the
-// reference engines; and, below, the same light for registers of rays, which prepared_light.cpp alone compiles,
-// once for each instruction set.
+// A light is a plain structure of its parameters. Its file has the table of these parameters, for the reader, the
+// writer and the page of the scene format; where the light is; the lamps that stand for it in the reference
+// engines; and last the light for registers of rays, which only prepared_light.cpp compiles, once for each
+// instruction set.
 #pragma once
 
 #include <array>
@@ -11,20 +11,50 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <variant>
 
+#include "core/constants.hpp"
 #include "core/image.hpp"
 #include "core/parameter.hpp"
 #include "core/vec.hpp"
-#include "renderer/scene/lights/lamp.hpp"
 #include "renderer/scene/ranges.hpp"
 
 namespace lobelia {
 
+/// A light without a size. Every light turns into lamps for the reference engines, the formulas per pixel and the
+/// fused kernels.
+struct Lamp {
+  bool is_distant = false;  ///< parallel light, from infinitely far away
+  Vec3 position;            ///< of a near lamp
+  Vec3 direction;           ///< of the light of a distant lamp, unit length
+  Rgb strength;             ///< intensity, or irradiance of a distant lamp
+  Vec3 normal = {};         ///< as PointLight::normal
+
+  bool has_normal() const { return dot(normal, normal) > 0; }
+
+  static Lamp near(Vec3 position, Rgb intensity, Vec3 normal = {}) {
+    return {false, position, {}, intensity, normal};
+  }
+  static Lamp distant(Vec3 direction, Rgb irradiance) { return {true, {}, direction, irradiance}; }
+};
+
+/// The unit vector from a point to the lamp, the irradiance on a plane normal to that vector, and the distance.
+struct Illumination {
+  Vec3 to_light;
+  Rgb irradiance;
+  double distance = 0;  ///< infinite for a distant lamp
+};
+
+inline Illumination illuminate(const Lamp& lamp, Vec3 point) {
+  if (lamp.is_distant) return {-lamp.direction, lamp.strength, kInfinity};
+  const Vec3 offset = lamp.position - point, to_light = normalize(offset);
+  const double towards = lamp.has_normal() ? std::max(0.0, -dot(lamp.normal, to_light)) : 1;
+  return {to_light, towards / dot(offset, offset) * lamp.strength, length(offset)};
+}
+
 enum class LightKind : std::uint8_t {
   kDelta,        ///< light from a single direction at each point
-  kArea,         ///< a shining surface. Rays pass through it and take up its radiance.
+  kArea,         ///< a shining surface; rays pass through it and take up its radiance
   kEnvironment,  ///< light from everywhere, infinitely far away
 };
 
@@ -32,7 +62,7 @@ struct LightInfo {
   std::string_view type;  ///< in a scene file: <emitter type="sphere">
   std::string_view meaning;
   LightKind kind;
-  bool varies = false;         ///< of an environment: its radiance depends on the direction
+  bool varies = false;         ///< an environment with a radiance that depends on the direction
   std::string_view note = {};  ///< printed below the tables of the scene format
 };
 
@@ -41,7 +71,7 @@ template <class L>
 struct LightParameter {
   Parameter parameter;
   std::variant<double L::*, Vec3 L::*, Rgb L::*, std::string L::*> member;
-  bool is_optional = false;  ///< a vector that is not written where it is zero
+  bool is_optional = false;  ///< a vector that is not written if it is zero
 };
 
 /// The radiance of a light with a size.
@@ -49,7 +79,7 @@ inline constexpr Parameter kLightRadiance{
     "radiance",   ParameterType::kRgb,          "1", 0, kBrightest,
     "W/(m^2 sr)", "the same in every direction"};
 
-/// The element that a light is read from, for what its table cannot say.
+/// The element that a light is read from, for checks beyond its table.
 class LightSource {
  public:
   virtual ~LightSource() = default;
@@ -61,19 +91,18 @@ class LightSource {
   virtual std::shared_ptr<const Image> picture(std::string_view parameter) = 0;
 };
 
-/// Where a light is.
+/// The place of a light.
 struct LightBounds {
   enum { kBall, kFar, kEverywhere } kind;
-  Vec3
-      at;  ///< the centre of a ball around the light, or the unit vector to a light that is far away
+  Vec3 at;  ///< centre of a ball around the light; unit vector to a far light
   double radius = 0;
-  bool is_ball = false;  ///< the light is that ball, and not only in it
+  bool is_ball = false;  ///< the light fills the ball
 };
 
 /// A direction drawn towards an environment.
 struct DirectionSample {
   Vec3 to_light;   ///< unit
-  double pdf = 0;  ///< per steradian; 0 where there is nothing to draw
+  double pdf = 0;  ///< per steradian; 0 if there is nothing to draw
   Rgb radiance;    ///< that arrives along it
 };
 
@@ -83,7 +112,7 @@ struct EnvironmentLook {
   double pdf;
 };
 
-/// The light with what is worked out once for a picture; most need nothing.
+/// The light with the constants of a picture, L::Ready if it has any.
 template <class L>
 struct ReadyLight {
   using Type = L;
@@ -94,7 +123,7 @@ struct ReadyLight<L> {
   using Type = typename L::Ready;
 };
 
-/// May also have finish(LightSource&), which checks and completes what the table has read.
+/// May also have finish(LightSource&), to check and complete the parameters after reading.
 template <class L>
 concept AnyLight = std::equality_comparable<L> && requires(const L& light) {
   { L::kInfo } -> std::convertible_to<const LightInfo&>;
@@ -115,13 +144,13 @@ concept DeltaLight = AnyLight<L> && L::kInfo.kind == LightKind::kDelta&& require
 template <class L>
 concept AreaLight = AnyLight<L> &&
                     L::kInfo.kind == LightKind::kArea&& requires(const L& light, Vec3 v, double u) {
-  /// A random point of it: the average of these lamps is the light.
+  /// A random point of the light. The average of these lamps is the light.
   { light.lamp(u, u) } -> std::same_as<Lamp>;
   /// A single lamp of the same power.
   { light.whole_lamp() } -> std::same_as<Lamp>;
-  /// Along a ray of unit direction to where it meets the shining side; infinite where it misses.
+  /// Distance along a ray of unit direction to the shining side; infinite if it misses.
   { light.distance(v, v) } -> std::same_as<double>;
-  /// How far it reaches from its centre along a unit vector, to either side.
+  /// Half of its extent along a unit vector.
   { light.reach_along(v) } -> std::same_as<double>;
 };
 

@@ -1,9 +1,32 @@
 #include "renderer/scene/lights/light_reader.hpp"
 
+#include <system_error>
+
+#include "core/contained_reader.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
+namespace fs = std::filesystem;
 namespace {
+
+[[noreturn]] void refuse(const std::string& file, std::string_view why) {
+  throw Error(ExitCode::kInput, fmt::format("filename '{}' {}", printable(file), why));
+}
+
+/// A sky takes twenty bytes a pixel in memory. Any file may have 4096 x 2048 pixels, files from 7 MB on 16384 x 8192.
+constexpr PictureLimit kSkyLimit{std::uint64_t{1} << 24, 16};
+constexpr std::string_view kAllowed =
+    "; allowed: a relative path to a picture in the scene file's directory or below it";
+
+void check_values(const std::string& file, const Image& image) {
+  const auto values = image.values();
+  const auto bad =
+      std::ranges::find_if(values, [](float v) { return !(v >= 0 && double(v) <= kBrightest); });
+  if (bad == values.end()) return;
+  const auto pixel = (bad - values.begin()) / 3;
+  refuse(file, fmt::format("has the value {} in pixel ({}, {}); allowed: 0 to {:g}", *bad,
+                           pixel % image.width(), pixel / image.width(), kBrightest));
+}
 
 class ElementOfLight final : public LightSource {
  public:
@@ -52,6 +75,46 @@ Light make_light(const Values& values, LightSource& source) {
 }
 
 }  // namespace
+
+EnvironmentMaps::EnvironmentMaps(const fs::path& directory) {
+  std::error_code ignored;  // leaves directory_ empty
+  if (!directory.empty()) directory_ = fs::canonical(directory, ignored);
+}
+
+fs::path EnvironmentMaps::inside(const std::string& file) const {
+  // The name must fit into XML, because a scene may be written again.
+  if (std::ranges::any_of(file, [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    refuse(file, fmt::format("has control characters{}", kAllowed));
+  if (directory_.empty())
+    refuse(file, "cannot be looked for: this scene has no directory, it is not read from a file");
+  const fs::path name(file);
+  if (file.empty() || name.is_absolute())
+    refuse(file, fmt::format("is {}{}", file.empty() ? "empty" : "absolute", kAllowed));
+  const auto leaves = [](const fs::path& path) {
+    return std::ranges::any_of(path, [](const fs::path& p) { return p == ".."; });
+  };
+  if (leaves(name)) refuse(file, fmt::format("has '..' in it{}", kAllowed));
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(directory_ / name, error);
+  if (error) refuse(file, fmt::format("cannot be looked for: {}", error.message()));
+  if (const fs::path inner = path.lexically_relative(directory_); inner.empty() || leaves(inner))
+    refuse(file,
+           fmt::format("leads out of the scene file's directory by a symbolic link{}", kAllowed));
+  return path;
+}
+
+std::shared_ptr<const Image> EnvironmentMaps::read(const std::string& file) {
+  const fs::path path = inside(file);
+  auto& known = images_[path];
+  if (known) return known;
+  auto image = std::make_shared<const Image>(read_picture(path, "", kSkyLimit).image);
+  check_values(file, *image);
+  pixels_ += std::int64_t(image->pixel_count());
+  if (pixels_ > kMaxImagePixels)
+    refuse(file, fmt::format("is too much: the scene's pictures have {} pixels; allowed: {} in all",
+                             pixels_, kMaxImagePixels));
+  return known = std::move(image);
+}
 
 std::optional<Light> LightReader::read(pugi::xml_node node) {
   static constexpr auto kMake = map_types<Light (*)(const Values&, LightSource&)>(

@@ -7,7 +7,12 @@
 namespace lobelia {
 namespace {
 
-/// f(light, parameter) for each parameter of the table.
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+/// f(parameter, value) for each parameter of the light's table.
 template <class F>
 void for_each_parameter(const Light& light, const F& f) {
   std::visit(
@@ -33,25 +38,15 @@ LightBounds bounds(const Light& light) {
 }
 
 double reach_along(const Light& light, Vec3 axis) {
-  return std::visit(
-      [&]<class L>(const L& l) -> double {
-        if constexpr (AreaLight<L>)
-          return l.reach_along(axis);
-        else
-          return 0;
-      },
-      light);
+  return std::visit(Overloaded{[&](const AreaLight auto& l) { return l.reach_along(axis); },
+                               [](const auto&) { return 0.0; }},
+                    light);
 }
 
 std::optional<Lamp> find_lamp(const Light& light) {
-  return std::visit(
-      []<class L>(const L& l) -> std::optional<Lamp> {
-        if constexpr (DeltaLight<L>)
-          return l.lamp();
-        else
-          return std::nullopt;
-      },
-      light);
+  return std::visit(Overloaded{[](const DeltaLight auto& l) { return std::optional(l.lamp()); },
+                               [](const auto&) { return std::optional<Lamp>(); }},
+                    light);
 }
 
 std::optional<Lamp> find_near_lamp(const Light& light) {
@@ -67,12 +62,8 @@ Lamp lamp_of(const Light& light) {
 
 std::optional<Lamp> lamp_of_same_power(const Light& light) {
   return std::visit(
-      []<class L>(const L& l) -> std::optional<Lamp> {
-        if constexpr (AreaLight<L>)
-          return l.whole_lamp();
-        else
-          return std::nullopt;
-      },
+      Overloaded{[](const AreaLight auto& l) { return std::optional(l.whole_lamp()); },
+                 [](const auto&) { return std::optional<Lamp>(); }},
       light);
 }
 
@@ -109,14 +100,13 @@ std::string picture_file(const Light& light) {
 }
 
 std::shared_ptr<const Image> picture_of(const Light& light) {
-  return std::visit(
-      [](const auto& l) -> std::shared_ptr<const Image> {
-        if constexpr (requires { l.image; })
-          return l.image;
-        else
-          return nullptr;
-      },
-      light);
+  return std::visit(Overloaded{[](const auto& l) requires requires { l.image;
+}
+{ return l.image; }
+, [](const auto&) { return std::shared_ptr<const Image>(); }
+}  // namespace lobelia
+,
+                    light);
 }
 
 }  // namespace lobelia

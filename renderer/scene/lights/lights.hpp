@@ -1,11 +1,7 @@
-// Questions to any light. No code outside this folder asks which type it is.
+// Functions for any light. No code outside this folder depends on its type.
 #pragma once
 
 #include <optional>
-#include <span>
-#include <string_view>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "renderer/scene/lights/catalogue.hpp"
@@ -31,19 +27,19 @@ inline bool is_environment(const Light& light) {
 Rgb strength(const Light& light);
 
 LightBounds bounds(const Light& light);
-/// How far it reaches from the centre of its bounds along a unit vector, to either side. 0 for a delta light.
+/// Half of the light's extent along a unit vector, from the centre of its bounds. 0 for a delta light.
 double reach_along(const Light& light, Vec3 axis);
 
-/// The lamp that a delta light is; none for others.
+/// The lamp of a delta light; none for others.
 std::optional<Lamp> find_lamp(const Light& light);
-/// The same of a delta light that is not infinitely far away.
+/// The lamp of a delta light that is not infinitely far away; none for others.
 std::optional<Lamp> find_near_lamp(const Light& light);
 /// Throws Error(kInternal) for a light with a size.
 Lamp lamp_of(const Light& light);
 inline Illumination illuminate(const Light& light, Vec3 point) {
   return illuminate(lamp_of(light), point);
 }
-/// A single lamp in place of an area light, of the same power; none for others.
+/// A single lamp with the power of an area light; none for others.
 std::optional<Lamp> lamp_of_same_power(const Light& light);
 Light light_of(const Lamp& lamp);
 
@@ -54,12 +50,12 @@ struct WrittenParameter {
   LightValue value;
 };
 std::vector<WrittenParameter> written_parameters(const Light& light);
-/// The value of a parameter by its name. Throws Error(kInternal) where there is no such one.
+/// The value of a parameter. Throws Error(kInternal) if there is no such parameter.
 LightValue value_of(const Light& light, std::string_view parameter);
 
-/// The file that the light takes its radiance from, as the scene file names it; empty if there is none.
+/// The light's picture file, as the scene file names it; empty if it has none.
 std::string picture_file(const Light& light);
-/// That picture; null if there is none.
+/// The picture; null if the light has none.
 std::shared_ptr<const Image> picture_of(const Light& light);
 
 }  // namespace lobelia

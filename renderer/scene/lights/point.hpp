@@ -1,4 +1,4 @@
-// Light from a point, in every direction or as from a point of a surface.
+// Light from a point, in every direction or as from a point on a surface.
 #ifndef LOBELIA_RENDERER_SCENE_LIGHTS_POINT_HPP
 #define LOBELIA_RENDERER_SCENE_LIGHTS_POINT_HPP
 
@@ -9,8 +9,8 @@ namespace lobelia {
 struct PointLight {
   Vec3 position;
   Rgb intensity;  ///< W/sr, >= 0; irradiance falls with the square of the distance
-  /// Unit vector: of a point of a surface, whose intensity falls with the cosine to it, 0 behind. Zero: the
-  /// same in every direction.
+  /// The unit normal of a surface that the point is on: the intensity falls with the cosine to it, and is 0 behind.
+  /// Zero: the same intensity in every direction.
   Vec3 normal = {};
 
   static constexpr LightInfo kInfo{"point", "a light in a point", LightKind::kDelta};

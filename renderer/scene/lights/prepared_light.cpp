@@ -1,6 +1,5 @@
 #include "renderer/scene/lights/prepared_light.hpp"
 
-#include "core/constants.hpp"
 #include "core/error.hpp"
 
 #ifndef __OPTIMIZE__
@@ -12,7 +11,6 @@
 #include <hwy/foreach_target.h>  // includes this file again for each instruction set
 #include <hwy/highway.h>
 
-#include "renderer/kernels/chunk-inl.hpp"
 #include "renderer/kernels/geometry-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,7 +26,7 @@ HWY_INLINE Lanes clamp(Lanes x, Lanes low, Lanes high) {
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-// Again, with what the files of lights have for registers.
+// Again, with the second halves of the files of lights.
 #define LOBELIA_LIGHT_KERNELS
 #include "renderer/scene/lights/catalogue.hpp"
 #undef LOBELIA_LIGHT_KERNELS
@@ -36,6 +34,8 @@ HWY_AFTER_NAMESPACE();
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace {
+
+[[noreturn]] void refuse(const char* why) { throw Error(ExitCode::kInternal, why); }
 
 template <class L>
 class PreparedLightOf final : public PreparedLight {
@@ -67,14 +67,14 @@ class PreparedLightOf final : public PreparedLight {
     if constexpr (kKind == LightKind::kArea)
       meet_light(ready_, count, origin, to_eye, densities, met);
     else
-      PreparedLight::meet(count, origin, to_eye, densities, met);
+      refuse("only area lights are met by rays");
   }
 
   EnvironmentLook look(Vec3 direction) const override {
     if constexpr (kKind == LightKind::kEnvironment)
       return ready_.look(direction);
     else
-      return PreparedLight::look(direction);
+      refuse("only environments are looked at");
   }
 
   Lamp lamp(double u, double v) const override {
@@ -93,7 +93,7 @@ class PreparedLightOf final : public PreparedLight {
     if constexpr (kKind == LightKind::kArea)
       return light_.distance(origin, direction);
     else
-      return PreparedLight::distance(origin, direction);
+      refuse("only area lights are met by rays");
   }
 
  private:
@@ -127,17 +127,6 @@ std::vector<std::unique_ptr<const PreparedLight>> prepare(const std::vector<Ligh
   std::vector<std::unique_ptr<const PreparedLight>> prepared;
   for (const Light& light : lights) prepared.push_back(prepare(light));
   return prepared;
-}
-
-void PreparedLight::meet(std::size_t, const Vec3Chunk&, const Vec3Chunk&, bool,
-                         LightMeetings&) const {
-  throw Error(ExitCode::kInternal, "only area lights are met by rays");
-}
-EnvironmentLook PreparedLight::look(Vec3) const {
-  throw Error(ExitCode::kInternal, "only environments are looked at");
-}
-double PreparedLight::distance(Vec3, Vec3) const {
-  throw Error(ExitCode::kInternal, "only area lights are met by rays");
 }
 
 }  // namespace lobelia

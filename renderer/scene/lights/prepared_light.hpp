@@ -1,25 +1,22 @@
-// A light ready to be drawn from and to be met by rays, made once for a picture.
+// A light that rays can sample and meet, made once for a picture.
 #pragma once
-
-#include <cstddef>
-#include <memory>
 
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/lights/lights.hpp"
 
 namespace lobelia {
 
-/// A direction from each point to the light: the unit vector, the distance, and the factor on the light's
-/// strength: how it falls with the distance, or 1 / (density per steradian) of what is drawn at random. Where that is
-/// not over 0 there is nothing to draw, and the other values mean nothing.
+/// A direction from each point to the light: the unit vector, the distance, and the factor on the light's strength.
+/// The factor is the fall-off with distance, or 1 / (density per steradian) of a random direction. Where it is not
+/// over 0 there is no direction, and the other values mean nothing.
 struct LightSamples {
   Vec3Chunk to_light{};
   alignas(64) double distance[kChunk]{}, factor[kChunk]{};
-  /// The radiance that arrives, if the light's varies.
+  /// The radiance that arrives, if it varies with the direction.
   std::array<Rgb, kChunk> radiance;
 };
 
-/// Where rays meet a light: the distance (infinite if they miss it), and the density with which the light draws their
+/// The distance at which rays meet a light (infinite: they miss it), and the density with which the light draws their
 /// direction.
 struct LightMeetings {
   alignas(64) double distance[kChunk]{}, pdf[kChunk]{};
@@ -35,14 +32,14 @@ class PreparedLight {
                       LightSamples& drawn) const = 0;
   /// For area lights. Rays run opposite to `to_eye`. Without `densities` only distances are computed.
   virtual void meet(std::size_t count, const Vec3Chunk& origin, const Vec3Chunk& to_eye,
-                    bool densities, LightMeetings& met) const;
+                    bool densities, LightMeetings& met) const = 0;
   /// For environments.
-  virtual EnvironmentLook look(Vec3 direction) const;
+  virtual EnvironmentLook look(Vec3 direction) const = 0;
 
   /// A random lamp. The average of such lamps is the light.
   virtual Lamp lamp(double u, double v) const = 0;
-  /// For area lights, as AreaLight. Without the kernels above, for the references.
-  virtual double distance(Vec3 origin, Vec3 direction) const;
+  /// For area lights, as AreaLight::distance(). For the references, independent of the kernels above.
+  virtual double distance(Vec3 origin, Vec3 direction) const = 0;
 };
 
 std::unique_ptr<const PreparedLight> prepare(const Light& light);

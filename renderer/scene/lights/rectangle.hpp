@@ -1,15 +1,12 @@
-// A rectangle with the corners center +- half_u +- half_v that shines to the side of half_u x half_v, the same
+// A rectangle with the corners center +- half_u +- half_v. It shines to the side of half_u x half_v with the same
 // radiance in every direction.
 //
-// Directions are drawn evenly from the solid angle that it fills (Ureña, Fajardo and King 2013, "An
-// area-preserving parametrization for spherical rectangles"), or evenly from its area where that angle is too small
-// for the angles of its corners to be told apart.
+// Directions are drawn evenly from its solid angle (Ureña, Fajardo and King 2013, "An area-preserving
+// parametrization for spherical rectangles"), or evenly from its area if the solid angle is too small to compute.
 #ifndef LOBELIA_RENDERER_SCENE_LIGHTS_RECTANGLE_HPP
 #define LOBELIA_RENDERER_SCENE_LIGHTS_RECTANGLE_HPP
 
 #include <fmt/core.h>
-
-#include <cmath>
 
 #include "renderer/scene/lights/light.hpp"
 
@@ -57,25 +54,24 @@ struct RectangleLight {
     return lamp_at(center + (2 * u - 1) * half_u + (2 * v - 1) * half_v);
   }
   Lamp whole_lamp() const { return lamp_at(center); }
-  /// With the power of all of it.
+  /// A lamp with the power of the whole rectangle.
   Lamp lamp_at(Vec3 position) const {
     const Vec3 normal = cross(half_u, half_v);  // a quarter of the area long
     return Lamp::near(position, 4 * length(normal) * radiance, normalize(normal));
   }
 
   double distance(Vec3 origin, Vec3 direction) const {
-    constexpr double kNowhere = std::numeric_limits<double>::infinity();
     const Vec3 normal = cross(half_u, half_v);
     const double against = -dot(direction, normal);
-    if (!(against > 0)) return kNowhere;
+    if (!(against > 0)) return kInfinity;
     const double t = dot(origin - center, normal) / against;
     const Vec3 from = origin + t * direction - center;
     const bool within = std::abs(dot(from, half_u)) <= dot(half_u, half_u) &&
                         std::abs(dot(from, half_v)) <= dot(half_v, half_v);
-    return t > 0 && within ? t : kNowhere;
+    return t > 0 && within ? t : kInfinity;
   }
 
-  /// Its axes: unit vectors; it shines towards +z.
+  /// The rectangle in a frame of unit vectors; it shines towards +z.
   struct Ready {
     Vec3 center, x, y, z;
     double half_x, half_y;
@@ -100,8 +96,8 @@ static_assert(LightType<RectangleLight>);
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
-/// Below this bound of the solid angle the angles have lost too many digits, and evenly in area is evenly
-/// in solid angle to within a per cent or so.
+/// Below this bound of the solid angle the angles have lost too many digits. Evenly in area is then evenly in solid
+/// angle to within a per cent or so.
 inline constexpr double kSmallest = 1e-2;
 
 /// The rectangle as seen from points: x0..x1 by y0..y1 in the plane z = z0 < 0.
@@ -112,15 +108,15 @@ struct View {
 
 HWY_INLINE View view(const RectangleLight::Ready& light, Lanes3 point) {
   const hn::ScalableTag<double> d;
-  const Lanes3 way = broadcast(light.center) - point;
-  const Lanes x = dot(way, broadcast(light.x)), y = dot(way, broadcast(light.y));
+  const Lanes3 to_center = broadcast(light.center) - point;
+  const Lanes x = dot(to_center, broadcast(light.x)), y = dot(to_center, broadcast(light.y));
   View v;
   v.x0 = x - Lanes(light.half_x), v.x1 = x + Lanes(light.half_x);
   v.y0 = y - Lanes(light.half_y), v.y1 = y + Lanes(light.half_y);
-  v.z0 = dot(way, broadcast(light.z));
+  v.z0 = dot(to_center, broadcast(light.z));
   v.area = Lanes(4 * light.half_x * light.half_y);
   v.in_front = hn::Lt(v.z0.v, hn::Zero(d));
-  // The nearest point of it bounds the solid angle from above.
+  // The rectangle's nearest point gives an upper bound of the solid angle.
   const Lanes nx(hn::Max(hn::Max(v.x0.v, hn::Neg(v.x1.v)), hn::Zero(d)));
   const Lanes ny(hn::Max(hn::Max(v.y0.v, hn::Neg(v.y1.v)), hn::Zero(d)));
   const Lanes nearest = nx * nx + ny * ny + v.z0 * v.z0;
@@ -135,8 +131,8 @@ struct Spherical {
 HWY_INLINE Spherical spherical(const View& v) {
   const hn::ScalableTag<double> d;
   const Lanes z2 = v.z0 * v.z0;
-  // The normals of the four planes through the point and a side have one component of zero each, so
-  // that their products are short.
+  // The normals of the four planes through the point and a side each have a zero component, which shortens their
+  // products.
   const auto component = [&](Lanes a) HWY_ATTR { return a / sqrt(z2 + a * a); };
   const Lanes n0 = -component(v.y0), n1 = component(v.x1), n2 = component(v.y1),
               n3 = -component(v.x0);
@@ -174,9 +170,9 @@ inline void sample_light(const RectangleLight::Ready& light, std::size_t count,
     }
     const Lanes squared = x * x + y * y + r.z0 * r.z0, distance = sqrt(squared);
     const Lanes by_area = r.area * -r.z0 / (squared * distance);
-    const Lanes3 way = add_scaled(x, broadcast(light.x),
-                                  add_scaled(y, broadcast(light.y), r.z0 * broadcast(light.z)));
-    store(Lanes(1.0) / distance * way, drawn.to_light, i);
+    const Lanes3 offset = add_scaled(x, broadcast(light.x),
+                                     add_scaled(y, broadcast(light.y), r.z0 * broadcast(light.z)));
+    store(Lanes(1.0) / distance * offset, drawn.to_light, i);
     distance.store(drawn.distance + i);
     const Lanes inverse = choose(r.small, by_area, solid_angle);
     Lanes(hn::IfThenElseZero(r.in_front, inverse.v)).store(drawn.factor + i);

@@ -1,12 +1,9 @@
-// A ball of light, the same radiance from every point of it, seen from outside.
+// A ball of light with the same radiance from every point, seen from outside.
 //
-// Directions are drawn evenly from the cone that it fills (Shirley, Wang and Zimmerman 1996, section 3.2.1). The
-// formulas stay exact for a ball that is tiny or far because nothing in them cancels.
+// Directions are drawn evenly from its cone (Shirley, Wang and Zimmerman 1996, section 3.2.1). The formulas have no
+// cancellation, so they stay exact for a tiny or distant ball.
 #ifndef LOBELIA_RENDERER_SCENE_LIGHTS_SPHERE_HPP
 #define LOBELIA_RENDERER_SCENE_LIGHTS_SPHERE_HPP
-
-#include <cmath>
-#include <numbers>
 
 #include "renderer/scene/lights/light.hpp"
 
@@ -35,21 +32,18 @@ struct SphereLight {
 
   Lamp lamp(double u, double v) const {
     const double z = 1 - 2 * u, r = std::sqrt(std::max(0.0, 1 - z * z));
-    const double turn = 2 * std::numbers::pi * v;
+    const double turn = 2 * kPi * v;
     const Vec3 normal{r * std::cos(turn), r * std::sin(turn), z};
-    const double area = 4 * std::numbers::pi * radius * radius;
+    const double area = 4 * kPi * radius * radius;
     return Lamp::near(center + radius * normal, area * radiance, normal);
   }
-  Lamp whole_lamp() const {
-    return Lamp::near(center, std::numbers::pi * radius * radius * radiance);
-  }
+  Lamp whole_lamp() const { return Lamp::near(center, kPi * radius * radius * radiance); }
 
   double distance(Vec3 origin, Vec3 direction) const {
-    const Vec3 way = center - origin;
-    const double b = dot(way, direction), c = dot(way, way) - radius * radius;
+    const Vec3 to_center = center - origin;
+    const double b = dot(to_center, direction), c = dot(to_center, to_center) - radius * radius;
     const double discriminant = b * b - c;
-    return c > 0 && b > 0 && discriminant > 0 ? b - std::sqrt(discriminant)
-                                              : std::numeric_limits<double>::infinity();
+    return c > 0 && b > 0 && discriminant > 0 ? b - std::sqrt(discriminant) : kInfinity;
   }
 
   bool operator==(const SphereLight&) const = default;
@@ -70,7 +64,7 @@ HWY_INLINE Lanes cone(Lanes radius_squared, Lanes distance_squared) {
   return sine_squared / (Lanes(1.0) + sqrt(positive_part(Lanes(1.0) - sine_squared)));
 }
 
-/// Along a unit direction to where it enters the ball; `inside` is half of the chord, squared.
+/// Distance along a unit direction to the ball; `inside` is half of the chord, squared.
 HWY_INLINE Lanes entry(Lanes3 to_center, Lanes3 direction, Lanes radius_squared, Lanes& inside) {
   const Lanes along = dot(to_center, direction);
   const Lanes3 off_axis = subtract_scaled(along, direction, to_center);
@@ -83,13 +77,13 @@ inline void sample_light(const SphereLight& light, std::size_t count, const Vec3
   const Lanes3 center = broadcast(light.center);
   const Lanes r2(light.radius * light.radius);
   for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    const Lanes3 way = center - load(point, i);
-    const Lanes d2 = dot(way, way), widest = cone(r2, d2);
+    const Lanes3 to_center = center - load(point, i);
+    const Lanes d2 = dot(to_center, to_center), widest = cone(r2, d2);
     const Lanes s = Lanes::load(u + i) * widest;
-    const Lanes3 l = about(Lanes(1.0) / sqrt(d2) * way, sqrt(s * (Lanes(2.0) - s)), Lanes(1.0) - s,
-                           Lanes(2 * kPi) * Lanes::load(v + i));
+    const Lanes3 l = about(Lanes(1.0) / sqrt(d2) * to_center, sqrt(s * (Lanes(2.0) - s)),
+                           Lanes(1.0) - s, Lanes(2 * kPi) * Lanes::load(v + i));
     Lanes inside;
-    entry(way, l, r2, inside).store(drawn.distance + i);
+    entry(to_center, l, r2, inside).store(drawn.distance + i);
     store(l, drawn.to_light, i);
     where_less(r2, d2, Lanes(2 * kPi) * widest).store(drawn.factor + i);
   }
@@ -101,10 +95,10 @@ inline void meet_light(const SphereLight& light, std::size_t count, const Vec3Ch
   const Lanes3 center = broadcast(light.center);
   const Lanes r2(light.radius * light.radius);
   for (std::size_t i = 0; i < count; i += Lanes::count()) {
-    const Lanes3 way = center - load(origin, i);
-    const Lanes d2 = dot(way, way);
+    const Lanes3 to_center = center - load(origin, i);
+    const Lanes d2 = dot(to_center, to_center);
     Lanes inside;
-    const Lanes t = entry(way, Lanes(-1.0) * load(to_eye, i), r2, inside);
+    const Lanes t = entry(to_center, Lanes(-1.0) * load(to_eye, i), r2, inside);
     const Mask hit = hn::And(hn::Gt(d2.v, r2.v),
                              hn::And(hn::Gt(inside.v, hn::Zero(d)), hn::Gt(t.v, hn::Zero(d))));
     choose(hit, t, Lanes(kInfinity)).store(met.distance + i);

@@ -13,7 +13,7 @@
 #include "renderer/pixel_ray.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/contact.hpp"
-#include "renderer/scene/remarks.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace lobelia {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "renderer/albedo.hpp"
-#include "renderer/highlight_tables.hpp"
+#include "renderer/catalogue_record.hpp"
 #include "tests/json.hpp"
 
 namespace lobelia {

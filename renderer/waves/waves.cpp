@@ -1,10 +1,6 @@
-#include "renderer/waves/wave_renderer.hpp"
+#include "renderer/waves/waves.hpp"
 
-#include <algorithm>
-#include <numbers>
-
-namespace lobelia {
-namespace waves {
+namespace lobelia::waves {
 
 PreparedMaterial::PreparedMaterial(const Material& m) : material(m), reflector(m) {
   const double coefficient = radiance_coefficient(m.highlight);
@@ -22,7 +18,7 @@ PreparedScene::PreparedScene(const Scene& s, const Plan& p)
       filter(s.sampler.sample_count > 1 ? s.film.filter : Filter{}),
       materials(s.materials.begin(), s.materials.end()),
       lights(prepare(s.lights)),
-      any_sized(!std::all_of(s.lights.begin(), s.lights.end(), is_delta)) {
+      any_sized(!std::ranges::all_of(s.lights, is_delta)) {
   for (std::size_t l = 0; l < lights.size(); ++l)
     for (std::size_t m = 0; m < materials.size(); ++m)
       materials[m].scatters_to_light |=
@@ -47,7 +43,7 @@ Wave& Workspace::new_wave(int level, Wave::Kind kind) {
 
 namespace {
 
-/// Puts some rays of a wave side by side.
+/// Copies some rays of a wave into work.hits.
 void gather(const Wave& wave, std::span<const int> rays, Workspace& work) {
   Hits& hits = work.hits;
   hits.count = rays.size();
@@ -64,7 +60,7 @@ void gather(const Wave& wave, std::span<const int> rays, Workspace& work) {
   }
 }
 
-/// Sorts the rays that have met a surface by key(ray), into `rays`. Keys are few.
+/// Sorts the rays that have met a surface by key_of(ray), into `rays`. There are few keys.
 template <class Key>
 void group(const Wave& wave, const Key& key_of, std::array<int, kChunk>& rays, Workspace& work) {
   std::array<int, kChunk> group_of;
@@ -77,7 +73,7 @@ void group(const Wave& wave, const Key& key_of, std::array<int, kChunk>& rays, W
     if (wave.surface[i] < 0) continue;
     const int key = key_of(i);
     if (last >= keys.size() || keys[last] != key) {
-      last = std::size_t(std::find(keys.begin(), keys.end(), key) - keys.begin());
+      last = std::size_t(std::ranges::find(keys, key) - keys.begin());
       if (last == keys.size()) {
         keys.push_back(key);
         work.group_size.push_back(0);
@@ -94,49 +90,49 @@ void group(const Wave& wave, const Key& key_of, std::array<int, kChunk>& rays, W
     if (group_of[i] >= 0) rays[work.group_next[std::size_t(group_of[i])]++] = int(i);
 }
 
-}  // namespace
-}  // namespace waves
+/// Shades in groups, so that a whole run of lanes has the same material and, where surfaces are few, the same
+/// occluders.
+void shade(const PreparedScene& prepared, const Wave& wave, Workspace& work) {
+  const int materials = int(prepared.materials.size());
+  const bool one_by_one = prepared.one_by_one();
+  const auto key_of = [&](std::size_t i) {
+    const int material = material_at(prepared, wave, i);
+    return one_by_one ? int(wave.surface[i]) * materials + material : material;
+  };
+  std::array<int, kChunk> rays;
+  group(wave, key_of, rays, work);
+  for (std::size_t g = 0; g < work.keys.size(); ++g) {
+    gather(wave, std::span(rays).subspan(work.group_begin[g], work.group_size[g]), work);
+    const int key = work.keys[g];
+    work.hits.material = one_by_one ? key % materials : key;
+    work.hits.one_surface = one_by_one ? key / materials : -1;
+    light_hits(prepared, wave, work);
+    spawn_onward(prepared, wave, work);
+  }
+}
 
-void WaveRenderer::render(std::span<const PixelSample> samples, std::span<SampleResult> results,
-                          Workspace& work) const {
-  waves::Wave& wave = work.new_wave(0, waves::Wave::Kind::kCamera);
-  waves::start(prepared_, samples, results, wave, work);
-  follow(wave, work);
+void follow(const PreparedScene& prepared, Wave& wave, Workspace& work) {
+  trace(prepared, wave, work);
+  if (prepared.any_sized) add_met_lights(prepared, wave, work);
+  if (wave.lights_only) return;
+  start_onward(wave, work);
+  shade(prepared, wave, work);
+  for (const auto kind : {Wave::Kind::kMirror, Wave::Kind::kScattered})
+    if (Wave& next = work.wave_at(wave.level + 1, kind); next.count > 0)
+      follow(prepared, next, work);
+}
+
+}  // namespace
+
+void render(const PreparedScene& prepared, std::span<const PixelSample> samples,
+            std::span<SampleResult> results, Workspace& work) {
+  Wave& wave = work.new_wave(0, Wave::Kind::kCamera);
+  start(prepared, samples, results, wave, work);
+  follow(prepared, wave, work);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     results[i].surface = int(wave.surface[i]);
     results[i].radiance = work.radiance[i];
   }
 }
 
-void WaveRenderer::follow(waves::Wave& wave, Workspace& work) const {
-  waves::trace(prepared_, wave, work);
-  if (prepared_.any_sized) waves::add_met_lights(prepared_, wave, work);
-  if (wave.lights_only) return;
-  waves::start_onward(wave, work);
-  shade(wave, work);
-  for (const auto kind : {waves::Wave::Kind::kMirror, waves::Wave::Kind::kScattered})
-    if (waves::Wave& next = work.wave_at(wave.level + 1, kind); next.count > 0) follow(next, work);
-}
-
-/// Group by group, so that the material, and where surfaces are few also what may shadow them, are the
-/// same for a whole run of lanes.
-void WaveRenderer::shade(waves::Wave& wave, Workspace& work) const {
-  const int materials = int(prepared_.materials.size());
-  const bool one_by_one = prepared_.one_by_one();
-  const auto key_of = [&](std::size_t i) {
-    const int material = waves::material_at(prepared_, wave, i);
-    return one_by_one ? int(wave.surface[i]) * materials + material : material;
-  };
-  std::array<int, kChunk> rays;
-  waves::group(wave, key_of, rays, work);
-  for (std::size_t g = 0; g < work.keys.size(); ++g) {
-    waves::gather(wave, std::span(rays).subspan(work.group_begin[g], work.group_size[g]), work);
-    const int key = work.keys[g];
-    work.hits.material = one_by_one ? key % materials : key;
-    work.hits.one_surface = one_by_one ? key / materials : -1;
-    waves::light_hits(prepared_, wave, work);
-    waves::spawn_onward(prepared_, wave, work);
-  }
-}
-
-}  // namespace lobelia
+}  // namespace lobelia::waves
