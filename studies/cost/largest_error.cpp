@@ -1,4 +1,4 @@
-#include "studies/cost/largest_error.hpp"
+#include "studies/cost/lobe_errors.hpp"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -19,8 +19,8 @@
 namespace lobelia::cost {
 namespace {
 
-constexpr std::size_t kLeaf = 1 << 14;  // numbers that are looked at together
-constexpr int kTerms = 6;               // of cos^n about the middle of a leaf
+constexpr std::size_t kLeaf = 1 << 14;  // numbers that are evaluated together
+constexpr int kTerms = 6;               // of the series of cos^n about the middle of a leaf
 
 float float_of(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 std::uint32_t bits_of(double s) { return std::bit_cast<std::uint32_t>(float(s)); }
@@ -28,26 +28,26 @@ std::uint32_t bits_of(double s) { return std::bit_cast<std::uint32_t>(float(s));
 /// Successive numbers of float32, as their bits.
 struct Block {
   std::uint32_t first, last;
-  double upper;  ///< no error is larger
+  double upper;  ///< bound of the error
   double begin() const { return float_of(first); }
   double end() const { return float_of(last); }
 };
 
 class Search {
  public:
-  Search(const LobeVariant& way, double exponent)
-      : way_(way),
+  Search(const LobeVariant& variant, double exponent)
+      : variant_(variant),
         n_(exponent),
-        own_(prepare(way.lobe, exponent)),
+        own_(prepare(variant.lobe, exponent)),
         cosine_(prepare(*find_lobe("cosine"), exponent)),
-        is_cosine_(way.lobe == *find_lobe("cosine") || way.lobe.order == exponent) {}
+        is_cosine_(variant.lobe == *find_lobe("cosine") || variant.lobe.order == exponent) {}
 
-  /// The largest at a few numbers of each octave: whatever cannot exceed it need not be looked at.
-  double glance() const {
+  /// The largest error at a few numbers of each octave: a lower bound of the result.
+  double lower_bound() const {
     std::vector<float> s;
     for (std::uint32_t bits = least(); bits < bits_of(1); bits += kOctave / kLobeBlock)
       s.push_back(float_of(bits));
-    const std::vector<double> value = values(s);
+    const std::vector<double> value = variant_.values(s);
     double most = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
       const auto [high, low] = truth<Quad>(s[i]);
@@ -58,10 +58,10 @@ class Search {
     return most;
   }
 
-  /// Those in which an error of more than `known` is possible, none of more than kLeaf numbers.
+  /// The blocks in which an error of more than `known` is possible, each of kLeaf numbers at most.
   std::vector<Block> leaves(double known) const {
     std::vector<Block> found, open;
-    // No block crosses from one octave to the next: its numbers are evenly spaced.
+    // Within one octave, so that a block's numbers are evenly spaced.
     for (std::uint32_t first = least(); first < bits_of(1); first += kOctave)
       open.push_back(bounded(first, first + kOctave - 1));
     while (!open.empty()) {
@@ -79,7 +79,7 @@ class Search {
     return found;
   }
 
-  /// The numbers that decide: of a way that sees 1 - s rounded, the ends of each step.
+  /// The numbers that decide: the ends of each step if the variant rounds 1 - s, otherwise all.
   std::vector<float> numbers(const Block& block) const {
     std::vector<float> s;
     if (!by_steps(block)) {
@@ -100,10 +100,10 @@ class Search {
   double largest(const Block& block, const std::vector<float>& given) const {
     std::vector<float> s = given;
     s.resize((s.size() + kLobeBlock - 1) / kLobeBlock * kLobeBlock, s.back());
-    const std::vector<double> value = values(s);
-    // cos^n about the middle, in two doubles and a few terms: cheaper than in many digits at each number.
+    const std::vector<double> value = variant_.values(s);
+    // cos^n by a series about the middle, in two doubles: cheaper than many digits at each number.
     const double middle = float_of(block.first + (block.last - block.first) / 2);
-    const auto [high, low] = way_.wide ? truth<Quad>(middle) : truth<long double>(middle);
+    const auto [high, low] = variant_.wide ? truth<Quad>(middle) : truth<long double>(middle);
     double terms[kTerms], term = 1;
     for (int j = 0; j < kTerms; ++j) terms[j] = term *= (j - n_) / (j + 1);
     const double scale = 1 / (1 - middle);
@@ -127,12 +127,12 @@ class Search {
     if (!(error <= allowed * (1 + 1e-9)))
       throw Error(ExitCode::kInternal,
                   fmt::format("{} is {:.3g} off near s = {}, n = {}; {:.3g} is allowed",
-                              way_.name(), error, s, n_, allowed));
+                              variant_.name(), error, s, n_, allowed));
   }
 
-  /// The octave with which the search begins.
+  /// The start of the first octave of the search.
   std::uint32_t least() const {
-    return bits_of(std::exp2(way_.wide ? -55 : -26) / n_) & ~(kOctave - 1);
+    return bits_of(std::exp2(variant_.wide ? -55 : -26) / n_) & ~(kOctave - 1);
   }
 
   /// cos^n as two doubles.
@@ -150,8 +150,8 @@ class Search {
     return block;
   }
 
-  /// The lobes fall, and bend no more than kMostBend; the way's own share is what it is allowed, or what a number as
-  /// small as the lobe can have.
+  /// A bound of the error from `begin` to `end`: the lobes fall and bend by kMostBend at most, and the variant adds its
+  /// allowed rounding; it cannot exceed the lobes' own values.
   double upper(double begin, double end) const {
     const double own = own_.value(begin), cosine = cosine_.value(begin);
     const double last_own = own_.value(end), last_cosine = cosine_.value(end);
@@ -162,18 +162,18 @@ class Search {
                           bend(n_ * (end - begin));
       shape = std::min(fallen, bent) + 4 * std::numeric_limits<double>::epsilon();
     }
-    return std::min(shape + way_.allowed, std::max(cosine, most_value(own)));
+    return std::min(shape + variant_.allowed, std::max(cosine, most_value(own)));
   }
 
-  /// The most that a second derivative can add between two ends that are so far apart in n s.
+  /// The most that the second derivative adds between two ends `width` apart in n s.
   static double bend(double width) { return kMostBend / 8 * width * width; }
 
-  /// The most that the way can return for that value or a smaller one: each factor e adds a few roundings.
+  /// The most that the variant can return for that value or a smaller one: each factor e adds a few roundings.
   double most_value(double own) const {
-    const double k = way_.lobe.order;
+    const double k = variant_.lobe.order;
     const double base =
         k > 0 ? std::pow(std::pow(own, 1 / k) + 0x1p-22, k) : std::pow(own, 1 - 0x1p-21);
-    return base * std::exp(2 * way_.allowed) + std::numeric_limits<float>::min();
+    return base * std::exp(2 * variant_.allowed) + std::numeric_limits<float>::min();
   }
 
   static std::uint64_t first_tie(const Block& block) {
@@ -184,33 +184,19 @@ class Search {
     return std::uint64_t((block.end() - block.begin()) * 0x1p24) + 1;
   }
   bool by_steps(const Block& block) const {
-    return way_.of_cosine && block.end() < 0.5 &&
+    return variant_.of_cosine && block.end() < 0.5 &&
            3 * steps(block) + 2 < std::uint64_t(block.last - block.first) + 1;
   }
   bool is_leaf(const Block& block, double known) const {
     const std::uint64_t count =
         by_steps(block) ? 3 * steps(block) + 2 : std::uint64_t(block.last - block.first) + 1;
-    // So narrow that the terms are enough for the digits of the way's numbers, and that what the lobes bend decides
-    // nothing.
+    // So narrow that the series has the digits of the variant's numbers, and that bending does not matter.
     const double width = n_ * (block.end() - block.begin());
-    return count <= kLeaf && width <= (way_.wide ? 0x1p-11 : 0x1p-7) * (1 - block.end()) &&
-           (is_cosine_ || bend(width) <= std::max(known * 0x1p-10, way_.allowed / 4));
+    return count <= kLeaf && width <= (variant_.wide ? 0x1p-11 : 0x1p-7) * (1 - block.end()) &&
+           (is_cosine_ || bend(width) <= std::max(known * 0x1p-10, variant_.allowed / 4));
   }
 
-  std::vector<double> values(const std::vector<float>& s) const {
-    std::vector<double> value(s.size());
-    if (way_.wide) {
-      const std::vector<double> wide(s.begin(), s.end());
-      way_.over64(s.size(), wide.data(), value.data());
-    } else {
-      std::vector<float> narrow(s.size());
-      way_.over32(s.size(), s.data(), narrow.data());
-      std::copy(narrow.begin(), narrow.end(), value.begin());
-    }
-    return value;
-  }
-
-  const LobeVariant& way_;
+  const LobeVariant& variant_;
   double n_;
   PreparedLobe own_, cosine_;
   bool is_cosine_;
@@ -218,12 +204,12 @@ class Search {
 
 }  // namespace
 
-LargestError largest_error(const LobeVariant& way, double exponent, double at_least,
+LargestError largest_error(const LobeVariant& variant, double exponent, double at_least,
                            std::uint64_t most_numbers) {
-  const Search search(way, exponent);
-  at_least = std::max(at_least, search.glance());
+  const Search search(variant, exponent);
+  at_least = std::max(at_least, search.lower_bound());
   const std::vector<Block> leaves = search.leaves(at_least);
-  // If not all can be looked at, those that are come from everywhere.
+  // In an order that spreads over all places, in case not all can be evaluated.
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < leaves.size(); ++i)
     order.emplace_back(std::fmod(double(i) * std::numbers::phi, 1.0), i);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/constants.hpp"
 #include "core/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
@@ -35,23 +36,23 @@ LobeTruth::LobeTruth(double exponent) : cosine_energy_(1 / (exponent + 1)) {
   const ModelId whole = *find_model("phong_rdf");  // 1/coefficient: 2 pi times the lobe's integral
   for (const LobeId lobe : all_lobes()) {
     std::vector<Value>& values = values_.emplace_back();
-    for (const double s : s_) {
+    for (const float s : s_) {
       const Quad value = s < 1 ? lobe_definition<Quad>(lobe, Quad(1) - Quad(s), exponent) : Quad(0);
       values.push_back({double(value), double(value - Quad(double(value)))});
     }
-    const double energy = 1 / (2 * std::numbers::pi * truth::coefficient(whole, lobe, exponent));
+    const double energy = 1 / (2 * kPi * truth::coefficient(whole, lobe, exponent));
     shape_energy_.push_back(values_.size() - 1 == cosine_ ? 0 : energy / cosine_energy_ - 1);
   }
 }
 
 void LobeTruth::add_samples(double exponent) {
   const double end = highlight_end(exponent);
-  // Every way gets exactly the same s, so they are numbers of the narrower type.
+  // Numbers of the narrower type, so that every variant gets exactly the same s.
   const auto add = [&](double s, double weight) {
     s_.push_back(float(s));
     weight_.push_back(weight);
   };
-  // Anywhere in its cell: cells' middles are numbers of few digits, whose 1 - s would not be rounded.
+  // Not the middle of a cell: that has few digits, so that 1 - s would not be rounded.
   const auto within = [](std::size_t i) {
     return double(i) + std::fmod(double(i + 1) * std::numbers::phi, 1.0);
   };
@@ -69,34 +70,26 @@ void LobeTruth::add_samples(double exponent) {
   while (s_.size() % kLobeBlock != 0) add(0, 0);
 }
 
-LobeVariantErrors LobeTruth::errors(const LobeVariant& way) const {
-  const std::size_t count = s_.size();
-  std::vector<double> computed(count);
-  if (way.wide) {
-    way.over64(count, s_.data(), computed.data());
-  } else {
-    const std::vector<float> s(s_.begin(), s_.end());
-    std::vector<float> narrow(count);
-    way.over32(count, s.data(), narrow.data());
-    std::copy(narrow.begin(), narrow.end(), computed.begin());
-  }
-  const std::size_t place = place_of(way.lobe);
+LobeVariantErrors LobeTruth::errors(const LobeVariant& variant) const {
+  const std::vector<double> computed = variant.values(s_);
+  const std::size_t place = place_of(variant.lobe);
   const std::vector<Value>&own = values_[place], &cosine = values_[cosine_];
   LobeVariantErrors errors;
   double drift = 0;
-  const auto count_in = [&](LobeErrors& e, double difference, std::size_t i) {
+  const auto add = [&](LobeErrors& e, double difference, std::size_t i) {
     e.max = std::max(e.max, std::abs(difference));
     if (i < core_) e.rms += difference * difference;
   };
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < s_.size(); ++i) {
     const double rounding = (computed[i] - own[i].high) - own[i].low;
-    if (!(std::abs(rounding) <= way.allowed))
-      throw Error(ExitCode::kInternal,
-                  fmt::format("{} is {:.3g} off at s = {}, n = {}; {:.3g} is allowed", way.name(),
-                              std::abs(rounding), s_[i], 1 / cosine_energy_ - 1, way.allowed));
-    count_in(errors.rounding, rounding, i);
-    count_in(errors.shape, (own[i].high - cosine[i].high) + (own[i].low - cosine[i].low), i);
-    count_in(errors.all, (computed[i] - cosine[i].high) - cosine[i].low, i);
+    if (!(std::abs(rounding) <= variant.allowed))
+      throw Error(
+          ExitCode::kInternal,
+          fmt::format("{} is {:.3g} off at s = {}, n = {}; {:.3g} is allowed", variant.name(),
+                      std::abs(rounding), s_[i], 1 / cosine_energy_ - 1, variant.allowed));
+    add(errors.rounding, rounding, i);
+    add(errors.shape, (own[i].high - cosine[i].high) + (own[i].low - cosine[i].low), i);
+    add(errors.all, (computed[i] - cosine[i].high) - cosine[i].low, i);
     drift += weight_[i] * rounding;
   }
   for (LobeErrors* e : {&errors.all, &errors.shape, &errors.rounding})

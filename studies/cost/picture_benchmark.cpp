@@ -1,8 +1,8 @@
-// What a whole picture takes, and how far it is from the scene's truth, by lobe and precision.
+// The time of a whole picture and its error, by lobe and precision.
 //
-// Lobes stand in for the scene's own, each with the coefficient that makes its energy exact; the error is that
-// of the picture, so of lobe, precision and, where something is random, of noise together.
-#include "studies/cost/picture_benchmark.hpp"
+// Each lobe replaces the scene's own, with the coefficient that makes its energy exact. The error is that of the
+// picture: of lobe, precision and, with random sampling, noise together.
+#include "studies/cost/benchmarks.hpp"
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ struct Combination {
   }
 };
 
-/// The scene's film, of the same shape but so many rays. Fewer say more about fixed costs than about pixels.
+/// The film in the same proportions for a given number of rays; fewer would measure fixed costs rather than pixels.
 Scene sized(const Scene& scene, const Options& options) {
   const double rays = options.rounds(1 << 14, 1 << 18, 1 << 20);
   const double pixels = std::max(rays / scene.sampler.sample_count, 4096.0);
@@ -48,19 +48,20 @@ Scene sized(const Scene& scene, const Options& options) {
   return result;
 }
 
-/// How the order that --accuracy goes by fares against the clock.
-std::string order_remark(const std::vector<Variant>& ways) {
+/// How well --accuracy predicts the order of the measured times.
+std::string order_remark(const std::vector<Variant>& variants) {
   int clear = 0, reversed = 0;
   double worst = 1;
-  for (std::size_t i = 0; i < ways.size(); ++i)
+  for (std::size_t i = 0; i < variants.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const int slower = clearly_slower(ways[i], ways[j]);
+      const int slower = clearly_slower(variants[i], variants[j]);
       if (slower == 0) continue;
       ++clear;
-      const double predicted = *ways[j].facts->predicted_cost - *ways[i].facts->predicted_cost;
+      const double predicted =
+          *variants[j].facts->predicted_cost - *variants[i].facts->predicted_cost;
       if (predicted * slower >= 0) continue;
       ++reversed;
-      const double ratio = ways[i].seconds->median / ways[j].seconds->median;
+      const double ratio = variants[i].seconds->median / variants[j].seconds->median;
       worst = std::max({worst, ratio, 1 / ratio});
     }
   return fmt::format(
@@ -116,15 +117,15 @@ Table table_of(const NamedScene& named, const Options& options) {
       return accuracy::measure_at_peak(metric, c.first, truth.image);
     };
     const std::string lobe(info(c.lobe).name), precision(name(c.precision));
-    Variant& way = table.ways.emplace_back();
-    way.name = fmt::format("{}, {}", lobe, precision);
-    way.settings = {
+    Variant& variant = table.ways.emplace_back();
+    variant.name = fmt::format("{}, {}", lobe, precision);
+    variant.settings = {
         {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.samples)}};
-    way.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));
-    way.errors = {{"de2000_p99", error("ciede2000.p99")},
-                  {"flip", error("flip.ldr.mean")},
-                  {"max_rel_peak", error("max_rel_peak")}};
-    records::CostFacts& facts = way.facts.emplace();
+    variant.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));
+    variant.errors = {{"de2000_p99", error("ciede2000.p99")},
+                      {"flip", error("flip.ldr.mean")},
+                      {"max_rel_peak", error("max_rel_peak")}};
+    records::CostFacts& facts = variant.facts.emplace();
     facts.samples = c.samples;
     facts.kernel = c.kernel;
     facts.predicted_cost = accuracy::shading_cost(c.lobe, c.precision);
