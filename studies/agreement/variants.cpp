@@ -1,4 +1,4 @@
-#include "studies/agreement/variants.hpp"
+#include "studies/agreement/agreement.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 namespace lobelia::agreement {
 namespace {

@@ -1,9 +1,8 @@
+#include "studies/agreement/cases.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
-
-#include "studies/agreement/cases.hpp"
 
 namespace lobelia::agreement {
 namespace {
@@ -14,7 +13,7 @@ constexpr double kSmallExponents[] = {16, 1024, 1e5};
 struct CaseVariant {
   std::string_view lobe, normalisation;
 };
-/// The first has every light at every exponent, the others take turns.
+/// The first has every light at every exponent, the others only some.
 constexpr CaseVariant kVariants[] = {{"cosine", "exact"},
                                      {"cosine", "paper"},
                                      {"cs16", "exact"},
@@ -23,7 +22,7 @@ constexpr CaseVariant kVariants[] = {{"cosine", "exact"},
                                      {"gauss", "exact"},
                                      {"spherical_gaussian", "exact"}};
 
-/// Where a sphere is brightest by a light: its normal halfway between light and eye.
+/// The point of a sphere with its normal halfway between light and eye.
 Vec3 highlight_place(const Sphere& sphere, const Light& light, Vec3 eye) {
   Vec3 place = sphere.center;
   for (int i = 0; i < 60; ++i) {
@@ -44,8 +43,8 @@ Scene two_coloured_lights(const HighlightChoice& choice, int size) {
   return scene;
 }
 
-/// The shadow's edge goes through the middle of the first light's highlight. The highlight is grey, so that
-/// POV-Ray may shade by itself.
+/// The shadow's edge goes through the middle of the first light's highlight. The highlight is grey, so that POV-Ray can
+/// shade it natively.
 Scene shadowed_on_a_base(const HighlightChoice& choice, int size) {
   Scene scene = two_coloured_lights(choice, size);
   scene.materials[0].specular_reflectance = 0.75 * kWhite;
@@ -77,9 +76,9 @@ constexpr NamedLight kLights[] = {
     {"shadow on a diffuse base", shadowed_on_a_base},
 };
 
-/// The camera goes to kNear before the first light's highlight, on the line on which it sees it, and zooms in as
-/// the lobe narrows. From afar float32 would have the place, and with it the normal, in fewer digits. Blender has
-/// no lens for less than 0.37 degrees.
+/// Moves the camera to kNear before the first light's highlight, along its line of sight, and zooms in as the lobe
+/// narrows. From farther away, float32 would round the point and so the normal more. Blender's lenses end at 0.37
+/// degrees.
 void look_closely(Scene& scene, double exponent) {
   constexpr double kNear = 0.5;
   Camera& camera = scene.camera;
@@ -94,6 +93,18 @@ Case highlight_case(const HighlightChoice& choice, const NamedLight& light, int 
   one.scene = light.scene(choice, size);
   if (one.close_up) look_closely(one.scene, choice.exponent);
   return one;
+}
+
+constexpr double kExponent = 30;
+/// Shaded natively by both engines.
+constexpr HighlightChoice kNative{"blinn_phong_rdf", "cosine", "exact", kExponent};
+/// Reimplemented for every engine.
+constexpr HighlightChoice kReimplemented{"modified_phong", "cs16", "exact", kExponent};
+
+Scene grey(Scene scene) {
+  for (Material& material : scene.materials)
+    material.specular_reflectance = material.specular_reflectance.r * kWhite;
+  return scene;
 }
 
 }  // namespace
@@ -115,6 +126,60 @@ std::vector<Case> highlight_cases(const Scope& scope) {
               choice, kLights[(2 * m + v + 3 * e + 2 * t) % std::size(kLights)], scope.size));
       }
   return cases;
+}
+
+std::vector<Case> effect_cases(const Scope& scope) {
+  const int size = scope.size;
+  const Light sun = directional_at(50);
+  const Light lamp = PointLight{{2.2, 3, 2.4}, {25, 20, 15}, normalize({-1, -1, -1})};
+  std::vector<Case> cases;
+  const auto add = [&](std::string_view what, const HighlightChoice& choice, Scene scene,
+                       int ring_allowed) {
+    cases.push_back({Group::kEffect, what, choice, false, ring_allowed, std::move(scene)});
+  };
+  add("planes and a checker", kNative, grey(ground_scene(kNative, {sun}, size)), kCheckerRing);
+  add("lamp with a normal", kNative, grey(ground_scene(kNative, {lamp}, size)), kCheckerRing);
+  Scene shadows = grey(shadow_scene(kNative, {directional_at(30), point_light({2, 4, 8})}, size));
+  shadows.materials[1].highlight = highlight_of(kNative);
+  add("shadows of two lights", kNative, shadows, 3);
+  Scene aside = sphere_scene(kNative, {sun}, size);
+  aside.camera.principal_point_offset_x = 0.2;
+  aside.camera.principal_point_offset_y = -0.15;
+  add("film aside", kNative, aside, 3);
+  Scene fresnel = shadow_scene(kReimplemented, {directional_at(120), point_light({2, 4, 8})}, size);
+  for (Material& material : fresnel.materials) material.fresnel = Fresnel::kSchlick;
+  fresnel.materials[0].specular_reflectance = {0.02, 0.5, 0};
+  add("Schlick's Fresnel factor", kReimplemented, fresnel, 3);
+  add("mirrors", kNative, mirror_scene(kNative, {sun, point_light()}, size), kCheckerRing);
+  add("mirrors of a highlight that an engine is told", kReimplemented,
+      mirror_scene(kReimplemented, {sun}, size), kCheckerRing);
+  add("light with a size in a mirror", kNative,
+      mirror_scene(kNative, {SphereLight{{2, 2.5, 2.5}, 0.6, {20, 16, 12}}}, size), 0);
+  Scene glossy = grey(ground_scene(kNative, {sun}, size));
+  glossy.depth.glossy = 1;
+  add("glossy inter-reflection", kNative, glossy, 0);
+  return cases;
+}
+
+std::vector<SoftCase> soft_cases(const Scope& scope) {
+  constexpr int kSoftSize = 24, kSmallSoftSize = 16, kConverged = 32768;
+  std::vector<SoftCase> cases;
+  auto scenes =
+      soft_scenes({"phong_rdf", "cosine", "exact", 24}, scope.small ? kSmallSoftSize : kSoftSize);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (scope.small && i != 0 && i != 4) continue;
+    SoftCase one{scenes[i].name, grey(scenes[i].scene), {}};
+    one.converged = one.scene;
+    // One ray a pixel goes through the centre: the same for a renderer that samples is a tiny filter.
+    if (one.scene.sampler.sample_count == 1) one.converged.film.filter.radius = 1e-6;
+    one.converged.sampler.sample_count = kConverged;
+    cases.push_back(std::move(one));
+  }
+  return cases;
+}
+
+std::vector<int> soft_points(const Scope& scope) {
+  return scope.small ? std::vector<int>{16, 64} : std::vector<int>{64, 256};
 }
 
 }  // namespace lobelia::agreement
