@@ -7,7 +7,6 @@
 #include "cli/commands.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
-#include "studies/paper/plots.hpp"
 #include "studies/paper/report.hpp"
 
 namespace lobelia::cli {

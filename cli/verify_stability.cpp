@@ -9,10 +9,7 @@
 #include "cli/progress.hpp"
 #include "core/files.hpp"
 #include "records/record.hpp"
-#include "studies/stability/cases.hpp"
-#include "studies/stability/pictures.hpp"
 #include "studies/stability/report.hpp"
-#include "studies/stability/timing.hpp"
 
 namespace lobelia::cli {
 namespace {

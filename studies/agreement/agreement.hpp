@@ -76,14 +76,9 @@ struct SoftRow {
 /// Values that may be beyond their limit: neighbours share their points, so a few fall out together.
 inline constexpr std::size_t kBeyondAllowed = 3;
 
-struct EngineHere {
-  EngineInfo info;
-  EngineStatus status;
-};
-
 struct Agreement {
   Scope scope;
-  std::vector<EngineHere> engines;
+  std::vector<records::AgreementEngine> engines;
   std::vector<Case> cases;
   std::vector<Row> rows;
   std::vector<SoftRow> soft;

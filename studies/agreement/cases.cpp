@@ -1,7 +1,6 @@
 #include "studies/agreement/cases.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 namespace lobelia::agreement {
@@ -32,8 +31,13 @@ Vec3 highlight_place(const Sphere& sphere, const Light& light, Vec3 eye) {
   return place;
 }
 
-Scene one_light(const HighlightChoice& choice, const Light& light, int size) {
-  return sphere_scene(choice, {light}, size);
+template <int kDegrees>
+Scene lit_at(const HighlightChoice& choice, int size) {
+  return sphere_scene(choice, {directional_at(kDegrees)}, size);
+}
+
+Scene lit_by_point(const HighlightChoice& choice, int size) {
+  return sphere_scene(choice, {point_light()}, size);
 }
 
 Scene two_coloured_lights(const HighlightChoice& choice, int size) {
@@ -64,14 +68,11 @@ struct NamedLight {
   Scene (*scene)(const HighlightChoice& choice, int size);
 };
 constexpr NamedLight kLights[] = {
-    {"head-on", [](const HighlightChoice& h, int s) { return one_light(h, directional_at(0), s); }},
-    {"45 degrees",
-     [](const HighlightChoice& h, int s) { return one_light(h, directional_at(45), s); }},
-    {"80 degrees",
-     [](const HighlightChoice& h, int s) { return one_light(h, directional_at(80), s); }},
-    {"120 degrees",
-     [](const HighlightChoice& h, int s) { return one_light(h, directional_at(120), s); }},
-    {"point light", [](const HighlightChoice& h, int s) { return one_light(h, point_light(), s); }},
+    {"head-on", lit_at<0>},
+    {"45 degrees", lit_at<45>},
+    {"80 degrees", lit_at<80>},
+    {"120 degrees", lit_at<120>},
+    {"point light", lit_by_point},
     {"two coloured lights", two_coloured_lights},
     {"shadow on a diffuse base", shadowed_on_a_base},
 };

@@ -63,8 +63,14 @@ class Measurement {
     soft_ = soft_cases(scope);
     result_.cases = highlight_cases(scope);
     for (Case& effect : effect_cases(scope)) result_.cases.push_back(std::move(effect));
-    for (const auto& engine : engines)
-      result_.engines.push_back({engine->info(), engine->status()});
+    for (const auto& engine : engines) {
+      const EngineInfo& info = engine->info();
+      const EngineStatus& status = engine->status();
+      const bool available = status.available();
+      result_.engines.push_back({std::string(info.name), std::string(info.title), available,
+                                 std::string(state_name(status.state)),
+                                 available ? status.version : "", available ? "" : status.why});
+    }
   }
 
   Agreement run() {

@@ -51,15 +51,7 @@ records::Agreement report_record(const Agreement& agreement,
   records::Agreement record;
   record.command = command;
   record.small = agreement.scope.small;
-  for (const EngineHere& engine : agreement.engines) {
-    records::AgreementEngine& one = record.engines.emplace_back();
-    one.name = engine.info.name;
-    one.title = engine.info.title;
-    one.available = engine.status.available();
-    one.state = state_name(engine.status.state);
-    (one.available ? one.version : one.why) =
-        one.available ? engine.status.version : engine.status.why;
-  }
+  record.engines = agreement.engines;
   for (std::size_t v = 0; v < std::size(kVerdictNames); ++v)
     record.verdicts.emplace_back(kVerdictNames[v], agreement.count(Verdict(v)));
   for (const Row& row : agreement.rows) record.rows.push_back(row_record(agreement, row));

@@ -96,10 +96,9 @@ std::string report_markdown(const Agreement& agreement, std::string_view command
       "`{}`: pictures {} pixels wide, of the whole sphere below n = {:g} and from there on "
       "of the highlight alone, so that it is resolved. ",
       command, agreement.scope.size, kCloseUpExponent);
-  for (const EngineHere& engine : agreement.engines)
-    text += engine.status.available()
-                ? fmt::format("{} is {}. ", engine.info.title, engine.status.version)
-                : fmt::format("{} was not there. ", engine.info.title);
+  for (const records::AgreementEngine& engine : agreement.engines)
+    text += engine.available ? fmt::format("{} is {}. ", engine.title, engine.version)
+                             : fmt::format("{} was not there. ", engine.title);
   text += "**" + verdict_sentence(agreement) + ".**\n";
   text += "\n" + table_markdown(column_table());
   for (const auto table : {headline_table, miss_table, lobe_table, model_table, effect_table,

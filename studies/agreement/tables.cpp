@@ -218,9 +218,8 @@ Table soft_table(const Agreement& agreement) {
 Table refusal_table(const Agreement& agreement) {
   Table table = table_of("Not comparable", "What a variant was not asked for.",
                          {"variant", "of", "pictures", "not comparable, because"});
-  for (const EngineHere& engine : agreement.engines)
-    if (!engine.status.available())
-      table.rows.push_back({engine.info.title, "everything", "", engine.status.why});
+  for (const records::AgreementEngine& engine : agreement.engines)
+    if (!engine.available) table.rows.push_back({engine.title, "everything", "", engine.why});
   struct Line {
     int pictures = 0;
     std::vector<std::string_view> of;

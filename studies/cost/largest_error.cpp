@@ -10,7 +10,6 @@
 #include <limits>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"

@@ -11,7 +11,6 @@
 
 #include "accuracy/lobe_candidates.hpp"
 #include "accuracy/picture_truth.hpp"
-#include "accuracy/shading_cost.hpp"
 #include "core/error.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"

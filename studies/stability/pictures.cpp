@@ -1,9 +1,8 @@
-#include "studies/stability/pictures.hpp"
+#include "studies/stability/report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/colour.hpp"

@@ -14,14 +14,13 @@ constexpr double kSphereExponents[] = {16, 1e4, 1e6};
 
 struct Framing {
   std::string name;
-  double exponent;  ///< that it is made for; 0 for all
+  double exponent;  ///< 0 for all
   Scene scene;
   truth::Picture truth;
-  int wrong_pixels;  ///< of ours
+  int wrong_pixels;  ///< in ours
 };
 
-/// The sphere that each pixel of a real rendering shows: each has a diffuse colour of its own, and the
-/// light is in the eye.
+/// Counts the pixels of a real rendering that show the wrong sphere: each has its own diffuse colour, lit from the eye.
 int wrong_hits(Scene scene, const truth::Picture& truth) {
   constexpr Rgb kColours[] = {{1, 0, 0}, {0, 1, 0}};
   const Vec3 to_eye = scene.camera.origin - scene.spheres[0].center;
@@ -43,7 +42,7 @@ int wrong_hits(Scene scene, const truth::Picture& truth) {
   return wrong;
 }
 
-/// Made once, for all lobes.
+/// Made once for all lobes.
 const std::vector<Framing>& framings() {
   static const std::vector<Framing> all = [] {
     std::vector<Framing> made;
@@ -63,8 +62,8 @@ const std::vector<Framing>& framings() {
   return all;
 }
 
-/// The worst pixel of a picture. Units in the last place are counted where there is a highlight to speak
-/// of; far down its flank they say nothing of the picture.
+/// The worst pixel of a picture. Units in the last place are counted above a thousandth of the peak; farther down the
+/// flank they do not matter in a picture.
 struct WorstPixel {
   Answer answer = {};
   double truth = 0;

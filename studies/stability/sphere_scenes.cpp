@@ -15,10 +15,10 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 const Vec3 kOblique = normalize({-1, -2, -3});  ///< where the light travels
 
-/// A sphere that fills the picture but for a seventh, seen from `from` radii away along `way`.
-HardScene one_sphere(std::string name, double radius, Vec3 center, double from, Vec3 way) {
+/// A sphere that fills the picture but for a seventh, seen from `from` radii away in a direction.
+HardScene one_sphere(std::string name, double radius, Vec3 center, double from, Vec3 direction) {
   Scene scene;
-  scene.camera.origin = center + from * radius * normalize(way);
+  scene.camera.origin = center + from * radius * normalize(direction);
   scene.camera.target = center;
   scene.camera.up = {0, 1, 0};
   scene.camera.fov_degrees = 2 * degrees(std::atan(1.15 / from));
@@ -87,9 +87,9 @@ std::vector<HardScene> hard_scenes() {
 std::vector<Scene> close_to_highlight(Scene scene, double exponent) {
   const Sphere& sphere = scene.spheres[0];
   Vec3 normal = normalize(scene.camera.origin - sphere.center), point;
-  // How far apart points are that see another eye, another light or another normal.
+  // The distance over which the direction to the eye or the light, or the normal, changes.
   double scale = sphere.radius;
-  // In small steps: from just above the surface the direction changes much from point to point.
+  // In small steps: just above the surface the direction changes much from point to point.
   for (int i = 0; i < 20000; ++i) {
     point = sphere.center + sphere.radius * normal;
     const Illumination light = illuminate(scene.lights[0], point);

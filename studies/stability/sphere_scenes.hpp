@@ -1,4 +1,4 @@
-// Scenes that are hard on the geometry: how large, how far, from where.
+// Scenes with hard geometry: extreme sizes, distances and positions.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ struct HardScene {
 };
 std::vector<HardScene> hard_scenes();
 
-/// The same seen so closely that a highlight of that exponent fills the picture, or nothing where the
-/// first light makes no highlight on the first sphere.
+/// The scene from so close that a highlight of that exponent fills the picture; nothing if the first light makes no
+/// highlight on the first sphere.
 std::vector<Scene> close_to_highlight(Scene scene, double exponent);
 
 }  // namespace lobelia::stability
