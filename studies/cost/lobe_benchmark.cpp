@@ -22,7 +22,7 @@ constexpr std::size_t kMostRepeats = 4096;
 
 /// Numbers evaluated to find the largest error of a variant; float32 has some 2^28.
 constexpr std::uint64_t kMostNumbersQuick = 1 << 20, kMostNumbers64 = 1 << 22,
-                        kAll = ~std::uint64_t(0);
+                        kAllNumbers = ~std::uint64_t(0);
 
 /// Points across the highlight, and a variant's values there.
 struct Points {
@@ -182,10 +182,10 @@ Table lobe_table(double exponent, int rounds, bool quick) {
   for (std::size_t i = 0; i < variants.size(); ++i) {
     check(variants[i], exponent, *cases[i].points);
     errors.push_back(truth.errors(variants[i]));
-    const std::uint64_t most = variants[i].of_cosine ? kAll
+    const std::uint64_t most = variants[i].of_cosine ? kAllNumbers
                                : quick               ? kMostNumbersQuick
                                : variants[i].wide    ? kMostNumbers64
-                                                     : kAll;
+                                                     : kAllNumbers;
     table.ways.push_back(
         measured_lobe(variants[i], errors[i],
                       largest_error(variants[i], exponent, errors[i].all.max, most), each(i)));

@@ -22,10 +22,7 @@ struct Combination {
   LobeId lobe;
   Precision precision;
   Scene scene;
-  Image first;
-  Work work;
-  int samples = 0;
-  std::string kernel;
+  RenderResult first;  ///< not timed
   std::vector<double> seconds;
 
   RenderResult render() const {
@@ -74,23 +71,19 @@ Table table_of(const NamedScene& named, const Options& options) {
   std::vector<Combination> cases;
   for (const LobeId lobe : accuracy::lobe_candidates(scene))
     for (std::size_t p = 0; p < precision_names().size(); ++p)
-      cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}, 0, {}, {}});
+      cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}});
 
   const int rounds = options.rounds(3, 9, 25);
   for (int round = -1; round < rounds; ++round) {
     options.progress(fmt::format("{}, round {} of {}", named.name, std::max(1, round + 1), rounds));
     for (Combination& c : cases) {
       RenderResult result = c.render();
-      if (round >= 0) {
-        c.seconds.push_back(result.render_seconds);
-      } else {
-        c.first = std::move(result.image);
-        c.work = result.work;
-        c.samples = result.samples;
-        c.kernel = result.plan.kernel;
+      if (round < 0) {
+        c.first = std::move(result);
         continue;
       }
-      if (!std::ranges::equal(c.first.values(), result.image.values()))
+      c.seconds.push_back(result.render_seconds);
+      if (!std::ranges::equal(c.first.image.values(), result.image.values()))
         throw Error(ExitCode::kInternal,
                     fmt::format("{}, {}, {}: two renders of one scene differ", named.name,
                                 info(c.lobe).name, name(c.precision)));
@@ -113,22 +106,22 @@ Table table_of(const NamedScene& named, const Options& options) {
   const double megapixels = 1e-6 * scene.film.width * scene.film.height;
   for (Combination& c : cases) {
     const auto error = [&](std::string_view metric) {
-      return accuracy::measure_at_peak(metric, c.first, truth.image);
+      return accuracy::measure_at_peak(metric, c.first.image, truth.image);
     };
     const std::string lobe(info(c.lobe).name), precision(name(c.precision));
     Variant& variant = table.ways.emplace_back();
     variant.name = fmt::format("{}, {}", lobe, precision);
     variant.settings = {
-        {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.samples)}};
+        {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.first.samples)}};
     variant.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));
     variant.errors = {{"de2000_p99", error("ciede2000.p99")},
                       {"flip", error("flip.ldr.mean")},
                       {"max_rel_peak", error("max_rel_peak")}};
     records::CostFacts& facts = variant.facts.emplace();
-    facts.samples = c.samples;
-    facts.kernel = c.kernel;
+    facts.samples = c.first.samples;
+    facts.kernel = c.first.plan.kernel;
     facts.predicted_cost = accuracy::shading_cost(c.lobe, c.precision);
-    facts.rays = rays_record(c.work);
+    facts.rays = rays_record(c.first.work);
   }
   if (scene.sampler.sample_count > 1)
     table.remarks.push_back(

@@ -19,11 +19,11 @@ struct Removal {
 };
 
 Removal removal_of(std::string_view effect) {
-  static constexpr auto kAll = map_types<Removal>(Effects{}, []<class E>() {
+  static constexpr auto kRemovals = map_types<Removal>(Effects{}, []<class E>() {
     return Removal{E::kName, E::kWithout, &E::leave_out};
   });
-  const auto* const found = std::ranges::find(kAll, effect, &Removal::effect);
-  if (found == kAll.end())
+  const auto* const found = std::ranges::find(kRemovals, effect, &Removal::effect);
+  if (found == kRemovals.end())
     throw Error(ExitCode::kInternal, fmt::format("there is no effect {}", effect));
   return *found;
 }

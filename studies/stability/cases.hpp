@@ -2,12 +2,13 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/constants.hpp"
 #include "records/stability.hpp"
-#include "renderer/highlight.hpp"
+#include "renderer/scene/scene.hpp"
 
 namespace lobelia::stability {
 
@@ -65,6 +66,16 @@ Rows vector_rows(LobeId lobe);
 /// peak. An exponential of x nats is off by x e^-x of the peak for each rounding of x: 0.37 of a rounding at most.
 inline constexpr double kDensityBound = 1e-13;
 Rows density_rows(LobeId lobe);
+
+struct HardScene {
+  std::string name;
+  Scene scene;  ///< without highlights
+};
+/// Scenes with hard geometry: extreme sizes, distances and positions.
+std::vector<HardScene> hard_scenes();
+/// The scene from so close that a highlight of that exponent fills the picture; nothing if the first light makes no
+/// highlight on the first sphere.
+std::vector<Scene> close_to_highlight(Scene scene, double exponent);
 
 /// Scenes of spheres rendered whole, and close to the highlight; to kAllowedShadingError of the peak.
 Rows sphere_rows(LobeId lobe);

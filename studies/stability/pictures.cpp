@@ -10,7 +10,6 @@
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/render.hpp"
 #include "studies/stability/naive.hpp"
-#include "studies/stability/sphere_scenes.hpp"
 
 namespace lobelia::stability {
 namespace {
