@@ -17,7 +17,7 @@ namespace lobelia::cost {
 namespace {
 
 constexpr std::size_t kPoints = 1024;     // in the first-level cache
-constexpr double kSecondsAtATime = 5e-5;  // a thousand times what the clock can tell apart
+constexpr double kSecondsAtATime = 5e-5;  // a thousand times the clock's resolution
 constexpr std::size_t kMostRepeats = 4096;
 
 /// Numbers evaluated to find the largest error of a variant; float32 has some 2^28.

@@ -13,9 +13,9 @@ namespace lobelia::cost {
 /// Beyond this s cos^n is less than e^-16 of its peak, and the paper's lobe, cs16, is 0.
 inline double highlight_end(double exponent) { return exponent > 16 ? 16 / exponent : 1; }
 
-/// Of one lobe value against another, over all s; relative to the peak 1, or to the energy of cos^n: the largest
-/// absolute difference; RMS over s from 0 to highlight_end, each direction alike; the integral over the hemisphere,
-/// 2 pi times that over s.
+/// Errors of one lobe against another over all s: the largest absolute difference and the RMS over s from 0 to
+/// highlight_end, each direction alike, relative to the peak 1; and the integral over the hemisphere, 2 pi times that
+/// over s, relative to the energy of cos^n.
 using LobeErrors = records::LobeErrors;
 /// "max", "rms" and "energy", for tables.
 std::vector<records::CostError> lobe_error_kinds();

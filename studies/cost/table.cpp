@@ -128,7 +128,7 @@ records::CostFront pareto_front(const Table& table, std::size_t error) {
   });
   std::vector<const Point*> front;
   for (Point* point : order) {
-    // The fastest that is as accurate: what one would take instead.
+    // The fastest variant that is as accurate: the one to use instead.
     const auto better =
         std::ranges::find_if(front, [&](const Point* f) { return f->error <= point->error; });
     if (better == front.end())

@@ -6,7 +6,7 @@
 
 namespace lobelia::paper {
 
-/// Where the integral over the angle x ends.
+/// The end of the integral over the angle x.
 enum class Cut {
   kSupport,  ///< where the lobe ends, or at a right angle: a half-angle lobe is twice as wide in x
   kPrinted   ///< at 6/sqrt(n), as the paper's integral of cs16 has it

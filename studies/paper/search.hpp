@@ -43,7 +43,7 @@ Extreme largest_difference(OtherLobe lobe, Real n, Real end, int steps = 100) {
   return largest([&](Real x) { return std::abs(lobe(x, n) - cosine_lobe(x, n)); }, 0, end, steps);
 }
 
-/// Where f is 0, to so many bits; f must change its sign once from `low` to `high`.
+/// The root of f to so many bits; f must change its sign once from `low` to `high`.
 template <class F, class Number>
 Number root(F f, Number low, Number high, int bits) {
   std::uintmax_t iterations = 60;

@@ -114,8 +114,11 @@ std::vector<records::StabilityOfLobe> by_lobe(const Rows& rows, bool and_exponen
   return summarise<Summary>(
       rows,
       [&](const Row& row) {
-        return Summary{row.group, row.lobe,
-                       and_exponent ? std::optional(row.exponent) : std::nullopt};
+        Summary s;
+        s.group = row.group;
+        s.lobe = row.lobe;
+        if (and_exponent) s.exponent = row.exponent;
+        return s;
       },
       [](const Summary& a, const Summary& b) {
         return a.lobe == b.lobe && a.exponent == b.exponent;
@@ -127,7 +130,11 @@ std::vector<records::StabilityOfCase> by_case(const Rows& rows) {
   return summarise<Summary>(
       rows,
       [](const Row& row) {
-        return Summary{row.group, row.name, std::string(meaning(row.group, row.name))};
+        Summary s;
+        s.group = row.group;
+        s.name = row.name;
+        s.meaning = meaning(row.group, row.name);
+        return s;
       },
       [](const Summary& a, const Summary& b) { return a.name == b.name; });
 }

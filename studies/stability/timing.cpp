@@ -73,7 +73,7 @@ records::StabilityStall without_care() {
   return {"no care", "float32", t[0], t[1]};
 }
 
-/// Where the lobe is denormal in that precision.
+/// s at which the lobe is denormal in that precision.
 std::vector<double> underflowing(LobeId lobe, Precision precision) {
   return precision == Precision::kFloat64 ? places(lobe, std::numeric_limits<double>::min(), 1e-320)
                                           : places(lobe, std::numeric_limits<float>::min(), 1e-44);

@@ -185,7 +185,7 @@ Claim cs16_normalised() {
 }
 
 Claim cs16_tail() {
-  // Where either lobe is `level` of its peak.
+  // The angle at which either lobe is `level` of its peak.
   const auto reach = [](Real n, Real level, bool cs16) {
     const Real s = cs16 ? 16 * (1 - std::pow(level, 1 / 16.0L)) / n : 1 - std::pow(level, 1 / n);
     return 2 * std::asin(std::sqrt(s / 2));

@@ -7,11 +7,11 @@ namespace {
 
 constexpr int kLobeAngles = 100;
 
-/// Where cos^n x has fallen to `level`.
+/// The angle at which cos^n x has fallen to `level`.
 Real cosine_reach(Real n, Real level) { return std::acos(std::pow(level, 1 / n)); }
-/// Where Schlick's lobe has: c/(n - n c + c) = level.
+/// The same for Schlick's lobe: c/(n - n c + c) = level.
 Real schlick_reach(Real n, Real level) { return std::acos(n / (1 / level - 1 + n)); }
-/// Where cos^n x has its inflection: tan^2 x = 1/(n - 1).
+/// The inflection of cos^n x: tan^2 x = 1/(n - 1).
 Real inflection(Real n) { return std::atan(1 / std::sqrt(n - 1)); }
 
 using Zone = Real (*)(Real n);
