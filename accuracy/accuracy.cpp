@@ -4,33 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "accuracy/lobe_candidates.hpp"
-#include "accuracy/lobe_error.hpp"
 #include "accuracy/picture_truth.hpp"
-#include "accuracy/pixel_subset.hpp"
 #include "compare/display_light.hpp"
 #include "compare/metrics/ciede2000.hpp"
 #include "compare/metrics/metric.hpp"
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/image_values.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/peak_bound.hpp"
 #include "renderer/plan/plan.hpp"
 
 namespace lobelia::accuracy {
 namespace {
 
-/// What any picture of ours is off by: its values are float32, and so are a diffuse base's.
+/// The rounding of any picture of ours: its values are float32, and so are a diffuse base's.
 constexpr double kStorage = 2e-7;
-/// Added to what a look at some of the pixels says: errors between them, and the noise of the look itself.
+/// Added to the error of the sampled pixels: for errors between them, and for their own noise.
 constexpr double kLookMargin = 1.25;
-/// Of pixels, in the look; the picture's may be a little more of those that err: by 0.5 % of all.
+/// The share of the sampled pixels; the picture itself may have 0.5 % more pixels in error.
 constexpr double kLookShare = 0.995;
-/// Sides of looks without noise and with it.
+/// Longer sides of the sampled pixels without noise and with it.
 constexpr int kQuietSide = 128, kNoisySide = 48;
-/// Of the truth of a noisy look, by the most that may be chosen: its noise is then a small part of any.
+/// Samples of a noisy truth, in units of the most that may be chosen: its noise is then small beside any choice's.
 constexpr int kTruthSamples = 8;
 
 bool is_noisy(const Scene& scene) {
@@ -48,7 +45,7 @@ struct LobeVariant {
   Scene of(const Scene& scene) const { return lobe ? with_lobe(scene, *lobe) : scene; }
 };
 
-/// The dearest highlight counts.
+/// The cost of the most expensive highlight.
 double cost_of(const Scene& scene, std::optional<LobeId> lobe, Precision precision,
                const CostModel& model) {
   double most = 0;
@@ -58,24 +55,24 @@ double cost_of(const Scene& scene, std::optional<LobeId> lobe, Precision precisi
   return most;
 }
 
-/// From the cheapest; the scene's own lobe before others that cost as much, the wider precision before the
-/// narrower.
-std::vector<LobeVariant> ways_of(const Scene& scene, const CostModel& model) {
+/// From the cheapest; at equal cost the scene's own lobe before others, and the wider precision before the narrower.
+std::vector<LobeVariant> variants_of(const Scene& scene, const CostModel& model) {
   const auto own = own_lobe(scene);
   std::vector<std::optional<LobeId>> lobes;
   for (const LobeId lobe : lobe_candidates(scene)) lobes.push_back(lobe);
   if (!own) lobes.push_back(std::nullopt);
-  std::vector<LobeVariant> ways;
+  std::vector<LobeVariant> variants;
   for (const auto& lobe : lobes)
     for (const Precision p : {Precision::kFloat64, Precision::kMixed, Precision::kFloat32})
-      ways.push_back({lobe, p, lobe == own, cost_of(scene, lobe, p, model)});
-  std::stable_sort(ways.begin(), ways.end(), [](const LobeVariant& a, const LobeVariant& b) {
-    return a.cost != b.cost ? a.cost < b.cost : a.is_own && !b.is_own;
-  });
-  return ways;
+      variants.push_back({lobe, p, lobe == own, cost_of(scene, lobe, p, model)});
+  std::stable_sort(variants.begin(), variants.end(),
+                   [](const LobeVariant& a, const LobeVariant& b) {
+                     return a.cost != b.cost ? a.cost < b.cost : a.is_own && !b.is_own;
+                   });
+  return variants;
 }
 
-/// Upper bounds of the errors of pictures without noise, of their peaks.
+/// Upper bounds of the errors of pictures without noise, relative to their peaks.
 class Bounds {
  public:
   Bounds(const Scene& scene, double peak) : scene_(scene), least_half_(min_half_lengths(scene)) {
@@ -84,20 +81,21 @@ class Bounds {
     scale_ = peak_bound(highlights, highlights.lights) / peak;
   }
 
-  /// All that the lights can bring to highlights, of the picture's peak: by so much an error of highlights
-  /// may be larger in the picture.
+  /// The most that the lights can bring to highlights, relative to the picture's peak: the factor from an error of a
+  /// highlight to one of the picture.
   double scale() const { return scale_; }
 
-  double of(const LobeVariant& way) const {
+  double of(const LobeVariant& variant) const {
     double most = 0;
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
       if (!has_highlight(scene_.materials[i])) continue;
       const Highlight& own = scene_.materials[i].highlight;
-      const Highlight other = way.lobe ? with_lobe(own, *way.lobe) : own;
+      const Highlight other = variant.lobe ? with_lobe(own, *variant.lobe) : own;
       const double ratio = radiance_coefficient(other) / radiance_coefficient(own);
-      // A grid's best point, refined, is the largest but for roundings; a hundredth covers those.
-      most = std::max(most, 1.01 * highlight_difference(other, own) +
-                                ratio * shading_error_bound(way.precision, other, least_half_[i]));
+      // The largest difference is found but for roundings; a hundredth covers those.
+      most =
+          std::max(most, 1.01 * highlight_difference(other, own) +
+                             ratio * shading_error_bound(variant.precision, other, least_half_[i]));
     }
     return scale_ * most + kStorage;
   }
@@ -108,7 +106,7 @@ class Bounds {
   double scale_;
 };
 
-/// Of the pixels at display white: what that share of them does not exceed.
+/// The CIEDE2000 that `share` of the pixels do not exceed, with the peak at display white.
 double ciede2000_percentile(const Image& picture, const Image& truth, double share) {
   const double stops =
       std::clamp(exposure_for_peak(peak_value(truth)), -kMaxExposureStops, kMaxExposureStops);
@@ -116,7 +114,7 @@ double ciede2000_percentile(const Image& picture, const Image& truth, double sha
   return percentile(differences.values, share);
 }
 
-/// Some of the picture's pixels, made by the scene's own lobe in float64.
+/// Some of the picture's pixels, by the scene's own lobe in float64.
 class Look {
  public:
   Look(const Scene& scene, Measure measure, int most_samples)
@@ -132,10 +130,10 @@ class Look {
 
   bool is_black() const { return !(peak() > 0); }
   double peak() const { return peak_value(truth_); }
-  double error(const LobeVariant& way, int samples) const {
+  double error(const LobeVariant& variant, int samples) const {
     RenderOptions options = noisy_ ? with_samples(samples) : RenderOptions();
-    options.precision = way.precision;
-    const Image image = render(way.of(scene_), options).image;
+    options.precision = variant.precision;
+    const Image image = render(variant.of(scene_), options).image;
     const double error = measure_ == Measure::kCiede2000P99
                              ? ciede2000_percentile(image, truth_, kLookShare)
                              : rms_of_peak(image, truth_);
@@ -149,79 +147,79 @@ class Look {
   Image truth_;
 };
 
-/// Fills in what a way makes of a choice.
-Choice chosen(Choice choice, const Scene& scene, const LobeVariant& way, double predicted) {
-  choice.scene = way.of(scene);
-  choice.lobe = way.lobe;
-  choice.precision = way.precision;
-  choice.cost = way.cost;
+/// Completes a choice by a variant.
+Choice chosen(Choice choice, const Scene& scene, const LobeVariant& variant, double predicted) {
+  choice.scene = variant.of(scene);
+  choice.lobe = variant.lobe;
+  choice.precision = variant.precision;
+  choice.cost = variant.cost;
   choice.predicted = predicted;
   return choice;
 }
 
-/// The first of the ways, from the cheapest, whose error is small enough; counts those before it.
+/// The first variant, from the cheapest, with a small enough error; counts those before it.
 template <class Error>
-const LobeVariant* first_that_holds(const std::vector<LobeVariant>& ways, const Error& error,
-                                    Choice& choice) {
-  for (const LobeVariant& way : ways) {
-    choice.predicted = error(way);
-    if (choice.predicted <= choice.asked.value) return &way;
+const LobeVariant* first_within(const std::vector<LobeVariant>& variants, const Error& error,
+                                Choice& choice) {
+  for (const LobeVariant& variant : variants) {
+    choice.predicted = error(variant);
+    if (choice.predicted <= choice.asked.value) return &variant;
     ++choice.others;
   }
   return nullptr;
 }
 
-const LobeVariant& own_way(const std::vector<LobeVariant>& ways) {
-  return *std::find_if(ways.begin(), ways.end(), [](const LobeVariant& way) {
-    return way.is_own && way.precision == Precision::kFloat64;
+const LobeVariant& own_variant(const std::vector<LobeVariant>& variants) {
+  return *std::find_if(variants.begin(), variants.end(), [](const LobeVariant& variant) {
+    return variant.is_own && variant.precision == Precision::kFloat64;
   });
 }
 
-/// The choice after a look that saw nothing, and so cannot tell variants apart.
-Choice choose_black(Choice choice, const Scene& scene, const std::vector<LobeVariant>& ways) {
+/// All sampled pixels are black, so that the variants cannot be told apart.
+Choice choose_black(Choice choice, const Scene& scene, const std::vector<LobeVariant>& variants) {
   choice.basis = Basis::kLook;
   choice.why =
       "every pixel that was looked at is black, where all ways do alike: the scene's own lobe in float64, with "
       "its own samples";
-  return chosen(choice, scene, own_way(ways), kStorage);
+  return chosen(choice, scene, own_variant(variants), kStorage);
 }
 
-Choice choose_quiet(Choice choice, const Scene& scene, const std::vector<LobeVariant>& ways) {
+Choice choose_quiet(Choice choice, const Scene& scene, const std::vector<LobeVariant>& variants) {
   const Look look(scene, choice.measure, 1);
-  if (look.is_black()) return choose_black(std::move(choice), scene, ways);
+  if (look.is_black()) return choose_black(std::move(choice), scene, variants);
   if (choice.measure == Measure::kCiede2000P99) {
     choice.basis = Basis::kLook;
-    const LobeVariant* way = first_that_holds(
-        ways, [&](const LobeVariant& w) { return look.error(w, 1); }, choice);
+    const LobeVariant* variant = first_within(
+        variants, [&](const LobeVariant& w) { return look.error(w, 1); }, choice);
     choice.why = fmt::format(
         "the cheapest of {} ways whose error, in a look at every few pixels and with a quarter added, is "
         "within what was asked; {} cheaper ones are not",
-        ways.size(), choice.others);
-    return chosen(choice, scene, *way, choice.predicted);
+        variants.size(), choice.others);
+    return chosen(choice, scene, *variant, choice.predicted);
   }
   const Bounds bounds(scene, look.peak());
-  const LobeVariant* way = first_that_holds(
-      ways, [&](const LobeVariant& w) { return bounds.of(w); }, choice);
-  if (way) {
+  const LobeVariant* variant = first_within(
+      variants, [&](const LobeVariant& w) { return bounds.of(w); }, choice);
+  if (variant) {
     choice.why = fmt::format(
         "the cheapest of {} ways whose bound is within what was asked; {} cheaper ones are not. The "
         "lights can bring {:.3g} times the picture's peak to highlights, and so much their errors count",
-        ways.size(), choice.others, bounds.scale());
-    return chosen(choice, scene, *way, choice.predicted);
+        variants.size(), choice.others, bounds.scale());
+    return chosen(choice, scene, *variant, choice.predicted);
   }
-  // Vectors rounded to float64 do not know their half vector where light and eye face each other.
+  // Vectors rounded to float64 have no exact half vector where light and eye face each other.
   choice.basis = Basis::kLook;
   choice.why =
       "no way has a bound as small as what was asked: the scene's own lobe in float64 is the best there is";
-  return chosen(choice, scene, own_way(ways), kStorage);
+  return chosen(choice, scene, own_variant(variants), kStorage);
 }
 
-Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVariant>& ways,
+Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVariant>& variants,
                     int most_samples) {
   choice.basis = Basis::kLook;
   const Look look(scene, choice.measure, most_samples);
-  if (look.is_black()) return choose_black(std::move(choice), scene, ways);
-  const LobeVariant& own = own_way(ways);
+  if (look.is_black()) return choose_black(std::move(choice), scene, variants);
+  const LobeVariant& own = own_variant(variants);
   int samples = 1;
   double error = look.error(own, samples), best = error;
   while (error > choice.asked.value && samples < most_samples) {
@@ -240,15 +238,26 @@ Choice choose_noisy(Choice choice, const Scene& scene, const std::vector<LobeVar
             std::ceil(best / std::pow(10, std::floor(std::log10(best)) - 1)) *
                 std::pow(10, std::floor(std::log10(best)) - 1)));
   choice.samples = samples;
-  const LobeVariant* way = first_that_holds(
-      ways,
+  const LobeVariant* variant = first_within(
+      variants,
       [&](const LobeVariant& w) { return w.cost > own.cost ? INFINITY : look.error(w, samples); },
       choice);
   choice.why = fmt::format(
       "with {} samples the scene's own lobe is within what was asked, in a look at every few pixels and "
       "with a quarter added; of {} ways this is the cheapest that still is, and {} cheaper ones are not",
-      samples, ways.size(), choice.others);
-  return chosen(choice, scene, *way, choice.predicted);
+      samples, variants.size(), choice.others);
+  return chosen(choice, scene, *variant, choice.predicted);
+}
+
+/// Over the pixels that are not edges.
+double max_error_of_peak(const Image& picture, const Image& truth,
+                         const std::vector<std::uint8_t>& edges) {
+  const auto a = picture.values(), b = truth.values();
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (edges.empty() || !edges[i / 3])
+      most = std::max(most, std::abs(double(a[i]) - double(b[i])));
+  return most == 0 ? 0 : most / peak_value(truth);
 }
 
 }  // namespace
@@ -269,10 +278,35 @@ Choice choose(const Scene& scene, const Accuracy& asked, int most_samples, const
                    : noisy                                  ? Measure::kRmsOfPeak
                                                             : Measure::kMaxOfPeak;
   choice.own_cost = cost_of(scene, std::nullopt, Precision::kFloat64, model);
-  const std::vector<LobeVariant> ways = ways_of(scene, model);
-  return noisy ? choose_noisy(std::move(choice), scene, ways,
+  const std::vector<LobeVariant> variants = variants_of(scene, model);
+  return noisy ? choose_noisy(std::move(choice), scene, variants,
                               std::clamp(most_samples, 1, kMostChosenSamples))
-               : choose_quiet(std::move(choice), scene, ways);
+               : choose_quiet(std::move(choice), scene, variants);
+}
+
+Reached measure_reached(const Scene& scene, const Choice& choice, const Image& picture) {
+  // Four times the picture's samples, so that the truth's own noise is the smaller part.
+  const PictureTruth truth =
+      picture_truth(scene, choice.samples ? std::max(64, 4 * *choice.samples) : 1);
+  Reached reached{0, truth.how, truth.seconds};
+  reached.black = peak_value(picture) == 0 && peak_value(truth.image) == 0;
+  if (reached.black) return reached;
+  switch (choice.measure) {
+    case Measure::kCiede2000P99:
+      reached.value = measure_at_peak("ciede2000.p99", picture, truth.image);
+      break;
+    case Measure::kRmsOfPeak:
+      reached.value = rms_of_peak(picture, truth.image);
+      break;
+    case Measure::kMaxOfPeak: {
+      // On an edge the formulas may hit another surface, which is no error of a lobe or of its precision.
+      const bool formulas = truth::why_not_evaluated(scene).empty();
+      const auto edges = formulas ? truth::edge_ring(scene) : std::vector<std::uint8_t>();
+      reached.value = max_error_of_peak(picture, truth.image, edges);
+      if (formulas) reached.against += ", but for pixels on edges";
+    }
+  }
+  return reached;
 }
 
 }  // namespace lobelia::accuracy

@@ -1,14 +1,14 @@
-// A picture by the accuracy that it is to have: the cheapest lobe, precision and number of samples that will do.
+// A picture by the accuracy that it should have: the cheapest sufficient lobe, precision and number of samples.
 //
-// What a way costs is predicted from operations (shading_cost.hpp), what it errs from the lobes themselves or
-// from a look at some of the picture's pixels; docs/cost.md says what is promised and how.
+// The cost of a variant is predicted from its operations, its error from the lobes themselves or from some of the
+// picture's pixels; docs/cost.md says what is promised and how.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
 
-#include "accuracy/shading_cost.hpp"
+#include "accuracy/lobe_candidates.hpp"
 #include "core/image.hpp"
 #include "records/render.hpp"
 #include "renderer/render.hpp"
@@ -33,7 +33,7 @@ std::string accuracy_text(const Accuracy& accuracy);  ///< as parse_accuracy tak
 /// Why a prediction holds.
 enum class Basis {
   kBound,  ///< an upper bound for every pixel, from the lobes and the roundings
-  kLook,   ///< measured on some of the pixels, and a quarter added
+  kLook,   ///< measured on some of the pixels, with a quarter added
 };
 
 /// How an accuracy is measured: by its unit, and in a picture with noise by the root mean square.
@@ -47,19 +47,19 @@ struct Choice {
   std::optional<LobeId> lobe;  ///< none: each highlight's own, which differ
   Precision precision = Precision::kFloat64;
   std::optional<int> samples;     ///< a pixel, where something is random
-  double predicted = 0;           ///< what will not be exceeded
+  double predicted = 0;           ///< the largest expected error
   double cost = 0, own_cost = 0;  ///< shading_cost of it, and of the scene's own lobe in float64
-  int others = 0;                 ///< cheaper ways that would not do
+  int others = 0;                 ///< cheaper variants that are not accurate enough
   std::string why;                ///< a sentence
 
   /// How to render `scene`, on top of what else was asked for.
   void apply(RenderOptions& options) const;
 };
 
-/// The cost by which ways are put in order: that of the catalogue, unless a test has its own.
+/// Orders the variants; a test may have its own.
 using CostModel = std::function<double(LobeId, Precision)>;
 
-/// At most so many samples a pixel are looked at and chosen.
+/// The most samples a pixel that are tried and chosen.
 inline constexpr int kMostChosenSamples = 1024;
 
 /// Throws Error(kInput) with the best that is possible if nothing reaches what is asked.

@@ -1,9 +1,10 @@
-// A scene with another lobe in it: what is tried where accuracy is traded for time.
+// A scene with another lobe: which lobes are tried to save time, how far each is off, and its cost.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "renderer/precision.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia::accuracy {
@@ -16,8 +17,18 @@ Highlight with_lobe(Highlight highlight, LobeId lobe);
 /// The lobe of all highlights, or none where they differ or there is no highlight.
 std::optional<LobeId> own_lobe(const Scene& scene);
 
-/// The catalogue's; where they are not among them also the scene's own, and for each exponent n that is an even
-/// number cs_n, which is cos^n without a logarithm.
+/// The catalogue's lobes; also the scene's own, and cs_n, which is cos^n without a logarithm, for each exponent n that is
+/// an even number.
 std::vector<LobeId> lobe_candidates(const Scene& scene);
+
+/// The largest difference of `stand_in` from `target` over all angles, relative to the target's peak: of
+/// |c' f'(s) - c f(s)| / c over s = 0..1, f being the lobes and c their coefficients. Found on a grid as fine as
+/// the lobes bend and refined there. Model and exponent are the same in both.
+double highlight_difference(const Highlight& stand_in, const Highlight& target);
+
+/// The expected cost of a point and a light, in multiplications of float32: the lobe's weighted operations and the
+/// rounding to a narrower precision, without the rest, which is the same for all. From operations alone, so that a choice
+/// by it is the same on every machine; `lobelia cost` measures times.
+double shading_cost(LobeId lobe, Precision precision);
 
 }  // namespace lobelia::accuracy

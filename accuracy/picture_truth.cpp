@@ -8,6 +8,7 @@
 
 #include "compare/metrics/catalogue.hpp"
 #include "core/colour.hpp"
+#include "core/constants.hpp"
 #include "core/image_values.hpp"
 #include "core/interrupt.hpp"
 #include "core/timing.hpp"
@@ -79,6 +80,28 @@ double rms_of_peak(const Image& picture, const Image& truth) {
     sum += difference * difference;
   }
   return sum == 0 ? 0 : std::sqrt(sum / double(a.size())) / peak_value(truth);
+}
+
+Scene pixel_subset(const Scene& scene, int side) {
+  const Film& film = scene.film;
+  // An odd number, so that the middle is a pixel's centre too; no more than there are rows.
+  int every = (std::max(film.width, film.height) + side - 1) / side;
+  every = std::min({every | 1, film.width, film.height});
+  if (every % 2 == 0) --every;
+  if (every <= 1) return scene;
+  Scene subset = scene;
+  subset.film.width = film.width / every;
+  subset.film.height = film.height / every;
+  const CameraFrame frame = camera_frame(scene.camera, film);
+  const double half_width = frame.half_width * every * subset.film.width / film.width;
+  const double half_height = frame.half_height * every * subset.film.height / film.height;
+  subset.camera.fov_degrees = 2 * std::atan(half_width) * 180 / kPi;
+  // The upper left corner stays where it is.
+  subset.camera.principal_point_offset_x =
+      -(frame.shift_u + half_width - frame.half_width) / (2 * half_width);
+  subset.camera.principal_point_offset_y =
+      -(frame.shift_v + frame.half_height - half_height) / (2 * half_height);
+  return subset;
 }
 
 }  // namespace lobelia::accuracy

@@ -1,4 +1,4 @@
-// What a picture is held against: the scene as its file has it, lobe, coefficient and all.
+// The truth that a picture is compared with: the scene as its file has it, with its own lobe and coefficient.
 #pragma once
 
 #include <string>
@@ -16,18 +16,21 @@ struct PictureTruth {
   double seconds = 0;
 };
 
-/// By formulas for each pixel, in double, where the scene can be evaluated so; else our own picture in
-/// float64 with `samples` of another seed, 1 or more.
+/// By the formulas for each pixel, in double, if they can evaluate the scene; else our own picture in float64 with
+/// `samples` of another seed, 1 or more.
 PictureTruth picture_truth(const Scene& scene, int samples);
 
-/// With just so many samples of what is random: whether a pixel is its centre or an area stays as the scene has
-/// it.
+/// With exactly so many random samples. A pixel stays a point or an area, as in the scene.
 RenderOptions with_samples(int samples);
 
-/// A metric's value by its id, seen with the truth's peak at display white.
+/// A metric's value by its id, with the truth's peak at display white.
 double measure_at_peak(std::string_view metric, const Image& picture, const Image& truth);
 
 /// Root mean square of the difference over all values, by the truth's peak; 0 for equal pictures.
 double rms_of_peak(const Image& picture, const Image& truth);
+
+/// The same scene with a film of every k-th pixel of every k-th row, k odd, about `side` on the longer side. With one ray
+/// a pixel, its pixels are the picture's own. Fewer than k rows and columns are left out at the end.
+Scene pixel_subset(const Scene& scene, int side);
 
 }  // namespace lobelia::accuracy

@@ -1,4 +1,4 @@
-// An accuracy as people and records write it.
+// An accuracy as text and as a record.
 #include <fmt/format.h>
 
 #include "accuracy/accuracy.hpp"
@@ -6,13 +6,6 @@
 #include "core/text.hpp"
 
 namespace lobelia::accuracy {
-namespace {
-
-std::string lobe_text(const std::optional<LobeId>& lobe) {
-  return lobe ? std::string(info(*lobe).name) : "each highlight's own lobe";
-}
-
-}  // namespace
 
 Accuracy parse_accuracy(const std::string& text) {
   constexpr std::string_view kCiede = "de2000=";
@@ -40,15 +33,10 @@ std::string accuracy_text(const Accuracy& asked) {
 }
 
 std::string measure_text(Measure measure) {
-  switch (measure) {
-    case Measure::kCiede2000P99:
-      return "CIEDE2000 that 99 % of the pixels do not exceed";
-    case Measure::kRmsOfPeak:
-      return "root mean square of the errors, of the peak";
-    case Measure::kMaxOfPeak:
-      break;
-  }
-  return "largest error, of the peak";
+  constexpr const char* kTexts[] = {"largest error, of the peak",
+                                    "root mean square of the errors, of the peak",
+                                    "CIEDE2000 that 99 % of the pixels do not exceed"};
+  return kTexts[std::size_t(measure)];
 }
 
 records::Accuracy accuracy_record(const Choice& choice, const std::optional<Reached>& reached) {
@@ -73,7 +61,8 @@ std::string choice_text(const Choice& choice) {
   return fmt::format(
       "accuracy {}: {}, {}{}; {} predicted to be at most {:.2g}. {:g} operations a point, weighted, where the "
       "scene's own lobe in float64 takes {:g}.\n  {}.\n",
-      accuracy_text(choice.asked), lobe_text(choice.lobe), name(choice.precision),
+      accuracy_text(choice.asked),
+      choice.lobe ? info(*choice.lobe).name : "each highlight's own lobe", name(choice.precision),
       choice.samples ? fmt::format(", {} samples a pixel", *choice.samples) : std::string(),
       measure_text(choice.measure), choice.predicted, choice.cost, choice.own_cost, choice.why);
 }

@@ -7,7 +7,7 @@
 #include "bench/sections.hpp"
 #include "core/timing.hpp"
 #include "renderer/kernels/kernels.hpp"
-#include "studies/cost/lobe_lanes.hpp"
+#include "studies/cost/lobe_variants.hpp"
 
 namespace lobelia::bench {
 namespace {

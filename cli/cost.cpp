@@ -9,7 +9,7 @@
 #include "renderer/kernels/kernels.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "studies/cost/benchmarks.hpp"
-#include "studies/cost/report.hpp"
+#include "studies/cost/table.hpp"
 
 namespace lobelia::cli {
 namespace {

@@ -5,12 +5,8 @@
 #include "core/files.hpp"
 #include "records/record.hpp"
 #include "studies/agreement/report.hpp"
-#include "studies/paper/plots.hpp"
 #include "studies/paper/report.hpp"
-#include "studies/stability/cases.hpp"
-#include "studies/stability/pictures.hpp"
 #include "studies/stability/report.hpp"
-#include "studies/stability/timing.hpp"
 
 namespace lobelia::cli {
 namespace {

@@ -1,8 +1,11 @@
 #include "studies/table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "core/text.hpp"
 
@@ -32,12 +35,16 @@ std::string line_above(const std::vector<Column>& columns) {
   return line.empty() ? line : line + "\n";
 }
 
-template <class Each>
-std::string joined(const std::string& before, const std::string& between, const std::string& after,
-                   std::size_t count, Each each) {
-  std::string line = before;
-  for (std::size_t i = 0; i < count; ++i) line += (i > 0 ? between : "") + each(i);
-  return line + after;
+/// The texts of the titles and of each row.
+std::vector<std::vector<std::string>> grid(const Table& table) {
+  std::vector<std::vector<std::string>> lines(1);
+  for (const Column& column : table.columns) lines[0].push_back(column.title);
+  for (const auto& row : table.rows) {
+    auto& line = lines.emplace_back();
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line.push_back(cell_text(row[i], table.columns[i].format));
+  }
+  return lines;
 }
 
 }  // namespace
@@ -55,44 +62,36 @@ void Table::fit() {
 std::string table_text(Table table) {
   table.fit();
   std::string text = table.title.empty() ? "" : "\n" + table.title + "\n";
-  const auto line = [&](auto cell) {
-    std::string words = joined("", "", "", table.columns.size(), [&](std::size_t i) {
-      return in_column(cell(i), table.columns[i], table.columns[i].width);
-    });
-    words.erase(words.find_last_not_of(' ') + 1);
-    return words + "\n";
-  };
-  text += line_above(table.columns) + line([&](std::size_t i) { return table.columns[i].title; });
-  for (const auto& row : table.rows)
-    text += row.size() == 1
-                ? cell_text(row[0], "{}") + "\n"
-                : line([&](std::size_t i) { return cell_text(row[i], table.columns[i].format); });
+  text += line_above(table.columns);
+  for (const auto& cells : grid(table)) {
+    std::string line = cells.size() == 1 ? cells[0] : "";
+    for (std::size_t i = 0; i < cells.size() && cells.size() > 1; ++i)
+      line += in_column(cells[i], table.columns[i], table.columns[i].width);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
   for (const std::string& remark : table.remarks) text += "  " + remark + "\n";
   return text;
 }
 
-std::string table_csv(const Table& table, const char* line_end) {
-  const auto line = [&](auto cell) {
-    return joined("", ",", line_end, table.columns.size(),
-                  [&](std::size_t i) { return csv_field(cell(i)); });
-  };
-  std::string text = line([&](std::size_t i) {
-    return table.columns[i].key.empty() ? table.columns[i].title : table.columns[i].key;
-  });
-  for (const auto& row : table.rows)
-    text += line([&](std::size_t i) { return cell_text(row[i], "{}"); });
+std::string table_csv(Table table, const char* line_end) {
+  for (Column& column : table.columns) column.format = "{}";
+  std::string text;
+  for (auto& cells : grid(table)) {
+    std::ranges::transform(cells, cells.begin(), csv_field);
+    text += fmt::format("{}{}", fmt::join(cells, ","), line_end);
+  }
   return text;
 }
 
 std::string table_markdown(const Table& table) {
-  const auto line = [&](auto cell) {
-    return joined("| ", " | ", " |\n", table.columns.size(), cell);
-  };
-  std::string text = line([&](std::size_t i) { return table.columns[i].title; });
-  text +=
-      joined("|", "|", "|\n", table.columns.size(), [](std::size_t) { return std::string("---"); });
-  for (const auto& row : table.rows)
-    text += line([&](std::size_t i) { return cell_text(row[i], table.columns[i].format); });
+  std::string text, rule = "|";
+  for (std::size_t i = 0; i < table.columns.size(); ++i) rule += "---|";
+  rule += "\n";
+  for (const auto& cells : grid(table)) {
+    text += fmt::format("| {} |\n", fmt::join(cells, " | "));
+    text += std::exchange(rule, "");
+  }
   return text;
 }
 

@@ -1,4 +1,4 @@
-// The one table of all studies: columns and rows, and the forms in which people and programs read them.
+// The one table of all studies: columns and rows, as text, CSV and Markdown.
 #pragma once
 
 #include <concepts>
@@ -10,7 +10,7 @@
 
 namespace lobelia::studies {
 
-/// A number is printed by its column's format, a text as it is.
+/// A number, printed in its column's format, or a text.
 struct Cell {
   template <std::convertible_to<std::string_view> Text>
   Cell(const Text& shown) : text(std::string_view(shown)) {}
@@ -21,28 +21,27 @@ struct Cell {
 };
 
 struct Column {
-  std::string title = {};  ///< in text and Markdown, and in CSV without a key
-  int width = 0;  ///< in text: negative to the left; 0 as wide as its cell; wider where a cell is
+  std::string title = {};
+  int width = 0;  ///< in text, at least: negative aligns to the left; 0 is the width of each cell
   std::string format = "{}";  ///< of numbers in text and Markdown; CSV has all digits
   int gap = 0;                ///< blanks before it in text
-  std::string above = {};     ///< a heading over this and the next columns that have none
-  int margin = 0;             ///< blanks that a cell leaves of the width at least
-  std::string key = {};       ///< in CSV
+  std::string above = {};  ///< a heading over this column and the following ones without their own
+  int margin = 0;          ///< the least blanks in a cell's width
 };
 
 struct Table {
   std::string title;
   std::vector<Column> columns;
-  /// A row of a single cell in a table of more columns is a heading of the rows below it.
+  /// A row with a single cell is a heading of the rows below it.
   std::vector<std::vector<Cell>> rows;
-  std::vector<std::string> remarks = {};  ///< sentences, each printed on a line of its own
+  std::vector<std::string> remarks = {};  ///< sentences, each on its own line
 
-  /// Widens the columns to what the rows need, also where some are then left out.
+  /// Widens the columns to fit the rows: before rows are left out, if the widths should stay.
   void fit();
 };
 
 std::string table_text(Table table);
-std::string table_csv(const Table& table, const char* line_end = "\n");
+std::string table_csv(Table table, const char* line_end = "\n");
 /// The columns and rows alone: titles and remarks are a page's own.
 std::string table_markdown(const Table& table);
 

@@ -11,8 +11,8 @@
 #include "core/timing.hpp"
 #include "renderer/accelerator.hpp"
 #include "renderer/plan/plan.hpp"
-#include "studies/cost/transport/measure.hpp"
-#include "studies/cost/transport/scenes.hpp"
+#include "studies/cost/convergence.hpp"
+#include "studies/cost/scenes.hpp"
 
 namespace lobelia::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "bench/light/sections.hpp"
 #include "core/timing.hpp"
-#include "studies/cost/transport/measure.hpp"
+#include "studies/cost/convergence.hpp"
 
 namespace lobelia::bench {
 namespace {

@@ -1,19 +1,58 @@
-// The measurement behind the table of agreement: every variant, every case.
+// The measurement behind the table of agreement: every variant of a picture against the analytic one, in every case.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/image.hpp"
+#include "records/agreement.hpp"
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/replicates.hpp"
 #include "studies/agreement/cases.hpp"
-#include "studies/agreement/figures.hpp"
-#include "studies/agreement/variants.hpp"
 
 namespace lobelia::agreement {
+
+struct Variant : EngineVariant {
+  std::string_view engine;  ///< empty for ours and for a pair of engines
+  Variant(std::string_view by, const EngineVariant& variant) : EngineVariant(variant), engine(by) {}
+};
+
+const Variant& ours();
+/// The engines' variants. An engine's own formats are tried in the order given.
+std::span<const Variant> variants();
+/// Two engines with the same reimplemented formula, compared with each other.
+Variant pair_of(std::string_view first, std::string_view second);
+
+/// Nothing if the variant has no target at this exponent.
+std::optional<Target> target_of(const EngineVariant& variant, double exponent);
+/// "4.9e-4", "0", "inf"
+std::string short_number(double value);
+/// "4.9e-4 of the value"
+std::string target_text(const Target& target);
+
+/// The difference of two pictures over all channels. Values that are not finite are infinitely far off.
+struct Figures {
+  // Pixels outside the ring:
+  double max_of_peak = 0;   ///< of the peak of the reference
+  double rms_of_peak = 0;   ///< over pixels where either picture is not black
+  double max_relative = 0;  ///< of the reference's value, where above kRelativeFrom of the peak
+  // Pixels in the ring:
+  double ring_max_of_peak = 0;
+  int ring_pixels = 0, ring_over = 0;  ///< all; those that are off by more than kRingOfPeak
+};
+inline constexpr double kRelativeFrom = 1e-3;
+
+using Picture = std::vector<Rgb>;  ///< in reading order
+
+/// The sizes are the same; `ring` is that of truth::edge_ring().
+Figures difference_from(const Picture& reference, const Image& image,
+                        std::span<const std::uint8_t> ring);
 
 enum class Verdict { kMet, kMissed, kNoTarget, kNotComparable, kFailed };
 inline constexpr std::string_view kVerdictNames[] = {"met", "missed", "no target", "not comparable",
@@ -22,53 +61,36 @@ inline constexpr std::string_view kVerdictNames[] = {"met", "missed", "no target
 struct Row {
   std::size_t index = 0;  ///< of the case
   Variant variant;
-  Figures figures;  ///< where there is a picture
+  Figures figures;  ///< if there is a picture
   Verdict verdict = Verdict::kNoTarget;
   std::string why;  ///< not comparable, or failed
 };
 
-/// An engine's average at two numbers of points against what our own samples converge to.
+/// An engine's average at two numbers of points against our own converged samples.
 struct SoftRow {
   std::string_view what;
   Variant variant;
-  struct Count {
-    int points = 0;
-    ReplicateStatistics statistics;
-    double rms_of_peak = 0;
-  };
-  std::vector<Count> counts;  ///< where there are pictures
+  std::vector<records::SoftCount> counts;  ///< of the pictures that there are
   Verdict verdict = Verdict::kNoTarget;
   std::string why;
 };
 /// Values that may be beyond their limit: neighbours share their points, so a few fall out together.
 inline constexpr std::size_t kBeyondAllowed = 3;
 
-struct EngineHere {
-  EngineInfo info;
-  EngineStatus status;
-};
-
 struct Agreement {
   Scope scope;
-  std::vector<EngineHere> engines;
+  std::vector<records::AgreementEngine> engines;
   std::vector<Case> cases;
   std::vector<Row> rows;
   std::vector<SoftRow> soft;
   std::size_t count(Verdict verdict) const;
 };
 
-/// `on_progress` gets the fraction done and at what, from any thread.
+/// Gets the fraction done and the current work, from any thread.
 using OnProgress = std::function<void(double, std::string_view)>;
 
-/// By the engines that are available; the others are named in the result. Throws Error(kInterrupted) on Ctrl-C.
+/// By the available engines; the others are named in the result. Throws Error(kInterrupted) on Ctrl-C.
 Agreement measure(const Scope& scope, std::span<const std::unique_ptr<Engine>> engines,
                   const OnProgress& on_progress);
-
-/// The soft part of it. `on_picture` is called after each result.
-std::vector<SoftRow> measure_soft(const Scope& scope,
-                                  std::span<const std::unique_ptr<Engine>> engines,
-                                  const std::function<void(std::string_view)>& on_picture);
-/// How often it will be called.
-std::size_t soft_pictures(const Scope& scope, std::span<const std::unique_ptr<Engine>> engines);
 
 }  // namespace lobelia::agreement

@@ -9,7 +9,7 @@
 
 namespace lobelia::agreement {
 
-/// How much of it: all, or what a test has time for.
+/// The whole study, or a part that a test has time for.
 struct Scope {
   bool small = false;
   int size = 0;  ///< width of pictures, pixels
@@ -24,32 +24,31 @@ struct Case {
   std::string_view what;  ///< the light of a highlight, or the effect
   HighlightChoice highlight;
   bool close_up = false;  ///< the camera sees the highlight alone
-  /// Pixels of the ring that may be farther off than kRingOfPeak.
-  int ring_allowed = 3;
+  int ring_allowed = 3;   ///< pixels of the ring that may be farther off than kRingOfPeak
   Scene scene;
 };
 
-/// A value on an edge is wrong if it is this much of the peak off.
+/// A value on an edge is wrong if it is off by more than this share of the peak.
 inline constexpr double kRingOfPeak = 1e-3;
-/// Edges of far squares of a checker are met within the rounding of float32 by the dozen.
+/// Far squares of a checker have dozens of edges within the rounding of float32.
 inline constexpr int kCheckerRing = 12;
 
-/// From this exponent on a highlight is too small for a picture of the whole sphere. In the close-up what is
-/// above half of its peak is a sixth of the picture wide or more.
+/// From this exponent on a highlight is too small for a picture of the whole sphere. In a close-up the part above half of
+/// its peak is at least a sixth of the picture wide.
 inline constexpr double kCloseUpExponent = 1024;
 
 std::vector<Case> highlight_cases(const Scope& scope);
 std::vector<Case> effect_cases(const Scope& scope);
 
-/// A scene of which engines make averages, with highlights that POV-Ray has itself.
+/// A scene that engines average, with highlights that are native to POV-Ray.
 struct SoftCase {
   std::string_view what;
   Scene scene;
-  /// The same for a renderer that samples: as many that its noise counts for nothing.
+  /// The same for a renderer that samples, with negligible noise.
   Scene converged;
 };
 std::vector<SoftCase> soft_cases(const Scope& scope);
-/// The numbers of points of both estimates.
+/// The numbers of points of the two estimates.
 std::vector<int> soft_points(const Scope& scope);
 
 }  // namespace lobelia::agreement

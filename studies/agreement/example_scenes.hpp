@@ -1,10 +1,8 @@
-// Scenes that are made to be compared: every effect that engines share, alone, and in pictures small enough to be
-// many.
+// Scenes for comparisons: every effect that engines share, alone, in small pictures.
 #pragma once
 
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -43,8 +41,8 @@ inline Scene sphere_scene(const HighlightChoice& choice, std::vector<Light> ligh
   return scene;
 }
 
-/// A second, smaller sphere that throws its shadow onto the first one's highlight; both coloured,
-/// with a diffuse base, seen by a tilted camera in a picture that is not square.
+/// A second, smaller sphere casts its shadow onto the first one's highlight; both coloured, with a diffuse base, seen by
+/// a tilted camera in a picture that is not square.
 inline Scene shadow_scene(const HighlightChoice& choice, std::vector<Light> lights, int size) {
   Scene scene = sphere_scene(choice, std::move(lights), size);
   scene.camera = {{1.5, -0.7, 4.5}, {0.2, 0.1, 0}, {0.3, 1, 0.1}, 34};
@@ -57,7 +55,7 @@ inline Scene shadow_scene(const HighlightChoice& choice, std::vector<Light> ligh
   return scene;
 }
 
-/// A ball on a checker, in its own shadow; `mirrors` share the light with highlights that POV-Ray has itself.
+/// A ball on a checker, in its own shadow.
 inline Scene ground_scene(const HighlightChoice& choice, std::vector<Light> lights, int size) {
   Scene scene = sphere_scene(choice, std::move(lights), size);
   scene.camera = {{0.3, 1.6, 5.2}, {0, -0.1, 0}, {0, 1, 0}, 36};
@@ -71,7 +69,7 @@ inline Scene ground_scene(const HighlightChoice& choice, std::vector<Light> ligh
   return scene;
 }
 
-/// Two balls and a floor that show one another.
+/// Two balls and a floor that reflect one another.
 inline Scene mirror_scene(const HighlightChoice& choice, std::vector<Light> lights, int size) {
   Scene scene = ground_scene(choice, std::move(lights), size);
   for (Material& material : scene.materials)
@@ -84,22 +82,23 @@ inline Scene mirror_scene(const HighlightChoice& choice, std::vector<Light> ligh
 }
 
 struct NamedScene {
-  std::string name;
+  std::string_view name;
   Scene scene;
 };
 
-/// Lights with a size, a lens, several rays a pixel: each alone, and all at once.
+/// Area lights, a lens, several rays a pixel: each alone, and all at once.
 inline std::vector<NamedScene> soft_scenes(const HighlightChoice& choice, int size) {
   const Light sun = directional_at(50, {2, 1.5, 1});
   const Light ball = SphereLight{{2, 2.5, 2.5}, 0.6, {20, 16, 12}};
   const Light window = RectangleLight{{-2, 2, 2}, {0.5, 0, 0.5}, {0, -0.6, 0}, {9, 12, 15}};
   const Light sky = ConstantLight{{0.5, 0.7, 1}};
-  std::vector<NamedScene> scenes = {{"a ball of light", ground_scene(choice, {ball}, size)},
-                                    {"a window", ground_scene(choice, {window, sun}, size)},
-                                    {"the sky", ground_scene(choice, {sky}, size)},
-                                    {"several rays a pixel", ground_scene(choice, {sun}, size)},
-                                    {"a lens", ground_scene(choice, {sun}, size)},
-                                    {"all", ground_scene(choice, {ball, sun, window, sky}, size)}};
+  std::vector<NamedScene> scenes = {
+      {"sphere light", ground_scene(choice, {ball}, size)},
+      {"rectangle light and sun", ground_scene(choice, {window, sun}, size)},
+      {"environment", ground_scene(choice, {sky}, size)},
+      {"antialiasing", ground_scene(choice, {sun}, size)},
+      {"lens", ground_scene(choice, {sun}, size)},
+      {"all at once", ground_scene(choice, {ball, sun, window, sky}, size)}};
   for (const std::size_t i : {3, 5}) scenes[i].scene.sampler.sample_count = 16;
   scenes[3].scene.film.filter = *find_filter("mitchell");
   for (const std::size_t i : {4, 5}) {

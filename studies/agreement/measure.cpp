@@ -1,21 +1,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
 
 #include "core/at_once.hpp"
+#include "core/constants.hpp"
 #include "core/interrupt.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+#include "reference_scenes/replicate_statistics.hpp"
 #include "renderer/render.hpp"
 #include "studies/agreement/agreement.hpp"
 
 namespace lobelia::agreement {
 namespace {
 
-/// From here on double itself would be a part of what is measured.
+/// From this exponent on the rounding of double would count.
 constexpr double kFiftyDigitsFrom = 1e5;
+
+/// So that a NaN counts as the largest difference.
+double or_infinite(double value) { return std::isfinite(value) ? value : kInfinity; }
+
+Picture picture_of(const Image& image) {
+  Picture picture(image.pixel_count());
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    const float* const rgb = image.values().data() + 3 * i;
+    picture[i] = {rgb[0], rgb[1], rgb[2]};
+  }
+  return picture;
+}
 
 ReferenceOptions options_of(const Variant& variant) {
   ReferenceOptions options;
@@ -32,7 +47,7 @@ Verdict verdict_of(const Variant& variant, const Case& one, const Figures& figur
                                                                          : Verdict::kMissed;
 }
 
-/// All about one case that does not depend on the variant.
+/// The parts of a case that do not depend on the variant.
 struct Truth {
   std::string why_not;
   Picture picture;
@@ -45,10 +60,17 @@ class Measurement {
               const OnProgress& on_progress)
       : engines_(engines), on_progress_(on_progress) {
     result_.scope = scope;
+    soft_ = soft_cases(scope);
     result_.cases = highlight_cases(scope);
     for (Case& effect : effect_cases(scope)) result_.cases.push_back(std::move(effect));
-    for (const auto& engine : engines)
-      result_.engines.push_back({engine->info(), engine->status()});
+    for (const auto& engine : engines) {
+      const EngineInfo& info = engine->info();
+      const EngineStatus& status = engine->status();
+      const bool available = status.available();
+      result_.engines.push_back({std::string(info.name), std::string(info.title), available,
+                                 std::string(state_name(status.state)),
+                                 available ? status.version : "", available ? "" : status.why});
+    }
   }
 
   Agreement run() {
@@ -57,8 +79,7 @@ class Measurement {
     compare_ours();
     for (const Work& work : work_) compare_engine(work);
     compare_directly();
-    result_.soft =
-        measure_soft(result_.scope, engines_, [this](std::string_view what) { one_done(what); });
+    measure_soft();
     std::ranges::stable_sort(result_.rows, {}, [](const Row& row) {
       return std::pair(rank_of(row.variant), row.index);
     });
@@ -93,8 +114,13 @@ class Measurement {
         total_ += work.cases.size();
         work_.push_back(std::move(work));
       }
-    total_ += 2 * result_.cases.size() + soft_pictures(result_.scope, engines_);
+    total_ += 2 * result_.cases.size();
+    const auto soft_variants = std::size_t(std::ranges::count_if(work_, averages));
+    if (soft_variants > 0)
+      total_ += soft_.size() * (1 + soft_variants * soft_points(result_.scope).size());
   }
+
+  static bool averages(const Work& work) { return work.variant.rounding > 0; }
 
   void evaluate() {
     for (const Case& one : result_.cases) {
@@ -162,7 +188,7 @@ class Measurement {
         {i, variant, figures, verdict_of(variant, result_.cases[i], figures), {}});
   }
 
-  /// The finer format comes later and stays.
+  /// Replaces a coarser format of the same engine, which comes earlier.
   void keep_reimplemented(std::size_t i, const Variant& variant, Image image) {
     auto& pictures = reimplemented_[i];
     const auto found = std::ranges::find(pictures, variant.engine, &EnginePicture::engine);
@@ -172,7 +198,7 @@ class Measurement {
       found->image = std::move(image);
   }
 
-  /// The first engine that was told our formulas, in its finest format, against each other one.
+  /// The first engine with our formulas, in its finest format, against each other one.
   void compare_directly() {
     for (const auto& [i, pictures] : reimplemented_)
       for (std::size_t k = 1; k < pictures.size(); ++k) {
@@ -183,6 +209,47 @@ class Measurement {
       }
   }
 
+  void measure_soft() {
+    if (std::ranges::none_of(work_, averages)) return;
+    std::vector<Image> truths;
+    for (const SoftCase& one : soft_) {
+      truths.push_back(render(one.converged, {}).image);
+      one_done("our own samples");
+    }
+    for (const Work& work : work_) {
+      if (!averages(work)) continue;
+      const std::size_t first = result_.soft.size();
+      for (const SoftCase& one : soft_)
+        result_.soft.push_back({one.what, work.variant, {}, {}, {}});
+      for (const int points : soft_points(result_.scope)) {
+        ReferenceOptions options = options_of(work.variant);
+        options.points = points;
+        Session session(*work.engine, options);
+        // Each is an average of many pictures, which are rendered side by side.
+        for (std::size_t i = 0; i < soft_.size(); ++i) {
+          const ReferenceResult result = session.render(soft_[i].scene);
+          one_done(work.variant.title);
+          take_average(result, truths[i], points, result_.soft[first + i]);
+        }
+      }
+    }
+  }
+
+  static void take_average(const ReferenceResult& result, const Image& truth, int points,
+                           SoftRow& row) {
+    if (!result.error.empty()) {
+      row.verdict = Verdict::kFailed;
+      row.why = result.error;
+      return;
+    }
+    const auto found = replicate_statistics(result, truth, points, row.variant.rounding);
+    const double peak = *std::ranges::max_element(truth.values());
+    row.counts.push_back({points, found.values, found.beyond, found.rms / peak});
+    if (row.verdict == Verdict::kFailed) return;
+    if (found.beyond > kBeyondAllowed) row.verdict = Verdict::kMissed;
+    if (row.verdict == Verdict::kNoTarget) row.verdict = Verdict::kMet;
+  }
+
   void one_done(std::string_view what) {
     if (on_progress_) on_progress_(double(++done_) / double(total_), what);
   }
@@ -190,6 +257,7 @@ class Measurement {
   std::span<const std::unique_ptr<Engine>> engines_;
   const OnProgress& on_progress_;
   Agreement result_;
+  std::vector<SoftCase> soft_;
   std::vector<Work> work_;
   std::vector<Truth> truths_;
   struct EnginePicture {
@@ -201,6 +269,39 @@ class Measurement {
 };
 
 }  // namespace
+
+Figures difference_from(const Picture& reference, const Image& image,
+                        std::span<const std::uint8_t> ring) {
+  Figures f;
+  double peak = 0, squares = 0;
+  for (const Rgb& value : reference) peak = std::max(peak, max_component(value));
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const float* const rgb = image.values().data() + 3 * i;
+    const double values[] = {reference[i].r, reference[i].g, reference[i].b};
+    double of_peak = 0, relative = 0;
+    bool black = true;
+    for (int c = 0; c < 3; ++c) {
+      const double apart = std::abs(double(rgb[c]) - values[c]);
+      black = black && values[c] == 0 && rgb[c] == 0;
+      of_peak = std::max(of_peak, apart == 0 ? 0 : or_infinite(apart / peak));
+      if (values[c] > kRelativeFrom * peak)
+        relative = std::max(relative, or_infinite(apart / values[c]));
+      if (ring[i] == 0) squares += apart * apart;
+    }
+    if (ring[i] != 0) {
+      ++f.ring_pixels;
+      f.ring_over += of_peak > kRingOfPeak;
+      f.ring_max_of_peak = std::max(f.ring_max_of_peak, of_peak);
+      continue;
+    }
+    lit += !black;
+    f.max_of_peak = std::max(f.max_of_peak, of_peak);
+    f.max_relative = std::max(f.max_relative, relative);
+  }
+  if (lit > 0) f.rms_of_peak = or_infinite(std::sqrt(squares / (3 * double(lit))) / peak);
+  return f;
+}
 
 std::size_t Agreement::count(Verdict verdict) const {
   return std::size_t(std::ranges::count(rows, verdict, &Row::verdict) +

@@ -1,18 +1,18 @@
-// The table of agreement for people, for programs and for docs/.
+// The table of agreement as text, CSV, Markdown and a record.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "records/agreement.hpp"
 #include "studies/agreement/agreement.hpp"
 #include "studies/table.hpp"
 
 namespace lobelia::agreement {
 
-using Table = studies::Table;  ///< its remark stands above it on the page, and not in text
-/// The worst of each variant by the sharpness of the highlight, with what was asked of it.
+using Table =
+    studies::Table;  ///< with one remark, which the page prints above it and the text leaves out
+/// The worst of each variant by the sharpness of the highlight, with its target.
 Table headline_table(const Agreement& agreement);
 /// The worst over lights, by variant, lobe and exponent; and by variant, model and exponent.
 Table lobe_table(const Agreement& agreement);
@@ -28,9 +28,9 @@ Table miss_table(const Agreement& agreement);
 std::string verdict_sentence(const Agreement& agreement);
 
 std::string report_text(const Agreement& agreement);
-/// docs/agreement.md. `command` made it, without the program's place.
+/// docs/agreement.md, as made by `command`.
 std::string report_markdown(const Agreement& agreement, std::string_view command);
-/// Headings of the page, in their order: what a test holds the page to.
+/// Headings of the page, in their order.
 std::vector<std::string> markdown_headings();
 records::Agreement report_record(const Agreement& agreement,
                                  const std::vector<std::string>& command);

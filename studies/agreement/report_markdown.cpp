@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "studies/agreement/report.hpp"
-#include "studies/agreement/table_parts.hpp"
 
 namespace lobelia::agreement {
 namespace {
@@ -31,30 +30,28 @@ std::string section(const Table& table) {
   return text + table.remarks.at(0) + "\n\n" + table_markdown(table);
 }
 
-/// What the columns of figures mean.
+/// The meaning of the columns of figures.
 Table column_table() {
-  Table table = words_table("", "", {"column", ""});
-  for (const auto& [column, meaning] : std::initializer_list<std::pair<const char*, std::string>>{
-           {"max, RMS",
-            "of the difference, over the peak of the analytic picture; RMS over the lit pixels"},
-           {"relative",
-            fmt::format(
-                "largest difference over the value, where the value is above {} of the peak",
-                short_number(kRelativeFrom))},
-           {"ring",
-            "pixels beside a silhouette, a terminator, a shadow's or a checker's edge, where a "
-            "rounding decides over a pixel's whole value; they are left out of the columns before. "
-            "Most in one picture"},
-           {"over",
-            fmt::format("of those in the ring, farther off than {} of the peak; at most 3 may be, "
-                        "{} beside checkers",
-                        short_number(kRingOfPeak), kCheckerRing)},
-           {"target", "what the largest difference of a picture is held to"}})
-    add_row(table, {column, meaning});
-  return table;
+  return {
+      "",
+      {{"column"}, {""}},
+      {{"max, RMS",
+        "of the difference, over the peak of the analytic picture; RMS over the lit pixels"},
+       {"relative",
+        fmt::format("largest difference over the value, where the value is above {} of the peak",
+                    short_number(kRelativeFrom))},
+       {"ring",
+        "pixels beside a silhouette, a terminator, a shadow's or a checker's edge, where a "
+        "rounding decides over a pixel's whole value; they are left out of the columns before. "
+        "Most in one picture"},
+       {"over",
+        fmt::format("of those in the ring, farther off than {} of the peak; at most 3 may be, "
+                    "{} beside checkers",
+                    short_number(kRingOfPeak), kCheckerRing)},
+       {"target", "what the largest difference of a picture is held to"}}};
 }
 
-/// Why each variant misses its targets, if it misses one.
+/// The reasons of the variants that miss a target.
 std::string reasons(const Agreement& agreement) {
   std::string text;
   const auto add = [&](const Variant& variant) {
@@ -71,7 +68,7 @@ std::string reasons(const Agreement& agreement) {
   return text;
 }
 
-/// The same of averages.
+/// The same for averages.
 std::string soft_reasons(const Agreement& agreement) {
   const bool missed = std::ranges::any_of(agreement.soft, [](const SoftRow& row) {
     return row.what == "environment" && row.verdict == Verdict::kMissed;
@@ -99,10 +96,9 @@ std::string report_markdown(const Agreement& agreement, std::string_view command
       "`{}`: pictures {} pixels wide, of the whole sphere below n = {:g} and from there on "
       "of the highlight alone, so that it is resolved. ",
       command, agreement.scope.size, kCloseUpExponent);
-  for (const EngineHere& engine : agreement.engines)
-    text += engine.status.available()
-                ? fmt::format("{} is {}. ", engine.info.title, engine.status.version)
-                : fmt::format("{} was not there. ", engine.info.title);
+  for (const records::AgreementEngine& engine : agreement.engines)
+    text += engine.available ? fmt::format("{} is {}. ", engine.title, engine.version)
+                             : fmt::format("{} was not there. ", engine.title);
   text += "**" + verdict_sentence(agreement) + ".**\n";
   text += "\n" + table_markdown(column_table());
   for (const auto table : {headline_table, miss_table, lobe_table, model_table, effect_table,

@@ -1,4 +1,4 @@
-#include "studies/agreement/variants.hpp"
+#include "studies/agreement/agreement.hpp"
 
 #include <fmt/format.h>
 
@@ -6,20 +6,12 @@
 #include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 namespace lobelia::agreement {
 namespace {
 
 constexpr ExponentTarget kOursTargets[] = {{1e6, {false, 1e-5}}};
 constexpr EngineVariant kOursVariant{.name = "ours", .title = "Lobelia", .targets = kOursTargets};
-
-std::vector<Variant> engine_variants() {
-  std::vector<Variant> variants;
-  for (const EngineInfo& engine : engine_infos())
-    for (const EngineVariant& variant : engine.variants) variants.push_back({engine.name, variant});
-  return variants;
-}
 
 }  // namespace
 
@@ -29,8 +21,13 @@ const Variant& ours() {
 }
 
 std::span<const Variant> variants() {
-  static const std::vector<Variant> variants = engine_variants();
-  return variants;
+  static const std::vector<Variant> all = [] {
+    std::vector<Variant> found;
+    for (const EngineInfo& engine : engine_infos())
+      for (const EngineVariant& variant : engine.variants) found.push_back({engine.name, variant});
+    return found;
+  }();
+  return all;
 }
 
 Variant pair_of(std::string_view first, std::string_view second) {

@@ -1,12 +1,5 @@
 #include "studies/cost/benchmarks.hpp"
 
-#include "studies/cost/effects_benchmark.hpp"
-#include "studies/cost/engine_benchmark.hpp"
-#include "studies/cost/fixed_point_benchmark.hpp"
-#include "studies/cost/lobe_benchmark.hpp"
-#include "studies/cost/picture_benchmark.hpp"
-#include "studies/cost/transport_benchmark.hpp"
-
 namespace lobelia::cost {
 namespace {
 
@@ -25,5 +18,12 @@ constexpr Benchmark kBenchmarks[] = {
 }  // namespace
 
 std::span<const Benchmark> benchmarks() { return kBenchmarks; }
+
+std::filesystem::path Options::program(std::string_view engine) const {
+  for (const auto& [name, path] : programs)
+    if (name == engine) return path;
+  // Resolved here: in the keeper process that starts it, the link would lead to the keeper.
+  return engine == "lobelia" ? std::filesystem::read_symlink("/proc/self/exe") : "";
+}
 
 }  // namespace lobelia::cost

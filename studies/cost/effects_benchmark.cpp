@@ -1,28 +1,24 @@
-// The price of each effect: a picture with everything that its scene calls for, and without one effect at a
-// time.
-#include "studies/cost/effects_benchmark.hpp"
-#include "core/error_time_chart.hpp"
+// The price of each effect: a picture with all effects that its scene calls for, and without one of them at a time.
+#include "studies/cost/benchmarks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "compare/compare.hpp"
+#include "core/colour.hpp"
 #include "core/error.hpp"
+#include "core/error_time_chart.hpp"
+#include "core/image_values.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
-#include "studies/cost/everything.hpp"
-#include "studies/cost/film_size.hpp"
-#include "studies/cost/report.hpp"
-#include "studies/cost/without.hpp"
+#include "studies/cost/scenes.hpp"
 
 namespace lobelia::cost {
 namespace {
 
-/// One way to make the picture, and what it took.
 struct EffectCase {
-  std::string effect;  ///< that is left out; empty: none
+  std::string effect;  ///< the one that is left out; may be empty
   Scene scene;
   RenderOptions how;
   RenderResult result;
@@ -38,20 +34,15 @@ EffectCase make_case(const std::string& effect, const Scene& scene) {
   return one;
 }
 
-bool is_on(const Plan& plan, const std::string& effect) {
-  return std::any_of(plan.effects.begin(), plan.effects.end(),
-                     [&](const EffectDecision& e) { return e.name == effect && e.on; });
-}
-
 void require_good(const EffectCase& one) {
-  for (const float value : one.result.image.values())
-    if (!std::isfinite(value))
-      throw Error(ExitCode::kInternal, "effects: a value of our picture is not finite");
-  if (!one.effect.empty() && is_on(one.result.plan, one.effect))
-    throw Error(ExitCode::kInternal, fmt::format("effects: {} is still on", one.effect));
+  if (!is_finite(one.result.image))
+    throw Error(ExitCode::kInternal, "effects: a value of our picture is not finite");
+  for (const EffectDecision& effect : one.result.plan.effects)
+    if (effect.name == one.effect && effect.on)
+      throw Error(ExitCode::kInternal, fmt::format("effects: {} is still on", one.effect));
 }
 
-/// Times as many samples and the seed after so many others; where there is one ray a pixel, it stays one.
+/// With `times` the samples and the seed raised by `seed`. One ray a pixel stays one.
 Image with_more_samples(const EffectCase& one, int times, int seed) {
   Scene scene = one.scene;
   scene.sampler.seed += std::uint64_t(seed);
@@ -59,15 +50,15 @@ Image with_more_samples(const EffectCase& one, int times, int seed) {
   return render(scene, one.how).image;
 }
 
-/// Stops by which the picture is brightened so that all but a hundredth of its pixels are below white: a
-/// few pixels that see a lamp would make the rest black.
+/// The exposure, in stops, that puts all but a hundredth of the pixels below white. By the peak, a few pixels that see
+/// a lamp would make the rest black.
 double exposure(const Image& image) {
   std::vector<float> values;
   for (std::size_t i = 0; i < image.values().size(); i += 3)
     values.push_back(*std::max_element(&image.values()[i], &image.values()[i] + 3));
   auto place = values.begin() + std::ptrdiff_t(double(values.size() - 1) * 0.99);
   std::nth_element(values.begin(), place, values.end());
-  return *place > 0 ? -std::log2(double(*place)) : 0;
+  return exposure_for_peak(*place);
 }
 
 std::uint64_t rays(const Work& work) {
@@ -83,22 +74,22 @@ records::Named<records::Work> effects_record(const RenderResult& result) {
   return work;
 }
 
-std::string price(const Variant& way, const Variant& all, const EffectCase& one,
+std::string price(const Variant& variant, const Variant& all, const EffectCase& one,
                   const EffectCase& whole) {
-  const double with = all.seconds->median, without = way.seconds->median;
+  const double with = all.seconds->median, without = variant.seconds->median;
   const double saved = 1 - without / with;
   std::string time =
       saved >= 0 ? fmt::format("{} takes {:.0f} % of the time ({})", one.effect, 100 * saved,
                                short_time_text(with - without))
                  : fmt::format("without {} it takes {:.0f} % longer", one.effect, -100 * saved);
-  if (clearly_slower(way, all) == 0) time += ", which is within the spread";
+  if (clearly_slower(variant, all) == 0) time += ", which is within the spread";
   const double rays_saved = double(rays(whole.result.work)) - double(rays(one.result.work));
   return fmt::format(
       "{}, {}; without it ({}) the picture is off by {:.2g} dE00 at p99, {:.2g} in the mean", time,
       rays_saved >= 0
           ? fmt::format("{:.2g} of {:.2g} rays", rays_saved, double(rays(whole.result.work)))
           : fmt::format("{:.2g} more rays", -rays_saved),
-      in_place_of(one.effect), way.errors[0].second, way.errors[1].second);
+      in_place_of(one.effect), variant.errors[0].second, variant.errors[1].second);
 }
 
 Table measure_scene(const std::string& name, const Scene& scene, const Options& options) {
@@ -122,8 +113,8 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
   const std::vector<Times> times = interleaved(work, rounds);
   for (const EffectCase& one : cases) require_good(one);
 
-  // What is lost, of pictures with less noise than those that were timed. All have the same seed: what an
-  // effect does not touch is the same in both.
+  // The loss is measured on pictures with less noise than the timed ones. All have the same seed, so that pixels that
+  // the effect does not touch stay the same.
   const int more = options.rounds(16, 4, 4);
   options.progress(name + ": what is lost");
   const Image whole = with_more_samples(cases[0], more, 0);
@@ -132,19 +123,19 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const EffectCase& one = cases[i];
     const Comparison comparison = compare(with_more_samples(one, more, 0), whole, seen);
-    Variant way;
-    way.name = one.effect.empty() ? "everything" : "without " + one.effect;
-    way.settings = {{"without", one.effect}};
-    way.seconds = seconds_record(times[i]);
-    way.errors = {{"de2000_p99", comparison.value("ciede2000.p99")},
-                  {"de2000_mean", comparison.value("ciede2000.mean")},
-                  {"flip_mean", comparison.value("flip.ldr.mean")}};
-    records::CostFacts& facts = way.facts.emplace();
+    Variant variant;
+    variant.name = one.effect.empty() ? "everything" : "without " + one.effect;
+    variant.settings = {{"without", one.effect}};
+    variant.seconds = seconds_record(times[i]);
+    variant.errors = {{"de2000_p99", comparison.value("ciede2000.p99")},
+                      {"de2000_mean", comparison.value("ciede2000.mean")},
+                      {"flip_mean", comparison.value("flip.ldr.mean")}};
+    records::CostFacts& facts = variant.facts.emplace();
     facts.rays = rays_record(one.result.work);
     facts.rays_saved = double(rays(cases[0].result.work)) - double(rays(one.result.work));
     facts.seconds_saved = times[0].median - times[i].median;
     facts.work = effects_record(one.result);
-    table.ways.push_back(std::move(way));
+    table.ways.push_back(std::move(variant));
     if (!one.effect.empty())
       table.remarks.push_back(price(table.ways.back(), table.ways[0], one, cases[0]));
   }

@@ -1,18 +1,18 @@
 // Whole programs on the same picture: ours, POV-Ray, Cycles and the formulas in double, against the formulas in
 // 50 digits.
-#include "studies/cost/engine_benchmark.hpp"
-#include "core/error_time_chart.hpp"
+#include "studies/cost/benchmarks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <memory>
 
 #include "compare/compare.hpp"
+#include "core/colour.hpp"
 #include "core/error.hpp"
+#include "core/error_time_chart.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
@@ -22,16 +22,14 @@
 #include "reference_scenes/engine.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/scene/scene_io.hpp"
-#include "studies/cost/engine_program.hpp"
-#include "studies/cost/film_size.hpp"
-#include "studies/cost/report.hpp"
+#include "studies/cost/scenes.hpp"
 
 namespace lobelia::cost {
 namespace {
 
 constexpr std::array kStages = {"start", "parse", "trace", "write"};
 
-/// One picture, and where its time went; a stage that is not told is not there.
+/// One picture and its times; only the stages that the program reports.
 struct Made {
   Image image;
   double seconds = 0;
@@ -47,7 +45,7 @@ struct Contender {
   std::map<std::string, std::vector<double>> stages = {};
 };
 
-/// A command of ours as a process, from its start to KIND.exr and KIND.json in `directory`.
+/// Runs a command of ours as a process that writes KIND.exr and KIND.json into `directory`.
 Made run_lobelia(const std::filesystem::path& program, std::vector<std::string> arguments,
                  const std::string& kind, const std::filesystem::path& directory) {
   const auto picture = directory / (kind + ".exr");
@@ -74,7 +72,7 @@ Made make_ours(const std::filesystem::path& program, const std::filesystem::path
   return made;
 }
 
-/// An engine that is part of our program.
+/// By an engine that is part of our program.
 Made make_built_in(const std::filesystem::path& program, std::string_view engine,
                    const std::filesystem::path& directory) {
   Made made = run_lobelia(
@@ -85,7 +83,7 @@ Made make_built_in(const std::filesystem::path& program, std::string_view engine
   return made;
 }
 
-/// From the call to the picture in memory.
+/// By an engine's program, from the call to the picture in memory.
 Made make_theirs(Engine& engine, const Scene& scene, const ReferenceOptions& options) {
   ReferenceResult result;
   const double seconds = seconds_of([&] { result = Session(engine, options).render(scene); });
@@ -100,7 +98,7 @@ Made make_theirs(Engine& engine, const Scene& scene, const ReferenceOptions& opt
   return made;
 }
 
-/// By the formulas in 50 digits: the engine that is part of our program, in its finer format.
+/// The formulas in 50 digits: the built-in engine, in its finer format.
 Made make_truth(const Scene& scene) {
   const auto infos = engine_infos();
   const auto formulas = std::ranges::find(infos, false, &EngineInfo::is_program);
@@ -109,7 +107,7 @@ Made make_truth(const Scene& scene) {
   return make_theirs(*make_engine(formulas->name, {}), scene, how);
 }
 
-/// With the truth where two programs that are both right may differ by the whole of a pixel.
+/// With the truth at edges, where two correct programs may differ by a whole pixel.
 Image without_edges(Image image, const Image& truth, const std::vector<std::uint8_t>& edges) {
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (edges[i])
@@ -117,26 +115,23 @@ Image without_edges(Image image, const Image& truth, const std::vector<std::uint
   return image;
 }
 
-/// All that can show the scene, which must outlive them; `table` is told why others cannot.
+/// All programs that can render the scene, which must outlive them; `table` gets the reasons why others cannot.
 std::vector<Contender> contenders(const Scene& scene, const std::filesystem::path& directory,
                                   const Options& options, Table& table) {
   std::vector<Contender> all;
-  const auto ours = named_program(options, "lobelia");
+  const auto ours = options.program("lobelia");
   all.push_back({"ours", {{"engine", "lobelia"}, {"precision", "sufficient"}}, [ours, directory] {
                    return make_ours(ours, directory);
                  }});
   for (const EngineInfo& info : engine_infos()) {
     // The formulas in their finer digits are the truth itself.
     const bool fine_too = !info.fine.empty() && info.is_program;
-    const std::shared_ptr<Engine> engine =
-        make_engine(info.name, named_program(options, info.name));
+    const std::shared_ptr<Engine> engine = make_engine(info.name, options.program(info.name));
     ReferenceOptions how;
     how.stages = true;
-    if (const EngineStatus& status = engine->status(); !status.available()) {
-      table.remarks.push_back(fmt::format("without {}: {}", info.title, status.why));
-      continue;
-    }
-    if (const std::string why = engine->why_not(scene, how); !why.empty()) {
+    const EngineStatus& status = engine->status();
+    if (const std::string why = status.available() ? engine->why_not(scene, how) : status.why;
+        !why.empty()) {
       table.remarks.push_back(fmt::format("without {}: {}", info.title, why));
       continue;
     }
@@ -157,41 +152,42 @@ std::vector<Contender> contenders(const Scene& scene, const std::filesystem::pat
   return all;
 }
 
-Variant way_of(Contender& one, const Image& truth, const std::vector<std::uint8_t>& edges,
-               const ComparisonOptions& seen) {
+Variant measured_contender(Contender& one, const Image& truth,
+                           const std::vector<std::uint8_t>& edges, const ComparisonOptions& seen) {
   const Comparison comparison = compare(without_edges(one.last.image, truth, edges), truth, seen);
-  Variant way;
-  way.name = one.name;
-  way.settings = one.settings;
-  way.seconds = seconds_record(summary(one.seconds));
-  way.errors = {{"max_rel_peak", comparison.value("max_rel_peak")},
-                {"de2000_p99", comparison.value("ciede2000.p99")}};
+  Variant variant;
+  variant.name = one.name;
+  variant.settings = one.settings;
+  variant.seconds = seconds_record(summary(one.seconds));
+  variant.errors = {{"max_rel_peak", comparison.value("max_rel_peak")},
+                    {"de2000_p99", comparison.value("ciede2000.p99")}};
   records::Named<double> stages;
   for (const auto& [stage, seconds] : one.stages)
     stages.emplace_back(stage, summary(seconds).median);
-  if (!stages.empty()) way.facts.emplace().stage_seconds = std::move(stages);
-  return way;
+  if (!stages.empty()) variant.facts.emplace().stage_seconds = std::move(stages);
+  return variant;
 }
 
 /// "start 12.0 ms, parse 0.10 ms, ..."
-std::string stages_text(const Variant& way) {
+std::string stages_text(const Variant& variant) {
   std::string text;
   double told = 0;
-  const auto stages = way.facts ? way.facts->stage_seconds : std::nullopt;
+  const auto stages = variant.facts ? variant.facts->stage_seconds : std::nullopt;
   for (const char* stage : kStages)
     if (const double* seconds = stages ? records::find(*stages, stage) : nullptr) {
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", stage, short_time_text(*seconds));
       told += *seconds;
     }
   if (text.empty())
-    return fmt::format("{}: {}, not told apart", way.name, short_time_text(way.seconds->median));
-  const double rest = way.seconds->median - told;
-  if (rest > 0.02 * way.seconds->median)
+    return fmt::format("{}: {}, not told apart", variant.name,
+                       short_time_text(variant.seconds->median));
+  const double rest = variant.seconds->median - told;
+  if (rest > 0.02 * variant.seconds->median)
     text += fmt::format(", all else {}", short_time_text(rest));
-  return fmt::format("{}: {}", way.name, text);
+  return fmt::format("{}: {}", variant.name, text);
 }
 
-/// What our own picture may be off by outside the edges; more is a mistake.
+/// The most that our own picture may be off outside the edges.
 constexpr double kMostError = 1e-4;
 
 Table measure_scene(const NamedScene& named, const Options& options) {
@@ -227,14 +223,14 @@ Table measure_scene(const NamedScene& named, const Options& options) {
     }
 
   ComparisonOptions seen;
-  if (const double peak = peak_value(truth.image); peak > 0)
-    seen.viewing.exposure_stops = -std::log2(peak);
-  for (Contender& one : all) table.ways.push_back(way_of(one, truth.image, edges, seen));
+  seen.viewing.exposure_stops = exposure_for_peak(peak_value(truth.image));
+  for (Contender& one : all)
+    table.ways.push_back(measured_contender(one, truth.image, edges, seen));
   if (!(table.ways[0].errors[0].second <= kMostError))
     throw Error(ExitCode::kInternal,
                 fmt::format("engine: our picture of {} is off by {:.2g} of the peak", named.name,
                             table.ways[0].errors[0].second));
-  for (const Variant& way : table.ways) table.remarks.push_back(stages_text(way));
+  for (const Variant& variant : table.ways) table.remarks.push_back(stages_text(variant));
   table.remarks.push_back(fmt::format(
       "times are of whole processes, all of an engine's passes included; errors are to the formulas in 50 "
       "digits, which took {}, rounded to float32 as all pictures are (6e-8 of a value), seen with the peak as white, without the {} pixels at edges where a rounding "

@@ -1,6 +1,5 @@
 #include "studies/cost/fixed_point.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 

@@ -1,10 +1,14 @@
-// Lobes as a circuit of whole numbers computes them: fractions of f bits, and after each product f bits again.
-// Emulated exactly.
+// Lobes computed by a circuit in fixed point, emulated exactly: their error by the number of bits, and the number of
+// one-bit operations.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "studies/cost/table.hpp"
 
 namespace lobelia::cost {
 
@@ -18,9 +22,9 @@ struct FixedPoint {
 
   std::uint64_t one() const { return std::uint64_t(1) << bits; }
   double value(std::uint64_t x) const { return double(x) / double(one()); }
-  /// What is left of a b, both at most 1.
+  /// a b rounded to f bits, both at most 1.
   std::uint64_t product(std::uint64_t a, std::uint64_t b) const;
-  /// s in [0, 1] as it comes from a dot product of f bits: 1 less the rounded cosine.
+  /// s in [0, 1] from a dot product of f bits: 1 - the rounded cosine.
   std::uint64_t one_minus_cos(double s) const;
 };
 
@@ -31,14 +35,13 @@ std::uint64_t fixed_cs(FixedPoint f, unsigned n, int k, std::uint64_t s);
 /// cos^n itself by binary powering of 1 - s, n >= 1.
 std::uint64_t fixed_power(FixedPoint f, unsigned n, std::uint64_t s);
 
-/// cos^n from a table over the highlight, linearly in between; 0 beyond.
+/// cos^n from a table over the highlight with linear interpolation; 0 beyond.
 class FixedTable {
  public:
-  /// 2^address_bits intervals over s from 0 to the least power of 2 that is no smaller than
-  /// highlight_end(n).
+  /// 2^address_bits intervals over s from 0 to the least power of 2 >= highlight_end(n).
   FixedTable(FixedPoint f, unsigned n, int address_bits);
   std::uint64_t value(std::uint64_t s) const;
-  /// Whether f bits have anything to tell within an interval; below this they would not fill its address.
+  /// Whether f bits are more than the address of an interval.
   static bool fits(FixedPoint f, unsigned n, int address_bits);
   int bits_within() const { return bits_within_; }  ///< of s between two entries
 
@@ -48,11 +51,38 @@ class FixedTable {
   std::vector<std::uint64_t> entries_;
 };
 
-/// One-bit operations: a product of a and b bits takes a b of them, a sum or a comparison as many as it has
-/// bits, reading one of N entries as many as N entries have. Rounding to nearest is a carry that a product
-/// takes in, and free.
+/// One-bit operations: a b for a product of a and b bits, one per bit for a sum or a comparison, and all bits of N
+/// entries to read one of them. Rounding to nearest is a carry into a product, and free.
 double fixed_cs_operations(FixedPoint f, unsigned n, int k);
 double fixed_power_operations(FixedPoint f, unsigned n);
 double fixed_table_operations(FixedPoint f, const FixedTable& table, int address_bits);
+
+/// A circuit and its function without rounding.
+struct Circuit {
+  std::string what;  ///< "cs16"
+  FixedPoint f;
+  double operations;
+  double most_rounding;  ///< a bound of the sum of its roundings, that of s included
+  std::function<std::uint64_t(std::uint64_t s)> value;
+  std::function<double(double s)> ideal;
+};
+Circuit cs_circuit(FixedPoint f, unsigned n, int k);
+Circuit power_circuit(FixedPoint f, unsigned n);
+
+/// If a circuit has more steps than this in the highlight, two from each of kCells equal parts are measured.
+inline constexpr std::uint64_t kMostSteps = 1 << 17, kCells = 1 << 15;
+
+/// Errors relative to the peak, over s from 0 to highlight_end: `shape` of the ideal against cos^n, `rounding` of the
+/// circuit against its ideal, and `quantisation`, a part of it, of the ideal at the quantised s.
+struct CircuitErrors : records::CircuitErrors {
+  double max = 0;     ///< of the circuit against cos^n
+  double rms = 0;     ///< the same, root mean square
+  double energy = 0;  ///< the same of the integral, relative
+  /// Where not all steps are measured: a bound of `max`, and standard errors of the two sums. Else `max`, and 0.
+  double max_at_most = 0, rms_spread = 0, energy_spread = 0;
+};
+CircuitErrors circuit_errors(const Circuit& circuit, unsigned n);
+
+Table fixed_point_table(unsigned n, const std::vector<int>& bits);
 
 }  // namespace lobelia::cost

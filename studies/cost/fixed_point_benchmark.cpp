@@ -1,7 +1,6 @@
-#include "studies/cost/fixed_point_benchmark.hpp"
+#include "studies/cost/fixed_point.hpp"
 
 #include <fmt/format.h>
-
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,7 +11,7 @@
 #include <random>
 
 #include "core/interrupt.hpp"
-
+#include "studies/cost/benchmarks.hpp"
 #include "studies/cost/lobe_errors.hpp"
 
 namespace lobelia::cost {
@@ -20,9 +19,9 @@ namespace {
 
 constexpr int kLeastBits = 6, kMostBits = 32;
 constexpr FixedRounding kRoundings[] = {FixedRounding::kNearest, FixedRounding::kTruncate};
-/// An integral over a step is Simpson's, in pieces over which the exponent changes by this: right to 1e-6 of itself.
+/// Steps are integrated by Simpson's rule in pieces over which the exponent changes by this: exact to 1e-6.
 constexpr double kPiece = 1 / 256.0;
-/// More bits are wasted once the error is within this of what the shape alone makes.
+/// More bits are wasted once the error is within this of the shape's.
 constexpr double kNothingMore = 0.05;
 
 PreparedLobe cosine(unsigned n) { return prepare(*find_lobe("cosine"), n); }
@@ -38,7 +37,7 @@ Circuit table_circuit(FixedPoint f, unsigned n, int address_bits) {
   return {
       fmt::format("table of {}", 1 << address_bits), f,
       fixed_table_operations(f, *table, address_bits),
-      // s, which the slope makes n times as large, the entries and the product; and what is cut off.
+      // The roundings of s, n times as large by the slope, of the entries and of the product; and the part cut off.
       unit(f) * (n + 1.0) + std::exp2(-f.bits - 1) + cosine(n).value(range),
       [table](std::uint64_t s) { return table->value(s); },
       [truth = cosine(n).value, step, range](double s) {
@@ -54,7 +53,7 @@ std::vector<Circuit> circuits(unsigned n, const std::vector<int>& bits) {
   for (const FixedRounding rounding : kRoundings)
     for (const int count : bits) {
       const FixedPoint f{count, rounding};
-      // Those of the catalogue that squarings alone make.
+      // The lobes of the catalogue that need squarings alone.
       for (const LobeId lobe : all_lobes())
         if (lobe.order > 0 && (lobe.order & (lobe.order - 1)) == 0)
           all.push_back(cs_circuit(f, n, lobe.order));
@@ -65,20 +64,21 @@ std::vector<Circuit> circuits(unsigned n, const std::vector<int>& bits) {
   return all;
 }
 
-Variant row(const Circuit& circuit, const CircuitErrors& e) {
+Variant circuit_variant(const Circuit& circuit, const CircuitErrors& e) {
   const std::string rounding(name(circuit.f.rounding));
-  Variant way;
-  way.name = fmt::format("{}, {} bits, {}", circuit.what, circuit.f.bits, rounding);
-  way.settings = {
+  Variant variant;
+  variant.name = fmt::format("{}, {} bits, {}", circuit.what, circuit.f.bits, rounding);
+  variant.settings = {
       {"lobe", circuit.what}, {"bits", std::to_string(circuit.f.bits)}, {"rounding", rounding}};
-  way.count = circuit.operations;
-  way.errors = {{"max", e.max}, {"rms", e.rms}, {"energy", e.energy}};
-  way.facts.emplace().circuit = e;
+  variant.count = circuit.operations;
+  variant.errors = {{"max", e.max}, {"rms", e.rms}, {"energy", e.energy}};
+  variant.facts.emplace().circuit = e;
   if (e.steps_looked_at < e.steps) {
-    way.errors_at_most.emplace() = {{"max", e.max_at_most}};
-    way.error_spreads.emplace() = {{"max", 0}, {"rms", e.rms_spread}, {"energy", e.energy_spread}};
+    variant.errors_at_most.emplace() = {{"max", e.max_at_most}};
+    variant.error_spreads.emplace() = {
+        {"max", 0}, {"rms", e.rms_spread}, {"energy", e.energy_spread}};
   }
-  return way;
+  return variant;
 }
 
 std::vector<CircuitErrors> errors_of_all(const std::vector<Circuit>& circuits, unsigned n) {
@@ -101,7 +101,7 @@ struct OverBits {
       circuits.push_back(make(FixedPoint{bits, rounding}));
     errors = errors_of_all(circuits, n);
   }
-  /// From how many bits on it holds of the errors, if of any.
+  /// The first place from which on it holds of all errors, if any.
   template <class Holds>
   std::optional<std::size_t> from(Holds holds) const {
     std::optional<std::size_t> first;
@@ -146,8 +146,8 @@ std::vector<std::string> remarks_of(unsigned n, FixedRounding rounding) {
   return remarks;
 }
 
-/// How far to trust what was not made of all steps.
-void add_remark_of_parts(Table& table, const std::vector<CircuitErrors>& errors) {
+/// How far to trust the errors that were not measured at all steps.
+void add_sampling_remark(Table& table, const std::vector<CircuitErrors>& errors) {
   std::size_t parts = 0;
   double rms = 0, energy = 0;
   for (const CircuitErrors& e : errors) {
@@ -163,39 +163,13 @@ void add_remark_of_parts(Table& table, const std::vector<CircuitErrors>& errors)
         parts, errors.size(), kMostSteps, 2 * kCells + 2, rms, energy));
 }
 
-}  // namespace
-
-Circuit cs_circuit(FixedPoint f, unsigned n, int k) {
-  const LobeId lobe = *find_lobe(fmt::format("cs{}", k));
-  // s n/k times and the base, which the power makes k times as large; and each squaring, which the later ones make as
-  // large as what is left of k.
-  return {std::string(info(lobe).name),
-          f,
-          fixed_cs_operations(f, n, k),
-          unit(f) * (n + 2.0 * k - 1),
-          [=](std::uint64_t s) { return fixed_cs(f, n, k, s); },
-          prepare(lobe, n).value};
-}
-
-Circuit power_circuit(FixedPoint f, unsigned n) {
-  // s; the squarings, as above; and a product for each bit of n at most.
-  return {"cosine by squaring",
-          f,
-          fixed_power_operations(f, n),
-          unit(f) * (2.0 * n + std::bit_width(n)),
-          [=](std::uint64_t s) { return fixed_power(f, n, s); },
-          cosine(n).value};
-}
-
-namespace {
-
-/// A circuit beside cos^n, step after step.
+/// Compares a circuit with cos^n, step after step.
 class Steps {
  public:
   Steps(const Circuit& circuit, unsigned n)
       : circuit_(circuit), n_(n), end_(highlight_end(n)), truth_(cosine(n).value) {}
 
-  /// The first is 0; the last ends at the highlight's end or beyond.
+  /// The first step is 0; this one ends at the highlight's end or beyond.
   std::uint64_t last() const {
     return std::uint64_t(std::ceil(end_ * double(circuit_.f.one()) - up()));
   }
@@ -204,13 +178,14 @@ class Steps {
   struct Sums {
     double drift = 0, square = 0;
   };
-  Sums look(std::uint64_t step, CircuitErrors& errors) const {
+  /// Widens the largest errors.
+  Sums measure(std::uint64_t step, CircuitErrors& errors) const {
     const FixedPoint f = circuit_.f;
     const double value = f.value(circuit_.value(step)), at = circuit_.ideal(f.value(step));
     const auto edge = [&](double x) { return std::clamp(x / double(f.one()), 0.0, end_); };
     const double from = edge(double(step) + up() - 1), to = edge(double(step) + up());
     const auto largest = [](double& most, double error) { most = std::max(most, std::abs(error)); };
-    // A step's value is one number and cos^n falls: it is farthest off at the ends.
+    // The value is constant over a step and cos^n falls, so that the error is largest at the ends.
     const auto error_at = [&](double s) {
       const double ideal = circuit_.ideal(s), truth = truth_(s);
       largest(errors.max, value - truth);
@@ -242,30 +217,52 @@ class Steps {
 
 }  // namespace
 
+Circuit cs_circuit(FixedPoint f, unsigned n, int k) {
+  const LobeId lobe = *find_lobe(fmt::format("cs{}", k));
+  // The roundings of s and of the base, k times as large by the power, and of each squaring, as much larger as the
+  // later ones make it.
+  return {std::string(info(lobe).name),
+          f,
+          fixed_cs_operations(f, n, k),
+          unit(f) * (n + 2.0 * k - 1),
+          [=](std::uint64_t s) { return fixed_cs(f, n, k, s); },
+          prepare(lobe, n).value};
+}
+
+Circuit power_circuit(FixedPoint f, unsigned n) {
+  // The roundings of s, of the squarings as above, and of at most a product for each bit of n.
+  return {"cosine by squaring",
+          f,
+          fixed_power_operations(f, n),
+          unit(f) * (2.0 * n + std::bit_width(n)),
+          [=](std::uint64_t s) { return fixed_power(f, n, s); },
+          cosine(n).value};
+}
+
 CircuitErrors circuit_errors(const Circuit& circuit, unsigned n) {
   const Steps all(circuit, n);
   const double end = highlight_end(n);
   CircuitErrors errors;
   double drift = 0, square = 0, drift_variance = 0, square_variance = 0;
-  const auto look = [&](std::uint64_t step) {
+  const auto measure = [&](std::uint64_t step) {
     ++errors.steps_looked_at;
-    return all.look(step, errors);
+    return all.measure(step, errors);
   };
   const auto add = [&](const Steps::Sums& sums) { drift += sums.drift, square += sums.square; };
   const std::uint64_t last = all.last();
   errors.steps = last + 1;
   if (errors.steps <= kMostSteps) {
-    for (std::uint64_t step = 0; step <= last; ++step) add(look(step));
+    for (std::uint64_t step = 0; step <= last; ++step) add(measure(step));
   } else {
-    // The first and the last may be cut; of the others two of each cell stand for it, at places of no pattern: the
-    // roundings of a circuit have many.
-    add(look(0)), add(look(last));
+    // The first and the last may be cut. Of the others, two at random stand for each cell: the roundings of a circuit
+    // have patterns.
+    add(measure(0)), add(measure(last));
     std::mt19937_64 random(errors.steps);
     for (std::uint64_t cell = 0; cell < kCells; ++cell) {
       const std::uint64_t from = 1 + (last - 1) * cell / kCells,
                           size = 1 + (last - 1) * (cell + 1) / kCells - from;
       const std::uint64_t i = random() % size, j = (i + 1 + random() % (size - 1)) % size;
-      const Steps::Sums a = look(from + i), b = look(from + j);
+      const Steps::Sums a = measure(from + i), b = measure(from + j);
       const double half = double(size) / 2;
       add({half * (a.drift + b.drift), half * (a.square + b.square)});
       const auto squared = [&](double difference) { return std::pow(half * difference, 2); };
@@ -292,10 +289,11 @@ Table fixed_point_table(unsigned n, const std::vector<int>& bits) {
   table.errors = lobe_error_kinds();
   const std::vector<Circuit> tried = circuits(n, bits);
   const std::vector<CircuitErrors> errors = errors_of_all(tried, n);
-  for (std::size_t i = 0; i < tried.size(); ++i) table.ways.push_back(row(tried[i], errors[i]));
+  for (std::size_t i = 0; i < tried.size(); ++i)
+    table.ways.push_back(circuit_variant(tried[i], errors[i]));
   for (const FixedRounding rounding : kRoundings)
     for (std::string& remark : remarks_of(n, rounding)) table.remarks.push_back(std::move(remark));
-  add_remark_of_parts(table, errors);
+  add_sampling_remark(table, errors);
   return table;
 }
 

@@ -1,38 +1,35 @@
-#include "studies/cost/lobe_benchmark.hpp"
-#include "core/error_time_chart.hpp"
+#include "studies/cost/benchmarks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <memory>
 
+#include "core/constants.hpp"
 #include "core/error.hpp"
+#include "core/error_time_chart.hpp"
 #include "renderer/catalogue_record.hpp"
-#include "studies/cost/largest_error.hpp"
 #include "studies/cost/lobe_errors.hpp"
-#include "studies/cost/lobe_variants.hpp"
-#include "studies/cost/report.hpp"
 
 namespace lobelia::cost {
 namespace {
 
 constexpr std::size_t kPoints = 1024;     // in the first-level cache
-constexpr double kSecondsAtATime = 5e-5;  // a thousand times what the clock can tell apart
+constexpr double kSecondsAtATime = 5e-5;  // a thousand times the clock's resolution
 constexpr std::size_t kMostRepeats = 4096;
 
-/// That are looked at for the largest error of a way; of float32 there are some 2^28.
+/// Numbers evaluated to find the largest error of a variant; float32 has some 2^28.
 constexpr std::uint64_t kMostNumbersQuick = 1 << 20, kMostNumbers64 = 1 << 22,
-                        kAll = ~std::uint64_t(0);
+                        kAllNumbers = ~std::uint64_t(0);
 
-/// Points across the highlight, and a way's values of them.
+/// Points across the highlight, and a variant's values there.
 struct Points {
   alignas(64) double s[kPoints], value[kPoints];
   alignas(64) float s32[kPoints], value32[kPoints];
   explicit Points(double exponent) {
-    // Where the lobes are neither 1 nor 0; in an order that no predictor of branches learns.
+    // Where the lobes are neither 1 nor 0; in an order that no branch predictor learns.
     for (std::size_t i = 0; i < kPoints; ++i)
       s[i] = s32[i] = float(highlight_end(exponent) / 2 * double(i * 389 % kPoints) / kPoints);
   }
@@ -40,7 +37,7 @@ struct Points {
 
 std::string exponent_text(double exponent) { return fmt::format("{:.15g}", exponent); }
 
-/// A compiler must take it that someone reads what was written.
+/// Keeps the compiler from removing the writes.
 void keep(const void* written) { asm volatile("" ::"r"(written) : "memory"); }
 
 struct LobeCase {
@@ -49,7 +46,7 @@ struct LobeCase {
   std::size_t repeats;
 };
 
-/// `once` so often that the clock is no part of what is measured.
+/// Repeats `once` until the clock's resolution does not matter.
 LobeCase repeated(std::shared_ptr<Points> points, std::function<void()> once) {
   once();
   const double seconds = std::max(seconds_of(once), 1e-8);
@@ -62,20 +59,20 @@ LobeCase repeated(std::shared_ptr<Points> points, std::function<void()> once) {
           repeats};
 }
 
-LobeCase case_of(const LobeVariant& way, double exponent) {
+LobeCase case_of(const LobeVariant& variant, double exponent) {
   const auto p = std::make_shared<Points>(exponent);
-  if (way.wide)
-    return repeated(p, [&way, p] {
-      way.over64(kPoints, p->s, p->value);
+  if (variant.wide)
+    return repeated(p, [&variant, p] {
+      variant.over64(kPoints, p->s, p->value);
       keep(p->value);
     });
-  return repeated(p, [&way, p] {
-    way.over32(kPoints, p->s32, p->value32);
+  return repeated(p, [&variant, p] {
+    variant.over32(kPoints, p->s32, p->value32);
     keep(p->value32);
   });
 }
 
-/// Reading and writing as many numbers: what no way can be faster than.
+/// Reading and writing as many numbers: no variant can be faster.
 LobeCase copying(double exponent) {
   const auto p = std::make_shared<Points>(exponent);
   return repeated(p, [p] {
@@ -84,67 +81,67 @@ LobeCase copying(double exponent) {
   });
 }
 
-/// What was timed were the lobe's values.
-void check(const LobeVariant& way, double exponent, const Points& points) {
+/// Throws Error(kInternal) unless the timed values are the lobe's.
+void check(const LobeVariant& variant, double exponent, const Points& points) {
   for (std::size_t i = 0; i < kPoints; ++i) {
-    const double value = way.wide ? points.value[i] : double(points.value32[i]);
-    const double truth = lobe_value(way.lobe, points.s[i], exponent);
-    if (!(std::abs(value - truth) <= way.allowed + 1e-13))
+    const double value = variant.wide ? points.value[i] : double(points.value32[i]);
+    const double truth = lobe_value(variant.lobe, points.s[i], exponent);
+    if (!(std::abs(value - truth) <= variant.allowed + 1e-13))
       throw Error(ExitCode::kInternal,
-                  fmt::format("{}, timed at n = {}, is {} at s = {} in place of {}", way.name(),
+                  fmt::format("{}, timed at n = {}, is {} at s = {} in place of {}", variant.name(),
                               exponent_text(exponent), value, points.s[i], truth));
   }
 }
 
-Variant row(const LobeVariant& way, const LobeVariantErrors& errors, const LargestError& largest,
-            const Times& times) {
+Variant measured_lobe(const LobeVariant& variant, const LobeVariantErrors& errors,
+                      const LargestError& largest, const Times& times) {
   Variant made;
-  made.name = way.name();
-  made.settings = {{"lobe", std::string(info(way.lobe).name)},
-                   {"method", way.method},
-                   {"precision", way.wide ? "float64" : "float32"},
-                   {"lanes", way.simd ? "SIMD" : "scalar"}};
+  made.name = variant.name();
+  made.settings = {{"lobe", std::string(info(variant.lobe).name)},
+                   {"method", variant.method},
+                   {"precision", variant.wide ? "float64" : "float32"},
+                   {"lanes", variant.simd ? "SIMD" : "scalar"}};
   made.seconds = seconds_record(times);
   made.errors = {{"max", largest.found}, {"rms", errors.all.rms}, {"energy", errors.all.energy}};
   records::CostFacts& facts = made.facts.emplace();
-  facts.operations = operations_record(way.operations);
+  facts.operations = operations_record(variant.operations);
   facts.shape = errors.shape;
   facts.rounding = errors.rounding;
-  facts.rounding->max_at_most = way.allowed;
+  facts.rounding->max_at_most = variant.allowed;
   facts.numbers_looked_at = largest.numbers;
   if (largest.at_most > largest.found) made.errors_at_most.emplace() = {{"max", largest.at_most}};
   return made;
 }
 
-/// Whether its shape or its rounding makes more of a way's largest error.
-std::vector<std::string> what_limits(const std::vector<LobeVariant>& ways,
-                                     const std::vector<LobeVariantErrors>& errors) {
-  std::size_t shaped = 0;
-  double most = 0, least_rounding = std::numeric_limits<double>::infinity(), most_rounding = 0;
+/// Whether shape or rounding dominates the variants' largest errors.
+std::vector<std::string> limit_remarks(const std::vector<LobeVariant>& variants,
+                                       const std::vector<LobeVariantErrors>& errors) {
+  std::size_t by_shape = 0;
+  double most = 0, least_rounding = kInfinity, most_rounding = 0;
   std::string shaped_by, rounded_by, least_by;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
+  for (std::size_t i = 0; i < variants.size(); ++i) {
     const double shape = errors[i].shape.max, rounding = errors[i].rounding.max;
     if (shape > rounding) {
-      ++shaped;
-      if (rounding / shape >= most) most = rounding / shape, shaped_by = ways[i].name();
+      ++by_shape;
+      if (rounding / shape >= most) most = rounding / shape, shaped_by = variants[i].name();
       continue;
     }
-    if (rounding < least_rounding) least_rounding = rounding, least_by = ways[i].name();
-    if (rounding > most_rounding) most_rounding = rounding, rounded_by = ways[i].name();
+    if (rounding < least_rounding) least_rounding = rounding, least_by = variants[i].name();
+    if (rounding > most_rounding) most_rounding = rounding, rounded_by = variants[i].name();
   }
   std::vector<std::string> remarks{
       fmt::format("The shape limits {} of {} ways: the most rounding seen is {:.2g} of it ({}).",
-                  shaped, ways.size(), most, shaped_by)};
-  if (shaped < ways.size())
+                  by_shape, variants.size(), most, shaped_by)};
+  if (by_shape < variants.size())
     remarks.push_back(fmt::format(
         "Of the other {} the rounding is the larger error: seen from {:.2g} ({}) to {:.2g} ({}).",
-        ways.size() - shaped, least_rounding, least_by, most_rounding, rounded_by));
+        variants.size() - by_shape, least_rounding, least_by, most_rounding, rounded_by));
   return remarks;
 }
 
-std::string what_is_a_bracket(const Table& table) {
+std::string bracket_remark(const Table& table) {
   const auto brackets = std::ranges::count_if(
-      table.ways, [](const Variant& way) { return way.errors_at_most.has_value(); });
+      table.ways, [](const Variant& variant) { return variant.errors_at_most.has_value(); });
   if (brackets == 0) return "";
   return fmt::format(
       "The max of {} ways is of all float32 numbers s, that of {} a bracket: the largest found, and a bound that no "
@@ -152,9 +149,9 @@ std::string what_is_a_bracket(const Table& table) {
       std::ssize(table.ways) - brackets, brackets);
 }
 
-std::string what_bounds_the_time(const Table& table, double copy) {
-  double fastest = std::numeric_limits<double>::infinity();
-  for (const Variant& way : table.ways) fastest = std::min(fastest, way.seconds->median);
+std::string time_remark(const Table& table, double copy) {
+  double fastest = kInfinity;
+  for (const Variant& variant : table.ways) fastest = std::min(fastest, variant.seconds->median);
   return fmt::format(
       "Reading s and writing a value takes {} in float32; the fastest way takes {:.1f} times that.",
       short_time_text(copy), fastest / copy);
@@ -163,9 +160,9 @@ std::string what_bounds_the_time(const Table& table, double copy) {
 }  // namespace
 
 Table lobe_table(double exponent, int rounds, bool quick) {
-  const std::vector<LobeVariant> ways = lobe_variants(exponent);
+  const std::vector<LobeVariant> variants = lobe_variants(exponent);
   std::vector<LobeCase> cases;
-  for (const LobeVariant& way : ways) cases.push_back(case_of(way, exponent));
+  for (const LobeVariant& variant : variants) cases.push_back(case_of(variant, exponent));
   cases.push_back(copying(exponent));
   std::vector<std::function<void()>> works;
   for (const LobeCase& timed : cases) works.push_back(timed.work);
@@ -182,20 +179,21 @@ Table lobe_table(double exponent, int rounds, bool quick) {
   table.errors = lobe_error_kinds();
   const LobeTruth truth(exponent);
   std::vector<LobeVariantErrors> errors;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    check(ways[i], exponent, *cases[i].points);
-    errors.push_back(truth.errors(ways[i]));
-    const std::uint64_t most = ways[i].of_cosine ? kAll
-                               : quick           ? kMostNumbersQuick
-                               : ways[i].wide    ? kMostNumbers64
-                                                 : kAll;
-    table.ways.push_back(row(ways[i], errors[i],
-                             largest_error(ways[i], exponent, errors[i].all.max, most), each(i)));
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    check(variants[i], exponent, *cases[i].points);
+    errors.push_back(truth.errors(variants[i]));
+    const std::uint64_t most = variants[i].of_cosine ? kAllNumbers
+                               : quick               ? kMostNumbersQuick
+                               : variants[i].wide    ? kMostNumbers64
+                                                     : kAllNumbers;
+    table.ways.push_back(
+        measured_lobe(variants[i], errors[i],
+                      largest_error(variants[i], exponent, errors[i].all.max, most), each(i)));
   }
-  table.remarks = what_limits(ways, errors);
-  if (const std::string brackets = what_is_a_bracket(table); !brackets.empty())
+  table.remarks = limit_remarks(variants, errors);
+  if (const std::string brackets = bracket_remark(table); !brackets.empty())
     table.remarks.push_back(brackets);
-  table.remarks.push_back(what_bounds_the_time(table, each(ways.size()).median));
+  table.remarks.push_back(time_remark(table, each(variants.size()).median));
   return table;
 }
 

@@ -1,4 +1,4 @@
-#include "studies/cost/lobe_lanes.hpp"
+#include "studies/cost/lobe_variants.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "studies/cost/lobe_lanes.cpp"

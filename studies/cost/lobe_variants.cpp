@@ -1,4 +1,4 @@
-// Compiled without vectorisation (CMakeLists.txt): what is called scalar is that.
+// Compiled without vectorisation (CMakeLists.txt), so that scalar variants stay scalar.
 #include "studies/cost/lobe_variants.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 
 #include "renderer/lobes/catalogue.hpp"
 #include "studies/cost/binary_power.hpp"
-#include "studies/cost/lobe_lanes.hpp"
 
 namespace lobelia::cost {
 namespace {
@@ -33,125 +32,112 @@ auto scalar(F f) {
   };
 }
 
-/// One whose function is of arrays of T.
+using Variants = std::vector<LobeVariant>;
+
+/// `over` is a function of arrays of T.
 template <class T, class Over>
-LobeVariant way_over(LobeId lobe, std::string method, bool simd, OperationCount operations,
-                     double allowed, Over over) {
+LobeVariant& add(Variants& all, LobeId lobe, std::string method, bool simd,
+                 OperationCount operations, double allowed, Over over) {
   constexpr bool kWide = std::is_same_v<T, double>;
-  LobeVariant way{lobe, std::move(method), kWide, simd, operations, allowed, false, {}, {}};
+  LobeVariant& variant = all.emplace_back(
+      LobeVariant{lobe, std::move(method), kWide, simd, operations, allowed, false, {}, {}});
   if constexpr (kWide)
-    way.over64 = over;
+    variant.over64 = over;
   else
-    way.over32 = over;
-  return way;
+    variant.over32 = over;
+  return variant;
 }
 
 template <class T, class F>
-LobeVariant scalar_way(LobeId lobe, std::string method, OperationCount operations, double allowed,
-                       F f) {
-  return way_over<T>(lobe, std::move(method), false, operations, allowed, scalar<T>(f));
+LobeVariant& add_scalar(Variants& all, LobeId lobe, std::string method, OperationCount operations,
+                        double allowed, F f) {
+  return add<T>(all, lobe, std::move(method), false, operations, allowed, scalar<T>(f));
 }
 
-/// The catalogue's own form by registers of T.
-template <class T>
-LobeVariant stable_way(LobeId lobe, std::string method, double exponent, double allowed) {
-  return way_over<T>(lobe, std::move(method), true, operations(lobe), allowed,
-                     [=](std::size_t count, const T* s, T* value) {
-                       lobe_lanes(lobe, exponent, count, s, value);
-                     });
-}
-
-/// Of a formula of the cosine, with 1 - s and the cut.
+/// The operations of a formula of the cosine, with 1 - s and the cut.
 OperationCount textbook_from_s(LobeId lobe) {
   OperationCount count = textbook_operations(lobe);
   ++count.add, ++count.compare;
   return count;
 }
 
-void add_of_cosine(LobeVariant way, std::vector<LobeVariant>& ways) {
-  way.of_cosine = !way.wide;
-  ways.push_back(std::move(way));
-}
-
 constexpr auto kTimes = [](auto a, auto b) { return a * b; };
 
-/// That of 1 - s is made n times as large; std::pow is within a unit in the last place, and n may be rounded.
+/// The rounding of 1 - s, n times as large; std::pow is within a unit in the last place, and n may be rounded.
 template <class T>
 double power_allowed(double exponent) {
   return (exponent + 3) * kHalfUnit<T>;
 }
 
-/// What a catalogued lobe has: our stable form, scalar and by registers, and the textbook's in float32.
+/// Our stable form, scalar and by registers, and the textbook's in float32.
 template <class L>
-void add_catalogued(LobeId id, double exponent, std::vector<LobeVariant>& ways) {
+void add_catalogued(LobeId id, double exponent, Variants& all) {
   const L lobe({exponent, id.order});
   constexpr bool kCosine = std::is_same_v<L, CosineLobe>;
   const std::string stable = kCosine ? "exp(n log1p(-s))" : "stable";
-  // The rounding of float64 is as much smaller than float32's as its numbers are longer. The slope of a cs_k is then
-  // rounded too, and the angle of Gauss comes from an inverse sine.
+  // Scaled by the formats' roundings. In float64 the slope of a cs_k is rounded too, and the angle of Gauss comes from
+  // an inverse sine.
   const double of_peak32 = lobe_float32_error(id, exponent).of_peak;
   const double of_peak64 = (kCosine ? 1 : 2) * of_peak32 * kRounding64 / kRounding32;
-  ways.push_back(scalar_way<double>(id, stable, operations(id), of_peak64,
-                                    [lobe](double s) { return lobe.value(s); }));
-  ways.push_back(stable_way<double>(id, stable, exponent, of_peak64));
-  ways.push_back(stable_way<float>(id, stable, exponent, of_peak32));
-  // 1 - s is rounded, which a textbook's power, arc cosine or difference makes n times as large.
+  const auto lanes = [=](std::size_t count, const auto* s, auto* value) {
+    lobe_lanes(id, exponent, count, s, value);
+  };
+  add_scalar<double>(all, id, stable, operations(id), of_peak64,
+                     [lobe](double s) { return lobe.value(s); });
+  add<double>(all, id, stable, true, operations(id), of_peak64, lanes);
+  add<float>(all, id, stable, true, operations(id), of_peak32, lanes);
+  // A textbook's power, arc cosine or difference makes the rounding of 1 - s n times as large.
   const double textbook =
       kCosine ? power_allowed<float>(exponent) : 2 * (exponent + id.order + 8) * kRounding32;
-  add_of_cosine(
-      scalar_way<float>(id, kCosine ? "std::pow" : "textbook", textbook_from_s(id), textbook,
-                        [lobe](float s) {
-                          const float cosine = 1 - s;
-                          return cosine > 0 ? lobe.definition(cosine) : 0.0f;
-                        }),
-      ways);
+  add_scalar<float>(all, id, kCosine ? "std::pow" : "textbook", textbook_from_s(id), textbook,
+                    [lobe](float s) {
+                      const float cosine = 1 - s;
+                      return cosine > 0 ? lobe.definition(cosine) : 0.0f;
+                    })
+      .of_cosine = true;
 }
 
 template <class T>
-void add_powered(LobeId cosine, unsigned n, std::vector<LobeVariant>& ways) {
-  // That of 1 - s is made n times as large, that of its square half as many times and so on; and each bit of n that is
-  // set has a product.
+void add_powered(LobeId cosine, unsigned n, Variants& all) {
+  // The rounding of 1 - s becomes n times as large, that of its square n/2 times and so on; each bit of n that is set
+  // adds a product.
   const double allowed = (2.0 * n + std::bit_width(n)) * kHalfUnit<T>;
+  constexpr bool kOfCosine = std::is_same_v<T, float>;
   OperationCount count;
   count.add = count.compare = 1;
   binary_power(0, n, [&](int, int) { return ++count.multiply; });
-  add_of_cosine(scalar_way<T>(cosine, "squaring", count, allowed,
-                              [n](T s) {
-                                const T c = 1 - s;
-                                return c > 0 ? binary_power(c, n, kTimes) : T(0);
-                              }),
-                ways);
-  add_of_cosine(way_over<T>(cosine, "squaring", true, count, allowed,
-                            [n](std::size_t points, const T* s, T* value) {
-                              squaring_lanes(n, points, s, value);
-                            }),
-                ways);
+  const auto power = [n](T s) {
+    const T c = 1 - s;
+    return c > 0 ? binary_power(c, n, kTimes) : T(0);
+  };
+  const auto lanes = [n](std::size_t points, const T* s, T* value) {
+    squaring_lanes(n, points, s, value);
+  };
+  add_scalar<T>(all, cosine, "squaring", count, allowed, power).of_cosine = kOfCosine;
+  add<T>(all, cosine, "squaring", true, count, allowed, lanes).of_cosine = kOfCosine;
 }
 
-/// The ways of cos^n that are not one of our lobe's.
-void add_cosine(LobeId id, double exponent, std::vector<LobeVariant>& ways) {
-  ways.push_back(
-      scalar_way<double>(id, "std::pow", textbook_from_s(id), power_allowed<double>(exponent),
-                         [exponent](double s) { return s < 1 ? std::pow(1 - s, exponent) : 0.0; }));
-  ways.push_back(scalar_way<float>(
-      id, "exp(n log1p(-s))", operations(id), 8 * kRounding32,
-      [n = float(exponent)](float s) { return s < 1 ? std::exp(n * std::log1p(-s)) : 0.0f; }));
+/// The other variants of cos^n.
+void add_cosine(LobeId id, double exponent, Variants& all) {
+  add_scalar<double>(all, id, "std::pow", textbook_from_s(id), power_allowed<double>(exponent),
+                     [exponent](double s) { return s < 1 ? std::pow(1 - s, exponent) : 0.0; });
+  add_scalar<float>(
+      all, id, "exp(n log1p(-s))", operations(id), 8 * kRounding32,
+      [n = float(exponent)](float s) { return s < 1 ? std::exp(n * std::log1p(-s)) : 0.0f; });
   if (exponent != std::floor(exponent) || exponent < 1 || exponent > 0x1p31) return;
-  const auto n = unsigned(exponent);
-  add_powered<double>(id, n, ways);
-  add_powered<float>(id, n, ways);
+  add_powered<double>(id, unsigned(exponent), all);
+  add_powered<float>(id, unsigned(exponent), all);
 }
 
-/// A cs_k as one would write it without care: one multiply-add in float32, and the squarings.
-void add_cs(LobeId id, double exponent, std::vector<LobeVariant>& ways) {
+/// A cs_k written without care: one multiply-add in float32, and the squarings.
+void add_cs(LobeId id, double exponent, Variants& all) {
   const unsigned k = id.order;
-  ways.push_back(scalar_way<float>(id, "squaring", operations(id), 3.0 * k * kRounding32,
-                                   [k, slope = float(exponent / k)](float s) {
-                                     const float base = 1 - slope * s;
-                                     return base > 0 && s < 1 ? binary_power(base, k, kTimes)
-                                                              : 0.0f;
-                                   }));
-  ways.back().of_cosine = exponent == k;
+  const auto power = [k, slope = float(exponent / k)](float s) {
+    const float base = 1 - slope * s;
+    return base > 0 && s < 1 ? binary_power(base, k, kTimes) : 0.0f;
+  };
+  add_scalar<float>(all, id, "squaring", operations(id), 3.0 * k * kRounding32, power).of_cosine =
+      exponent == k;
 }
 
 }  // namespace
@@ -161,18 +147,30 @@ std::string LobeVariant::name() const {
                      simd ? " SIMD" : "");
 }
 
+std::vector<double> LobeVariant::values(const std::vector<float>& s) const {
+  if (wide) {
+    const std::vector<double> wide_s(s.begin(), s.end());
+    std::vector<double> value(s.size());
+    over64(s.size(), wide_s.data(), value.data());
+    return value;
+  }
+  std::vector<float> value(s.size());
+  over32(s.size(), s.data(), value.data());
+  return {value.begin(), value.end()};
+}
+
 std::vector<LobeVariant> lobe_variants(double exponent) {
-  using Add = void (*)(LobeId, double, std::vector<LobeVariant>&);
+  using Add = void (*)(LobeId, double, Variants&);
   static constexpr auto kAdd = map_types<Add>(Lobes{}, []<class L>() -> Add {
-    return [](LobeId id, double n, std::vector<LobeVariant>& ways) {
-      add_catalogued<L>(id, n, ways);
-      if constexpr (std::is_same_v<L, CosineLobe>) add_cosine(id, n, ways);
-      if constexpr (std::is_same_v<L, CsLobe>) add_cs(id, n, ways);
+    return [](LobeId id, double n, Variants& all) {
+      add_catalogued<L>(id, n, all);
+      if constexpr (std::is_same_v<L, CosineLobe>) add_cosine(id, n, all);
+      if constexpr (std::is_same_v<L, CsLobe>) add_cs(id, n, all);
     };
   });
-  std::vector<LobeVariant> ways;
-  for (const LobeId id : all_lobes()) kAdd.at(id.index)(id, exponent, ways);
-  return ways;
+  Variants all;
+  for (const LobeId id : all_lobes()) kAdd.at(id.index)(id, exponent, all);
+  return all;
 }
 
 }  // namespace lobelia::cost

@@ -1,6 +1,7 @@
-// Every way of computing every lobe, as a function of an array.
+// Every variant of computing every lobe, as a function of an array of s = 1 - cos.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 
 namespace lobelia::cost {
 
-/// How many numbers a way takes at a time: its arrays' lengths are multiples of it.
+/// The arrays of all functions here have a multiple of so many numbers.
 inline constexpr std::size_t kLobeBlock = 16;
 
 struct LobeVariant {
@@ -19,17 +20,26 @@ struct LobeVariant {
   bool wide;           ///< in float64, else in float32
   bool simd;           ///< by registers, else one number after another
   OperationCount operations;
-  /// A bound, relative to the peak, of how far it may be from its own lobe: its rounding.
+  /// A bound of its rounding: of the difference from its own lobe, relative to the peak.
   double allowed;
-  bool of_cosine;  ///< sees of s no more than 1 - s rounded to float32
+  bool of_cosine;  ///< computes from 1 - s rounded to float32
   /// One of the two, by `wide`: values of `count` numbers s in [0, 1].
   std::function<void(std::size_t count, const double* s, double* value)> over64;
   std::function<void(std::size_t count, const float* s, float* value)> over32;
 
   std::string name() const;  ///< "cs16, stable, float32 SIMD"
+  std::vector<double> values(const std::vector<float>& s) const;
 };
 
-/// Of all lobes of the catalogue, cosine first; by squaring only where the exponent is a whole number.
+/// All lobes of the catalogue, cosine first; squaring only if the exponent is a whole number.
 std::vector<LobeVariant> lobe_variants(double exponent);
+
+/// The catalogue's lobe by SIMD registers.
+void lobe_lanes(LobeId lobe, double exponent, std::size_t count, const float* s, float* value);
+void lobe_lanes(LobeId lobe, double exponent, std::size_t count, const double* s, double* value);
+
+/// cos^n by binary powering of 1 - s, n a whole number from 1 to 2^31.
+void squaring_lanes(unsigned n, std::size_t count, const float* s, float* value);
+void squaring_lanes(unsigned n, std::size_t count, const double* s, double* value);
 
 }  // namespace lobelia::cost

@@ -1,8 +1,8 @@
-// What a whole picture takes, and how far it is from the scene's truth, by lobe and precision.
+// The time of a whole picture and its error, by lobe and precision.
 //
-// Lobes stand in for the scene's own, each with the coefficient that makes its energy exact; the error is that
-// of the picture, so of lobe, precision and, where something is random, of noise together.
-#include "studies/cost/picture_benchmark.hpp"
+// Each lobe replaces the scene's own, with the coefficient that makes its energy exact. The error is that of the
+// picture: of lobe, precision and, with random sampling, noise together.
+#include "studies/cost/benchmarks.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 
 #include "accuracy/lobe_candidates.hpp"
 #include "accuracy/picture_truth.hpp"
-#include "accuracy/shading_cost.hpp"
 #include "core/error.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
@@ -23,10 +22,7 @@ struct Combination {
   LobeId lobe;
   Precision precision;
   Scene scene;
-  Image first;
-  Work work;
-  int samples = 0;
-  std::string kernel;
+  RenderResult first;  ///< not timed
   std::vector<double> seconds;
 
   RenderResult render() const {
@@ -37,7 +33,7 @@ struct Combination {
   }
 };
 
-/// The scene's film, of the same shape but so many rays. Fewer say more about fixed costs than about pixels.
+/// The film in the same proportions for a given number of rays; fewer would measure fixed costs rather than pixels.
 Scene sized(const Scene& scene, const Options& options) {
   const double rays = options.rounds(1 << 14, 1 << 18, 1 << 20);
   const double pixels = std::max(rays / scene.sampler.sample_count, 4096.0);
@@ -48,19 +44,20 @@ Scene sized(const Scene& scene, const Options& options) {
   return result;
 }
 
-/// How the order that --accuracy goes by fares against the clock.
-std::string order_remark(const std::vector<Variant>& ways) {
+/// How well --accuracy predicts the order of the measured times.
+std::string order_remark(const std::vector<Variant>& variants) {
   int clear = 0, reversed = 0;
   double worst = 1;
-  for (std::size_t i = 0; i < ways.size(); ++i)
+  for (std::size_t i = 0; i < variants.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const int slower = clearly_slower(ways[i], ways[j]);
+      const int slower = clearly_slower(variants[i], variants[j]);
       if (slower == 0) continue;
       ++clear;
-      const double predicted = *ways[j].facts->predicted_cost - *ways[i].facts->predicted_cost;
+      const double predicted =
+          *variants[j].facts->predicted_cost - *variants[i].facts->predicted_cost;
       if (predicted * slower >= 0) continue;
       ++reversed;
-      const double ratio = ways[i].seconds->median / ways[j].seconds->median;
+      const double ratio = variants[i].seconds->median / variants[j].seconds->median;
       worst = std::max({worst, ratio, 1 / ratio});
     }
   return fmt::format(
@@ -74,23 +71,19 @@ Table table_of(const NamedScene& named, const Options& options) {
   std::vector<Combination> cases;
   for (const LobeId lobe : accuracy::lobe_candidates(scene))
     for (std::size_t p = 0; p < precision_names().size(); ++p)
-      cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}, 0, {}, {}});
+      cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}});
 
   const int rounds = options.rounds(3, 9, 25);
   for (int round = -1; round < rounds; ++round) {
     options.progress(fmt::format("{}, round {} of {}", named.name, std::max(1, round + 1), rounds));
     for (Combination& c : cases) {
       RenderResult result = c.render();
-      if (round >= 0) {
-        c.seconds.push_back(result.render_seconds);
-      } else {
-        c.first = std::move(result.image);
-        c.work = result.work;
-        c.samples = result.samples;
-        c.kernel = result.plan.kernel;
+      if (round < 0) {
+        c.first = std::move(result);
         continue;
       }
-      if (!std::ranges::equal(c.first.values(), result.image.values()))
+      c.seconds.push_back(result.render_seconds);
+      if (!std::ranges::equal(c.first.image.values(), result.image.values()))
         throw Error(ExitCode::kInternal,
                     fmt::format("{}, {}, {}: two renders of one scene differ", named.name,
                                 info(c.lobe).name, name(c.precision)));
@@ -113,22 +106,22 @@ Table table_of(const NamedScene& named, const Options& options) {
   const double megapixels = 1e-6 * scene.film.width * scene.film.height;
   for (Combination& c : cases) {
     const auto error = [&](std::string_view metric) {
-      return accuracy::measure_at_peak(metric, c.first, truth.image);
+      return accuracy::measure_at_peak(metric, c.first.image, truth.image);
     };
     const std::string lobe(info(c.lobe).name), precision(name(c.precision));
-    Variant& way = table.ways.emplace_back();
-    way.name = fmt::format("{}, {}", lobe, precision);
-    way.settings = {
-        {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.samples)}};
-    way.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));
-    way.errors = {{"de2000_p99", error("ciede2000.p99")},
-                  {"flip", error("flip.ldr.mean")},
-                  {"max_rel_peak", error("max_rel_peak")}};
-    records::CostFacts& facts = way.facts.emplace();
-    facts.samples = c.samples;
-    facts.kernel = c.kernel;
+    Variant& variant = table.ways.emplace_back();
+    variant.name = fmt::format("{}, {}", lobe, precision);
+    variant.settings = {
+        {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.first.samples)}};
+    variant.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));
+    variant.errors = {{"de2000_p99", error("ciede2000.p99")},
+                      {"flip", error("flip.ldr.mean")},
+                      {"max_rel_peak", error("max_rel_peak")}};
+    records::CostFacts& facts = variant.facts.emplace();
+    facts.samples = c.first.samples;
+    facts.kernel = c.first.plan.kernel;
     facts.predicted_cost = accuracy::shading_cost(c.lobe, c.precision);
-    facts.rays = rays_record(c.work);
+    facts.rays = rays_record(c.first.work);
   }
   if (scene.sampler.sample_count > 1)
     table.remarks.push_back(

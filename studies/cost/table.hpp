@@ -1,16 +1,16 @@
-// Tables of what accuracy costs: variants of one thing, each with its time and its errors, all of one run.
+// Tables of what accuracy costs: variants of one thing with their times and errors, all of one run.
 #pragma once
 
+#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "core/timing.hpp"
 #include "records/cost.hpp"
 
 namespace lobelia::cost {
 
-/// Its id is unique in its report and a file's name. Times are of one of what `per` says; without times the unit is
-/// what is counted: "bit operations". Remarks say what was fitted, found and left out.
+/// Its id is unique in its report and a file's name. Times are of one `per`; without times the unit is of the count:
+/// "bit operations". Remarks are sentences: fits, findings and omissions.
 using Table = records::CostTable;
 /// Its name is unique in its table. Errors are in the order of the table's kinds, not negative, NaN where not known;
 /// spreads are standard deviations over repeats.
@@ -21,7 +21,7 @@ records::CostSeconds seconds_record(const Times& times);
 /// A variant's seconds, or its count where there is nothing to time.
 records::CostSeconds cost_of(const Variant& variant);
 double setting(const Variant& variant, std::string_view name);  ///< as a number; NaN without
-/// b is slower than a by more than the spread of both: 1, faster: -1, or else 0.
+/// 1 if b is slower than a by more than the spread of both, -1 if faster by more, else 0.
 int clearly_slower(const Variant& a, const Variant& b);
 
 /// The Pareto front by one of a table's errors: the variants of which none is both as fast and as accurate. Medians
@@ -31,7 +31,18 @@ int clearly_slower(const Variant& a, const Variant& b);
 /// In words: along the front, "from cs16 to cosine: 1.8 times the time, 170 times less error", and for each variant
 /// that is dominated, by what: "cs64 takes 1.2 times the time of cosine and has 17 times its error".
 records::CostFront pareto_front(const Table& table, std::size_t error);
-/// Of all errors of a table that has all its variants.
+/// Adds the front of each error to a table that has all its variants.
 void add_fronts(Table& table);
+
+// The tables of reports have their fronts.
+
+/// A line for each variant and error.
+std::string cost_csv(const records::Cost& report);
+/// Each table with its front and its remarks; `all` also has the dominated variants.
+std::string cost_text(const records::Cost& report, bool all);
+/// Error over time of a table, both logarithmic, with the front and error bars. A file of its own.
+std::string cost_chart(const Table& table, std::size_t error);
+/// cost.json, cost.csv and TABLE-ERROR.svg. Throws Error(kOutput).
+void write_cost(const records::Cost& report, const std::filesystem::path& directory);
 
 }  // namespace lobelia::cost

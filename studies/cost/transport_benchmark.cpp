@@ -1,38 +1,32 @@
-// Light that comes from areas and by other surfaces: error over samples and over time, with importance
-// sampling and without, by us and by an engine.
-#include "studies/cost/transport_benchmark.hpp"
-#include "core/error_time_chart.hpp"
+// Area lights and inter-reflection: error over samples and time, with and without importance sampling, by us and by
+// an engine.
+#include "studies/cost/benchmarks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
+#include "core/constants.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/error_time_chart.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/plan/effects/catalogue.hpp"
 #include "renderer/render_record.hpp"
-#include "studies/cost/engine_program.hpp"
-#include "studies/cost/film_size.hpp"
-#include "studies/cost/report.hpp"
-#include "studies/cost/transport/convergence.hpp"
-#include "studies/cost/transport/measure.hpp"
-#include "studies/cost/transport/scenes.hpp"
+#include "studies/cost/convergence.hpp"
+#include "studies/cost/scenes.hpp"
 
 namespace lobelia::cost {
 namespace {
 
 using Directions = Experiment::Directions;
 
-/// Seeds of the pictures that the others are measured against.
+/// Seeds of the converged pictures.
 constexpr std::uint64_t kTruthSeeds[] = {1001, 1002};
-/// What a converged picture takes, in units of the most samples that are measured.
+/// Samples of a converged picture, in units of the most samples that are measured.
 constexpr int kTruthFactor = 2;
-/// The smallest squared error, relative to the picture, that can be told from a converged picture's own.
+/// The smallest squared error, relative to the picture, that a converged picture's own error does not hide.
 constexpr double kLeastSquare = 1e-20;
 
 struct Sampling {
@@ -46,23 +40,23 @@ constexpr Sampling kSamplings[] = {
     {"ours, evenly", "none: evenly over the hemisphere", Directions::kEven},
 };
 
-/// A picture with an error known to be small.
+/// The average of two pictures, with its expected error.
 struct Converged {
   Image image;
-  double error = 0;  ///< root mean square, expected from two halves
+  double error = 0;  ///< expected root mean square
   Converged() = default;
   Converged(const Image& a, const Image& b)
       : image(mean_of(a, b)), error(rms_of_difference(a, b) / 2) {}
 };
 
-/// What was measured with one number of samples.
+/// The measurements at one number of samples.
 struct Point {
   int samples = 1;
   std::vector<double> seconds, errors;  ///< by seed; errors are root mean squares
   records::CostFacts facts;
 };
 
-/// One way to draw samples, by one engine.
+/// One kind of sampling by one engine.
 struct Series {
   std::string name, engine, sampling;
   std::vector<Point> points;
@@ -91,28 +85,28 @@ void measure_ours(const Scene& scene, int seed, const Converged& truth, Directio
   }
 }
 
-/// An engine that traces light by itself; null if there is none here.
+/// An engine with its own light transport; null if none is available.
 struct TransportEngine {
   std::unique_ptr<Engine> engine;
   std::string title;  ///< "Cycles"
-  std::string why;    ///< where it is not here
+  std::string why;    ///< it is not available
   explicit operator bool() const { return engine != nullptr; }
 };
 
-/// The first engine of the catalogue that has a light transport of its own.
+/// The first engine of the catalogue with its own light transport.
 TransportEngine find_transport_engine(const Options& options) {
   const auto infos = engine_infos();
   const auto info =
       std::ranges::find_if(infos, [](const EngineInfo& i) { return !i.transport.empty(); });
   if (info == infos.end()) return {nullptr, "an engine", "no engine traces light by itself"};
-  auto engine = make_engine(info->name, named_program(options, info->name));
+  auto engine = make_engine(info->name, options.program(info->name));
   const EngineStatus& status = engine->status();
   TransportEngine found{nullptr, std::string(info->transport), status.why};
   if (status.available()) found.engine = std::move(engine);
   return found;
 }
 
-/// Pictures one after the other, all processors for each.
+/// Renders one picture after the other, each on all processors.
 class TransportSession {
  public:
   explicit TransportSession(const TransportEngine& by)
@@ -142,7 +136,7 @@ class TransportSession {
 void measure_engine(const TransportEngine& by, const Scene& scene, const std::vector<int>& seeds,
                     const Converged& truth, Series& series) {
   TransportSession session(by);
-  // What a call costs without a picture to speak of; the first of a process costs more than the others.
+  // The fixed cost of a call. The first call of a process costs more.
   const Scene tiny = with_film(scene, 8);
   session.render(tiny, 1, 1);
   const double tiny_seconds = session.render(tiny, 1, 1).record.seconds.total;
@@ -161,7 +155,7 @@ Converged converged_picture(const TransportEngine& by, const Scene& scene, int s
           session.render(scene, samples, kTruthSeeds[1]).image};
 }
 
-/// Relative to the picture; what the converged picture is off by itself is taken out.
+/// Relative to the picture, without the converged picture's own error.
 double error_of(const Point& point, const Converged& truth) {
   double squared = 0;
   for (const double error : point.errors) squared += error * error / double(point.errors.size());
@@ -171,7 +165,7 @@ double error_of(const Point& point, const Converged& truth) {
 
 double spread_of(const Point& point, const Converged& truth) {
   const double n = double(point.errors.size());
-  if (n < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (n < 2) return kNaN;
   double mean = 0, squared = 0;
   for (const double error : point.errors) mean += error / n;
   for (const double error : point.errors) squared += std::pow(error - mean, 2) / (n - 1);
@@ -192,26 +186,26 @@ std::string time_text(const TimeTo& time) {
   return short_time_text(time.seconds) + said;
 }
 
-/// The ways of a series, and what they say together.
+/// Adds the variants of a series, and remarks on its slopes and times.
 void add_series(const Series& series, const Converged& truth, Table& table) {
   std::vector<double> samples, seconds, errors;
   for (const Point& point : series.points) {
-    Variant way;
-    way.name = fmt::format("{}, {}", series.name, point.samples);
-    way.settings = {{"engine", series.engine},
-                    {"importance_sampling", series.sampling},
-                    {"samples", std::to_string(point.samples)}};
-    way.seconds = seconds_record(summary(point.seconds));
-    way.errors = {{"rmse_rel", error_of(point, truth)}};
-    way.error_spreads.emplace() = {{"rmse_rel", spread_of(point, truth)}};
-    way.facts = point.facts;
+    Variant variant;
+    variant.name = fmt::format("{}, {}", series.name, point.samples);
+    variant.settings = {{"engine", series.engine},
+                        {"importance_sampling", series.sampling},
+                        {"samples", std::to_string(point.samples)}};
+    variant.seconds = seconds_record(summary(point.seconds));
+    variant.errors = {{"rmse_rel", error_of(point, truth)}};
+    variant.error_spreads.emplace() = {{"rmse_rel", spread_of(point, truth)}};
+    variant.facts = point.facts;
     samples.push_back(point.samples);
-    seconds.push_back(way.seconds->median);
-    errors.push_back(way.errors[0].second);
-    table.ways.push_back(std::move(way));
+    seconds.push_back(variant.seconds->median);
+    errors.push_back(variant.errors[0].second);
+    table.ways.push_back(std::move(variant));
   }
-  // A single sample goes through the pixel's centre, and is off by the edges as well: no part of a slope. Nor
-  // are times in which there is little but the start.
+  // Slopes leave out a single sample, which goes through the pixel's centre and so misses edges, and times that are
+  // mostly the start.
   const auto later = [](const std::vector<double>& values, std::size_t from) {
     return std::vector<double>(values.begin() + std::ptrdiff_t(from), values.end());
   };
@@ -233,8 +227,7 @@ void add_series(const Series& series, const Converged& truth, Table& table) {
   table.remarks.push_back(fmt::format("{}: an error of{}", series.name, times));
 }
 
-/// Two programs that show the same scene differ by their noise, and by what a picture's size makes of a plane
-/// that ends; beyond this one of them is wrong.
+/// Two correct programs differ by noise, and where a plane ends in one of them; beyond this one of them is wrong.
 constexpr double kMostApart = 0.03;
 
 std::string agreement(const Converged& ours, const Converged& theirs, const std::string& title) {
@@ -277,9 +270,9 @@ Table measure_scene(const std::string& id, const std::string& title, const Scene
     series.emplace_back(by.title, std::string(by.engine->info().name),
                         fmt::format("light and surface, by {} itself", by.title), counts);
 
-  // A program takes a second to start: too long for a quick look.
+  // A program takes a second to start: too long for each round of a quick measurement.
   const bool at_once = options.effort == Effort::kQuick;
-  // In turn, so that a change in the machine's speed meets all.
+  // Interleaved, so that a change in the machine's speed affects all alike.
   const int rounds = options.rounds(2, 3, 7);
   for (int seed = 1; seed <= rounds; ++seed) {
     options.progress(fmt::format("{}: round {} of {}", id, seed, rounds));

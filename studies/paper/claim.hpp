@@ -6,19 +6,20 @@
 #include <vector>
 
 #include "records/paper.hpp"
+#include "reference_scenes/engines/analytic/formulas/printed.hpp"
 
 namespace lobelia::paper {
 
 /// The statement is in our words, and `printed` is as the paper has it. The verdict is about the first figure.
 using Claim = records::Claim;
-/// A value with as many digits as are the same on every machine, and where it was found.
+/// A value with the digits that are the same on every machine, and where it was found.
 using Figure = records::Measured;
 
-/// Verdicts. Found: the paper does not speak of it.
+/// Verdicts. Found: not in the paper.
 inline constexpr char kConfirmed[] = "confirmed", kNotReproduced[] = "not reproduced",
                       kFound[] = "found";
 
-/// Where the claims are that are called more-accurate.
+/// Where the paper makes the claims called more-accurate.
 inline constexpr char kConclusions[] =
     "conclusions: the models are more accurate than the classical ones";
 
@@ -26,9 +27,9 @@ inline constexpr char kConclusions[] =
 std::string figure_text(double value, int digits);
 
 Figure figure(std::string what, long double value, int digits, std::string at = "");
-/// With a number of decimals: for what is near 1.
+/// With a number of decimals, for values near 1.
 Figure fixed(std::string what, long double value, int decimals, std::string at = "");
-/// For what is 0 but for rounding: "below 1e-15", where it is; the value itself, where it is not.
+/// For values that should be 0 but for rounding: "below 1e-15", or the value itself if it is not.
 Figure vanishing(std::string what, long double value, double bound, std::string at = "");
 
 /// "n = 208"

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
-#include <vector>
 
 namespace lobelia::paper {
 namespace {
 
-/// Over [0, end] in pieces about the lobe's width, so that no piece is mostly empty. The integrands are
-/// analytic on each: where a lobe ends, so does the interval.
+/// Over [0, end] in pieces about the lobe's width, so that no piece is mostly empty. The integrands are analytic on each
+/// piece, as the interval ends where the lobe does.
 template <class F>
 Real integrate(F f, Real end, Real width) {
   using Quadrature = boost::math::quadrature::gauss_kronrod<Real, 31>;
@@ -43,7 +42,7 @@ struct Circle {
   }
 };
 
-/// The integrals over azimuth are closed: of 1 and of the other direction's cosine, per solid angle.
+/// The integral over azimuth in closed form, of 1 or of the other direction's cosine, per solid angle.
 double around(bool half_vector, double theta, double a, bool with_cosine) {
   const double held = std::cos(theta), up = std::cos(a);
   Circle circle{held * up, std::sin(theta) * std::sin(a), 0};
@@ -80,8 +79,8 @@ double albedo(const Row& row, Lobe lobe, Real n, Real coefficient, double theta,
   const bool half_vector = row.half_angle || row.distribution;
   const bool with_cosine = !row.is_rdf() || held == Held::kBeam;
   const double end = double(lobe == Lobe::kCs16 ? cs16_support(n) : kRightAngle);
-  // Intervals end where the horizon begins to cut a circle and where nothing of it is left: the
-  // integrand has the shape of a square root there, which tanh-sinh takes at an end only.
+  // Intervals end where the horizon begins to cut a circle and where it has cut it off: the integrand is like a square
+  // root there, which tanh-sinh needs at an end.
   const double right_angle = std::numbers::pi / 2, share = half_vector ? 2 : 1;
   std::vector<double> ends{(right_angle - theta) / share, (right_angle + theta) / share, end};
   for (const double width : {2.0, 4.0, 8.0}) ends.push_back(width / std::sqrt(double(n)));

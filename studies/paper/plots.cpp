@@ -1,4 +1,4 @@
-#include "studies/paper/plots.hpp"
+#include "studies/paper/report.hpp"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -108,36 +108,38 @@ std::vector<ChartBand> zones() {
           {reach(0.05), reach(0.001), "blooming zone"}};
 }
 
-Chart lobes() {
-  Chart result = chart("lobes", "The four lobes at n = 64",
-                       "cos^n, cs16, Schlick's lobe and the Gaussian over the angle.",
-                       {"angle (degrees)", 0, 60}, {"lobe (log)", 1e-4, 10, true});
-  result.bands = zones();
-  const auto add = [&](const char* label, int style, Real (*lobe)(Real, Real)) {
-    result.series.push_back(
-        curve(label, style, result.x, [=](Real x) { return lobe(radians(x), kExponentOfLobes); }));
+/// A curve of `f` of each cheap lobe and cos^n over the angle, with the zones.
+Chart chart_of_lobes(Chart result, Real (*f)(Real lobe, Real cosine)) {
+  struct Named {
+    const char* label;
+    Real (*lobe)(Real, Real);
   };
-  add("cos^n", 0, cosine_lobe);
-  add("cs16", 1, cs16_lobe);
-  add("Schlick", 2, schlick_lobe);
-  add("Gauss", 3, gauss_lobe);
+  result.bands = zones();
+  int style = 1;
+  for (const auto& [label, lobe] :
+       {Named{"cs16", cs16_lobe}, {"Schlick", schlick_lobe}, {"Gauss", gauss_lobe}})
+    result.series.push_back(curve(label, style++, result.x, [f, lobe = lobe](Real x) {
+      return f(lobe(radians(x), kExponentOfLobes), cosine_lobe(radians(x), kExponentOfLobes));
+    }));
+  return result;
+}
+
+Chart lobes() {
+  Chart result =
+      chart_of_lobes(chart("lobes", "The four lobes at n = 64",
+                           "cos^n, cs16, Schlick's lobe and the Gaussian over the angle.",
+                           {"angle (degrees)", 0, 60}, {"lobe (log)", 1e-4, 10, true}),
+                     [](Real lobe, Real) { return lobe; });
+  const auto cosine = [](Real x) { return cosine_lobe(radians(x), kExponentOfLobes); };
+  result.series.insert(result.series.begin(), curve("cos^n", 0, result.x, cosine));
   return result;
 }
 
 Chart lobe_errors() {
-  Chart result = chart("lobe-errors", "What the cheap lobes miss of cos^n at n = 64",
-                       "The difference of each lobe from cos^n over the angle.",
-                       {"angle (degrees)", 0, 60}, {"lobe − cos^n", -0.05, 0.25});
-  result.bands = zones();
-  const auto add = [&](const char* label, int style, Real (*lobe)(Real, Real)) {
-    result.series.push_back(curve(label, style, result.x, [=](Real x) {
-      return lobe(radians(x), kExponentOfLobes) - cosine_lobe(radians(x), kExponentOfLobes);
-    }));
-  };
-  add("cs16", 1, cs16_lobe);
-  add("Schlick", 2, schlick_lobe);
-  add("Gauss", 3, gauss_lobe);
-  return result;
+  return chart_of_lobes(chart("lobe-errors", "What the cheap lobes miss of cos^n at n = 64",
+                              "The difference of each lobe from cos^n over the angle.",
+                              {"angle (degrees)", 0, 60}, {"lobe − cos^n", -0.05, 0.25}),
+                        [](Real lobe, Real cosine) { return lobe - cosine; });
 }
 
 Chart albedos(Held held, Chart result) {
@@ -197,7 +199,7 @@ std::vector<Plot> plots() {
 
 namespace {
 
-/// More digits than a drawing shows would only make the record long.
+/// More digits than a drawing shows would only lengthen the record.
 std::vector<double> rounded(std::vector<double> values) {
   for (double& value : values)
     if (std::isfinite(value)) value = std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);

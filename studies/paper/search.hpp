@@ -1,10 +1,11 @@
-// Extremes: a dense scan, then Brent's method between the neighbours of the best point, because a scan
-// alone would say of a maximum between two points that it is at one of them.
+// Extremes: a dense scan, then Brent's method between the neighbours of the best point, because a maximum may lie
+// between two points of the scan. Roots.
 #pragma once
 
 #include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
-#include "reference_scenes/engines/analytic/formulas/printed.hpp"
+#include "studies/paper/claim.hpp"
 
 namespace lobelia::paper {
 
@@ -34,6 +35,26 @@ Extreme largest(F f, Real from, Real to, int steps) {
 template <class F>
 Extreme largest_over_n(F f) {
   return largest(f, kFirstExponent, kLastExponent, kLastExponent - kFirstExponent);
+}
+
+/// The largest f of |lobe - cos^n| at one exponent, over angles up to `end`.
+template <class OtherLobe>
+Extreme largest_difference(OtherLobe lobe, Real n, Real end, int steps = 100) {
+  return largest([&](Real x) { return std::abs(lobe(x, n) - cosine_lobe(x, n)); }, 0, end, steps);
+}
+
+/// The root of f to so many bits; f must change its sign once from `low` to `high`.
+template <class F, class Number>
+Number root(F f, Number low, Number high, int bits) {
+  std::uintmax_t iterations = 60;
+  return boost::math::tools::toms748_solve(
+             f, low, high, boost::math::tools::eps_tolerance<Number>(bits), iterations)
+      .first;
+}
+
+/// The figure of an extreme over n, found at its exponent.
+inline Figure figure(std::string what, const Extreme& over_n, int digits) {
+  return figure(std::move(what), over_n.value, digits, at_exponent(over_n.at));
 }
 
 }  // namespace lobelia::paper

@@ -6,26 +6,15 @@
 #include "core/error.hpp"
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/highlight.hpp"
+#include "reference_scenes/engines/analytic/formulas/vector.hpp"
 
 namespace lobelia::stability::naive {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-struct Float3 {
-  float x = 0, y = 0, z = 0;
-  Float3() = default;
-  Float3(float x_, float y_, float z_) : x(x_), y(y_), z(z_) {}
-  explicit Float3(Vec3 v) : x(float(v.x)), y(float(v.y)), z(float(v.z)) {}
-  friend Float3 operator+(Float3 a, Float3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Float3 operator-(Float3 a, Float3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Float3 operator*(float k, Float3 a) { return {k * a.x, k * a.y, k * a.z}; }
-};
-inline float dot(Float3 a, Float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Float3 cross(Float3 a, Float3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Float3 normalize(Float3 a) { return 1 / std::sqrt(dot(a, a)) * a; }
+using Float3 = truth::Vector<float>;
+Float3 to_float(Vec3 v) { return {float(v.x), float(v.y), float(v.z)}; }
 
 /// The paper's table, first column.
 struct ClosedForm {
@@ -68,11 +57,11 @@ float unit_shape(const Highlight& highlight, Float3 n, Float3 v, Float3 l) {
 
 constexpr float kEpsilon = 1e-4f;
 
-/// Where a ray meets a sphere first, or a negative number.
+/// The distance to the first hit of a sphere, or a negative number.
 float meet(const Sphere& sphere, Float3 origin, Float3 direction) {
-  const Float3 way = origin - Float3(sphere.center);
+  const Float3 offset = origin - to_float(sphere.center);
   const float radius = float(sphere.radius);
-  const float b = dot(way, direction), c = dot(way, way) - radius * radius;
+  const float b = dot(offset, direction), c = dot(offset, offset) - radius * radius;
   const float discriminant = b * b - c;
   return discriminant > 0 ? -b - std::sqrt(discriminant) : -1;
 }
@@ -100,7 +89,7 @@ struct Tracer {
     if (found.sphere < 0) return found;
     const Sphere& sphere = scene.spheres[found.sphere];
     const Float3 point = origin + nearest * direction;
-    const Float3 normal = 1 / float(sphere.radius) * (point - Float3(sphere.center));
+    const Float3 normal = 1 / float(sphere.radius) * (point - to_float(sphere.center));
     for (const Light& light : scene.lights)
       found.radiance = found.radiance + lit(light, sphere, point, normal, -1.0f * direction);
     return found;
@@ -112,12 +101,12 @@ struct Tracer {
     float distance = 0, falloff = 1;
     const Lamp lamp = lamp_of(light);
     if (lamp.is_distant) {
-      to_light = -1.0f * Float3(lamp.direction);
+      to_light = -1.0f * to_float(lamp.direction);
     } else {
-      const Float3 way = Float3(lamp.position) - point;
-      distance = std::sqrt(dot(way, way));
+      const Float3 offset = to_float(lamp.position) - point;
+      distance = std::sqrt(dot(offset, offset));
       falloff = 1 / (distance * distance);
-      to_light = 1 / distance * way;
+      to_light = 1 / distance * offset;
     }
     for (const Sphere& other : scene.spheres) {
       const float t = meet(other, point, to_light);
@@ -137,8 +126,8 @@ float lobe(LobeId lobe, float cosine, double exponent) {
 }
 
 float shape(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light) {
-  return unit_shape(highlight, normalize(Float3(normal)), normalize(Float3(to_eye)),
-                    normalize(Float3(to_light)));
+  return unit_shape(highlight, normalize(to_float(normal)), normalize(to_float(to_eye)),
+                    normalize(to_float(to_light)));
 }
 
 float coefficient(const Highlight& highlight) {
@@ -151,8 +140,8 @@ float coefficient(const Highlight& highlight) {
 
 std::vector<Pixel> picture(const Scene& scene) {
   const Camera& camera = scene.camera;
-  const Float3 forward = normalize(Float3(camera.target) - Float3(camera.origin));
-  const Float3 right = normalize(cross(forward, Float3(camera.up))), up = cross(right, forward);
+  const Float3 forward = normalize(to_float(camera.target) - to_float(camera.origin));
+  const Float3 right = normalize(cross(forward, to_float(camera.up))), up = cross(right, forward);
   const float half_width = std::tan(float(camera.fov_degrees) * std::numbers::pi_v<float> / 360);
   const float half_height = half_width * float(scene.film.height) / float(scene.film.width);
   const Tracer tracer(scene);
@@ -162,7 +151,7 @@ std::vector<Pixel> picture(const Scene& scene) {
       const float u = (2 * (float(x) + 0.5f) / float(scene.film.width) - 1) * half_width;
       const float v = (1 - 2 * (float(y) + 0.5f) / float(scene.film.height)) * half_height;
       pixels.push_back(
-          tracer.pixel(Float3(camera.origin), normalize(forward + u * right + v * up)));
+          tracer.pixel(to_float(camera.origin), normalize(forward + u * right + v * up)));
     }
   return pixels;
 }

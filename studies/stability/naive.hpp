@@ -1,4 +1,4 @@
-// The textbook's formulas in float32, without care: what stands beside ours in the table.
+// The textbook's formulas in float32, without care, for comparison with ours.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ float lobe(LobeId lobe, float cosine, double exponent);
 /// multiplied with each other.
 float shape(const Highlight& highlight, Vec3 normal, Vec3 to_eye, Vec3 to_light);
 
-/// The paper's closed form for cos^n. For other lobes, and models that the paper does not have, the integral by the
-/// midpoint rule with 1024 steps. Throws Error(kInternal) for a model that the formulas do not know.
+/// The paper's closed form for cos^n; for other lobes, and models that are not in the paper, the integral by the midpoint
+/// rule with 1024 steps. Throws Error(kInternal) for a model that the formulas do not know.
 float coefficient(const Highlight& highlight);
 
 struct Pixel {

@@ -1,9 +1,8 @@
-#include "studies/stability/pictures.hpp"
+#include "studies/stability/report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/colour.hpp"
@@ -11,7 +10,6 @@
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/render.hpp"
 #include "studies/stability/naive.hpp"
-#include "studies/stability/sphere_scenes.hpp"
 
 namespace lobelia::stability {
 namespace {
@@ -76,14 +74,14 @@ DisplayImage error_picture(const Image& picture, const Image& truth, double peak
 std::vector<records::StabilityPictures> write_pictures(const std::filesystem::path& directory,
                                                        const std::filesystem::path& from_record) {
   constexpr int kGap = 4;
-  constexpr double kExponents[] = {1e3, 1e5, 1e6};
-  const int rows = int(std::size(kExponents));
+  constexpr double kShown[] = {1e3, 1e5, 1e6};
+  const int rows = int(std::size(kShown));
   DisplayImage sheet{4 * kPictureSide + 3 * kGap, rows * kPictureSide + (rows - 1) * kGap, {}};
   sheet.rgb.assign(std::size_t{3} * sheet.width * sheet.height, 255);
   const HardScene hard = hard_scenes().front();
   Highlight highlight{*find_model("modified_phong"), *find_lobe("cosine"), Normalisation::kExact};
   std::vector<records::StabilityPictures> pictures;
-  for (const double n : kExponents) {
+  for (const double n : kShown) {
     Scene scene = close_to_highlight(hard.scene, n).at(0);
     scene.film = {kPictureSide, kPictureSide};
     highlight.exponent = n;

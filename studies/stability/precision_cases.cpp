@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -35,7 +34,7 @@ class Trial {
     }
   }
 
-  /// `lobe` is the truth of it at the chunk's vectors.
+  /// `lobe` has the lobe's true values at the chunk's vectors.
   void shade(const Chunk& chunk, const long double* lobe, bool with_naive) {
     const bool cosine = info(highlight_.model).applies_cosine;
     long double truth[kChunk];
@@ -66,7 +65,7 @@ class Trial {
       }
   }
 
-  /// The worst, judged by the truth.
+  /// Judges the worst by the truth.
   Row row(const std::string& name, const Worst& worst) const {
     const auto truth_at = [&](const Triple& d) {
       return truth::shape(highlight_, d.normal, d.to_eye, d.to_light);
@@ -78,11 +77,12 @@ class Trial {
   }
 
   Worst by_precision[3], as_chosen, by_naive;
-  Worst beyond_float64;  ///< where not even that promises kAllowedShadingError (docs/numerics.md)
+  Worst
+      beyond_float64;  ///< where not even float64 promises kAllowedShadingError (docs/numerics.md)
 
  private:
   static void note(Worst& worst, double error, double bound, double value, const Triple& at) {
-    // A bound of the whole peak compares nothing: any other vector tells more.
+    // A bound of the whole peak excludes nothing: any other vector is worse.
     const double part = bound < 1 || !std::isfinite(error) ? error / bound : 0;
     if (part > worst.of_bound) worst = {part, at, value, bound};
   }
@@ -92,7 +92,7 @@ class Trial {
   Precision chosen_[kHalvings];
 };
 
-/// The models that see the same angle, with one lobe.
+/// The models with the same angle, with one lobe.
 class Trials {
  public:
   Trials(LobeAngle angle, LobeId lobe, double exponent)
@@ -108,7 +108,7 @@ class Trials {
     for (Trial& trial : trials_) trial.shade(chunk, truth, with_naive);
   }
 
-  /// More vectors about the worst, which become the worst.
+  /// Tries more vectors near the worst.
   void climb(RandomVectors& vectors, Chunk& chunk) {
     for (int climb = 0; climb < kClimbs; ++climb)
       for (std::size_t p = 0; p < 3; ++p) {

@@ -7,13 +7,10 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "core/interrupt.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
-#include "studies/stability/cases.hpp"
-#include "studies/stability/meanings.hpp"
 #include "studies/stability/naive.hpp"
 #include "studies/stability/vectors.hpp"
 #include "studies/table.hpp"
@@ -24,13 +21,75 @@ namespace {
 using studies::Column;
 using studies::Table;
 
+struct Meaning {
+  std::string_view group;
+  std::string_view begins;  ///< the start of a case's name; empty: the group itself
+  std::string_view words;
+};
+
+/// The first match counts.
+constexpr Meaning kMeanings[] = {
+    {"lobe", "", "The lobe alone in float32, at a given 1 - cos of its angle."},
+    {"lobe", "angle 1e-8", "A cosine in float32 cannot tell this angle from 0."},
+    {"lobe", "angle 1e-4", "A cosine in float32 knows this angle to one digit."},
+    {"lobe", "half of the peak", "The flank, where an error of the angle counts most."},
+    {"lobe", "just inside theta_cr", "The last number before a lobe of finite reach ends."},
+    {"lobe", "inside theta_cr", "Close to where a lobe of finite reach ends."},
+    {"lobe", "just outside theta_cr",
+     "A negative base, raised to an even power, must give nothing."},
+    {"lobe", "angle pi/2", "The horizon: the base of cos^n is 0."},
+    {"lobe", "angle 2", "Beyond the horizon there is nothing, whatever the power says."},
+    {"coefficient", "", "The number before the lobe, by closed form or by moments of the lobe."},
+    {"coefficient", "smallest n", "A difference of two numbers that are nearly the same."},
+    {"coefficient", "(n+2)(n+4)", "A product that float32 cannot hold, in a quotient that it can."},
+    {"vectors", "", "Normal, eye and light as vectors, to the value of the highlight."},
+    {"vectors", "mirror direction", "The peak itself, with vectors that are not along an axis."},
+    {"vectors", "flank", "One width of the highlight away from its middle."},
+    {"vectors", "dot product",
+     "A dot product of unit vectors that rounds past 1: a power of it grows."},
+    {"vectors", "L = -V", "The half vector of opposite directions: 0 divided by 0, or nearly."},
+    {"vectors", "N.L", "The light at the horizon, and the next numbers above and below."},
+    {"vectors", "N.V", "The eye at the horizon, and the next numbers above and below."},
+    {"vectors", "R.L", "The light behind the lobe's hemisphere: nothing is to be seen."},
+    {"vectors", "lengths", "The squared length underflows or overflows float32."},
+    {"vectors", "denormal", "Components below the smallest normal number of their format."},
+    {"density", "",
+     "The density of samples, down to where it underflows: never denormal, never below 0."},
+    {"spheres", "",
+     "Whole pictures of spheres: the right sphere in every pixel, and the right radiance."},
+    {"spheres", "radius 1e6, from", "An eye so close that the sphere is all but a plane."},
+    {"spheres", "radius", "The quadratic formula must not care in which unit the scene is."},
+    {"spheres", "1e7 radii", "b^2 - c cancels to nothing: float32 misses the sphere."},
+    {"spheres", "two concentric", "Which sphere is seen, and whether it shades the other."},
+    {"spheres", "the same sphere", "Two surfaces in one place must not shade each other."},
+    {"spheres", "two spheres that touch", "A shadow ray that begins on both surfaces."},
+    {"spheres", "light inside", "Nothing is lit from within."},
+    {"spheres", "light just above", "Irradiance is largest where digits are fewest."},
+    {"spheres", "light at a right angle", "The highlight is at the terminator."},
+    {"spheres", "light behind", "The light grazes the silhouette."},
+    {"spheres", "camera inside", "Spheres are seen from outside only."},
+    {"spheres", "tangent ray", "Rays that touch a sphere, and the next numbers on either side."},
+    {"precision", "",
+     "1e5 random vectors and the worst of them made worse, against the stated bound."},
+};
+
+/// The meaning of a case, or of a group without a name. Empty if the name says it.
+std::string_view meaning(std::string_view group, std::string_view name = "") {
+  for (const Meaning& m : kMeanings)
+    if (m.group == group && m.begins.empty() == name.empty() && name.starts_with(m.begins))
+      return m.words;
+  if (group == "lobe" && name.ends_with("times the smallest float32"))
+    return "A result that is about to be no normal number any more.";
+  return "";
+}
+
 void widen(records::StabilityErrors& worst, const Answer& other) {
   worst.ulp = std::max(worst.ulp, other.ulp);
   worst.of_peak = std::max(worst.of_peak, other.of_peak);
   worst.wrong_pixels += other.wrong_pixels;
 }
 
-/// The worst of the rows for which `make` makes the same summary, in the order in which they are first met.
+/// The worst of the rows with the same summary by `make`, in the order of the rows.
 template <class Summary, class Make, class Same>
 std::vector<Summary> summarise(const Rows& rows, Make make, Same same) {
   std::vector<Summary> summaries;
@@ -38,10 +97,7 @@ std::vector<Summary> summarise(const Rows& rows, Make make, Same same) {
     const Summary wanted = make(row);
     auto found = std::ranges::find_if(
         summaries, [&](const Summary& s) { return s.group == row.group && same(s, wanted); });
-    if (found == summaries.end()) {
-      found = summaries.insert(summaries.end(), wanted);
-      found->group = row.group;
-    }
+    if (found == summaries.end()) found = summaries.insert(summaries.end(), wanted);
     ++found->cases;
     found->outside += row.outcome == kOutside;
     found->not_compared += row.outcome == kNotCompared;
@@ -59,6 +115,7 @@ std::vector<records::StabilityOfLobe> by_lobe(const Rows& rows, bool and_exponen
       rows,
       [&](const Row& row) {
         Summary s;
+        s.group = row.group;
         s.lobe = row.lobe;
         if (and_exponent) s.exponent = row.exponent;
         return s;
@@ -74,8 +131,9 @@ std::vector<records::StabilityOfCase> by_case(const Rows& rows) {
       rows,
       [](const Row& row) {
         Summary s;
+        s.group = row.group;
         s.name = row.name;
-        s.meaning = meaning_of_case(row.group, row.name);
+        s.meaning = meaning(row.group, row.name);
         return s;
       },
       [](const Summary& a, const Summary& b) { return a.name == b.name; });
@@ -97,7 +155,7 @@ records::StabilityCurve error_curve(double n) {
     const double angle = reach * i / kPoints;
     const Vec3 light = mirror + std::tan(angle) * length(mirror) / length(beside) * beside;
     double bound = 0;
-    curve.degrees.push_back(angle * 180 / std::numbers::pi);
+    curve.degrees.push_back(angle * 180 / kPi);
     curve.truth.push_back(truth::shape(h, normal, eye, light));
     curve.naive.push_back(naive::shape(h, normal, eye, light));
     curve.ours.push_back(by_kernel(h, screen(info(h.model).angle, {normal, eye, light}), bound));
@@ -159,7 +217,7 @@ std::string rows_text(const Rows& rows) {
   return table_text(table);
 }
 
-/// One point of one highlight, by its exponent: digits that a reader can compare.
+/// One point of one highlight by exponent, in digits that a reader can compare.
 std::string digits(const Rows& rows) {
   Table table{"The flank of modified Phong's cos^n, in digits\n",
               {{"n", 9, "{:g}"},
@@ -241,7 +299,7 @@ void summarise(records::VerifyStability& report) {
   report.groups.clear();
   for (const records::StabilityOfCase& s : report.by_case)
     if (report.groups.empty() || report.groups.back().name != s.group)
-      report.groups.push_back({s.group, std::string(meaning_of_group(s.group))});
+      report.groups.push_back({s.group, std::string(meaning(s.group))});
 }
 
 void keep_rows_outside(records::VerifyStability& report) {

@@ -1,11 +1,12 @@
-// The study of the hard cases: its rows, their worst, and what people read of them.
+// The study of the hard cases: its rows and their worst, timings, pictures, and its text.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "studies/stability/row.hpp"
+#include "studies/stability/cases.hpp"
 
 namespace lobelia::stability {
 
@@ -13,9 +14,27 @@ namespace lobelia::stability {
 /// Throws Error(kInterrupted) on Ctrl-C.
 Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)>& on_progress);
 
-/// Modified Phong's cos^n, from the middle to where a thousandth is left, for n = 16 to 1e8. Ours is in the
-/// precision that a plan would choose.
+/// Modified Phong's cos^n, from the peak to a thousandth of it, for n = 16 to 1e8. Ours is in the precision that a plan
+/// would choose.
 std::vector<records::StabilityCurve> error_curves();
+
+// Timings are medians of interleaved repeats, so that a change in the machine's speed affects all alike. They are
+// printed and recorded, never asserted.
+
+/// A kernel on inputs with denormal results, beside ordinary ones, for the lobes that get that small; and last, for
+/// scale, a product of numbers with a denormal result ("no care").
+std::vector<records::StabilityStall> measure_stalls(const std::vector<LobeId>& lobes);
+
+/// Shading a point in each precision.
+std::vector<records::StabilityPrice> measure_prices(const std::vector<LobeId>& lobes);
+
+/// Writes a modified Phong highlight cos^n, so close that it fills the picture, for n = 1e3, 1e5, 1e6:
+/// stability-nN-naive.exr, .png, -error.png and the same of ours, and stability.png: all in one, a row for each
+/// exponent. Error pictures show log10 of the error over the peak as a colour: black at 1e-8 and below, then blue, red,
+/// yellow, white at 1 and above; magenta is no number. The files' names begin with `from_record`, the path from the
+/// record to the directory.
+std::vector<records::StabilityPictures> write_pictures(const std::filesystem::path& directory,
+                                                       const std::filesystem::path& from_record);
 
 /// Fills in the counts and the worst of the rows.
 void summarise(records::VerifyStability& report);

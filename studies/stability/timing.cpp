@@ -1,12 +1,10 @@
-#include "studies/stability/timing.hpp"
+#include "studies/stability/report.hpp"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 
 #include "core/timing.hpp"
-#include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
 
 namespace lobelia::stability {
@@ -15,7 +13,7 @@ namespace {
 constexpr int kRounds = 31, kCalls = 100;
 constexpr double kExponent = 1024;
 
-/// Each work does kChunk values.
+/// Per value; each work computes kChunk values.
 std::vector<records::Nanoseconds> nanoseconds(const std::vector<std::function<void()>>& works) {
   std::vector<std::function<void()>> repeated;
   for (const auto& work : works)
@@ -30,17 +28,10 @@ std::vector<records::Nanoseconds> nanoseconds(const std::vector<std::function<vo
   return result;
 }
 
-/// s where the lobe has a value between these two, or nothing if it is never that small.
+/// s at lobe values between these two, or nothing if the lobe is never that small.
 std::vector<double> places(LobeId lobe, double most, double least) {
-  const auto place = [&](double value) {
-    double low = 0, high = 1;
-    for (int i = 0; i < 200; ++i) {
-      const double middle = (low + high) / 2;
-      (truth::lobe(lobe, middle, kExponent) > value ? low : high) = middle;
-    }
-    return low;
-  };
-  const double begin = place(most), end = place(least);
+  const double begin = s_of_value(lobe, kExponent, most, 200),
+               end = s_of_value(lobe, kExponent, least, 200);
   // A polynomial falls to 0 within the rounding of s.
   if (!(end - begin > 1e-4 * begin)) return {};
   std::vector<double> s(kChunk);
@@ -68,7 +59,7 @@ std::function<void()> shading(std::shared_ptr<Points> points, const Highlight& h
   };
 }
 
-/// What a processor takes to multiply into denormal numbers.
+/// The time of products with denormal results.
 records::StabilityStall without_care() {
   const auto works = [](float factor) {
     const auto values = std::make_shared<std::vector<float>>(kChunk, 1e-30f);
@@ -82,7 +73,7 @@ records::StabilityStall without_care() {
   return {"no care", "float32", t[0], t[1]};
 }
 
-/// Where a number of that type is not normal any more.
+/// s at which the lobe is denormal in that precision.
 std::vector<double> underflowing(LobeId lobe, Precision precision) {
   return precision == Precision::kFloat64 ? places(lobe, std::numeric_limits<double>::min(), 1e-320)
                                           : places(lobe, std::numeric_limits<float>::min(), 1e-44);

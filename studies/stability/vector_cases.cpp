@@ -16,7 +16,7 @@ struct Case {
   Triple at;
 };
 
-/// A vector whose float32 dot product with itself is above 1 though its length is 1 to a rounding.
+/// A unit vector, to a rounding, with a float32 dot product with itself above 1.
 Vec3 longer_than_one() {
   RandomVectors vectors(LobeAngle::kReflection, 1, 2);
   for (;;) {
@@ -59,9 +59,9 @@ std::vector<Case> cases(double n) {
   };
 }
 
-/// The stated bound is of all angles. With the light at the horizon or below it a highlight is off by no more than its
-/// own cosine lets it be. And where the bound says nothing, float64 was chosen: what its roundings of the vectors
-/// (docs/numerics.md; twice those, because Reflector normalises first) make of the lobe at this angle.
+/// The stated bound, which covers all angles, narrowed for these vectors. With the light at the horizon or below it, the
+/// cosine limits the error. Where the bound excludes nothing, float64 was chosen: the change of the lobe at this angle
+/// by float64's roundings of the vectors (docs/numerics.md; twice those, because Reflector normalises first).
 double bound_here(double stated, const Highlight& h, const ScreenedVectors& v) {
   constexpr double kUnit = 0x1p-53;
   const auto cosine = static_cast<double>(v.n_dot_l);

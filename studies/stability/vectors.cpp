@@ -1,29 +1,22 @@
 #include "studies/stability/vectors.hpp"
 
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
+#include "reference_scenes/engines/analytic/formulas/vector.hpp"
 
 namespace lobelia::stability {
 namespace {
 
-struct Long3 {
-  long double x, y, z;
-  friend Long3 operator+(Long3 a, Long3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Long3 operator-(Long3 a, Long3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Long3 operator*(long double k, Long3 a) { return {k * a.x, k * a.y, k * a.z}; }
-};
-long double dot(Long3 a, Long3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Long3 unit(Long3 a) { return 1 / std::sqrt(dot(a, a)) * a; }
-Long3 unit(Vec3 a) { return unit(Long3{a.x, a.y, a.z}); }
+using Long3 = truth::Vector<long double>;
 Vec3 rounded(Long3 a) { return {double(a.x), double(a.y), double(a.z)}; }
 
 }  // namespace
 
 ScreenedVectors screen(LobeAngle angle, const Triple& directions) {
-  const Long3 n = unit(directions.normal), v = unit(directions.to_eye),
-              l = unit(directions.to_light);
+  const Long3 n = normalize(Long3(directions.normal)), v = normalize(Long3(directions.to_eye)),
+              l = normalize(Long3(directions.to_light));
   const Long3 sum = l + v;
   const Long3 difference =
-      angle == LobeAngle::kReflection ? 2 * dot(n, v) * n - v - l : n - unit(sum);
+      angle == LobeAngle::kReflection ? 2 * dot(n, v) * n - v - l : n - normalize(sum);
   return {rounded(n), rounded(v),
           rounded(l), dot(difference, difference) / 2,
           dot(n, l),  double(std::sqrt(dot(sum, sum)))};
@@ -37,7 +30,7 @@ Vec3 RandomVectors::direction() {
   return normalize({normal_(random_), normal_(random_), normal_(random_)});
 }
 
-/// Half of them down to 1e-9, by decades.
+/// Half of them are spread by decades down to 1e-9.
 double RandomVectors::grazing_cosine() {
   const double x = uniform();
   return uniform() < 0.5 ? 1 - x : std::pow(10, -9 * x);
@@ -63,7 +56,7 @@ Triple RandomVectors::next() {
 
 Triple RandomVectors::beside(const Triple& there) {
   for (;;) {
-    // By up to a thousandth of what the vectors are apart, and of the lobe's width.
+    // Up to a thousandth of the lobe's width.
     const double step = 1e-3 * width_ * std::pow(10, -6 * uniform());
     const auto moved = [&](Vec3 a) { return a + step * length(a) * direction(); };
     const Triple near{moved(there.normal), moved(there.to_eye), moved(there.to_light)};

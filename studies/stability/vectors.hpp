@@ -1,4 +1,4 @@
-// The vectors that highlights are tried with: at random, in long double, and as the kernels take them.
+// Test vectors of highlights: at random, in long double, and in the kernels' layout.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace lobelia::stability {
 
-/// Directions, not of unit length: what they point to exactly is the truth.
+/// Exact directions, not of unit length.
 struct Triple {
   Vec3 normal, to_eye, to_light;
 };
@@ -23,7 +23,7 @@ class RandomVectors {
       : angle_(angle), width_(1 / std::sqrt(exponent)), random_(seed) {}
 
   Triple next();
-  /// A little beside `there`: the same place of the lobe, other roundings.
+  /// Close to `there`: the same place of the lobe, other roundings.
   Triple beside(const Triple& there);
 
  private:
@@ -38,23 +38,23 @@ class RandomVectors {
   std::normal_distribution<double> normal_;
 };
 
-/// A highlight's vectors in long double (64 binary digits on x86), to find the worst of many cases with. The worst is
-/// then judged by reference_scenes/engines/analytic/formulas/.
+/// A highlight's vectors in long double (64 binary digits on x86), to find the worst of many cases, which is then judged
+/// by reference_scenes/engines/analytic/formulas/.
 struct ScreenedVectors {
   Vec3 normal, to_eye, to_light;  ///< unit, correctly rounded to double
-  long double s, n_dot_l;         ///< of the unrounded ones
+  long double s, n_dot_l;         ///< of the unrounded vectors
   double half_length;             ///< |L + V|
 };
 ScreenedVectors screen(LobeAngle angle, const Triple& directions);
 long double screened_lobe(LobeId lobe, long double s, double exponent);
 
-inline constexpr int kHalvings = 64;  ///< that |L + V| may be below 1
+inline constexpr int kHalvings = 64;  ///< |L + V| is above 2^-kHalvings
 
 inline void put(Vec3Chunk& to, std::size_t i, Vec3 a) {
   to.x[i] = a.x, to.y[i] = a.y, to.z[i] = a.z;
 }
 
-/// Vectors as the kernels take them.
+/// Vectors in the kernels' layout.
 struct Chunk {
   Triple directions[kChunk];
   Vec3Chunk normal{}, to_eye{}, to_light{};
@@ -73,8 +73,8 @@ struct Chunk {
   }
 };
 
-/// Lobe times foreshortening by the renderer's kernel, in the precision that the plan would choose. Sets `bound` to
-/// that precision's.
+/// Lobe times foreshortening by the renderer's kernel, in the precision that the plan would choose. Sets `bound` to that
+/// precision's bound.
 double by_kernel(const Highlight& h, const ScreenedVectors& v, double& bound);
 
 }  // namespace lobelia::stability

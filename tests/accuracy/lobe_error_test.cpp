@@ -1,4 +1,4 @@
-#include "accuracy/lobe_error.hpp"
+#include "accuracy/lobe_candidates.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "accuracy/pixel_subset.hpp"
+#include "accuracy/picture_truth.hpp"
 
 #include <gtest/gtest.h>
 

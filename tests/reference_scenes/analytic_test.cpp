@@ -12,7 +12,7 @@
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
-#include "studies/stability/sphere_scenes.hpp"
+#include "studies/stability/cases.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
 
 namespace lobelia {

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "renderer/pixel_ray.hpp"
 #include "renderer/scene/scene_io.hpp"
-#include "studies/stability/sphere_scenes.hpp"
+#include "studies/stability/cases.hpp"
 #include "tests/canonical_scene.hpp"
 #include "tests/reference_scenes/hall_scene.hpp"
 

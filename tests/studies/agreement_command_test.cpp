@@ -6,8 +6,7 @@
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "lobelia_paths.hpp"
-#include "studies/agreement/cases.hpp"
-#include "studies/agreement/variants.hpp"
+#include "studies/agreement/agreement.hpp"
 #include "tests/json.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/cost/transport/convergence.hpp"
+#include "studies/cost/convergence.hpp"
 
 #include <gtest/gtest.h>
 

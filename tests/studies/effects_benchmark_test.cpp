@@ -1,4 +1,4 @@
-#include "studies/cost/effects_benchmark.hpp"
+#include "studies/cost/benchmarks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,10 +7,8 @@
 
 #include "renderer/plan/effects/catalogue.hpp"
 #include "renderer/render.hpp"
-#include "studies/cost/everything.hpp"
-#include "studies/cost/transport/measure.hpp"
-#include "studies/cost/transport/scenes.hpp"
-#include "studies/cost/without.hpp"
+#include "studies/cost/convergence.hpp"
+#include "studies/cost/scenes.hpp"
 
 namespace lobelia::cost {
 namespace {

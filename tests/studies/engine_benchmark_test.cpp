@@ -1,4 +1,4 @@
-#include "studies/cost/engine_benchmark.hpp"
+#include "studies/cost/benchmarks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

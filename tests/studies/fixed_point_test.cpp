@@ -9,7 +9,6 @@
 #include <random>
 #include <set>
 
-#include "studies/cost/fixed_point_benchmark.hpp"
 #include "studies/cost/lobe_errors.hpp"
 
 namespace lobelia::cost {

@@ -1,4 +1,4 @@
-#include "studies/cost/largest_error.hpp"
+#include "studies/cost/lobe_errors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,17 +20,6 @@ LobeVariant way_of(double exponent, const std::string& name) {
   throw std::runtime_error("no way is called " + name);
 }
 
-std::vector<double> values(const LobeVariant& way, const std::vector<float>& s) {
-  std::vector<double> value(s.size());
-  if (way.wide) {
-    way.over64(s.size(), std::vector<double>(s.begin(), s.end()).data(), value.data());
-    return value;
-  }
-  std::vector<float> narrow(s.size());
-  way.over32(s.size(), s.data(), narrow.data());
-  return {narrow.begin(), narrow.end()};
-}
-
 double cosine(double s, double n) {
   return double(std::exp((long double)n * std::log1p(-(long double)s)));
 }
@@ -41,7 +30,7 @@ double by_force(const LobeVariant& way, double n, float from, float to) {
   for (float s = from; s < to;) {
     std::vector<float> block(1 << 12);
     for (float& one : block) one = s, s = std::nextafter(s, 2.0f);
-    const std::vector<double> value = values(way, block);
+    const std::vector<double> value = way.values(block);
     for (std::size_t i = 0; i < block.size(); ++i)
       most = std::max(most, std::abs(value[i] - cosine(block[i], n)));
   }
@@ -114,7 +103,7 @@ TEST(LargestError, BoundsEveryWayAtRandomNumbers) {
       EXPECT_LE(e.found, e.at_most) << way.name() << " " << n;
       std::vector<float> s(1 << 12);
       for (float& one : s) one = float(std::min(1.0, std::pow(10, 9 * uniform(random) - 7) / n));
-      const std::vector<double> value = values(way, s);
+      const std::vector<double> value = way.values(s);
       for (std::size_t i = 0; i < s.size(); ++i) {
         const double off = std::abs(value[i] - cosine(s[i], n));
         // At 1 some lobes end in a step.
@@ -139,7 +128,7 @@ TEST(LobeWays, InFloat32GiveOneWhereTheyAreTooCloseToIt) {
       if (way.wide) continue;
       std::vector<float> s(1 << 12);
       for (float& one : s) one = float(0x1p-26 / n * std::pow(10, -30 * uniform(random)) * 0.999);
-      for (const double value : values(way, s)) ASSERT_EQ(value, 1) << way.name() << " " << n;
+      for (const double value : way.values(s)) ASSERT_EQ(value, 1) << way.name() << " " << n;
     }
 }
 
@@ -156,7 +145,7 @@ TEST(LobeWays, ThatSeeTheRoundedCosineAloneAreSteps) {
         given[i] = float(20 / n * uniform(random));
         same[i] = 1 - (1 - given[i]);
       }
-      EXPECT_EQ(values(way, given), values(way, same)) << way.name();
+      EXPECT_EQ(way.values(given), way.values(same)) << way.name();
     }
   EXPECT_GT(of_cosine, 30);
 }

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "studies/cost/transport/measure.hpp"
-#include "studies/cost/transport/scenes.hpp"
+#include "studies/cost/convergence.hpp"
+#include "studies/cost/scenes.hpp"
 #include "tests/reference_scenes/require_engine.hpp"
 
 namespace lobelia::cost {

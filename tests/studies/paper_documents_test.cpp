@@ -7,7 +7,6 @@
 #include <set>
 
 #include "lobelia_paths.hpp"
-#include "studies/paper/plots.hpp"
 #include "studies/paper/report.hpp"
 #include "tests/cli/run_lobelia.hpp"
 #include "tests/json.hpp"

@@ -7,7 +7,7 @@
 #include "accuracy/picture_truth.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
-#include "studies/cost/picture_benchmark.hpp"
+#include "studies/cost/benchmarks.hpp"
 #include "tests/canonical_scene.hpp"
 
 namespace lobelia::cost {

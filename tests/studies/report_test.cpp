@@ -1,4 +1,4 @@
-#include "studies/cost/report.hpp"
+#include "studies/cost/table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

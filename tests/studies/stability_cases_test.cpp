@@ -9,7 +9,6 @@
 #include "renderer/precision.hpp"
 #include "studies/stability/cases.hpp"
 #include "studies/stability/naive.hpp"
-#include "studies/stability/sphere_scenes.hpp"
 #include "studies/stability/vectors.hpp"
 
 namespace lobelia::stability {

@@ -1,4 +1,4 @@
-#include "studies/cost/transport_benchmark.hpp"
+#include "studies/cost/benchmarks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/cost/everything.hpp"
-#include "studies/cost/transport/measure.hpp"
-#include "studies/cost/transport/scenes.hpp"
+#include "studies/cost/convergence.hpp"
+#include "studies/cost/scenes.hpp"
 
 namespace lobelia::cost {
 namespace {

@@ -1,10 +1,7 @@
 // The bounds that the paper prints for the two coefficients of the Blinn-Phong family.
 //
-// Of row 3, 8 pi C - (n + 2) is (n + 2) q / (1 - q) with q = 2^(-n/2 - 1): above 0 also where it is so
-// small that the difference rounds to 0.
-#include <fmt/format.h>
-
-#include "studies/paper/claim.hpp"
+// For row 3, 8 pi C - (n + 2) is (n + 2) q / (1 - q) with q = 2^(-n/2 - 1): above 0 even if it is so small that the
+// difference rounds to 0.
 #include "studies/paper/search.hpp"
 
 namespace lobelia::paper {

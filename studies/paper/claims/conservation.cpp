@@ -1,9 +1,6 @@
-// Conservation of energy: at normal incidence, where the paper normalises, and at every other.
-#include <boost/math/tools/toms748_solve.hpp>
-
+// Conservation of energy.
 #include <fmt/format.h>
 
-#include "studies/paper/claim.hpp"
 #include "studies/paper/energy.hpp"
 #include "studies/paper/search.hpp"
 
@@ -35,13 +32,12 @@ Extreme largest_albedo(Belongs belongs, Held held) {
 /// The incidence, in degrees, from which more is reflected than arrives.
 double gain_begins(const Row& row, Real n) {
   const auto gain = [&](double theta) { return reflected(row, n, theta, Held::kBeam) - 1; };
-  std::uintmax_t iterations = 60;
-  return boost::math::tools::toms748_solve(
-             gain, 30.0, 89.999, boost::math::tools::eps_tolerance<double>(20), iterations)
-      .first;
+  return root(gain, 30.0, 89.999, 20);
 }
 
 }  // namespace
+
+// ---- at normal incidence, where the paper normalises, and at every other
 
 Claim energy_of_cs16() {
   Claim claim{"energy-cs16", "table of coefficients, cs16 column",
@@ -198,6 +194,39 @@ Claim energy_of_rdfs_lit() {
       "the power that arrives on an area falls as N.L, an RDF's radiance does not: the share grows "
       "without bound towards grazing light. Not reciprocal, so not the same as what an eye sees "
       "(energy-rdf-seen); at normal incidence it is below 1";
+  return claim;
+}
+
+// ---- rows 5 and 6 normalise a distribution of normals, not light
+
+Claim distribution_as_rdf() {
+  Claim claim{"distribution-as-rdf", "table of coefficients, row 5",
+              "the energy of the NDF's coefficient used for reflected light: four times too much "
+              "in the limit",
+              ""};
+  for (const Real n : {16.0L, 64.0L, 1024.0L})
+    claim.measured.push_back(
+        figure("energy",
+               kRows[kNdf].cosine_column(n) * hemisphere_integral(kRows[kBlinn], Lobe::kCosine, n),
+               4, at_exponent(n)));
+  claim.definition = "row 5's coefficient for cos^n times row 3's integral, at normal incidence";
+  claim.reason = "the angle of H is half that of the reflected ray, its solid angle a quarter";
+  return claim;
+}
+
+Claim distribution_as_brdf() {
+  Claim claim{"distribution-as-brdf", "table of coefficients, rows 5 and 6",
+              "the share of light that the normalised distributions reflect is below 1", ""};
+  for (const RowNumber number : {kNdf, kHeightfield})
+    for (const Real n : {16.0L, 1024.0L}) {
+      const Row& row = kRows[number];
+      claim.measured.push_back(figure(
+          std::string(row.title),
+          albedo(row, Lobe::kCosine, n, row.cosine_column(n), 0, Held::kBeam), 3, at_exponent(n)));
+    }
+  claim.definition =
+      "reflected over arriving power at normal incidence, cos^n, f_r = D/4 (F = 1, G = (N.L)(N.V))";
+  claim.reason = "normals are normalised, not light: what the implicit geometry hides is lost";
   return claim;
 }
 

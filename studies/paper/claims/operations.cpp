@@ -1,9 +1,6 @@
-// What a lobe costs: each formula is computed once with a number that counts its operations.
-#include <fmt/format.h>
-
+// The operations of each lobe, counted by computing the formula with a counting number.
 #include <bit>
 
-#include "studies/paper/claim.hpp"
 #include "studies/paper/search.hpp"
 
 namespace lobelia::paper {
@@ -17,43 +14,28 @@ struct Counts {
   int all() const { return products + multiply_adds + divisions + functions(); }
 };
 
-/// A number that knows what was done to it. Constants of (n) alone are made beforehand, so they cost
-/// nothing here.
+/// A number that counts the operations on it. Constants of n alone are made beforehand and cost nothing here.
 struct Counted {
   Real value;
   Counts* counts;
 
   Counted with(Real result) const { return {result, counts}; }
+  Counted after(int Counts::*operation, Real result) const {
+    ++(counts->*operation);
+    return with(result);
+  }
 };
-Counted operator*(Counted a, Counted b) {
-  ++a.counts->products;
-  return a.with(a.value * b.value);
-}
-Counted operator/(Counted a, Counted b) {
-  ++a.counts->divisions;
-  return a.with(a.value / b.value);
-}
+Counted operator*(Counted a, Counted b) { return a.after(&Counts::products, a.value * b.value); }
+Counted operator/(Counted a, Counted b) { return a.after(&Counts::divisions, a.value / b.value); }
 Counted multiply_add(Real factor, Counted a, Real addend) {
-  ++a.counts->multiply_adds;
-  return a.with(std::fma(factor, a.value, addend));
+  return a.after(&Counts::multiply_adds, std::fma(factor, a.value, addend));
 }
 Counted positive_or_zero(Counted a) {
-  ++a.counts->comparisons;
-  return a.with(std::max<Real>(0, a.value));
+  return a.after(&Counts::comparisons, std::max<Real>(0, a.value));
 }
-Counted inverse_cosine(Counted a) {
-  ++a.counts->inverse_cosines;
-  return a.with(std::acos(a.value));
-}
-Counted exponential(Counted a) {
-  ++a.counts->exponentials;
-  return a.with(std::exp(a.value));
-}
-
-Counted logarithm(Counted a) {
-  ++a.counts->logarithms;
-  return a.with(std::log(a.value));
-}
+Counted inverse_cosine(Counted a) { return a.after(&Counts::inverse_cosines, std::acos(a.value)); }
+Counted exponential(Counted a) { return a.after(&Counts::exponentials, std::exp(a.value)); }
+Counted logarithm(Counted a) { return a.after(&Counts::logarithms, std::log(a.value)); }
 
 Counted cosine_by_functions(Counted cosine, Real n) {
   return exponential(cosine.with(n) * logarithm(cosine));

@@ -1,9 +1,4 @@
 // Schlick's lobe and the Gaussian, beside cos^n.
-#include <boost/math/tools/toms748_solve.hpp>
-
-#include <fmt/format.h>
-
-#include "studies/paper/claim.hpp"
 #include "studies/paper/energy.hpp"
 #include "studies/paper/search.hpp"
 
@@ -12,11 +7,11 @@ namespace {
 
 constexpr int kLobeAngles = 100;
 
-/// Where cos^n x has fallen to `level`.
+/// The angle at which cos^n x has fallen to `level`.
 Real cosine_reach(Real n, Real level) { return std::acos(std::pow(level, 1 / n)); }
-/// Where Schlick's lobe has: c/(n - n c + c) = level.
+/// The same for Schlick's lobe: c/(n - n c + c) = level.
 Real schlick_reach(Real n, Real level) { return std::acos(n / (1 / level - 1 + n)); }
-/// Where cos^n x has its inflection: tan^2 x = 1/(n - 1).
+/// The inflection of cos^n x: tan^2 x = 1/(n - 1).
 Real inflection(Real n) { return std::atan(1 / std::sqrt(n - 1)); }
 
 using Zone = Real (*)(Real n);
@@ -43,8 +38,7 @@ Extreme largest_error(OtherLobe other, Zone zone, Of of) {
 constexpr char kSchlick[] = "text on Schlick's lobe";
 
 Figure schlick_error(const char* what, Zone zone, Of of) {
-  const Extreme worst = largest_error(schlick_lobe, zone, of);
-  return figure(what, worst.value, 3, at_exponent(worst.at));
+  return figure(what, largest_error(schlick_lobe, zone, of), 3);
 }
 
 }  // namespace
@@ -87,7 +81,6 @@ Claim schlick_epicentre_inflection() {
 Claim schlick_tail() {
   Claim claim{"schlick-tail", kSchlick, "in the blooming zone Schlick's lobe falls far too slowly",
               ""};
-  const auto solid_angle = [](Real x) { return versine(x); };
   for (const Real n : {16.0L, 1024.0L}) {
     const Real schlick = schlick_reach(n, 1 / 255.0L), cosine = cosine_reach(n, 1 / 255.0L);
     const std::string at = at_exponent(n);
@@ -97,7 +90,7 @@ Claim schlick_tail() {
     add("its reach over that of cos^n", schlick / cosine);
     add("Schlick's reach in degrees", degrees(schlick));
     add("that of cos^n", degrees(cosine));
-    add("solid angle over that of cos^n", solid_angle(schlick) / solid_angle(cosine));
+    add("solid angle over that of cos^n", versine(schlick) / versine(cosine));
     add("energy over that of cos^n", schlick_integral(n) * (n + 1) / (2 * kPi));
   }
   claim.definition =
@@ -110,25 +103,20 @@ Claim schlick_tail() {
 }
 
 Claim gauss_accuracy() {
-  const auto at = [](Real n) {
-    return largest([n](Real x) { return std::abs(gauss_lobe(x, n) - cosine_lobe(x, n)); }, 0,
-                   kRightAngle, kLobeAngles);
-  };
   const Extreme epicentre = largest_error(gauss_lobe, half_of_peak, Of::kPeak);
   const Extreme anywhere = largest_error(gauss_lobe, hemisphere, Of::kPeak);
-  const Extreme at_1024 = at(kLastExponent);
+  const Extreme at_1024 = largest_difference(gauss_lobe, kLastExponent, kRightAngle);
   const auto times = [](Real n) {
     const Real x = cosine_reach(n, 1 / 255.0L);
     return gauss_lobe(x, n) / cosine_lobe(x, n);
   };
   Claim claim{"gauss-accuracy", "text on the Gaussian lobe",
               "exp(-n x^2/2) is accurate in the epicentre and in the tail", ""};
-  claim.measured = {
-      figure("largest difference from cos^n", anywhere.value, 3, at_exponent(anywhere.at)),
-      figure("the same", at_1024.value, 2, "n = 1024"),
-      figure("in the epicentre", epicentre.value, 2, at_exponent(epicentre.at)),
-      figure("times too bright where cos^n is 1/255", times(16), 3, "n = 16"),
-      figure("the same", times(kLastExponent), 3, "n = 1024")};
+  claim.measured = {figure("largest difference from cos^n", anywhere, 3),
+                    figure("the same", at_1024.value, 2, "n = 1024"),
+                    figure("in the epicentre", epicentre, 2),
+                    figure("times too bright where cos^n is 1/255", times(16), 3, "n = 16"),
+                    figure("the same", times(kLastExponent), 3, "n = 1024")};
   claim.definition =
       "absolute difference, a share of the peak; the epicentre is where cos^n is at least half of it. "
       "No figure is printed; confirmed if nowhere worse than the 1.7e-2 that the paper grants cs16";
@@ -163,24 +151,16 @@ Claim more_accurate_lobe() {
                 gauss = largest_error(gauss_lobe, hemisphere, Of::kPeak),
                 cs16 = largest_error(cs16_lobe, hemisphere, Of::kPeak);
   const auto worst = [](Real (*lobe)(Real, Real), Real n) {
-    return largest([=](Real x) { return std::abs(lobe(x, n) - cosine_lobe(x, n)); }, 0,
-                   hemisphere(n), 4 * kLobeAngles)
-        .value;
+    return largest_difference(lobe, n, hemisphere(n), 4 * kLobeAngles).value;
   };
-  std::uintmax_t iterations = 60;
-  const Real crossing =
-      boost::math::tools::toms748_solve(
-          [&](Real n) { return worst(cs16_lobe, n) - worst(gauss_lobe, n); }, Real(17), Real(100),
-          boost::math::tools::eps_tolerance<Real>(20), iterations)
-          .first;
+  const Real crossing = root([&](Real n) { return worst(cs16_lobe, n) - worst(gauss_lobe, n); },
+                             Real(17), Real(100), 20);
   Claim claim{"more-accurate-lobe", kConclusions,
               "more accurate, as a lobe: cs16 is nearer to cos^n than the other lobes compared",
               ""};
-  claim.measured = {
-      figure("largest difference of cs16 from cos^n", cs16.value, 3, at_exponent(cs16.at)),
-      figure("of Schlick's", schlick.value, 3, at_exponent(schlick.at)),
-      figure("of the Gaussian", gauss.value, 3, at_exponent(gauss.at)),
-      figure("exponent from which the Gaussian is nearer", crossing, 3)};
+  claim.measured = {figure("largest difference of cs16 from cos^n", cs16, 3),
+                    figure("of Schlick's", schlick, 3), figure("of the Gaussian", gauss, 3),
+                    figure("exponent from which the Gaussian is nearer", crossing, 3)};
   claim.definition =
       "absolute difference over the hemisphere, a share of the peak, n = 16..1024. The paper does not say by what "
       "measure its models are more accurate; this is one reading, and the other more-accurate claims are the others. "

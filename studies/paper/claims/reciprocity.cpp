@@ -1,7 +1,4 @@
-// Helmholtz reciprocity: f_r(L, V) = f_r(V, L), looked for in pairs of directions.
-#include <fmt/format.h>
-
-#include "reference_scenes/engines/analytic/formulas/printed.hpp"
+// Helmholtz reciprocity: f_r(L, V) = f_r(V, L), tried for pairs of directions.
 #include "studies/paper/claim.hpp"
 
 namespace lobelia::paper {
@@ -40,7 +37,7 @@ struct Asymmetry {
 };
 
 /// Over pairs of directions from 5 to 85 degrees in steps of 10, and azimuths in steps of 20.
-void look(const Row& row, Asymmetry& asymmetry) {
+void widen(Asymmetry& asymmetry, const Row& row) {
   const auto radians = [](int degrees) { return degrees * kPi / 180; };
   for (const Lobe lobe : {Lobe::kCosine, Lobe::kCs16})
     for (const Real n : {16.0L, 64.0L})
@@ -67,7 +64,7 @@ constexpr char kPairs[] =
 Claim reciprocity_of_brdfs() {
   Asymmetry asymmetry;
   for (const Row& row : kRows)
-    if (!row.is_rdf()) look(row, asymmetry);
+    if (!row.is_rdf()) widen(asymmetry, row);
   const Real excess = asymmetry.largest_ratio - 1;
   Claim claim{"reciprocity-brdf", kModelsText,
               "the modified models and the distributions satisfy Helmholtz reciprocity", ""};
@@ -81,7 +78,7 @@ Claim reciprocity_of_brdfs() {
 Claim reciprocity_of_rdfs() {
   Asymmetry asymmetry;
   for (const Row& row : kRows)
-    if (row.is_rdf()) look(row, asymmetry);
+    if (row.is_rdf()) widen(asymmetry, row);
   Claim claim{"reciprocity-rdf", kModelsText,
               "Phong (RDF) and Blinn-Phong (RDF) satisfy Helmholtz reciprocity", ""};
   claim.measured = {figure("largest ratio of f_r there to f_r back", asymmetry.largest_ratio, 3,

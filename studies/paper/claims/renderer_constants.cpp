@@ -1,7 +1,6 @@
-// The one place where the renderer is asked: whether its normalisation "paper" is what is printed.
+// The only claim that uses the renderer: whether its normalisation "paper" is the printed table.
 #include <stdexcept>
 
-#include "reference_scenes/engines/analytic/formulas/printed.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/paper/claim.hpp"
 

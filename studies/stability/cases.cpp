@@ -1,3 +1,5 @@
+#include "studies/stability/cases.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,36 +10,33 @@
 #include "reference_scenes/engines/analytic/formulas/definition.hpp"
 #include "reference_scenes/engines/analytic/formulas/truth.hpp"
 #include "renderer/kernels/kernels.hpp"
-#include "studies/stability/cases.hpp"
 #include "studies/stability/naive.hpp"
 
 namespace lobelia::stability {
 namespace {
+
+constexpr double kSmallest = std::numeric_limits<float>::min();
+/// A lobe may end a little before the smallest number, as the exponent at its end is rounded too.
+constexpr double kNothing = 1.001 * kSmallest;
+
+double unit_in_last_place(double value) {
+  return std::ldexp(1.0, std::ilogb(std::max(std::abs(value), kSmallest)) - 23);
+}
 
 struct Abscissa {
   std::string name;
   float s;
 };
 
-/// s at which the lobe is `value`, by bisection between its middle and its end.
-float s_of_value(LobeId lobe, double exponent, double value) {
-  double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (truth::lobe(lobe, middle, exponent) > value ? low : high) = middle;
-  }
-  return float(low);
-}
-
 std::vector<Abscissa> abscissae(LobeId lobe, double n) {
-  // theta_cr = arccos((n - k)/n); of lobes without a k the paper's, k = 16. From n = k down it is none.
+  // theta_cr = arccos((n - k)/n); k = 16, the paper's, for lobes without a k. It exists for n > k.
   const double end = std::min(1.0, (lobe.order > 0 ? lobe.order : 16) / n);
   const auto at = [](double angle) { return float(truth::one_minus_cos(angle)); };
   std::vector<Abscissa> result{
       {"angle 0", 0},
       {"angle 1e-8", at(1e-8)},
       {"angle 1e-4", at(1e-4)},
-      {"half of the peak", s_of_value(lobe, n, 0.5)},
+      {"half of the peak", float(s_of_value(lobe, n, 0.5, 60))},
       {"just inside theta_cr", std::nextafter(float(end), 0.0f)},
       {"inside theta_cr by 1e-4", float(end * (1 - 1e-4))},
       {"just outside theta_cr", std::nextafter(float(end), 2.0f)},
@@ -48,11 +47,53 @@ std::vector<Abscissa> abscissae(LobeId lobe, double n) {
   };
   for (const double times : {1e6, 2.0, 0.5, 1e-6})
     result.push_back({fmt::format("{:g} times the smallest float32", times),
-                      s_of_value(lobe, n, times * std::numeric_limits<float>::min())});
+                      float(s_of_value(lobe, n, times * std::numeric_limits<float>::min(), 60))});
   return result;
 }
 
 }  // namespace
+
+Answer judge(double value, double truth, double peak) {
+  if (!std::isfinite(value)) return {value, kInfinity, kInfinity, 0};
+  const double error = std::abs(value - truth);
+  const bool nothing = std::abs(value) < kNothing && std::abs(truth) < kNothing;
+  return {value, error / peak, nothing ? 0 : error / unit_in_last_place(truth), 0};
+}
+
+std::string_view outcome(const Row& row) {
+  const Answer& ours = row.ours;
+  // A NaN is outside.
+  const bool holds = std::isfinite(row.truth) && ours.of_peak <= row.bound.of_peak &&
+                     ours.ulp <= row.bound.ulp && ours.wrong_pixels == 0 &&
+                     (ours.value == 0 || std::isnormal(ours.value));
+  if (!holds) return kOutside;
+  return row.bound.of_peak < 1 || std::isfinite(row.bound.ulp) ? kWithin : kNotCompared;
+}
+
+Row judged(std::string_view group, std::string_view name, const Subject& of, double truth,
+           const Answer& naive, const Answer& ours, double bound_of_peak, double bound_ulp) {
+  Row row{std::string(group),
+          std::string(name),
+          std::string(of.model),
+          std::string(of.lobe),
+          of.exponent,
+          truth,
+          naive,
+          ours,
+          {bound_of_peak, bound_ulp},
+          ""};
+  row.outcome = outcome(row);
+  return row;
+}
+
+double s_of_value(LobeId lobe, double exponent, double value, int halvings) {
+  double low = 0, high = 1;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    (truth::lobe(lobe, middle, exponent) > value ? low : high) = middle;
+  }
+  return low;
+}
 
 std::vector<LobeId> lobes_under_test() {
   std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
