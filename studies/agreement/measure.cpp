@@ -10,7 +10,7 @@
 #include "core/constants.hpp"
 #include "core/interrupt.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
-#include "reference_scenes/replicate_statistics.hpp"
+#include "reference_scenes/replicates.hpp"
 #include "renderer/render.hpp"
 #include "studies/agreement/agreement.hpp"
 

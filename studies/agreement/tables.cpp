@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "reference_scenes/replicate_statistics.hpp"
+#include "reference_scenes/replicates.hpp"
 #include "studies/agreement/report.hpp"
 
 namespace lobelia::agreement {
