@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The same picture by us, POV-Ray and Cycles, one thread each, in turn: the whole command and what each
-# says of its tracing alone. Medians, and the ratio to ours.
+# Times one picture by Lobelia, POV-Ray and Cycles, one thread each, in turn: the whole command, and the tracing alone as
+# the engine reports it. Prints medians, and the ratio to ours.
 #
-# POV-Ray's tracing is the "Trace Time" of its statistics; Cycles' is from its first to its last sample,
-# which it prints in hundredths of a second.
+# POV-Ray's tracing is the "Trace Time" of its statistics. Cycles' is the time from its first to its last sample, which
+# it prints in hundredths of a second.
 set -euo pipefail
 lobelia=$1
 speed=$2
@@ -54,7 +54,7 @@ for lobe in cosine cs16; do
       esac
     done
   done
-  # What is timed is right: the pictures agree, or their difference is half floats' (docs of compare).
+  # The timed pictures must agree, or differ only by the rounding of half floats.
   for engine in "${engines[@]}"; do
     "$lobelia" compare "$work/ours.exr" "$work/$engine.exr" >"$work/log" 2>&1 || [ $? = 1 ] ||
       { cat "$work/log" >&2; exit 1; }

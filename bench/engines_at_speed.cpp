@@ -1,16 +1,13 @@
-// How busy the engines keep the processors over many small pictures: bench_engines ENGINE [PROCESSES [COUNT]].
+// The load of the processors while an engine renders many small pictures: bench_engines ENGINE [PROCESSES [COUNT]].
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <atomic>
-#include <chrono>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "core/at_once.hpp"
-#include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/timing.hpp"
 #include "lobelia_paths.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -18,7 +15,7 @@
 namespace lobelia::bench {
 namespace {
 
-/// Of all children that have ended; in seconds.
+/// Processor seconds of all children that have ended.
 double children_cpu() {
   rusage used{};
   ::getrusage(RUSAGE_CHILDREN, &used);
@@ -44,15 +41,14 @@ void measure(int argc, char** argv) {
     for (Material& material : scenes[std::size_t(i)].materials) material.highlight.exponent = i + 1;
   engine->status();
   const double cpu_before = children_cpu();
-  const auto began = std::chrono::steady_clock::now();
   std::atomic<int> failed = 0;
   options.scenes = scenes.size();
   Session session(*engine, options);
-  for_each_at_once(scenes.size(), session.at_once(), [&](std::size_t i) {
-    if (!session.render(scenes[i]).error.empty()) ++failed;
+  const double wall = seconds_of([&] {
+    for_each_at_once(scenes.size(), session.at_once(), [&](std::size_t i) {
+      if (!session.render(scenes[i]).error.empty()) ++failed;
+    });
   });
-  const double wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   const double cpu = children_cpu() - cpu_before;
   const double cores = std::max(1u, std::thread::hardware_concurrency());
   fmt::print(

@@ -1,5 +1,5 @@
-// Nanoseconds to shade one point: every model and lobe, beside std::pow of a dot product as a textbook
-// has it. One thread, points in the first-level cache.
+// Nanoseconds to shade one point: every model and lobe, and std::pow of a dot product as in a textbook. One thread,
+// points in the first-level cache.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kExponent = 128;
 
-/// Points of a sphere seen and lit from directions about its highlight.
+/// Points of a sphere around its highlight.
 struct Points {
   Vec3Chunk normal{}, to_eye{}, to_light{};
   alignas(64) double value[kChunk]{};
@@ -42,7 +42,7 @@ void shade(benchmark::State& state, ModelId model, LobeId lobe, Precision precis
     kernel(highlight, kChunk, points.normal, points.to_eye, points.to_light, points.value);
     benchmark::DoNotOptimize(points.value);
   }
-  // Checked after timing: a kernel that computes something else may well be fast.
+  // Checked after timing: a wrong kernel may be fast.
   for (std::size_t i = 0; i < kChunk; ++i) {
     const Vec3 n{points.normal.x[i], points.normal.y[i], points.normal.z[i]};
     const Vec3 v{points.to_eye.x[i], points.to_eye.y[i], points.to_eye.z[i]};

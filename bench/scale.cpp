@@ -1,5 +1,5 @@
-// What a farm of 1e6 cells on 1000 nodes would meet: measured as far as this machine goes, simulated beyond.
-// docs/scale.md has a run of it, and what follows.
+// The limits of a farm of 1e6 cells on 1000 nodes: measured as far as this machine allows, simulated beyond.
+// docs/scale.md has the results and conclusions.
 #include <fmt/format.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -56,7 +56,7 @@ void planning(const fs::path& directory) {
 
 ResultKey key_of(std::size_t i) { return result_key({"scale", std::to_string(i)}); }
 
-/// Results of three small files, as many as a picture has.
+/// Publishes a result of three small files, as many as a picture has.
 void publish(const ResultCache& cache, std::size_t i) {
   const auto claim = cache.try_claim(key_of(i));
   ResultDraft draft = cache.draft();
@@ -114,16 +114,16 @@ void caching(const fs::path& directory) {
 // ---- beyond this machine ----
 
 struct Cluster {
-  int nodes = 1, cores = 32;  ///< of a node
-  int threads = 32;           ///< of an element
-  double latency =
-      3;  ///< s, from a free place to the next element at work (measured: farm.md's stock 3 s)
+  int nodes = 1;
+  int cores = 32;                    ///< of a node
+  int threads = 32;                  ///< of an element
+  double latency = 3;                ///< seconds until the next element runs (docs/farm.md)
   double metadata_per_second = 2e4;  ///< operations that the shared file system's server answers
   double failures_per_node_day = 0.01, requeue = 300;
 };
 
-/// Operations on names that a result costs the file server: its directory, its files (made, closed, looked at, made
-/// read-only), its record, the renaming, two locks.
+/// Metadata operations of a result on the file server: its directory, its files (create, close, look at, make
+/// read-only), its record, the rename, two locks.
 double metadata_of(const SlurmJob& job) { return job.phase == 0 ? 28 : 20; }
 
 struct Outcome {
@@ -131,13 +131,13 @@ struct Outcome {
   double seconds = 0, busy = 0, metadata = 0, lost = 0;
 };
 
-/// Elements are handed to the place that is free first. An element's jobs share its threads evenly, and it cannot be
-/// faster than the server answers for all that run.
+/// Each element goes to the place that is free first. Its jobs share its threads evenly. All running elements together
+/// cannot be faster than the file server.
 Outcome simulate(const std::vector<SlurmJob>& jobs, const Cluster& cluster, std::uint64_t seed) {
   ChunkRule rule;
   const int places_of_node = cluster.cores / cluster.threads;
   rule.slots = std::size_t(cluster.nodes) * std::size_t(places_of_node);
-  // An element of several threads has as many seconds of work as it takes.
+  // The target is wall time; an element with several threads does more seconds of work in it.
   rule.target_seconds *= cluster.threads;
   Outcome outcome;
   std::mt19937_64 random(seed);
@@ -160,7 +160,7 @@ Outcome simulate(const std::vector<SlurmJob>& jobs, const Cluster& cluster, std:
       const double seconds = cost / cluster.threads;
       double start = free.top() + cluster.latency;
       free.pop();
-      // A node that dies takes what the element had not published yet; here: half a job a thread, and a requeue.
+      // A node that dies loses the element's unpublished results: here half of its time on average, and a requeue.
       if (uniform(random) < seconds / 86400 * cluster.failures_per_node_day) {
         outcome.lost += 1;
         start += cluster.requeue + seconds * uniform(random);

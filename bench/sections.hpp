@@ -1,21 +1,27 @@
-// The parts of `make bench`; each prints a table, checks what it timed, and ends by saying what limits it.
+// The sections of `make bench`. Each prints a table, checks what it timed, and ends with its bottleneck.
 #pragma once
 
-#include <string>
+#include "core/process.hpp"
+#include "core/timing.hpp"
 
 namespace lobelia::bench {
 
-void lobes();     ///< nanoseconds to evaluate a lobe
-void pictures();  ///< megapixels per second, for each model and lobe
-void trace(
-    const std::string& scene);  ///< milliseconds to render one scene, for the engines' script
-void threads();                 ///< efficiency on 1 to all processors
+/// The file of a canonical scene.
+std::string scene_file(std::string_view name);
+
+/// Runs a command without showing its output. A failure ends this program.
+ProcessResult run(const std::vector<std::string>& command);
+
+void lobes();                            ///< nanoseconds to evaluate a lobe
+void pictures();                         ///< megapixels per second, for each model and lobe
+void trace(const std::string& scene);    ///< seconds to render one scene, for engines.sh
+void threads();                          ///< efficiency on 1 to all processors
 void sizes(const std::string& program);  ///< whole commands, 256^2 to 8192^2, with peak memory
-void comparisons(
-    const std::string& program);  ///< of large pictures with peak memory, and of folders
-void plan();                      ///< cells of a grid, planned per second
-void exr();                       ///< packing and writing pictures
-void reading();                   ///< what it costs to read a picture in a process of its own
-void starting();                  ///< what it costs to run another program
+/// Whole commands that compare large pictures, with peak memory, and folders.
+void comparisons(const std::string& program);
+void plan();      ///< cells of a grid, planned per second
+void exr();       ///< compressing and writing pictures
+void reading();   ///< the cost of reading a picture in a process of its own
+void starting();  ///< the cost of running another program
 
 }  // namespace lobelia::bench

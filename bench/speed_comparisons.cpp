@@ -2,10 +2,8 @@
 
 #include <filesystem>
 
-#include "bench/child.hpp"
 #include "bench/sections.hpp"
 #include "core/files.hpp"
-#include "lobelia_paths.hpp"
 
 namespace lobelia::bench {
 namespace {
@@ -14,14 +12,13 @@ namespace fs = std::filesystem;
 
 void render_file(const std::string& program, const char* scene, int width, int height,
                  const fs::path& to) {
-  run({program, "render",
-       std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + scene + ".xml", "--width",
-       std::to_string(width), "--height", std::to_string(height), "-q", "-o", to});
+  run({program, "render", scene_file(scene), "--width", std::to_string(width), "--height",
+       std::to_string(height), "-q", "-o", to});
 }
 
-/// All metrics, with a limit that everything keeps: exit code 0.
-Child compare(const std::string& program, const fs::path& a, const fs::path& b,
-              std::vector<std::string> options) {
+/// All metrics, with a limit that always holds, so that the exit code is 0.
+ProcessResult compare(const std::string& program, const fs::path& a, const fs::path& b,
+                      std::vector<std::string> options) {
   std::vector<std::string> command{program, "compare", a, b, "--fail", "max_abs=1e30"};
   command.insert(command.end(), options.begin(), options.end());
   return run(command);
@@ -41,12 +38,13 @@ void comparisons(const std::string& program) {
        {std::pair{256, 256}, std::pair{1920, 1080}, std::pair{4096, 4096}, std::pair{8192, 8192}}) {
     render_file(program, "head_on", width, height, a);
     render_file(program, "two_lights", width, height, b);
-    const Child child = compare(program, a, b, {"--exposures=-2,2,3"});
+    const ProcessResult command = compare(program, a, b, {"--exposures=-2,2,3"});
+    const double peak = double(command.peak_memory_bytes) / (1 << 20);
     const double pictures = 2 * 12.0 * width * height / (1 << 20);
-    beyond = child.peak_mebibytes - pictures;
+    beyond = peak - pictures;
     fmt::print("{:>12}{:>10.2f}{:>14.2f}{:>12.0f}{:>14.0f}{:>12.0f}\n",
-               fmt::format("{} x {}", width, height), child.seconds, child.processor_seconds,
-               child.peak_mebibytes, pictures, beyond);
+               fmt::format("{} x {}", width, height), command.seconds, command.cpu_seconds, peak,
+               pictures, beyond);
   }
   fmt::print("Limit: the two pictures; the largest takes {:.0f} MiB beyond them.\n", beyond);
 

@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "bench/sections.hpp"
-#include "core/timing.hpp"
 #include "renderer/kernels/kernels.hpp"
 #include "studies/cost/lobe_variants.hpp"
 

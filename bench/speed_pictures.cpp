@@ -8,8 +8,6 @@
 
 #include "bench/sections.hpp"
 #include "core/threads.hpp"
-#include "core/timing.hpp"
-#include "lobelia_paths.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -20,7 +18,7 @@ namespace {
 constexpr int kSide = 1024;
 constexpr double kMegapixels = 1e-6 * kSide * kSide;
 
-/// What a hand-written prototype of the head-on picture reached: megapixels a second on one core.
+/// The speed of a hand-written prototype of the head-on picture, megapixels a second on one core.
 struct InstructionSet {
   const char* name;
   std::int64_t targets;
@@ -38,8 +36,7 @@ std::vector<InstructionSet> sets_here() {
 }
 
 Scene head_on(ModelId model, LobeId lobe) {
-  Scene scene =
-      read_scene(std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/head_on.xml");
+  Scene scene = read_scene(scene_file("head_on"));
   scene.film.width = scene.film.height = kSide;
   scene.materials[0].highlight.model = model;
   scene.materials[0].highlight.lobe = lobe;
@@ -105,10 +102,8 @@ void pictures() {
   double fastest = 1e9;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Case& c = all[i];
-    if (c.set == 0)
-      fmt::print("{:<24}{:<20}", info(c.model).name,
-                 lobe_names()[(i / sets.size()) % all_lobes().size()]);
     const std::string_view lobe = lobe_names()[(i / sets.size()) % all_lobes().size()];
+    if (c.set == 0) fmt::print("{:<24}{:<20}", info(c.model).name, lobe);
     const double rate = kMegapixels / times[i].median;
     const double prototype = lobe == "cs16"     ? sets[c.set].prototype_cs16
                              : lobe == "cosine" ? sets[c.set].prototype_cosine
@@ -140,12 +135,11 @@ void pictures() {
 }
 
 void trace(const std::string& path) {
-  const Scene scene = read_scene(path);
-  Scene sized = scene;
-  sized.film.width = sized.film.height = kSide;
+  Scene scene = read_scene(path);
+  scene.film.width = scene.film.height = kSide;
   Image image(kSide, kSide);
   for (const auto& set : sets_here()) {
-    const auto renderer = renderer_for(set, sized);
+    const auto renderer = renderer_for(set, scene);
     const auto times =
         interleaved({[&] { renderer->render_rows(0, kSide, image.values().data()); }}, 41);
     fmt::print("{} {:.6f}\n", set.name, times[0].median);

@@ -7,24 +7,21 @@
 
 #include "bench/sections.hpp"
 #include "core/files.hpp"
-#include "core/timing.hpp"
 #include "farm/grid.hpp"
-#include "lobelia_paths.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::bench {
 namespace {
 
-/// `exponents` times 200 cells.
+/// A grid of `exponents` times 200 cells.
 std::string grid_text(int exponents) {
-  const std::string scenes = std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/";
   std::string text = fmt::format(
-      "<grid version=\"1\"><axis name=\"scene\" values=\"{0}head_on.xml, {0}two_spheres.xml\"/>"
+      "<grid version=\"1\"><axis name=\"scene\" values=\"{}, {}\"/>"
       "<axis name=\"model\" values=\"phong_rdf, modified_phong, blinn_phong_rdf, blinn_phong_ndf, "
       "modified_blinn_phong\"/><axis name=\"lobe\" values=\"cosine, cs16\"/><axis name=\"size\" "
       "values=\"64, 128, 256, 320x240, 512\"/><axis name=\"samples\" values=\"1, 16\"/>"
       "<axis name=\"exponent\" values=\"",
-      scenes);
+      scene_file("head_on"), scene_file("two_spheres"));
   for (int i = 1; i <= exponents; ++i) text += fmt::format("{} ", i * 1.25);
   return text + "\"/><engine name=\"povray\"/><engine name=\"blender\"/></grid>";
 }

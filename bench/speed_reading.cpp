@@ -6,7 +6,6 @@
 #include "core/colour.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
-#include "core/timing.hpp"
 
 namespace lobelia::bench {
 
@@ -22,7 +21,7 @@ void reading() {
       Image image(side, side);
       for (std::size_t i = 0; i < image.values().size(); ++i)
         image.values()[i] = float(std::sin(0.001 * double(i)) + 1);
-      const std::filesystem::path path = directory.path() / (std::string("a.") + kind);
+      const std::filesystem::path path = directory.path() / fmt::format("a.{}", kind);
       if (path.extension() == ".exr")
         write_exr(path, image, {});
       else
@@ -39,6 +38,12 @@ void reading() {
       "Limit: of small pictures the fork and what the child copies of its parent's memory ({:.1f} ms), of "
       "large ones the pipe.\n",
       least_price);
+}
+
+void starting() {
+  const auto times = interleaved({[] { run_process({"/bin/true"}, {}); }}, 1000).front();
+  fmt::print("a program that does nothing: {:.2f} ms, spread {:.0f} %, {:.2f} to {:.2f} ms\n",
+             1e3 * times.median, 100 * times.spread, 1e3 * times.least, 1e3 * times.most);
 }
 
 }  // namespace lobelia::bench

@@ -1,23 +1,13 @@
 #include <fmt/format.h>
 
-#include "bench/child.hpp"
 #include "bench/sections.hpp"
 #include "core/exr_writer.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
-#include "core/timing.hpp"
-#include "lobelia_paths.hpp"
 #include "renderer/render.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::bench {
-namespace {
-
-std::string scene_file(const char* name) {
-  return std::string(LOBELIA_SOURCE_DIR) + "/reference_scenes/scenes/" + name + ".xml";
-}
-
-}  // namespace
 
 void sizes(const std::string& program) {
   const TemporaryDirectory directory;
@@ -26,29 +16,29 @@ void sizes(const std::string& program) {
       "\nWhole commands, from start to file: lobelia render head_on.xml, all processors; median of 5\n");
   fmt::print("{:>8}{:>10}{:>12}{:>14}{:>12}{:>12}{:>10}\n", "side", "s", "Mpixel/s", "processor s",
              "peak MiB", "picture MiB", "file MiB");
-  double start_up = 0, last = 0, render_seconds = 0, write_seconds = 0;
+  double start_up = 0, last = 0;
   for (const int side : {16, 256, 512, 1024, 2048, 4096, 8192}) {
     std::vector<double> seconds;
-    Child child;
+    ProcessResult command;
     const int rounds = side > 2048 ? 3 : 5;
     for (int round = 0; round < rounds; ++round) {
-      child = run({program, "render", scene_file("head_on"), "--width", std::to_string(side),
-                   "--height", std::to_string(side), "-q", "-o", output});
-      seconds.push_back(child.seconds);
+      command = run({program, "render", scene_file("head_on"), "--width", std::to_string(side),
+                     "--height", std::to_string(side), "-q", "-o", output});
+      seconds.push_back(command.seconds);
     }
     const Times t = summary(seconds);
     if (side == 16) start_up = t.median;
     last = t.median;
     fmt::print("{:>8}{:>10.3f}{:>12.1f}{:>14.3f}{:>12.0f}{:>12.1f}{:>10.2f}\n", side, t.median,
-               1e-6 * side * side / t.median, child.processor_seconds, child.peak_mebibytes,
-               12.0 * side * side / (1 << 20),
+               1e-6 * side * side / t.median, command.cpu_seconds,
+               double(command.peak_memory_bytes) / (1 << 20), 12.0 * side * side / (1 << 20),
                double(std::filesystem::file_size(output)) / (1 << 20));
   }
   Scene scene = read_scene(scene_file("head_on"));
   scene.film.width = scene.film.height = 8192;
   const RenderResult result = render(scene, {});
-  render_seconds = result.render_seconds;
-  write_seconds = seconds_of([&] { write_exr(output, result.image, {}); });
+  const double render_seconds = result.render_seconds;
+  const double write_seconds = seconds_of([&] { write_exr(output, result.image, {}); });
   fmt::print(
       "Limit: start-up for small pictures ({:.0f} ms at 16 x 16); at 8192 x 8192 {} ({:.2f} s of {:.2f} s; rendering "
       "takes {:.2f} s).\n",
@@ -84,7 +74,7 @@ void exr() {
       scene.film.width = scene.film.height = side;
       const Image image = render(scene, {}).image;
       std::vector<std::function<void()>> cases;
-      // The large ones with what is worth its time: nothing, rows, and ZIP at the least and the usual level.
+      // Large pictures only with the usual kinds, to save time.
       std::vector<Kind> tried;
       for (const Kind& kind : kinds)
         if (side <= 1024 || kind.is_usual) tried.push_back(kind);

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "compare/maps/difference_map.hpp"
-#include "compare/metrics/flip_exposures.hpp"
+#include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
@@ -228,14 +228,13 @@ void print_metric_lines(const Comparison& comparison) {
   const auto& floor = comparison.reference_floor;
   if (floor)
     fmt::print("  {:<20}{:>14}{:>14}  {}\n", "", "A and B", "C and B", "C is the second reference");
-  for (const MetricValue& metric : comparison.metrics) {
-    fmt::print("  {:<20}{:>14.6g}", metric.id, metric.value);
+  for (const auto& [id, value] : comparison.metrics) {
+    fmt::print("  {:<20}{:>14.6g}", id, value);
     if (floor) {
-      const auto found = std::ranges::find(floor->metrics, metric.id, &MetricValue::id);
-      fmt::print("{:>14}",
-                 found == floor->metrics.end() ? "-" : fmt::format("{:.6g}", found->value));
+      const double* found = records::find(floor->metrics, id);
+      fmt::print("{:>14}", found ? fmt::format("{:.6g}", *found) : "-");
     }
-    fmt::print("  {}{}\n", error_bar_text(comparison, metric.id), metric.meaning);
+    fmt::print("  {}{}\n", error_bar_text(comparison, id), find_metric_output(id)->meaning);
   }
   for (const NotMeasured& one : comparison.not_measured)
     fmt::print("  {:<20}{:>14}  not measured: {}\n", one.metric, "-", one.because);
@@ -310,9 +309,9 @@ void print_pair(const PairReport& pair) {
   fmt::print("\n");
   if (comparison.verdict == Verdict::kNonFinite)
     fmt::print("  {}; nothing was measured\n", why_not_pass(comparison, pair.a, pair.b));
-  if (comparison.equal_nonfinite.value_or(0) > 0)
+  if (comparison.nonfinite.equal_allowed.value_or(0) > 0)
     fmt::print("  in {} pixels both have the same NaN or infinity, which counts as no difference\n",
-               *comparison.equal_nonfinite);
+               *comparison.nonfinite.equal_allowed);
   print_metric_lines(comparison);
   fmt::print("\n");
   if (comparison.verdict != Verdict::kNonFinite) {
@@ -320,8 +319,8 @@ void print_pair(const PairReport& pair) {
     print_limit_lines(comparison.warnings, "warning: ");
   }
   for (const LimitResult& limit : comparison.limits)
-    if (std::isfinite(limit.more_samples) && limit.more_samples > 0)
-      fmt::print("  about {:.3g} times the samples would tell about {}\n", limit.more_samples,
+    if (limit.more_samples && std::isfinite(*limit.more_samples))
+      fmt::print("  about {:.3g} times the samples would tell about {}\n", *limit.more_samples,
                  limit.metric);
   for (const std::string& sentence : comparison.disagreement)
     fmt::print("  metrics disagree: {}\n", sentence);

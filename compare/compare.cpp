@@ -5,23 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "compare/disagreement.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
 #include "compare/uncertainty/critical.hpp"
-#include "compare/uncertainty/judgement.hpp"
 #include "compare/uncertainty/z_test.hpp"
-#include "core/error.hpp"
+#include "core/constants.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr std::string_view kOutliers = "outliers";
-constexpr std::string_view kOutliersOffEdge = "outliers.off_edge";
+/// Pixels that noise leaves undecided. Over its limit this count is open, never broken.
+constexpr char kOpenPixels[] = "z.open";
 
 std::int64_t count_nonfinite_pixels(const Image& image) {
   const std::span<const float> values = image.values();
@@ -38,8 +36,8 @@ void require_range(std::string_view what, double value, double min, double max) 
                 fmt::format("{} is {}; it must lie in [{}, {}]", what, value, min, max));
 }
 
-/// The input that an option must provide for the metric; empty if it has all.
-std::string_view what_is_missing(const Metric& metric, const ComparisonOptions& options) {
+/// The input of the metric that the options lack; empty if they lack none.
+std::string_view missing_input(const Metric& metric, const ComparisonOptions& options) {
   if (metric.needs == Needs::kTolerance && !options.tolerance) return "a tolerance";
   if (metric.needs == Needs::kHdrExposures && !options.viewing.hdr_exposures)
     return "a range of exposures";
@@ -48,15 +46,15 @@ std::string_view what_is_missing(const Metric& metric, const ComparisonOptions& 
   return {};
 }
 
-std::vector<MetricValue> measure_all(const MetricInput& input) {
-  std::vector<MetricValue> results;
+records::Named<double> measure_all(const MetricInput& input) {
+  records::Named<double> results;
   std::vector<double> values;
   for (const Metric* metric : metrics()) {
     if (!is_measurable(*metric, input)) continue;
     values.assign(metric->outputs.size(), 0.0);
     metric->measure(input, values);
     for (std::size_t i = 0; i < values.size(); ++i)
-      results.push_back({metric->outputs[i].id, metric->outputs[i].meaning, values[i]});
+      results.emplace_back(metric->outputs[i].id, values[i]);
   }
   return results;
 }
@@ -68,18 +66,6 @@ std::vector<NotMeasured> all_not_measured(const MetricInput& input) {
       for (const MetricOutput& output : metric->outputs)
         if (output.better != Better::kNeither) result.push_back({std::string(output.id), why});
   return result;
-}
-
-std::vector<LimitResult> results_of(std::span<const MetricLimit> limits,
-                                    const Comparison& measured) {
-  std::vector<LimitResult> results;
-  for (const MetricLimit& limit : limits) {
-    const double value = measured.value(limit.metric);
-    const MetricOutput* output = find_metric_output(limit.metric);
-    results.push_back(
-        {limit.metric, limit.limit, value, output && is_within(*output, value, limit.limit)});
-  }
-  return results;
 }
 
 NoiseOfPair noise_of_pair(const ComparisonOptions& options) {
@@ -103,32 +89,112 @@ records::Uncertainty uncertainty_of(const MetricInput& input, const NoiseOptions
           .seed = noise.seed};
 }
 
-/// Fills in limits and verdict.
-void judge_noisy(const ComparisonOptions& options, Comparison& result) {
-  for (const MetricLimit& limit : asked_limits(options)) {
-    const double value = result.value(limit.metric);
-    const ErrorBar* bar = records::find(result.error_bars, limit.metric);
-    const Standing standing = standing_of(limit, value, bar);
-    result.limits.push_back({limit.metric, limit.limit, value, standing == Standing::kHolds,
-                             standing,
-                             standing == Standing::kOpen ? more_samples(limit, value, bar) : 0});
+// Pictures with noise. A limit is on the figure that endless samples would give; the error bar says where that may
+// lie. The limit holds if it holds for the whole bar, is broken if it is broken for the whole bar, and is otherwise
+// open. Pictures are different if a limit is broken, the same if all hold, and otherwise undecided: neither a pass
+// nor a difference, more samples are needed.
+
+/// The limits that the options ask for:
+///   limits        these limits;
+///   a tolerance   no more pixels than it allows are beyond tolerance and noise together, and no region is. Without
+///                 limits also: no more pixels are open, so that the same pictures surely lie within the tolerance.
+///                 With limits the tolerance is for rounding, and the limits say how fine the answer has to be;
+///   neither       nothing is beyond the noise, and the default limits. So pictures that are too noisy to find
+///                 anything are undecided, not the same.
+/// Without noise, a tolerance limits the outliers instead.
+std::vector<MetricLimit> requested_limits(const ComparisonOptions& options) {
+  std::vector<MetricLimit> limits = options.limits;
+  const bool by_default = limits.empty() && !options.tolerance;
+  const bool by_tolerance = limits.empty() && options.tolerance;
+  if (by_default) limits.assign(default_limits().begin(), default_limits().end());
+  const double allowed = options.tolerance ? double(options.tolerance->allowed_outliers) : 0;
+  const std::string beyond = options.noise ? "z.beyond" : "outliers";
+  if (options.tolerance || (options.noise && by_default)) limits.push_back({beyond, allowed});
+  if (options.tolerance && !options.tolerance->edges.empty())
+    limits.push_back({beyond + ".off_edge", 0});
+  if (options.noise && (options.tolerance || by_default)) limits.push_back({"z.regions", 0});
+  if (options.noise && by_tolerance) limits.push_back({kOpenPixels, allowed});
+  return limits;
+}
+
+/// How a limit stands by its error bar; without one by its value. A value that was not measured is open.
+std::string_view standing_of(const MetricLimit& limit, double value, const ErrorBar* bar) {
+  if (limit.metric == kOpenPixels) return value <= limit.limit ? Standing::kHolds : Standing::kOpen;
+  const MetricOutput* output = find_metric_output(limit.metric);
+  const double low = bar ? bar->low : value, high = bar ? bar->high : value;
+  if (!output || std::isnan(value) || std::isnan(low) || std::isnan(high)) return Standing::kOpen;
+  const bool low_holds = is_within(*output, low, limit.limit);
+  const bool high_holds = is_within(*output, high, limit.limit);
+  if (low_holds && high_holds) return Standing::kHolds;
+  // A signed value may be 0 between two ends that are both too far from 0.
+  const bool around_zero = output->better == Better::kNearZero && low < 0 && high > 0;
+  return low_holds || high_holds || around_zero ? Standing::kOpen : Standing::kBroken;
+}
+
+/// The factor of extra samples that would decide an open limit, roughly: bar and noise floor shrink with its root, and
+/// the figure with the floor. Infinite if unknown or over a million.
+double more_samples(const MetricLimit& limit, double value, const ErrorBar* bar) {
+  const MetricOutput* output = find_metric_output(limit.metric);
+  if (!output || !bar) return kInfinity;
+  const bool is_signed = output->better == Better::kNearZero;
+  const double now = as_distance(*output, value), floor = as_distance(*output, bar->noise_floor),
+               floor_most = as_distance(*output, bar->noise_floor_most),
+               spread =
+                   std::max(as_distance(*output, bar->low), as_distance(*output, bar->high)) - now;
+  // As for rmse: squares add up.
+  const double endless = is_signed ? now : std::sqrt(std::max(0.0, now * now - floor * floor));
+  constexpr double kStep = 1.1, kMost = 1e6;
+  for (double times = kStep; times < kMost; times *= kStep) {
+    const double shrunk = 1 / std::sqrt(times);
+    const double then = is_signed ? now : std::hypot(endless, floor * shrunk);
+    const double near =
+        is_signed ? then - spread * shrunk : std::max(0.0, then - floor_most * shrunk);
+    ErrorBar bar_then;
+    bar_then.low = from_distance(*output, near);
+    bar_then.high = from_distance(*output, then + spread * shrunk);
+    if (standing_of(limit, value, &bar_then) != Standing::kOpen) return times;
   }
-  result.warnings = results_of(options.warnings, result);
-  result.disagreement = disagreements(result.limits);
-  result.verdict = result.uncertainty ? verdict_of(result.limits) : Verdict::kNonFinite;
+  return kInfinity;
+}
+
+std::vector<LimitResult> judge(std::span<const MetricLimit> limits, const Comparison& measured,
+                               bool noisy) {
+  std::vector<LimitResult> results;
+  for (const auto& [metric, limit] : limits) {
+    const double value = measured.value(metric);
+    const MetricOutput* output = find_metric_output(metric);
+    LimitResult& result = results.emplace_back(
+        LimitResult{metric, limit, value, output && is_within(*output, value, limit), {}, {}});
+    if (!noisy) continue;
+    const ErrorBar* bar = records::find(measured.error_bars, metric);
+    result.standing = standing_of({metric, limit}, value, bar);
+    result.pass = result.standing == Standing::kHolds;
+    if (result.standing == Standing::kOpen)
+      result.more_samples = more_samples({metric, limit}, value, bar);
+  }
+  return results;
+}
+
+Verdict verdict_of(std::span<const LimitResult> limits, bool noisy) {
+  if (!noisy)
+    return std::ranges::all_of(limits, &LimitResult::pass) ? Verdict::kPass : Verdict::kDiffers;
+  if (std::ranges::count(limits, Standing::kBroken, &LimitResult::standing) > 0)
+    return Verdict::kDifferent;
+  const bool open = std::ranges::count(limits, Standing::kOpen, &LimitResult::standing) > 0;
+  return open ? Verdict::kUndecided : Verdict::kSame;
 }
 
 }  // namespace
 
 std::span<const MetricLimit> default_limits() {
   static const std::array<MetricLimit, 3> limits{{
-      // Engines that share the formula differ by 5e-4 of the peak where one writes half floats and
-      // by 1e-5 where not; a wrong normalisation is off by 3 % and more.
+      // Engines with the same formula differ by 5e-4 of the peak if one writes half floats, otherwise by 1e-5. A
+      // wrong normalisation is off by 3 % and more.
       {"max_rel_peak", 0.01},
       // One step of an 8-bit display, 128 to 129 over the whole picture, has a FLIP of 0.03.
       {"flip.ldr.mean", 0.01},
-      // 1 is about one just noticeable difference; so it is for all but one pixel in twenty, which
-      // leaves the silhouette, where engines sample the edge differently, to max_rel_peak.
+      // 1 is about a just noticeable difference. One pixel in twenty may have more: engines sample the edge of the
+      // silhouette differently, which max_rel_peak judges.
       {"ciede2000.p95", 1.0},
   }};
   return limits;
@@ -137,8 +203,8 @@ std::span<const MetricLimit> default_limits() {
 bool is_pass(Verdict verdict) { return verdict == Verdict::kPass || verdict == Verdict::kSame; }
 
 double Comparison::value(std::string_view id) const {
-  const auto found = std::ranges::find(metrics, id, &MetricValue::id);
-  return found == metrics.end() ? std::numeric_limits<double>::quiet_NaN() : found->value;
+  const double* found = records::find(metrics, id);
+  return found ? *found : kNaN;
 }
 
 std::string_view Comparison::why_not_measured(std::string_view id) const {
@@ -165,10 +231,10 @@ void check_options(const ComparisonOptions& options) {
       throw Error(ExitCode::kUsage, fmt::format("no metric '{}' to set a limit on{}; there are {}",
                                                 printable(limit.metric),
                                                 did_you_mean(limit.metric, names), join(names)));
-    if (const std::string_view missing = what_is_missing(*find_metric(limit.metric), options);
+    if (const std::string_view missing = missing_input(*find_metric(limit.metric), options);
         !missing.empty())
       throw Error(ExitCode::kUsage, fmt::format("a limit on '{}' needs {}", limit.metric, missing));
-    if (limit.metric == kOutliersOffEdge &&
+    if (limit.metric == "outliers.off_edge" &&
         (!options.tolerance || options.tolerance->edges.empty()))
       throw Error(ExitCode::kUsage,
                   "a limit on 'outliers.off_edge' needs a tolerance and a scene that has edges");
@@ -193,13 +259,13 @@ void check_options(const ComparisonOptions& options) {
 
 ReferenceFloor measure_reference_floor(const Image& c, const Image& b,
                                        const ComparisonOptions& options) {
-  // What is known of the noise is that of a.
+  // The known noise is that of a.
   ComparisonOptions plain = options;
   plain.noise.reset();
   plain.limits.clear();
   plain.warnings.clear();
   Comparison measured = compare(c, b, plain);
-  return {measured.nonfinite_a, std::move(measured.metrics)};
+  return {"", measured.nonfinite.a, std::move(measured.metrics)};
 }
 
 Comparison compare(const Image& a, const Image& b, const ComparisonOptions& options) {
@@ -222,12 +288,12 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   if (!options.mask.empty())
     result.mask_pixels =
         std::ranges::count_if(options.mask, [](auto inside) { return inside != 0; });
-  result.nonfinite_a = count_nonfinite_pixels(a);
-  result.nonfinite_b = count_nonfinite_pixels(b);
-  result.first_nonfinite_a = first_nonfinite(a);
-  result.first_nonfinite_b = first_nonfinite(b);
-  const bool finite = result.nonfinite_a == 0 && result.nonfinite_b == 0;
-  if (finite) {
+  result.nonfinite.a = count_nonfinite_pixels(a);
+  result.nonfinite.b = count_nonfinite_pixels(b);
+  const bool finite = result.nonfinite.a == 0 && result.nonfinite.b == 0;
+  if (!finite) {
+    result.nonfinite.first = {first_nonfinite(a), first_nonfinite(b)};
+  } else {
     const MetricInput input{
         a,
         b,
@@ -246,22 +312,11 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
           error_bars(input, options.viewing, options.noise->bootstraps, options.noise->seed);
     }
   }
-  if (options.noise) {
-    judge_noisy(options, result);
-    return result;
-  }
-
-  std::vector<MetricLimit> limits = options.limits;
-  if (options.tolerance)
-    limits.push_back({std::string(kOutliers), double(options.tolerance->allowed_outliers)});
-  if (options.tolerance && !options.tolerance->edges.empty())
-    limits.push_back({std::string(kOutliersOffEdge), 0});
-  if (limits.empty()) limits.assign(default_limits().begin(), default_limits().end());
-  result.limits = results_of(limits, result);
-  result.warnings = results_of(options.warnings, result);
-  const bool pass = std::ranges::all_of(result.limits, &LimitResult::pass);
+  const bool noisy = options.noise.has_value();
+  result.limits = judge(requested_limits(options), result, noisy);
+  result.warnings = judge(options.warnings, result, false);
   result.disagreement = disagreements(result.limits);
-  result.verdict = !finite ? Verdict::kNonFinite : pass ? Verdict::kPass : Verdict::kDiffers;
+  result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;
   return result;
 }
 

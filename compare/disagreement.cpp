@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "compare/metrics/catalogue.hpp"
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
 
-/// `part` of `whole`; nothing of nothing is 0, something of nothing infinite.
+/// part / whole; 0 if both are 0, infinite if only the whole is.
 double share(double part, double whole) {
   if (part == 0) return 0;
-  return whole == 0 ? std::numeric_limits<double>::infinity() : part / whole;
+  return whole == 0 ? kInfinity : part / whole;
 }
 
 /// "takes up 3.1 times its limit (0.031, limit 0.01)"
@@ -34,8 +34,9 @@ std::vector<std::string> disagreements(std::span<const LimitResult> limits) {
   std::vector<std::string> sentences;
   for (const LimitResult& failing : limits)
     for (const LimitResult& passing : limits) {
-      if (failing.pass || !passing.pass || std::isnan(failing.value)) continue;
-      if (failing.standing == Standing::kOpen) continue;
+      if (failing.pass || !passing.pass || std::isnan(failing.value) ||
+          failing.standing == Standing::kOpen)
+        continue;
       if (find_metric(failing.metric)->family == find_metric(passing.metric)->family) continue;
       const double over =
           share_of_limit(*find_metric_output(failing.metric), failing.value, failing.limit);

@@ -1,12 +1,68 @@
 #include "compare/display_light.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "compare/tone_curve.hpp"
+// As in renderer/kernels/kernels.cpp: a debug build keeps to the baseline.
+#ifndef __OPTIMIZE__
+#define HWY_COMPILE_ONLY_STATIC
+#endif
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "compare/display_light.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for each instruction set
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Values below 0 and NaN become 0.
+template <class D>
+HWY_INLINE hn::Vec<D> clipped(D d, hn::Vec<D> v) {
+  return hn::IfThenElseZero(hn::Gt(v, hn::Zero(d)), hn::Min(v, hn::Set(d, 1)));
+}
+
+/// Calls convert(d, vector) for all values; the last few one by one.
+template <class D, class Convert>
+HWY_INLINE void for_all(D d, const float* in, float* out, std::size_t count, Convert convert) {
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
+    hn::StoreU(convert(d, hn::LoadU(d, in + i)), d, out + i);
+  const hn::CappedTag<float, 1> one;
+  for (; i < count; ++i) hn::StoreU(convert(one, hn::LoadU(one, in + i)), one, out + i);
+}
+
+void clip_lanes(double gain, const float* in, float* out, std::size_t count) {
+  for_all(hn::Rebind<float, hn::ScalableTag<double>>(), in, out, count,
+          [gain](auto d, auto v) HWY_ATTR {
+            const hn::Rebind<double, decltype(d)> wide;
+            return hn::DemoteTo(
+                d, clipped(wide, hn::Mul(hn::Set(wide, gain), hn::PromoteTo(wide, v))));
+          });
+}
+
+void aces_lanes(float gain, const float* in, float* out, std::size_t count) {
+  for_all(hn::ScalableTag<float>(), in, out, count, [gain](auto d, auto v) HWY_ATTR {
+    const auto c = [d](int i) HWY_ATTR { return hn::Set(d, kAces[i]); };
+    const auto scaled = hn::Mul(hn::Set(d, gain), v);
+    const auto x = hn::IfThenElseZero(hn::Gt(scaled, hn::Zero(d)), scaled), square = hn::Mul(x, x);
+    const auto above = hn::Add(hn::Add(hn::Mul(square, c(0)), hn::Mul(x, c(1))), c(2));
+    const auto below = hn::Add(hn::Add(hn::Mul(square, c(3)), hn::Mul(x, c(4))), c(5));
+    const auto huge = hn::Gt(square, hn::Set(d, std::numeric_limits<float>::max()));
+    return hn::IfThenElse(huge, hn::Set(d, 1.0f), clipped(d, hn::Div(above, below)));
+  });
+}
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace lobelia {
+
+HWY_EXPORT(clip_lanes);
+HWY_EXPORT(aces_lanes);
 
 DisplayLight::DisplayLight(const Image& image, double exposure_stops, ToneCurve curve)
     : image_(&image),
@@ -22,24 +78,14 @@ DisplayLight DisplayLight::of(const Image& image, double exposure_stops, const D
   return light;
 }
 
-Rgb DisplayLight::at(std::size_t index) const {
-  const float* value = image_->values().data() + 3 * index;
-  if (curve_ == ToneCurve::kAces) {
-    float rgb[3];
-    aces_values(float(gain_), value, rgb, 3);
-    return {rgb[0], rgb[1], rgb[2]};
-  }
-  const auto shown = [this](float v) { return std::clamp(gain_ * double(v), 0.0, 1.0); };
-  return {shown(value[0]), shown(value[1]), shown(value[2])};
-}
-
 void DisplayLight::fill(int y, int first, std::span<float> rgb) const {
   const std::size_t start = std::size_t(y) * std::size_t(width()) + std::size_t(first);
   const float* values = image_->values().data() + 3 * start;
   if (curve_ == ToneCurve::kAces)
-    aces_values(float(gain_), values, rgb.data(), rgb.size());
+    HWY_DYNAMIC_DISPATCH(aces_lanes)(float(gain_), values, rgb.data(), rgb.size());
   else
-    clip_values(gain_, values, rgb.data(), rgb.size());
+    HWY_DYNAMIC_DISPATCH(clip_lanes)(gain_, values, rgb.data(), rgb.size());
 }
 
 }  // namespace lobelia
+#endif  // HWY_ONCE

@@ -7,7 +7,6 @@
 
 #include "compare/overscan.hpp"
 #include "compare/require_same_size.hpp"
-#include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
 #include "core/text.hpp"
@@ -27,74 +26,26 @@ std::vector<std::string> without(std::span<const std::string> names,
   return result;
 }
 
-records::Window window_record(const PixelWindow& window) {
-  return {window.x, window.y, window.width, window.height};
-}
-
-records::PictureRead picture_record(const PictureSource& source) {
-  records::PictureRead record;
-  record.format = source.format;
-  record.layer = source.layer;
-  record.channels = source.channels;
-  record.value_type = source.value_type;
-  record.transfer = source.transfer;
-  record.multiplied_by_alpha = source.multiplied_by_alpha;
-  record.data_window = window_record(source.data);
-  record.display_window = window_record(source.display);
-  record.chromaticities = source.chromaticities;
-  record.icc_profile = source.icc_profile;
-  if (!source.icc_profile.empty()) record.icc_profile_is_srgb = source.icc_is_srgb;
-  return record;
-}
-
-records::LayerComparison layer_record(const LayerComparison& layer) {
-  records::LayerComparison record;
-  record.layer = layer.name;
-  record.verdict = verdict_name(layer.verdict());
-  if (layer.overscan) record.overscan = window_record(*layer.overscan);
-  if (layer.identical) record.identical = true;
-  record.problem = layer.problem;
-  if (layer.comparison) {
-    records::Comparison whole = comparison_record(*layer.comparison, "", "");
-    record.nonfinite = std::move(whole.nonfinite);
-    record.metrics = std::move(whole.metrics);
-    record.limits = std::move(whole.limits);
-    record.disagreement = std::move(whole.disagreement);
-    record.not_measured = std::move(whole.not_measured);
-  }
-  record.pictures = pictures_record(layer.a, layer.b);
-  return record;
+std::string names_text(const std::vector<std::string>& layers) {
+  constexpr std::size_t kShown = 40;  // a hostile file has thousands
+  std::string text = layers.size() == 1 ? "layer " : "layers ";
+  for (std::size_t i = 0; i < std::min(layers.size(), kShown); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ",
+                        layers[i].empty() ? "of the picture" : "'" + printable(layers[i]) + "'");
+  if (layers.size() > kShown) text += fmt::format(" and {} more", layers.size() - kShown);
+  return text;
 }
 
 bool are_identical(const Image& a, const Image& b) {
   return std::ranges::equal(a.values(), b.values()) && is_finite(a);
 }
 
-LayerComparison compare_overscan(const std::string& name, const PicturePair& pair,
-                                 const Overscan& overscan, const ComparisonOptions& options) {
-  LayerComparison result{name, pair.a.source, pair.b.source, {}, {}};
-  const PixelWindow& window = *(result.overscan = overscan.window);
-  result.problem = window_problem("the window of all data", window);
-  if (!result.problem.empty()) return result;
-  OverscanPictures pictures = on_window(pair.a, pair.b, window);
-  if (allows_equal_nonfinite(options, pair.b.source)) clear_equal_nonfinite(pictures.a, pictures.b);
-  if (pictures.only_a + pictures.only_b > 0)
-    result.problem = fmt::format("pixels that are not 0 where the other has none: {} of a, {} of b",
-                                 pictures.only_a, pictures.only_b);
-  else if (pictures.identical)
-    result.identical = true;
-  else
-    result.comparison =
-        compare(pictures.a, pictures.b, on_window(options, pair.a.source.display, window));
-  return result;
-}
-
-/// The layer and, where there is one, its overscan.
+/// Compares the layer and its overscan, if there is one.
 std::vector<LayerComparison> compare_layer(const fs::path& a, const fs::path& b,
                                            const std::string& name,
                                            const ComparisonOptions& options) {
   PicturePair pair = read_pair(a, b, name);
-  LayerComparison layer{name, pair.a.source, pair.b.source, {}, {}};
+  LayerComparison layer{name, pair.a.source, pair.b.source};
   const PixelWindow &size_a = layer.a.display, &size_b = layer.b.display;
   if (size_a.width != size_b.width || size_a.height != size_b.height) {
     layer.problem = fmt::format("the sizes differ: {} x {} against {} x {}", size_a.width,
@@ -113,25 +64,20 @@ bool is_opaque(const fs::path& file, const std::string& alpha) {
                              [](float value) { return value == 1; });
 }
 
-/// A share of the pixel and no light: seen as it is.
-ComparisonOptions options_of_alpha(ComparisonOptions options) {
-  options.viewing.exposure_stops = 0;
-  options.viewing.display = nullptr;
-  return options;
-}
-
 LayerComparison compare_alpha(const fs::path& a, const fs::path& b, const PicturePair& picture,
-                              const ComparisonOptions& options) {
+                              ComparisonOptions options) {
   PicturePair pair{read_picture(a, picture.a.source.alpha),
                    read_picture(b, picture.b.source.alpha)};
-  LayerComparison layer{picture.a.source.alpha, pair.a.source, pair.b.source, {}, {}};
+  LayerComparison layer{picture.a.source.alpha, pair.a.source, pair.b.source};
   layer.identical = are_identical(pair.a.image, pair.b.image);
-  if (!layer.identical)
-    layer.comparison = compare_pictures(pair, a.string(), b.string(), options_of_alpha(options));
+  // Alpha is a share of the pixel, not light: exposure and display do not apply.
+  options.viewing.exposure_stops = 0;
+  options.viewing.display = nullptr;
+  if (!layer.identical) layer.comparison = compare_pictures(pair, a.string(), b.string(), options);
   return layer;
 }
 
-/// Takes out of the layers of one file those that say of common layers that they are opaque, as no alpha does.
+/// Drops from the layers of one file each alpha that makes a common layer opaque, for that equals no alpha.
 void drop_opaque_alpha(const fs::path& a, const fs::path& b, const PictureSource& layer_a,
                        const PictureSource& layer_b, CommonLayers& common) {
   const auto drop = [](const fs::path& file, const std::string& alpha, const std::string& other,
@@ -150,15 +96,15 @@ Names layer_and_alpha(const PictureSource& source) {
   return names;
 }
 
-/// Layers of both files that are not among those that were looked at.
-std::vector<std::string> layers_left(const PicturePair& picture, const Names& looked_at_in_a,
-                                     const Names& looked_at_in_b) {
+/// Layers of both files without the compared ones; a name once.
+std::vector<std::string> layers_left(const PicturePair& picture, const Names& compared_in_a,
+                                     const Names& compared_in_b) {
   std::vector<std::string> left;
   Names taken;
-  for (const auto& [source, looked_at] :
-       {std::pair(&picture.a.source, &looked_at_in_a), {&picture.b.source, &looked_at_in_b}})
+  for (const auto& [source, compared] :
+       {std::pair(&picture.a.source, &compared_in_a), {&picture.b.source, &compared_in_b}})
     for (const std::string& name : source->layers)
-      if (!looked_at->contains(name) && taken.insert(name).second) left.push_back(name);
+      if (!compared->contains(name) && taken.insert(name).second) left.push_back(name);
   return left;
 }
 
@@ -179,7 +125,7 @@ PicturePair read_pair(const fs::path& a, const fs::path& b, const std::string& l
 }
 
 bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSource& source) {
-  // The only channel's name stands for a picture without a layer's.
+  // A picture without a layer's name is known by the name of its only channel.
   const bool has_depth = is_depth_like(source.layer) ||
                          (source.channels.size() == 1 && is_depth_like(source.channels[0]));
   return options.allow_equal_nonfinite || (has_depth && !options.noise);
@@ -192,9 +138,11 @@ Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const 
   if (allows_equal_nonfinite(options, pair.b.source))
     equal = clear_equal_nonfinite(pair.a.image, pair.b.image);
   Comparison comparison = compare(pair.a.image, pair.b.image, options);
-  comparison.equal_nonfinite = equal;
-  if (auto& place = comparison.first_nonfinite_a) name_channel(*place, pair.a.source);
-  if (auto& place = comparison.first_nonfinite_b) name_channel(*place, pair.b.source);
+  comparison.nonfinite.equal_allowed = equal;
+  if (auto& first = comparison.nonfinite.first) {
+    if (first->a) name_channel(*first->a, pair.a.source);
+    if (first->b) name_channel(*first->b, pair.b.source);
+  }
   return comparison;
 }
 
@@ -237,7 +185,7 @@ OtherLayers compare_others(const fs::path& a, const fs::path& b, const PicturePa
       std::erase(common.only_a, source_a.alpha);
       std::erase(common.only_b, source_b.alpha);
     } else {
-      left.alpha = left.alpha && alpha_in_a;  // that of b is missing, and fails
+      left.alpha = left.alpha && alpha_in_a;  // an alpha that only b has is missing, and fails
       drop_opaque_alpha(a, b, source_a, source_b, common);
     }
     for (const std::string& name : common.both) {
@@ -256,24 +204,30 @@ OtherLayers compare_others(const fs::path& a, const fs::path& b, const PicturePa
   return result;
 }
 
+bool is_empty(const NotCompared& not_compared) {
+  return not_compared.layers.empty() && !not_compared.alpha && not_compared.overscan_pixels == 0 &&
+         not_compared.mip_levels == 0;
+}
+
+std::string to_text(const NotCompared& not_compared) {
+  std::vector<std::string> parts;
+  if (!not_compared.layers.empty()) parts.push_back(names_text(not_compared.layers));
+  if (not_compared.alpha) parts.emplace_back("alpha");
+  if (not_compared.overscan_pixels > 0)
+    parts.push_back(
+        fmt::format("{} pixels outside of the display window", not_compared.overscan_pixels));
+  if (not_compared.mip_levels > 0)
+    parts.push_back(fmt::format("{} smaller MIP level{}", not_compared.mip_levels,
+                                not_compared.mip_levels == 1 ? "" : "s"));
+  if (parts.empty()) return "nothing";
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 Verdict worst_verdict(Verdict picture, const OtherLayers& others) {
   Verdict worst = picture;
   for (const LayerComparison& layer : others.compared) worst = std::max(worst, layer.verdict());
   if (others.common && !others.common->only_b.empty()) worst = std::max(worst, Verdict::kDiffers);
   return worst;
-}
-
-records::PicturesRead pictures_record(const PictureSource& a, const PictureSource& b) {
-  return {picture_record(a), picture_record(b)};
-}
-
-void add_layers(records::Comparison& record, Verdict worst, const OtherLayers& others) {
-  record.verdict = verdict_name(worst);
-  record.not_compared = others.not_compared;
-  auto& layers = record.layers.emplace();
-  for (const LayerComparison& layer : others.compared) layers.push_back(layer_record(layer));
-  if (others.common)
-    record.layers_in_one = records::LayersInOne{others.common->only_a, others.common->only_b};
 }
 
 }  // namespace lobelia

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "compare/require_same_size.hpp"
@@ -18,23 +17,23 @@ bool is_same_nonfinite(float a, float b) {
 
 }  // namespace
 
-std::optional<NonfinitePlace> first_nonfinite(const Image& image) {
+std::optional<records::NonfinitePlace> first_nonfinite(const Image& image) {
   const auto values = image.values();
   const auto found = std::ranges::find_if_not(values, [](float v) { return std::isfinite(v); });
   if (found == values.end()) return std::nullopt;
   const auto at = std::size_t(found - values.begin());
   const std::size_t pixel = at / 3, width = std::size_t(image.width());
-  constexpr std::array<const char*, 3> kNames{"R", "G", "B"};
-  return NonfinitePlace{int(pixel % width), int(pixel / width), kNames[at % 3], *found};
+  return records::NonfinitePlace{int(pixel % width), int(pixel / width),
+                                 std::string(1, "RGB"[at % 3]), double(*found)};
 }
 
-std::string place_text(const NonfinitePlace& place, std::string_view file) {
+std::string place_text(const records::NonfinitePlace& place, std::string_view file) {
   const std::string_view value = std::isnan(place.value) ? "nan" : place.value > 0 ? "inf" : "-inf";
   return fmt::format("{} in {} at x {}, y {}, channel {}", value, printable_path(file), place.x,
                      place.y, printable(place.channel));
 }
 
-void name_channel(NonfinitePlace& place, const PictureSource& source) {
+void name_channel(records::NonfinitePlace& place, const PictureSource& source) {
   const std::size_t channel = place.channel == "R" ? 0 : place.channel == "G" ? 1 : 2;
   if (source.channels.size() == 1)
     place.channel = source.channels[0];
@@ -59,10 +58,9 @@ std::int64_t clear_equal_nonfinite(Image& a, Image& b) {
 }
 
 bool is_depth_like(std::string_view layer) {
-  constexpr std::array<std::string_view, 5> kNames{"z", "zback", "depth", "distance", "position"};
-  return std::ranges::any_of(split(lower_case(layer), "."), [&](const std::string& part) {
-    return std::ranges::find(kNames, part) != kNames.end();
-  });
+  constexpr std::string_view kNames[] = {"z", "zback", "depth", "distance", "position"};
+  const auto parts = split(lower_case(layer), ".");
+  return std::ranges::find_first_of(parts, kNames) != parts.end();
 }
 
 }  // namespace lobelia

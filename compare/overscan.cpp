@@ -1,13 +1,14 @@
 #include "compare/overscan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace lobelia {
 namespace {
 
-/// The data window, seen from the first pixel of the display window.
+/// The data window relative to the first pixel of the display window.
 PixelWindow relative_data(const PictureSource& source) {
   return {source.data.x - source.display.x, source.data.y - source.display.y, source.data.width,
           source.data.height};
@@ -23,7 +24,7 @@ PixelWindow around(const PixelWindow& a, const PixelWindow& b) {
 
 std::int64_t area(const PixelWindow& window) { return std::int64_t{window.width} * window.height; }
 
-/// Without pixels where they are apart.
+/// The intersection; it has no pixels if they are apart.
 PixelWindow common(const PixelWindow& a, const PixelWindow& b) {
   const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
   return {x, y, std::max(0, std::min(a.x + a.width, b.x + b.width) - x),
@@ -52,6 +53,41 @@ std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& mask, const P
   return result;
 }
 
+ComparisonOptions on_window(ComparisonOptions options, const PixelWindow& display,
+                            const PixelWindow& window) {
+  options.mask = widened(options.mask, display, window);
+  if (options.tolerance)
+    options.tolerance->edges = widened(options.tolerance->edges, display, window);
+  return options;
+}
+
+struct Unshared {
+  std::int64_t only_a = 0, only_b = 0;  ///< pixels that are not 0 where the other has no data
+  bool identical = true;                ///< and finite
+};
+
+/// Compares the pixels of the window that lie outside the display window.
+Unshared compare_outside(const Image& a, const Image& b, const PicturePair& pair,
+                         const PixelWindow& window) {
+  Unshared result;
+  const PixelWindow display = at_origin(pair.a.source.display);
+  const PixelWindow data_a = relative_data(pair.a.source), data_b = relative_data(pair.b.source);
+  const auto is_black = [](std::span<const float, 3> pixel) {
+    return std::ranges::count(pixel, 0.0f) == 3;
+  };
+  for (int y = window.y; y < window.y + window.height; ++y)
+    for (int x = window.x; x < window.x + window.width; ++x) {
+      if (contains(display, x, y)) continue;
+      const auto in_a = a.pixel(x - window.x, y - window.y),
+                 in_b = b.pixel(x - window.x, y - window.y);
+      result.only_a += !contains(data_b, x, y) && !is_black(in_a);
+      result.only_b += !contains(data_a, x, y) && !is_black(in_b);
+      result.identical = result.identical && std::ranges::equal(in_a, in_b) &&
+                         std::ranges::all_of(in_a, [](float v) { return std::isfinite(v); });
+    }
+  return result;
+}
+
 }  // namespace
 
 std::optional<Overscan> find_overscan(const PictureSource& a, const PictureSource& b) {
@@ -65,32 +101,24 @@ std::optional<Overscan> find_overscan(const PictureSource& a, const PictureSourc
                   outside(data_a) + outside(data_b) - outside(common(data_a, data_b))};
 }
 
-OverscanPictures on_window(const Picture& a, const Picture& b, const PixelWindow& window) {
-  OverscanPictures result{all_data(a, window), all_data(b, window)};
-  const PixelWindow display = at_origin(a.source.display);
-  const PixelWindow data_a = relative_data(a.source), data_b = relative_data(b.source);
-  for (int y = window.y; y < window.y + window.height; ++y)
-    for (int x = window.x; x < window.x + window.width; ++x) {
-      if (contains(display, x, y)) continue;
-      const auto in_a = result.a.pixel(x - window.x, y - window.y),
-                 in_b = result.b.pixel(x - window.x, y - window.y);
-      const auto is_empty = [](std::span<const float, 3> pixel) {
-        return pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0;
-      };
-      result.only_a += !contains(data_b, x, y) && !is_empty(in_a);
-      result.only_b += !contains(data_a, x, y) && !is_empty(in_b);
-      for (std::size_t c = 0; c < 3; ++c)
-        result.identical &= in_a[c] == in_b[c] && std::isfinite(in_a[c]);
-    }
+LayerComparison compare_overscan(const std::string& layer, const PicturePair& pair,
+                                 const Overscan& overscan, const ComparisonOptions& options) {
+  const PixelWindow& window = overscan.window;
+  LayerComparison result{layer, pair.a.source, pair.b.source};
+  result.overscan = window;
+  result.problem = window_problem("the window of all data", window);
+  if (!result.problem.empty()) return result;
+  Image a = all_data(pair.a, window), b = all_data(pair.b, window);
+  const Unshared outside = compare_outside(a, b, pair, window);
+  if (allows_equal_nonfinite(options, pair.b.source)) clear_equal_nonfinite(a, b);
+  if (outside.only_a + outside.only_b > 0)
+    result.problem = fmt::format("pixels that are not 0 where the other has none: {} of a, {} of b",
+                                 outside.only_a, outside.only_b);
+  else if (outside.identical)
+    result.identical = true;
+  else
+    result.comparison = compare(a, b, on_window(options, at_origin(pair.a.source.display), window));
   return result;
-}
-
-ComparisonOptions on_window(ComparisonOptions options, const PixelWindow& display,
-                            const PixelWindow& window) {
-  options.mask = widened(options.mask, display, window);
-  if (options.tolerance)
-    options.tolerance->edges = widened(options.tolerance->edges, display, window);
-  return options;
 }
 
 }  // namespace lobelia

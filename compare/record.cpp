@@ -1,42 +1,8 @@
-// A comparison as its record.
-#include "compare/compare.hpp"
+// A comparison and its layers as records.
+#include "compare/layers.hpp"
 
 namespace lobelia {
 namespace {
-
-std::vector<records::Limit> limit_records(std::span<const LimitResult> limits) {
-  std::vector<records::Limit> list;
-  for (const LimitResult& limit : limits) {
-    records::Limit& one = list.emplace_back();
-    one.metric = limit.metric;
-    one.limit = limit.limit;
-    one.value = limit.value;
-    one.pass = limit.pass;
-    if (limit.standing) one.standing = standing_name(*limit.standing);
-    if (limit.standing == Standing::kOpen) one.more_samples = limit.more_samples;
-  }
-  return list;
-}
-
-records::Named<double> metric_records(std::span<const MetricValue> metrics) {
-  records::Named<double> values;
-  for (const MetricValue& metric : metrics) values.emplace_back(metric.id, metric.value);
-  return values;
-}
-
-std::optional<records::NonfinitePlace> place_record(const std::optional<NonfinitePlace>& place) {
-  if (!place) return std::nullopt;
-  return records::NonfinitePlace{place->x, place->y, place->channel, double(place->value)};
-}
-
-records::Nonfinite nonfinite_record(const Comparison& comparison) {
-  records::Nonfinite record{comparison.nonfinite_a, comparison.nonfinite_b, std::nullopt,
-                            comparison.equal_nonfinite};
-  if (comparison.first_nonfinite_a || comparison.first_nonfinite_b)
-    record.first = records::NonfinitePlaces{place_record(comparison.first_nonfinite_a),
-                                            place_record(comparison.first_nonfinite_b)};
-  return record;
-}
 
 records::Viewing viewing_record(const Viewing& viewing, bool measured) {
   records::Viewing record{viewing.exposure_stops, viewing.pixels_per_degree, std::nullopt,
@@ -53,6 +19,45 @@ records::Viewing viewing_record(const Viewing& viewing, bool measured) {
   return record;
 }
 
+records::Window window_record(const PixelWindow& window) {
+  return {window.x, window.y, window.width, window.height};
+}
+
+records::PictureRead picture_record(const PictureSource& source) {
+  records::PictureRead record;
+  record.format = source.format;
+  record.layer = source.layer;
+  record.channels = source.channels;
+  record.value_type = source.value_type;
+  record.transfer = source.transfer;
+  record.multiplied_by_alpha = source.multiplied_by_alpha;
+  record.data_window = window_record(source.data);
+  record.display_window = window_record(source.display);
+  record.chromaticities = source.chromaticities;
+  record.icc_profile = source.icc_profile;
+  if (!source.icc_profile.empty()) record.icc_profile_is_srgb = source.icc_is_srgb;
+  return record;
+}
+
+records::LayerComparison layer_record(const LayerComparison& layer) {
+  records::LayerComparison record;
+  record.layer = layer.name;
+  record.verdict = verdict_name(layer.verdict());
+  if (layer.overscan) record.overscan = window_record(*layer.overscan);
+  if (layer.identical) record.identical = true;
+  record.problem = layer.problem;
+  if (layer.comparison) {
+    records::Comparison whole = comparison_record(*layer.comparison, "", "");
+    record.nonfinite = std::move(whole.nonfinite);
+    record.metrics = std::move(whole.metrics);
+    record.limits = std::move(whole.limits);
+    record.disagreement = std::move(whole.disagreement);
+    record.not_measured = std::move(whole.not_measured);
+  }
+  record.pictures = pictures_record(layer.a, layer.b);
+  return record;
+}
+
 }  // namespace
 
 records::Comparison comparison_record(const Comparison& comparison, const std::string& a,
@@ -61,13 +66,13 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   record.verdict = verdict_name(comparison.verdict);
   record.a = a;
   record.b = b;
-  record.nonfinite = nonfinite_record(comparison);
+  record.nonfinite = comparison.nonfinite;
   record.viewing = viewing_record(comparison.viewing, !comparison.metrics.empty());
   if (comparison.mask_pixels) record.mask = records::Mask{*comparison.mask_pixels};
-  record.metrics = metric_records(comparison.metrics);
+  record.metrics = comparison.metrics;
   record.not_measured = comparison.not_measured;
-  record.limits = limit_records(comparison.limits);
-  record.warnings = limit_records(comparison.warnings);
+  record.limits = comparison.limits;
+  record.warnings = comparison.warnings;
   record.disagreement = comparison.disagreement;
   record.uncertainty = comparison.uncertainty;
   if (comparison.uncertainty) record.error_bars = comparison.error_bars;
@@ -75,10 +80,22 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
     record.tolerance = records::Tolerance{
         comparison.tolerance->relative, comparison.tolerance->of_peak,
         comparison.tolerance->allowed_outliers, !comparison.tolerance->edges.empty()};
-  if (const auto& floor = comparison.reference_floor)
-    record.reference_floor =
-        records::ReferenceFloor{c, floor->nonfinite, metric_records(floor->metrics)};
+  record.reference_floor = comparison.reference_floor;
+  if (record.reference_floor) record.reference_floor->c = c;
   return record;
+}
+
+records::PicturesRead pictures_record(const PictureSource& a, const PictureSource& b) {
+  return {picture_record(a), picture_record(b)};
+}
+
+void add_layers(records::Comparison& record, Verdict worst, const OtherLayers& others) {
+  record.verdict = verdict_name(worst);
+  record.not_compared = others.not_compared;
+  auto& layers = record.layers.emplace();
+  for (const LayerComparison& layer : others.compared) layers.push_back(layer_record(layer));
+  if (others.common)
+    record.layers_in_one = records::LayersInOne{others.common->only_a, others.common->only_b};
 }
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// What any measure of two pictures asks for first.
+// The first check of every comparison of two pictures.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace lobelia {
 
-/// Throws Error(kInput) unless the two have the same size, and pixels; it names the files where they are given.
+/// Throws Error(kInput) unless the two have the same size, and pixels. The message names the files, if given.
 inline void require_same_size(const Image& a, const Image& b, std::string_view file_a = {},
                               std::string_view file_b = {}) {
   if (a.width() != b.width() || a.height() != b.height())

@@ -121,7 +121,7 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere,
   geometry.angle = map.angle;
   geometry.solid_angle = map.solid_angle;
   for (std::size_t zone = 0; zone < kZoneCount; ++zone)
-    geometry.ends[zone] = lobe_angle_at(lobe, kZones[zone].lobe);
+    geometry.ends[zone] = lobe_angle_at(lobe, kZoneShares[zone]);
   if (has_highlight(material)) {
     geometry.width = map.width;
     geometry.scale = map.scale;

@@ -1,4 +1,4 @@
-// The maps of differences. Formulas and sources of those as shown stand with their metrics.
+// The maps of differences. The visual ones have their formulas and sources in the files of their metrics.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 
 /// The largest difference(a, b) of the three channels.
 template <class Difference>
-std::vector<float> largest_of_channels(const MapInput& input, Difference difference) {
+std::vector<float> largest_of_channels(const MetricInput& input, Difference difference) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   std::vector<float> map(input.a.pixel_count());
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -21,11 +21,11 @@ std::vector<float> largest_of_channels(const MapInput& input, Difference differe
   return map;
 }
 
-std::vector<float> absolute(const MapInput& input) {
+std::vector<float> absolute(const MetricInput& input) {
   return largest_of_channels(input, [](float a, float b) { return std::abs(a - b); });
 }
 
-std::vector<float> mean_signed(const MapInput& input) {
+std::vector<float> mean_signed(const MetricInput& input) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   std::vector<float> map(input.a.pixel_count());
   for (std::size_t pixel = 0; pixel < map.size(); ++pixel) {
@@ -36,10 +36,10 @@ std::vector<float> mean_signed(const MapInput& input) {
   return map;
 }
 
-/// Flanks and tails count as much as the peak.
-std::vector<float> relative(const MapInput& input) {
+/// Flanks and tails count like the peak.
+std::vector<float> relative(const MetricInput& input) {
   return largest_of_channels(input, [](float a, float b) {
-    // Something where the reference has nothing is more than any scale, but not the NaN of a broken pixel.
+    // A difference from a reference of 0 exceeds every scale, but is not the NaN of a broken pixel.
     constexpr double kWithoutReference = std::numeric_limits<float>::max();
     const double difference = std::abs(double(a) - double(b));
     if (difference == 0) return 0.0f;
@@ -48,15 +48,15 @@ std::vector<float> relative(const MapInput& input) {
   });
 }
 
-std::vector<float> ciede2000_map(const MapInput& input) {
+std::vector<float> ciede2000_map(const MetricInput& input) {
   return ciede2000_of_pixels(input.shown_a, input.shown_b).values;
 }
 
-std::vector<float> delta_e_itp_map(const MapInput& input) {
+std::vector<float> delta_e_itp_map(const MetricInput& input) {
   return delta_e_itp_of_pixels(input.shown_a, input.shown_b).values;
 }
 
-std::vector<float> flip_ldr_map(const MapInput& input) {
+std::vector<float> flip_ldr_map(const MetricInput& input) {
   return flip_error_map(input.shown_a, input.shown_b, FlipFilters(float(input.pixels_per_degree)));
 }
 

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "compare/require_same_size.hpp"
-#include "core/error.hpp"
+#include "core/constants.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
-
 namespace {
 
 constexpr std::string_view kColourMaps[] = {kDefaultColourMap, "inferno", "plasma",
@@ -25,7 +23,7 @@ constexpr std::array<std::uint8_t, 3> kNotFinite = {0, 255, 0};
 ColourTable blue_white_red() {
   ColourTable table;
   for (int i = 0; i < kColourTableSize; ++i) {
-    // The middle of the table's positions rounds up to this entry: equal pixels are white.
+    // The middle position rounds up to this entry: equal pixels are white.
     constexpr int kMiddle = kColourTableSize / 2;
     const double t = std::max(double(i - kMiddle) / (kColourTableSize - 1 - kMiddle), -1.0);
     const auto fading = std::uint8_t(std::lround(255 * (1 - std::abs(t))));
@@ -35,7 +33,7 @@ ColourTable blue_white_red() {
   return table;
 }
 
-/// A copy with 0 for what is not finite; sets `broken` by pixel.
+/// A copy with 0 for values that are not finite; marks their pixels in `broken`.
 Image without_non_finite(const Image& image, std::vector<std::uint8_t>& broken) {
   Image copy = image;
   for (std::size_t i = 0; i < copy.values().size(); ++i)
@@ -48,8 +46,7 @@ Image without_non_finite(const Image& image, std::vector<std::uint8_t>& broken) 
 
 std::vector<float> measure_finite(const DifferenceMap& map, const Image& a, const Image& b,
                                   const Viewing& viewing) {
-  const DisplayLight shown_a = as_shown(a, viewing), shown_b = as_shown(b, viewing);
-  return map.measure({a, b, shown_a, shown_b, viewing.pixels_per_degree});
+  return map.measure({a, b, as_shown(a, viewing), as_shown(b, viewing), viewing.pixels_per_degree});
 }
 
 }  // namespace
@@ -74,7 +71,7 @@ std::vector<float> measure_difference_map(const DifferenceMap& map, const Image&
   const Image finite_a = without_non_finite(a, broken), finite_b = without_non_finite(b, broken);
   std::vector<float> values = measure_finite(map, finite_a, finite_b, viewing);
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (broken[i] != 0) values[i] = std::numeric_limits<float>::quiet_NaN();
+    if (broken[i] != 0) values[i] = float(kNaN);
   return values;
 }
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-// One line per metric: a file of that name in this directory defines `const Metric <name>_metric`, and
-// the same inside a mask as <name>_mask_metric.
+// One line per metric. A file of that name in this directory defines `const Metric <name>_metric`, and
+// <name>_mask_metric for the same inside a mask.
 #define LOBELIA_METRICS(METRIC) \
   METRIC(mae)                   \
   METRIC(mse)                   \
@@ -44,16 +44,13 @@ std::span<const Metric* const> metrics() {
 
 const Metric* find_metric(std::string_view id) {
   for (const Metric* metric : metrics())
-    for (const MetricOutput& output : metric->outputs)
-      if (output.id == id) return metric;
+    if (std::ranges::count(metric->outputs, id, &MetricOutput::id) > 0) return metric;
   return nullptr;
 }
 
 const MetricOutput* find_metric_output(std::string_view id) {
-  if (const Metric* metric = find_metric(id))
-    for (const MetricOutput& output : metric->outputs)
-      if (output.id == id) return &output;
-  return nullptr;
+  const Metric* metric = find_metric(id);
+  return metric ? &*std::ranges::find(metric->outputs, id, &MetricOutput::id) : nullptr;
 }
 
 bool is_measurable(const Metric& metric, const MetricInput& input) {

@@ -6,7 +6,7 @@
 namespace lobelia {
 namespace {
 
-// In the order of the enumerations.
+// In the order of the enumerators.
 constexpr std::string_view kBetter[] = {"lower", "nearer to 0", "higher", "(a fact)"};
 constexpr std::string_view kFamilies[] = {"radiance", "colour", "structure", "visibility"};
 

@@ -4,22 +4,20 @@
 //               implementation notes, supplementary test data, and mathematical observations",
 //               Color Research and Application 30 (2005) 21-30; equation numbers below are theirs.
 // Formula:      per pixel between a and b; k_L = k_C = k_H = 1. mean and max over all pixels; p50,
-//               p95 and p99 are the smallest value that at least so many per cent of the pixels do
-//               not exceed (nearest rank, no interpolation).
-// Input:        DisplayLight (linear, clipped). To XYZ by the matrix of IEC 61966-2-1 (sRGB), whose
-//               rows add up to the standard's D65 white (0.9505, 1, 1.0890): that white is used for
-//               Lab, so that a grey is exactly neutral.
+//               p95 and p99 by nearest rank, without interpolation (percentile()).
+// Input:        DisplayLight (linear, clipped). Converted to XYZ by the matrix of IEC 61966-2-1 (sRGB).
+//               Its rows add up to the standard's D65 white (0.9505, 1, 1.0890). Lab uses that white, so
+//               a grey is exactly neutral.
 // Agrees with:  the 34 pairs of Sharma's Table 1, to the four digits printed there, in both orders.
-// The tie:      hues exactly 180 degrees apart have two mean hues, and with them two values. Pair 14
-//               is such a pair in decimal numbers (4.8045 or 4.7461). Eq. (10) and (14) take the
-//               plain mean of the angles wherever they differ by no more than 180, and so do we: it
-//               is 4.8045, as printed. In binary the angles come out within 1e-13 of it on either
-//               side, so a difference of up to kTieDegrees over 180 counts as 180.
-// Differs:      the light of a pixel and its difference are rounded to float32, 6e-8 of each, before the
-//               mean, the percentiles and the maximum are taken of them; between, all is in double.
+// The tie:      hues exactly 180 degrees apart have two mean hues, and so two values. Pair 14 is such a
+//               pair in decimal numbers (4.8045 or 4.7461). Eq. (10) and (14) take the plain mean of the
+//               angles wherever they differ by no more than 180. So do we, which gives 4.8045, as printed.
+//               In binary the angles come out within 1e-13 of the tie, on either side. A difference of
+//               up to kTieDegrees over 180 therefore counts as 180.
+// Differs:      the light of a pixel and its difference are rounded to float32, 6e-8 of each, before mean,
+//               percentiles and maximum are taken. Everything between is in double.
 #include "compare/metrics/ciede2000.hpp"
 
-#include <algorithm>
 #include <numbers>
 
 #include "compare/metrics/metric.hpp"
@@ -41,8 +39,7 @@ namespace lobelia::HWY_NAMESPACE {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-/// A hue difference of so little over 180 is a tie that rounding has decided: the angles are sums of
-/// a few roundings of numbers up to 360.
+/// So little over 180 is a tie decided by rounding: the angles have a few roundings of numbers up to 360.
 constexpr double kTieDegrees = 1e-10;
 
 template <class D>
@@ -105,7 +102,7 @@ HWY_INLINE LanesOf<D> ciede2000(const LabLanes<D>& a, const LabLanes<D>& b) {
   const Real h1 = hue(a1, a.b), h2 = hue(a2, b.b);
   const auto neutral = c1 * c2 == 0.0;
 
-  // (8)-(11): the hue difference the short way round.
+  // (8)-(11): the hue difference along the shorter arc.
   Real hue_step = where(neutral, 0.0, h2 - h1);
   hue_step = where(hue_step > 180 + kTieDegrees, hue_step - 360, hue_step);
   hue_step = where(hue_step < -180 - kTieDegrees, hue_step + 360, hue_step);
@@ -178,14 +175,7 @@ constexpr MetricOutput kOutputs[] = {
      "the largest of all pixels", "The pixel whose colour differs most."}};
 
 void measure(const MetricInput& input, std::span<double> values) {
-  PixelDifferences differences = ciede2000_of_pixels(input.shown_a, input.shown_b);
-  std::fill(values.begin(), values.end(), 0.0);
-  if (differences.values.empty()) return;
-  values[0] = differences.mean;
-  values[1] = percentile(differences.values, 0.50);
-  values[2] = percentile(differences.values, 0.95);
-  values[3] = percentile(differences.values, 0.99);
-  values[4] = differences.max;
+  ciede2000_of_pixels(input.shown_a, input.shown_b).write_figures({0.50, 0.95, 0.99}, values);
 }
 
 }  // namespace
@@ -202,9 +192,8 @@ PixelDifferences ciede2000_of_pixels(const DisplayLight& a, const DisplayLight& 
   return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(ciede2000_lanes));
 }
 
-extern const Metric ciede2000_metric;
-constinit const Metric ciede2000_metric{kOutputs, Family::kColour, Needs::kNothing,
-                                        "Sharma, Wu, Dalal 2005", measure};
+extern constinit const Metric ciede2000_metric{kOutputs, Family::kColour, Needs::kNothing,
+                                               "Sharma, Wu, Dalal 2005", measure};
 
 }  // namespace lobelia
 #endif  // HWY_ONCE

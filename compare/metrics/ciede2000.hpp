@@ -15,10 +15,10 @@ struct Lab {
 /// With the parametric factors k_L = k_C = k_H = 1.
 double ciede2000(Lab a, Lab b);
 
-/// Linear light of an sRGB display, each in [0, 1], to Lab under its white (D65).
+/// Linear light of an sRGB display, each in [0, 1], as Lab under its white (D65).
 Lab lab_from_display(Rgb shown);
 
-/// That of each pixel.
+/// CIEDE2000 of each pixel.
 PixelDifferences ciede2000_of_pixels(const DisplayLight& a, const DisplayLight& b);
 
 }  // namespace lobelia

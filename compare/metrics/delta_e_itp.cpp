@@ -1,20 +1,18 @@
-// Delta E ITP: how far apart two colours look on a display of high dynamic range; 1 is just
-// noticeable to an eye that is adapted to see it best.
+// Delta E ITP: how far apart two colours look on a display of high dynamic range. 1 is just noticeable
+// to an eye in its best state of adaptation.
 //
 // Source:       Recommendation ITU-R BT.2124-0 (2019), Annex 1. Its parts: primaries from Rec. 709 to
 //               Rec. 2020 by ITU-R BT.2087-0; PQ and ICtCp by ITU-R BT.2100-2, Tables 4 and 7.
 // Formula:      720 sqrt(dI^2 + dT^2 + dP^2), T = Ct / 2, P = Cp, per pixel; mean and max over all
 //               pixels, p95 by nearest rank.
-// Input:        DisplayLight (linear, clipped). Its white is put at 203 cd/m2, the reference white of
-//               ITU-R BT.2408 for pictures of ordinary range in a PQ signal, so that a figure does
-//               not depend on the display; black is 0 cd/m2.
-// Agrees with:  the nine pairs in the tests of the package colour-science (delta_E_ITP), to 4e-8,
-//               what their ten digits allow; and the whole way from light to difference with
-//               the formulas in 50 decimal digits, to 2e-11.
+// Input:        DisplayLight (linear, clipped). White is 203 cd/m2, the reference white of ITU-R BT.2408
+//               for pictures of ordinary range in a PQ signal; black is 0 cd/m2. A figure therefore does
+//               not depend on the display.
+// Agrees with:  the nine pairs in the tests of the package colour-science (delta_E_ITP), to 4e-8, the
+//               limit of their ten digits. From light to difference: the formulas in 50 decimal digits,
+//               to 2e-11.
 // Differs:      the light of a pixel and its difference are rounded to float32, as in ciede2000.cpp.
 #include "compare/metrics/delta_e_itp.hpp"
-
-#include <algorithm>
 
 #include "compare/metrics/metric.hpp"
 
@@ -36,7 +34,7 @@ namespace {
 
 /// BT.2408, section 2.1: HDR reference white.
 constexpr double kWhite = 203;
-/// BT.2124, Annex 1: brings a just noticeable difference to 1.
+/// BT.2124, Annex 1: scales a just noticeable difference to 1.
 constexpr double kScale = 720;
 
 // BT.2100-2, Table 4.
@@ -89,10 +87,6 @@ void delta_e_itp_lanes(const float* rgb_a, const float* rgb_b, float* out, std::
   });
 }
 
-double pq_signal_of_one(double luminance) {
-  return hn::GetLane(pq_signal(LanesOf<Single>(luminance)).v);
-}
-
 Itp itp_of_one(Rgb shown) {
   using Real = LanesOf<Single>;
   const auto itp = itp_from_display<Single>({Real(shown.r), Real(shown.g), Real(shown.b)});
@@ -122,22 +116,14 @@ constexpr MetricOutput kOutputs[] = {
      "the largest of all pixels", "The pixel whose colour differs most."}};
 
 HWY_EXPORT(delta_e_itp_lanes);
-HWY_EXPORT(pq_signal_of_one);
 HWY_EXPORT(itp_of_one);
 HWY_EXPORT(delta_e_itp_of_one);
 
 void measure(const MetricInput& input, std::span<double> values) {
-  PixelDifferences differences = delta_e_itp_of_pixels(input.shown_a, input.shown_b);
-  std::fill(values.begin(), values.end(), 0.0);
-  if (differences.values.empty()) return;
-  values[0] = differences.mean;
-  values[1] = percentile(differences.values, 0.95);
-  values[2] = differences.max;
+  delta_e_itp_of_pixels(input.shown_a, input.shown_b).write_figures({0.95}, values);
 }
 
 }  // namespace
-
-double pq_signal(double luminance) { return HWY_DYNAMIC_DISPATCH(pq_signal_of_one)(luminance); }
 
 Itp itp_from_display(Rgb shown) { return HWY_DYNAMIC_DISPATCH(itp_of_one)(shown); }
 
@@ -147,9 +133,8 @@ PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight
   return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(delta_e_itp_lanes));
 }
 
-extern const Metric delta_e_itp_metric;
-constinit const Metric delta_e_itp_metric{kOutputs, Family::kColour, Needs::kNothing,
-                                          "ITU-R BT.2124-0", measure};
+extern constinit const Metric delta_e_itp_metric{kOutputs, Family::kColour, Needs::kNothing,
+                                                 "ITU-R BT.2124-0", measure};
 
 }  // namespace lobelia
 #endif  // HWY_ONCE

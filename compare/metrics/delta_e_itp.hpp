@@ -6,20 +6,17 @@
 
 namespace lobelia {
 
-/// ICtCp with its Ct halved: a space in which distance is about visible difference.
+/// ICtCp with its Ct halved. Distances in this space are about visible differences.
 struct Itp {
   double i, t, p;
 };
 
-/// PQ's signal, [0, 1], for that luminance in cd/m2 (ITU-R BT.2100-2, Table 4, inverse EOTF).
-double pq_signal(double luminance);
-
-/// Linear light of a display, each in [0, 1], Rec. 709 primaries, its white at 203 cd/m2.
+/// From linear light of a display, Rec. 709 primaries; 1 is its white, 203 cd/m2.
 Itp itp_from_display(Rgb shown);
 
 double delta_e_itp(Itp a, Itp b);
 
-/// That of each pixel.
+/// Delta E ITP of each pixel.
 PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b);
 
 }  // namespace lobelia

@@ -1,10 +1,9 @@
-// How much too bright the picture is in the mean, with its sign.
+// The mean difference, with its sign.
 //
 // Source:       textbook (mean bias error).
-// Formula:      sum (a - b) / (3 N) over the R, G and B values of all N pixels: positive where `a` is
-//               too bright. Noise cancels here, a wrong normalisation does not.
-// Input:        scene-linear values, neither exposed nor clipped; with the suffix .mask those of the
-//               pixels inside the mask alone.
+// Formula:      sum (a - b) / (3 N) over the R, G and B values of all N pixels. Positive where `a` is
+//               too bright. Noise cancels; a wrong normalisation does not.
+// Input:        scene-linear values, neither exposed nor clipped; with .mask only pixels inside the mask.
 // Limit:        on its size: --fail drift=0.01 asks for |drift| <= 0.01.
 #include "compare/metrics/picture_part.hpp"
 
@@ -27,12 +26,10 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric drift_metric;
-constinit const Metric drift_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                    measure<Part::kPicture>};
+extern constinit const Metric drift_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                           measure<Part::kPicture>};
 
-extern const Metric drift_mask_metric;
-constinit const Metric drift_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask, "textbook",
-                                         measure<Part::kMask>};
+extern constinit const Metric drift_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
+                                                "textbook", measure<Part::kMask>};
 
 }  // namespace lobelia

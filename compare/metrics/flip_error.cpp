@@ -6,46 +6,49 @@
 #include <algorithm>
 #include <initializer_list>
 #include <utility>
-#include <vector>
 
 #include "compare/metrics/flip_kernels.hpp"
-#include "compare/metrics/weighted_sum.hpp"
 
 namespace lobelia {
 namespace {
 
-// A tile's columns: so few that the rows below each other that a filter needs stay in the first cache, all
-// planes of both pictures in the second. Its rows: enough that filtering the ones above and below it again
-// costs little, few enough that every processor has some.
+// Columns of a tile: few enough to keep a filter's rows in the first cache, and all planes of both pictures in the
+// second. Rows: enough to filter the rows around it again at little cost, few enough to give every processor some.
 constexpr int kTileWidth = 256, kTileHeight = 256;
 
 int tiles_across(int width) { return (width + kTileWidth - 1) / kTileWidth; }
 int tiles_down(int height) { return (height + kTileHeight - 1) / kTileHeight; }
 
-/// Calls visit(tile, its index) for all tiles, on many threads.
-template <class Visit>
-void for_each_tile(int width, int height, Visit visit) {
+/// On many threads, for all tiles: errors_of(tile, errors), then visit(i, x, y, row) for each row of errors, from the
+/// top. i is the tile's index; x and y are the row's first pixel.
+template <class ErrorsOf, class Visit>
+void for_each_row_of_tiles(int width, int height, const ErrorsOf& errors_of, const Visit& visit) {
   const int across = tiles_across(width);
   oneapi::tbb::parallel_for(0, across * tiles_down(height), [&](int i) {
     const int left = i % across * kTileWidth, top = i / across * kTileHeight;
-    visit(FlipTile{left, top, std::min(kTileWidth, width - left),
-                   std::min(kTileHeight, height - top)},
-          std::size_t(i));
+    const FlipTile tile{left, top, std::min(kTileWidth, width - left),
+                        std::min(kTileHeight, height - top)};
+    const std::size_t columns = std::size_t(tile.width), padded = flip_padded(columns);
+    std::vector<float> errors(padded * std::size_t(tile.height));
+    errors_of(tile, std::span<float>(errors));
+    for (int row = 0; row < tile.height; ++row)
+      visit(std::size_t(i), left, top + row,
+            std::span<const float>(errors).subspan(padded * std::size_t(row), columns));
   });
 }
 
-/// A tile of a picture after the filters, row by row from the top; beyond the picture's border the border's
-/// pixels repeat. Holds no more rows than the filters are high, so that they stay in the cache.
+/// The filtered rows of a tile, from the top. Pixels of the picture's border repeat beyond it. Holds no more rows than
+/// the filters are high, so that they stay in the cache.
 class FlipTileRows {
  public:
-  /// The filters and what DisplayLight shows must outlive it.
+  /// The filters and the shown picture must outlive it.
   FlipTileRows(const DisplayLight& shown, const FlipFilters& filters, const FlipTile& tile);
 
   /// The next row: flip_padded(tile.width) pixels, valid until the next call.
   const FlipFiltered& next();
 
  private:
-  /// The planes that were filtered along the rows and are then filtered down the columns.
+  /// Planes filtered along the rows, to be filtered down the columns.
   enum Plane { kY, kCx, kCz1, kCz2, kSmooth, kEdge, kPoint, kPlanes };
 
   float* row(Plane plane, int y);
@@ -56,7 +59,7 @@ class FlipTileRows {
   FlipTile tile_;
   int radius_;    ///< of the largest filter
   int filtered_;  ///< rows above this one have been filtered along
-  int next_;      ///< row that next() is to return
+  int next_;      ///< row that next() returns
   std::size_t padded_, extended_;
   hwy::AlignedFreeUniquePtr<float[]> memory_;
   float *rgb_, *planes_;
@@ -96,7 +99,7 @@ float* FlipTileRows::row(Plane plane, int y) {
 }
 
 void FlipTileRows::filter_along(int y) {
-  // A row of the picture, extended by its border pixels, so that no tap needs a test.
+  // The row is extended by its border pixels, so that no tap needs a test.
   const int first = tile_.left - radius_, count = int(extended_);
   const int left = std::clamp(-first, 0, count),
             right = std::clamp(shown_.width() - first, left, count);
@@ -154,45 +157,36 @@ void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFi
 
 std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
                                   const FlipFilters& filters) {
-  const auto width = std::size_t(a.width());
   std::vector<float> map(a.pixel_count());
-  for_each_tile(a.width(), a.height(), [&](const FlipTile& tile, std::size_t) {
-    const std::size_t padded = flip_padded(std::size_t(tile.width));
-    std::vector<float> errors(padded * std::size_t(tile.height));
-    flip_tile_errors(a, b, filters, tile, errors);
-    for (std::size_t row = 0; row < std::size_t(tile.height); ++row)
-      std::copy_n(errors.begin() + std::ptrdiff_t(padded * row), tile.width,
-                  map.begin() + std::ptrdiff_t(width * (std::size_t(tile.top) + row) +
-                                               std::size_t(tile.left)));
-  });
+  for_each_row_of_tiles(
+      a.width(), a.height(),
+      [&](const FlipTile& tile, std::span<float> errors) {
+        flip_tile_errors(a, b, filters, tile, errors);
+      },
+      [&](std::size_t, int x, int y, std::span<const float> errors) {
+        std::ranges::copy(errors, map.begin() + std::ptrdiff_t(y) * a.width() + x);
+      });
   return map;
 }
 
-FlipPooled flip_pooled(int width, int height,
-                       const std::function<void(const FlipTile&, std::span<float>)>& errors_of) {
+void pool_flip_errors(int width, int height,
+                      const std::function<void(const FlipTile&, std::span<float>)>& errors_of,
+                      std::span<double> values) {
   std::vector<double> tile_sum(std::size_t(tiles_across(width)) * std::size_t(tiles_down(height))),
       tile_max(tile_sum);
-  for_each_tile(width, height, [&](const FlipTile& tile, std::size_t i) {
-    const std::size_t padded = flip_padded(std::size_t(tile.width));
-    std::vector<float> errors(padded * std::size_t(tile.height));
-    errors_of(tile, errors);
-    double sum = 0;
-    float largest = 0;
-    for (int row = 0; row < tile.height; ++row) {
-      const float* error = errors.data() + padded * std::size_t(row);
-      for (int x = 0; x < tile.width; ++x) {
-        sum += double(error[x]);
-        largest = std::max(largest, error[x]);
-      }
-    }
-    tile_sum[i] = sum;
-    tile_max[i] = double(largest);
-  });
+  for_each_row_of_tiles(width, height, errors_of,
+                        [&](std::size_t tile, int, int, std::span<const float> errors) {
+                          for (const float error : errors) {
+                            tile_sum[tile] += double(error);
+                            tile_max[tile] = std::max(tile_max[tile], double(error));
+                          }
+                        });
   // In order of the tiles: the sum must not depend on the number of threads.
   double sum = 0, largest = 0;
   for (const double value : tile_sum) sum += value;
   for (const double value : tile_max) largest = std::max(largest, value);
-  return {sum / std::max(double(width) * double(height), 1.0), largest};
+  values[0] = sum / std::max(double(width) * double(height), 1.0);
+  values[1] = largest;
 }
 
 }  // namespace lobelia

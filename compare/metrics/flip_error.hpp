@@ -1,35 +1,43 @@
-// The error map of FLIP, which LDR-FLIP and HDR-FLIP are made of. Source, agreement and why float: see
-// flip_ldr.cpp.
+// The filters and the error map of FLIP, shared by LDR-FLIP and HDR-FLIP. Source, agreement and the reason for float:
+// see flip_ldr.cpp.
 #pragma once
 
 #include <functional>
-#include <span>
 #include <vector>
 
-#include "compare/display_light.hpp"
-#include "compare/metrics/flip_filters.hpp"
+#include "compare/metrics/metric.hpp"
 
 namespace lobelia {
+
+/// Separable filters for one viewing distance. Each has 2 * radius + 1 taps; the middle one is the pixel itself.
+struct FlipFilters {
+  explicit FlipFilters(float pixels_per_degree);
+
+  int contrast_radius, feature_radius;
+  /// Contrast sensitivity: achromatic, red-green, and blue-yellow as a sum of two Gaussians, each applied in both
+  /// directions.
+  std::vector<float> luminance, red_green, blue_yellow_1, blue_yellow_2;
+  /// Feature detection: a Gaussian across and its first (edge) or second (point) derivative along.
+  std::vector<float> gaussian, edge, point;
+};
 
 /// Columns [left, left + width), rows [top, top + height).
 struct FlipTile {
   int left, top, width, height;
 };
 
-/// FLIP's error of each pixel of the tile, in [0, 1], its rows flip_padded(tile.width) apart.
+/// Writes FLIP's error of each pixel of the tile, in [0, 1]. Rows are flip_padded(tile.width) apart.
 void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
                       const FlipTile& tile, std::span<float> errors);
 
-/// That of each pixel of the picture, in reading order.
+/// FLIP's error of each pixel of the picture, in reading order.
 std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
                                   const FlipFilters& filters);
 
-struct FlipPooled {
-  double mean, max;
-};
-
-/// Mean and maximum over a picture. errors_of(tile, errors) fills in the errors of a tile; many threads call it.
-FlipPooled flip_pooled(int width, int height,
-                       const std::function<void(const FlipTile&, std::span<float>)>& errors_of);
+/// Writes {mean, maximum} of the errors over a picture. errors_of(tile, errors) fills in the errors of a tile; many
+/// threads call it.
+void pool_flip_errors(int width, int height,
+                      const std::function<void(const FlipTile&, std::span<float>)>& errors_of,
+                      std::span<double> values);
 
 }  // namespace lobelia

@@ -1,21 +1,18 @@
-#include "compare/metrics/flip_exposures.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "compare/tone_curve.hpp"
+#include "compare/metrics/metric.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
 namespace {
 
-/// The tone curve brings the largest and the median luminance to this value.
+/// The tone curve maps the largest and the median luminance to this value.
 constexpr float kShown = 0.85f;
 
-/// The light that the tone curve shows as that, in the tool's order of operations.
+/// Inverts the tone curve, in the tool's order of operations.
 float light_shown_as(float shown) {
   const float a = kAces[0] - shown * kAces[3], b = kAces[1] - shown * kAces[4],
               c = kAces[2] - shown * kAces[5];
@@ -32,11 +29,11 @@ HdrExposures automatic_exposures(const Image& reference) {
   for (std::size_t i = 0; i < values.size(); i += 3)
     luminances.push_back(0.2126f * values[i] + 0.7152f * values[i + 1] + 0.0722f * values[i + 2]);
   if (luminances.empty()) throw Error(ExitCode::kInput, "the pictures have no pixels");
-  if (!std::all_of(luminances.begin(), luminances.end(), [](float l) { return std::isfinite(l); }))
+  if (!std::ranges::all_of(luminances, [](float l) { return std::isfinite(l); }))
     throw Error(ExitCode::kInput,
                 "the automatic range of exposures needs a reference without a NaN or an infinity");
-  const float largest = *std::max_element(luminances.begin(), luminances.end());
-  // The upper one of two in the middle, as the tool takes it.
+  const float largest = std::ranges::max(luminances);
+  // The upper of the two middle values, like the tool.
   const auto middle = luminances.begin() + std::ptrdiff_t(luminances.size() / 2);
   std::nth_element(luminances.begin(), middle, luminances.end());
   if (!(*middle > 0))

@@ -1,10 +1,9 @@
-// Source, agreement and why float: see flip_ldr.cpp. Section numbers are those of Andersson et al.;
-// the separation into rows and columns is that of the tool's note "separatedConvolutions".
-#include "compare/metrics/flip_filters.hpp"
-
-#include <algorithm>
+// Source, agreement and the reason for float: see flip_ldr.cpp. Section numbers refer to Andersson et al.; the
+// separation into rows and columns follows the tool's note "separatedConvolutions".
 #include <cmath>
-#include <span>
+#include <numeric>
+
+#include "compare/metrics/flip_error.hpp"
 
 namespace lobelia {
 namespace {
@@ -12,16 +11,15 @@ namespace {
 constexpr float kPi = 3.14159265358979f;
 constexpr float kPiSquared = kPi * kPi;
 
-// Section 4.1.1, Table 1: the contrast sensitivity functions as Gaussians a sqrt(pi/b) exp(-pi^2
-// x^2 / b), x in degrees. Blue-yellow is the sum of two; the others are normalised, their a
-// cancels.
+// Section 4.1.1, Table 1: the contrast sensitivity functions as Gaussians a sqrt(pi/b) exp(-pi^2 x^2 / b), x in
+// degrees. Blue-yellow is the sum of two. The others are normalised, which cancels their a.
 constexpr float kLuminanceB = 0.0047f;
 constexpr float kRedGreenB = 0.0053f;
 constexpr float kBlueYellowA1 = 34.1f, kBlueYellowB1 = 0.04f;
 constexpr float kBlueYellowA2 = 13.5f, kBlueYellowB2 = 0.025f;
 constexpr float kWidestB = kBlueYellowB1;
 
-// Section 4.2.1: width in degrees of the features that the eye is drawn to.
+// Section 4.2.1: width in degrees of features that attract the eye.
 constexpr float kFeatureWidth = 0.082f;
 
 // Both kinds of filter end three standard deviations out.
@@ -31,15 +29,13 @@ float contrast_gaussian(float degrees_squared, float a, float b) {
   return a * std::sqrt(kPi / b) * std::exp(-kPiSquared * degrees_squared / b);
 }
 
-/// With the root of the amplitude, because a plane is multiplied by it once in each direction.
+/// With the root of the amplitude: a plane is multiplied by it once in each direction.
 float contrast_gaussian_root(float degrees_squared, float a, float b) {
   return std::sqrt(a * std::sqrt(kPi / b)) * std::exp(-kPiSquared * degrees_squared / b);
 }
 
-float sum_of(std::span<const float> taps) {
-  float sum = 0;
-  for (const float tap : taps) sum += tap;
-  return sum;
+float sum_of(const std::vector<float>& taps) {
+  return std::accumulate(taps.begin(), taps.end(), 0.0f);
 }
 
 void scale(std::vector<float>& taps, float factor) {
@@ -68,7 +64,7 @@ FlipFilters::FlipFilters(float pixels_per_degree) {
   }
   scale(luminance, 1.0f / sum_of(luminance));
   scale(red_green, 1.0f / sum_of(red_green));
-  // The two planes are added after both directions: the sum of all their taps is to be 1.
+  // The two planes are added after both directions; all their taps together must sum to 1.
   const float sum_1 = sum_of(blue_yellow_1), sum_2 = sum_of(blue_yellow_2);
   const float norm = 1.0f / std::sqrt(sum_1 * sum_1 + sum_2 * sum_2);
   scale(blue_yellow_1, norm);

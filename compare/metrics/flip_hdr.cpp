@@ -1,24 +1,22 @@
-// HDR-FLIP: the difference that a person sees when two pictures of high dynamic range are shown in turn
-// at whatever exposure shows it best, 0 to 1.
+// HDR-FLIP: the difference that a person sees when two pictures of high dynamic range alternate on a display,
+// at the exposure that shows it best; 0 to 1.
 //
 // Source:       P. Andersson, J. Nilsson, P. Shirley, T. Akenine-Moeller, "Visualizing Errors in
 //               Rendered High Dynamic Range Images", Eurographics 2021 Short Papers.
 // Formula:      per pixel the largest LDR-FLIP (flip_ldr.cpp) over a range of exposures, evenly
 //               spaced in stops, each shown through the ACES curve of display_light.hpp. mean and max
 //               over all pixels.
-// Input:        scene-linear values; what is below 0 counts as 0. The exposure of the viewing
-//               condition is not applied: the range takes its place, and stands in the record.
-// Left out:     where no range is given. A figure depends on its range, so one for a whole set of
-//               pairs is to be named; automatic_exposures() takes the tool's for one reference.
-// Agrees with:  NVIDIA's tool, version 1.6, its mean taken in double, in all eight digits of the means
-//               on the pictures of the test, and in its automatic ranges.
-// Differs:      the mean is summed in double. The tool's curve gives a NaN for values over 1.8e19,
-//               whose square is infinite, and light for negative ones; ours white and black.
+// Input:        scene-linear values; values below 0 count as 0. The range of exposures, which the record
+//               holds, replaces the exposure of the viewing condition.
+// Left out:     where no range is given. A figure depends on its range, so one range should serve a whole
+//               set of pairs. automatic_exposures() chooses the tool's range for one reference.
+// Agrees with:  NVIDIA's tool, version 1.6, its mean taken in double: all eight digits of the means on
+//               the pictures of the test, and its automatic ranges.
+// Differs:      the mean is summed in double. The tool's curve gives a NaN for values over 1.8e19, as
+//               their square is infinite, and light for negative values. Ours gives white and black.
 #include <algorithm>
-#include <vector>
 
 #include "compare/metrics/flip_error.hpp"
-#include "compare/metrics/metric.hpp"
 
 namespace lobelia {
 namespace {
@@ -29,13 +27,13 @@ constexpr MetricOutput kOutputs[] = {
     {"flip.hdr.max", "HDR-FLIP, largest", Unit::kPlain, Better::kLower, true,
      "HDR-FLIP, the largest of all pixels", "The pixel where a person would notice most."}};
 
-/// As the tool spaces them, in float32.
+/// Spaced in float32, like the tool's.
 std::vector<float> exposure_stops(const HdrExposures& range) {
   const auto start = float(range.start_stops), stop = float(range.stop_stops);
   const float step = (stop - start) / float(range.count - 1);
   std::vector<float> stops;
   for (int i = 0; i < range.count; ++i) stops.push_back(start + float(i) * step);
-  // Equal ones, of a reference whose largest luminance is its median, show the same.
+  // Stops are equal if the reference's largest luminance is its median.
   stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
   return stops;
 }
@@ -43,8 +41,9 @@ std::vector<float> exposure_stops(const HdrExposures& range) {
 void measure(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
   const std::vector<float> stops = exposure_stops(*input.hdr_exposures);
-  const FlipPooled pooled = flip_pooled(
-      input.a.width(), input.a.height(), [&](const FlipTile& tile, std::span<float> largest) {
+  pool_flip_errors(
+      input.a.width(), input.a.height(),
+      [&](const FlipTile& tile, std::span<float> largest) {
         std::vector<float> errors(largest.size());
         for (const float stop : stops) {
           const DisplayLight a(input.a, double(stop), ToneCurve::kAces);
@@ -53,15 +52,13 @@ void measure(const MetricInput& input, std::span<double> values) {
           for (std::size_t i = 0; i < errors.size(); ++i)
             largest[i] = std::max(largest[i], errors[i]);
         }
-      });
-  values[0] = pooled.mean;
-  values[1] = pooled.max;
+      },
+      values);
 }
 
 }  // namespace
 
-extern const Metric flip_hdr_metric;
-constinit const Metric flip_hdr_metric{kOutputs, Family::kVisibility, Needs::kHdrExposures,
-                                       "Andersson et al. 2021; FLIP 1.6", measure};
+extern constinit const Metric flip_hdr_metric{kOutputs, Family::kVisibility, Needs::kHdrExposures,
+                                              "Andersson et al. 2021; FLIP 1.6", measure};
 
 }  // namespace lobelia

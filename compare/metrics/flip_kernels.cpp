@@ -12,8 +12,8 @@
 
 #include "compare/metrics/lanes-inl.hpp"
 
-// The order of operations is that of the formulas as the paper and the tool write them, with a product and a
-// sum rounded separately (Mul and Add, never MulAdd): another order gives other last digits.
+// The order of operations follows the formulas of the paper and the tool. Products and sums are rounded separately
+// (Mul and Add, never MulAdd). Any other order changes the last digits.
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 using Floats = hn::CappedTag<float, kFlipBlock>;
@@ -23,7 +23,7 @@ struct Triple {
   Lanes x, y, z;
 };
 
-/// In numbers.
+/// A row of a constant matrix.
 struct Row {
   float x, y, z;
 };
@@ -49,8 +49,8 @@ HWY_INLINE Lanes rounded(hn::Vec<Doubles> low, hn::Vec<Doubles> high) {
   return hn::Combine(Floats(), hn::DemoteTo(half, high), hn::DemoteTo(half, low));
 }
 
-/// x^y, computed in double and rounded: the same float on every processor, and a good std::pow's, but for one
-/// in thousands. x >= 0; 0^y is 0.
+/// x^y, computed in double and rounded. Every processor gives the same float, and all but one in thousands equal
+/// a good std::pow's. x >= 0; 0^y is 0.
 HWY_INLINE Lanes power(Lanes x, Lanes y) {
   const auto half = [](auto base, auto exponent) HWY_ATTR {
     return pow(LanesOf<Doubles>(base), LanesOf<Doubles>(exponent)).v;
@@ -58,9 +58,9 @@ HWY_INLINE Lanes power(Lanes x, Lanes y) {
   return rounded(half(lower(x), lower(y)), half(upper(x), upper(y)));
 }
 
-/// t^(1/3), the exponent rounded to float, for t in [0.008, 2]: as power() has it, in a quarter of its time.
+/// t^(1/3), the exponent rounded to float, for t in [0.008, 2]: the result of power() in a quarter of its time.
 HWY_INLINE Lanes cube_root(Lanes t) {
-  // z = t^(-1/3), from a third of t's bits; by steps without a division to 2e-7.
+  // z = t^(-1/3): begins with a third of t's bits and is refined to 2e-7 without a division.
   const hn::RebindToSigned<Floats> integers;
   const Lanes bits = hn::ConvertTo(Floats(), hn::BitCast(integers, t));
   Lanes z = hn::BitCast(
@@ -72,7 +72,7 @@ HWY_INLINE Lanes cube_root(Lanes t) {
   z = hn::Add(z, hn::Mul(hn::Mul(z, h), hn::Add(set(1.0f / 3), hn::Mul(set(2.0f / 9), h))));
   h = rest(z);
   z = hn::Add(z, hn::Mul(hn::Mul(z, h), set(1.0f / 3)));
-  // t^(rounded - 1/3) = 1 + (rounded - 1/3) ln t, for which the bits are near enough to a logarithm.
+  // t^(rounded - 1/3) = 1 + (rounded - 1/3) ln t. The bits approximate the logarithm well enough.
   constexpr double kExcess = double(1.0f / 3) - 1.0 / 3, kLn2 = 0.6931471805599453;
   const Lanes excess =
       hn::Mul(hn::Sub(bits, set(1065009152.0f)), set(float(kExcess * kLn2 / (1 << 23))));
@@ -89,7 +89,7 @@ HWY_INLINE Lanes cube_root(Lanes t) {
 
 // ---- colour spaces
 
-// D65 as the tool has it: the row sums of its matrix, and their reciprocals.
+// D65 in the tool: the row sums of its matrix, and their reciprocals.
 constexpr Row kWhite{0.950428545f, 1.0f, 1.088900371f};
 constexpr Row kInverseWhite{1.052156925f, 1.0f, 0.918357670f};
 
@@ -110,7 +110,7 @@ HWY_INLINE Triple rgb_from_relative_xyz(const Triple& xyz) {
   return {product(kRowR, v), product(kRowG, v), product(kRowB, v)};
 }
 
-/// Lab in which chroma is seen less in the dark (the Hunt effect): L, a, b.
+/// L, a, b with less chroma in the dark (the Hunt effect).
 HWY_INLINE Triple hunt_lab(const Triple& rgb) {
   const auto f = [](Lanes t) HWY_ATTR {
     constexpr float kDelta = 6.0f / 29.0f;
@@ -141,6 +141,48 @@ HWY_INLINE Lanes distance(const Triple& a, const Triple& b) {
   return power(hn::Add(hn::Abs(hn::Sub(a.x, b.x)), chroma), set(0.7f));
 }
 
+// ---- filters
+
+/// Sums for kVectors registers of values, from the i-th on. The sums stay in registers: memory would cost a load and
+/// a store for every weight.
+template <std::size_t kSums, std::size_t kVectors, class D>
+HWY_INLINE void sum_at(D d, const WeightedSum* sums, const float* const* rows, std::size_t i) {
+  const std::size_t lanes = hn::Lanes(d), count = sums[0].weights.size();
+  hn::Vec<D> sum[kSums][kVectors];
+  for (auto& of_vectors : sum)
+    for (auto& lane_sums : of_vectors) lane_sums = hn::Zero(d);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const auto in = hn::LoadU(d, rows[k] + i + v * lanes);
+      for (std::size_t s = 0; s < kSums; ++s)
+        sum[s][v] = hn::Add(sum[s][v], hn::Mul(hn::Set(d, sums[s].weights[k]), in));
+    }
+  for (std::size_t s = 0; s < kSums; ++s)
+    for (std::size_t v = 0; v < kVectors; ++v)
+      hn::StoreU(sum[s][v], d, sums[s].out + i + v * lanes);
+}
+
+template <std::size_t kSums>
+HWY_INLINE void sum_all(const WeightedSum* sums, const float* const* rows, std::size_t size) {
+  // At least four sums, to hide the latency of an addition; no more than there are registers.
+  constexpr std::size_t kVectors = kSums == 1 ? 4 : 2;
+  const hn::ScalableTag<float> d;
+  const hn::CappedTag<float, 1> single;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + kVectors * lanes <= size; i += kVectors * lanes)
+    sum_at<kSums, kVectors>(d, sums, rows, i);
+  for (; i + lanes <= size; i += lanes) sum_at<kSums, 1>(d, sums, rows, i);
+  for (; i < size; ++i) sum_at<kSums, 1>(single, sums, rows, i);
+}
+
+void weighted_sums_lanes(std::span<const WeightedSum> sums, const float* const* rows,
+                         std::size_t size) {
+  if (sums.size() == 1) sum_all<1>(sums.data(), rows, size);
+  if (sums.size() == 2) sum_all<2>(sums.data(), rows, size);
+  if (sums.size() == 3) sum_all<3>(sums.data(), rows, size);
+}
+
 // ---- the error
 
 /// Section 4.1.4: distances above 0.4 of the largest are compressed into errors above 0.95.
@@ -154,7 +196,7 @@ HWY_INLINE Lanes colour_error(Lanes d, float largest) {
   return hn::IfThenElse(hn::Lt(d, set(knee)), below, above);
 }
 
-/// Section 4.2.2: the root of the difference in strength, which 1 / sqrt(2) brings to [0, 1].
+/// Section 4.2.2: the root of the difference in strength; 1 / sqrt(2) scales it to [0, 1].
 HWY_INLINE Lanes feature_difference(Lanes edge_a, Lanes point_a, Lanes edge_b, Lanes point_b) {
   const Lanes edge = hn::Abs(hn::Sub(edge_a, edge_b)), point = hn::Abs(hn::Sub(point_a, point_b));
   return hn::Sqrt(hn::Mul(set(0.70710678f), hn::Max(edge, point)));
@@ -176,7 +218,7 @@ void colours_lanes(const float* rgb, const FlipColours& out, std::size_t count) 
 
 void errors_lanes(const FlipFiltered& a, const FlipFiltered& b, float* errors, std::size_t count) {
   const Floats d;
-  // The largest distance between colours of a display: its green and its blue.
+  // No two colours of a display are farther apart than its green and its blue.
   const Lanes none = set(0), full = set(1);
   const float largest =
       hn::GetLane(distance(hunt_lab({none, full, none}), hunt_lab({none, none, full})));
@@ -203,10 +245,15 @@ HWY_AFTER_NAMESPACE();
 namespace lobelia {
 
 HWY_EXPORT(colours_lanes);
+HWY_EXPORT(weighted_sums_lanes);
 HWY_EXPORT(errors_lanes);
 
 void flip_colours(const float* rgb, const FlipColours& out, std::size_t count) {
   HWY_DYNAMIC_DISPATCH(colours_lanes)(rgb, out, count);
+}
+
+void weighted_sums(std::span<const WeightedSum> sums, const float* const* rows, std::size_t size) {
+  HWY_DYNAMIC_DISPATCH(weighted_sums_lanes)(sums, rows, size);
 }
 
 void flip_errors(const FlipFiltered& a, const FlipFiltered& b, float* errors, std::size_t count) {

@@ -1,4 +1,4 @@
-// LDR-FLIP: the difference that a person sees when two pictures are shown in turn, 0 to 1.
+// LDR-FLIP: the difference that a person sees when two pictures alternate on a display, 0 to 1.
 //
 // Source:       P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem,
 //               M. D. Fairchild, "FLIP: A Difference Evaluator for Alternating Images", Proceedings
@@ -8,17 +8,16 @@
 //               edges or points of the luminance. mean and max over all pixels.
 // Input:        DisplayLight (linear, clipped). The tool takes sRGB and decodes it first.
 // Agrees with:  NVIDIA's tool, version 1.6, built without fused multiply-add, its mean taken in
-//               double: in all nine digits of mean and maximum on the pictures of the test. A double loop
+//               double: all nine digits of mean and maximum on the pictures of the test. A double loop
 //               in double over each pixel's windows: to 4e-6 in each pixel.
-// Computed:     on SIMD registers, within 1.2e-7 the same on every instruction set (flip_kernels.cpp).
+// Computed:     on SIMD registers; all instruction sets agree within 1.2e-7 (flip_kernels.cpp).
 // Differs:      the mean is summed in double; the tool's float32 sum is wrong by percents on a
 //               large picture.
 //
-// Why the error map is float32, unlike every other metric: in a flat area the feature difference is
-// the square root of rounding noise, some 1e-4 in the tool, and moves the error by up to 5e-5. More
-// precision removes the noise but also the agreement.
+// Why the error map is float32, unlike all other metrics: in a flat area the feature difference is the
+// square root of rounding noise, about 1e-4 in the tool. It moves the error by up to 5e-5. More
+// precision would remove the noise, and the agreement with it.
 #include "compare/metrics/flip_error.hpp"
-#include "compare/metrics/metric.hpp"
 
 namespace lobelia {
 namespace {
@@ -31,19 +30,17 @@ constexpr MetricOutput kOutputs[] = {
 
 void measure(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
-  const FlipPooled pooled =
-      flip_pooled(input.shown_a.width(), input.shown_a.height(),
-                  [&](const FlipTile& tile, std::span<float> errors) {
-                    flip_tile_errors(input.shown_a, input.shown_b, filters, tile, errors);
-                  });
-  values[0] = pooled.mean;
-  values[1] = pooled.max;
+  pool_flip_errors(
+      input.shown_a.width(), input.shown_a.height(),
+      [&](const FlipTile& tile, std::span<float> errors) {
+        flip_tile_errors(input.shown_a, input.shown_b, filters, tile, errors);
+      },
+      values);
 }
 
 }  // namespace
 
-extern const Metric flip_ldr_metric;
-constinit const Metric flip_ldr_metric{kOutputs, Family::kVisibility, Needs::kNothing,
-                                       "Andersson et al. 2020; FLIP 1.6", measure};
+extern constinit const Metric flip_ldr_metric{kOutputs, Family::kVisibility, Needs::kNothing,
+                                              "Andersson et al. 2020; FLIP 1.6", measure};
 
 }  // namespace lobelia

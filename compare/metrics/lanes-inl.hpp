@@ -1,5 +1,5 @@
-// SIMD registers of doubles that the formulas of metrics are written with. Compiled once for each instruction
-// set, like the files that include it.
+// SIMD registers of doubles for the formulas of metrics. Compiled once for each instruction set, like the files
+// that include it.
 #include <hwy/highway.h>
 
 #include <cstddef>
@@ -17,12 +17,11 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Can be written like a number; D is Highway's tag. Products and sums are rounded separately.
+/// Formulas treat it as a number. D is Highway's tag. Products and sums are rounded separately.
 template <class D>
 struct LanesOf {
   hn::Vec<D> v;
 
-  LanesOf() = default;
   HWY_INLINE LanesOf(double x) : v(hn::Set(D(), x)) {}
   HWY_INLINE explicit LanesOf(hn::Vec<D> x) : v(x) {}
 
@@ -60,7 +59,7 @@ struct RgbLanes {
   LanesOf<D> r, g, b;
 };
 
-/// From three floats a pixel.
+/// Reads three floats a pixel.
 template <class D>
 HWY_INLINE RgbLanes<D> load_rgb(D d, const float* rgb) {
   const hn::Rebind<float, D> narrow;
@@ -70,7 +69,7 @@ HWY_INLINE RgbLanes<D> load_rgb(D d, const float* rgb) {
           LanesOf<D>(hn::PromoteTo(d, b))};
 }
 
-/// Rounded to floats.
+/// Writes the values rounded to float.
 template <class D>
 HWY_INLINE void store(LanesOf<D> values, float* out) {
   const hn::Rebind<float, D> narrow;
@@ -80,7 +79,7 @@ HWY_INLINE void store(LanesOf<D> values, float* out) {
 using Wide = hn::ScalableTag<double>;
 using Single = hn::CappedTag<double, 1>;
 
-/// Calls work(tag, i) for registers of pixels, beginning at pixel i, and for the last few one by one.
+/// Calls work(tag, i) for registers of pixels from pixel i on; the last few one by one.
 template <class Work>
 HWY_INLINE void for_all_pixels(std::size_t count, Work work) {
   std::size_t i = 0;

@@ -2,12 +2,9 @@
 //
 // Source:       textbook.
 // Formula:      sum |a - b| / (3 N) over the R, G and B values of all N pixels.
-// Input:        scene-linear values, neither exposed nor clipped; with the suffix .mask those of the
-//               pixels inside the mask alone.
+// Input:        scene-linear values, neither exposed nor clipped; with .mask only pixels inside the mask.
 // Agrees with:  `idiff` ("Mean error"), to the float32 digits it prints.
 // Differs:      the sum is in double.
-#include <cmath>
-
 #include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
@@ -28,12 +25,10 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric mae_metric;
-constinit const Metric mae_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                  measure<Part::kPicture>};
+extern constinit const Metric mae_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                         measure<Part::kPicture>};
 
-extern const Metric mae_mask_metric;
-constinit const Metric mae_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask, "textbook",
-                                       measure<Part::kMask>};
+extern constinit const Metric mae_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
+                                              "textbook", measure<Part::kMask>};
 
 }  // namespace lobelia

@@ -1,14 +1,10 @@
 // The largest error, and where it is.
 //
 // Source:       textbook.
-// Formula:      max |a - b| over the R, G and B values of all pixels; the first such pixel in
-//               reading order, x to the right, y down, from 0. Equal pictures: 0 at (0, 0).
-// Input:        scene-linear values, neither exposed nor clipped; with the suffix .mask those of the
-//               pixels inside the mask alone.
+// Formula:      max |a - b| over the R, G and B values of all pixels, and the first such pixel in
+//               reading order: x to the right, y down, from 0. Equal pictures: 0 at (0, 0).
+// Input:        scene-linear values, neither exposed nor clipped; with .mask only pixels inside the mask.
 // Agrees with:  `idiff` ("Max error"), to the float32 digits it prints.
-#include <algorithm>
-#include <cmath>
-
 #include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
@@ -45,12 +41,10 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric max_abs_metric;
-constinit const Metric max_abs_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                      measure<Part::kPicture>};
+extern constinit const Metric max_abs_metric{kOutputs, Family::kRadiance, Needs::kNothing,
+                                             "textbook", measure<Part::kPicture>};
 
-extern const Metric max_abs_mask_metric;
-constinit const Metric max_abs_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
-                                           "textbook", measure<Part::kMask>};
+extern constinit const Metric max_abs_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
+                                                  "textbook", measure<Part::kMask>};
 
 }  // namespace lobelia

@@ -4,18 +4,17 @@
 //               quality assessment", 37th Asilomar Conference on Signals, Systems and Computers, 2003,
 //               eq. (7) and section 3.2.
 // Formula:      (mean SSIM at scale 5)^w5 * product over scales 1 to 4 of (mean c s)^w, where scale 1
-//               is the picture and each next one half of it, by means of 2 x 2 pixels; w = 0.0448,
-//               0.2856, 0.3001, 0.2363, 0.1333. A mean below 0 counts as 0: it has no such power.
+//               is the picture and each next one has half its size, by means of 2 x 2 pixels;
+//               w = 0.0448, 0.2856, 0.3001, 0.2363, 0.1333. A mean below 0 has no such power and counts as 0.
 // Windows:      as in ssim.cpp, at each scale only those wholly inside. Fewer scales would be another
-//               metric under the same name, so it is left out of the results where the fifth scale
-//               would not hold a window: below 176 pixels a side.
+//               metric under the same name. So it is not measured below 176 pixels a side, where the
+//               fifth scale holds no window.
 // Input:        as ssim.
 // Agrees with:  Wang's msssim.m in formula, weights, windows and halving, beyond odd borders too
-//               (not run beside it); a plain double loop, to 1e-12.
+//               (not run for comparison); a plain double loop, to 1e-12.
 #include <algorithm>
 #include <cmath>
 
-#include "compare/metrics/metric.hpp"
 #include "compare/metrics/ssim_windows.hpp"
 
 namespace lobelia {
@@ -23,8 +22,8 @@ namespace {
 
 constexpr double kWeights[] = {0.0448, 0.2856, 0.3001, 0.2363, 0.1333};
 constexpr int kScales = int(std::size(kWeights));
-// ceil(175 / 16) is a window too; Wang's msssim.m asks for a side / 2^4 of a window, and so do we.
-static_assert(kSsimWindow << (kScales - 1) == kMsSsimSide);
+// ceil(175 / 16) would hold a window too; Wang's msssim.m requires side / 2^4 to hold one, and so do we.
+static_assert(kSsimSide << (kScales - 1) == kMsSsimSide);
 
 constexpr MetricOutput kOutputs[] = {
     {"ms_ssim", "MS-SSIM", Unit::kPlain, Better::kHigher, true,
@@ -32,7 +31,7 @@ constexpr MetricOutput kOutputs[] = {
      "The same at five scales, the coarse ones as from farther away.", 1, true}};
 
 void measure(const MetricInput& input, std::span<double> values) {
-  // Of the pictures themselves no plane is kept: two would be a third of the pictures.
+  // The full size is never kept as planes: two would take a third of the pictures' memory.
   LumaRows rows_a = luma(input.shown_a), rows_b = luma(input.shown_b);
   LumaPlane a, b;
   double product = 1;
@@ -52,8 +51,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric ms_ssim_metric;
-constinit const Metric ms_ssim_metric{kOutputs, Family::kStructure, Needs::kFiveScales,
-                                      "Wang, Simoncelli, Bovik 2003", measure};
+extern constinit const Metric ms_ssim_metric{kOutputs, Family::kStructure, Needs::kFiveScales,
+                                             "Wang, Simoncelli, Bovik 2003", measure};
 
 }  // namespace lobelia

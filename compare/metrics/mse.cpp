@@ -20,8 +20,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric mse_metric;
-constinit const Metric mse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                  measure};
+extern constinit const Metric mse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                         measure};
 
 }  // namespace lobelia

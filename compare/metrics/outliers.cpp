@@ -1,11 +1,10 @@
-// How many pixels lie outside a tolerance.
+// The number of pixels outside a tolerance.
 //
-// Source:       the failure rule of `idiff` (-fail, -failpercent), with a tolerance that follows the
-//               rounding of the reference: a half-float picture is off by a share of each value.
+// Source:       the failure rule of `idiff` (-fail, -failpercent). The tolerance also follows the rounding
+//               of the reference: a half-float picture is off by a share of each value.
 // Formula:      the number of pixels with |a - b| > relative * |b| + of_peak * peak in R, G or B;
-//               peak as in max_rel_peak. off_edge counts those that lie elsewhere than on the
-//               edges that the tolerance names, where rounding may decide what a ray hits; 0 if
-//               it names none.
+//               peak as in max_rel_peak. off_edge counts those off the tolerance's edges, on which
+//               rounding may decide what a ray hits; 0 if it names no edges.
 // Input:        scene-linear values, neither exposed nor clipped.
 #include <cmath>
 
@@ -44,8 +43,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric outliers_metric;
-constinit const Metric outliers_metric{kOutputs, Family::kRadiance, Needs::kTolerance,
-                                       "idiff -fail, -failpercent", measure};
+extern constinit const Metric outliers_metric{kOutputs, Family::kRadiance, Needs::kTolerance,
+                                              "idiff -fail, -failpercent", measure};
 
 }  // namespace lobelia

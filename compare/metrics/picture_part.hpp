@@ -1,7 +1,8 @@
-// Errors of RGB values, over the whole picture or inside the mask that a comparison was given.
+// Errors of RGB values, over the whole picture or inside the comparison's mask.
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
+#include <cmath>
 
 #include "compare/metrics/metric.hpp"
 
@@ -9,7 +10,7 @@ namespace lobelia {
 
 enum class Part { kPicture, kMask };
 
-/// Calls visit(a, b, pixel) with the RGB values of the part in reading order; returns how many.
+/// Calls visit(a, b, pixel) for each RGB value of the part in reading order. Returns the number of calls.
 template <Part part, class Visit>
 std::size_t for_each_value(const MetricInput& input, Visit visit) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
@@ -24,8 +25,8 @@ std::size_t for_each_value(const MetricInput& input, Visit visit) {
   return count;
 }
 
-/// Mean of error(a, b), summed in double, as a float32 sum loses a percent on a large picture; 0 for a
-/// part without pixels.
+/// Mean of error(a, b); 0 for a part without pixels. Summed in double: a float32 sum loses a percent on a
+/// large picture.
 template <Part part, class Error>
 double mean_over(const MetricInput& input, Error error) {
   double sum = 0;

@@ -1,6 +1,5 @@
 #include "compare/metrics/pixel_differences.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,29 +12,31 @@ PixelDifferences pixel_differences(const DisplayLight& a, const DisplayLight& b,
   const auto width = std::size_t(a.width()), height = std::size_t(a.height());
   PixelDifferences result{std::vector<float>(width * height), 0, 0};
   std::vector<double> row_sum(height, 0.0), row_max(row_sum);
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, height),
-                            [&](const oneapi::tbb::blocked_range<std::size_t>& rows) {
-                              std::vector<float> rgb_a(3 * width), rgb_b(rgb_a);
-                              for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
-                                a.fill(int(y), 0, rgb_a);
-                                b.fill(int(y), 0, rgb_b);
-                                float* differences = result.values.data() + width * y;
-                                kernel(rgb_a.data(), rgb_b.data(), differences, width);
-                                double sum = 0;
-                                float largest = 0;
-                                for (std::size_t x = 0; x < width; ++x) {
-                                  sum += double(differences[x]);
-                                  largest = std::max(largest, differences[x]);
-                                }
-                                row_sum[y] = sum;
-                                row_max[y] = double(largest);
-                              }
-                            });
+  oneapi::tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+    std::vector<float> rgb_a(3 * width), rgb_b(rgb_a);
+    a.fill(int(y), 0, rgb_a);
+    b.fill(int(y), 0, rgb_b);
+    const std::span<float> differences(result.values.data() + width * y, width);
+    kernel(rgb_a.data(), rgb_b.data(), differences.data(), width);
+    for (const float difference : differences) {
+      row_sum[y] += double(difference);
+      row_max[y] = std::max(row_max[y], double(difference));
+    }
+  });
   // In order of the rows: the sum must not depend on the number of threads.
   for (const double sum : row_sum) result.mean += sum;
   for (const double value : row_max) result.max = std::max(result.max, value);
   result.mean /= std::max(double(result.values.size()), 1.0);
   return result;
+}
+
+void PixelDifferences::write_figures(std::initializer_list<double> shares,
+                                     std::span<double> figures) {
+  figures.front() = mean;
+  figures.back() = max;
+  std::ranges::transform(shares, figures.begin() + 1, [&](double share) {
+    return values.empty() ? 0 : percentile(values, share);
+  });
 }
 
 double percentile(std::vector<float>& values, double share) {

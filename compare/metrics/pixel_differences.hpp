@@ -1,30 +1,32 @@
-// A difference of each pixel as shown, for the metrics that are made of those.
+// One difference per pixel as shown, and the figures that metrics make of them.
 #pragma once
 
-#include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 #include "compare/display_light.hpp"
 
 namespace lobelia {
 
-/// Fills in the differences of `count` pixels, R, G and B of each as shown; 0 for pixels that show the same.
+/// Writes the differences of `count` pixels, given R, G and B of each as shown. Equal pixels give 0.
 using DifferenceKernel = void (*)(const float* rgb_a, const float* rgb_b, float* differences,
                                   std::size_t count);
 
 struct PixelDifferences {
-  /// In reading order, in float32: 256 MB of a picture of 8192 x 8192, and no order is lost by rounding.
+  /// In reading order. float32 halves the memory (256 MB for 8192 x 8192 pixels); rounding keeps the order.
   std::vector<float> values;
-  double mean, max;  ///< 0 of a picture without pixels
+  double mean, max;  ///< 0 for a picture without pixels
+
+  /// Writes mean, percentiles of the given shares, and maximum, in this order. All are 0 without pixels.
+  void write_figures(std::initializer_list<double> shares, std::span<double> figures);
 };
 
-/// The same for any number of threads.
+/// The result does not depend on the number of threads.
 PixelDifferences pixel_differences(const DisplayLight& a, const DisplayLight& b,
                                    DifferenceKernel kernel);
 
 /// The smallest value that at least `share` of the values do not exceed: the nearest rank, without
-/// interpolation, so that it is a value which some pixel has. 0 < share <= 1; reorders the values, of which
-/// there has to be one.
+/// interpolation, so some pixel has this value. 0 < share <= 1. Reorders the values; there must be at least one.
 double percentile(std::vector<float>& values, double share);
 
 }  // namespace lobelia

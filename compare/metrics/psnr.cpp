@@ -1,16 +1,13 @@
 // Peak signal-to-noise ratio, in decibels.
 //
 // Source:       textbook.
-// Formula:      10 log10( peak^2 / mse ), peak = the brightest RGB value of the reference b, which
-//               the record holds as `peak`; infinite for equal pictures, -infinite for others
-//               against a reference without a positive value.
+// Formula:      10 log10( peak^2 / mse ). peak is the brightest RGB value of the reference b, `peak` in
+//               the record. Infinite for equal pictures; otherwise -infinite for a reference without a
+//               positive value.
 // Input:        scene-linear values, neither exposed nor clipped.
-// Differs:      `idiff` ("Peak SNR") takes the brightest value of either picture, so that a picture with
-//               a peak far too high is rated the better for it; theirs is ours where the reference
-//               has it, else ours + 20 log10(that peak / peak). Tools for 8 bits take 255.
-#include <cmath>
-
-#include "compare/metrics/metric.hpp"
+// Differs:      `idiff` ("Peak SNR") takes the brightest value of either picture, which rewards a peak that
+//               is far too high. Its value is ours if the reference has the higher peak, otherwise
+//               ours + 20 log10(the other peak / peak). 8-bit tools take 255.
 #include "compare/metrics/picture_part.hpp"
 #include "core/constants.hpp"
 #include "core/image_values.hpp"
@@ -30,8 +27,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric psnr_metric;
-constinit const Metric psnr_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                   measure};
+extern constinit const Metric psnr_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                          measure};
 
 }  // namespace lobelia

@@ -1,14 +1,13 @@
-// Relative mean square error: every value counts by its own size, so that an error in the flank of a
-// highlight is not drowned by its peak.
+// Relative mean square error: each error counts relative to its value, so that errors in the flank of a
+// highlight are visible beside those of its peak.
 //
 // Source:       F. Rousselle, C. Knaus, M. Zwicker, "Adaptive Sampling and Reconstruction using
 //               Greedy Error Minimization", ACM Transactions on Graphics 30 (6), 2011, section 6.
-// Formula:      sum (a - b)^2 / (b^2 + eps) / (3 N) over the R, G and B values of all N pixels,
-//               eps = 0.01, which keeps black pixels from weighing without bound: it stands in the
-//               id, because the figure means nothing without it.
+// Formula:      sum (a - b)^2 / (b^2 + eps) / (3 N) over the R, G and B values of all N pixels. eps = 0.01
+//               bounds the weight of black pixels. The id names it, for figures depend on it.
 // Input:        scene-linear values, neither exposed nor clipped.
-// Differs:      some divide a pixel's squared error by its squared mean over the channels; here each
-//               channel has its own denominator.
+// Differs:      some tools divide by the squared mean of a pixel's channels; here each channel has its own
+//               denominator.
 #include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
@@ -28,8 +27,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric relmse_metric;
-constinit const Metric relmse_metric{kOutputs, Family::kRadiance, Needs::kNothing,
-                                     "Rousselle, Knaus, Zwicker 2011", measure};
+extern constinit const Metric relmse_metric{kOutputs, Family::kRadiance, Needs::kNothing,
+                                            "Rousselle, Knaus, Zwicker 2011", measure};
 
 }  // namespace lobelia

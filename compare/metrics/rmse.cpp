@@ -2,12 +2,9 @@
 //
 // Source:       textbook.
 // Formula:      sqrt( sum (a - b)^2 / (3 N) ) over the R, G and B values of all N pixels.
-// Input:        scene-linear values, neither exposed nor clipped; with the suffix .mask those of the
-//               pixels inside the mask alone.
+// Input:        scene-linear values, neither exposed nor clipped; with .mask only pixels inside the mask.
 // Agrees with:  `idiff` and `oiiotool --diff` ("RMS error"), to the float32 digits they print.
 // Differs:      the sum is in double; a float32 sum loses a percent on a large picture.
-#include <cmath>
-
 #include "compare/metrics/picture_part.hpp"
 
 namespace lobelia {
@@ -27,12 +24,10 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern const Metric rmse_metric;
-constinit const Metric rmse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                   measure<Part::kPicture>};
+extern constinit const Metric rmse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
+                                          measure<Part::kPicture>};
 
-extern const Metric rmse_mask_metric;
-constinit const Metric rmse_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask, "textbook",
-                                        measure<Part::kMask>};
+extern constinit const Metric rmse_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
+                                               "textbook", measure<Part::kMask>};
 
 }  // namespace lobelia

@@ -1,11 +1,13 @@
-// By how much the pictures differ more than their noise, in pixels and in regions.
+// Differences beyond the noise, in pixels and in regions.
 //
 // Source:       compare/uncertainty/z_test.hpp: Student's t for each value, and for sums over squares of 2, 4, 8,
 //               ... pixels, with Sidak's correction for their number.
-// Formula:      z.max is the largest |z| of all; a place beyond z.critical is there by chance in as many
-//               comparisons as the significance says, at most. Limits on these ask whether a difference was
-//               found: the noisier the pictures, the less is.
-// Input:        scene-linear values and their noise; a tolerance is taken off the differences.
+// Formula:      z.max is the largest |z|. At most the share `significance` of comparisons has a place beyond
+//               z.critical by chance. A limit on these asks whether a difference was found. The noisier the
+//               pictures, the fewer are found.
+// Input:        scene-linear values and their noise, less the tolerance.
+#include <algorithm>
+
 #include "compare/metrics/metric.hpp"
 #include "compare/uncertainty/z_test.hpp"
 
@@ -40,13 +42,12 @@ void measure(const MetricInput& input, std::span<double> values) {
   const double results[] = {test.largest,          double(test.x),       double(test.y),
                             double(test.size),     test.critical,        double(test.beyond),
                             double(test.off_edge), double(test.regions), double(test.open)};
-  std::copy(std::begin(results), std::end(results), values.begin());
+  std::ranges::copy(results, values.begin());
 }
 
 }  // namespace
 
-extern const Metric z_metric;
-constinit const Metric z_metric{kOutputs, Family::kRadiance, Needs::kNoise,
-                                "Student's t, Sidak 1967", measure};
+extern constinit const Metric z_metric{kOutputs, Family::kRadiance, Needs::kNoise,
+                                       "Student's t, Sidak 1967", measure};
 
 }  // namespace lobelia

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/constants.hpp"
 #include "core/error.hpp"
@@ -12,12 +11,12 @@
 namespace lobelia {
 namespace {
 
-// In half-widths. A Gaussian has fallen to 1/512 at 3 of them, and to 1/1000 at the last.
+// In half-widths. A Gaussian falls to 1/512 at 3 of them, and to 1/1000 at kZoneReach.
 constexpr double kBackgroundFrom = 3, kBackgroundTo = 4.5, kEnergyReach = 3;
-const double kZoneReach = std::sqrt(-std::log2(kZones.back().lobe));
-constexpr std::size_t kFewestOfBackground = 16;
+const double kZoneReach = std::sqrt(-std::log2(kZoneShares.back()));
+constexpr std::size_t kFewestBackgroundPixels = 16;
 constexpr double kCurveStep = 0.5;
-constexpr double kMostOffsets = 500;  // to each side
+constexpr double kMostOffsets = 500;  // on each side
 
 Field radiance_of(const Image& image) {
   Field field{image.width(), image.height(), std::vector<double>(image.pixel_count())};
@@ -36,7 +35,7 @@ double median(std::vector<double> values) {
 
 double distance(FilmPoint a, FilmPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// Finite values of the pixels between two distances from a place.
+/// Finite values of the pixels between two distances from `middle`.
 std::vector<double> ring(const Field& field, FilmPoint middle, double from, double to) {
   std::vector<double> values;
   for (std::size_t i = 0; i < field.values.size(); ++i) {
@@ -84,7 +83,7 @@ std::string remark_on(const Field& field, const BlobFigures& blob,
 
 BlobFigures measure(const Field& field) {
   BlobFigures blob;
-  std::vector<double> finite = ring(field, {}, 0, std::numeric_limits<double>::infinity());
+  std::vector<double> finite = ring(field, {}, 0, kInfinity);
   blob.not_finite = field.values.size() - finite.size();
   if (finite.empty()) return no_blob(blob, "no pixel is finite");
   blob.background = median(finite);
@@ -95,7 +94,7 @@ BlobFigures measure(const Field& field) {
   const double largest = field.values[brightest];
 
   std::vector<std::size_t> region;
-  // The blob gives its surroundings, and these what is half of its peak; it settles at once.
+  // The blob defines its background, and the background the half of its peak. This settles at once.
   for (int round = 0; round < 4; ++round) {
     if (!(largest > blob.background))
       return no_blob(blob, "nothing stands out: no pixel is brighter than its surroundings");
@@ -104,7 +103,7 @@ BlobFigures measure(const Field& field) {
     const double semi_axis = std::max(1.0, 2 * blob.axes.major_sigma);
     const std::vector<double> around =
         ring(field, blob.axes.centre, kBackgroundFrom * semi_axis, kBackgroundTo * semi_axis);
-    if (around.size() < kFewestOfBackground || round == 3) break;
+    if (around.size() < kFewestBackgroundPixels || round == 3) break;
     blob.background = median(around);
   }
   blob.pixels = region.size();
@@ -125,7 +124,7 @@ BlobFigures measure(const Field& field) {
   return blob;
 }
 
-/// How far from the peak the zones reach, pixels.
+/// The reach of the zones from the peak, pixels.
 double reach_of(const BlobFigures& blob) {
   return kZoneReach *
          (std::isnan(blob.major_half_width) ? 2 * blob.axes.major_sigma : blob.major_half_width);
@@ -150,24 +149,19 @@ std::vector<BlobCurve> curves_along(const BlobFigures& blob, const std::vector<F
   return curves;
 }
 
-/// Zones by the share of its peak that the reference has in a pixel, near its peak.
-std::array<ZoneError, kZoneCount> difference_of(const Field& a, const Field& b,
-                                                const BlobFigures& reference) {
-  std::array<ZoneErrorSum, kZoneCount> sums;
+/// A pixel near the peak belongs to a zone by the reference's share of its peak there.
+ZoneErrors difference_of(const Field& a, const Field& b, const BlobFigures& reference) {
+  ZoneErrorSums sums;
   const double reach = reach_of(reference);
   for (std::size_t i = 0; i < b.values.size(); ++i) {
     if (distance(pixel_centre(b, i), reference.peak.place) > reach) continue;
     const double share = (b.values[i] - reference.background) / reference.peak.value;
-    for (std::size_t zone = 0; zone < kZoneCount; ++zone)
-      if (share >= kZones[zone].lobe) {
-        sums[zone].add(a.values[i] - b.values[i]);
-        break;
-      }
+    const auto zone =
+        std::ranges::find_if(kZoneShares, [&](double least) { return share >= least; });
+    if (zone != kZoneShares.end())
+      sums.add(std::size_t(zone - kZoneShares.begin()), a.values[i] - b.values[i]);
   }
-  std::array<ZoneError, kZoneCount> errors;
-  for (std::size_t zone = 0; zone < kZoneCount; ++zone)
-    errors[zone] = sums[zone].error(reference.peak.value);
-  return errors;
+  return sums.errors(reference.peak.value);
 }
 
 }  // namespace

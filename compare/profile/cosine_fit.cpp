@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/constants.hpp"
@@ -14,12 +13,11 @@ namespace lobelia {
 namespace {
 
 constexpr double kSmallest = 1e-3, kLargest = 1e8;
-// Between two of these a sum of squares that has one minimum cannot hide it, and a few thousand pixels tell
-// where it is.
+// Steps small enough not to miss a single minimum of the sum of squares. A few thousand pixels suffice to locate it.
 constexpr double kRatio = 1.25;
 constexpr std::size_t kScanned = 4096;
 
-/// scale * radiance over the logarithm of the cosine, which is 1 - s.
+/// A pixel's scale and radiance, and the logarithm of its cosine.
 struct Term {
   double log_cosine, scale, radiance;
 };
@@ -31,8 +29,8 @@ double log_cosine(double angle) {
 
 /// The best coefficient at an exponent.
 struct Best {
-  double coefficient, squares,
-      score;  ///< score: half of minus the derivative of the squares by ln n
+  double coefficient, squares;
+  double score;  ///< half of minus the derivative of the squares by ln n
 };
 
 Best best_at(const std::vector<Term>& terms, double exponent, std::size_t stride = 1) {
@@ -52,10 +50,10 @@ Best best_at(const std::vector<Term>& terms, double exponent, std::size_t stride
   return best;
 }
 
-/// The logarithm of the exponent with the fewest squares, of a few thousand pixels.
+/// The logarithm of the exponent with the least sum of squares over a few thousand pixels.
 double scan(const std::vector<Term>& terms) {
   const std::size_t stride = terms.size() / kScanned + 1;
-  double least = std::numeric_limits<double>::infinity(), at = kNaN;
+  double least = kInfinity, at = kNaN;
   for (double u = std::log(kSmallest); u <= std::log(kLargest); u += std::log(kRatio)) {
     const Best best = best_at(terms, std::exp(u), stride);
     if (best.coefficient > 0 && best.squares < least) {
@@ -83,9 +81,9 @@ double refine(const std::vector<Term>& terms, double u) {
   return (from + to) / 2;
 }
 
-/// HC3 of the exponent.
+/// The exponent's standard error by HC3.
 double standard_error(const std::vector<Term>& terms, double exponent, double coefficient) {
-  // Columns of the Jacobian: by the relative change of the coefficient and of the exponent.
+  // Derivatives by the relative change of the coefficient (a) and of the exponent (b).
   struct Row {
     double a, b, residual;
   };
@@ -133,9 +131,8 @@ CosineFit fit_cosine_lobe(std::span<const LobeSample> samples) {
   if (!(exponent >= kSmallest && exponent <= kLargest))
     return no_fit(terms.size(), "no power of a cosine fits it better than its neighbours do");
   const Best best = best_at(terms, exponent);
-  const auto within = std::size_t(std::count_if(terms.begin(), terms.end(), [&](const Term& term) {
-    return exponent * term.log_cosine >= std::log(0.5);
-  }));
+  const auto within = std::size_t(std::ranges::count_if(
+      terms, [&](const Term& term) { return exponent * term.log_cosine >= std::log(0.5); }));
   if (within < kFewestPixelsOfALobe)
     return no_fit(
         terms.size(),

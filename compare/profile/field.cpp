@@ -1,14 +1,13 @@
-#include "compare/profile/field.hpp"
-
 #include <array>
 #include <cmath>
 
+#include "compare/profile/peak.hpp"
 #include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
 
-/// Weights of the four pixels around a place that is t past the second.
+/// Weights of four neighbouring pixels at a distance t past the second.
 std::array<double, 4> cubic_weights(double t) {
   return {((-0.5 * t + 1) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1,
           ((-1.5 * t + 2) * t + 0.5) * t, (0.5 * t - 0.5) * t * t};
@@ -35,7 +34,7 @@ double sample(const Field& field, FilmPoint place) {
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) {
       const double weight = wx[std::size_t(column)] * wy[std::size_t(row)];
-      // On a line of pixels' centres those beside it have no weight and may be holes.
+      // On a line through pixel centres, pixels beside it have no weight and may be holes.
       if (weight != 0) sum += weight * field.at(i - 1 + column, j - 1 + row);
     }
   return sum;
@@ -93,7 +92,7 @@ double distance_to_level(const Field& field, FilmPoint peak, FilmPoint direction
     return sample(field, {peak.x + distance * direction.x, peak.y + distance * direction.y});
   };
   constexpr double kStep = 0.25;
-  // Beyond the film every value is NaN, and the walk ends.
+  // Every value outside the film is NaN, which ends the walk.
   for (double inner = 0;; inner += kStep) {
     const double value = at(inner + kStep);
     if (std::isnan(value)) return kNaN;

@@ -1,10 +1,10 @@
-// The highlight of one picture in figures.
-#include "compare/profile/profile.hpp"
-#include "core/constants.hpp"
-
+// The figures of a highlight in one picture.
 #include <fmt/format.h>
 
 #include <cmath>
+
+#include "compare/profile/profile.hpp"
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
@@ -14,7 +14,7 @@ Field empty_field(const ProfileGeometry& geometry) {
           std::vector(geometry.angle.size(), kNaN)};
 }
 
-/// The square of the angle, which is smooth in the middle, where the angle has a point.
+/// The square of the angle is smooth in the middle, unlike the angle.
 Field squared_angles(const ProfileGeometry& geometry) {
   Field squared = empty_field(geometry);
   for (std::size_t i = 0; i < geometry.angle.size(); ++i)

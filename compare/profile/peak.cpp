@@ -14,12 +14,12 @@ constexpr std::size_t kMostTerms = 15;  // of degree 4
 using Terms = std::array<double, kMostTerms>;
 
 constexpr double kCap = 0.8;
-// Of a broad highlight a smaller cap has pixels enough, and what is beyond degree 4 in it is a quarter.
+// A smaller cap of a broad highlight has enough pixels, and a quarter of the terms beyond degree 4.
 constexpr double kBroadSemiAxis = 10, kBroadCap = 0.9;
-// Across fewer pixels a polynomial of degree 4 is not held from swinging between them.
+// Across fewer pixels a polynomial of degree 4 may oscillate between them.
 constexpr double kSmallestSemiAxis = 3;
-// As many equal values as no peak of floats or half floats has at its top: one that is clipped has a tenth of
-// its cap equal from 2 % on.
+// More equal values than the top of a peak of floats or half floats has. A peak clipped by 2 % or more has a tenth of
+// its cap equal.
 constexpr std::size_t kFewestOfAPlateau = 5;
 constexpr double kPlateauOfCap = 0.1;
 
@@ -54,7 +54,7 @@ struct Polynomial {
   }
 };
 
-/// Cholesky's method for a symmetric matrix of which the lower half is given; false if it is singular.
+/// Cholesky's method for a symmetric matrix, given its lower half; false if it is singular.
 bool solve(std::array<Terms, kMostTerms>& matrix, Terms& right, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
@@ -74,7 +74,7 @@ bool solve(std::array<Terms, kMostTerms>& matrix, Terms& right, std::size_t size
   return true;
 }
 
-/// To the logarithm of the values over the largest; nothing where a value has none.
+/// Fits the logarithm of value / largest; nothing if a value has no logarithm.
 std::optional<Polynomial> fit(const Field& field, const std::vector<std::size_t>& pixels,
                               int degree, FilmPoint origin, double unit, double largest) {
   const std::size_t terms = Polynomial::terms(degree);
@@ -98,7 +98,7 @@ std::optional<Polynomial> fit(const Field& field, const std::vector<std::size_t>
   return Polynomial{degree, origin, unit, right};
 }
 
-/// Newton's iteration from `start`; nothing if it ends further than `reach` pixels away or not on a maximum.
+/// Newton's iteration from `start`; nothing unless it ends on a maximum at most `reach` pixels away.
 std::optional<Peak> maximum(const Polynomial& polynomial, FilmPoint start, double reach) {
   double x = (start.x - polynomial.origin.x) / polynomial.unit;
   double y = (start.y - polynomial.origin.y) / polynomial.unit;
@@ -162,8 +162,8 @@ Peak locate_peak(const Field& field) {
   Peak peak{pixel_centre(field, brightest), largest, PeakFound::kPixel, brightest};
   const std::vector<std::size_t> cap = region_above(field, brightest, kCap * largest);
   std::vector<std::size_t> equal;
-  std::copy_if(cap.begin(), cap.end(), std::back_inserter(equal),
-               [&](std::size_t i) { return field.values[i] == largest; });
+  std::ranges::copy_if(cap, std::back_inserter(equal),
+                       [&](std::size_t i) { return field.values[i] == largest; });
   if (equal.size() >= kFewestOfAPlateau &&
       double(equal.size()) >= kPlateauOfCap * double(cap.size())) {
     peak.place = principal_axes(field, equal, 0).centre;

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "core/constants.hpp"
 #include "core/error.hpp"
@@ -13,9 +11,8 @@
 namespace lobelia {
 namespace {
 
-// The curve reaches a little past the blooming zone, so that its end is seen, in bins as wide as
-// the pixels are apart, but for these bounds: finer bins would each hold a pixel or none, and
-// coarser ones would blunt the peak.
+// The curve reaches a little past the blooming zone, to show its end. A bin is as wide as the distance between pixels,
+// within these bounds: finer bins would hold one pixel or none, coarser ones would flatten the peak.
 constexpr double kCurveReach = 1.25;
 constexpr double kFewestBins = 64, kMostBins = 128;
 
@@ -31,7 +28,7 @@ std::vector<LitPixel> lit_pixels(const ProfileGeometry& geometry) {
   return lit;
 }
 
-/// The bin of each lit pixel, by a width that follows the pixels' density; past the last: none.
+/// Bins for angles up to `reach`. Their width follows the density of the pixels.
 struct Binning {
   double reach = 0, width = 1;
   std::size_t bins = 0;
@@ -43,9 +40,8 @@ struct Binning {
     if (!(reach > 0)) return;
     const auto within = std::ranges::count_if(
         lit, [&](double angle) { return angle <= reach; }, &LitPixel::angle);
-    // The side of a square with the area that a pixel has in the disc of radius `reach`.
-    const double spacing =
-        reach * std::sqrt(std::numbers::pi / double(std::max<std::ptrdiff_t>(within, 1)));
+    // The side of a square with a pixel's share of the disc of radius `reach`.
+    const double spacing = reach * std::sqrt(kPi / double(std::max<std::ptrdiff_t>(within, 1)));
     width = std::clamp(spacing, reach / kMostBins, reach / kFewestBins);
     bins = std::size_t(std::ceil(reach / width));
   }
@@ -75,8 +71,7 @@ void add_curves(Profile& profile, const std::vector<LitPixel>& lit, const NamedI
   }
 }
 
-/// Where the curve, from the peak outward, first falls to half the peak: straight lines between
-/// the bins.
+/// The angle at which the curve, from the peak outward, first falls to half the peak. Linear between bins.
 double half_width(const std::vector<double>& angle, const std::vector<double>& radiance,
                   const HighlightShape& shape) {
   if (!(shape.peak > 0)) return kNaN;
@@ -94,8 +89,7 @@ double half_width(const std::vector<double>& angle, const std::vector<double>& r
 
 HighlightShape measure_shape(const std::vector<LitPixel>& lit, const ProfileGeometry& geometry,
                              const Image& image) {
-  HighlightShape shape{lit.empty() ? kNaN : -std::numeric_limits<double>::infinity(), kNaN, kNaN,
-                       0};
+  HighlightShape shape{lit.empty() ? kNaN : -kInfinity, kNaN, kNaN, 0};
   bool finite = true;
   for (const LitPixel& pixel : lit) {
     const double radiance = radiance_at(image, pixel.index);
@@ -106,24 +100,20 @@ HighlightShape measure_shape(const std::vector<LitPixel>& lit, const ProfileGeom
       shape.peak_angle = pixel.angle;
     }
   }
-  // A peak beside a NaN is not known to be the peak.
+  // The true peak may be hidden by a NaN.
   if (!finite) shape.peak = shape.peak_angle = kNaN;
   return shape;
 }
 
-/// The errors of each zone.
-std::array<ZoneError, kZoneCount> zone_errors(const std::vector<LitPixel>& lit,
-                                              const ZoneEnds& ends, const Image& a, const Image& b,
-                                              double peak) {
-  std::array<ZoneErrorSum, kZoneCount> sums;
+ZoneErrors zone_errors(const std::vector<LitPixel>& lit, const ZoneEnds& ends, const Image& a,
+                       const Image& b, double peak) {
+  ZoneErrorSums sums;
   for (const LitPixel& pixel : lit) {
-    const auto zone = std::upper_bound(ends.begin(), ends.end(), pixel.angle) - ends.begin();
-    if (std::size_t(zone) < kZoneCount)
-      sums[std::size_t(zone)].add(radiance_at(a, pixel.index) - radiance_at(b, pixel.index));
+    const auto zone = std::size_t(std::ranges::upper_bound(ends, pixel.angle) - ends.begin());
+    if (zone < kZoneCount)
+      sums.add(zone, radiance_at(a, pixel.index) - radiance_at(b, pixel.index));
   }
-  std::array<ZoneError, kZoneCount> errors;
-  for (std::size_t zone = 0; zone < kZoneCount; ++zone) errors[zone] = sums[zone].error(peak);
-  return errors;
+  return sums.errors(peak);
 }
 
 void require_pixel_count(const ProfileGeometry& geometry, const NamedImages& images) {
@@ -140,6 +130,24 @@ void require_pixel_count(const ProfileGeometry& geometry, const NamedImages& ima
 }
 
 }  // namespace
+
+void ZoneErrorSums::add(std::size_t zone, double difference) {
+  Sum& sum = sums_[zone];
+  sum.finite = sum.finite && std::isfinite(difference);
+  sum.max_abs = std::max(sum.max_abs, std::abs(difference));
+  sum.squares += difference * difference;
+  ++sum.pixels;
+}
+
+ZoneErrors ZoneErrorSums::errors(double peak) const {
+  ZoneErrors errors;
+  std::ranges::transform(sums_, errors.begin(), [&](const Sum& sum) -> records::ZoneError {
+    if (sum.pixels == 0 || !sum.finite) return {sum.pixels, kNaN, kNaN, kNaN};
+    return {sum.pixels, sum.max_abs, std::sqrt(sum.squares / double(sum.pixels)),
+            sum.max_abs == 0 ? 0 : sum.max_abs / peak};
+  });
+  return errors;
+}
 
 Profile measure_profile(const ProfileGeometry& geometry, const NamedImages& images,
                         const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {

@@ -1,26 +1,42 @@
-// A highlight as a curve over the angle that its lobe sees: peak, width, energy, the power of a cosine that it
-// looks like, and where two pictures of it differ. docs/profiles.md defines every figure and the zones.
+// A highlight as a curve over the angle of its lobe: peak, width, energy, the power of a cosine that fits it, and
+// the differences of two pictures by zone. docs/profiles.md defines every figure and the zones.
 //
 // Radiance here is the mean of R, G and B.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "compare/profile/cosine_fit.hpp"
 #include "compare/profile/peak.hpp"
-#include "compare/profile/zones.hpp"
 #include "core/image.hpp"
 #include "records/profile.hpp"
 
 namespace lobelia {
 
-/// Pictures by name, in the order they are reported in. One may be the formula: "analytic".
+/// The zones of a highlight, from the middle outward: epicentre, flank and blooming zone. Each ends where the lobe falls
+/// to this share of its peak. The literature on such lobes names the epicentre and the blooming zone, without limits.
+inline constexpr std::array kZoneShares = {0.5, 0.05, 1e-3};
+inline constexpr std::size_t kZoneCount = kZoneShares.size();
+
+/// The end of each zone, in any measure that grows outward.
+using ZoneEnds = std::array<double, kZoneCount>;
+using ZoneErrors = std::array<records::ZoneError, kZoneCount>;
+
+/// Collects the errors of the zones, pixel by pixel.
+class ZoneErrorSums {
+ public:
+  void add(std::size_t zone, double difference);
+  /// NaN for a zone without pixels, or with a difference that is not finite.
+  ZoneErrors errors(double peak) const;
+
+ private:
+  struct Sum {
+    std::size_t pixels = 0;
+    double max_abs = 0, squares = 0;
+    bool finite = true;
+  };
+  std::array<Sum, kZoneCount> sums_;
+};
+
+/// Pictures by name, in the order of the report. One may be the formula: "analytic".
 using NamedImages = std::vector<std::pair<std::string, const Image*>>;
 
 /// The mean of R, G and B of a pixel, by its index in reading order.
@@ -31,19 +47,18 @@ inline double radiance_at(const Image& image, std::size_t index) {
 
 /// The geometry of the pixels, in reading order.
 struct ProfileGeometry {
-  std::span<const double> angle;        ///< radians; NaN where the light does not reach the body
+  std::span<const double> angle;        ///< radians; NaN where the light does not reach the sphere
   std::span<const double> solid_angle;  ///< of the pixel, steradian
   ZoneEnds ends;                        ///< radians
-  // Without these three there are no HighlightFigures.
+  // HighlightFigures need these three.
   int width = 0;                       ///< of the film; 0: unknown
   std::span<const double> scale = {};  ///< radiance of the highlight is scale * coefficient * lobe
-  std::span<const double> base = {};   ///< radiance beneath the highlight: of the diffuse base
-  /// Unit vector in the picture, y down, along the line in which the plane of incidence is seen; nothing where
-  /// eye, sphere and light lie on one line.
+  std::span<const double> base = {};   ///< radiance beneath the highlight: the diffuse base
+  /// Unit vector in the picture, y down, along the plane of incidence; none if eye, sphere and light lie on a line.
   std::optional<FilmPoint> incidence = {};
 };
 
-/// Half of the width between the places to both sides where the highlight has half of its peak.
+/// Half of the width between the places on both sides where the highlight has half of its peak.
 struct HalfWidth {
   double pixels = 0;
   double angle = 0;  ///< of the lobe there, the mean of both sides, radians
@@ -54,12 +69,12 @@ struct HighlightFigures {
   Peak peak;           ///< to a fraction of a pixel
   FilmPoint centroid;  ///< weighted by radiance * solid angle, down to the end of the blooming zone
   double energy = 0;   ///< sum of radiance * solid angle over the lit pixels, W/m^2
-  HalfWidth along, across;  ///< the plane of incidence; where there is none, x and y of the picture
+  HalfWidth along, across;  ///< the plane of incidence; without one, x and y of the picture
   CosineFit cosine;         ///< down to the end of the blooming zone
-  std::string why_not;      ///< a sentence where there is no peak or it is not resolved
+  std::string why_not;      ///< a sentence if there is no peak or it is not resolved
 };
 
-/// `geometry.width` is not 0, and the picture has as many pixels as the geometry.
+/// `geometry.width` is not 0. The picture has as many pixels as the geometry.
 HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image& image);
 
 struct HighlightShape {
@@ -71,14 +86,14 @@ struct HighlightShape {
 
 struct ProfileDifference {
   std::string a, b;  ///< b is the reference
-  std::array<ZoneError, kZoneCount> zones;
+  ZoneErrors zones;
 };
 
 struct Profile {
   ZoneEnds ends;
   std::optional<FilmPoint> incidence;
   std::vector<double> angle;                  ///< of each bin: the mean of its pixels, radians
-  std::vector<std::size_t> pixels;            ///< in each bin, never 0
+  std::vector<std::size_t> pixels;            ///< of each bin, never 0
   std::vector<std::string> names;             ///< of the pictures
   std::vector<std::vector<double>> radiance;  ///< [picture][bin], the mean of its pixels
   std::vector<HighlightShape> shapes;         ///< [picture]
@@ -86,7 +101,7 @@ struct Profile {
   std::vector<ProfileDifference> differences;
 };
 
-/// `pairs` are indices into `images`. All must have as many pixels as the geometry: Error(kInput).
+/// `pairs` are indices into `images`. Throws Error(kInput) if a picture's pixels are not as many as the geometry's.
 Profile measure_profile(const ProfileGeometry& geometry, const NamedImages& images,
                         const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 

@@ -3,11 +3,12 @@
 #include <numbers>
 
 #include "compare/profile/blob.hpp"
+#include "core/constants.hpp"
 
 namespace lobelia {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kDegrees = 180 / kPi;
 static_assert(kZoneCount == 3, "records/profile.hpp names the zones");
 
 std::vector<double> scaled(std::vector<double> values, double scale) {
@@ -22,9 +23,7 @@ records::Peak peak_record(const Peak& peak) {
           std::string(records::kPeakFound[std::size_t(peak.found)])};
 }
 
-records::ZoneErrors zones_record(const std::array<ZoneError, kZoneCount>& zones) {
-  return {zones[0], zones[1], zones[2]};
-}
+records::ZoneErrors zones_record(const ZoneErrors& zones) { return {zones[0], zones[1], zones[2]}; }
 
 records::HalfWidth half_width_record(const HalfWidth& width) {
   return {width.pixels, width.angle * kDegrees};
@@ -106,7 +105,7 @@ records::Profile profile_record(const Profile& profile, int light, int sphere,
 records::Blob blob_record(const BlobProfile& profile) {
   records::Blob record;
   record.reference = profile.names.back();
-  record.zones = {kZones[0].lobe, kZones[1].lobe, kZones[2].lobe};
+  record.zones = {kZoneShares[0], kZoneShares[1], kZoneShares[2]};
   for (std::size_t k = 0; k < profile.names.size(); ++k)
     record.images.emplace_back(profile.names[k], figures_record(profile.blobs[k]));
   for (const BlobCurve& curve : profile.curves) {

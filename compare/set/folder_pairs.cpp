@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <string_view>
-#include <system_error>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -15,11 +12,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Endings of renders and photographs. OpenImageIO reads more, such as .txt and films.
+/// Endings of renders and photographs, in any case. OpenImageIO reads more, such as .txt and films.
 constexpr std::string_view kEndings[] = {
     ".avif", ".bmp", ".dpx", ".exr", ".gif", ".hdr",  ".heic", ".iff", ".jp2", ".jpeg",
     ".jpg",  ".pbm", ".pfm", ".pgm", ".png", ".pnm",  ".ppm",  ".psd", ".rgb", ".rgbe",
     ".rla",  ".sgi", ".sxr", ".tga", ".tif", ".tiff", ".tx",   ".webp"};
+
+bool has_picture_ending(const fs::path& file) {
+  return std::ranges::count(kEndings, lower_case(file.extension().string())) > 0;
+}
 
 class FolderWalk {
  public:
@@ -28,8 +29,8 @@ class FolderWalk {
     real_root_ = fs::canonical(root, error);
     if (error) fail("cannot be read: " + error.message());
     walk(real_root_, "");
-    std::sort(pictures.begin(), pictures.end());
-    std::sort(not_followed.begin(), not_followed.end());
+    std::ranges::sort(pictures);
+    std::ranges::sort(not_followed);
   }
 
   std::vector<std::string> pictures;
@@ -41,10 +42,10 @@ class FolderWalk {
     throw Error(ExitCode::kInput, fmt::format("{}: {}", root_.string(), why));
   }
 
-  /// `real` has no links in it; `name` is how the root leads to it, by links too.
+  /// `real` contains no links; `name` is the path from the root, which may.
   void walk(const fs::path& real, const fs::path& name) {
-    // A link that leads back to a folder around it: what is in there is compared without the link.
-    if (std::find(around_.begin(), around_.end(), real) != around_.end()) return;
+    // The link leads back to a folder around it, which is compared without the link.
+    if (std::ranges::count(around_, real) > 0) return;
     around_.push_back(real);
     std::error_code error;
     for (fs::directory_iterator entry(real, error), end; !error && entry != end;
@@ -78,34 +79,27 @@ class FolderWalk {
   const fs::path& root_;
   const std::size_t most_files_;
   fs::path real_root_;
-  std::vector<fs::path> around_;  ///< the folder at work and those that it was reached through
-  std::size_t files_ = 0;         ///< and folders
+  std::vector<fs::path> around_;  ///< the current folder and those on the way to it
+  std::size_t files_ = 0;         ///< files and folders so far
 };
 
 std::vector<std::string> only_in(const std::vector<std::string>& one,
                                  const std::vector<std::string>& other) {
   std::vector<std::string> names;
-  std::set_difference(one.begin(), one.end(), other.begin(), other.end(),
-                      std::back_inserter(names));
+  std::ranges::set_difference(one, other, std::back_inserter(names));
   return names;
 }
 
 }  // namespace
 
-bool has_picture_ending(const fs::path& file) {
-  return std::ranges::find(kEndings, lower_case(file.extension().string())) != std::end(kEndings);
-}
-
 bool is_below(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
-         folder.end();
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
 }
 
 FolderPairs pair_by_name(const fs::path& a, const fs::path& b, std::size_t most_files) {
   const FolderWalk in_a(a, most_files), in_b(b, most_files);
   FolderPairs pairs;
-  std::set_intersection(in_a.pictures.begin(), in_a.pictures.end(), in_b.pictures.begin(),
-                        in_b.pictures.end(), std::back_inserter(pairs.both));
+  std::ranges::set_intersection(in_a.pictures, in_b.pictures, std::back_inserter(pairs.both));
   pairs.missing = only_in(in_b.pictures, in_a.pictures);
   pairs.extra = only_in(in_a.pictures, in_b.pictures);
   pairs.passed_over = in_a.passed_over + in_b.passed_over;

@@ -4,17 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 
 #include "compare/metrics/catalogue.hpp"
+#include "core/constants.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
 namespace {
 
-/// How bad a value is: NaN is worse than anything.
+/// Larger is worse; NaN is the worst.
 double badness(Better better, double value) {
-  if (std::isnan(value)) return std::numeric_limits<double>::infinity();
+  if (std::isnan(value)) return kInfinity;
   return better == Better::kHigher ? -value : std::abs(value);
 }
 
@@ -27,28 +28,11 @@ Verdict PairReport::verdict() const {
 records::SetSummary count(const SetReport& report) {
   records::SetSummary counts;
   counts.pairs = report.pairs.size();
-  for (const PairReport& pair : report.pairs) {
-    if (!pair.comparison) {
-      ++counts.errors;
-      continue;
-    }
-    switch (pair.verdict()) {
-      case Verdict::kPass:
-      case Verdict::kSame:
-        ++counts.pass;
-        break;
-      case Verdict::kDiffers:
-      case Verdict::kDifferent:
-        ++counts.differs;
-        break;
-      case Verdict::kUndecided:
-        ++counts.undecided;
-        break;
-      case Verdict::kNonFinite:
-        ++counts.non_finite;
-        break;
-    }
-  }
+  // In the order of Verdict.
+  std::size_t* const of_verdict[] = {&counts.pass, &counts.differs, &counts.non_finite,
+                                     &counts.pass, &counts.differs, &counts.undecided};
+  for (const PairReport& pair : report.pairs)
+    ++(pair.comparison ? *of_verdict[std::size_t(pair.verdict())] : counts.errors);
   counts.missing = report.missing.size();
   counts.extra = report.extra.size();
   counts.passed_over = report.passed_over;
@@ -58,10 +42,16 @@ records::SetSummary count(const SetReport& report) {
 
 SetNotCompared not_compared(const SetReport& report) {
   SetNotCompared result;
+  std::set<std::string> known;
   for (const PairReport& pair : report.pairs) {
     if (!pair.layers || is_empty(pair.layers->not_compared)) continue;
     ++result.pairs;
-    add(pair.layers->not_compared, result.all);
+    const NotCompared& one = pair.layers->not_compared;
+    for (const std::string& name : one.layers)
+      if (known.insert(name).second) result.all.layers.push_back(name);
+    result.all.alpha = result.all.alpha || one.alpha;
+    result.all.overscan_pixels += one.overscan_pixels;
+    result.all.mip_levels = std::max(result.all.mip_levels, one.mip_levels);
   }
   return result;
 }
@@ -69,11 +59,9 @@ SetNotCompared not_compared(const SetReport& report) {
 ExitCode set_exit_code(const SetReport& report) {
   const records::SetSummary counts = count(report);
   if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
-  return counts.differs + counts.undecided + counts.non_finite + counts.missing +
-                     counts.links_not_followed >
-                 0
-             ? ExitCode::kDiffers
-             : ExitCode::kSuccess;
+  const std::size_t failures = counts.differs + counts.undecided + counts.non_finite +
+                               counts.missing + counts.links_not_followed;
+  return failures > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
 }
 
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
@@ -84,17 +72,16 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
       MetricSummary summary{output.id, 0, 0, nullptr};
       std::size_t pairs_with = 0;
       for (const PairReport& pair : pairs) {
-        if (!pair.comparison) continue;
-        for (const MetricValue& value : pair.comparison->metrics) {
-          if (value.id != output.id) continue;
-          ++pairs_with;
-          summary.mean += value.value;
-          if (!summary.worst_at ||
-              badness(output.better, value.value) > badness(output.better, summary.worst)) {
-            summary.worst = value.value;
-            summary.worst_at = &pair;
-          }
-        }
+        const double* value =
+            pair.comparison ? records::find(pair.comparison->metrics, output.id) : nullptr;
+        if (!value) continue;
+        ++pairs_with;
+        summary.mean += *value;
+        if (summary.worst_at &&
+            badness(output.better, *value) <= badness(output.better, summary.worst))
+          continue;
+        summary.worst = *value;
+        summary.worst_at = &pair;
       }
       if (pairs_with == 0) continue;
       summary.mean /= double(pairs_with);
@@ -112,11 +99,9 @@ std::string value_text(const Comparison& comparison, const LimitResult& limit) {
 std::string why_not_pass(const Comparison& comparison, std::string_view file_a,
                          std::string_view file_b) {
   if (comparison.verdict == Verdict::kNonFinite) {
-    const bool in_a = comparison.first_nonfinite_a.has_value();
-    const auto& place = in_a ? comparison.first_nonfinite_a : comparison.first_nonfinite_b;
-    return fmt::format("pixels with a NaN or an infinity: {} in a, {} in b; the first is {}",
-                       comparison.nonfinite_a, comparison.nonfinite_b,
-                       place ? place_text(*place, in_a ? file_a : file_b) : "unknown");
+    const auto& [a, b, first, equal] = comparison.nonfinite;
+    return fmt::format("pixels with a NaN or an infinity: {} in a, {} in b; the first is {}", a, b,
+                       first->a ? place_text(*first->a, file_a) : place_text(*first->b, file_b));
   }
   std::string text;
   for (const LimitResult& limit : comparison.limits)
@@ -139,6 +124,39 @@ std::string why_not_pass(const PairReport& pair) {
     for (const std::string& name : pair.layers->common->only_b)
       add(name.empty() ? "the picture" : "layer " + printable(name), "only b has it");
   return text;
+}
+
+records::Comparison pair_record(const PairReport& pair) {
+  records::Comparison record = comparison_record(*pair.comparison, pair.a, pair.b, pair.c);
+  if (pair.sources) record.pictures = pictures_record(pair.sources->a, pair.sources->b);
+  if (pair.layers) add_layers(record, pair.verdict(), *pair.layers);
+  return record;
+}
+
+records::ComparisonSet set_record(const SetReport& report) {
+  records::ComparisonSet record;
+  record.a = report.a;
+  record.b = report.b;
+  record.c = report.c;
+  record.summary = count(report);
+  const SetNotCompared left = not_compared(report);
+  record.not_compared = {left.all.layers, left.all.alpha, left.all.overscan_pixels,
+                         left.all.mip_levels, left.pairs};
+  for (const MetricSummary& metric : summarise(report.pairs))
+    record.worst.emplace_back(
+        metric.id, records::WorstOfSet{metric.worst, metric.worst_at->name, metric.mean});
+  record.missing = report.missing;
+  record.extra = report.extra;
+  record.links_not_followed = report.not_followed;
+  for (const PairReport& pair : report.pairs) {
+    records::PairOfSet& one = record.pairs.emplace_back();
+    one.name = pair.name;
+    if (pair.comparison)
+      one.comparison = pair_record(pair);
+    else
+      one.error = pair.error;
+  }
+  return record;
 }
 
 }  // namespace lobelia

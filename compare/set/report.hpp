@@ -1,42 +1,34 @@
-// What became of a set of pairs, and the files that tell it: JSON, CSV and JUnit's XML.
+// The results of comparing a set of pairs, and their files: JSON, CSV and JUnit's XML.
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "compare/compare.hpp"
 #include "compare/layers.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
 
 struct PairReport {
-  std::string name;     ///< what both are called: the file's path within its folder
+  std::string name;     ///< of both files: the path within their folders
   std::string a, b, c;  ///< files; c is empty without a second reference
   std::optional<Comparison> comparison;
   std::string error;  ///< why there is no comparison; empty if there is one
   double seconds = 0;
   std::optional<PicturePairSource> sources = {};  ///< how both files were read
-  std::optional<OtherLayers> layers = {};         ///< what was compared besides, and what was not
+  std::optional<OtherLayers> layers = {};         ///< everything besides the display window
 
-  /// The worst of the picture and its layers; `comparison` has to be there.
+  /// The worst of the picture and its layers. There must be a comparison.
   Verdict verdict() const;
 };
 
 struct SetReport {
   std::string a, b, c;  ///< folders, or files of a single pair
   std::vector<PairReport> pairs;
-  std::vector<std::string> missing;  ///< names that only the reference has: nothing to judge
-  std::vector<std::string> extra;    ///< names that have no reference
-  std::size_t passed_over = 0;       ///< files that are no pictures
+  std::vector<std::string> missing;            ///< names that only the reference has
+  std::vector<std::string> extra;              ///< names without a reference
+  std::size_t passed_over = 0;                 ///< files that are not pictures
   std::vector<std::string> not_followed = {};  ///< links to folders that may hold pictures
 };
 
-/// Why such a link fails.
+/// The reason that such a link fails.
 inline constexpr std::string_view kNotFollowed =
     "a link to a folder elsewhere; its pictures were not compared";
 
@@ -44,46 +36,46 @@ records::SetSummary count(const SetReport& report);
 
 /// Everything that was not compared, over all pairs.
 struct SetNotCompared {
-  std::size_t pairs = 0;  ///< that have something
+  std::size_t pairs = 0;  ///< with anything not compared
   NotCompared all;
 };
 SetNotCompared not_compared(const SetReport& report);
 
-/// kInput if a pair could not be compared or there is none at all, else kDiffers if one is not a pass or
-/// is missing, or a link was not followed, else kSuccess. What has no reference is named, but does not fail.
+/// kInput if a pair could not be compared or there are no pairs. Otherwise kDiffers if a pair does not pass or is
+/// missing, or a link was not followed. Otherwise kSuccess: names without a reference do not fail.
 ExitCode set_exit_code(const SetReport& report);
 
-/// A metric over the pairs that have it.
+/// A metric over the pairs for which it was measured.
 struct MetricSummary {
   std::string_view id;
   double mean = 0;
-  double worst = 0;            ///< furthest the way that is not its Better
-  const PairReport* worst_at;  ///< the first pair that has it
+  double worst = 0;            ///< by the output's Better
+  const PairReport* worst_at;  ///< the first pair with the worst value
 };
 
-/// A summary of every metric that is not a fact, in the catalogue's order.
+/// A summary of every output that takes a limit, in the catalogue's order.
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
 
 /// "is 0.02", or "was not measured (why)".
 std::string value_text(const Comparison& comparison, const LimitResult& limit);
 
-/// "rmse is 0.02, limit 0.001; ..." of the limits that fail, or how many pixels are not finite and where the
-/// first one is, by the names of the files; empty for a pass.
+/// "rmse is 0.02, limit 0.001; ..." for the limits that fail, or the number of pixels that are not finite and the place
+/// of the first, with the names of the files. Empty for a pass.
 std::string why_not_pass(const Comparison& comparison, std::string_view file_a,
                          std::string_view file_b);
-/// The same of the picture and its layers.
+/// The same for the picture and its layers.
 std::string why_not_pass(const PairReport& pair);
 
-/// The record of a pair that has a comparison, and of all.
+/// The record of a pair with a comparison, and of the whole set.
 records::Comparison pair_record(const PairReport& pair);
 records::ComparisonSet set_record(const SetReport& report);
 
-/// RFC 4180: a header, then a line for each pair, missing name, extra name and link that was not followed. It has a
-/// column for each metric that any pair has; a missing value is empty.
+/// RFC 4180: a header, then a line for each pair, missing name, extra name and link that was not followed. Each metric
+/// that was measured for any pair has a column; missing values are empty.
 std::string set_csv(const SetReport& report);
 
-/// JUnit's XML: a test case for each pair (failure, or error where it could not be compared), a failure
-/// for each missing name and each link that was not followed, a skipped one for each extra one.
+/// JUnit's XML: a test case for each pair (a failure, or an error if it could not be compared), a failure for each
+/// missing name and each link that was not followed, and a skipped test for each extra name.
 std::string set_junit(const SetReport& report);
 
 }  // namespace lobelia

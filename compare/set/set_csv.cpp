@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "compare/metrics/catalogue.hpp"
 #include "compare/set/report.hpp"
@@ -13,14 +12,13 @@ namespace {
 
 std::string field(const std::string& text) { return csv_field(printable_path(text)); }
 
-/// Ids that any pair has, in the catalogue's order.
+/// Ids measured for at least one pair, in the catalogue's order.
 std::vector<std::string_view> measured_ids(const SetReport& report) {
   std::vector<std::string_view> ids;
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs) {
       const auto has = [&](const PairReport& pair) {
-        return pair.comparison &&
-               std::ranges::count(pair.comparison->metrics, output.id, &MetricValue::id) > 0;
+        return pair.comparison && records::find(pair.comparison->metrics, output.id);
       };
       if (std::ranges::any_of(report.pairs, has)) ids.push_back(output.id);
     }
@@ -40,12 +38,11 @@ std::string set_csv(const SetReport& report) {
       text += fmt::format("{},error,{}{}\r\n", field(pair.name), field(pair.error), no_values);
       continue;
     }
-    const Comparison& comparison = *pair.comparison;
     text += fmt::format("{},{},{}", field(pair.name), verdict_name(pair.verdict()),
                         field(why_not_pass(pair)));
     for (const std::string_view id : ids) {
-      const auto found = std::ranges::find(comparison.metrics, id, &MetricValue::id);
-      text += found == comparison.metrics.end() ? "," : fmt::format(",{}", found->value);
+      const double* value = records::find(pair.comparison->metrics, id);
+      text += value ? fmt::format(",{}", *value) : ",";
     }
     text += "\r\n";
   }

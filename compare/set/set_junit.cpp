@@ -1,6 +1,6 @@
-// A set of comparisons as JUnit's XML, which continuous integration shows as tests. There is no standard of
-// it: this is what Jenkins' and GitLab's readers both take (testsuites, testsuite, testcase, failure, error,
-// skipped; properties for the figures).
+// A set of comparisons as JUnit's XML, which continuous integration shows as tests. JUnit has no standard; this
+// subset is read by both Jenkins and GitLab (testsuites, testsuite, testcase, failure, error, skipped; properties for
+// the figures).
 #include <fmt/format.h>
 
 #include <pugixml.hpp>
@@ -33,12 +33,11 @@ void add_pair(pugi::xml_node suite, const PairReport& pair) {
     add_outcome(one, "error", "not compared", pair.error);
     return;
   }
-  const Comparison& comparison = *pair.comparison;
   pugi::xml_node properties = one.append_child("properties");
-  for (const MetricValue& metric : comparison.metrics) {
+  for (const auto& [id, value] : pair.comparison->metrics) {
     pugi::xml_node property = properties.append_child("property");
-    property.append_attribute("name") = std::string(metric.id).c_str();
-    property.append_attribute("value") = fmt::format("{}", metric.value).c_str();
+    property.append_attribute("name") = id.c_str();
+    property.append_attribute("value") = fmt::format("{}", value).c_str();
   }
   if (!is_pass(pair.verdict()))
     add_outcome(one, "failure", verdict_name(pair.verdict()), why_not_pass(pair));

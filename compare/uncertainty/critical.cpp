@@ -11,7 +11,7 @@ namespace {
 using boost::math::complement;
 
 constexpr double kRarest = 38.4;
-/// Steps of the table for each doubling of the degrees of freedom, and doublings in it.
+/// Steps of the table per doubling of the degrees of freedom, and its doublings.
 constexpr int kSteps = 64, kDoublings = 20;
 
 }  // namespace
@@ -36,7 +36,7 @@ CriticalT::CriticalT(double each)
 }
 
 double CriticalT::operator()(double freedom) const {
-  // Rounded down: fewer degrees of freedom are the safe side.
+  // Rounded down: fewer degrees of freedom are the safe choice.
   const double place = kSteps * std::log2(std::max(freedom, 1.0));
   return values_[std::size_t(std::min(place, double(values_.size() - 1)))];
 }

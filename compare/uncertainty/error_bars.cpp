@@ -4,23 +4,21 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/students_t.hpp>
-#include <cmath>
-#include <limits>
 
 #include "compare/metrics/catalogue.hpp"
-#include "compare/uncertainty/gaussian.hpp"
 #include "compare/uncertainty/z_test.hpp"
 
 namespace lobelia {
 namespace {
 
-/// Mean and spread of numbers that come one at a time (Welford 1962).
+/// Running mean and spread (Welford 1962).
 class Spread {
  public:
   void add(double value) {
     ++count_;
-    // What has no noise may be infinite, and the same each time.
+    // Without noise a value may be infinite, and the same each time.
     all_equal_ = all_equal_ && (count_ == 1 || value == first_);
     if (count_ == 1) first_ = value;
     const double step = value - mean_;
@@ -38,12 +36,13 @@ class Spread {
 
 struct Figure {
   const MetricOutput* output;
-  double distance;  ///< of the pictures as they are
+  double distance;  ///< of the pictures without additional noise
   struct Spreads {
-    Spread value;           ///< of noisier pictures, as it stands in a record
-    Spread again, nothing;  ///< distances of noisier pictures, and of noise alone
+    Spread value;             ///< of noisier pictures, as in the record
+    Spread noisier, nothing;  ///< distances of noisier pictures, and of noise alone
   };
-  Spreads apart, together;  ///< values that err each by itself; pictures whose values err together
+  std::array<Spreads, 2>
+      spreads;  ///< if values err independently, and if all values of a picture err together
 };
 
 template <class Visit>
@@ -58,11 +57,10 @@ void measure_each(const MetricInput& input, Visit visit) {
   }
 }
 
-/// Where it is `shared` noise, and `together`, all values are off by one number of errors.
+/// With `together`, all values of a picture with shared noise get the same multiple of their errors.
 Image with_noise(const Image& image, const PictureNoise* noise, std::uint64_t stream,
                  bool together) {
-  Image result(image.width(), image.height());
-  std::copy(image.values().begin(), image.values().end(), result.values().begin());
+  Image result = image;
   if (!noise) return result;
   constexpr std::size_t kValuesPerTask = 1 << 14;
   const double one = gaussian(stream, ~std::uint64_t{0});
@@ -79,7 +77,7 @@ Image with_noise(const Image& image, const PictureNoise* noise, std::uint64_t st
   return result;
 }
 
-/// 97.5 % of another draw, in deviations from the mean.
+/// The bound of 97.5 % of other draws, in deviations from the mean.
 double draw_factor(const NoiseOfPair& noise, int count) {
   double freedom = count - 1;
   for (const PictureNoise* one : {noise.a, noise.b})
@@ -88,17 +86,17 @@ double draw_factor(const NoiseOfPair& noise, int count) {
          std::sqrt(1 + 1.0 / count);
 }
 
-/// How pixels err together is not known, only that they do: each time the worse of the two.
+/// How pixels err together is not known: the worse of the two spreads counts.
 ErrorBar bar_of(const Figure& figure, double factor) {
   const MetricOutput& output = *figure.output;
   const auto worse = [&](auto number) {
-    return std::max(number(figure.apart), number(figure.together));
+    return std::max(number(figure.spreads[0]), number(figure.spreads[1]));
   };
   using Spreads = Figure::Spreads;
   ErrorBar bar;
   bar.standard_error = worse([](const Spreads& s) { return s.value.deviation(); });
   bar.noise_floor = from_distance(output, worse([](const Spreads& s) { return s.nothing.mean(); }));
-  const double spread = factor * worse([](const Spreads& s) { return s.again.deviation(); });
+  const double spread = factor * worse([](const Spreads& s) { return s.noisier.deviation(); });
   const double floor =
       worse([&](const Spreads& s) { return s.nothing.mean() + factor * s.nothing.deviation(); });
   bar.noise_floor_most = from_distance(output, floor);
@@ -134,7 +132,7 @@ ErrorBars error_bars(const MetricInput& input, const Viewing& viewing, int count
   const NoiseOfPair& noise = *input.noise;
   std::vector<Figure> figures;
   measure_each(input, [&](const MetricOutput& output, double value) {
-    figures.push_back({&output, as_distance(output, value), {}, {}});
+    figures.push_back({&output, as_distance(output, value), {}});
   });
   const auto measure_noisy = [&](const Image& a, std::uint64_t stream, bool together, auto keep) {
     const Image noisy_a = with_noise(a, noise.a, mix(seed) + 2 * stream, together);
@@ -155,18 +153,17 @@ ErrorBars error_bars(const MetricInput& input, const Viewing& viewing, int count
   const bool any_shared = (noise.a && noise.a->shared) || (noise.b && noise.b->shared);
   for (int k = 0; k < (any_shared ? 2 : 1) * count; ++k) {
     const bool together = k >= count;
-    Figure::Spreads Figure::*const spreads = together ? &Figure::together : &Figure::apart;
     const auto stream = 2 * std::uint64_t(k);
     measure_noisy(input.a, stream, together, [&](Figure& figure, double distance, double value) {
-      (figure.*spreads).value.add(value);
-      (figure.*spreads).again.add(distance);
+      figure.spreads[together].value.add(value);
+      figure.spreads[together].noisier.add(distance);
     });
     measure_noisy(input.b, stream + 1, together, [&](Figure& figure, double distance, double) {
-      (figure.*spreads).nothing.add(distance);
+      figure.spreads[together].nothing.add(distance);
     });
   }
   if (!any_shared)
-    for (Figure& figure : figures) figure.together = figure.apart;
+    for (Figure& figure : figures) figure.spreads[1] = figure.spreads[0];
   ErrorBars bars;
   const double factor = draw_factor(noise, count);
   for (const Figure& figure : figures) bars.emplace_back(figure.output->id, bar_of(figure, factor));

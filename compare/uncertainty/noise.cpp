@@ -1,23 +1,21 @@
 #include "compare/uncertainty/noise.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
-#include "core/error.hpp"
+#include "compare/require_same_size.hpp"
 
 namespace lobelia {
 namespace {
 
-/// With fewer degrees of freedom a value's own error is no estimate to build on.
+/// With fewer degrees of freedom a value's own error is not reliable.
 constexpr double kFewFreedom = 8;
 constexpr int kSquare = 5, kLineReach = 8, kLine = 2 * kLineReach + 1;
-/// A pixel of a picture of this side has a whole square to one of its sides.
+/// From this side on, every pixel is a corner of a whole square.
 constexpr int kLeastSide = 2 * (kSquare - 1);
 
 /// Squares of standard errors, and sums of them around a pixel.
@@ -33,7 +31,7 @@ class Variances {
                    std::size_t(channel)];
   }
 
-  /// The largest of the means over lines and squares around a pixel; 0 where none lies in the picture.
+  /// The largest of the means over lines and squares around a pixel; 0 if none lies in the picture.
   double pooled(int x, int y, int channel) const {
     constexpr std::pair<int, int> kDirections[] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
     constexpr std::pair<int, int> kCorners[] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
@@ -64,8 +62,8 @@ class Variances {
     return largest;
   }
 
-  /// Over what varies in the square around the pixel; 0 if the pixel does not. So the sum over the picture
-  /// stays, and none of it comes to what is next to the noise.
+  /// The mean over the noisy pixels in the square around a pixel; 0 if the pixel itself has no noise. So the sum over
+  /// the picture stays, and pixels beside the noise get none of it.
   double mean_around(int x, int y, int channel) const {
     constexpr int kReach = kSquare / 2;
     if (at(x, y, channel) == 0) return 0;
@@ -86,7 +84,7 @@ class Variances {
   std::vector<double> values_;
 };
 
-/// The root of a variance for each value of a picture.
+/// A picture of the roots of variance(x, y, channel).
 template <class Variance>
 Image roots(int width, int height, Variance variance) {
   Image result(width, height);
@@ -142,11 +140,7 @@ NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared) 
   if (replicates.size() < 2)
     throw Error(ExitCode::kInput, "noise cannot be told from fewer than two pictures");
   const Image& first = replicates.front();
-  for (const Image& image : replicates)
-    if (image.width() != first.width() || image.height() != first.height())
-      throw Error(ExitCode::kInput,
-                  fmt::format("the sizes differ: {} x {} against {} x {}", image.width(),
-                              image.height(), first.width(), first.height()));
+  for (const Image& image : replicates) require_same_size(image, first);
   const double n = double(replicates.size());
   Image mean(first.width(), first.height()), error(first.width(), first.height());
   for (std::size_t i = 0; i < mean.values().size(); ++i) {
@@ -157,7 +151,7 @@ NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared) 
       const double apart = double(image.values()[i]) - sum / n;
       squares += apart * apart;
     }
-    // The mean is not finite, and says so; no error of it is needed.
+    // A mean that is not finite needs no error.
     error.values()[i] = std::isfinite(squares) ? float(std::sqrt(squares / (n * (n - 1)))) : 0;
   }
   return {std::move(mean), noise_of(error, n - 1, shared)};

@@ -1,33 +1,30 @@
-// The noise of a Monte-Carlo picture: how far each of its values may be from what endless samples would give.
+// The noise of a Monte-Carlo picture: the distance of its values from those that endless samples would give.
 //
 // Source:       the standard error of a mean; Student's t for its estimate from few replicates.
 // Two estimates, for two uses:
-//   standard_error  is right on the average: for figures, sums over many values. Up to eight degrees of freedom
-//                   it is the root mean square over what varies in the 5 x 5 pixels around, as the root of a
-//                   variance from few replicates is too small (of two by a fifth); with more the value's
-//                   own, without that bias: times 1 + 1 / (4 freedom). Where all replicates agree it is 0.
-//   cautious        is not too small where it counts: for single values far in the tail of a distribution,
-//                   where half the error is a million times the chance. It is the larger of the value's
-//                   own, and of what the windows of the pixel and its eight neighbours say: the largest of
-//                   the root mean squares over eight windows, lines of 17 pixels in four directions, which follow
-//                   a thin silhouette, and the four squares of 5 x 5 with the pixel in a corner, of which
-//                   one lies wholly on the noisy side of any straight edge. Channels are not pooled: where
-//                   light is white their noise is one and the same. It counts as 17 degrees of freedom, those
-//                   of the shortest window, or as many as the value's own has.
-// Assumes:      replicates are independent, of equal weight and of one expectation; noise is near normal in
-//               the means. Windows are pooled as independent pixels; a picture whose pixels share their
+//   standard_error  is right on average: for figures, which sum over many values. Below eight degrees of freedom
+//                   it is the root mean square over the noisy ones of the 5 x 5 pixels around, as the root of
+//                   a variance from few replicates is too small (for two, by a fifth). With more it is the
+//                   value's own, times 1 + 1 / (4 freedom) to remove the bias. It is 0 if all replicates agree.
+//   cautious        is not too small where it matters: for single values far in the tail of a distribution,
+//                   where half the error is a million times the chance. It is the larger of the value's own
+//                   error and the windows of the pixel and its eight neighbours. A pixel's windows give the
+//                   largest of eight root mean squares: over lines of 17 pixels in four directions, which
+//                   follow a thin silhouette, and over the four squares of 5 x 5 with the pixel in a corner,
+//                   one of which lies wholly on the noisy side of any straight edge. Channels are not pooled:
+//                   under white light they share their noise. It has 17 degrees of freedom, those of the
+//                   shortest window, or the value's own if it has more.
+// Assumes:      replicates are independent, of equal weight and of one expectation; their means are nearly
+//               normal. Windows are pooled as independent pixels. A picture whose pixels share their sample
 //               points is `shared` and gets no freedom from its windows.
-// Errs:         from few replicates standard_error blurs a lone noisy pixel, and error bars of a largest error
-//               are too short for it. Where a single pixel is much noisier than all lines and squares around it and its
-//               replicates happen to agree, the error is too small and a difference may be found that is
-//               none. On the quiet side of an edge of noise it is too large, and a difference there is
-//               overlooked. A value that is rare but large may be in no replicate at all: what is not
-//               known to vary does not. One that is in a single replicate is in its own error too, so
-//               fireflies are not taken for differences. tests/compare/uncertainty_test.cpp has the
-//               levels that are really held.
+// Errs:         from few replicates standard_error blurs a lone noisy pixel, which makes the error bar of a
+//               largest error too short. If a single pixel is much noisier than all lines and squares around
+//               it and its replicates happen to agree, the error is too small and may give a false
+//               difference. On the quiet side of an edge of noise it is too large and hides differences. A rare
+//               large value that no replicate has is not known as noise. A value in a single replicate is
+//               part of its error, so fireflies do not count as differences.
+//               tests/compare/uncertainty_test.cpp measures the levels.
 #pragma once
-
-#include <span>
 
 #include "core/image.hpp"
 
@@ -41,8 +38,8 @@ struct PictureNoise {
   bool shared = false;        ///< pixels err together: they share their points, or were filtered
 };
 
-/// Noise from a picture of standard errors. Throws Error(kInput) where it is negative or not finite, or has no
-/// pixels, and Error(kUsage) if there is not at least one degree of freedom.
+/// Noise from a picture of standard errors. Throws Error(kInput) if a value is negative or not finite, or there are no
+/// pixels, and Error(kUsage) for less than one degree of freedom.
 PictureNoise noise_of_standard_errors(const Image& standard_error, double freedom, bool shared);
 
 struct NoisyPicture {
@@ -50,10 +47,9 @@ struct NoisyPicture {
   PictureNoise noise;
 };
 
-/// The mean of pictures that are each an estimate of the same, from as many samples each, and its noise, with
-/// one degree of freedom fewer than pictures. Two half-sample pictures are the least. Throws Error(kInput)
-/// if there are fewer or the sizes differ. A value that is not finite in one of them is not in the mean, and
-/// has no error.
+/// The mean of independent pictures of the same scene with equally many samples, and its noise, with one degree of
+/// freedom fewer than pictures. If a value is not finite in one picture, its mean is not finite either and has no error.
+/// Throws Error(kInput) for fewer than two pictures or different sizes.
 NoisyPicture mean_of_replicates(std::span<const Image> replicates, bool shared);
 
 }  // namespace lobelia

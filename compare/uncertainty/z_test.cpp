@@ -1,20 +1,17 @@
 #include "compare/uncertainty/z_test.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 #include "compare/uncertainty/critical.hpp"
+#include "core/constants.hpp"
 #include "core/image_values.hpp"
 
 namespace lobelia {
 namespace {
 
-/// A sum of differences, and what is known of its error.
+/// A sum of differences, and its error.
 struct Sum {
   double excess = 0;
-  double variance = 0, squares = 0;   ///< of independent values; sum of variance^2 / freedom
+  double variance = 0,
+         squares = 0;  ///< of independent values; squares: sum of variance^2 / freedom
   double shared_a = 0, shared_b = 0;  ///< standard errors of values that err together
 
   void operator+=(const Sum& other) {
@@ -79,41 +76,34 @@ class Test {
     sum.squares += variance * variance / noise->freedom;
   }
 
-  static double freedom_of(const PictureNoise* noise) {
-    return noise ? noise->pooled_freedom : std::numeric_limits<double>::infinity();
-  }
-
   static double variance(const Sum& sum) {
     return sum.variance + sum.shared_a * sum.shared_a + sum.shared_b * sum.shared_b;
   }
 
-  /// Welch's, of a region; pooled windows overlap, so theirs is that of a region at least, not of each pixel.
+  /// Welch's, for a region. Pooled windows overlap, so a region has at least their freedom, not a sum over pixels.
   double freedom(const Sum& sum) const {
     const double all = variance(sum);
     double squares = sum.squares;
-    if (sum.variance > 0) {
-      const double least = least_independent_freedom();
-      squares = std::min(squares, sum.variance * sum.variance / least);
-    }
+    if (sum.variance > 0)
+      squares = std::min(squares, sum.variance * sum.variance / least_independent_freedom());
     const double a = sum.shared_a * sum.shared_a, b = sum.shared_b * sum.shared_b;
     if (a > 0) squares += a * a / noise_.a->freedom;
     if (b > 0) squares += b * b / noise_.b->freedom;
-    return squares > 0 ? all * all / squares : std::numeric_limits<double>::infinity();
+    return squares > 0 ? all * all / squares : kInfinity;
   }
 
   double least_independent_freedom() const {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const PictureNoise* noise : {noise_.a, noise_.b})
-      if (noise && !noise->shared) least = std::min(least, freedom_of(noise));
+      if (noise && !noise->shared) least = std::min(least, noise->pooled_freedom);
     return least;
   }
 
-  /// Whether the sum is no chance. Remembers the rarest.
+  /// Whether the sum is beyond chance. Remembers the rarest.
   bool look_at(const Sum& sum, int x, int y, int size) {
     if (sum.excess == 0) return false;
     const double error = std::sqrt(variance(sum));
-    const double t =
-        error > 0 ? std::abs(sum.excess) / error : std::numeric_limits<double>::infinity();
+    const double t = error > 0 ? std::abs(sum.excess) / error : kInfinity;
     const bool large = t > result_.critical;  // z is never more than t
     if (!large && t <= result_.largest) return false;
     const double degrees = freedom(sum), z = equivalent_z(t, degrees);
@@ -184,7 +174,7 @@ class Test {
   const double floor_;
   ZTest result_;
   const CriticalT critical_;
-  std::vector<std::size_t> outliers_;  ///< pixels that the tolerance allows, in reading order
+  std::vector<std::size_t> outliers_;  ///< pixels allowed by the tolerance, in reading order
 };
 
 }  // namespace

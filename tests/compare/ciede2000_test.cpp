@@ -144,8 +144,8 @@ TEST(Ciede2000, OfAPictureIsThatOfItsPixels) {
   const DisplayLight shown_a(a, 0), shown_b(b, 0);
   const std::vector<float> values = ciede2000_of_pixels(shown_a, shown_b).values;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double difference =
-        ciede2000(lab_from_display(shown_a.at(i)), lab_from_display(shown_b.at(i)));
+    const double difference = ciede2000(lab_from_display(fixtures::shown_at(shown_a, i)),
+                                        lab_from_display(fixtures::shown_at(shown_b, i)));
     EXPECT_NEAR(values[i], difference, 1e-7 * difference) << i;
   }
 }

@@ -80,9 +80,12 @@ TEST(DeltaEItp, PutsWhiteAt203CandelasWhichIs58PerCentOfPq) {
   EXPECT_NEAR(white.i, 0.580688881041607837, 1e-14);
   EXPECT_NEAR(white.t, 0, 1e-14);
   EXPECT_NEAR(white.p, 0, 1e-14);
-  EXPECT_DOUBLE_EQ(pq_signal(203), white.i);
-  EXPECT_DOUBLE_EQ(pq_signal(10000), 1);
-  EXPECT_NEAR(pq_signal(100), 0.5080784215173948, 1e-14);
+  const auto signal = [](double candelas) {
+    const double grey = candelas / 203;
+    return itp_from_display({grey, grey, grey}).i;
+  };
+  EXPECT_NEAR(signal(10000), 1, 1e-14);
+  EXPECT_NEAR(signal(100), 0.5080784215173948, 1e-14);
 }
 
 TEST(DeltaEItp, LooksAtTheExposedPicture) {
@@ -110,8 +113,8 @@ TEST(DeltaEItp, OfAPictureIsThatOfItsPixels) {
   const DisplayLight shown_a(a, 0), shown_b(b, 0);
   double mean = 0, max = 0;
   for (std::size_t i = 0; i < a.pixel_count(); ++i) {
-    const double difference =
-        delta_e_itp(itp_from_display(shown_a.at(i)), itp_from_display(shown_b.at(i)));
+    const double difference = delta_e_itp(itp_from_display(fixtures::shown_at(shown_a, i)),
+                                          itp_from_display(fixtures::shown_at(shown_b, i)));
     mean += difference / double(a.pixel_count());
     max = std::max(max, difference);
   }

@@ -20,7 +20,7 @@ double share(const char* id, double value, double limit) {
 }
 
 LimitResult result(const char* id, double value, double limit) {
-  return {id, limit, value, is_within(*find_metric_output(id), value, limit)};
+  return {id, limit, value, is_within(*find_metric_output(id), value, limit), {}, {}};
 }
 
 std::vector<std::string> of(const LimitResult& a, const LimitResult& b) {

@@ -4,7 +4,6 @@
 
 #include "compare/compare.hpp"
 #include "compare/metrics/flip_error.hpp"
-#include "compare/metrics/flip_exposures.hpp"
 #include "compare/metrics/flip_kernels.hpp"
 #include "core/error.hpp"
 #include "tests/compare/pictures.hpp"

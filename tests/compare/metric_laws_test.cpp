@@ -289,9 +289,9 @@ TEST(DisplayLight, IsExposedAndClipped) {
   image.pixel(1, 0)[1] = -1.0f;
   image.pixel(2, 0)[2] = 1e30f;
   const DisplayLight shown(image, 1);
-  EXPECT_EQ(shown.at(0), (Rgb{0.5, 0, 0}));
-  EXPECT_EQ(shown.at(1), (Rgb{0, 0, 0}));
-  EXPECT_EQ(shown.at(2), (Rgb{0, 0, 1}));
+  EXPECT_EQ(fixtures::shown_at(shown, 0), (Rgb{0.5, 0, 0}));
+  EXPECT_EQ(fixtures::shown_at(shown, 1), (Rgb{0, 0, 0}));
+  EXPECT_EQ(fixtures::shown_at(shown, 2), (Rgb{0, 0, 1}));
 }
 
 TEST(DisplayLight, OfARowIsThatOfItsPixels) {
@@ -301,7 +301,7 @@ TEST(DisplayLight, OfARowIsThatOfItsPixels) {
     std::vector<float> rgb(3 * 9);
     shown.fill(1, 4, rgb);
     for (std::size_t i = 0; i < 9; ++i) {
-      const Rgb expected = shown.at(13 + 4 + i);
+      const Rgb expected = fixtures::shown_at(shown, 13 + 4 + i);
       EXPECT_EQ(rgb[3 * i], float(expected.r));
       EXPECT_EQ(rgb[3 * i + 1], float(expected.g));
       EXPECT_EQ(rgb[3 * i + 2], float(expected.b));

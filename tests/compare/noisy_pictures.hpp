@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "compare/uncertainty/gaussian.hpp"
-#include "compare/uncertainty/noise.hpp"
+#include "compare/uncertainty/error_bars.hpp"
 #include "tests/compare/pictures.hpp"
 
 namespace lobelia::fixtures {

@@ -43,7 +43,7 @@ TEST(NoisyVerdict, OfALimitIsSameOrDifferentWhereTheWholeErrorBarSaysSo) {
   EXPECT_EQ(open.verdict, Verdict::kUndecided) << "its rmse is 0.02, and all of that may be noise";
   EXPECT_FALSE(open.limits[0].pass);
   // So many times the samples, and noise by their root weaker.
-  const double times = open.limits[0].more_samples;
+  const double times = open.limits[0].more_samples.value();
   EXPECT_GT(times, 3.5);
   EXPECT_LT(times, 6);
   EXPECT_EQ(compare_noisy(0, float(0.02 / std::sqrt(1.2 * times)), options).verdict,
@@ -98,7 +98,7 @@ TEST(NoisyVerdict, OfAPictureThatIsNotFiniteIsStillNonFinite) {
   EXPECT_FALSE(comparison.uncertainty);
   for (const LimitResult& limit : comparison.limits) EXPECT_FALSE(limit.pass);
   const Image halves[] = {a, b};
-  EXPECT_EQ(compare(mean_of_replicates(halves, false).image, b, options).nonfinite_a, 1);
+  EXPECT_EQ(compare(mean_of_replicates(halves, false).image, b, options).nonfinite.a, 1);
 }
 
 TEST(NoisyVerdict, OfALimitThatCouldNotBeMeasuredIsUndecided) {

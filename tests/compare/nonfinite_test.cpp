@@ -73,7 +73,7 @@ TEST(EqualNonfinite, LetsAPicturePassAgainstItselfAndNeverAgainstAnother) {
       PicturePair pair{{in_a ? b : a, {}, source}, {in_a ? a : b, {}, source}};
       const Comparison comparison = compare_pictures(pair, "a", "b", allowed);
       EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
-      const auto& first = in_a ? comparison.first_nonfinite_a : comparison.first_nonfinite_b;
+      const auto& first = in_a ? comparison.nonfinite.first->a : comparison.nonfinite.first->b;
       ASSERT_TRUE(first.has_value());
       EXPECT_EQ(std::size_t(first->y * 16 + first->x), at / 3);
       EXPECT_EQ(first->channel, std::string(1, "RGB"[at % 3]));

@@ -44,6 +44,13 @@ inline Image highlight(int width, int height, double sharpness, double peak) {
   return image;
 }
 
+/// Pixel `index` in reading order, by itself.
+inline Rgb shown_at(const DisplayLight& shown, std::size_t index) {
+  float rgb[3];
+  shown.fill(int(index) / shown.width(), int(index) % shown.width(), rgb);
+  return {rgb[0], rgb[1], rgb[2]};
+}
+
 inline constexpr HdrExposures kHdrExposures{-2, 2, 3};
 
 /// Every value of a picture uncertain by as much.

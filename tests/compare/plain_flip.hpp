@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "compare/display_light.hpp"
-#include "compare/metrics/flip_filters.hpp"
+#include "compare/metrics/flip_error.hpp"
+#include "tests/compare/pictures.hpp"
 
 namespace lobelia::fixtures {
 
@@ -15,8 +15,7 @@ class PlainFlip {
   PlainFlip(const DisplayLight& shown, const FlipFilters& filters)
       : width_(shown.width()), height_(shown.height()), filters_(filters) {
     for (std::size_t i = 0; i < shown.pixel_count(); ++i) {
-      const Rgb light = shown.at(i);
-      const Rgb xyz = relative_xyz({float(light.r), float(light.g), float(light.b)});
+      const Rgb xyz = relative_xyz(shown_at(shown, i));
       y_.push_back(116 * xyz.g - 16);
       cx_.push_back(500 * (xyz.r - xyz.g));
       cz_.push_back(200 * (xyz.g - xyz.b));

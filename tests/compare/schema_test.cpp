@@ -134,7 +134,7 @@ TEST(ComparisonSchema, HoldsForValuesThatAreNotFiniteAndTheirPlaces) {
   a.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
   b.pixel(5, 6)[2] = std::numeric_limits<float>::quiet_NaN();
   Comparison comparison = compare(a, b, {});
-  comparison.equal_nonfinite = 7;
+  comparison.nonfinite.equal_allowed = 7;
   const records::Comparison made = comparison_record(comparison, "a", "b");
   EXPECT_EQ(schema_problems(made), "");
   const Plain good = as_written(made);
@@ -274,7 +274,7 @@ TEST(BrokenRecords, OfNonfinitePlacesAreRefused) {
   a.pixel(3, 4)[1] = std::numeric_limits<float>::infinity();
   b.pixel(5, 6)[2] = std::numeric_limits<float>::quiet_NaN();
   Comparison comparison = compare(a, b, {});
-  comparison.equal_nonfinite = 7;
+  comparison.nonfinite.equal_allowed = 7;
   const Plain good = as_written(comparison_record(comparison, "a", "b"));
   const auto broken = [&](const auto& change) {
     expect_refused<records::Comparison>(good, change);

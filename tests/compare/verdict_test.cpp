@@ -48,8 +48,8 @@ TEST(Verdict, OfOneBadPixelInManyIsNonFinite) {
       for (const bool in_a : {true, false}) {
         const Comparison comparison = in_a ? compare(broken, good, {}) : compare(good, broken, {});
         EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
-        EXPECT_EQ(comparison.nonfinite_a, in_a ? 1 : 0);
-        EXPECT_EQ(comparison.nonfinite_b, in_a ? 0 : 1);
+        EXPECT_EQ(comparison.nonfinite.a, in_a ? 1 : 0);
+        EXPECT_EQ(comparison.nonfinite.b, in_a ? 0 : 1);
         EXPECT_TRUE(comparison.metrics.empty());
         for (const LimitResult& limit : comparison.limits) EXPECT_FALSE(limit.pass);
       }
@@ -60,7 +60,7 @@ TEST(Verdict, OfTwoPicturesBrokenInTheSameWayIsNonFinite) {
   const Image broken = fixtures::flat(4, 4, kFloatNaN, kFloatNaN, kFloatNaN);
   const Comparison comparison = compare(broken, broken, {});
   EXPECT_EQ(comparison.verdict, Verdict::kNonFinite);
-  EXPECT_EQ(comparison.nonfinite_a, 16) << "pixels are counted, not values";
+  EXPECT_EQ(comparison.nonfinite.a, 16) << "pixels are counted, not values";
 }
 
 TEST(Verdict, FollowsTheLimitsOfTheUser) {
@@ -280,13 +280,12 @@ colorspaces:
                    plain = compare(a, b, {});
   ASSERT_EQ(one.metrics.size(), other.metrics.size());
   for (std::size_t i = 0; i < one.metrics.size(); ++i) {
-    const MetricValue& metric = one.metrics[i];
-    EXPECT_NEAR(metric.value, other.metrics[i].value, 1e-4 + 1e-3 * std::abs(metric.value))
-        << metric.id;
-    if (find_metric(metric.id)->family == Family::kRadiance)
-      EXPECT_EQ(metric.value, plain.metrics[i].value) << metric.id;
+    const auto& [id, value] = one.metrics[i];
+    EXPECT_NEAR(value, other.metrics[i].second, 1e-4 + 1e-3 * std::abs(value)) << id;
+    if (find_metric(id)->family == Family::kRadiance)
+      EXPECT_EQ(value, plain.metrics[i].second) << id;
     else
-      EXPECT_NE(metric.value, plain.metrics[i].value) << metric.id;
+      EXPECT_NE(value, plain.metrics[i].second) << id;
   }
   const auto map = [&](const Viewing& viewing) {
     return measure_difference_map(*find_difference_map("ciede2000"), a, b, viewing)[15 * 32 + 9];

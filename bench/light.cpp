@@ -1,18 +1,23 @@
+// Light from everywhere: error and time beside Cycles, and growth of time with threads and spheres.
+//
+//   bench_light [light|threads|crowd]...    the sections to run; all by default
 #include <fmt/format.h>
+#include <stdlib.h>
 
-#include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <optional>
 #include <thread>
-#include <vector>
 
-#include "bench/light/crowd.hpp"
-#include "bench/light/sections.hpp"
 #include "core/threads.hpp"
 #include "core/timing.hpp"
 #include "renderer/accelerator.hpp"
 #include "renderer/plan/plan.hpp"
+#include "renderer/scene/sphere_lattice.hpp"
+#include "studies/cost/benchmarks.hpp"
 #include "studies/cost/convergence.hpp"
 #include "studies/cost/scenes.hpp"
+#include "studies/cost/table.hpp"
 
 namespace lobelia::bench {
 namespace {
@@ -21,10 +26,40 @@ using namespace cost;
 
 double median(std::vector<double> values) { return summary(std::move(values)).median; }
 
-/// From so much of the processors' sum on, they do not wait for a thing that they share.
+/// From this efficiency on, the processors do not wait for anything that they share.
 constexpr double kGoodEfficiency = 0.8;
 
-/// The part of the picture that spheres cover, by some of its pixels.
+int processors() { return int(std::max(1u, std::thread::hardware_concurrency())); }
+
+/// 10^decade spheres in a jittered regular lattice, all in the same cube. They are so small that a ray through it meets
+/// equally many on average, whatever their number.
+constexpr int kDecades = 6;
+Scene crowd(int decade, int side) {
+  // Columns, rows and layers, as near a cube as factors of two and five allow.
+  constexpr int kLattices[kDecades + 1][3] = {
+      {1, 1, 1}, {5, 2, 1}, {5, 5, 4}, {10, 10, 10}, {25, 20, 20}, {50, 50, 40}, {100, 100, 100}};
+  constexpr double kSide = 2, kMeanHits = 0.5;
+  const auto& n = kLattices[decade];
+  const double count = double(n[0]) * n[1] * n[2];
+  SphereLattice lattice;
+  lattice.columns = n[0], lattice.rows = n[1], lattice.layers = n[2];
+  lattice.step = {kSide / n[0], kSide / n[1], kSide / n[2]};
+  lattice.radius = kSide * std::sqrt(kMeanHits / (std::numbers::pi * count));
+  lattice.jitter = 1;
+  lattice.seed = 1;
+  Scene scene;
+  scene.camera = {{4, 3, 10}, {0, 0, 0}, {0, 1, 0}, 13};
+  scene.film = {side, side};
+  scene.materials = {{}};
+  scene.materials[0].id = "ball";
+  scene.materials[0].highlight.exponent = 1;
+  scene.materials[0].diffuse_reflectance = {0.6, 0.6, 0.6};
+  scene.lights = {DirectionalLight{normalize({-0.3, -0.8, -0.6}), {3, 3, 3}}};
+  lattice.append_to(scene.spheres);
+  return scene;
+}
+
+/// The share of the picture covered by spheres, from a sample of its pixels.
 double coverage(const Scene& scene, const Accelerator& accelerator) {
   constexpr int kGrid = 64;
   const CameraFrame f = camera_frame(scene.camera, scene.film);
@@ -41,17 +76,15 @@ double coverage(const Scene& scene, const Accelerator& accelerator) {
 }
 
 struct CrowdTimes {
-  std::vector<double> plan, build, render;  ///< seconds; the first and last without the second
+  std::vector<double> plan, build, render;  ///< seconds; plan and render without build
   double coverage = 0;
 };
 
 void measure_once(const Scene& scene, int threads, CrowdTimes& times) {
   const bool sorted = scene.spheres.size() > kMaxLoopSpheres;
-  const auto begun = std::chrono::steady_clock::now();
   std::optional<Accelerator> accelerator;
-  ThreadLimit(threads).run([&] { accelerator.emplace(scene.spheres); });
   const double build =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+      seconds_of([&] { ThreadLimit(threads).run([&] { accelerator.emplace(scene.spheres); }); });
   if (times.render.empty()) times.coverage = coverage(scene, *accelerator);
   accelerator.reset();
   RenderOptions options;
@@ -61,10 +94,6 @@ void measure_once(const Scene& scene, int threads, CrowdTimes& times) {
   times.build.push_back(sorted ? build : 0);
   times.render.push_back(result.render_seconds - times.build.back());
 }
-
-}  // namespace
-
-int processors() { return int(std::max(1u, std::thread::hardware_concurrency())); }
 
 void measure_crowd() {
   constexpr int kSide = 512;
@@ -144,4 +173,68 @@ void measure_threads() {
                  : "what the processors share: memory, power, or other programs");
 }
 
+/// The error that RenderOptions::target_error promises, and the real one.
+void measure_target_error(const char* title, const Scene& scene) {
+  constexpr int kTargetRepeats = 3, kConverged = 2048;
+  const Image half = render_timed(scene, kConverged, 101).result.image;
+  const Image other = render_timed(scene, kConverged, 102).result.image;
+  const Image truth = mean_of(half, other);
+  const double truth_error = rms_of_difference(half, other) / 2;
+  constexpr double kTarget = 1e-2;
+  RenderOptions options;
+  options.target_error = kTarget;
+  std::vector<double> seconds, direct;
+  double estimated = 0, squared = 0;
+  int samples = 0;
+  for (int repeat = 1; repeat <= kTargetRepeats; ++repeat) {
+    const Timed timed = render_timed(scene, 64, std::uint64_t(repeat), options);
+    seconds.push_back(timed.seconds);
+    estimated += timed.result.error.value_or(0) / kTargetRepeats;
+    squared += std::pow(rms_of_difference(timed.result.image, truth), 2) / kTargetRepeats;
+    samples = timed.result.samples;
+    direct.push_back(render_timed(scene, samples, std::uint64_t(repeat)).seconds);
+  }
+  const double real = std::sqrt(std::max(0.0, squared - truth_error * truth_error)) / rms(truth);
+  fmt::print("{:<24} {:>8} {:>12.2e} {:>12.2e} {:>12.2f} {:>10.4f} {:>10.4f}\n", title, samples,
+             estimated, real, real / estimated, median(seconds), median(direct));
+  fmt::print("  {}\n", median(seconds) < 1.15 * median(direct)
+                           ? "limited by sampling, as the picture without a target is"
+                           : "limited in part by the rounds: stopping and estimating after each");
+}
+
+void measure_light() {
+  records::Cost report;
+  report.tables = cost::measure_transport({});
+  for (cost::Table& table : report.tables) cost::add_fronts(table);
+  fmt::print("{}", cost::cost_text(report, true));
+  constexpr int kSide = 96;
+  fmt::print(
+      "\nAn error of 1e-2 asked: what is estimated and what it is, and the time beside that of as "
+      "many samples at once\n{:<24} {:>8} {:>12} {:>12} {:>12} {:>10} {:>10}\n",
+      "", "samples", "estimated", "real", "ratio", "s", "at once s");
+  measure_target_error("rectangle of light", cost::below_rectangle(kSide));
+  measure_target_error("sky with a small sun", cost::below_sky(kSide));
+}
+
+}  // namespace
 }  // namespace lobelia::bench
+
+int main(int count, char** arguments) try {
+  using namespace lobelia::bench;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // someone may watch through a pipe
+  double load = 0;
+  if (::getloadavg(&load, 1) == 1 && load > 0.5 * processors())
+    fmt::print("other programs keep {:.1f} of {} processors busy: times are not to be relied on\n",
+               load, processors());
+  const std::span<char*> chosen(arguments + 1, arguments + count);
+  const auto wanted = [&](std::string_view name) {
+    return chosen.empty() || std::ranges::find(chosen, name) != chosen.end();
+  };
+  if (wanted("light")) measure_light();
+  if (wanted("threads")) measure_threads();
+  if (wanted("crowd")) measure_crowd();
+  return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "bench_light: {}\n", error.what());
+  return 1;
+}

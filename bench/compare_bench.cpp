@@ -1,13 +1,14 @@
-// LDR-FLIP and HDR-FLIP of a pair of 1920 x 1080, and beside them the same filters without separation: a
-// double loop over each pixel's window, on a crop, as the whole would take minutes.
+// A comparison with all metrics; LDR-FLIP and HDR-FLIP of a pair of 1920 x 1080; and FLIP's filters without separation: a
+// double loop over each pixel's window, on a crop, as the whole picture would take minutes.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "compare/compare.hpp"
 #include "compare/metrics/catalogue.hpp"
-#include "compare/metrics/flip_filters.hpp"
+#include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/flip_kernels.hpp"
 #include "core/threads.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 constexpr HdrExposures kEightExposures{-4, 3, 8};
 
-/// A highlight that is 16 at its peak, with noise on it: nowhere flat, so that no pixel is cheap.
+/// A highlight with a peak of 16, with noise: not flat anywhere, so that no pixel is cheap.
 Image picture(int width, int height, unsigned seed, float noise) {
   Image image(width, height);
   for (int y = 0; y < height; ++y)
@@ -31,8 +32,19 @@ Image picture(int width, int height, unsigned seed, float noise) {
   return image;
 }
 
-void measure(benchmark::State& state, const char* id, int width, int height) {
-  const Image a = picture(width, height, 1, 0.2f), b = picture(width, height, 2, 0.1f);
+void compare_pictures(benchmark::State& state) {
+  const int size = int(state.range(0));
+  const Image a = picture(size, size, 1, 0.2f), b = picture(size, size, 2, 0.1f);
+  for (auto _ : state)
+    if (compare(a, b, {}).verdict == Verdict::kNonFinite) state.SkipWithError("wrong verdict");
+  state.SetItemsProcessed(std::int64_t(state.iterations()) * size * size);
+}
+BENCHMARK(compare_pictures)->Name("compare")->Arg(256)->Arg(1024)->UseRealTime();
+
+/// The argument of the benchmark is the number of threads.
+void measure_flip(benchmark::State& state, const char* id) {
+  constexpr int kWidth = 1920, kHeight = 1080;
+  const Image a = picture(kWidth, kHeight, 1, 0.2f), b = picture(kWidth, kHeight, 2, 0.1f);
   const Metric* metric = find_metric(id);
   std::vector<double> values(metric->outputs.size());
   ThreadLimit threads{int(state.range(0))};
@@ -44,28 +56,20 @@ void measure(benchmark::State& state, const char* id, int width, int height) {
     });
     benchmark::DoNotOptimize(values.data());
   }
-  state.SetItemsProcessed(std::int64_t(state.iterations()) * width * height);
+  state.SetItemsProcessed(std::int64_t(state.iterations()) * kWidth * kHeight);
 }
 
-void flip_ldr(benchmark::State& state) { measure(state, "flip.ldr.mean", 1920, 1080); }
-void flip_hdr(benchmark::State& state) { measure(state, "flip.hdr.mean", 1920, 1080); }
-// Arguments: threads.
-BENCHMARK(flip_ldr)
-    ->Name("compare/flip_ldr_1080p")
-    ->Arg(1)
-    ->Arg(0)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK(flip_hdr)
-    ->Name("compare/flip_hdr_8_exposures_1080p")
-    ->Arg(1)
-    ->Arg(0)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+const int kRegistered = [] {
+  for (const auto& [name, id] :
+       {std::pair{"compare/flip_ldr_1080p", "flip.ldr.mean"},
+        std::pair{"compare/flip_hdr_8_exposures_1080p", "flip.hdr.mean"}}) {
+    auto* flip = benchmark::RegisterBenchmark(name, measure_flip, id);
+    flip->Arg(1)->Arg(0)->MeasureProcessCPUTime()->UseRealTime();
+  }
+  return 0;
+}();
 
-// ---- the plain way
-
-/// sum of in(x + i, y + j) * across[i] * down[j] over the window, pixels of the border repeated.
+/// The sum of in(x + i, y + j) * across[i] * down[j] over the window. Border pixels repeat.
 template <class In>
 float convolve(const In& in, int width, int height, int x, int y, const std::vector<float>& across,
                const std::vector<float>& down) {
@@ -78,7 +82,7 @@ float convolve(const In& in, int width, int height, int x, int y, const std::vec
   return sum;
 }
 
-/// The filters of LDR-FLIP of both pictures on a crop, without the distance of the results.
+/// The filters of LDR-FLIP for both pictures on a crop, without the distance of the results.
 void plain_filters(benchmark::State& state) {
   constexpr int kWidth = 192, kHeight = 108;
   const FlipFilters f{float(kDefaultPixelsPerDegree)};
