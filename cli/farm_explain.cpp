@@ -7,7 +7,7 @@
 #include "cli/engine_programs.hpp"
 #include "cli/farm_upkeep.hpp"
 #include "core/text.hpp"
-#include "farm/explain.hpp"
+#include "farm/upkeep.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::cli {

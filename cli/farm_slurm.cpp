@@ -10,7 +10,6 @@
 #include "core/removal.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
-#include "farm/machine_doctor.hpp"
 #include "farm/slurm/doctor.hpp"
 
 namespace lobelia::cli {

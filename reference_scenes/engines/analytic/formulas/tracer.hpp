@@ -209,7 +209,7 @@ std::optional<Met<Real>> Tracer<Real>::meet(const V& origin, const V& direction,
   using std::floor, std::sqrt;
   const int spheres = int(balls_.size());
   Met<Real> met;
-  Real nearest;
+  Real nearest{};
   const auto is_nearest = [&](const Real& t) { return t > 0 && (met.surface < 0 || t < nearest); };
   V from_center;
   for (int k = 0; k < spheres; ++k) {
