@@ -15,7 +15,6 @@
 #include "core/timing.hpp"
 #include "farm/farm.hpp"
 #include "farm/result_cache.hpp"
-#include "farm/slurm/chunks.hpp"
 #include "farm/slurm/slurm_farm.hpp"
 #include "lobelia_paths.hpp"
 

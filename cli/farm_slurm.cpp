@@ -3,7 +3,6 @@
 #include "cli/options.hpp"
 #include "cli/publish.hpp"
 #include "core/removal.hpp"
-#include "farm/machine_doctor.hpp"
 #include "farm/slurm/doctor.hpp"
 
 namespace lobelia::cli {

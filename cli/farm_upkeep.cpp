@@ -5,7 +5,7 @@
 #include "cli/options.hpp"
 #include "cli/publish.hpp"
 #include "core/numbers.hpp"
-#include "farm/explain.hpp"
+#include "farm/upkeep.hpp"
 #include "farm/upkeep.hpp"
 #include "records/record.hpp"
 

@@ -1,11 +1,10 @@
-#include "farm/axes.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/image.hpp"
 #include "core/text.hpp"
+#include "farm/grid.hpp"
 #include "reference_scenes/engine.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
@@ -14,8 +13,7 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-/// Safe in a file name on every system: whatever else becomes '_', and so does in front a dot, which
-/// would hide the file or be a directory, and a dash, which would be an option.
+/// Replaces with '_' what is unsafe in a file name, including a dot (hidden file) or dash (option) in front.
 std::string file_token(std::string text) {
   std::replace_if(
       text.begin(), text.end(),

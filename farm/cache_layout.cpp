@@ -2,14 +2,20 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/host.hpp"
 #include "core/sha256.hpp"
-#include "farm/draft_name.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -22,7 +28,7 @@ bool is_key(std::string_view name) {
   return from_hex(name, digest);
 }
 
-/// Whether nothing is in it but what a cache consists of; an NFS client's own names for removed files aside.
+/// Whether it holds nothing but parts of a cache, apart from an NFS client's names for removed files.
 bool has_only_our_names(const HeldDirectory& directory) {
   for (const std::string& name : directory.names()) {
     struct stat status {};
@@ -35,15 +41,119 @@ bool has_only_our_names(const HeldDirectory& directory) {
   return true;
 }
 
-}  // namespace
+constexpr std::size_t kMaxHost = 40, kHostHash = 8, kBoot = 32, kRandom = 16;
 
-bool is_cache_shelf(std::string_view name) {
-  return name.size() == 2 && name.find_first_not_of("0123456789abcdef") == name.npos;
+bool is_hex(std::string_view text) {
+  return text.find_first_not_of("0123456789abcdef") == text.npos;
 }
 
+std::string first_line(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return line;
+}
+
+/// Several containers or machines may have the same name: the hash of the machine's number tells them apart.
+std::string host_part() {
+  std::string name = host_name().substr(0, kMaxHost);
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  return name + "-" + hex(sha256(first_line("/etc/machine-id"))).substr(0, kHostHash);
+}
+
+std::string boot_part() {
+  std::string boot = first_line("/proc/sys/kernel/random/boot_id");
+  std::erase(boot, '-');
+  return boot.size() == kBoot && is_hex(boot) ? boot : std::string(kBoot, '0');
+}
+
+std::uint64_t pid_namespace() {
+  std::error_code ignored;
+  const std::string text = fs::read_symlink("/proc/self/ns/pid", ignored).string();  // "pid:[402]"
+  std::uint64_t number = 0;
+  if (text.starts_with("pid:["))
+    std::from_chars(text.data() + 5, text.data() + text.size(), number);
+  return number;
+}
+
+struct ProcessState {
+  char state = 0;  ///< 0: unknown
+  std::uint64_t start = 0;
+};
+
+ProcessState process_state(const std::string& pid) {
+  const std::string line = first_line("/proc/" + pid + "/stat");  // "123 (name) S 1 ..."
+  const auto close = line.rfind(')');
+  if (close == line.npos) return {};
+  const auto fields = split(line.substr(close + 1), " ");
+  constexpr std::size_t kStart = 19;  // the 22nd of all
+  ProcessState state;
+  if (fields.size() <= kStart || fields[0].size() != 1) return {};
+  state.state = fields[0][0];
+  const std::string& start = fields[kStart];
+  std::from_chars(start.data(), start.data() + start.size(), state.start);
+  return state;
+}
+
+/// Decimal digits without a sign or zeros before them.
+bool parse_number_part(std::string_view text, std::uint64_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() &&
+         (text.size() == 1 || text[0] != '0');
+}
+
+}  // namespace
+
+ProcessIdentity this_process() {
+  return {host_part(), boot_part(), pid_namespace(), std::uint64_t(::getpid()),
+          process_state("self").start};
+}
+
+std::string DraftName::text() const {
+  return fmt::format("draft.{}.{}.{}.{}.{}.{}.{:016x}", maker.host, maker.boot, maker.pid_namespace,
+                     maker.pid, maker.start, locks_inode, random);
+}
+
+std::optional<DraftName> DraftName::parse(std::string_view name) {
+  if (name.size() > 200 || std::ranges::count(name, '.') != 7) return std::nullopt;
+  const std::vector<std::string> parts = split(name, ".");
+  DraftName draft;
+  if (parts.size() != 8 || parts[0] != "draft" || parts[1].size() > kMaxHost + 1 + kHostHash ||
+      !std::ranges::all_of(
+          parts[1], [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; }) ||
+      parts[2].size() != kBoot || !is_hex(parts[2]) ||
+      !parse_number_part(parts[3], draft.maker.pid_namespace) ||
+      !parse_number_part(parts[4], draft.maker.pid) ||
+      !parse_number_part(parts[5], draft.maker.start) ||
+      !parse_number_part(parts[6], draft.locks_inode) || parts[7].size() != kRandom ||
+      !is_hex(parts[7]) || draft.maker.pid == 0 || draft.maker.pid > 0x7fffffff)
+    return std::nullopt;
+  draft.maker.host = parts[1];
+  draft.maker.boot = parts[2];
+  std::from_chars(parts[7].data(), parts[7].data() + kRandom, draft.random, 16);
+  return draft;
+}
+
+bool is_old_draft_name(std::string_view name) { return name.size() == 16 && is_hex(name); }
+
+Life life_of(const ProcessIdentity& maker, const ProcessIdentity& self) {
+  const std::string untold(kBoot, '0');
+  if (maker.boot == untold || self.boot == untold) return Life::kUnknown;
+  if (maker.boot != self.boot) return maker.host == self.host ? Life::kDead : Life::kUnknown;
+  if (maker.pid_namespace != self.pid_namespace || !proc_has_our_numbers()) return Life::kUnknown;
+  if (::kill(pid_t(maker.pid), 0) != 0 && errno == ESRCH) return Life::kDead;
+  const ProcessState there = process_state(std::to_string(maker.pid));
+  if (there.state == 0) return Life::kAlive;  // another user's process, which the system hides
+  // A zombie does no work; if process 1 reaps late there are many.
+  const bool ended = there.state == 'Z' || there.state == 'X';
+  return ended || there.start != maker.start ? Life::kDead : Life::kAlive;
+}
+
+bool is_cache_shelf(std::string_view name) { return name.size() == 2 && is_hex(name); }
+
 Owned owned_in_cache(const fs::path& relative) {
-  std::vector<std::string> parts;
-  for (const fs::path& part : relative) parts.push_back(part.string());
+  const std::vector<std::string> parts(relative.begin(), relative.end());
   if (parts.size() == 2 && parts[0] == "making")
     return DraftName::parse(parts[1]) || is_old_draft_name(parts[1]) ? Owned::kTree : Owned::kNo;
   if (parts.size() != 3 || !is_cache_shelf(parts[1]) || !parts[2].starts_with(parts[1]))
@@ -68,7 +178,6 @@ bool is_cache(const fs::path& directory) {
   return !root.names().empty() && has_only_our_names(root);
 }
 
-/// Throws Error(kInput) if it is not.
 void require_cache(const HeldDirectory& root) {
   if (const auto marker = root.read(kCacheMarkerFile, 64)) {
     if (*marker != kCacheLayout)
@@ -91,7 +200,7 @@ HeldDirectory open_cache(const fs::path& directory, ByteLocks::Opening opening) 
     throw Error(ExitCode::kInput, fmt::format("{}: {}", directory.string(), root.why_not()));
   require_cache(root);
   for (const char* part : kParts) {
-    // One that may only be read stays as it is.
+    // Fails in a read-only cache, which stays as it is.
     if (opening == ByteLocks::Opening::kMake) ::mkdirat(root.fd(), part, 0777);
     const HeldDirectory there = root.below(part);
     const auto links = there.links();

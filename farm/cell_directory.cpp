@@ -7,12 +7,8 @@
 
 #include <cerrno>
 #include <cstring>
-#include <map>
-#include <set>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/removal.hpp"
 #include "farm/make_result.hpp"
 #include "records/record.hpp"
 
@@ -21,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
+constexpr auto kCross = HeldDirectory::Border::kCross;  // a larger disk may be mounted there
 
 /// Every file that a farm of any version may have put into a cell for an engine.
 std::set<std::string> names_of(const std::string& engine) {
@@ -29,7 +26,7 @@ std::set<std::string> names_of(const std::string& engine) {
           engine + ".log", comparison + ".json",  comparison + ".png"};
 }
 
-/// The same for a cell.
+/// Likewise for all engines and ours.
 const std::set<std::string>& names_of_ours() {
   static const std::set<std::string> names = [] {
     std::set<std::string> all{"profile.json", "scene.xml"};
@@ -40,7 +37,7 @@ const std::set<std::string>& names_of_ours() {
   return names;
 }
 
-/// Whether `there` is the file in the cache, or a copy of it that nobody has touched.
+/// Whether `there` is the file in the cache, or an untouched copy of it.
 bool is_same_file(const fs::path& cached, const fs::path& there) {
   struct stat a {
   }, b{};
@@ -55,7 +52,7 @@ bool is_same_file(const fs::path& cached, const fs::path& there) {
               fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
 }
 
-/// A link to `cached` of the name `part`, or where the cache is on another file system a copy of the same age.
+/// Makes `part` a link to `cached`, or a copy of the same age if the cache is on another file system.
 void link_or_copy(const fs::path& cached, const HeldDirectory& directory, const std::string& part,
                   const fs::path& target) {
   if (::linkat(AT_FDCWD, cached.c_str(), directory.fd(), part.c_str(), 0) == 0) return;
@@ -79,14 +76,14 @@ void place_file(const fs::path& cached, const HeldDirectory& directory, const st
     link_or_copy(cached, directory, part, target);
     const int error =
         ::renameat(directory.fd(), part.c_str(), directory.fd(), name.c_str()) == 0 ? 0 : errno;
-    // rename() of two names of one file does nothing and leaves both.
+    // rename() between two links of one file leaves both.
     remove_part(directory.path() / part);
-    // ENOENT: on another machine somebody took the part for one that was left behind.
+    // ENOENT: a farm of another machine removed the part as abandoned.
     if (error != 0 && (error != ENOENT || attempt == 3)) fail(target, error);
   }
 }
 
-/// May remove a cell's own files, and empty directories that have the name of one.
+/// May remove a cell's files, and empty directories of such names.
 Removal removal_from(const HeldDirectory& directory) {
   return Removal(directory.path(),
                  {[&](const HeldDirectory& root) { return root.is_same_as(directory); },
@@ -107,7 +104,7 @@ std::optional<records::Cell> read_cell_record(const fs::path& directory) {
   }
 }
 
-/// Every file of the results with its hash, by which a gallery knows it again.
+/// The files of all results with their hashes, for the gallery.
 std::vector<records::CellFile> files_of(const CellRecords& records) {
   std::vector<records::CellFile> files;
   for (const auto& record : records) {
@@ -117,26 +114,22 @@ std::vector<records::CellFile> files_of(const CellRecords& records) {
   return files;
 }
 
-}  // namespace
-
-bool is_cell_file(const std::string& name) {
-  return name == kCellRecordFile || names_of_ours().contains(name);
-}
-
-namespace {
-constexpr std::uint64_t kWholeDirectory = 0;
-
 HeldDirectory existing(const fs::path& directory) {
   HeldDirectory held(directory);
   if (!held)
     throw Error(ExitCode::kOutput, fmt::format("{}: {}", directory.string(), held.why_not()));
   return held;
 }
+
 }  // namespace
 
+bool is_cell_file(const std::string& name) {
+  return name == kCellRecordFile || names_of_ours().contains(name);
+}
+
 FarmDirectoryLock::FarmDirectoryLock(const fs::path& directory, Use use, ByteLocks::Opening opening)
-    : locks_(existing(directory), kFarmLockFile, opening) {
-  if (auto claim = locks_.try_claim(kWholeDirectory, use == Use::kFarm))
+    : locks_(existing(directory), "farm.lock", opening) {
+  if (auto claim = locks_.try_claim(0, use == Use::kFarm))
     claim_.emplace(std::move(*claim));
   else
     throw Error(
@@ -153,9 +146,8 @@ CellDirectory::CellDirectory(const fs::path& farm_directory, const JobGraph& gra
       farm_directory_(farm_directory),
       directory_(farm_directory / "cells" / graph.cells().cells[cell].id) {}
 
-/// None where it is not there, or is no directory of ours but a link.
+/// Holds none if it is missing or a link.
 HeldDirectory CellDirectory::held() const {
-  constexpr auto kCross = HeldDirectory::Border::kCross;  // somebody may have mounted a larger disk
   return HeldDirectory(farm_directory_)
       .below("cells", kCross)
       .below(directory_.filename().string(), kCross);
@@ -184,8 +176,7 @@ records::MadeFrom CellDirectory::made_from() const {
 std::string CellDirectory::current_status(const ResultCache& cache,
                                           const CellRecords& records) const {
   const auto record = held() ? read_cell_record(directory_) : std::nullopt;
-  if (!record) return "";
-  if (!record->problems.empty() || record->results != results(records) ||
+  if (!record || !record->problems.empty() || record->results != results(records) ||
       record->made_from != made_from() || record->files != files_of(records))
     return "";
   for (const JobIndex job : graph_->jobs(cell_)) {
@@ -205,13 +196,12 @@ void CellDirectory::remove_abandoned() const {
 std::string CellDirectory::write(const ResultCache& cache, const CellRecords& records,
                                  const std::vector<CellProblem>& problems) const {
   make_directories(farm_directory_);
-  const auto border = HeldDirectory::Border::kCross;
   const HeldDirectory directory = HeldDirectory(farm_directory_)
-                                      .make_below("cells", border)
-                                      .make_below(directory_.filename().string(), border);
+                                      .make_below("cells", kCross)
+                                      .make_below(directory_.filename().string(), kCross);
   remove_abandoned_parts(directory);
   Removal removal = removal_from(directory);
-  // It speaks of files that are about to change.
+  // The old record is about files that change now.
   removal.remove(kCellRecordFile);
 
   std::set<std::string> foreign = names_of_ours();
@@ -221,7 +211,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     complete = complete && result;
     if (!result) continue;
     for (const auto& [name, bytes, sha256, modified] : result->files) {
-      if (removal.directory(name)) removal.remove(name);  // if it is empty
+      if (removal.directory(name)) removal.remove(name);  // only if empty
       place_file(cache.file((*graph_)[job].key, name), directory, name);
       foreign.erase(name);
     }
@@ -232,7 +222,7 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
     place_file(problem.log, directory, log);
     foreign.erase(log);
   }
-  // Pictures of an absent engine could not be made again.
+  // Pictures of an absent engine stay: they could not be made again.
   for (const auto& engine : graph_->engines())
     if (!engine.is_here())
       for (const auto& name : names_of(engine.name)) foreign.erase(name);
@@ -311,14 +301,11 @@ std::string CellDirectory::reason(JobIndex job) const {
     if (*was != here.version)
       return fmt::format("engine version changed: {}, was {}", here.version, *was);
     const std::string* content = records::find(before.contents, here.name);
-    return (content ? *content : "") == here.content
-               ? ""
-               : fmt::format("engine changed under the same version {}", *was);
+    if ((content ? *content : "") == here.content) return "";
+    return fmt::format("engine changed under the same version {}", *was);
   };
-  if (wanted.engine != kNoEngine)
-    if (std::string changed = engine_reason(wanted.engine); !changed.empty()) return changed;
-  if (wanted.kind == JobKind::kProfile)
-    for (std::size_t e = 0; e < graph_->engines().size(); ++e)
+  for (std::size_t e = 0; e < graph_->engines().size(); ++e)
+    if (wanted.engine == e || wanted.kind == JobKind::kProfile)
       if (std::string changed = engine_reason(e); !changed.empty()) return changed;
   const OwnIdentity& own = own_identity();
   if (before.program != own.program) return "program changed";

@@ -1,23 +1,27 @@
 #include "farm/chunk.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
-#include <map>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <numeric>
-#include <set>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/text.hpp"
+#include "farm/slurm/slurm_answers.hpp"
 #include "records/record.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
+namespace fs = std::filesystem;
 namespace {
 
-/// Engines as the plan has them; whether they are here is seen when they are asked for a picture.
+/// The engines of the plan. Whether they are here shows once they are asked for a picture.
 std::vector<FarmEngine> planned_engines(const records::FarmChunk& chunk) {
   std::vector<FarmEngine> engines;
   for (const auto& planned : chunk.engines)
@@ -46,6 +50,52 @@ ChunkCells read_cells(const records::FarmChunk& chunk, const std::string& file_n
   return cells;
 }
 
+constexpr char kReportsDirectory[] = "reports";
+constexpr std::size_t kMostReportBytes = 64 << 10;
+constexpr std::size_t kMostLeft = 100;  // far more than there are engines
+constexpr std::size_t kMostWhy = 500;   // bytes
+constexpr std::size_t kMostProblems = 10;
+constexpr std::size_t kMostReports = 2000;  // two rounds of 1000 elements
+
+/// "7.json": 7
+std::optional<std::size_t> number_of(const std::string& name) {
+  long long number = 0;
+  if (!parse_integer(name.substr(0, name.find('.')), number) || number < 0 ||
+      name != fmt::format("{}.json", number))
+    return {};
+  return std::size_t(number);
+}
+
+bool is_engine_name(std::string_view name) {
+  return name.size() <= 64 && std::ranges::all_of(name, [](unsigned char c) {
+           return std::isalnum(c) || c == '-' || c == '_';
+         });
+}
+
+std::string why_not_read(const HeldDirectory& directory, const std::string& name) {
+  struct stat status {};
+  if (::fstatat(directory.fd(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
+    return std::strerror(errno);
+  if (S_ISLNK(status.st_mode)) return "a link";
+  if (!S_ISREG(status.st_mode)) return "not a regular file";
+  return std::uint64_t(status.st_size) > kMostReportBytes
+             ? fmt::format("over {} bytes", kMostReportBytes)
+             : "it cannot be read";
+}
+
+ChunkReport parse_report(const std::string& text, std::size_t number) {
+  auto record = records::parse_record<records::FarmChunkReport>(text, "");
+  if (!is_node_name(record.node))
+    throw Error(ExitCode::kInput, fmt::format("'{}' is no name of a node", printable(record.node)));
+  for (LeftUndone& left : record.left) {
+    if (!is_engine_name(left.engine))
+      throw Error(ExitCode::kInput,
+                  fmt::format("'{}' is no name of an engine", printable(left.engine)));
+    left.why = printable(left.why, kMostWhy);
+  }
+  return {std::move(record), number};
+}
+
 }  // namespace
 
 records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
@@ -62,10 +112,9 @@ records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
                    options.give_up_after};
   if (!options.failed_directory.empty()) record.failed = options.failed_directory.string();
   for (const auto& here : work.engines) {
-    const auto given = options.programs.find(here.name);
-    record.engines.push_back(
-        {here.name, here.version, here.content,
-         given == options.programs.end() ? "" : std::filesystem::absolute(given->second).string()});
+    const fs::path program = program_for(options.programs, here.name);
+    record.engines.push_back({here.name, here.version, here.content,
+                              program.empty() ? "" : fs::absolute(program).string()});
   }
   std::map<std::size_t, std::vector<std::string>> names;
   for (const JobIndex job : jobs) names[graph.cell_of(job)].push_back(graph.name(job));
@@ -75,7 +124,7 @@ records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
   return record;
 }
 
-ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
+ChunkSummary exec_chunk(const fs::path& file, int threads) {
   const auto chunk = records::read_record<records::FarmChunk>(file);
   ChunkSummary summary;
   for (auto& why : identity_differences(OwnIdentity::of_record(chunk), own_identity()))
@@ -117,22 +166,81 @@ ChunkSummary exec_chunk(const std::filesystem::path& file, int threads) {
   const ResultCache cache(chunk.cache);
   const auto in_use = cache.use();
   remove_abandoned_temporaries();
-  JobRun run(
-      graph, cache, options,
-      job_states(graph, &cache,
-                 {.wanted = is_of_chunk, .failures = JobStateFilter::Failures::kOfOthersCount}));
+  std::vector<JobState> states = job_states(
+      graph, &cache, {.wanted = is_of_chunk, .failures = JobStateFilter::Failures::kOfOthersCount});
   std::vector<std::size_t> order(graph.cell_count());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  run.run(order, [](std::size_t) {});
-  summary.work = run.work();
+  summary.work = run_jobs(graph, cache, options, states, order, [](std::size_t) {});
   std::ranges::copy(summary.work.engines_given_up, std::back_inserter(summary.left));
   for (JobIndex job = 0; job < graph.size(); ++job) {
     if (!is_of_chunk(job)) continue;
-    if (run.state(job) == JobState::kDone) ++summary.done;
-    if (run.state(job) == JobState::kFailed) ++summary.failed;
-    if (run.state(job) == JobState::kAbsent) ++summary.undone;
+    if (states[job] == JobState::kDone) ++summary.done;
+    if (states[job] == JobState::kFailed) ++summary.failed;
+    if (states[job] == JobState::kAbsent) ++summary.undone;
   }
   return summary;
+}
+
+std::string own_node_name() {
+  const char* given = std::getenv("SLURMD_NODENAME");
+  return given && is_node_name(given) ? given : host_name();
+}
+
+void write_chunk_report(const fs::path& run_directory, std::size_t number,
+                        std::span<const LeftUndone> left) {
+  if (left.empty()) return;
+  const fs::path directory = run_directory / kReportsDirectory;
+  const fs::path path = directory / fmt::format("{}.json", number);
+  const std::string node = own_node_name();
+  if (!is_node_name(node))
+    throw Error(ExitCode::kOutput, fmt::format("{}: '{}' is no name of a node",
+                                               printable_path(path.string()), printable(node)));
+  make_directories(directory);
+  for (const fs::path& one : {directory, path}) {
+    std::error_code ignored;
+    if (fs::is_symlink(fs::symlink_status(one, ignored)))
+      throw Error(ExitCode::kOutput, fmt::format("{}: a link; a report is not written through it",
+                                                 printable_path(one.string())));
+  }
+  records::FarmChunkReport record;
+  record.node = node;
+  for (const LeftUndone& one : left.first(std::min(left.size(), kMostLeft)))
+    record.left.push_back({one.engine, printable(one.why, kMostWhy)});
+  records::write_record(path, record, AtLink::kReplace);
+}
+
+ChunkReports read_chunk_reports(const fs::path& run_directory, std::size_t first, std::size_t end) {
+  ChunkReports found;
+  const fs::path path = run_directory / kReportsDirectory;
+  const auto problem = [&](const fs::path& where, std::string_view what) {
+    if (found.problems.size() < kMostProblems)
+      found.problems.push_back(
+          fmt::format("{}: not taken for a report: {}", printable_path(where.string()), what));
+  };
+  const HeldDirectory directory = HeldDirectory(run_directory).below(kReportsDirectory);
+  if (!directory && !directory.is_missing()) problem(path, directory.why_not());
+  std::vector<std::size_t> numbers;
+  for (const std::string& name : directory.names())
+    if (const auto number = number_of(name); number && *number >= first && *number < end)
+      numbers.push_back(*number);
+  std::sort(numbers.begin(), numbers.end());
+  if (numbers.size() > kMostReports) {
+    problem(path, fmt::format("only the last {} of {} are read", kMostReports, numbers.size()));
+    numbers.erase(numbers.begin(), numbers.end() - kMostReports);
+  }
+  for (const std::size_t number : numbers) {
+    const std::string name = fmt::format("{}.json", number);
+    try {
+      const auto text = directory.read(name, kMostReportBytes);
+      if (text)
+        found.reports.push_back(parse_report(*text, number));
+      else
+        problem(path / name, why_not_read(directory, name));
+    } catch (const Error& error) {
+      problem(path / name, error.what());
+    }
+  }
+  return found;
 }
 
 }  // namespace lobelia

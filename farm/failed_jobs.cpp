@@ -5,11 +5,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "core/error.hpp"
-#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "farm/result_cache.hpp"
 
@@ -17,7 +14,7 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-/// All files in it; a farm puts no directories there.
+/// The size of all files; a farm puts no directories there.
 std::uint64_t bytes_in(const HeldDirectory& directory) {
   std::uint64_t sum = 0;
   for (const auto& name : directory.names())
@@ -27,7 +24,7 @@ std::uint64_t bytes_in(const HeldDirectory& directory) {
   return sum;
 }
 
-/// Lets a Removal touch a farm's subdirectory `failed` alone.
+/// Only a farm's subdirectory `failed` may be removed from.
 Ownership ownership(const fs::path& failed) {
   return {[](const HeldDirectory& root) {
             struct stat status {};
@@ -65,10 +62,10 @@ std::string FailedJobs::keep(const std::string& cell, const std::string& job,
                                   .make_below(directory_.filename())
                                   .make_below(cell)
                                   .make_below(job);
-    // This very directory, whatever its name leads to by now.
+    // The open directory, even if its name leads elsewhere by now.
     write(fmt::format("/proc/self/fd/{}", own.fd()));
     if (bytes_in(own) <= kMostBytes) return directory_.filename().string() + "/" + name;
-  } catch (const Error& error) {  // a full disk or a link is nothing that this could say more of
+  } catch (const Error& error) {  // a full disk or a link: the job has its own failure to tell
     if (error.code() == ExitCode::kInterrupted) throw;
   }
   forget(cell, job);

@@ -1,7 +1,6 @@
-// The input of failed jobs and the log of their engines, for whoever looks for the reason.
+// The input of failed jobs and the log of their engines, kept to look for the reason.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -10,23 +9,22 @@
 
 namespace lobelia {
 
-/// DIR/failed/CELL/JOB/: at most kMost of them, each of at most kMostBytes. Follows no link in it. For any thread.
+/// DIR/failed/CELL/JOB/: at most kMost of them, each of at most kMostBytes. Follows no links. For any thread.
 class FailedJobs {
  public:
-  static constexpr char kName[] = "failed";  ///< of the directory in DIR
+  static constexpr char kName[] = "failed";
   static constexpr std::size_t kMost = 100;
   static constexpr std::uint64_t kMostBytes = 16 << 20;
 
   /// `directory` is DIR/failed; empty: nothing is kept.
   explicit FailedJobs(std::filesystem::path directory);
 
-  /// Lets `write` fill the job's directory. Returns its name, "failed/CELL/JOB"; empty if there are too many, it is too
-  /// large, or it cannot be written.
+  /// Lets `write` fill the job's directory. Returns "failed/CELL/JOB"; empty over the limits, or if it cannot be written.
   std::string keep(const std::string& cell, const std::string& job,
                    const std::function<void(const std::filesystem::path& directory)>& write);
   /// After a success.
   void forget(const std::string& cell, const std::string& job);
-  /// Removes those of which `is_over` says so.
+  /// Forgets those for which `is_over` is true.
   void forget_if(
       const std::function<bool(const std::string& cell, const std::string& job)>& is_over);
 

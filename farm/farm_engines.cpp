@@ -18,49 +18,44 @@ std::vector<records::FarmEngine> engines_before(const fs::path& farm_directory) 
   try {
     return records::read_record<records::Farm>(farm_directory / "farm.json").engines;
   } catch (const std::exception&) {
-    return {};  // written anew soon
-  }
-}
-
-void identify(FarmEngine& engine, FileHashes& hashes) {
-  const EngineStatus& status = engine.engine->status();
-  engine.version = status.version;
-  engine.files = engine_content(status, hashes);
-  engine.content = engine.files.sha256;
-}
-
-void take_from_last_run(FarmEngine& engine, const std::vector<records::FarmEngine>& before) {
-  for (const auto& was : before) {
-    if (was.name != engine.name) continue;
-    engine.version = was.version;
-    engine.content = was.content;
+    return {};  // the farm writes it anew soon
   }
 }
 
 }  // namespace
 
+fs::path program_for(const ProgramPaths& programs, const std::string& engine) {
+  const auto found = programs.find(engine);
+  return found == programs.end() ? fs::path() : found->second;
+}
+
 std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
                                      const EngineChoice& choice) {
   std::vector<FarmEngine> engines;
   const auto before = engines_before(choice.farm_directory);
+  const auto take_from_last_run = [&](FarmEngine& engine) {
+    for (const auto& was : before) {
+      if (was.name != engine.name) continue;
+      engine.version = was.version;
+      engine.content = was.content;
+    }
+  };
   FileHashes& hashes = FileHashes::of_user();
   for (const auto& name : names) {
-    const auto program = choice.programs.find(name);
-    const bool given = program != choice.programs.end();
+    const fs::path program = program_for(choice.programs, name);
     if (choice.as_recorded) {
-      engines.push_back({make_engine(name, given ? program->second : fs::path()), name});
-      take_from_last_run(engines.back(), before);
+      take_from_last_run(engines.emplace_back(FarmEngine{make_engine(name, program), name}));
       continue;
     }
-    FarmEngine engine = look_for_engine(name, given ? program->second : fs::path(), hashes);
+    FarmEngine engine = look_for_engine(name, program, hashes);
     const EngineInfo& info = engine.engine->info();
     const EngineStatus& status = engine.engine->status();
     if (status.state == EngineState::kBroken)
       throw Error(ExitCode::kEngine, fmt::format("{} is broken: {}", info.title, status.why));
-    if (!engine.here && given)
+    if (!engine.here && !program.empty())
       throw Error(ExitCode::kEngine, fmt::format("{}: {}", info.title, status.why));
     if (!engine.here && choice.required) throw Error(ExitCode::kEngine, absence(engine));
-    if (!engine.here) take_from_last_run(engine, before);
+    if (!engine.here) take_from_last_run(engine);
     engines.push_back(std::move(engine));
   }
   hashes.save();
@@ -69,17 +64,19 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
 
 FarmEngine look_for_engine(const std::string& name, const fs::path& program, FileHashes& hashes) {
   FarmEngine engine{make_engine(name, program), name};
-  engine.here = engine.engine->status().available();
-  if (engine.here) identify(engine, hashes);
+  const EngineStatus& status = engine.engine->status();
+  engine.here = status.available();
+  if (!engine.here) return engine;
+  engine.version = status.version;
+  engine.files = engine_content(status, hashes);
+  engine.content = engine.files.sha256;
   return engine;
 }
 
-std::string engine_difference(const FarmEngine& planned,
-                              const std::map<std::string, fs::path>& programs) {
+std::string engine_difference(const FarmEngine& planned, const ProgramPaths& programs) {
   FileHashes& hashes = FileHashes::of_user();
-  const auto program = programs.find(planned.name);
-  const FarmEngine here = look_for_engine(
-      planned.name, program == programs.end() ? fs::path() : program->second, hashes);
+  const FarmEngine here =
+      look_for_engine(planned.name, program_for(programs, planned.name), hashes);
   hashes.save();
   const std::string_view title = planned.engine->info().title;
   if (!here.is_here()) return fmt::format("{}: {}", title, here.engine->status().why);
@@ -99,26 +96,22 @@ std::string absence(const FarmEngine& engine) {
 }
 
 std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines) {
-  std::vector<records::FarmEngine> found;
-  records::FarmEngine& ours = found.emplace_back();
-  ours.name = kOurs;
-  ours.title = "Lobelia";
-  ours.version = kVersion;
-  ours.available = true;
-  ours.state = state_name(EngineState::kReady);
+  const std::string ready(state_name(EngineState::kReady));
+  std::vector<records::FarmEngine> found{
+      {kOurs, "Lobelia", true, ready, kVersion, "", "", "", std::nullopt}};
   for (const auto& here : engines) {
     const EngineInfo& info = here.engine->info();
     records::FarmEngine& engine = found.emplace_back();
     engine.name = info.name;
     engine.title = info.title;
-    engine.available = here.is_here();
-    engine.state = state_name(here.is_here() ? EngineState::kReady : here.engine->status().state);
     engine.version = here.version;
     engine.content = here.content;
-    if (!here.is_here()) {
-      engine.why = here.engine->status().why;
-      engine.install = info.install_hint;
-    }
+    engine.available = here.is_here();
+    engine.state = ready;
+    if (engine.available) continue;
+    engine.state = state_name(here.engine->status().state);
+    engine.why = here.engine->status().why;
+    engine.install = info.install_hint;
   }
   return found;
 }

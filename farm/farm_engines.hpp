@@ -1,4 +1,4 @@
-// The engines of a farm: which are here, in which version, and as its record tells it.
+// The engines of a farm: which are here, in which version, and how its record lists them.
 #pragma once
 
 #include <filesystem>
@@ -12,36 +12,40 @@
 
 namespace lobelia {
 
+/// Programs to use in place of those in $PATH, by engine.
+using ProgramPaths = std::map<std::string, std::filesystem::path>;
+/// Empty if there is none for this engine.
+std::filesystem::path program_for(const ProgramPaths& programs, const std::string& engine);
+
 struct FarmEngine {
   std::unique_ptr<Engine> engine;
   std::string name;
-  std::string version = {};  ///< empty: not known
-  /// SHA-256 of the program and what it loads and reads (engine_content()); empty for one that is part of ours.
-  std::string content = {};
+  std::string version = {};  ///< empty: unknown
+  std::string content =
+      {};            ///< SHA-256 of `files`; empty for an engine that is part of our program
   bool here = true;  ///< false: absent; version and content are those of the last run
   bool is_here() const { return here && !version.empty(); }
-  /// Whether its results have keys: the cache's are shown though the engine is absent.
+  /// Whether its results have keys: those in the cache are shown even if the engine is absent.
   bool is_known() const { return !version.empty(); }
-  Content files = {};  ///< `content` is the hash of these
+  Content files = {};  ///< the program and everything it loads and reads (engine_content())
 };
 
 struct EngineChoice {
-  std::map<std::string, std::filesystem::path> programs;  ///< in place of those in $PATH, by engine
-  bool required = false;                                  ///< absence is an error
-  std::filesystem::path farm_directory;  ///< whose farm.json tells what was here; empty: none
-  bool as_recorded = false;              ///< that is believed, and no program looked for
+  ProgramPaths programs;
+  bool required = false;  ///< an absent engine is an error
+  std::filesystem::path
+      farm_directory;        ///< its farm.json lists the engines of the last run; empty: none
+  bool as_recorded = false;  ///< takes these without looking for any program
 };
 
-/// Throws Error(kEngine) if one is broken, if one of `programs` is not that engine, or if a required one is absent.
+/// Throws Error(kEngine) if an engine is broken, a program is not that engine, or a required engine is absent.
 std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
                                      const EngineChoice& choice);
 
-/// How an engine here differs from the plan: "POV-Ray: engine content: other files under the same version 3.7.0.10". Empty
-/// if it does not.
-std::string engine_difference(const FarmEngine& planned,
-                              const std::map<std::string, std::filesystem::path>& programs);
+/// How an engine here differs from the plan, "POV-Ray: engine content: other files under ..."; empty if it is the same.
+std::string engine_difference(const FarmEngine& planned, const ProgramPaths& programs);
 
-/// The engine as it is on this machine, whether it can be used or not.
+/// The engine on this machine, usable or not.
 FarmEngine look_for_engine(const std::string& name, const std::filesystem::path& program,
                            FileHashes& hashes);
 

@@ -3,23 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cstdlib>
 #include <unordered_set>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/host.hpp"
-#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "core/threads.hpp"
 #include "farm/failed_jobs.hpp"
+#include "farm/upkeep.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whatever is in one of them may be taken away as none of its own.
+/// Neither may lie among the files of the other, which may be removed at any time.
 void require_apart(const fs::path& cache, const fs::path& directory) {
   const fs::path a = fs::weakly_canonical(fs::absolute(cache)),
                  b = fs::weakly_canonical(fs::absolute(directory));
@@ -36,6 +34,32 @@ void require_apart(const fs::path& cache, const fs::path& directory) {
                     directory.string(), cache.string()));
 }
 
+const Grid& checked(const Grid& grid) {
+  if (grid.cell_count() > kMaxFarmCells)
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: {} cells; a farm has at most {}: cut the grid into several, which may "
+                    "share a cache (--cache)",
+                    grid.file_name, grid.cell_count(), kMaxFarmCells));
+  return grid;
+}
+
+/// Makes the directory. Throws before any work starts if a part of it is a link, or the gallery cannot be written.
+const fs::path& made(const fs::path& directory, const FarmOptions& options) {
+  require_apart(cache_directory(options.cache, directory), directory);
+  if (!options.gallery.empty()) {
+    make_directories(options.gallery);
+    require_writable(options.gallery / "index.html");
+  }
+  make_directories(directory);
+  const HeldDirectory held(directory);
+  for (const std::string& link : held.links())
+    if (link == "cells" || link == "farm.json")
+      throw Error(ExitCode::kOutput, fmt::format("{}: a symbolic link, which is not followed",
+                                                 (directory / link).string()));
+  return directory;
+}
+
 }  // namespace
 
 FarmWork::FarmWork(const Grid& g, const FarmOptions& options, const fs::path& directory)
@@ -49,15 +73,6 @@ std::vector<std::string> FarmWork::absences() const {
   std::vector<std::string> sentences;
   for (const auto& here : engines)
     if (!here.is_here()) sentences.push_back(absence(here));
-  return sentences;
-}
-
-std::vector<std::string> FarmWork::refusals() const {
-  std::vector<std::string> sentences;
-  for (std::size_t e = 0; e < engines.size(); ++e)
-    if (const std::size_t count = graph.refusals(e); count > 0)
-      sentences.push_back(fmt::format("{} cannot show {} of {} cells; each cell.json says why",
-                                      engines[e].engine->info().title, count, graph.cell_count()));
   return sentences;
 }
 
@@ -86,34 +101,6 @@ std::string FarmWork::filter_warning(const JobFilter& filter) const {
                      printable(filter.text()), first);
 }
 
-namespace {
-const Grid& checked(const Grid& grid) {
-  if (grid.cell_count() > kMaxFarmCells)
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: {} cells; a farm has at most {}: cut the grid into several, which may "
-                    "share a cache (--cache)",
-                    grid.file_name, grid.cell_count(), kMaxFarmCells));
-  return grid;
-}
-
-/// Says at once, not after the first picture or a night, that a part of it is a link, or that no gallery can be written.
-const fs::path& made(const fs::path& directory, const FarmOptions& options) {
-  require_apart(cache_directory(options.cache, directory), directory);
-  if (!options.gallery.empty()) {
-    make_directories(options.gallery);
-    require_writable(options.gallery / "index.html");
-  }
-  make_directories(directory);
-  const HeldDirectory held(directory);
-  for (const std::string& link : held.links())
-    if (link == "cells" || link == "farm.json")
-      throw Error(ExitCode::kOutput, fmt::format("{}: a symbolic link, which is not followed",
-                                                 (directory / link).string()));
-  return directory;
-}
-}  // namespace
-
 FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const FarmOptions& options)
     : work_(checked(grid), options, directory),
       directory_(directory),
@@ -124,7 +111,11 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
       lock_sharing_(cache_.lock_sharing()),
       status_(work_.graph.cell_count(), "missing") {
   summary_.absent_engines = work_.absences();
-  summary_.refusals = work_.refusals();
+  for (std::size_t e = 0; e < work_.engines.size(); ++e)
+    if (const std::size_t count = work_.graph.refusals(e); count > 0)
+      summary_.refusals.push_back(
+          fmt::format("{} cannot show {} of {} cells; each cell.json says why",
+                      work_.engines[e].engine->info().title, count, work_.graph.cell_count()));
   summary_.cells = work_.graph.cell_count();
   if (std::string warning = work_.filter_warning(options.filter); !warning.empty())
     summary_.warnings.insert(std::move(warning));
@@ -136,9 +127,15 @@ FarmSession::FarmSession(const Grid& grid, const fs::path& directory, const Farm
   look_at_cells();
   FailedJobs(options.failed_directory)
       .forget_if([&](const std::string& cell, const std::string& job) {
-        return !is_to_be_made(cell, job);
+        const JobGraph& graph = work_.graph;
+        const auto found = std::ranges::find(work_.cells.cells, cell, &Cell::id);
+        return found == work_.cells.cells.end() ||
+               std::ranges::none_of(
+                   graph.jobs(std::size_t(found - work_.cells.cells.begin())), [&](JobIndex j) {
+                     return states_[j] != JobState::kDone && graph.name_in_cell(j) == job;
+                   });
       });
-  // Now as well as at the end: a run that is killed has its record too.
+  // Written now and at the end: a killed run has its record too.
   write_farm_record();
 }
 
@@ -158,18 +155,7 @@ void FarmSession::look_at_cells() {
     if (unfinished[cell]) waiting_cells_.push_back(cell);
 }
 
-/// The cell may be of another grid.
-bool FarmSession::is_to_be_made(const std::string& cell, const std::string& job) const {
-  const JobGraph& graph = work_.graph;
-  for (std::size_t i = 0; i < graph.cell_count(); ++i)
-    if (work_.cells.cells[i].id == cell)
-      return std::ranges::any_of(graph.jobs(i), [&](JobIndex j) {
-        return states_[j] != JobState::kDone && graph.name_in_cell(j) == job;
-      });
-  return false;
-}
-
-/// Whether everything of the cell is there. Where it is not, its record goes: it would speak of other results.
+/// Whether the cell has all results. If not, removes its record, which is about other results.
 bool FarmSession::look_at(std::size_t cell, const CellStates& found) {
   const JobGraph& graph = work_.graph;
   bool complete = true;
@@ -273,39 +259,106 @@ void FarmSession::write_farm_record() const {
   records::write_record(directory_ / "farm.json", record, AtLink::kReplace);
 }
 
-bool FarmSession::has_lost(const JobRun& run) const {
-  return run.work().lost > 0 || std::ranges::any_of(waiting_cells_, [&](std::size_t cell) {
-           return status_[cell] == "missing" &&
-                  std::ranges::all_of(work_.graph.jobs(cell), [&](JobIndex job) {
-                    return run.state(job) == JobState::kDone;
-                  });
-         });
-}
-
-std::size_t FarmSession::count_foreign_cells() const {
-  std::unordered_set<std::string> ids;
-  for (const auto& cell : work_.cells.cells) ids.insert(cell.id);
-  std::size_t foreign = 0;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(directory_ / "cells", ignored))
-    if (!ids.contains(entry.path().filename().string())) ++foreign;
-  return foreign;
+bool FarmSession::has_lost(const std::vector<JobState>& states) const {
+  return std::ranges::any_of(waiting_cells_, [&](std::size_t cell) {
+    return status_[cell] == "missing" &&
+           std::ranges::all_of(work_.graph.jobs(cell),
+                               [&](JobIndex job) { return states[job] == JobState::kDone; });
+  });
 }
 
 FarmSummary FarmSession::summarise(const JobRunWork& done) {
-  summary_.foreign = count_foreign_cells();
-  for (const auto& status : status_) {
-    if (status == "pass") ++summary_.pass;
-    if (status == "differs") ++summary_.differs;
-    if (status == "undecided") ++summary_.undecided;
-    if (status == "unchecked") ++summary_.unchecked;
-    if (status == "failed") ++summary_.failed;
-    if (status == "missing") ++summary_.missing;
-  }
-  std::sort(summary_.problems.begin(), summary_.problems.end());
+  std::unordered_set<std::string> ids;
+  for (const auto& cell : work_.cells.cells) ids.insert(cell.id);
+  std::error_code ignored;
+  summary_.foreign = 0;
+  for (const auto& entry : fs::directory_iterator(directory_ / "cells", ignored))
+    if (!ids.contains(entry.path().filename().string())) ++summary_.foreign;
+  static_cast<records::StatusCounts&>(summary_) = count_statuses(status_);
+  std::ranges::sort(summary_.problems);
   summary_.work = done;
   summary_.rendered = done.pictures;
   return summary_;
+}
+
+fs::path cache_directory(const fs::path& wanted, const fs::path& farm_directory) {
+  if (!wanted.empty()) return wanted;
+  if (const char* from_environment = std::getenv("LOBELIA_CACHE");
+      from_environment && *from_environment)
+    return from_environment;
+  return farm_directory / "cache";
+}
+
+FarmSummary run_farm(const Grid& grid, const fs::path& directory, const FarmOptions& options) {
+  // Results may be removed while the farm is at work.
+  constexpr int kMostRounds = 4;
+  FarmOptions now = options;
+  std::size_t made = 0, pictures = 0;
+  for (int round = 1;; ++round) {
+    FarmSession session(grid, directory, now);
+    std::vector<JobState> states = session.states();
+    JobRunWork work;
+    try {
+      work = run_jobs(session.work().graph, session.cache(), now, states, session.waiting_cells(),
+                      [&](std::size_t cell) { session.finish_cell(cell); });
+    } catch (...) {
+      try {
+        session.show_what_is_there();
+      } catch (const Error&) {  // the first failure matters more
+      }
+      throw;
+    }
+    session.write_farm_record();
+    work.made = made += work.made;
+    work.pictures = pictures += work.pictures;
+    FarmSummary summary = session.summarise(work);
+    const bool has_lost = work.lost > 0 || session.has_lost(states);
+    if (!has_lost || (options.fail_fast && summary.failed > 0)) return summary;
+    if (round == kMostRounds)
+      throw Error(
+          ExitCode::kOutput,
+          fmt::format("{}: results vanish while the farm is at work; the same command makes "
+                      "them again",
+                      session.cache().directory().string()));
+    now.again = false;
+  }
+}
+
+FarmPlan plan_farm(
+    const Grid& grid, const fs::path& directory, const FarmOptions& options,
+    const std::function<void(const std::string& name, const std::string& reason)>& on_job) {
+  FarmWork work(grid, options, directory);
+  JobGraph& graph = work.graph;
+  std::optional<ResultCache> cache;
+  std::error_code ignored;
+  if (const fs::path there = cache_directory(options.cache, directory); fs::exists(there, ignored))
+    cache.emplace(there, ResultCache::Opening::kLook);
+  JobStateFilter filter = work.filter(options);
+  filter.look = ResultCache::Look::kName;
+  std::vector<std::uint8_t> is_there(graph.size());
+  const std::vector<JobState> states = job_states(
+      graph, cache ? &*cache : nullptr, filter, [&](std::size_t cell, const CellStates& found) {
+        for (const JobIndex job : graph.jobs(cell))
+          is_there[job] = found.records[graph.place(job)].has_value();
+      });
+  const bool has_cells = fs::exists(directory / "cells", ignored);
+  FarmPlan plan;
+  plan.cells = graph.cell_count();
+  plan.absent_engines = work.absences();
+  plan.warning = work.filter_warning(options.filter);
+  for (const std::size_t cell : coarse_to_fine(work.cells.cells)) {
+    const CellDirectory before(directory, graph, cell);
+    for (const JobIndex job : graph.jobs(cell)) {
+      ++plan.jobs;
+      if (states[job] != JobState::kWaiting) continue;
+      ++plan.wanted;
+      on_job(graph.name(job), is_there[job]                             ? "again"
+                              : cache && cache->failure(graph[job].key) ? "failed before"
+                              : has_cells                               ? before.reason(job)
+                                                                        : "missing");
+    }
+  }
+  return plan;
 }
 
 }  // namespace lobelia

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_set>
 
 #include "core/text.hpp"
 
@@ -11,6 +10,86 @@ namespace lobelia {
 namespace {
 
 constexpr std::string_view kSeparators = ", \t\n\r";
+/// Shapes, materials and lights of all scenes of an axis, which stay in memory.
+constexpr std::size_t kMaxHeldParts = 10000000;
+/// Combinations that all exclusions of a grid may name together, counted as often as they are named.
+constexpr std::size_t kMaxExcluded = 20000000;
+
+/// Advances like a counter whose last digit runs fastest; false after the last.
+bool count_on(std::vector<std::size_t>& digits, std::span<const std::size_t> sizes) {
+  for (std::size_t i = digits.size(); i-- > 0;) {
+    if (++digits[i] < sizes[i]) return true;
+    digits[i] = 0;
+  }
+  return false;
+}
+
+/// The combinations of values that a grid has: the product of its factors without what is excluded.
+class GridPlaces {
+ public:
+  explicit GridPlaces(std::vector<GridFactor> factors) : factors_(std::move(factors)) {
+    std::size_t count = 1;
+    for (const auto& factor : factors_) count *= factor.size();
+    excluded_.resize(count);
+  }
+
+  /// Removes the combinations of the values chosen on each axis (none: all values). Returns how many that names. Throws
+  /// std::runtime_error over kMaxExcluded.
+  std::size_t exclude(std::span<const std::vector<bool>> chosen) {
+    // Visits named combinations only: a grid may have many exclusions of few cells each.
+    std::vector<std::vector<std::size_t>> named;
+    std::vector<std::size_t> sizes;
+    std::size_t axis = 0, count = 1;
+    for (const auto& factor : factors_) {
+      auto& steps = named.emplace_back();
+      for (std::size_t step = 0; step < factor.size(); ++step) {
+        bool all = true;
+        for (std::size_t i = 0; i < factor.steps.size(); ++i) {
+          const auto& choices = chosen[axis + i];
+          all = all && (choices.empty() || choices[factor.steps[i][step]]);
+        }
+        if (all) steps.push_back(step);
+      }
+      axis += factor.steps.size();
+      sizes.push_back(steps.size());
+      count *= steps.size();
+    }
+    if (count == 0) return 0;
+    named_ += count;
+    if (named_ > kMaxExcluded)
+      throw std::runtime_error(
+          fmt::format("the <exclude> elements name over {} cells together; allowed: {}",
+                      kMaxExcluded, kMaxExcluded));
+    std::vector<std::size_t> digits(factors_.size());
+    do {
+      std::size_t number = 0;
+      for (std::size_t f = 0; f < factors_.size(); ++f)
+        number = number * factors_[f].size() + named[f][digits[f]];
+      excluded_[number] = true;
+    } while (count_on(digits, sizes));
+    return count;
+  }
+
+  /// The values on all axes, combination after combination, the last factor running fastest.
+  std::vector<ValueIndex> kept() const {
+    std::vector<std::size_t> sizes;
+    for (const auto& factor : factors_) sizes.push_back(factor.size());
+    std::vector<ValueIndex> places;
+    std::vector<std::size_t> digits(factors_.size());
+    std::size_t number = 0;
+    do {
+      if (excluded_[number++]) continue;
+      for (std::size_t f = 0; f < factors_.size(); ++f)
+        for (const auto& steps : factors_[f].steps) places.push_back(steps[digits[f]]);
+    } while (count_on(digits, sizes));
+    return places;
+  }
+
+ private:
+  std::vector<GridFactor> factors_;
+  std::vector<bool> excluded_;  ///< by number in the product
+  std::size_t named_ = 0;       ///< by all exclusions
+};
 
 class ChoiceReader {
  public:

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <unordered_map>
 #include <unordered_set>
-#include <vector>
 
 #include "farm/grid.hpp"
 #include "renderer/scene/xml_source.hpp"
@@ -13,12 +11,17 @@
 namespace lobelia {
 
 inline constexpr std::size_t kMaxAxisValues = 10000;
-/// Shapes, materials and lights of all scenes of an axis, which stay in memory.
-inline constexpr std::size_t kMaxHeldParts = 10000000;
+
+/// An axis, or the axes of a list: each step has one value of each axis.
+struct GridFactor {
+  std::vector<std::vector<ValueIndex>> steps;  ///< by axis; all of one length, at least 1
+
+  std::size_t size() const { return steps.front().size(); }
+};
 
 std::size_t part_count(const Scene& scene);  ///< shapes, materials and lights
 
-/// The values of an axis while its grid is read: each once, found by its text.
+/// The values of an axis while its grid is read: each once, by its text.
 class AxisTable {
  public:
   AxisTable(const AxisKind& kind, std::filesystem::path directory)
@@ -28,8 +31,7 @@ class AxisTable {
   Axis take() { return std::move(axis_); }
 
   std::optional<ValueIndex> find(const std::string& text) const;
-  /// The value's index; it is read where it is new. Throws std::runtime_error as AxisKind::parse does, and where
-  /// values are too many or would have the same file name.
+  /// Reads the value if it is new. Throws std::runtime_error as AxisKind::parse, for too many values, or two with one token.
   ValueIndex find_or_add(const std::string& text);
 
  private:
@@ -41,9 +43,8 @@ class AxisTable {
   std::size_t parts_ = 0;
 };
 
-/// Reads the <exclude> and <include> elements of `root` and fills the grid's axes and places, where
-/// the values that only an include names come last. Errors are noted in `source`. The product of
-/// `factors` has at most kMaxCells cells, and their axes are `axes`, in that order, which are used up.
+/// Reads the <exclude> and <include> elements of `root` and fills the grid's axes and places. Notes errors in `source`.
+/// `axes` are those of the factors, in that order, and are used up. The product of `factors` has at most kMaxCells cells.
 void read_choices(XmlSource& source, pugi::xml_node root, std::vector<AxisTable>& axes,
                   std::vector<GridFactor> factors, Grid& grid);
 

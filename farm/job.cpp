@@ -3,7 +3,7 @@
 namespace lobelia {
 namespace {
 
-/// '*' is any text, '?' any one character. In linear time for each '*', whatever the pattern.
+/// '*' is any text, '?' any one character. Linear time for each '*'.
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = pattern.npos, after = 0;
   while (n < name.size()) {
@@ -44,7 +44,7 @@ std::string job_name(JobKind kind, std::string_view engine) {
 
 bool JobFilter::picks(std::string_view name) const {
   const std::string_view text = text_;
-  // Names have '-' in them: what is left out begins at the start or behind a ':'.
+  // Names contain '-': the excluded patterns begin at the start or after a ':'.
   std::size_t minus = text.starts_with('-') ? 0 : text.find(":-");
   const std::string_view wanted = text.substr(0, minus);
   const std::string_view left_out =

@@ -1,18 +1,44 @@
-// A cell's jobs, each with a result in the cache.
+// A cell's jobs, and the keys of their results in the cache.
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
-#include "farm/result_key.hpp"
+#include "core/sha256.hpp"
 
 namespace lobelia {
+
+/// The name of a result: a hash of everything that decides it.
+struct ResultKey {
+  Sha256Digest digest{};
+
+  std::string text() const { return hex(digest); }
+  bool operator==(const ResultKey&) const = default;
+  auto operator<=>(const ResultKey&) const = default;
+};
+
+/// Hashes the parts in order, each with its length: no two lists have the same text.
+inline ResultKey result_key(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) {
+    text += std::to_string(part.size());
+    text += ':';
+    text += part;
+  }
+  return {sha256(text)};
+}
+
+/// A key as a part of another key.
+inline std::string_view as_part(const ResultKey& key) {
+  return {reinterpret_cast<const char*>(key.digest.data()), key.digest.size()};
+}
 
 enum class JobKind : std::uint8_t {
   kRender,     ///< our picture
   kReference,  ///< an engine's picture
-  kCompare,    ///< ours with an engine's
+  kCompare,    ///< our picture with an engine's
   kProfile,    ///< the highlight in all pictures
 };
 inline constexpr std::string_view kJobKindNames[] = {"render", "reference", "compare", "profile"};
@@ -27,15 +53,14 @@ inline constexpr std::uint8_t kNoEngine = 255;
 struct Job {
   ResultKey key;
   JobKind kind = JobKind::kRender;
-  std::uint8_t engine = kNoEngine;  ///< among the farm's, for a reference and a comparison
-  bool exists = false;  ///< false: the cell has no such job (an engine that is not there, say)
+  std::uint8_t engine = kNoEngine;  ///< index among the farm's, for a reference or a comparison
+  bool exists = false;  ///< false: the cell has no such job, such as for an unknown engine
 };
 
 /// "compare-povray"
 std::string job_name(JobKind kind, std::string_view engine);
 
-/// GoogleTest's patterns: "a*:b?c-d*" is what matches a* or b?c and does not match d*. An empty list in front of
-/// the '-' is everything.
+/// GoogleTest's patterns: "a*:b?c-d*" matches names like a* or b?c, except d*. An empty list before '-' is everything.
 class JobFilter {
  public:
   JobFilter() = default;

@@ -8,10 +8,8 @@
 
 namespace lobelia {
 
-std::vector<std::vector<JobIndex>> JobBoard::plan(const std::vector<std::size_t>& order,
-                                                  std::function<void(std::size_t)> on_cell) {
+std::vector<std::vector<JobIndex>> JobBoard::plan(const std::vector<std::size_t>& order) {
   const std::scoped_lock lock(mutex_);
-  on_cell_ = std::move(on_cell);
   rank_.assign(graph_.cell_count(), 0);
   std::vector<std::vector<JobIndex>> of_engine(graph_.engines().size());
   for (std::size_t place = 0; place < order.size(); ++place) {
@@ -97,7 +95,7 @@ bool JobBoard::inputs_are_settled(JobIndex job) const {
 }
 
 void JobBoard::make_ready(JobIndex job) {
-  // Comparisons first: they finish cells, and there are few of them at a time.
+  // Comparisons and profiles first: they finish cells, and few are ready at a time.
   const int urgency = is_picture(graph_[job].kind) ? 1 : 0;
   ready_.push({{urgency, rank_[graph_.cell_of(job)]}, job});
 }

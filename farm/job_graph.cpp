@@ -45,8 +45,7 @@ void JobGraph::plan_cell(std::size_t cell, std::map<std::size_t, std::string>& r
   std::vector<bool> with_engine(engines_->size());
   for (std::size_t e = 0; e < engines_->size(); ++e) {
     const FarmEngine& here = (*engines_)[e];
-    if (!here.is_known() ||
-        std::find(compared_with.begin(), compared_with.end(), here.name) == compared_with.end())
+    if (!here.is_known() || std::ranges::find(compared_with, here.name) == compared_with.end())
       continue;
     if (std::string why = here.engine->why_not(scene, {}); !why.empty()) {
       refusals.emplace(cell * engines_->size() + e, std::move(why));
@@ -86,18 +85,11 @@ std::vector<JobIndex> JobGraph::jobs(std::size_t cell) const {
 
 std::vector<JobIndex> JobGraph::inputs(JobIndex job) const {
   const std::size_t cell = cell_of(job);
-  switch (jobs_[job].kind) {
-    case JobKind::kRender:
-    case JobKind::kReference:
-      return {};
-    case JobKind::kCompare:
-      return {render(cell), reference(cell, jobs_[job].engine)};
-    case JobKind::kProfile:
-      break;
-  }
-  std::vector<JobIndex> pictures{render(cell)};
-  for (std::size_t e = 0; e < engines_->size(); ++e)
-    if (jobs_[reference(cell, e)].exists) pictures.push_back(reference(cell, e));
+  const Job& one = jobs_[job];
+  if (is_picture(one.kind)) return {};
+  if (one.kind == JobKind::kCompare) return {render(cell), reference(cell, one.engine)};
+  std::vector<JobIndex> pictures = jobs(cell);
+  std::erase_if(pictures, [&](JobIndex picture) { return !is_picture(jobs_[picture].kind); });
   return pictures;
 }
 
@@ -160,7 +152,7 @@ std::vector<std::size_t> coarse_to_fine(const std::vector<Cell>& cells) {
   std::size_t most = 1;
   for (const auto& cell : cells)
     for (const auto index : cell.at) most = std::max<std::size_t>(most, index + 1);
-  // An index is of the level at which halving the axis comes to it: 0 is first, then the middle.
+  // The level of an index: how often the axis is halved until it is reached.
   const int levels = int(std::bit_width(most - 1));
   std::vector<int> level(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i)
@@ -168,8 +160,7 @@ std::vector<std::size_t> coarse_to_fine(const std::vector<Cell>& cells) {
       if (index > 0) level[i] = std::max(level[i], levels - std::countr_zero(std::uint64_t(index)));
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return level[a] < level[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t cell) { return level[cell]; });
   return order;
 }
 

@@ -1,12 +1,7 @@
-// Every job of every cell, with the key of its result and what it waits for.
+// Every job of every cell, with the key of its result and its inputs.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <string>
-#include <vector>
 
 #include "farm/farm_engines.hpp"
 #include "farm/grid.hpp"
@@ -15,18 +10,17 @@
 
 namespace lobelia {
 
-/// A grid's cells, or a part of them on another machine. Scenes are made when they are needed.
+/// A grid's cells, or a part of them on another machine. Scenes are made on demand.
 struct FarmCells {
   std::vector<Cell> cells;
-  std::function<Scene(std::size_t)> scene;  ///< of a cell; from any thread
+  std::function<Scene(std::size_t)> scene;  ///< of a cell; for any thread
 };
 
-/// A place among all jobs.
 using JobIndex = std::uint32_t;
 
 class JobGraph {
  public:
-  /// Keys of all jobs, on all processors. Both arguments must outlive the graph.
+  /// Computes all keys, on all processors. Both arguments must outlive the graph.
   JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engines);
 
   std::size_t cell_count() const { return cells_->cells.size(); }
@@ -44,37 +38,37 @@ class JobGraph {
     return JobIndex(cell * stride_ + 1 + engines_->size() + engine);
   }
   JobIndex profile(std::size_t cell) const { return JobIndex((cell + 1) * stride_ - 1); }
-  /// The jobs that a cell has.
+  /// The existing jobs of a cell.
   std::vector<JobIndex> jobs(std::size_t cell) const;
-  std::size_t stride() const { return stride_; }  ///< places of a cell; some have no job
+  std::size_t stride() const { return stride_; }  ///< places for jobs in a cell, used or not
   std::size_t place(JobIndex job) const { return job % stride_; }
 
-  /// Jobs that must have their results first.
+  /// Jobs that have to be done first.
   std::vector<JobIndex> inputs(JobIndex job) const;
   /// Jobs that have this one among their inputs.
   std::vector<JobIndex> dependents(JobIndex job) const;
 
-  /// "n16-head_on/compare-povray", as `--filter` sees it.
+  /// "n16-head_on/compare-povray", for `--filter`.
   std::string name(JobIndex job) const;
   std::string name_in_cell(JobIndex job) const;  ///< "compare-povray"
-  /// Whose picture a job is about: an engine's, or ours.
+  /// The engine of a job, or ours.
   std::string whose(JobIndex job) const;
 
   /// Why an engine cannot show the cell's scene; empty if it can.
   std::string refusal(std::size_t cell, std::size_t engine) const;
 
-  /// Engines that the cell is to be compared with, that are absent, and of which it has no picture.
+  /// Absent engines that the cell is to be compared with, without a picture.
   std::vector<std::size_t> missing_engines(std::size_t cell) const;
   /// The number of cells that an engine cannot show.
   std::size_t refusals(std::size_t engine) const;
-  /// The cell has no picture of this engine: it is no job, nor is its comparison.
+  /// Drops the reference and the comparison of an engine from a cell.
   void leave_out(std::size_t cell, std::size_t engine);
 
-  /// Whether a job can be done though this input has failed: a profile draws the pictures that there are.
+  /// Whether a job can be done without this input: a profile draws the pictures that are there.
   bool may_lack(JobIndex job, JobIndex input) const {
     return jobs_[job].kind == JobKind::kProfile && jobs_[input].kind == JobKind::kReference;
   }
-  /// Makes the profile one of fewer pictures, which is another result: of ours and those for which `has_picture` holds.
+  /// Reduces the profile to our picture and those for which `has_picture` is true: another result, with another key.
   void narrow_profile(std::size_t cell, const std::function<bool(JobIndex)>& has_picture);
 
   /// The hash of a cell's scene file, in hexadecimal.
@@ -93,8 +87,7 @@ class JobGraph {
   std::map<std::size_t, std::string> refusals_;  ///< by cell * engines + engine; few have one
 };
 
-/// Cells from coarse to fine, so that any first part is spread over the whole grid: the first value of each axis, then
-/// the one in the middle, then those between.
+/// Cells from coarse to fine, so that any first part spreads over the grid: first values, middle ones, then those between.
 std::vector<std::size_t> coarse_to_fine(const std::vector<Cell>& cells);
 
 }  // namespace lobelia

@@ -1,11 +1,10 @@
-#include "farm/job_maker.hpp"
+#include "farm/job_board.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <ctime>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/text.hpp"
@@ -16,8 +15,6 @@
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 double thread_cpu_seconds() {
   timespec time{};
@@ -30,7 +27,7 @@ const records::Host& host_of_result() {
   return host;
 }
 
-/// An input was done and is no longer in the cache: no failure of the job.
+/// The result of an input vanished from the cache; the job itself has not failed.
 class LostInput : public Error {
  public:
   explicit LostInput(const std::string& name)
@@ -63,7 +60,7 @@ std::unique_ptr<JobMaker::Claim> JobMaker::claim(JobIndex job) {
 
 bool JobMaker::is_there(JobIndex job) {
   if (!find_result(graph_, cache_, job)) {
-    // It is damaged, or of other pictures.
+    // A result that is damaged, or made from other pictures.
     if (find_result(graph_, cache_, job, ResultCache::Look::kName)) cache_.discard(graph_[job].key);
     return false;
   }
@@ -78,13 +75,13 @@ void JobMaker::settle_done(JobIndex job) {
   board_.settle(job, JobState::kDone);
 }
 
-/// Somebody took its input or its draft away: the next round of the farm makes all of it.
+/// Its input or its draft was removed: the next round of the farm makes both.
 void JobMaker::settle_lost(JobIndex job) {
   board_.count([](JobRunWork& work) { ++work.lost; });
   board_.settle(job, JobState::kBlocked);
 }
 
-/// Keeps what an engine was given, for whoever looks for the reason. Returns "failed/CELL/JOB", or "".
+/// Keeps the engine's input, to look for the reason. Returns "failed/CELL/JOB", or "".
 std::string JobMaker::keep_input(JobIndex job, const std::string& log) {
   const std::string& engine = graph_.engines()[graph_[job].engine].name;
   return failed_.keep(cell_id(job), graph_.name_in_cell(job), [&](const fs::path& directory) {
@@ -92,8 +89,8 @@ std::string JobMaker::keep_input(JobIndex job, const std::string& log) {
     write_file(directory / "scene.xml", scene_to_xml(scene));
     std::vector<std::string> again{"lobelia", "reference", "scene.xml",    "--engine",
                                    engine,    "-o",        engine + ".exr"};
-    if (const auto given = options_.programs.find(engine); given != options_.programs.end())
-      again.insert(again.end(), {"--" + engine, given->second.string()});
+    if (const fs::path program = program_for(options_.programs, engine); !program.empty())
+      again.insert(again.end(), {"--" + engine, program.string()});
     write_file(directory / "again.sh", shell_join(again) + "\n");
     constexpr std::uint64_t kMostLog = FailedJobs::kMostBytes / 2;
     if (!log.empty() && log.size() <= kMostLog) write_file(directory / (engine + ".log"), log);
@@ -140,7 +137,7 @@ records::Result JobMaker::result_record(JobIndex job, int attempts) const {
   return record;
 }
 
-/// The directory of a picture that is an input; `from` gets the hash of what is read there.
+/// The picture of an input; `from` gets its hash.
 MadePicture JobMaker::input_picture(JobIndex job, Hashes& from) const {
   const std::string engine = graph_.whose(job);
   const auto record = find_result(graph_, cache_, job);
@@ -149,7 +146,7 @@ MadePicture JobMaker::input_picture(JobIndex job, Hashes& from) const {
   return {engine, cache_.result_directory(graph_[job].key)};
 }
 
-/// Takes them away, so that they are made again. Whether there were any.
+/// Discards damaged inputs, so that they are made again. Whether there were any.
 bool JobMaker::discard_unreadable_inputs(JobIndex job) const {
   bool any = false;
   for (const JobIndex input : graph_.inputs(job)) {
@@ -191,7 +188,7 @@ bool JobMaker::make_here(JobIndex job) {
   const auto claimed = claim(job);
   if (!claimed) return false;
   const double cpu_before = thread_cpu_seconds();
-  const auto wall_before = Clock::now();
+  const auto wall_before = std::chrono::steady_clock::now();
   std::optional<ResultDraft> draft;
   try {
     if (is_there(job)) return true;
@@ -199,7 +196,7 @@ bool JobMaker::make_here(JobIndex job) {
     records::Result record = result_record(job, 1);
     make(job, *draft, record);
     const double cpu = thread_cpu_seconds() - cpu_before;
-    record.seconds = {std::chrono::duration<double>(Clock::now() - wall_before).count(), cpu};
+    record.seconds = {seconds_since(wall_before), cpu};
     record.peak_memory_bytes = peak_memory_of(::getpid());
     board_.count([&](JobRunWork& work) { work.kernel_cpu_seconds += cpu; });
     publish(job, *draft, std::move(record));
@@ -209,7 +206,7 @@ bool JobMaker::make_here(JobIndex job) {
       settle_lost(job);
       return true;
     }
-    // A full disk ends the farm; whatever is wrong with this job is its own failure.
+    // A full disk ends the farm; other errors are this job's own failure.
     if (error.code() != ExitCode::kEngine && error.code() != ExitCode::kInput) throw;
     const auto* failure = dynamic_cast<const ResultFailure*>(&error);
     fail(job, {failure ? failure->kind() : FailureClass::kRefused, error.what(), 1});
@@ -220,8 +217,7 @@ bool JobMaker::make_here(JobIndex job) {
 void JobMaker::keep_reference(JobIndex job, const Scene& scene, ReferenceResult result, int attempt,
                               double wall_seconds) {
   const FarmEngine& engine = graph_.engines()[graph_[job].engine];
-  const auto given = options_.programs.find(engine.name);
-  const std::string program = given == options_.programs.end() ? "" : given->second.string();
+  const std::string program = program_for(options_.programs, engine.name).string();
   records::Result record = result_record(job, attempt);
   const records::Reference& made_by = result.record;
   record.threads = made_by.threads.value_or(1);

@@ -1,13 +1,9 @@
-#include "farm/job_run.hpp"
-
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <map>
-#include <set>
 #include <thread>
 
 #include "core/at_once.hpp"
@@ -16,7 +12,7 @@
 #include "core/no_resources.hpp"
 #include "core/numbers.hpp"
 #include "core/threads.hpp"
-#include "farm/job_maker.hpp"
+#include "farm/job_board.hpp"
 #include "reference_scenes/replicates.hpp"
 
 namespace lobelia {
@@ -31,7 +27,7 @@ double cpu_seconds_of(int who) {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// One engine's pictures in a run: several at a time, retried where a failure may not repeat itself.
+/// One engine's pictures in a run: several at a time, and again after a failure that may not repeat itself.
 class EngineRun {
  public:
   EngineRun(const JobGraph& graph, const JobRunOptions& options, JobBoard& board, JobMaker& maker,
@@ -42,7 +38,7 @@ class EngineRun {
         maker_(maker),
         engine_(graph.engines()[engine]) {}
 
-  /// Settles these jobs. On a thread that mostly waits.
+  /// Settles these jobs. Its thread mostly waits.
   void run(std::vector<JobIndex> todo) {
     if (const std::string why = why_not_as_planned(); !why.empty()) {
       for (const JobIndex job : todo) maker_.fail(job, {FailureClass::kEngineMissing, why, 1});
@@ -53,7 +49,7 @@ class EngineRun {
         give_up(todo);
         break;
       }
-      // Failed jobs come first, so that it shows soon whether anything works.
+      // Failed jobs come first: they show soonest whether the engine works at all.
       const auto fresh = std::ranges::stable_partition(
           todo, [&](JobIndex job) { return attempts_.contains(job); });
       if (fresh.begin() == todo.begin()) failed_attempts_ = 0;
@@ -66,14 +62,14 @@ class EngineRun {
       render(batch, more_memory);
       todo.insert(todo.end(), again_.begin(), again_.end());
       board_.finish_cells();
-      // Somebody else makes all of it.
+      // Other processes are making all of these results.
       if (is_last && again_.size() == batch.size()) std::this_thread::sleep_for(kLookAgain);
     }
     board_.finish_cells();
   }
 
  private:
-  /// The plan may be of another machine.
+  /// The plan may come from another machine.
   std::string why_not_as_planned() const {
     const EngineStatus& status = engine_.engine->status();
     if (!status.available()) return status.why;
@@ -123,8 +119,7 @@ class EngineRun {
     const auto claimed = claim(job);
     if (!claimed) return;
     ReferenceResult result = session.render(scene);
-    const double wall =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - result.begun).count();
+    const double wall = seconds_since(result.begun);
     const std::string log = result.log;
     JobFailure failure{result.failure, result.error, 0};
     {
@@ -141,11 +136,11 @@ class EngineRun {
     if (!failure.message.empty()) maker_.fail(job, std::move(failure), log);
   }
 
-  /// Null if the job is not to be made, or only later.
+  /// Null if the job is not to be made now; it is in `again_` if it is to be made later.
   std::unique_ptr<JobMaker::Claim> claim(JobIndex job) {
     if (board_.is_over()) return nullptr;
     std::unique_lock lock(mutex_);
-    // After many failures those that have failed are tried again before any other.
+    // After many failures, only jobs that have failed are tried again.
     const bool doubtful = options_.give_up_after > 0 && failed_attempts_ >= options_.give_up_after;
     if (!given_up_ && (!doubtful || attempts_.contains(job))) {
       lock.unlock();
@@ -157,7 +152,7 @@ class EngineRun {
     return nullptr;
   }
 
-  /// Counts a picture or a failure.
+  /// Counts a picture or a failure; true if the job is in `again_` now.
   bool is_to_be_retried(JobIndex job, const JobFailure& failure, bool had_more_memory) {
     const std::scoped_lock lock(mutex_);
     if (failure.message.empty()) {
@@ -204,11 +199,11 @@ class EngineRun {
   JobMaker& maker_;
   const FarmEngine& engine_;
 
-  std::mutex averages_;  ///< an average of pictures keeps the engine busy and fills its memory
+  std::mutex averages_;  ///< one average at a time: it keeps the engine busy and fills its memory
   std::mutex mutex_;     // of everything below
   std::vector<JobIndex> again_;  ///< of the batch, for the next one
   std::map<JobIndex, int> attempts_;
-  std::set<JobIndex> short_of_memory_;             ///< they get twice as much
+  std::set<JobIndex> short_of_memory_;             ///< tried again with twice as much
   int failed_attempts_ = 0, failed_pictures_ = 0;  ///< in a row
   std::string last_failure_;
   bool given_up_ = false;
@@ -216,67 +211,58 @@ class EngineRun {
 
 }  // namespace
 
-JobRun::JobRun(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options,
-               std::vector<JobState> states)
-    : graph_(graph),
-      options_(options),
-      board_(std::make_unique<JobBoard>(graph, options, std::move(states))),
-      maker_(std::make_unique<JobMaker>(graph, cache, options, *board_)) {}
-JobRun::~JobRun() = default;
-
-void JobRun::run(const std::vector<std::size_t>& order,
-                 const std::function<void(std::size_t)>& on_cell) {
+JobRunWork run_jobs(JobGraph& graph, const ResultCache& cache, const JobRunOptions& options,
+                    std::vector<JobState>& states, const std::vector<std::size_t>& order,
+                    std::function<void(std::size_t)> on_cell) {
   const auto wall_before = std::chrono::steady_clock::now();
   const double own_before = cpu_seconds_of(RUSAGE_SELF),
                engines_before = cpu_seconds_of(RUSAGE_CHILDREN);
-  std::vector<std::vector<JobIndex>> of_engine = board_->plan(order, on_cell);
-  // One that could not be started would keep the others waiting for ever.
+  JobBoard board(graph, options, states, std::move(on_cell));
+  JobMaker maker(graph, cache, options, board);
+  std::vector<std::vector<JobIndex>> of_engine = board.plan(order);
+  // Threads are counted first: one that cannot be started would keep the others waiting for ever.
   const int engines =
       int(std::ranges::count_if(of_engine, [](const auto& jobs) { return !jobs.empty(); }));
   const int processors =
-      std::min(options_.threads > 0 ? options_.threads : usual_threads(),
-               startable_threads(engines + std::max(options_.threads, usual_threads())) - engines);
+      std::min(options.threads > 0 ? options.threads : usual_threads(),
+               startable_threads(engines + std::max(options.threads, usual_threads())) - engines);
   if (processors < 1) throw failure_of("the farm's threads", EAGAIN, ExitCode::kInternal);
-  if (board_->planned() > 0) code_pictures_on_calling_threads();
+  if (board.planned() > 0) code_pictures_on_calling_threads();
   {
     std::vector<std::jthread> threads;
     const auto start = [&](auto work) {
-      threads.emplace_back([this, work = std::move(work)]() mutable {
+      threads.emplace_back([&board, work = std::move(work)]() mutable {
         try {
           work();
         } catch (...) {
-          board_->break_off(std::current_exception());
+          board.break_off(std::current_exception());
         }
       });
     };
     for (std::size_t e = 0; e < of_engine.size(); ++e)
       if (!of_engine[e].empty())
-        start([this, e, jobs = std::move(of_engine[e])]() mutable {
-          EngineRun(graph_, options_, *board_, *maker_, e).run(std::move(jobs));
+        start([&, e, jobs = std::move(of_engine[e])]() mutable {
+          EngineRun(graph, options, board, maker, e).run(std::move(jobs));
         });
-    for (int i = 0; i < processors; ++i) start([this] { make_results(); });
+    for (int i = 0; i < processors; ++i)
+      start([&] {
+        oneapi::tbb::task_arena alone(1);  // keeps work that TBB would divide on this thread
+        while (const auto job = board.next()) {
+          bool settled = false;
+          alone.execute([&] { settled = maker.make_here(*job); });
+          if (!settled) board.put_back(*job);
+          board.finish_cells();
+        }
+      });
   }
-  board_->count([&](JobRunWork& work) {
+  board.count([&](JobRunWork& work) {
     work.processors = processors;
-    work.wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_before).count();
+    work.wall_seconds = seconds_since(wall_before);
     work.engine_cpu_seconds = cpu_seconds_of(RUSAGE_CHILDREN) - engines_before;
     work.own_cpu_seconds = cpu_seconds_of(RUSAGE_SELF) - own_before - work.kernel_cpu_seconds;
   });
-  board_->end();
+  board.end();
+  return board.work();
 }
-
-void JobRun::make_results() {
-  oneapi::tbb::task_arena alone(1);  // what divides itself elsewhere stays on this thread
-  while (const auto job = board_->next()) {
-    bool settled = false;
-    alone.execute([&] { settled = maker_->make_here(*job); });
-    if (!settled) board_->put_back(*job);
-    board_->finish_cells();
-  }
-}
-
-JobState JobRun::state(JobIndex job) const { return board_->state(job); }
-const JobRunWork& JobRun::work() const { return board_->work(); }
 
 }  // namespace lobelia

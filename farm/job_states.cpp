@@ -12,7 +12,7 @@ namespace {
 
 using Failures = JobStateFilter::Failures;
 
-/// `find` gives the record of a picture of the same cell, or null.
+/// Whether a result was made from the cell's pictures in the cache. `find` returns a picture's record, or null.
 template <class Find>
 bool is_of_these_pictures(const records::Result& record, const JobGraph& graph, std::size_t cell,
                           Find find) {
@@ -28,7 +28,7 @@ bool is_of_these_pictures(const records::Result& record, const JobGraph& graph, 
   });
 }
 
-/// Takes away waiting jobs that need a result that is neither there nor to be made.
+/// Drops waiting jobs that need a result which is neither there nor to be made.
 void drop_unreachable_jobs(const JobGraph& graph, std::size_t cell, std::vector<JobState>& states) {
   for (const JobIndex job : graph.jobs(cell)) {
     if (states[graph.place(job)] != JobState::kWaiting) continue;
@@ -77,7 +77,7 @@ CellStates cell_states(JobGraph& graph, const ResultCache* cache, const JobState
     return cache && !is_there(job) && cache->failure(graph[job].key).has_value();
   };
   look();
-  // Without pictures that nobody makes the profile is another result.
+  // Without the pictures of absent engines the profile is another result.
   bool is_narrower = false;
   for (std::size_t e = 0; e < graph.engines().size(); ++e) {
     const JobIndex reference = graph.reference(cell, e);

@@ -2,23 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "compare/metrics/metric.hpp"
+#include "compare/compare.hpp"
 #include "core/colour.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
+#include "core/numbers.hpp"
 #include "farm/profile_scene.hpp"
 #include "records/record.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+#include "reference_scenes/engine.hpp"
+#include "reference_scenes/replicates.hpp"
+#include "renderer/render.hpp"
+#include "renderer/render_record.hpp"
+#include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
+namespace {
 
-std::string picture_file(const std::string& engine) { return engine + ".exr"; }
-std::string error_file(const std::string& engine) { return engine + "-error.exr"; }
-std::string comparison_name(const std::string& engine) { return std::string(kOurs) + "-" + engine; }
-
+/// Reads a picture of a result again. Throws ResultFailure unless it has the scene's size and finite values.
 Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) {
   const std::string name = file.filename().string();
   if (std::error_code unknown; !std::filesystem::exists(file, unknown))
@@ -26,7 +28,7 @@ Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) 
                 fmt::format("{}: somebody took it away while it was needed", file.string()));
   Image image;
   try {
-    // Written by ourselves: what an engine wrote was read where it could do no harm, and encoded anew.
+    // Safe to trust: an engine's file was read in a separate process and encoded anew.
     image = read_trusted_image(file);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;
@@ -41,6 +43,83 @@ Image read_whole_picture(const std::filesystem::path& file, const Scene& scene) 
     throw ResultFailure(FailureClass::kNonFinite,
                         fmt::format("{} has values that are not finite", name));
   return image;
+}
+
+/// The exposure at which a cell is shown: the brightest value of our picture becomes white.
+double cell_exposure(const Image& ours) {
+  return std::clamp(exposure_for_peak(peak_value(ours)), -kMaxExposureStops, kMaxExposureStops);
+}
+
+/// Bytes for the picture and its copy read back; for an average also its error and the sums for it.
+std::uint64_t memory_to_make(const Scene& scene) {
+  constexpr std::uint64_t kOfPicture = 3 * sizeof(float), kOfSums = 2 * 3 * sizeof(double);
+  return std::uint64_t(scene.film.width) * std::uint64_t(scene.film.height) *
+         (2 * kOfPicture + (needs_replicates(scene) ? kOfPicture + kOfSums : 0));
+}
+
+/// Only an average has a file of standard errors.
+bool has_error(const MadePicture& picture) {
+  std::error_code ignored;
+  return std::filesystem::exists(picture.directory / error_file(picture.engine), ignored);
+}
+
+/// Our pixels have samples of their own; an engine's pixels share one set of points.
+NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
+  const auto noise = [](const MadePicture& picture, int freedom, bool shared) {
+    return noise_of_standard_errors(
+        read_trusted_image(picture.directory / error_file(picture.engine)), freedom, shared);
+  };
+  return {.a = noise(ours, kErrorFreedom, false), .b = noise(theirs, kReplicates - 1, true)};
+}
+
+}  // namespace
+
+std::string picture_file(const std::string& engine) { return engine + ".exr"; }
+std::string error_file(const std::string& engine) { return engine + "-error.exr"; }
+std::string comparison_name(const std::string& engine) { return std::string(kOurs) + "-" + engine; }
+
+void make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<double> time_limit,
+                 std::uint64_t memory_limit, records::Result& made) {
+  if (const std::uint64_t needed = memory_to_make(scene); memory_limit > 0 && needed > memory_limit)
+    throw ResultFailure(
+        FailureClass::kOutOfMemory,
+        fmt::format("its picture of {} x {} needs {} of memory; allowed: {}", scene.film.width,
+                    scene.film.height, size_text(needed), size_text(memory_limit)));
+  using Clock = std::chrono::steady_clock;
+  RenderOptions options;
+  options.threads = 1;  // other cells keep the other processors busy
+  options.on_progress = [begun = Clock::now(), time_limit](double) {
+    if (Clock::now() - begun > time_limit)
+      throw ResultFailure(
+          FailureClass::kTimedOut,
+          fmt::format("stopped after {:.6g} s, the time limit of a picture", time_limit.count()));
+  };
+  const std::string file = picture_file(kOurs);
+  const ImageMetadata metadata = render_metadata(scene);
+  const RenderResult result = render(scene, options);
+  records::Render record =
+      render_record(scene, result, {"lobelia", "render", "scene.xml", "-o", file}, file);
+  write_exr(draft.file(file), result.image, metadata);
+  // A comparison with an engine's average needs the noise of both.
+  if (needs_replicates(scene)) {
+    record.standard_error = error_file(kOurs);
+    write_exr(draft.file(error_file(kOurs)), standard_error_of_render(scene, options), metadata);
+  }
+  const Image image = read_whole_picture(draft.file(file), scene);
+  const double exposure = cell_exposure(image);
+  write_png(draft.file(std::string(kOurs) + ".png"), to_display(image, exposure));
+  records::write_record(draft.file(std::string(kOurs) + ".json"), record);
+  write_file(draft.file("scene.xml"), scene_to_xml(scene));
+
+  made.command = record.command;
+  made.exposure_stops = exposure;
+  if (!scene.spheres.empty())
+    made.highlight =
+        highlight_record(scene.materials.at(std::size_t(scene.spheres.front().material)).highlight);
+  auto& warnings = made.warnings.emplace();
+  for (const Material& material : scene.materials)
+    if (std::string text = warning(material.highlight); !text.empty())
+      warnings.push_back(std::move(text));
 }
 
 void make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
@@ -58,11 +137,53 @@ void make_reference(const Scene& scene, const FarmEngine& engine, const std::str
   }
   read_whole_picture(draft.file(file), scene);
   records::write_record(draft.file(engine.name + ".json"), record);
-  // An engine may have had nothing to say.
   if (!result.log.empty()) write_file(draft.file(engine.name + ".log"), result.log);
   made.command = record.command;
   made.engine_commands = record.engine_commands;
   made.witness = record.witness;
+}
+
+Tolerance tolerance_of(std::string_view engine, std::vector<std::uint8_t> edges) {
+  constexpr std::int64_t kAllowedOutliers = 3;
+  const EngineTolerance tolerance = engine_info(engine).tolerance;
+  return {tolerance.of_value, tolerance.of_peak, kAllowedOutliers, std::move(edges)};
+}
+
+void make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
+                     ResultDraft& draft, records::Result& record) {
+  const std::string& engine = theirs.engine;
+  const Image a = read_whole_picture(ours.directory / picture_file(kOurs), scene);
+  const Image b = read_whole_picture(theirs.directory / picture_file(engine), scene);
+  const double exposure = cell_exposure(a);
+  write_png(draft.file(engine + ".png"), to_display(b, exposure));
+
+  // Without noise, each pixel has a tolerance. With noise it covers rounding alone, and the default limits decide.
+  const bool exact = truth::why_not_evaluated(scene).empty();
+  if (!exact && !(has_error(ours) && has_error(theirs))) {
+    record.not_comparable =
+        "its picture may have noise that is not known, and no tolerance of single pixels judges that";
+    return;
+  }
+  ComparisonOptions options;
+  options.viewing.exposure_stops = exposure;
+  options.tolerance =
+      tolerance_of(engine, exact ? truth::edge_ring(scene) : std::vector<std::uint8_t>());
+  if (!exact) {
+    options.limits.assign(default_limits().begin(), default_limits().end());
+    options.noise = noise_of(ours, theirs);
+  }
+  const Comparison comparison = compare(a, b, options);
+
+  const std::string name = comparison_name(engine);
+  // White in the difference picture: the tolerance at the peak, or with noise a tenth of the peak.
+  const double relative = exact ? options.tolerance->relative + options.tolerance->of_peak : 0.1;
+  const double white_at = relative * peak_value(b);
+  write_png(draft.file(name + ".png"), difference_picture(a, b, white_at));
+  records::write_record(draft.file(name + ".json"),
+                        comparison_record(comparison, picture_file(kOurs), picture_file(engine)));
+  record.verdict = verdict_name(comparison.verdict);
+  record.entry =
+      records::CellComparison{kOurs, engine, name + ".json", name + ".png", {white_at, relative}};
 }
 
 void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
@@ -71,16 +192,12 @@ void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,
   images.reserve(pictures.size());
   NamedImages named;
   for (const auto& picture : pictures) {
-    // The profile draws the formula under that name already.
+    // The profile adds the formula's curve itself.
     if (picture.engine == records::kAnalytic) continue;
     images.push_back(read_whole_picture(picture.directory / picture_file(picture.engine), scene));
     named.emplace_back(picture.engine, &images.back());
   }
   records::write_record(draft.file("profile.json"), profile_scene(scene, 0, 0, named));
-}
-
-double cell_exposure(const Image& ours) {
-  return std::clamp(exposure_for_peak(peak_value(ours)), -kMaxExposureStops, kMaxExposureStops);
 }
 
 }  // namespace lobelia

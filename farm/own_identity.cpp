@@ -3,20 +3,22 @@
 #include <fmt/format.h>
 #include <link.h>
 
+#include <cmath>
 #include <cstdlib>
 
-#include "core/error.hpp"
 #include "core/host.hpp"
 #include "core/image_io_module.hpp"
 #include "core/process.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
+#include "renderer/kernels/kernels.hpp"
 
 namespace lobelia {
 namespace {
 namespace fs = std::filesystem;
+using records::Arithmetic;
 
-/// The loader itself, as the program has it.
+/// The dynamic loader's path, from the program's own header.
 std::string find_loader() {
   std::string loader;
   ::dl_iterate_phdr(
@@ -31,9 +33,8 @@ std::string find_loader() {
   return loader;
 }
 
-/// All libraries that the loader would give a file, as ldd tells them: "name => /path (0x...)" or "/path (0x...)". What is
-/// preloaded is not asked for: a cluster's own allocator or profiler is no part of us, and what a preloaded library does
-/// to the functions of libm shows in the arithmetic.
+/// All libraries that the loader would load for a file, as ldd prints them: "name => /path (0x...)" or "/path (0x...)".
+/// Ignores LD_PRELOAD: a cluster's allocator or profiler is no part of us, and a changed libm shows in the arithmetic.
 std::vector<fs::path> libraries_of(const std::string& loader, const fs::path& file) {
   ProcessOptions options;
   options.only_environment = true;
@@ -67,6 +68,118 @@ Content find_libraries() {
   return reader.content();
 }
 
+constexpr int kArguments = 1000;  // two variants of a function differ at about one in a hundred
+
+/// SplitMix64: the same arguments everywhere, without a function of the library.
+class Arguments {
+ public:
+  /// From 0 to 1.
+  double next() {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  }
+  /// Alternates between even spacing and values close to `first`.
+  double between(double first, double last) {
+    const double u = next();
+    even_ = !even_;
+    return first + (last - first) * (even_ ? u : u * u * u * u * u * u);
+  }
+
+ private:
+  std::uint64_t state_ = 1;
+  bool even_ = false;
+};
+
+class Fingerprint {
+ public:
+  template <class T>
+  void of(T (*function)(T), double first, double last) {
+    Arguments arguments;
+    for (int i = 0; i < kArguments; ++i) add(function(T(arguments.between(first, last))));
+  }
+  template <class T>
+  void of(T (*function)(T, T), double first, double last, double second_first, double second_last) {
+    Arguments arguments;
+    for (int i = 0; i < kArguments; ++i) {
+      const T a = T(arguments.between(first, last));
+      add(function(a, T(arguments.between(second_first, second_last))));
+    }
+  }
+  std::string text() const { return hex(sha256(bytes_)); }
+
+ private:
+  void add(float value) { append(&value, sizeof value); }
+  void add(double value) { append(&value, sizeof value); }
+  void add(long double value) {
+    // Without its padding bytes.
+    const double high = double(value), low = double(value - static_cast<long double>(high));
+    add(high);
+    add(low);
+  }
+  void append(const void* value, std::size_t size) {
+    bytes_.append(static_cast<const char*>(value), size);
+  }
+  std::string bytes_;
+};
+
+/// Every function of libm that we use, except those that IEEE 754 requires to round correctly.
+template <class T>
+void add_all(Fingerprint& results) {
+  using One = T (*)(T);
+  using Two = T (*)(T, T);
+  const auto of = [&](One function, double first, double last) {
+    results.of(function, first, last);
+  };
+  for (const One function : {One(std::sin), One(std::cos), One(std::tan)}) {
+    of(function, 0, 7);
+    of(function, 0, 1e5);
+  }
+  for (const One function : {One(std::asin), One(std::acos)}) of(function, 1, -1);
+  of(std::atan, 0, 100);
+  for (const One function : {One(std::exp), One(std::exp2), One(std::expm1)}) of(function, 0, -80);
+  for (const One function : {One(std::sinh), One(std::cosh), One(std::tanh), One(std::asinh)})
+    of(function, 0, 20);
+  for (const One function : {One(std::log), One(std::log2), One(std::log10)}) {
+    of(function, 0, 1);
+    of(function, 1, 1e6);
+  }
+  of(std::log1p, 0, 2);
+  results.of(Two(std::pow), 1, 0, 1, 1e6);  // a lobe: cos^n
+  results.of(Two(std::pow), 0, 10, 0.1, 3);
+  results.of(Two(std::atan2), -1, 1, -1, 1);
+  results.of(Two(std::hypot), 0, 10, 0, 10);
+}
+
+std::string processor() {
+  std::string names;
+#if defined(__x86_64__)
+  const auto add = [&](bool has, const char* name) {
+    if (has) names += (names.empty() ? "" : " ") + std::string(name);
+  };
+  // Libraries choose variants by these: glibc, Embree, OpenImageDenoise, Cycles, POV-Ray.
+  add(__builtin_cpu_supports("sse4.1"), "sse4.1");
+  add(__builtin_cpu_supports("sse4.2"), "sse4.2");
+  add(__builtin_cpu_supports("avx"), "avx");
+  add(__builtin_cpu_supports("fma"), "fma");
+  add(__builtin_cpu_supports("fma4"), "fma4");
+  add(__builtin_cpu_supports("avx2"), "avx2");
+  add(__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"),
+      "avx512");
+#endif
+  return names;
+}
+
+Arithmetic find_arithmetic() {
+  Fingerprint results;
+  add_all<float>(results);
+  add_all<double>(results);
+  add_all<long double>(results);
+  return {results.text(), kernels().instruction_set, processor()};
+}
+
 }  // namespace
 
 std::string OwnIdentity::text() const {
@@ -76,7 +189,7 @@ std::string OwnIdentity::text() const {
 
 const OwnIdentity& own_identity() {
   static const OwnIdentity identity{std::string(kNameAndVersion) + " " + build_id(),
-                                    own_libraries().sha256, arithmetic()};
+                                    own_libraries().sha256, find_arithmetic()};
   return identity;
 }
 

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "farm/arithmetic.hpp"
 #include "reference_scenes/content.hpp"
 
 namespace lobelia {
@@ -12,7 +11,9 @@ namespace lobelia {
 struct OwnIdentity {
   std::string program;    ///< "lobelia 0.1.0 BUILD-ID"
   std::string libraries;  ///< SHA-256 of the image module, the picture reader, and all libraries
-  Arithmetic arithmetic;
+  /// `libm` is a hash of what the C library's functions return at fixed arguments: glibc chooses among several variants by
+  /// the processor and $GLIBC_TUNABLES. `kernels` is our kernels' instruction set. Engines choose by `processor`.
+  records::Arithmetic arithmetic;
 
   bool operator==(const OwnIdentity&) const = default;
   std::string text() const;  ///< for a key
@@ -28,10 +29,10 @@ struct OwnIdentity {
   }
 };
 
-/// The identity of this process. Throws Error(kInternal) if a file of ours is not there.
+/// The identity of this process, found once in some milliseconds. Throws Error(kInternal) if a file of ours is missing.
 const OwnIdentity& own_identity();
 
-/// The files that own_identity().libraries is of.
+/// The files that own_identity().libraries hashes.
 const Content& own_libraries();
 
 /// A few words for each difference: "libm: other results", "libraries: other files".

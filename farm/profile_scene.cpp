@@ -23,7 +23,7 @@ void require_index(const char* what, int index, std::size_t count) {
                                          what, index, count - 1));
 }
 
-/// The diffuse base under one light, as the mean of R, G and B; 0 where the light does not reach.
+/// The diffuse base under one light, as the mean of R, G and B; 0 in shadow.
 std::vector<double> diffuse_radiance(const Scene& scene, int light, int sphere) {
   const Rgb albedo = scene.materials.at(std::size_t(scene.spheres.at(std::size_t(sphere)).material))
                          .diffuse_reflectance;
@@ -39,15 +39,15 @@ std::vector<double> diffuse_radiance(const Scene& scene, int light, int sphere) 
   return radiance;
 }
 
-/// The line in which the picture shows the plane of incidence, towards the light. It goes through the eye, the
-/// sphere's centre and the light, for by symmetry the highlight's middle lies between the last two.
+/// The direction on the film of the plane of incidence, towards the light. The plane contains the eye, the sphere's centre
+/// and the light: by symmetry the highlight's middle lies in it.
 std::optional<FilmPoint> plane_of_incidence(const Scene& scene, int light, int sphere) {
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
   const Vec3 centre = scene.spheres.at(std::size_t(sphere)).center;
   const Vec3 to_eye = normalize(frame.origin - centre);
   const Vec3 to_light = illuminate(scene.lights.at(std::size_t(light)), centre).to_light;
   const Vec3 normal = cross(to_eye, to_light);
-  // Nearer to one line than the rounding of its own places.
+  // The three points lie on a line, within rounding.
   if (!(length(normal) > 1e-9)) return std::nullopt;
   const double x = dot(normal, frame.up), y = dot(normal, frame.right), size = std::hypot(x, y);
   if (!(size > 0)) return std::nullopt;
@@ -87,8 +87,7 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere,
                                                 name, image->width(), image->height(),
                                                 scene.film.width, scene.film.height));
 
-  // What the other lights add, by the formula, is taken out of every picture: the curve is of one
-  // highlight.
+  // Subtracts the formula's value for the other lights from every picture: the curve is for one highlight.
   Scene one_light = scene;
   one_light.lights = {scene.lights[std::size_t(light)]};
   const Image analytic = analytic_image(one_light, sphere);
@@ -134,7 +133,7 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere,
       profile_record(profile, light, sphere, reflection ? "reflection" : "half_vector");
   if (has_highlight(material)) {
     record.lobe = highlight_record(highlight);
-    // As the mean of R, G and B, where it is largest in the lobe.
+    // Means of R, G and B, at their largest in the lobe.
     double peak = 0, of_diffuse = 0, of_others = 0;
     for (std::size_t i = 0; i < map.angle.size(); ++i) {
       if (!(map.angle[i] < geometry.ends.back())) continue;

@@ -1,4 +1,4 @@
-// A scene's highlight profile: the scene gives each pixel its angle, the formula its truth.
+// The profile of a scene's highlight, in pictures and by the formula.
 #pragma once
 
 #include "compare/profile/profile.hpp"
@@ -12,14 +12,14 @@ namespace lobelia {
 /// In double, apart from the renderer's kernels.
 Image analytic_image(const Scene& scene, int sphere);
 
-/// The record of the highlight of `light` on `sphere` in those pictures. First it subtracts what other lights add by the
-/// formula. The formula comes first as "analytic"; differences are of the first picture from each other one, and of each
-/// from the formula. Throws Error(kInput) if there is no such light or sphere, if a single ray a pixel does not tell the
-/// scene, or if a picture has not the size of the film.
+/// The record of the highlight of `light` on `sphere` in these pictures, after subtracting the formula's value for the other
+/// lights. The formula comes first, as "analytic"; differences are those of the first picture from each other one, and of
+/// each from the formula. Throws Error(kInput) if there is no such light or sphere, if the scene needs more than a single ray
+/// a pixel, or if a picture's size is not the film's.
 records::Profile profile_scene(const Scene& scene, int light, int sphere,
                                const NamedImages& images);
 
-/// (sphere, light) for every sphere with a highlight and every light, shown or not. Throws as profile_scene().
+/// (sphere, light) for every sphere with a highlight and every light, visible or not. Throws as profile_scene().
 std::vector<std::pair<int, int>> highlights_of(const Scene& scene);
 
 }  // namespace lobelia

@@ -11,10 +11,7 @@
 #include <ctime>
 #include <random>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/text.hpp"
-#include "farm/cache_layout.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
@@ -25,8 +22,13 @@ constexpr std::uint64_t kUseLock = ~std::uint64_t{0};
 constexpr std::uint64_t kMaxLogBytes = 64 << 20;
 constexpr std::time_t kTouchAfterSeconds = 24 * 60 * 60;
 
-std::uint64_t number_of(const ResultKey& key) { return std::hash<ResultKey>()(key); }
-std::uint64_t number_of(const std::string& name) { return number_of(result_key({name})); }
+/// The number of a result's or a draft's lock.
+std::uint64_t lock_number(const ResultKey& key) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, key.digest.data(), sizeof value);
+  return value;
+}
+std::uint64_t lock_number(const std::string& name) { return lock_number(result_key({name})); }
 
 std::int64_t modified(const struct stat& status) {
   return std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
@@ -37,14 +39,13 @@ std::int64_t modified(const struct stat& status) {
               fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error)));
 }
 
-/// Whoever is killed while it writes leaves nothing but a draft: nowhere else are there half-written files, and no
-/// other farm has to tell whose they are.
+/// Files are written in a draft first: a killed process leaves half-written files nowhere else.
 void move(const fs::path& from, const HeldDirectory& to, const std::string& name) {
   if (::renameat(AT_FDCWD, from.c_str(), to.fd(), name.c_str()) != 0)
     fail(to.path() / name, "write", errno);
 }
 
-/// The pictures of a record, which its times and hosts are no part of.
+/// Names and hashes of a result's pictures, without times and hosts.
 std::vector<std::pair<std::string, std::string>> pictures(const records::Result& record) {
   std::vector<std::pair<std::string, std::string>> found;
   for (const auto& file : record.files)
@@ -59,7 +60,7 @@ std::string damage_of(const fs::path& path, const records::ResultFile& file,
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return "is missing";
   if (std::uint64_t(status.st_size) != file.bytes) return "has another size";
-  // Compared for equality alone: a clock may have been set back since.
+  // Not compared for order: a clock may have been set back since.
   if (look == ResultCache::Look::kQuick && file.modified == modified(status)) return "";
   return hex(sha256_of_file(path)) == file.sha256 ? "" : "has another content";
 }
@@ -69,19 +70,14 @@ fs::path on_shelf(const char* part, const ResultKey& key, const char* ending = "
   return fs::path(part) / text.substr(0, 2) / (text + ending);
 }
 
-/// The keys of entries KEY and KEY.json in the directories below this one.
-std::vector<ResultKey> keys_on_shelves(const HeldDirectory& directory) {
-  std::vector<ResultKey> keys;
-  for (const std::string& shelf : directory.names()) {
-    if (!is_cache_shelf(shelf)) continue;
-    for (const std::string& name : directory.below(shelf).names()) {
-      ResultKey key;
-      const fs::path path = name;
-      if (path.extension() != ".log" && from_hex(path.stem().native(), key.digest))
-        keys.push_back(key);
-    }
+/// Throws Error(kOutput) if the draft was removed.
+std::string hash_of_output(const fs::path& file) {
+  try {
+    return hex(sha256_of_file(file));
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInput) throw;
+    throw Error(ExitCode::kOutput, error.what());
   }
-  return keys;
 }
 
 }  // namespace
@@ -91,7 +87,7 @@ ResultDraft::~ResultDraft() {
   try {
     Removal(directory_.parent_path().parent_path(), cache_ownership())
         .remove(directory_.parent_path().filename() / directory_.filename());
-  } catch (const Error&) {  // stays, for the next farm to remove
+  } catch (const Error&) {  // the next farm removes it
   }
 }
 
@@ -109,7 +105,7 @@ ResultCache::ResultCache(fs::path directory, Opening opening)
   if (opening == Opening::kMake && !fs::exists(directory_ / kCacheMarkerFile, ignored)) draft();
 }
 
-/// Made again if it was lost.
+/// The cache's directory; makes it again if it was lost.
 HeldDirectory ResultCache::root() const {
   HeldDirectory held(directory_);
   if (!held) {
@@ -133,7 +129,14 @@ fs::path ResultCache::failure_file(const ResultKey& key, const char* ending) con
 }
 
 std::vector<ResultKey> ResultCache::list() const {
-  return keys_on_shelves(HeldDirectory(directory_).below("results"));
+  std::vector<ResultKey> keys;
+  const HeldDirectory results = HeldDirectory(directory_).below("results");
+  for (const std::string& shelf : results.names()) {
+    if (!is_cache_shelf(shelf)) continue;
+    for (const std::string& name : results.below(shelf).names())
+      if (ResultKey key; from_hex(name, key.digest)) keys.push_back(key);
+  }
+  return keys;
 }
 
 bool ResultCache::has(const ResultKey& key) const {
@@ -142,39 +145,29 @@ bool ResultCache::has(const ResultKey& key) const {
          ::access(file(key, kManifestFile).c_str(), F_OK) == 0;
 }
 
-std::optional<records::Result> ResultCache::find(const ResultKey& key, Look look) const {
-  std::string ignored;
-  return find(key, look, ignored);
-}
-
 std::optional<records::Result> ResultCache::find(const ResultKey& key, Look look,
-                                                 std::string& why_not) const {
-  why_not = "missing";
-  if (!has(key)) {
-    if (::access(result_directory(key).c_str(), F_OK) == 0) why_not = "damaged: it has no record";
+                                                 std::string* why_not) const {
+  const auto no_result = [&](const std::string& why) {
+    if (why_not) *why_not = why;
     return std::nullopt;
-  }
+  };
+  if (!has(key))
+    return no_result(::access(result_directory(key).c_str(), F_OK) == 0
+                         ? "damaged: it has no record"
+                         : "missing");
   if (look == Look::kName) return records::Result();
   try {
     auto record = records::read_record<records::Result>(file(key, kManifestFile));
-    if (record.key != key.text()) {
-      why_not = "damaged: its record is of another result";
-      return std::nullopt;
-    }
-    for (const auto& one : record.files) {
-      const std::string damage = damage_of(file(key, one.name), one, look);
-      if (damage.empty()) continue;
-      why_not = fmt::format("damaged: {} {}", one.name, damage);
-      return std::nullopt;
-    }
-    why_not.clear();
+    if (record.key != key.text()) return no_result("damaged: its record is of another result");
+    for (const auto& one : record.files)
+      if (const std::string damage = damage_of(file(key, one.name), one, look); !damage.empty())
+        return no_result(fmt::format("damaged: {} {}", one.name, damage));
     return record;
   } catch (const Error& error) {
     // Too little memory or too many open files: the result may well be whole.
     if (error.code() != ExitCode::kInput) throw;
-    why_not = fmt::format("damaged: {}", error.what());
+    return no_result(fmt::format("damaged: {}", error.what()));
   }
-  return std::nullopt;
 }
 
 std::string ResultCache::new_draft_name() const {
@@ -184,14 +177,14 @@ std::string ResultCache::new_draft_name() const {
 
 ResultDraft ResultCache::draft() const {
   const std::string name = new_draft_name();
-  auto alive = locks_.try_claim(number_of(name));
+  auto alive = locks_.try_claim(lock_number(name));
   const fs::path directory = directory_ / "making" / name;
   if (!alive) fail(directory, "make the directory", EBUSY);
   const HeldDirectory held = root();
   require_cache(held);
   for (int attempt = 0;; ++attempt) {
     if (::mkdirat(held.make_below("making").fd(), name.c_str(), 0777) == 0) break;
-    // It was taken away at the same moment.
+    // ENOENT: making/ was removed at the same moment.
     if (errno != ENOENT || attempt == 3) fail(directory, "make the directory", errno);
   }
   ResultDraft made{directory, std::move(*alive)};
@@ -202,18 +195,6 @@ ResultDraft ResultCache::draft() const {
   return made;
 }
 
-namespace {
-/// Throws Error(kOutput) if somebody took the draft away.
-std::string hash_of_output(const fs::path& file) {
-  try {
-    return hex(sha256_of_file(file));
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kInput) throw;
-    throw Error(ExitCode::kOutput, error.what());
-  }
-}
-}  // namespace
-
 Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key,
                                  records::Result record) const {
   record.key = key.text();
@@ -221,7 +202,7 @@ Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key,
   for (const std::string& name : draft.files_) {
     const fs::path path = draft.directory() / name;
     struct stat status {};
-    // Read-only, because a farm's directories link to it: who edits a picture there means a copy.
+    // Read-only, because the files under cells/ are links to it: nobody edits a result by accident.
     if (::chmod(path.c_str(), 0444) != 0 || ::stat(path.c_str(), &status) != 0)
       fail(path, "write", errno);
     record.files.push_back(
@@ -232,8 +213,7 @@ Publication ResultCache::publish(ResultDraft& draft, const ResultKey& key,
   const fs::path target = result_directory(key);
   const HeldDirectory to = shelf("results", key);
   for (int attempt = 0;; ++attempt) {
-    // A directory replaces none that has something in it, and nothing that is none: the first one stays,
-    // whoever comes later.
+    // rename() replaces only an empty directory: the first result stays.
     if (::renameat(AT_FDCWD, draft.directory().c_str(), to.fd(), key.text().c_str()) == 0) break;
     const int error = errno;
     if (error != ENOTEMPTY && error != EEXIST && error != ENOTDIR) fail(target, "write", error);
@@ -260,12 +240,12 @@ void ResultCache::discard(const ResultKey& key) const {
 
 bool ResultCache::discard(const ResultKey& key, Removal& removal) const {
   const std::string name = new_draft_name();
-  const auto alive = locks_.try_claim(number_of(name));
+  const auto alive = locks_.try_claim(lock_number(name));
   return removal.remove_at_once(on_shelf("results", key), fs::path("making") / name);
 }
 
 std::optional<ByteLocks::Claim> ResultCache::try_claim(const ResultKey& key) const {
-  return locks_.try_claim(number_of(key));
+  return locks_.try_claim(lock_number(key));
 }
 
 bool ResultCache::is_in_use() const { return locks_.is_claimed(kUseLock); }
@@ -312,10 +292,6 @@ std::optional<records::Failure> ResultCache::failure(const ResultKey& key) const
   }
 }
 
-std::vector<ResultKey> ResultCache::failures() const {
-  return keys_on_shelves(HeldDirectory(directory_).below("failures"));
-}
-
 void ResultCache::forget_failure(const ResultKey& key) const {
   for (const char* ending : {".json", ".log"}) {
     if (::access(failure_file(key, ending).c_str(), F_OK) != 0) continue;
@@ -333,7 +309,7 @@ void ResultCache::keep_content(const Content& content) const {
     ResultDraft made = draft();
     records::write_record(made.file("json"), content);
     move(made.file("json"), root().make_below("contents"), name);
-  } catch (const Error&) {  // one that may only be read stays as it is
+  } catch (const Error&) {  // a read-only cache
   }
 }
 
@@ -350,21 +326,21 @@ void ResultCache::forget_failure(const ResultKey& key, Removal& removal) const {
   for (const char* ending : {".json", ".log"}) removal.remove(on_shelf("failures", key, ending));
 }
 
-/// `claim` gets its lock where that tells; to be held while it is removed.
+/// `claim` gets the draft's lock if that could be taken, to be held while the draft is removed.
 Life ResultCache::life_of_draft(const std::string& name,
                                 std::optional<ByteLocks::Claim>& claim) const {
   const auto take_claim = [&] {
-    if (auto taken = locks_.try_claim(number_of(name))) claim.emplace(std::move(*taken));
+    if (auto taken = locks_.try_claim(lock_number(name))) claim.emplace(std::move(*taken));
     return claim ? Life::kDead : Life::kAlive;
   };
   const auto draft = DraftName::parse(name);
   if (!draft) return locks_.works() ? take_claim() : Life::kUnknown;
   if (draft->maker == self_) return Life::kAlive;
-  // Whoever holds its lock lives, whatever the rest says.
+  // A lock that is held proves that its holder lives.
   const bool has_our_locks = locks_.works() && draft->locks_inode == locks_.inode();
   if (has_our_locks && take_claim() == Life::kAlive) return Life::kAlive;
   if (const Life life = life_of(draft->maker, self_); life != Life::kUnknown) return life;
-  // One kernel's processes see each other's locks in any case.
+  // Locks are always shared between processes of one kernel.
   return has_our_locks && (draft->maker.boot == self_.boot || lock_sharing().shared)
              ? Life::kDead
              : Life::kUnknown;
@@ -389,8 +365,7 @@ void ResultCache::touch(const ResultKey& key) const {
   if (::stat(directory.c_str(), &status) != 0) return;
   const std::time_t age = std::time(nullptr) - status.st_mtim.tv_sec;
   if (age >= 0 && age < kTouchAfterSeconds) return;
-  ::utimensat(AT_FDCWD, directory.c_str(), nullptr,
-              0);  // a cache that may only be read stays as it is
+  ::utimensat(AT_FDCWD, directory.c_str(), nullptr, 0);  // fails in a read-only cache
 }
 
 }  // namespace lobelia

@@ -1,35 +1,28 @@
 // Results by the hash of what decides them: a directory that farms share, also at once and from several machines.
 //
-//   CACHE/lobelia-cache             says that it is one, and of which layout
+//   CACHE/lobelia-cache             marks a cache, and names its layout
 //   CACHE/results/ab/KEY/           one result: its files and result.json, renamed into place as a whole
-//   CACHE/failures/ab/KEY.json      why there is none, and KEY.log beside it
+//   CACHE/failures/ab/KEY.json      why there is no result, and KEY.log beside it
 //   CACHE/contents/SHA256.json      the files of a program that made results
-//   CACHE/making/                   results in the making (draft_name.hpp)
+//   CACHE/making/                   results in the making (DraftName)
 //   CACHE/locks                     claims (core/byte_locks.hpp)
 //
-// docs/decisions/0014 says why each result has a directory, 0019 how lost results come back. No symbolic link among
-// these is followed.
+// Symbolic links among these are not followed. docs/decisions/0014: why directories; 0019: how lost results come back.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <optional>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "farm/cache_layout.hpp"
-#include "farm/draft_name.hpp"
-#include "farm/result_key.hpp"
+#include "farm/job.hpp"
 #include "reference_scenes/content.hpp"
 
 namespace lobelia {
 
 inline constexpr char kManifestFile[] = "result.json";
 
-/// A result in the making: a directory for its files. Removed with all of them unless it is published.
+/// A result in the making: a directory for its files, which is removed unless it is published.
 class ResultDraft {
  public:
   ResultDraft(ResultDraft&& other) noexcept
@@ -39,12 +32,12 @@ class ResultDraft {
   ResultDraft& operator=(ResultDraft&&) = delete;
   ~ResultDraft();
   const std::filesystem::path& directory() const { return directory_; }
-  /// The path for a file of the result. Every file that was asked for must be there to publish it.
+  /// The path for a file of the result. Publishing needs every file that was asked for.
   std::filesystem::path file(const std::string& name) {
     files_.insert(name);
     return directory_ / name;
   }
-  /// False if somebody took it away.
+  /// False if it was removed.
   bool is_there() const;
 
  private:
@@ -58,20 +51,20 @@ class ResultDraft {
 
 enum class Publication {
   kNew,
-  kThere,      ///< another one was there first, with the same pictures; that one stays
-  kDifferent,  ///< likewise, with other pictures: their maker is not deterministic
+  kThere,      ///< an earlier result with the same pictures stays
+  kDifferent,  ///< an earlier result with other pictures stays: its maker is not deterministic
 };
 
 struct AbandonedDrafts {
   std::size_t removed = 0;
-  std::size_t others = 0;  ///< this machine cannot tell whether their makers live; they stay
+  std::size_t others = 0;  ///< kept: this machine cannot tell whether their makers live
 };
 
 class ResultCache {
  public:
   using Opening = ByteLocks::Opening;
-  /// Makes what is missing, except with kLook. Throws Error(kOutput) if that fails or a part is a symbolic link,
-  /// Error(kInput) if something else is there, or a cache of another layout. It may be read-only.
+  /// Makes missing parts, except with kLook. Throws Error(kOutput) if that fails or a part is a symbolic link, Error(kInput)
+  /// if the directory is no cache, or has another layout. A cache may be read-only.
   explicit ResultCache(std::filesystem::path directory, Opening opening = Opening::kMake);
 
   const std::filesystem::path& directory() const { return directory_; }
@@ -80,38 +73,37 @@ class ResultCache {
     return result_directory(key) / name;
   }
 
-  /// Every result by its name, in no order. Does not look inside.
+  /// Every result by its name, in no order, without a look inside.
   std::vector<ResultKey> list() const;
   bool has(const ResultKey& key) const;
 
   enum class Look {
-    kName,      ///< it is believed by its name; its record has nothing in it
-    kQuick,     ///< files must have the size and time of change that the record says
-    kThorough,  ///< every byte is read again
+    kName,      ///< its name is enough; the record is empty
+    kQuick,     ///< files must have the recorded size and time of change
+    kThorough,  ///< reads every byte
   };
-  /// The record of the result; empty if it is missing or a file of it is damaged.
-  std::optional<records::Result> find(const ResultKey& key, Look look = Look::kQuick) const;
-  std::optional<records::Result> find(const ResultKey& key, Look look, std::string& why_not) const;
+  /// The record of the result; empty if it is missing or one of its files is damaged: `why_not` gets the reason.
+  std::optional<records::Result> find(const ResultKey& key, Look look = Look::kQuick,
+                                      std::string* why_not = nullptr) const;
 
   /// Throws Error(kOutput).
   ResultDraft draft() const;
-  /// Adds the list of files to `record`, writes it and renames all into place. Throws Error(kOutput), also if somebody
-  /// took one of the files away.
+  /// Writes `record` with the list of files, and renames all into place. Throws Error(kOutput), also for a lost file.
   Publication publish(ResultDraft& draft, const ResultKey& key, records::Result record) const;
 
-  /// Removes drafts, results and kept failures; nothing while the marker is missing.
+  /// Removes drafts, results and failures; nothing while the marker is missing.
   Removal removal(Removal::Mode mode = Removal::Mode::kForReal) const;
-  /// Takes a result away, at once for everyone. Throws Error(kOutput) if it stays.
+  /// Removes a result, at once for everyone. Throws Error(kOutput) if it stays.
   void discard(const ResultKey& key) const;
   bool discard(const ResultKey& key, Removal& removal) const;
 
-  /// For as long as a result is being made; none while someone else makes it.
+  /// To be held while a result is made; empty while another process makes it.
   std::optional<ByteLocks::Claim> try_claim(const ResultKey& key) const;
-  /// Whether a farm uses it, without keeping anybody from it.
+  /// Whether a farm uses the cache; takes no lock.
   bool is_in_use() const;
-  /// For who uses the cache (shared), or takes results away that others may need (not shared).
+  /// To be held by users of the cache (shared), or to remove results that others may need (not shared).
   std::optional<ByteLocks::Claim> try_use(bool shared) const;
-  /// Shared; Error(kOutput) while somebody takes results away.
+  /// Shared; throws Error(kOutput) while results are being removed.
   ByteLocks::Claim use() const;
 
   void keep_failure(const ResultKey& key, const records::Failure& record,
@@ -119,7 +111,6 @@ class ResultCache {
   /// Empty if there is none.
   std::filesystem::path failure_log(const ResultKey& key) const;
   std::optional<records::Failure> failure(const ResultKey& key) const;
-  std::vector<ResultKey> failures() const;  ///< in no order
   void forget_failure(const ResultKey& key) const;
   void forget_failure(const ResultKey& key, Removal& removal) const;
 
@@ -127,7 +118,7 @@ class ResultCache {
   void keep_content(const Content& content) const;
   std::optional<Content> content(const std::string& sha256) const;
 
-  /// Removes drafts that nobody works on any more. To be called before this object has any.
+  /// Removes the drafts of dead processes. To be called before this object has drafts.
   AbandonedDrafts remove_abandoned() const {
     Removal removing = removal();
     return remove_abandoned(removing);
@@ -136,7 +127,7 @@ class ResultCache {
   /// Whether other machines see this one's locks.
   LockSharing lock_sharing() const { return locks_.sharing(); }
 
-  /// For gc: the result was used today.
+  /// Marks the result as used today, for gc.
   void touch(const ResultKey& key) const;
 
  private:

@@ -6,30 +6,21 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <map>
-#include <mutex>
-#include <set>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
-#include "core/interrupt.hpp"
-#include "core/removal.hpp"
-#include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "farm/cell_directory.hpp"
 #include "farm/failed_jobs.hpp"
-#include "farm/result_cache.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-/// Opens what a result's file should be, whose hash is right; empty if it is.
+/// Why a file with the right hash cannot be opened as a picture or a record; empty if it can.
 std::string why_not_readable(const fs::path& file) {
   try {
     const std::string name = file.filename().string();
@@ -69,17 +60,16 @@ void in_parallel(std::size_t count, const OnProgress& on_progress, F f) {
   });
 }
 
-/// The time of the last change, for an order.
+/// The time of the last change, to sort by.
 std::pair<std::int64_t, std::int64_t> changed(const fs::path& path) {
   struct stat status {};
   ::stat(path.c_str(), &status);
   return {status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
-/// Every path below a farm's directory that it or its gallery may have written, and that clean may take away.
+/// Whether a path below a farm's directory may be removed: the farm or its gallery may have written it.
 Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_gallery) {
-  std::vector<std::string> parts;
-  for (const fs::path& part : relative) parts.push_back(part.string());
+  const std::vector<std::string> parts(relative.begin(), relative.end());
   const std::string& name = parts.back();
   if (parts.size() == 1 && (name == "farm.json" || is_part_name(name))) return Owned::kFile;
   if (parts[0] == FailedJobs::kName && parts.size() <= 3)
@@ -91,7 +81,7 @@ Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_ga
              : Owned::kNo;
 }
 
-/// The files that a gallery in the farm's directory says it wrote.
+/// The files listed in the gallery.json of a gallery in the farm's directory.
 std::set<std::string> files_of_gallery(const fs::path& directory) {
   const auto text = HeldDirectory(directory).read("gallery.json", records::kMaxRecordBytes);
   if (!text) return {};
@@ -103,7 +93,7 @@ std::set<std::string> files_of_gallery(const fs::path& directory) {
   }
 }
 
-/// For a farm's directory with a record that can be read.
+/// Removes only while farm.json is there.
 Removal removal_from_farm(const fs::path& directory, bool dry_run) {
   return Removal(directory,
                  {[](const HeldDirectory& root) {
@@ -115,7 +105,7 @@ Removal removal_from_farm(const fs::path& directory, bool dry_run) {
                  dry_run ? Removal::Mode::kDryRun : Removal::Mode::kForReal);
 }
 
-/// Throws Error(kOutput) for anything else, such as a link.
+/// Throws Error(kOutput) for anything but a directory, such as a link.
 HeldDirectory there_or_missing(HeldDirectory directory) {
   if (!directory && !directory.is_missing())
     throw Error(ExitCode::kOutput,
@@ -129,7 +119,7 @@ std::vector<std::string> sentences(const std::vector<Removal::Kept>& kept) {
   return found;
 }
 
-/// Differences between a cell's record and its files.
+/// The files of a cell, compared with its record.
 struct CellFindings {
   std::vector<std::pair<std::string, std::string>> damaged;  ///< file and why
   std::set<ResultKey> missing;
@@ -170,6 +160,13 @@ CellFindings look_at_cell(const HeldDirectory& cell, const ResultCache* cache) {
 
 }  // namespace
 
+records::StatusCounts count_statuses(const std::vector<std::string>& statuses) {
+  std::map<std::string, std::size_t> counts;
+  for (const std::string& status : statuses) ++counts[status];
+  return {counts["failed"],  counts["differs"],   counts["undecided"],
+          counts["missing"], counts["unchecked"], counts["pass"]};
+}
+
 CachePlace cache_of(const fs::path& path) {
   std::error_code ignored;
   if (is_cache(path)) return {path, true, false};
@@ -186,15 +183,14 @@ CachePlace cache_of(const fs::path& path) {
 
 VerifyReport verify_cache(const fs::path& directory, bool remove, const OnProgress& on_progress) {
   const ResultCache cache(directory, ResultCache::Opening::kLook);
-  std::vector<ResultKey> keys = cache.list();
-  std::sort(keys.begin(), keys.end());
+  const std::vector<ResultKey> keys = cache.list();
   VerifyReport report;
   report.results = keys.size();
   std::mutex mutex;
   std::map<ResultKey, std::string> damaged;
   in_parallel(keys.size(), on_progress, [&](std::size_t i) {
     std::string why;
-    const auto record = cache.find(keys[i], ResultCache::Look::kThorough, why);
+    const auto record = cache.find(keys[i], ResultCache::Look::kThorough, &why);
     if (record)
       for (const auto& file : record->files)
         if (const std::string bad = why_not_readable(cache.file(keys[i], file.name)); !bad.empty())
@@ -230,7 +226,7 @@ VerifyReport verify_farm(const fs::path& directory, bool remove, const OnProgres
   std::vector<CellFindings> findings(all.size());
   in_parallel(all.size(), on_progress, [&](std::size_t i) {
     const HeldDirectory cell = cells.below(all[i].id, HeldDirectory::Border::kCross);
-    // One that was never finished has no record, and names nothing.
+    // A cell that was never finished has no record.
     struct stat ignored {};
     const bool has_record =
         cell && ::fstatat(cell.fd(), kCellRecordFile, &ignored, AT_SYMLINK_NOFOLLOW) == 0;
@@ -275,6 +271,7 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
     std::pair<std::int64_t, std::int64_t> used;
     ResultKey key;
     std::uint64_t bytes;
+    auto operator<=>(const Candidate&) const = default;
   };
   std::vector<Candidate> results;
   for (const ResultKey& key : cache.list()) {
@@ -288,9 +285,7 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
     results.push_back({changed(cache.result_directory(key)), key, record->bytes()});
     report.kept_bytes += results.back().bytes;
   }
-  std::sort(results.begin(), results.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.used, a.key) < std::tie(b.used, b.key);
-  });
+  std::ranges::sort(results);
   report.kept = results.size();
   for (const Candidate& one : results) {
     if (!max_bytes || report.kept_bytes <= *max_bytes) break;
@@ -318,8 +313,9 @@ std::uint64_t parse_size(const std::string& text) {
       !std::isdigit(static_cast<unsigned char>(number[number.size() - 2])))
     number.pop_back();
   double scale = 1;
-  if (!number.empty() && std::isalpha(static_cast<unsigned char>(number.back()))) {
-    const auto unit = kUnits.find(char(std::toupper(static_cast<unsigned char>(number.back()))));
+  if (const auto last = static_cast<unsigned char>(number.empty() ? '0' : number.back());
+      std::isalpha(last)) {
+    const auto unit = kUnits.find(char(std::toupper(last)));
     if (unit == kUnits.npos) return fail();
     scale = std::pow(1024.0, double(unit));
     number.pop_back();
@@ -335,9 +331,9 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
   const FarmDirectoryLock alone(
       directory, FarmDirectoryLock::Use::kAlone,
       options.dry_run ? ByteLocks::Opening::kLook : ByteLocks::Opening::kMake);
-  std::set<std::string> ids;  // of the cells that stay
+  std::set<std::string> staying;  // ids of cells
   if (!all)
-    for (const auto& cell : record.cells) ids.insert(cell.id);
+    for (const auto& cell : record.cells) staying.insert(cell.id);
   CleanReport report;
   Removal removal = removal_from_farm(directory, options.dry_run);
   std::size_t paths = 0;
@@ -354,7 +350,7 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
   for (const std::string& id : cells.names()) {
     const fs::path cell = fs::path("cells") / id;
     remove_parts(cell);
-    if (ids.contains(id)) continue;
+    if (staying.contains(id)) continue;
     for (const std::string& name : removal.directory(cell).names())
       if (!is_part_name(name)) removal.remove(cell / name);
     if (removal.remove(cell)) ++report.cells;
@@ -366,7 +362,7 @@ CleanReport clean_farm(const fs::path& directory, bool all, const RemovalOptions
   report.files = paths - directories;
   const fs::path failed = FailedJobs::kName;
   for (const std::string& id : removal.directory(failed).names()) {
-    if (ids.contains(id)) continue;
+    if (staying.contains(id)) continue;
     for (const std::string& job : removal.directory(failed / id).names())
       removal.remove(failed / id / job);
     removal.remove(failed / id);
@@ -381,11 +377,11 @@ records::FarmStatus farm_status(const fs::path& directory) {
   records::FarmStatus record;
   record.title = farm.title;
   record.cells = farm.cells.size();
-  std::map<std::string, std::size_t> counts;
+  std::vector<std::string> statuses;
   for (const auto& [id, status, axes] : farm.cells) {
     throw_if_interrupted();
-    std::string now = status;
-    // The farm's record is as old as its last look; a cell's own is not.
+    std::string& now = statuses.emplace_back(status);
+    // The cell's own record is newer than the farm's.
     const fs::path file = directory / "cells" / id / kCellRecordFile;
     std::error_code ignored;
     if (fs::exists(file, ignored)) {
@@ -395,18 +391,16 @@ records::FarmStatus farm_status(const fs::path& directory) {
         for (const auto& problem : own.problems)
           record.failures.push_back(
               {id, problem.engine, problem.failure, problem.attempts, problem.message});
-      } catch (const std::exception&) {  // being written, or broken: as the farm's record has it
+      } catch (const std::exception&) {  // damaged: the farm's record counts
       }
     }
-    ++counts[now];
   }
-  record.status = {counts["failed"],  counts["differs"],   counts["undecided"],
-                   counts["missing"], counts["unchecked"], counts["pass"]};
+  record.status = count_statuses(statuses);
   const CachePlace place = cache_of(directory);
   try {
     record.at_work =
         place.is_there && ResultCache(place.cache, ResultCache::Opening::kLook).is_in_use();
-  } catch (const Error&) {  // one that cannot be read
+  } catch (const Error&) {  // it cannot be read
   }
   record.cache = place.cache.string();
   record.cache_is_there = place.is_there;

@@ -1,12 +1,10 @@
-// Keeping a cache and a farm's directory in order: what `lobelia farm status`, `verify`, `gc` and `clean` do.
+// Keeping a cache and a farm's directory in order: `lobelia farm status`, `verify`, `gc`, `clean` and `explain`.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "records/farm.hpp"
 
@@ -18,7 +16,7 @@ struct CachePlace {
   bool of_farm = false;  ///< found through a farm's directory
 };
 
-/// The cache at `path`, which is one or a farm's directory. Throws Error(kInput) if it is neither.
+/// The cache at `path`, or that of the farm's directory `path`. Throws Error(kInput) if it is neither.
 CachePlace cache_of(const std::filesystem::path& path);
 
 struct VerifyReport {
@@ -27,20 +25,21 @@ struct VerifyReport {
   std::vector<std::string> damaged;  ///< "KEY (render of n16): lobelia.exr has another content"
   std::size_t missing = 0;           ///< results that a farm's cells name and its cache lacks
 };
-
-/// Compares every file of every result with its hash, and opens every picture and record. With `remove` damaged results
-/// go, and the next farm makes them again. Throws Error(kInterrupted).
 using OnProgress = std::function<void(std::size_t done, std::size_t all)>;
+
+/// Compares every file of every result with its hash, and opens every picture and record. `remove` removes damaged results,
+/// which the next farm makes again. Throws Error(kInterrupted).
 VerifyReport verify_cache(const std::filesystem::path& cache, bool remove,
                           const OnProgress& on_progress);
-/// Likewise the cache of a farm and every file under cells/, by the hashes in the cells' records. With `remove`, throws
+/// Likewise for the cache of a farm and every file under cells/, by the hashes in the cells' records. With `remove`, throws
 /// Error(kOutput) while a farm is at work.
 VerifyReport verify_farm(const std::filesystem::path& directory, bool remove,
                          const OnProgress& on_progress);
 
 struct RemovalOptions {
-  bool dry_run = false;                                          ///< removes and writes nothing
-  std::function<void(const std::filesystem::path&)> on_removed;  ///< every path that (would) go
+  bool dry_run = false;  ///< removes and writes nothing
+  std::function<void(const std::filesystem::path&)>
+      on_removed;  ///< gets every path that goes, or would go
 };
 
 struct GcReport {
@@ -50,8 +49,8 @@ struct GcReport {
   std::vector<std::string> stays;  ///< "PATH: why it cannot be removed"
 };
 
-/// Removes what killed farms left half-made, failures of results that are there, and the least recently used results
-/// until the rest is at most `max_bytes`. Throws Error(kOutput) while a farm uses the cache.
+/// Removes drafts of killed farms, failures of results that are there, and the least recently used results until the rest has
+/// at most `max_bytes`. Throws Error(kOutput) while a farm uses the cache.
 GcReport collect_garbage(const std::filesystem::path& cache, std::optional<std::uint64_t> max_bytes,
                          const RemovalOptions& options = {});
 
@@ -60,15 +59,24 @@ std::uint64_t parse_size(const std::string& text);
 
 struct CleanReport {
   std::size_t cells = 0, files = 0;
-  std::vector<std::string> stays;  ///< "PATH: why": what no farm and no gallery wrote
+  std::vector<std::string> stays;  ///< "PATH: why", for files that no farm and no gallery wrote
 };
 
-/// Removes cells that are not of the farm's grid and what killed farms left; with `all` every cell and the record.
+/// Removes cells that are not of the farm's grid, and temporary files of killed farms; with `all` every cell and the record.
 /// Throws Error(kInput) if it is no farm's directory, Error(kOutput) while a farm is at work there.
 CleanReport clean_farm(const std::filesystem::path& directory, bool all,
                        const RemovalOptions& options = {});
 
+/// How many cells have each status.
+records::StatusCounts count_statuses(const std::vector<std::string>& statuses);
+
 /// The state of every cell. May be called while a farm is running there.
 records::FarmStatus farm_status(const std::filesystem::path& directory);
+
+/// The parts of the keys of a cell's results, or only of `job` ("reference-povray"), and which have changed. Engines are those
+/// in $PATH, or at `programs`. Writes nothing. Throws Error(kInput) if there is no such farm, cell or job.
+records::FarmExplanation explain_cell(const std::filesystem::path& directory,
+                                      const std::string& cell, const std::string& job,
+                                      const std::map<std::string, std::filesystem::path>& programs);
 
 }  // namespace lobelia

@@ -84,7 +84,7 @@ void check_cache(const std::map<std::string, std::string>& files, bool seal) {
                 seal ? sealed(record->second, directory, key.text().c_str()) : record->second);
   for (const auto look : {ResultCache::Look::kQuick, ResultCache::Look::kThorough}) {
     std::string why_not;
-    const auto found = cache.find(key, look, why_not);
+    const auto found = cache.find(key, look, &why_not);
     if (found.has_value() != why_not.empty())
       throw std::logic_error("a result is refused without a word, or accepted with one");
     if (found && found->key != key.text()) throw std::logic_error("a result of another key");

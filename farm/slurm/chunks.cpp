@@ -1,9 +1,8 @@
-#include "farm/slurm/chunks.hpp"
+#include "farm/slurm/slurm_run.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <queue>
 
 namespace lobelia {
@@ -20,32 +19,27 @@ double seconds_of(const SlurmJob& job) {
   return std::fmin(std::fmax(job.seconds, 1e-3), 1e7);
 }
 
-/// A batch, its jobs longest first.
-struct Batch {
-  std::vector<std::size_t> jobs;
-  double seconds = 0;
-};
+bool costs_more(const Chunk& a, const Chunk& b) { return a.seconds > b.seconds; }
 
-std::vector<Batch> batches_of(std::span<const SlurmJob> jobs) {
+/// The jobs of each batch, longest first; the costliest batch first.
+Chunks batches_of(std::span<const SlurmJob> jobs) {
   std::map<std::string_view, std::size_t> index;
-  std::vector<Batch> batches;
+  Chunks batches;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const auto [at, added] = index.try_emplace(jobs[i].batch, batches.size());
     if (added) batches.emplace_back();
     batches[at->second].jobs.push_back(i);
     batches[at->second].seconds += seconds_of(jobs[i]);
   }
-  for (Batch& batch : batches)
-    std::stable_sort(batch.jobs.begin(), batch.jobs.end(), [&](std::size_t a, std::size_t b) {
-      return seconds_of(jobs[a]) > seconds_of(jobs[b]);
-    });
-  std::stable_sort(batches.begin(), batches.end(),
-                   [](const Batch& a, const Batch& b) { return a.seconds > b.seconds; });
+  for (Chunk& batch : batches)
+    std::ranges::stable_sort(batch.jobs, std::greater<>(),
+                             [&](std::size_t job) { return seconds_of(jobs[job]); });
+  std::ranges::stable_sort(batches, costs_more);
   return batches;
 }
 
-/// Over `count` chunks, longest job first onto the lightest chunk.
-Chunks spread(const Batch& batch, std::size_t count, std::span<const SlurmJob> jobs) {
+/// Spreads a batch over `count` chunks: longest job first, onto the lightest chunk.
+Chunks spread(const Chunk& batch, std::size_t count, std::span<const SlurmJob> jobs) {
   using Load = std::pair<double, std::size_t>;
   std::priority_queue<Load, std::vector<Load>, std::greater<>> lightest;
   for (std::size_t i = 0; i < count; ++i) lightest.emplace(0.0, i);
@@ -60,46 +54,43 @@ Chunks spread(const Batch& batch, std::size_t count, std::span<const SlurmJob> j
   return chunks;
 }
 
-void merge(Chunk& into, Chunk& from) {
+void merge(Chunk& into, const Chunk& from) {
   into.jobs.insert(into.jobs.end(), from.jobs.begin(), from.jobs.end());
   into.seconds += from.seconds;
 }
 
-/// No chunk below `least`, but for a single one: the lightest goes into the next.
+/// Merges the lightest chunk into the next until none is below `least`, or one is left.
 void merge_light(Chunks& chunks, double least) {
-  const auto heavier = [](const Chunk& a, const Chunk& b) { return a.seconds > b.seconds; };
-  std::stable_sort(chunks.begin(), chunks.end(), heavier);
+  std::ranges::stable_sort(chunks, costs_more);
   while (chunks.size() > 1 && chunks.back().seconds < least) {
-    Chunk light = std::move(chunks.back());
+    const Chunk light = std::move(chunks.back());
     chunks.pop_back();
     Chunk next = std::move(chunks.back());
     chunks.pop_back();
     merge(next, light);
-    chunks.insert(std::upper_bound(chunks.begin(), chunks.end(), next, heavier), std::move(next));
+    chunks.insert(std::ranges::upper_bound(chunks, next, costs_more), std::move(next));
   }
 }
 
-Chunks chunks_of_size(const std::vector<Batch>& batches, double size, double least,
+Chunks chunks_of_size(const Chunks& batches, double size, double least,
                       std::span<const SlurmJob> jobs) {
   Chunks chunks, shared;
-  for (const Batch& batch : batches) {  // costliest first
+  for (const Chunk& batch : batches) {
     if (batch.seconds >= size) {
       const auto count = std::min(std::size_t(batch.seconds / size + 1e-9), batch.jobs.size());
       Chunks own = spread(batch, std::max<std::size_t>(count, 1), jobs);
       merge_light(own, least);
-      std::move(own.begin(), own.end(), std::back_inserter(chunks));
+      std::ranges::move(own, std::back_inserter(chunks));
       continue;
     }
-    const auto room = std::find_if(shared.begin(), shared.end(), [&](const Chunk& chunk) {
-      return chunk.seconds + batch.seconds <= size;
-    });
-    Chunk whole{batch.jobs, batch.seconds};
+    const auto room = std::ranges::find_if(
+        shared, [&](const Chunk& chunk) { return chunk.seconds + batch.seconds <= size; });
     if (room == shared.end())
-      shared.push_back(std::move(whole));
+      shared.push_back(batch);
     else
-      merge(*room, whole);
+      merge(*room, batch);
   }
-  std::move(shared.begin(), shared.end(), std::back_inserter(chunks));
+  std::ranges::move(shared, std::back_inserter(chunks));
   merge_light(chunks, least);
   return chunks;
 }
@@ -115,21 +106,21 @@ double cost_of(std::span<const SlurmJob> jobs, std::span<const std::size_t> chun
 std::vector<std::vector<std::size_t>> make_chunks(std::span<const SlurmJob> jobs,
                                                   const ChunkRule& rule) {
   if (jobs.empty()) return {};
-  const std::vector<Batch> batches = batches_of(jobs);
+  const Chunks batches = batches_of(jobs);
   double total = 0;
-  for (const Batch& batch : batches) total += batch.seconds;
+  for (const Chunk& batch : batches) total += batch.seconds;
   const std::size_t most = std::max<std::size_t>(rule.most_chunks, 1);
   const double wanted = double(std::max<std::size_t>(rule.slots * rule.chunks_per_slot, 1));
   double size = std::max(
       {std::min(rule.target_seconds, total / wanted), rule.least_seconds, total / double(most)});
   Chunks chunks = chunks_of_size(batches, size, rule.least_seconds, jobs);
-  while (chunks.size() > most) {  // many batches, each with a chunk that is not full
+  while (chunks.size() > most) {  // many batches may each leave a chunk that is not full
     size *= 1.25;
     chunks = chunks_of_size(batches, size, rule.least_seconds, jobs);
   }
   std::vector<std::vector<std::size_t>> result;
   for (Chunk& chunk : chunks) {
-    std::sort(chunk.jobs.begin(), chunk.jobs.end());
+    std::ranges::sort(chunk.jobs);
     result.push_back(std::move(chunk.jobs));
   }
   return result;

@@ -1,23 +1,20 @@
 #include "farm/slurm/doctor.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <random>
 #include <thread>
 
 #include "core/byte_locks.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/host.hpp"
-#include "core/interrupt.hpp"
-#include "core/removal.hpp"
+#include "core/process.hpp"
+#include "core/host.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 #include "farm/slurm/slurm_client.hpp"
@@ -34,7 +31,7 @@ constexpr char kToken[] = "token";       // written here, read on the node
 constexpr char kLock[] = "lock";         // held here, tried on the node
 constexpr char kAnswer[] = "node.json";  // written on the node
 
-/// "" or what does not work.
+/// Returns what does not work; empty if all does.
 std::string try_rename(const fs::path& directory) {
   try {
     write_file(directory / "renamed", "old");
@@ -62,21 +59,50 @@ std::string try_link(const fs::path& directory) {
   return "";
 }
 
-/// The client holds it: whoever gets it too is not asked in earnest.
+/// The client holds this lock, so it must not be granted here.
 std::string try_lock(const fs::path& directory) {
   const ByteLocks locks(HeldDirectory(directory), kLock);
   if (!locks.works()) return "the file system has no locks there";
   return locks.try_claim(0) ? "a lock that another machine holds was given away again" : "";
 }
 
-long long seconds_of(const std::map<std::string, std::string>& config, const char* key) {
-  long long value = -1;
-  const auto at = config.find(key);
-  // "30 sec"
-  if (at == config.end() ||
-      !parse_integer(std::string_view(at->second).substr(0, at->second.find(' ')), value))
-    return -1;
-  return value;
+DoctorCheck machine_check(const char* name, bool ok, const char* if_ok, const char* otherwise,
+                          const char* advice) {
+  if (ok) return {name, CheckVerdict::kOk, if_ok, ""};
+  return {name, CheckVerdict::kWarning, otherwise, advice};
+}
+
+DoctorCheck processes() {
+  ProcessLimits limits;
+  ProcessOptions options;
+  options.on_start = [&](const ProcessLimits& found) { limits = found; };
+  run_process({"/bin/true"}, options);
+  return machine_check(
+      "engines' processes", limits.contained == Containment::kPidNamespace,
+      "a PID namespace for each: none can outlive its farm",
+      "no PID namespace: a subreaper ends them, unless one kills that first",
+      "allow user namespaces (kernel.unprivileged_userns_clone, user.max_user_namespaces)");
+}
+
+DoctorCheck writes() {
+  const TemporaryDirectory directory;
+  return machine_check("engines' writing", WriteLimit(directory.path()).ruleset() >= 0,
+                       "Landlock holds each to a directory of its own",
+                       "no Landlock: they write wherever you may",
+                       "Linux 5.13 or later has it, if 'landlock' is among the kernel's lsm=");
+}
+
+DoctorCheck memory() {
+  constexpr char kName[] = "engines' memory";
+  if (memory_of_tree(::getpid()) == 0)
+    return machine_check(kName, false, "",
+                         "/proc is not there, or another PID namespace's: --memory has no effect",
+                         "mount /proc");
+  return machine_check(
+      kName, count_of_oom_kills().has_value(),
+      "held to --memory, and the kernel's own kills are known",
+      "held to --memory; an engine that the kernel kills for want of memory counts as a crash",
+      "Linux 4.13 or later tells oom_kill in /proc/vmstat");
 }
 
 class Doctor {
@@ -97,7 +123,7 @@ class Doctor {
     return verdict != CheckVerdict::kFailed;
   }
 
-  /// Advises where it is not ok.
+  /// Adds a check, with advice unless it is ok.
   void check(std::string name, bool ok, CheckVerdict otherwise, std::string found,
              std::string advice) {
     add(std::move(name), ok ? CheckVerdict::kOk : otherwise, std::move(found), ok ? "" : advice);
@@ -126,18 +152,18 @@ class Doctor {
           "array limits are taken to be Slurm's defaults");
       return;
     }
-    const auto size = seconds_of(*config, "MaxArraySize");
+    const auto size = config_number(*config, "MaxArraySize", -1);
     check("MaxArraySize", size > 100, size > 1 ? CheckVerdict::kWarning : CheckVerdict::kFailed,
           size > 100
               ? fmt::format("{}: arrays of up to {} elements", size, std::min(size - 1, 1000LL))
               : fmt::format("{}: {}", size,
                             size > 1 ? "few and long elements" : "there are no job arrays"),
           "ask an administrator for 1001, Slurm's default");
-    const auto kill_wait = seconds_of(*config, "KillWait");
+    const auto kill_wait = config_number(*config, "KillWait", -1);
     check("KillWait", kill_wait < 0 || kill_wait >= 5, CheckVerdict::kWarning,
           fmt::format("{} s between TERM and KILL", kill_wait),
           "an element that is cancelled may leave a temporary file");
-    const auto timeout = seconds_of(*config, "SlurmdTimeout");
+    const auto timeout = config_number(*config, "SlurmdTimeout", -1);
     check("SlurmdTimeout", timeout != 0, CheckVerdict::kWarning,
           timeout == 0 ? "0: a lost node is never noticed"
                        : fmt::format("{} s until a lost node's elements go elsewhere", timeout),
@@ -201,7 +227,7 @@ class Doctor {
                                    shell_quote(directory.string())));
     const std::string name = "lobelia-doctor-" + token;
     auto arguments = sbatch_arguments(options_.slurm);
-    // Its output goes to a file only: where the directory is not shared that fails, and is seen as such.
+    // The answer comes through a file, which shows whether the directory is shared.
     arguments.insert(arguments.end(),
                      {"--job-name=" + name, "--ntasks=1", "--output=/dev/null", "--chdir=/"});
     const auto submission = client_.submit(arguments, script);
@@ -224,7 +250,7 @@ class Doctor {
     judge(directory, token);
   }
 
-  /// "" once its answer is there or it has ended.
+  /// Waits for the answer. Returns why there is none; empty if there is.
   std::string wait_for_job(SlurmJobId job, const std::string& name, const fs::path& directory) {
     const auto start = std::chrono::steady_clock::now();
     std::string reason = "nothing is known of it";
@@ -283,6 +309,8 @@ class Doctor {
 };
 
 }  // namespace
+
+std::vector<DoctorCheck> look_at_machine() { return {processes(), writes(), memory()}; }
 
 std::vector<DoctorCheck> doctor(const DoctorOptions& options) { return Doctor(options)(); }
 

@@ -1,11 +1,8 @@
-// Whether a run would work on this cluster, asked before the first.
+// Checks of this machine and of a cluster, before the first run.
 #pragma once
 
 #include <chrono>
 #include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
 
 #include "farm/slurm/slurm_options.hpp"
 
@@ -27,6 +24,9 @@ struct DoctorOptions {
   std::chrono::duration<double> node_limit = std::chrono::minutes(2);  ///< queue included
   std::chrono::duration<double> poll = std::chrono::seconds(1);
 };
+
+/// Tries the limits for engines on this machine: their processes, writing and memory. One that does not work is a warning.
+std::vector<DoctorCheck> look_at_machine();
 
 /// Asks Slurm, then lets a one-element job look at `directory` from a node; leaves out what cannot be asked after a
 /// failure. Throws Error(kOutput) if the directory cannot be written, kInterrupted.

@@ -8,22 +8,21 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/error.hpp"
-#include "core/interrupt.hpp"
 #include "core/text.hpp"
-#include "farm/chunk_report.hpp"
-#include "farm/slurm/slurm_limits.hpp"
+#include "farm/chunk.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr char kRunRecordFile[] = "slurm.json";
+constexpr int kFinishPhase = -1;
 constexpr char kMoreTime[] = "give elements more with --time, or less to do with --chunk-seconds";
 constexpr char kMoreMemory[] = "give elements more with --sbatch=--mem=SIZE";
 
-/// Whether slurmstepd says at the end of an element's log that it used too much memory.
-bool log_tells_of_memory(const std::filesystem::path& path) {
+/// Whether the end of an element's log says that it used too much memory.
+bool log_tells_of_memory(const fs::path& path) {
   constexpr off_t kEnd = 8192;
   const int fd = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return false;
@@ -50,9 +49,9 @@ void RunContext::write_record() const {
   records::write_record(directory / kRunRecordFile, record, AtLink::kReplace);
 }
 
-records::SlurmRun read_run_record(const std::filesystem::path& run_directory) {
+records::SlurmRun read_run_record(const fs::path& run_directory) {
   const auto path = run_directory / kRunRecordFile;
-  if (!std::filesystem::exists(path)) return {};
+  if (!fs::exists(path)) return {};
   auto record = records::read_record<records::SlurmRun>(path);
   if (!record.name.starts_with("lobelia-") || !std::ranges::all_of(record.name, [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_';
@@ -103,7 +102,7 @@ void NodeReports::read(const std::string& partition) {
   const auto nodes = run_.client.node_list(partition);
   std::map<std::string, std::string> newly;  // by engine
   for (const ChunkReport& report : found.reports) {
-    // sbatch refuses everything that excludes a node that Slurm has not.
+    // sbatch refuses to exclude a node that Slurm does not know.
     if (nodes && !nodes->empty() &&
         std::ranges::find(*nodes, report.node, &SlurmNode::name) == nodes->end()) {
       say_once(fmt::format("Chunk {} was handed back by '{}', and Slurm has no such node",
@@ -123,14 +122,6 @@ void NodeReports::say_once(const std::string& problem) {
   if (told_.insert(problem).second) run_.say(problem + ".");
 }
 
-const std::string* NodeReports::reason_of(const std::string& engine,
-                                          const std::string& node) const {
-  const auto nodes = without_engine_.find(engine);
-  if (nodes == without_engine_.end()) return nullptr;
-  const auto why = nodes->second.find(node);
-  return why == nodes->second.end() ? nullptr : &why->second;
-}
-
 NodeNames NodeReports::nodes_without(const std::string& batch) const {
   NodeNames names;
   for (const auto& [engine, nodes] : without_engine_)
@@ -142,9 +133,14 @@ NodeNames NodeReports::nodes_without(const std::string& batch) const {
 std::string NodeReports::reasons(const NodeNames& nodes, const std::string& batch) const {
   std::string text;
   for (const std::string& node : nodes) {
-    const std::string* why = reason_of(batch, node);
-    if (!why) why = reason_of("", node);
-    if (why) append_item(text, fmt::format("{} handed it back ({})", node, *why));
+    for (const std::string& engine : {batch, std::string()}) {
+      const auto nodes_without = without_engine_.find(engine);
+      if (nodes_without == without_engine_.end()) continue;
+      const auto why = nodes_without->second.find(node);
+      if (why == nodes_without->second.end()) continue;
+      append_item(text, fmt::format("{} handed it back ({})", node, why->second));
+      break;
+    }
   }
   return printable(text, 1000);
 }
@@ -175,7 +171,7 @@ void ElementRequest::take_over(const std::vector<SlurmJobId>& ids) {
 }
 
 void ElementRequest::note_endings(SlurmJobId id, const std::vector<SlurmElement>& elements) {
-  const std::filesystem::path logs = run_.directory / "log";
+  const fs::path logs = run_.directory / "log";
   std::map<std::string, std::size_t> states;
   int logs_to_read = 100;
   for (const auto& element : elements) {
@@ -194,16 +190,11 @@ void ElementRequest::note_endings(SlurmJobId id, const std::vector<SlurmElement>
                          state, logs.string()));
 }
 
-std::size_t ElementRequest::ended(SlurmEnding end) const {
-  const auto at = endings_.find(end);
-  return at == endings_.end() ? 0 : at->second;
-}
-
-/// "2 elements: time limit reached"; empty if none ended so.
+/// "2 elements: time limit reached"; empty if none ended like this.
 std::string ElementRequest::what_ended(SlurmEnding end, const char* where) const {
-  const std::size_t count = ended(end);
-  return count == 0 ? ""
-                    : fmt::format("{}{}: {}", count_text(count, "element"), where, words_for(end));
+  const auto found = endings_.find(end);
+  if (found == endings_.end()) return "";
+  return fmt::format("{}{}: {}", count_text(found->second, "element"), where, words_for(end));
 }
 
 bool ElementRequest::was_ended_by_somebody() const {
@@ -247,7 +238,7 @@ void ElementRequest::raise() {
   endings_.clear();
 }
 
-/// The limits of the partition that is asked for, or of the default one.
+/// The limits of the requested partition, or of the default one.
 SlurmPartition ElementRequest::partition() const {
   std::string name = asked_.partition;
   if (name.empty())
@@ -266,6 +257,185 @@ std::optional<long long> ElementRequest::most_memory() const {
       if (node.usable) largest = std::max(largest, node.mebibytes);
   if (largest > 0) most = most ? std::min(*most, largest) : largest;
   return most;
+}
+
+Submitter::Submitter(RunContext& run, const NodeReports& reports, const ElementRequest& request)
+    : run_(run),
+      reports_(reports),
+      request_(request),
+      finish_arguments_(sbatch_arguments(request.options())) {}
+
+ChunkRule Submitter::rule() const {
+  const SlurmOptions& asked = run_.options.slurm;
+  ChunkRule rule = run_.options.chunks;
+  std::size_t processors = 0;
+  if (const auto nodes = run_.client.nodes(asked.partition))
+    for (const auto& group : *nodes)
+      if (group.usable) processors += group.processors;
+  rule.slots = std::max<std::size_t>(processors / std::size_t(asked.processors), 1);
+  if (asked.throttle > 0) rule.slots = std::min(rule.slots, std::size_t(asked.throttle));
+  long long largest = 1001;  // Slurm's default
+  if (const auto config = run_.client.config())
+    largest = config_number(*config, "MaxArraySize", largest);
+  rule.most_chunks = std::min(rule.most_chunks, std::size_t(std::clamp(largest - 1, 1LL, 1000LL)));
+  return rule;
+}
+
+std::vector<SlurmJobId> Submitter::submit_round(const std::vector<SlurmJob>& jobs) {
+  const ChunkRule chunk_rule = rule();
+  const SlurmOptions& asked = request_.options();
+  ++run_.outcome.rounds;
+  ++run_.record.round;
+  // Jobs that avoid the same nodes form an array.
+  std::map<std::pair<int, NodeNames>, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    groups[{jobs[i].phase, reports_.nodes_without(jobs[i].batch)}].push_back(i);
+  std::vector<SlurmJobId> ids, earlier_phases;
+  int phase = groups.begin()->first.first;
+  std::size_t submitted = 0;
+  for (const auto& [kind, places] : groups) {
+    if (kind.first != phase) earlier_phases = ids;
+    phase = kind.first;
+    std::vector<SlurmJob> part;
+    for (const std::size_t i : places) part.push_back(jobs[i]);
+    auto chunks = make_chunks(part, chunk_rule);
+    const records::SlurmArray array{0,           run_.record.next_chunk, chunks.size(),
+                                    phase,       run_.record.round,      asked.time,
+                                    asked.memory};
+    // Recorded first, so that no two elements have the same number.
+    run_.record.next_chunk += chunks.size();
+    run_.write_record();
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+      for (std::size_t& job : chunks[i]) job = places[job];
+      run_.work.write_chunk(array.first_chunk + i, chunks[i]);
+      throw_if_interrupted();
+    }
+    std::string refusal;
+    const SlurmJobId id = submit(array, earlier_phases, kind.second, refusal);
+    if (!refusal.empty()) {
+      give_up(jobs, places,
+              fmt::format("no node is left for it: {}; Slurm says: {}",
+                          reports_.reasons(kind.second, jobs[places[0]].batch), refusal));
+      continue;
+    }
+    ids.push_back(id);
+    without_[id] = kind.second;
+    submitted += places.size();
+  }
+  if (ids.empty()) return ids;
+  run_.say(fmt::format(
+      "Round {}: {} in {} as {}.", run_.outcome.rounds, count_text(submitted, "job"),
+      ids.size() == 1 ? "one array" : fmt::format("{} arrays", ids.size()), ids_text(ids)));
+  std::string refusal;
+  if (run_.options.finish)
+    submit({0, 0, 1, kFinishPhase, run_.record.round, "", ""}, ids, {}, refusal);
+  return ids;
+}
+
+void Submitter::give_up(const std::vector<SlurmJob>& jobs, const std::vector<std::size_t>& places,
+                        const std::string& why) {
+  for (const std::size_t place : places) run_.outcome.given_up.push_back(jobs[place].name);
+  run_.say(fmt::format("{} of {} given up: {}.", count_text(places.size(), "job"),
+                       jobs[places.front()].batch, why));
+  run_.work.give_up(places, why);
+}
+
+bool Submitter::give_up_where_no_node_is_left(const std::vector<SlurmJob>& jobs) {
+  std::map<std::string, std::vector<std::size_t>> batches;
+  for (std::size_t i = 0; i < jobs.size(); ++i) batches[jobs[i].batch].push_back(i);
+  bool any = false;
+  for (const auto& [batch, places] : batches) {
+    const NodeNames without = reports_.nodes_without(batch);
+    std::string states;
+    if (without.empty() ||
+        !reports_.no_other_node_is_usable(request_.options().partition, without, states))
+      continue;
+    any = true;
+    give_up(jobs, places,
+            fmt::format("no node is left for it: {}{}{}", reports_.reasons(without, batch),
+                        states.empty() ? "" : "; the others: ", states));
+  }
+  return any;
+}
+
+/// Kept as a file, to look at if something goes wrong.
+fs::path Submitter::write_script(const records::SlurmArray& array, const std::string& title) const {
+  const std::string program = shell_quote(fs::absolute(run_.work.program).string());
+  const std::string directory = shell_quote(run_.directory.string());
+  // exec: Slurm's signals reach the program itself, not a shell.
+  const std::string line =
+      array.phase == kFinishPhase
+          ? fmt::format("exec {} farm finish {}", program, directory)
+          : fmt::format("exec {} farm exec-chunk {} $(({} + SLURM_ARRAY_TASK_ID))", program,
+                        directory, array.first_chunk);
+  const fs::path path = run_.directory / "submit" / (title + ".sh");
+  write_file(path, fmt::format("#!/bin/sh\n{}\n", line));
+  return path;
+}
+
+/// Excludes the nodes `without`; `refusal` gets Slurm's words if there are no others.
+SlurmJobId Submitter::submit(records::SlurmArray array, const std::vector<SlurmJobId>& after,
+                             const NodeNames& without, std::string& refusal) {
+  const bool last = array.phase == kFinishPhase;
+  const int throttle = run_.options.slurm.throttle;
+  const std::string title = last ? fmt::format("{}-finish", array.round)
+                                 : fmt::format("{}-{}", array.round, array.first_chunk);
+  const std::string comment = fmt::format("lobelia {}", title);
+  std::string log = run_.directory.string();
+  for (std::size_t at = 0; (at = log.find('%', at)) != log.npos; at += 2) log.insert(at, 1, '%');
+  std::vector<std::string> arguments = {
+      "--job-name=" + run_.record.name,
+      "--comment=" + comment,
+      "--ntasks=1",
+      "--requeue",
+      "--open-mode=append",
+      "--chdir=" + run_.directory.string(),
+      fmt::format("--output={}/log/{}.log", log, last ? "%j" : "%A_%a")};
+  if (!last)
+    arguments.push_back(fmt::format("--array=0-{}{}", array.chunks - 1,
+                                    throttle > 0 ? fmt::format("%{}", throttle) : ""));
+  // afterany: a failed cell must neither cancel nor hold up later jobs.
+  if (!after.empty())
+    arguments.push_back(fmt::format("--dependency=afterany:{}", fmt::join(after, ":")));
+  SlurmOptions asked = request_.options();
+  for (const std::string& node : without)
+    asked.exclude += (asked.exclude.empty() ? "" : ",") + node;
+  const auto more = last ? finish_arguments_ : sbatch_arguments(asked);
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const auto id =
+      call_sbatch(arguments, write_script(array, title), comment, !without.empty(), refusal);
+  if (!id) return 0;
+  array.job = *id;
+  run_.record.arrays.push_back(array);
+  run_.write_record();
+  run_.note(*id);
+  throw_if_interrupted();
+  return *id;
+}
+
+std::optional<SlurmJobId> Submitter::call_sbatch(const std::vector<std::string>& arguments,
+                                                 const fs::path& script, const std::string& comment,
+                                                 bool excludes, std::string& refusal) const {
+  std::string why;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    if (attempt > 0) {
+      wait_for(run_.options.first_poll, false);
+      // Slurm may have taken the job without an answer.
+      if (const auto living = run_.client.living_jobs(run_.record.name))
+        for (const auto& job : *living)
+          if (job.comment == comment) return job.id;
+      throw_if_interrupted();
+    }
+    const SlurmSubmission submission = run_.client.submit(arguments, script);
+    if (submission.job) return *submission.job;
+    why = submission.why;
+    if (!submission.unclear) break;
+  }
+  if (excludes && why.find("node configuration is not available") != why.npos) {
+    refusal = why;
+    return {};
+  }
+  throw Error(ExitCode::kEngine, fmt::format("Slurm did not take the job: {}", why));
 }
 
 }  // namespace lobelia

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
-#include <utility>
+#include <initializer_list>
 
 #include "core/text.hpp"
-#include "farm/slurm/slurm_limits.hpp"
+#include "farm/slurm/slurm_options.hpp"
 
 namespace lobelia {
 namespace {
@@ -30,32 +29,31 @@ std::optional<SlurmJobId> job_id(std::string_view text) {
 
 /// "RUNNING", "REQUEUE_HOLD"
 bool is_state_name(std::string_view text) {
-  return !text.empty() && text.size() <= 32 && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'A' && c <= 'Z') || c == '_';
-  });
+  return !text.empty() && text.size() <= 32 &&
+         text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_") == text.npos;
+}
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::ranges::find(names, name) != names.end();
 }
 
 SlurmElement::State state_of(std::string_view name) {
-  constexpr std::array<std::string_view, 6> pending = {
-      "PENDING", "REQUEUED", "REQUEUE_HOLD", "REQUEUE_FED", "SPECIAL_EXIT", "RESV_DEL_HOLD"};
-  constexpr std::array<std::string_view, 10> ended = {
-      "COMPLETED", "CANCELLED", "FAILED",   "TIMEOUT",       "NODE_FAIL",
-      "PREEMPTED", "BOOT_FAIL", "DEADLINE", "OUT_OF_MEMORY", "REVOKED"};
-  if (std::find(pending.begin(), pending.end(), name) != pending.end())
+  if (is_one_of(name, {"PENDING", "REQUEUED", "REQUEUE_HOLD", "REQUEUE_FED", "SPECIAL_EXIT",
+                       "RESV_DEL_HOLD"}))
     return SlurmElement::State::kPending;
-  if (std::find(ended.begin(), ended.end(), name) != ended.end())
+  if (is_one_of(name, {"COMPLETED", "CANCELLED", "FAILED", "TIMEOUT", "NODE_FAIL", "PREEMPTED",
+                       "BOOT_FAIL", "DEADLINE", "OUT_OF_MEMORY", "REVOKED"}))
     return SlurmElement::State::kEnded;
-  // A newer Slurm's state is taken for one that goes on: it leaves the queue when it ends.
+  // An unknown state of a newer Slurm counts as running: its element leaves the queue at its end.
   return SlurmElement::State::kRunning;
 }
 
-/// "idle~" is switched off and comes when called; "idle*" and "down*" do not answer.
+/// "idle~" is switched off and starts on demand; "idle*" and "down*" do not answer.
 bool is_usable(std::string_view state) {
-  constexpr std::array<std::string_view, 9> useful = {"idle", "alloc", "mix", "comp",  "plnd",
-                                                      "resv", "boot",  "npc", "pow_up"};
   const auto suffix = std::min(state.find_first_of("*~#!%$@^-+"), state.size());
   return state.substr(suffix) != "*" &&
-         std::find(useful.begin(), useful.end(), state.substr(0, suffix)) != useful.end();
+         is_one_of(state.substr(0, suffix),
+                   {"idle", "alloc", "mix", "comp", "plnd", "resv", "boot", "npc", "pow_up"});
 }
 
 bool is_message(std::string_view line) {
@@ -63,18 +61,18 @@ bool is_message(std::string_view line) {
          line.starts_with("scontrol: ");
 }
 
-/// Exactly `count` fields between bars; the last but `tail` may hold bars itself.
-std::optional<std::vector<std::string_view>> fields(std::string_view line, std::size_t count,
-                                                    std::size_t tail) {
-  std::vector<std::string_view> result;
+using Fields = std::vector<std::string_view>;
+
+/// Splits at bars into exactly `count` fields; the field before the last `tail` ones may contain bars.
+std::optional<Fields> fields(std::string_view line, std::size_t count, std::size_t tail) {
+  Fields result, last;
   while (result.size() + 1 + tail < count) {
     const auto bar = line.find('|');
     if (bar == line.npos) return {};
     result.push_back(line.substr(0, bar));
     line.remove_prefix(bar + 1);
   }
-  std::vector<std::string_view> last;
-  for (std::size_t i = 0; i < tail; ++i) {
+  while (last.size() < tail) {
     const auto bar = line.rfind('|');
     if (bar == line.npos) return {};
     last.push_back(line.substr(bar + 1));
@@ -85,9 +83,7 @@ std::optional<std::vector<std::string_view>> fields(std::string_view line, std::
   return result;
 }
 
-using Fields = std::vector<std::string_view>;
-
-/// A T of each line that is no message; `fill` says whether it understands the fields.
+/// A T for each line that is no message; `fill` returns whether it understands the fields.
 template <class T, class Fill>
 std::optional<std::vector<T>> parse_lines(std::span<const std::string> lines, std::size_t count,
                                           std::size_t tail, Fill fill) {
@@ -100,7 +96,7 @@ std::optional<std::vector<T>> parse_lines(std::span<const std::string> lines, st
   return result;
 }
 
-/// "main*": the default one is marked.
+/// "main*": a star marks the default partition.
 std::string partition_name(std::string_view field, bool& is_default) {
   is_default = field.ends_with('*');
   if (is_default) field.remove_suffix(1);
@@ -123,45 +119,42 @@ std::optional<std::size_t> count_of_range(std::string_view text) {
 }  // namespace
 
 SlurmEnding end_of(const SlurmElement& element) {
-  constexpr std::array<std::pair<std::string_view, SlurmEnding>, 9> ends = {
-      {{"COMPLETED", SlurmEnding::kWell},
-       {"TIMEOUT", SlurmEnding::kTime},
-       {"OUT_OF_MEMORY", SlurmEnding::kMemory},
-       {"NODE_FAIL", SlurmEnding::kNode},
-       {"BOOT_FAIL", SlurmEnding::kNode},
-       {"PREEMPTED", SlurmEnding::kPreempted},
-       {"REVOKED", SlurmEnding::kPreempted},
-       {"DEADLINE", SlurmEnding::kDeadline},
-       {"CANCELLED", SlurmEnding::kCancelled}}};
+  constexpr std::pair<std::string_view, SlurmEnding> ends[] = {
+      {"COMPLETED", SlurmEnding::kWell},       {"TIMEOUT", SlurmEnding::kTime},
+      {"OUT_OF_MEMORY", SlurmEnding::kMemory}, {"NODE_FAIL", SlurmEnding::kNode},
+      {"BOOT_FAIL", SlurmEnding::kNode},       {"PREEMPTED", SlurmEnding::kPreempted},
+      {"REVOKED", SlurmEnding::kPreempted},    {"DEADLINE", SlurmEnding::kDeadline},
+      {"CANCELLED", SlurmEnding::kCancelled}};
   for (const auto& [name, end] : ends)
     if (name == element.state_name) return end;
   return SlurmEnding::kFailed;
 }
 
 std::string_view words_for(SlurmEnding end) {
-  constexpr std::array<std::string_view, 8> words = {"",
-                                                     "",
-                                                     "time limit reached",
-                                                     "more memory used than asked for",
-                                                     "node lost",
-                                                     "room made for other jobs",
-                                                     "deadline missed (--deadline)",
-                                                     "cancelled by somebody else"};
+  constexpr std::string_view words[] = {"",
+                                        "",
+                                        "time limit reached",
+                                        "more memory used than asked for",
+                                        "node lost",
+                                        "room made for other jobs",
+                                        "deadline missed (--deadline)",
+                                        "cancelled by somebody else"};
   return words[std::size_t(end)];
 }
 
 bool tells_of_memory(std::string_view line) {
-  return line.starts_with("slurmstepd") &&
-         (line.find("exceeded memory limit") != line.npos ||
-          line.find("Exceeded job memory limit") != line.npos ||
-          line.find("oom-kill event") != line.npos || line.find("oom_kill event") != line.npos);
+  constexpr std::string_view signs[] = {"exceeded memory limit", "Exceeded job memory limit",
+                                        "oom-kill event", "oom_kill event"};
+  return line.starts_with("slurmstepd") && std::ranges::any_of(signs, [&](std::string_view sign) {
+           return line.find(sign) != line.npos;
+         });
 }
 
 bool is_node_name(std::string_view text) {
-  const auto alphanumeric = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  const auto alphanumeric = [](unsigned char c) { return std::isalnum(c) != 0; };
   return !text.empty() && text.size() <= 64 && alphanumeric(text.front()) &&
-         std::all_of(text.begin(), text.end(),
-                     [&](char c) { return alphanumeric(c) || c == '-' || c == '_' || c == '.'; });
+         std::ranges::all_of(
+             text, [&](char c) { return alphanumeric(c) || c == '-' || c == '_' || c == '.'; });
 }
 
 std::optional<std::size_t> count_of_array_tasks(std::string_view text) {
@@ -176,7 +169,7 @@ std::optional<std::size_t> count_of_array_tasks(std::string_view text) {
   while (true) {
     const auto comma = text.find(',');
     const std::string_view part = text.substr(0, comma);
-    // squeue shortens a long list so.
+    // squeue's form of a long list.
     const bool shortened = part == "..." && comma == text.npos && count > 0;
     const auto more = shortened ? std::optional<std::size_t>(0) : count_of_range(part);
     if (!more || (count += *more) > kMostTasks) return {};
@@ -208,20 +201,21 @@ std::optional<std::vector<SlurmElement>> parse_elements(std::span<const std::str
 }
 
 std::optional<std::vector<SlurmLivingJob>> parse_living_jobs(std::span<const std::string> lines) {
-  const auto all =
+  auto jobs =
       parse_lines<SlurmLivingJob>(lines, 3, 0, [](const Fields& field, SlurmLivingJob& job) {
         const auto id = job_id(field[0]);
         if (!id || !is_state_name(field[1])) return false;
         job = {*id, std::string(field[1]), printable(field[2], 200)};
         return true;
       });
-  if (!all) return {};
-  std::map<SlurmJobId, SlurmLivingJob> jobs;
-  for (const SlurmLivingJob& job : *all)
-    if (state_of(job.state_name) != SlurmElement::State::kEnded) jobs[job.id] = job;
-  std::vector<SlurmLivingJob> result;
-  for (auto& [id, job] : jobs) result.push_back(std::move(job));
-  return result;
+  if (!jobs) return {};
+  std::erase_if(*jobs, [](const SlurmLivingJob& job) {
+    return state_of(job.state_name) == SlurmElement::State::kEnded;
+  });
+  std::ranges::stable_sort(*jobs, {}, &SlurmLivingJob::id);
+  const auto repeated = std::ranges::unique(*jobs, {}, &SlurmLivingJob::id);
+  jobs->erase(repeated.begin(), repeated.end());
+  return jobs;
 }
 
 std::optional<std::vector<SlurmNodes>> parse_nodes(std::span<const std::string> lines) {
@@ -293,22 +287,27 @@ std::optional<std::map<std::string, std::string>> parse_config(std::span<const s
   return result;
 }
 
+long long config_number(const std::map<std::string, std::string>& config, const std::string& key,
+                        long long otherwise) {
+  const auto found = config.find(key);
+  long long value = 0;
+  if (found == config.end() ||
+      !parse_integer(std::string_view(found->second).substr(0, found->second.find(' ')), value))
+    return otherwise;
+  return value;
+}
+
 bool waits_for_somebody(const SlurmElement& element) {
-  constexpr std::array<std::string_view, 3> held = {"REQUEUE_HOLD", "SPECIAL_EXIT",
-                                                    "RESV_DEL_HOLD"};
   return element.state == SlurmElement::State::kPending &&
-         (std::find(held.begin(), held.end(), element.state_name) != held.end() ||
+         (is_one_of(element.state_name, {"REQUEUE_HOLD", "SPECIAL_EXIT", "RESV_DEL_HOLD"}) ||
           waits_for_somebody(element.reason));
 }
 
 bool waits_for_somebody(std::string_view reason) {
-  // job_reason_string() of Slurm's slurm_protocol_defs.c. "launch failed requeued held" and its like are states
-  // that the controller sets.
-  constexpr std::array<std::string_view, 10> reasons = {
-      "JobHeldUser",       "JobHeldAdmin",   "PartitionDown", "PartitionInactive",
-      "BadConstraints",    "InvalidAccount", "InvalidQOS",    "DependencyNeverSatisfied",
-      "AccountNotAllowed", "QOSNotAllowed"};
-  return std::find(reasons.begin(), reasons.end(), reason) != reasons.end() ||
+  // job_reason_string() of Slurm's slurm_protocol_defs.c; the controller itself sets "launch failed requeued held".
+  return is_one_of(reason, {"JobHeldUser", "JobHeldAdmin", "PartitionDown", "PartitionInactive",
+                            "BadConstraints", "InvalidAccount", "InvalidQOS",
+                            "DependencyNeverSatisfied", "AccountNotAllowed", "QOSNotAllowed"}) ||
          reason.ends_with(" held");
 }
 

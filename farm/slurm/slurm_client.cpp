@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
 
 #include "core/error.hpp"
 #include "core/process.hpp"
@@ -15,14 +13,12 @@ extern char** environ;
 namespace lobelia {
 namespace {
 
-constexpr std::array<std::string_view, 5> kPrograms = {"sbatch", "squeue", "scancel", "scontrol",
-                                                       "sinfo"};
+constexpr const char* kPrograms[] = {"sbatch", "squeue", "scancel", "scontrol", "sinfo"};
 constexpr std::size_t kMostAnswerBytes = 16u << 20;  // a line of squeue for each of 1e5 elements
 
 struct TooMuch {};
 
-/// sbatch hands all of its environment on to the job: secrets stay here, and no SBATCH_* of the user's shell
-/// changes what is submitted.
+/// sbatch passes its environment to the job: this keeps secrets here, and SBATCH_* from changing what is submitted.
 std::vector<std::string> clean_environment() {
   std::vector<std::string> result;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -47,12 +43,10 @@ SlurmAnswer<T> understood(std::optional<T> value, std::string_view program,
 
 }  // namespace
 
-SlurmClient::SlurmClient(std::chrono::duration<double> time_limit) : time_limit_(time_limit) {}
-
 std::vector<std::string> SlurmClient::absent_programs() {
   std::vector<std::string> result;
-  for (const auto name : kPrograms)
-    if (find_program(std::string(name)).empty()) result.emplace_back(name);
+  for (const char* name : kPrograms)
+    if (find_program(name).empty()) result.emplace_back(name);
   return result;
 }
 
@@ -80,7 +74,7 @@ SlurmClient::Output SlurmClient::run(std::vector<std::string> arguments) const {
     if (result.timed_out) {
       output.why = fmt::format("{} gave no answer in {:g} s", name, time_limit_.count());
     } else if (result.exit_code != 0) {
-      // The last line of several is the one that says why.
+      // The last line is the one that says why.
       const std::string said = output.lines.empty() ? "" : printable(output.lines.back(), 300);
       output.why =
           said.empty() ? fmt::format("{} ended with exit code {}", name, result.exit_code) : said;
@@ -99,13 +93,11 @@ SlurmSubmission SlurmClient::submit(const std::vector<std::string>& arguments,
   command.insert(command.end(), arguments.begin(), arguments.end());
   command.push_back(script.string());
   const Output output = run(command);
-  SlurmSubmission result;
   if (output.why.empty()) {
     const auto job = understood(parse_submission(output.lines), "sbatch", output.lines);
     return {job.value, job.why, !job};
   }
-  result.why = output.why;
-  result.unclear = !output.in_time;
+  SlurmSubmission result{{}, output.why, !output.in_time};
   for (const std::string& line : output.lines)
     for (const char* sign : {"timed out", "onnection", "Unable to contact", "Zero Bytes"})
       result.unclear |= contains(line, sign);

@@ -3,10 +3,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "farm/slurm/slurm_answers.hpp"
 
@@ -14,8 +10,8 @@ namespace lobelia {
 
 struct SlurmSubmission {
   std::optional<SlurmJobId> job;
-  std::string why;       ///< there is none: Slurm's words
-  bool unclear = false;  ///< no word of the controller's: it may have been taken nevertheless
+  std::string why;       ///< Slurm's words, if there is no job
+  bool unclear = false;  ///< the controller did not answer: it may have taken the job
 };
 
 /// An answer, or why there is none.
@@ -30,27 +26,28 @@ struct SlurmAnswer {
 
 class SlurmClient {
  public:
-  /// `time_limit` is that of each call.
-  explicit SlurmClient(std::chrono::duration<double> time_limit = std::chrono::seconds(15));
+  /// `time_limit` is for each call.
+  explicit SlurmClient(std::chrono::duration<double> time_limit = std::chrono::seconds(15))
+      : time_limit_(time_limit) {}
 
-  /// Programs of Slurm that are needed and not in $PATH.
+  /// Needed programs of Slurm that are not in $PATH.
   static std::vector<std::string> absent_programs();
 
-  /// sbatch with `arguments` and a script. Not cut in two by an interruption.
+  /// Runs sbatch with `arguments` and a script. An interruption does not cut it short.
   SlurmSubmission submit(const std::vector<std::string>& arguments,
                          const std::filesystem::path& script) const;
-  /// Every element that Slurm still knows, ended ones too; none if the job of that id has another name by now.
+  /// Every element that Slurm still knows, including ended ones; none if the job of that id has another name by now.
   SlurmAnswer<std::vector<SlurmElement>> elements(SlurmJobId job, const std::string& name) const;
   /// The user's own jobs of that name that have not ended.
   SlurmAnswer<std::vector<SlurmLivingJob>> living_jobs(const std::string& name) const;
-  /// All of the user's jobs of that name. Empty, or why not.
+  /// Cancels all of the user's jobs of that name. Returns why not; empty on success.
   std::string cancel(const std::string& name) const;
-  /// Empty, or why the controller does not answer.
+  /// Returns why the controller does not answer; empty if it does.
   std::string ping() const;
   SlurmAnswer<std::map<std::string, std::string>> config() const;
   /// The nodes of `partition`, or of the default one if empty.
   SlurmAnswer<std::vector<SlurmNodes>> nodes(const std::string& partition) const;
-  /// The same one by one; `partition` may also name several, with commas between them.
+  /// Likewise one by one; `partition` may also be several, separated by commas.
   SlurmAnswer<std::vector<SlurmNode>> node_list(const std::string& partition) const;
   SlurmAnswer<SlurmPartition> partition(const std::string& name) const;
 

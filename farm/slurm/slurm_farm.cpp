@@ -4,13 +4,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <map>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/host.hpp"
 #include "core/text.hpp"
-#include "farm/farm_session.hpp"
 #include "records/record.hpp"
 
 namespace lobelia {
@@ -23,14 +19,13 @@ fs::path chunk_file(const fs::path& run_directory, std::size_t number) {
   return run_directory / "chunks" / fmt::format("{}.json", number);
 }
 
-/// The jobs of a session that can still be done: without a result, and without a failure that this run kept.
+/// The jobs of a session that can still be done: without a result, and without a failure in this run.
 class Missing {
  public:
-  explicit Missing(FarmSession& session) : session_(session) {}
+  explicit Missing(FarmSession& session) : session_(session), graph_(session.work().graph) {}
 
   std::vector<SlurmJob> operator()() {
-    JobGraph& graph = session_.work().graph;
-    // A result that was there at the start may have been taken away.
+    // Includes jobs with a result at the start: it may have been removed.
     const JobStateFilter filter{
         .wanted = [&](JobIndex job) { return session_.states()[job] != JobState::kAbsent; },
         .failures = JobStateFilter::Failures::kCount,
@@ -38,15 +33,15 @@ class Missing {
     jobs_.clear();
     std::vector<SlurmJob> missing;
     for (const std::size_t cell : session_.waiting_cells()) {
-      const auto states = cell_states(graph, &session_.cache(), filter, cell).states;
+      const auto states = cell_states(graph_, &session_.cache(), filter, cell).states;
       if (std::ranges::find(states, JobState::kWaiting) == states.end()) continue;
       const Scene scene = session_.work().cells.scene(cell);
-      for (const JobIndex job : graph.jobs(cell)) {
-        if (states[graph.place(job)] != JobState::kWaiting) continue;
-        const Job& one = graph[job];
-        const std::string whose = graph.whose(job);
+      for (const JobIndex job : graph_.jobs(cell)) {
+        if (states[graph_.place(job)] != JobState::kWaiting) continue;
+        const Job& one = graph_[job];
+        const std::string whose = graph_.whose(job);
         missing.push_back(
-            {graph.name(job), is_picture(one.kind) ? 0 : 1,
+            {graph_.name(job), is_picture(one.kind) ? 0 : 1,
              estimated_seconds(one.kind, whose, scene),
              one.kind == JobKind::kReference ? whose : std::string(kJobKindNames[int(one.kind)])});
         jobs_.push_back(job);
@@ -61,42 +56,40 @@ class Missing {
     return found;
   }
 
-  /// Failures that say so: nobody tries these again in this run.
+  /// Keeps failures, so that this run does not try these jobs again.
   void give_up(std::span<const std::size_t> places, const std::string& why) const {
-    const JobGraph& graph = session_.work().graph;
-    for (const JobIndex job : at(places)) {
-      session_.cache().keep_failure(graph[job].key, {graph.name(job), graph[job].key.text(),
-                                                     "no node left", why, 0, records::this_node()});
-    }
+    for (const JobIndex job : at(places))
+      session_.cache().keep_failure(
+          graph_[job].key,
+          {graph_.name(job), graph_[job].key.text(), "no node left", why, 0, records::this_node()});
   }
 
   /// The results that were missing at the start and are there now.
   JobRunWork made() const {
-    JobGraph& graph = session_.work().graph;
     JobRunWork work;
     for (const std::size_t cell : session_.waiting_cells()) {
       const auto now =
-          cell_states(graph, &session_.cache(), {.look = ResultCache::Look::kName}, cell).states;
-      for (const JobIndex job : graph.jobs(cell)) {
+          cell_states(graph_, &session_.cache(), {.look = ResultCache::Look::kName}, cell).states;
+      for (const JobIndex job : graph_.jobs(cell)) {
         if (session_.states()[job] != JobState::kWaiting ||
-            now[graph.place(job)] != JobState::kDone)
+            now[graph_.place(job)] != JobState::kDone)
           continue;
         ++work.made;
-        if (is_picture(graph[job].kind)) ++work.pictures;
+        if (is_picture(graph_[job].kind)) ++work.pictures;
       }
     }
     return work;
   }
 
   void forget_failures() const {
-    const JobGraph& graph = session_.work().graph;
-    for (JobIndex job = 0; job < graph.size(); ++job)
+    for (JobIndex job = 0; job < graph_.size(); ++job)
       if (session_.states()[job] == JobState::kWaiting)
-        session_.cache().forget_failure(graph[job].key);
+        session_.cache().forget_failure(graph_[job].key);
   }
 
  private:
   FarmSession& session_;
+  JobGraph& graph_;
   std::vector<JobIndex> jobs_;  ///< of the last answer
 };
 
@@ -122,7 +115,7 @@ struct RecordedRun {
 
 RecordedRun read_run(const fs::path& run_directory) {
   const auto record = records::read_record<records::FarmRun>(run_directory / kRunFile);
-  // Here its results would have other names.
+  // With another identity, results would have other keys.
   const auto differences = identity_differences(OwnIdentity::of_record(record), own_identity());
   if (!differences.empty())
     throw Error(ExitCode::kInput,
@@ -153,7 +146,7 @@ fs::path slurm_run_directory(const fs::path& directory) {
 }
 
 double estimated_seconds(JobKind kind, std::string_view engine, const Scene& scene) {
-  // Of small and of large pictures on one of today's cores; chunks need no more than the order.
+  // Measured on one core, for small and large pictures; chunks need only the order of magnitude.
   const double pixels = double(scene.film.width) * scene.film.height;
   const double rays = pixels * std::max(1, scene.sampler.sample_count);
   switch (kind) {
@@ -180,7 +173,7 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   work.program = own_program();
   make_directories(work.run_directory / "chunks");
   Missing missing(session);
-  // Whoever comes back to jobs that live goes on with what they have found out; who begins anew tries all again.
+  // A client that finds living jobs keeps their failures; a new run tries everything again.
   if (slurm_status(work.run_directory, slurm.call_limit).living.empty()) missing.forget_failures();
   write_run_record(work.run_directory, grid_file, directory, session, options);
   work.missing = [&] { return missing(); };
@@ -198,7 +191,7 @@ SlurmFarmSummary run_farm_on_slurm(const Grid& grid, const fs::path& grid_file,
   } catch (...) {
     try {
       session.show_what_is_there();
-    } catch (const Error&) {  // the first failure is the one to tell
+    } catch (const Error&) {  // the first failure matters more
     }
     throw;
   }

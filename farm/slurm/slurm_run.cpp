@@ -5,16 +5,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <optional>
 
 #include "core/byte_locks.hpp"
-#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/interrupt.hpp"
 #include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
-#include "farm/slurm/submitter.hpp"
+#include "farm/slurm/run_parts.hpp"
 
 namespace lobelia {
 namespace fs = std::filesystem;
@@ -23,13 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-std::vector<SlurmJobId> ids_of(const std::vector<SlurmLivingJob>& jobs) {
-  std::vector<SlurmJobId> ids;
-  for (const auto& job : jobs) ids.push_back(job.id);
-  return ids;
-}
-
-/// One client of a run: submits rounds, waits for them, and cancels them on Ctrl-C.
+/// A client of a run: submits rounds, waits for them, and cancels them on Ctrl-C.
 class Client {
  public:
   Client(const SlurmWork& work, const SlurmRunOptions& options)
@@ -77,7 +68,7 @@ class Client {
       throw Error(ExitCode::kEngine, fmt::format("no Slurm here: no program '{}' in $PATH",
                                                  fmt::join(absent, "', '")));
     run_.directory = fs::absolute(run_.work.run_directory).lexically_normal();
-    // In a file name sbatch's "%" can be written twice, but "\" turns all of them off.
+    // sbatch reads "%%" in a file name as "%", but "\" turns off every "%".
     if (run_.directory.string().find_first_of("\\\n\r") != std::string::npos)
       throw Error(ExitCode::kUsage,
                   fmt::format("{}: sbatch takes no path with a backslash or a line end",
@@ -91,7 +82,7 @@ class Client {
       const auto jobs = missing();
       if (jobs.empty()) return;
       if (const auto living = living_at_start(); !living.empty()) {
-        attach(ids_of(living));
+        attach(living);
         if (run_.outcome.detached) return;
         continue;
       }
@@ -129,17 +120,18 @@ class Client {
     settle();
   }
 
-  /// Slurm that does not answer before anything is submitted is an error; later the client waits for it.
-  std::vector<SlurmLivingJob> living_at_start() const {
+  /// Throws if Slurm does not answer before anything is submitted; later waits for an answer.
+  std::vector<SlurmJobId> living_at_start() const {
     std::string why;
     for (int attempt = 0; attempt < 3 || !run_.outcome.jobs.empty(); ++attempt) {
       if (attempt > 0 && !wait_for(options_.first_poll)) throw_if_interrupted();
-      auto living = run_.client.living_jobs(run_.record.name);
+      const auto living = run_.client.living_jobs(run_.record.name);
       if (living) {
-        // The last element of a round may still write its report; a new round need not wait for that.
-        std::erase_if(*living.value,
-                      [](const SlurmLivingJob& job) { return job.comment.ends_with("-finish"); });
-        return *living;
+        std::vector<SlurmJobId> ids;
+        for (const SlurmLivingJob& job : *living)
+          // A new round need not wait for the report of the last one.
+          if (!job.comment.ends_with("-finish")) ids.push_back(job.id);
+        return ids;
       }
       why = living.why;
       throw_if_interrupted();
@@ -147,11 +139,11 @@ class Client {
     throw Error(ExitCode::kEngine, fmt::format("Slurm does not answer: {}", why));
   }
 
-  /// Until none of them is in the queue.
+  /// Waits until none of them is in the queue.
   void wait_until_gone(std::vector<SlurmJobId> ids) {
     Seconds interval = options_.first_poll;
     while (!ids.empty()) {
-      // All of them each time: Slurm forgets after a few minutes how elements ended.
+      // Asks for all of them each time: after a few minutes Slurm forgets how elements ended.
       for (std::size_t i = 0; i < ids.size();) {
         const auto elements = run_.client.elements(ids[i], run_.record.name);
         throw_if_interrupted();
@@ -184,7 +176,7 @@ class Client {
     silent_ = !why.empty();
   }
 
-  /// Throws once nothing has run for `stall` and nothing can until somebody does something.
+  /// Throws once nothing has run for `stall`, and nothing will unless somebody acts.
   void look_for_stall(SlurmJobId id, const std::vector<SlurmElement>& elements,
                       const SlurmProgress& progress) {
     const bool held = std::ranges::all_of(elements, [](const SlurmElement& element) {
@@ -226,7 +218,7 @@ class Client {
     return !nodes->empty();
   }
 
-  /// A result may show late; one that is still missing then is.
+  /// Waits for results that a network file system shows late.
   void settle() const {
     const auto end = Clock::now() + options_.settle;
     while (Clock::now() < end && !missing().empty())
@@ -244,11 +236,10 @@ class Client {
     if (options_.detach || (options_.cancel_on_interrupt && !options_.cancel_on_interrupt()))
       throw interrupted_with(fmt::format("left running: {}; {}", ids, kAgain));
     run_.say(fmt::format("Cancelling {}; once more leaves at once.", ids));
-    // By name, because the number of a job may not have been read. What ignores TERM is killed after KillWait.
+    // By name, because a job's number may be unknown. Slurm kills elements that ignore TERM after KillWait.
     Seconds kill_wait(30);
     if (const auto config = run_.client.config())
-      if (const auto at = config->find("KillWait"); at != config->end())
-        kill_wait = Seconds(std::clamp(std::strtod(at->second.c_str(), nullptr), 0.0, 600.0));
+      kill_wait = Seconds(std::clamp(config_number(*config, "KillWait", 30), 0LL, 600LL));
     std::string why;
     for (const auto end = Clock::now() + kill_wait + Seconds(15); Clock::now() < end;) {
       why = run_.client.cancel(run_.record.name);
@@ -268,8 +259,8 @@ class Client {
   NodeReports reports_;
   ElementRequest request_;
   Submitter submitter_;
-  bool silent_ = false;   ///< Slurm, at the last call
-  bool stalled_ = false;  ///< then nothing is cancelled
+  bool silent_ = false;   ///< Slurm did not answer the last call
+  bool stalled_ = false;  ///< cancels nothing
   std::optional<Clock::time_point> stalled_since_;
 };
 
@@ -285,7 +276,7 @@ bool ask_whether_to_cancel() {
     write_message("\ncancel the jobs, or leave them running? [c/d] ");
     char answer[64];
     ssize_t size = 0;
-    // A signal that comes meanwhile is dealt with by its handler; the question stays.
+    // Signals have their own handler; the question stays.
     while ((size = ::read(0, answer, sizeof answer)) < 0 && errno == EINTR) {
     }
     if (size <= 0 || answer[0] == 'c' || answer[0] == 'C') return true;

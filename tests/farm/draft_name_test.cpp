@@ -1,5 +1,5 @@
 // Whose a draft is, and whether locks are shared: what is decided without a second machine.
-#include "farm/draft_name.hpp"
+#include "farm/cache_layout.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>

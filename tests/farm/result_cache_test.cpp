@@ -67,7 +67,7 @@ TEST_F(ResultCacheTest, ADamagedResultIsNoResultAndIsReplaced) {
   for (const char* text : {"", "pixel", "PIXELS"}) {
     std::ofstream(picture) << text;
     std::string why;
-    EXPECT_FALSE(cache.find(key_, ResultCache::Look::kQuick, why)) << text;
+    EXPECT_FALSE(cache.find(key_, ResultCache::Look::kQuick, &why)) << text;
     EXPECT_TRUE(why.starts_with("damaged: a.exr has another")) << why;
     EXPECT_EQ(publish(cache, key_, "pixels"), Publication::kNew) << text;
     EXPECT_TRUE(cache.find(key_));
@@ -190,7 +190,6 @@ TEST_F(ResultCacheTest, KeepsAFailureUntilItIsForgotten) {
   EXPECT_FALSE(cache.failure(key_));
   cache.keep_failure(key_, {});
   EXPECT_TRUE(cache.failure(key_));
-  EXPECT_EQ(cache.failures(), std::vector<ResultKey>{key_});
   cache.forget_failure(key_);
   EXPECT_FALSE(cache.failure(key_));
   cache.forget_failure(other_);

@@ -1,4 +1,4 @@
-// Farms to which faults happen at random, several at a time, and what the same command must come to afterwards.
+// Farms with faults at random, several at a time; afterwards the same command must end as if nothing had happened.
 //
 // LOBELIA_RANDOM_SEED is the seed of the first round, LOBELIA_RANDOM_SECONDS for how long rounds go on (60 without
 // it); `make chaos` sets both. A round that fails tells its seed, with which it is the first one again.
@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <random>
@@ -45,17 +44,13 @@ Results snapshot(const fs::path& directory) {
   return found;
 }
 
-/// How often a fault was tried, and in how many of those rounds the farm went on and came to the same.
-struct Tally {
-  int tried = 0, survived = 0, identical = 0;
-};
-
-class Chaos : public FailingFarm {
+/// A farm to be disturbed, beside files of others that it must leave alone.
+class DisturbedFarm : public FailingFarm {
  protected:
-  Chaos() {
+  DisturbedFarm() {
     grid({"8", "16", "32", "64", "128", "256"});
     undisturbed();
-    // What looks as if it were ours, and is not.
+    // They look as if they were ours.
     const std::string key(64, 'a');
     for (const std::string& name : std::vector<std::string>{
              "notes.txt", "lobelia.exr", "cell.json", "result.json", "n8/povray.exr",
@@ -93,19 +88,47 @@ class Chaos : public FailingFarm {
     return found;
   }
 
-  // ---- faults to what lies there
-  /// Not behind a link that was put there: the faults, too, leave others' files alone.
+  /// Whether it is not behind a link: the faults, too, leave others' files alone.
   bool is_here(const fs::path& path) const {
     std::error_code gone;
     const fs::path real = fs::weakly_canonical(path, gone);
     return !gone && real == fs::canonical(root()) / path.lexically_relative(root());
   }
-  /// Only there is a file's content ours to judge: one in cells/ may be the same file.
+  /// A file with content that is ours to judge: one in cells/ may be the same file.
   fs::path any_file() { return any(entries(one_in(3) ? out() : cache() / "results", true)); }
   fs::path any(const std::vector<fs::path>& found) {
     return found.empty() ? fs::path() : any_of(found);
   }
 
+  /// Gives up an engine that hangs, long before the test would.
+  std::vector<std::string> impatient_command() const {
+    return command({"--no-progress-limit", "4", "--time-limit", "30"});
+  }
+  void wait_a_moment() { std::this_thread::sleep_for(std::chrono::milliseconds(below(400))); }
+  /// Living processes with these words on their command line, except farms.
+  std::vector<int> processes_with(const std::string& words) const {
+    std::vector<int> found;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
+      long long pid = 0;
+      if (!parse_integer(entry.path().filename().string(), pid)) continue;
+      std::ifstream file(entry.path() / "cmdline");
+      const std::string line((std::istreambuf_iterator<char>(file)), {});
+      if (line.find(words) != line.npos && line.find("grid.xml") == line.npos && pid != ::getpid())
+        found.push_back(int(pid));
+    }
+    return found;
+  }
+
+  std::mt19937_64 random_;
+  const TemporaryDirectory precious_directory_;
+  Results precious_before_;
+};
+
+/// Faults to the files of a farm, to a farm at work, and of its engines.
+class FarmFaults : public DisturbedFarm {
+ protected:
+  // ---- to files
   void flip_a_bit() {
     const fs::path file = any_file();
     std::error_code gone;
@@ -168,7 +191,7 @@ class Chaos : public FailingFarm {
     std::error_code gone;
     fs::rename(cache(), root() / fmt::format("elsewhere-{}", random_()), gone);
   }
-  /// An attacker's, or of somebody who ran out of disk.
+  /// As an attacker would, or somebody who ran out of disk.
   void put_a_link_in_its_place() {
     std::vector<fs::path> places{cache() / "making", cache() / "results", cache() / "failures",
                                  out() / "cells", out() / "cells" / any_cell()};
@@ -195,7 +218,7 @@ class Chaos : public FailingFarm {
       std::ofstream(cell / ".lobelia.exr.4194303-7.part") << "half";
   }
 
-  // ---- faults of a farm at work
+  // ---- to a farm at work
   void signal(RunningFarm& farm, int number) {
     farm.signal(number);
     ended_by_ = number;
@@ -217,35 +240,15 @@ class Chaos : public FailingFarm {
     const auto engines = processes_with((root() / "povray").string());
     if (!engines.empty()) ::kill(any_of(engines), SIGKILL);
   }
-  /// That gives up an engine which hangs long before a test would be over.
-  std::vector<std::string> impatient_command() const {
-    return command({"--no-progress-limit", "4", "--time-limit", "30"});
-  }
-  void wait_a_moment() { std::this_thread::sleep_for(std::chrono::milliseconds(below(400))); }
-
-  /// Of living processes those that have the words on their command line, but for farms.
-  std::vector<int> processes_with(const std::string& words) const {
-    std::vector<int> found;
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator("/proc", ignored)) {
-      long long pid = 0;
-      if (!parse_integer(entry.path().filename().string(), pid)) continue;
-      std::ifstream file(entry.path() / "cmdline");
-      const std::string line((std::istreambuf_iterator<char>(file)), {});
-      if (line.find(words) != line.npos && line.find("grid.xml") == line.npos && pid != ::getpid())
-        found.push_back(int(pid));
-    }
-    return found;
-  }
 
   struct Fault {
     const char* name;
-    std::function<void(Chaos&)> at_rest;                ///< before a farm, and while one is at work
-    std::function<void(Chaos&, RunningFarm&)> at_work;  ///< or only that
+    std::function<void(FarmFaults&)> at_rest;  ///< before a farm and while one is at work
+    std::function<void(FarmFaults&, RunningFarm&)> at_work;  ///< only while one is at work
   };
   static const std::vector<Fault>& faults();
 
-  /// What engines may do wrong: shell, for one cell or all of them.
+  /// Misdeeds of engines, as shell for one cell.
   struct Misdeed {
     const char* name;
     const char* shell;
@@ -263,61 +266,52 @@ class Chaos : public FailingFarm {
        "trap '' TERM INT HUP; sh -c 'sleep 0.3; exit' stray-$$"},
   };
 
-  void round(std::uint64_t seed);
-  void episode();
-  void mend();
-
-  std::mt19937_64 random_;
-  const TemporaryDirectory precious_directory_;
-  Results precious_before_;
   std::set<fs::path> links_;
   std::vector<std::unique_ptr<RunningFarm>> beside_;
   int ended_by_ = 0;
-  std::set<std::string> used_;  ///< faults of this round
-  std::string story_;           ///< what happened in it
-  std::map<std::string, Tally> tallies_;
 };
 
-const std::vector<Chaos::Fault>& Chaos::faults() {
+const std::vector<FarmFaults::Fault>& FarmFaults::faults() {
   static const auto signal = [](int number) {
-    return [number](Chaos& chaos, RunningFarm& farm) { chaos.signal(farm, number); };
+    return [number](FarmFaults& self, RunningFarm& farm) { self.signal(farm, number); };
   };
   static const auto limit = [](int resource, std::uint64_t most) {
-    return [resource, most](Chaos& chaos, RunningFarm& farm) { chaos.limit(farm, resource, most); };
+    return
+        [resource, most](FarmFaults& self, RunningFarm& farm) { self.limit(farm, resource, most); };
   };
   static const auto beside = [](std::vector<std::string> arguments) {
-    return [arguments](Chaos& chaos, RunningFarm&) { chaos.run_beside(arguments); };
+    return [arguments](FarmFaults& self, RunningFarm&) { self.run_beside(arguments); };
   };
   static const std::vector<Fault> all{
-      {"bit flipped", &Chaos::flip_a_bit, {}},
-      {"file cut", &Chaos::cut_a_file, {}},
-      {"file removed", &Chaos::remove_a_file, {}},
-      {"file replaced by a link, a pipe or a directory", &Chaos::replace_a_file, {}},
-      {"record overwritten", &Chaos::write_nonsense, {}},
-      {"cache lost, whole or in part", &Chaos::lose_a_part_of_the_cache, {}},
-      {"farm's directory lost, whole or in part", &Chaos::lose_a_part_of_the_farm, {}},
-      {"cache renamed", &Chaos::rename_the_cache, {}},
-      {"directory replaced by a link to others' files", &Chaos::put_a_link_in_its_place, {}},
-      {"temporary files lost", &Chaos::lose_temporary_files, {}},
-      {"half a file left behind", &Chaos::leave_a_part_behind, {}},
+      {"bit flipped", &FarmFaults::flip_a_bit, {}},
+      {"file cut", &FarmFaults::cut_a_file, {}},
+      {"file removed", &FarmFaults::remove_a_file, {}},
+      {"file replaced by a link, a pipe or a directory", &FarmFaults::replace_a_file, {}},
+      {"record overwritten", &FarmFaults::write_nonsense, {}},
+      {"cache lost, whole or in part", &FarmFaults::lose_a_part_of_the_cache, {}},
+      {"farm's directory lost, whole or in part", &FarmFaults::lose_a_part_of_the_farm, {}},
+      {"cache renamed", &FarmFaults::rename_the_cache, {}},
+      {"directory replaced by a link to others' files", &FarmFaults::put_a_link_in_its_place, {}},
+      {"temporary files lost", &FarmFaults::lose_temporary_files, {}},
+      {"half a file left behind", &FarmFaults::leave_a_part_behind, {}},
       {"kill -9", {}, signal(SIGKILL)},
       {"SIGTERM", {}, signal(SIGTERM)},
       {"Ctrl-C", {}, signal(SIGINT)},
       {"SIGHUP", {}, signal(SIGHUP)},
-      {"stopped and continued", {}, &Chaos::stop_for_a_while},
-      {"engine killed", {}, [](Chaos& chaos, RunningFarm&) { chaos.kill_an_engine(); }},
+      {"stopped and continued", {}, &FarmFaults::stop_for_a_while},
+      {"engine killed", {}, [](FarmFaults& self, RunningFarm&) { self.kill_an_engine(); }},
       {"ulimit -f", {}, limit(RLIMIT_FSIZE, 3000)},
       {"ulimit -n", {}, limit(RLIMIT_NOFILE, 12)},
       {"ulimit -v", {}, limit(RLIMIT_AS, 1 << 28)},
       {"second farm, same directory",
        {},
-       [](Chaos& chaos, RunningFarm&) { chaos.run_beside(chaos.impatient_command()); }},
+       [](FarmFaults& self, RunningFarm&) { self.run_beside(self.impatient_command()); }},
       {"second farm, same cache",
        {},
-       [](Chaos& chaos, RunningFarm&) {
-         auto arguments = chaos.impatient_command();
+       [](FarmFaults& self, RunningFarm&) {
+         auto arguments = self.impatient_command();
          arguments[3] = "beside";
-         chaos.run_beside(arguments);
+         self.run_beside(arguments);
        }},
       {"gc beside it", {}, beside({"farm", "gc", "cache", "--max-size", "20K"})},
       {"clean beside it", {}, beside({"farm", "clean", "out", "--all"})},
@@ -326,7 +320,24 @@ const std::vector<Chaos::Fault>& Chaos::faults() {
   return all;
 }
 
-/// A farm, and what happens to it.
+/// How often a fault was tried, and in how many of these rounds the farm survived, with identical results.
+struct Tally {
+  int tried = 0, survived = 0, identical = 0;
+};
+
+/// The law: whatever happens, the same command ends as if nothing had.
+class Chaos : public FarmFaults {
+ protected:
+  void round(std::uint64_t seed);
+  void episode();
+  void mend();
+
+  std::set<std::string> used_;  ///< faults of this round
+  std::string story_;           ///< of this round
+  std::map<std::string, Tally> tallies_;
+};
+
+/// Runs a farm and disturbs it.
 void Chaos::episode() {
   const auto choose = [&]() -> const Fault& {
     const Fault& fault = any_of(faults());
@@ -379,13 +390,13 @@ void Chaos::episode() {
   beside_.clear();
 }
 
-/// As whoever did it, or found it, would.
+/// Repairs what a farm cannot know to be wrong.
 void Chaos::mend() {
   std::error_code gone;
   for (const fs::path& link : links_)
     if (fs::is_symlink(link, gone)) fs::remove(link, gone);
   links_.clear();
-  // What is no file in its place is told, and is not the farm's to remove.
+  // A farm does not remove a directory or a link in its place.
   if (!fs::is_regular_file(out() / "farm.json")) fs::remove_all(out() / "farm.json", gone);
   fs::remove_all(root() / "beside", gone);
   for (const auto& entry : fs::directory_iterator(root()))

@@ -1,4 +1,4 @@
-#include "farm/chunk_report.hpp"
+#include "farm/chunk.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

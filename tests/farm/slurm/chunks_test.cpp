@@ -1,5 +1,5 @@
 // Laws of make_chunks over many random sets of jobs.
-#include "farm/slurm/chunks.hpp"
+#include "farm/slurm/slurm_run.hpp"
 
 #include <gtest/gtest.h>
 

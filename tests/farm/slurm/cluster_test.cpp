@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "farm/chunk_report.hpp"
+#include "farm/chunk.hpp"
 #include "farm/slurm/doctor.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/farm/slurm/toy_work.hpp"

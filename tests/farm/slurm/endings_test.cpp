@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "farm/chunk_report.hpp"
+#include "farm/chunk.hpp"
 #include "tests/farm/slurm/fake_slurm.hpp"
 #include "tests/json.hpp"
 

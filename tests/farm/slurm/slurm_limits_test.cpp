@@ -1,4 +1,4 @@
-#include "farm/slurm/slurm_limits.hpp"
+#include "farm/slurm/slurm_options.hpp"
 
 #include <gmock/gmock.h>
 
