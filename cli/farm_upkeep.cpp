@@ -6,7 +6,6 @@
 #include "cli/publish.hpp"
 #include "core/numbers.hpp"
 #include "farm/upkeep.hpp"
-#include "farm/upkeep.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::cli {

@@ -14,7 +14,6 @@
 #include "core/files.hpp"
 #include "core/host.hpp"
 #include "core/process.hpp"
-#include "core/host.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 #include "farm/slurm/slurm_client.hpp"

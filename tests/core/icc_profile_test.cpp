@@ -67,9 +67,7 @@ std::string profile(const std::string& curve, const std::string& red = kSrgbRed)
   return header + table + data;
 }
 
-bool is_srgb(const std::string& bytes) {
-  return is_srgb_profile(bytes);
-}
+bool is_srgb(const std::string& bytes) { return is_srgb_profile(bytes); }
 
 TEST(IccProfile, OfSrgbIsKnownByItsColoursAndCurves) {
   EXPECT_TRUE(is_srgb(profile(parametric(2.4))));

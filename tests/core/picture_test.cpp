@@ -12,8 +12,8 @@
 #include "core/contained_reader.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "core/picture_file.hpp"
 #include "core/picture.hpp"
+#include "core/picture_file.hpp"
 #include "tests/core/picture_files.hpp"
 #include "tests/core/picture_fixture.hpp"
 

@@ -1,6 +1,6 @@
 // Primaries of files against OpenEXR's own matrices.
-#include "core/picture_colour.hpp"
 #include "core/constants.hpp"
+#include "core/picture_colour.hpp"
 
 #include <ImathMatrix.h>
 #include <ImfChromaticities.h>
