@@ -12,9 +12,9 @@
 #include <string_view>
 
 #include "bench/light/sections.hpp"
-#include "studies/cost/table.hpp"
-#include "studies/cost/scenes.hpp"
 #include "studies/cost/benchmarks.hpp"
+#include "studies/cost/scenes.hpp"
+#include "studies/cost/table.hpp"
 
 namespace lobelia::bench {
 namespace {
