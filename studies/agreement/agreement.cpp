@@ -1,3 +1,5 @@
+#include "studies/agreement/agreement.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "core/at_once.hpp"
 #include "core/constants.hpp"
@@ -12,10 +15,12 @@
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "reference_scenes/replicates.hpp"
 #include "renderer/render.hpp"
-#include "studies/agreement/agreement.hpp"
 
 namespace lobelia::agreement {
 namespace {
+
+constexpr ExponentTarget kOursTargets[] = {{1e6, {false, 1e-5}}};
+constexpr EngineVariant kOursVariant{.name = "ours", .title = "Lobelia", .targets = kOursTargets};
 
 /// From this exponent on the rounding of double would count.
 constexpr double kFiftyDigitsFrom = 1e5;
@@ -269,6 +274,55 @@ class Measurement {
 };
 
 }  // namespace
+
+const Variant& ours() {
+  static const Variant variant{"", kOursVariant};
+  return variant;
+}
+
+std::span<const Variant> variants() {
+  static const std::vector<Variant> all = [] {
+    std::vector<Variant> found;
+    for (const EngineInfo& engine : engine_infos())
+      for (const EngineVariant& variant : engine.variants) found.push_back({engine.name, variant});
+    return found;
+  }();
+  return all;
+}
+
+Variant pair_of(std::string_view first, std::string_view second) {
+  struct Names {
+    std::string name, title;
+  };
+  static std::map<std::pair<std::string_view, std::string_view>, Names> pairs;
+  Names& names = pairs[{first, second}];
+  if (names.name.empty())
+    names = {fmt::format("{}_{}", first, second),
+             fmt::format("{} against {}", engine_info(first).title, engine_info(second).title)};
+  return {"", {.name = names.name, .title = names.title}};
+}
+
+std::optional<Target> target_of(const EngineVariant& variant, double exponent) {
+  const auto found = std::ranges::find_if(
+      variant.targets, [&](const ExponentTarget& t) { return exponent <= t.up_to; });
+  return found == variant.targets.end() ? std::nullopt : std::optional(found->target);
+}
+
+std::string short_number(double value) {
+  if (value == 0) return "0";
+  if (!std::isfinite(value)) return "inf";
+  std::string text = fmt::format("{:.1e}", value);  // 4.9e-04
+  const auto digits = text.find('e') + 2;
+  while (digits + 1 < text.size() && text[digits] == '0') text.erase(digits, 1);
+  if (text[digits - 1] == '+') text.erase(digits - 1, 1);
+  if (const auto zero = text.find(".0e"); zero != std::string::npos) text.erase(zero, 2);
+  return text;
+}
+
+std::string target_text(const Target& target) {
+  return fmt::format("{} of the {}", short_number(target.limit),
+                     target.relative ? "value" : "peak");
+}
 
 Figures difference_from(const Picture& reference, const Image& image,
                         std::span<const std::uint8_t> ring) {
