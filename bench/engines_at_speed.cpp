@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/at_once.hpp"
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/timing.hpp"
 #include "lobelia_paths.hpp"

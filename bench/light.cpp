@@ -6,7 +6,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
+#include <numbers>
 #include <optional>
+#include <span>
 #include <thread>
 
 #include "core/threads.hpp"
