@@ -9,6 +9,7 @@
 #include "core/host.hpp"
 #include "core/image_io_module.hpp"
 #include "core/process.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 #include "renderer/kernels/kernels.hpp"
