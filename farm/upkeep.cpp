@@ -271,7 +271,6 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
     std::pair<std::int64_t, std::int64_t> used;
     ResultKey key;
     std::uint64_t bytes;
-    auto operator<=>(const Candidate&) const = default;
   };
   std::vector<Candidate> results;
   for (const ResultKey& key : cache.list()) {
@@ -285,7 +284,9 @@ GcReport collect_garbage(const fs::path& directory, std::optional<std::uint64_t>
     results.push_back({changed(cache.result_directory(key)), key, record->bytes()});
     report.kept_bytes += results.back().bytes;
   }
-  std::ranges::sort(results);
+  std::ranges::sort(results, [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.used, a.key) < std::tie(b.used, b.key);
+  });
   report.kept = results.size();
   for (const Candidate& one : results) {
     if (!max_bytes || report.kept_bytes <= *max_bytes) break;
