@@ -173,10 +173,4 @@ std::string FusedRenderer::kernel_text() {
       kernels().instruction_set);
 }
 
-std::unique_ptr<const FusedKernel> make_fused_kernel(const FusedSphere& sphere) {
-  if (sphere.diffuse)
-    return sphere.fresnel ? make_fused<true, true>(sphere) : make_fused<true, false>(sphere);
-  return sphere.fresnel ? make_fused<false, true>(sphere) : make_fused<false, false>(sphere);
-}
-
 }  // namespace lobelia

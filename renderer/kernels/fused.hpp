@@ -1,6 +1,5 @@
-// The inner loop of simple pictures: from the ray to the three floats of a pixel in one kernel, in registers.
-// Compiled for each combination of lobe, foreshortening, precision and effects. A kernel is made for one sphere of
-// one picture, with the lobe's constants.
+// The inner loop of simple pictures: from the ray to the three floats of a pixel in one kernel, whose values stay in the
+// first-level cache. A kernel is made for one sphere of one picture, with the lobe's constants.
 #pragma once
 
 #include <memory>
@@ -59,17 +58,5 @@ class FusedKernel {
 
 /// For this processor.
 std::unique_ptr<const FusedKernel> make_fused_kernel(const FusedSphere& sphere);
-
-/// Each variant has a .cpp file of its own, so that they compile side by side.
-template <bool kDiffuse, bool kFresnel>
-std::unique_ptr<const FusedKernel> make_fused(const FusedSphere& sphere);
-template <>
-std::unique_ptr<const FusedKernel> make_fused<false, false>(const FusedSphere& sphere);
-template <>
-std::unique_ptr<const FusedKernel> make_fused<false, true>(const FusedSphere& sphere);
-template <>
-std::unique_ptr<const FusedKernel> make_fused<true, false>(const FusedSphere& sphere);
-template <>
-std::unique_ptr<const FusedKernel> make_fused<true, true>(const FusedSphere& sphere);
 
 }  // namespace lobelia

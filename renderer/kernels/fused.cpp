@@ -1,18 +1,23 @@
 // The fused kernel. It does the same operations as the kernels of kernels.cpp one after the other, so its pictures
-// are the same bit for bit. The constants of a row or a picture are computed once. Compiled once for each
-// instruction set.
+// are the same bit for bit. The constants of a row or a picture are computed once.
 #include "renderer/kernels/fused.hpp"
+
+#include <functional>
+
+// As in kernels.cpp: a debug build keeps to the baseline.
+#ifndef __OPTIMIZE__
+#define HWY_COMPILE_ONLY_STATIC
+#endif
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/kernels/fused.cpp"
+#include <hwy/foreach_target.h>  // includes this file again for each instruction set
+#include <hwy/highway.h>
+
 #include "renderer/kernels/geometry-inl.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 #include "renderer/models/lobe_angle.hpp"
-
-#if defined(LOBELIA_RENDERER_KERNELS_FUSED_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LOBELIA_RENDERER_KERNELS_FUSED_INL_HPP
-#undef LOBELIA_RENDERER_KERNELS_FUSED_INL_HPP
-#else
-#define LOBELIA_RENDERER_KERNELS_FUSED_INL_HPP
-#endif
 
 /// For a lambda that is inlined into its caller's loop, with the caller's instructions.
 #ifndef LOBELIA_INLINE
@@ -21,7 +26,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
-namespace fused {
+namespace {
 
 /// Pixels that go through one loop after the other. A single loop from ray to colour would wait for its own roots
 /// and divisions, because a processor looks only about a hundred instructions ahead, less than one round of it. The
@@ -47,6 +52,7 @@ struct Stretch {
   Vectors to_eye;
   Vectors normal;  ///< 0 where the sphere is not seen, so that no light is reflected
   Values s, n_dot_l;
+  Values value;  ///< of the lobe
   HWY_ALIGN float s32[kStretch + 16];
   Vectors to_light;  ///< of a point light
   Values falloff;    ///< of a point light
@@ -55,7 +61,7 @@ struct Stretch {
 };
 
 /// to_eye_of_ray (geometry-inl.hpp) in two loops, up to the division and after it.
-inline void trace_rays(const FusedRow& row, int begin, int count, Stretch& stretch) {
+void trace_rays(const FusedRow& row, int begin, int count, Stretch& stretch) {
   const Lanes3 forward = broadcast(row.forward), right = broadcast(row.right);
   const Lanes3 v_up = broadcast(row.v_up);
   const double* columns = row.columns + begin;
@@ -101,8 +107,8 @@ void meet_sphere(const FusedSphere& sphere, std::span<const FusedRival> rivals, 
   }
 }
 
-inline void reach_point_light(const FusedSphere& sphere, const FusedLight& light, int count,
-                              Stretch& stretch) {
+void reach_point_light(const FusedSphere& sphere, const FusedLight& light, int count,
+                       Stretch& stretch) {
   const Lanes3 center = broadcast(sphere.center), position = broadcast(light.vector);
   const Lanes radius(sphere.radius);
   for (int i = 0; i < count; i += int(Lanes::count())) {
@@ -147,7 +153,7 @@ void find_angles(const FusedLight& light, int count, Stretch& stretch) {
   }
 }
 
-inline void find_fresnel(const FusedLight& light, int count, Stretch& stretch) {
+void find_fresnel(const FusedLight& light, int count, Stretch& stretch) {
   for (int i = 0; i < count; i += int(Lanes::count())) {
     const Lanes3 to_light =
         light.is_directional ? broadcast(light.vector) : stretch.to_light.load(i);
@@ -212,18 +218,138 @@ constexpr FindAngles kFindAngles[3][2] = {
     {&find_angles<kAngle, Precision::kFloat64, false>,
      &find_angles<kAngle, Precision::kFloat64, true>}};
 
+/// Writes the value of the lobe at each s.
+using EvaluateLobe = std::function<void(int count, Stretch&)>;
+
 /// `kOrder` is the k of a family of lobes if it is compiled in, otherwise 0; `Real` is the type of the lobe's
 /// arithmetic.
-template <class L, int kOrder, class Real, bool kForeshortened, bool kDiffuse, bool kFresnel>
+template <class L, int kOrder, class Real>
+EvaluateLobe evaluate_lobe(const Highlight& highlight) {
+  L made({highlight.exponent, highlight.lobe.order});
+  return [made](int count, Stretch& stretch) HWY_ATTR {
+    // A copy, so that its numbers stay in registers while values are written.
+    L lobe = made;
+    if constexpr (kOrder != 0) lobe.k = kOrder;
+    const int lanes = int(Lanes::count());
+    for (int i = 0; i < count; i += 2 * lanes) {
+      Lanes low, high;
+      if constexpr (std::is_same_v<Real, float>) {
+        widen(lobe.value(Lanes32::load(stretch.s32 + i)), low, high);
+      } else {
+        low = lobe.value(stretch.s.load(i));
+        high = lobe.value(stretch.s.load(i + lanes));
+      }
+      stretch.value.store(i, low);
+      stretch.value.store(i + lanes, high);
+    }
+  };
+}
+
+template <class L>
+EvaluateLobe evaluate_at(const Highlight& highlight, Precision precision) {
+  // The order that is compiled in, for speed: the paper's.
+  constexpr int kUsualOrder = std::size(L::kOrders) > 0 ? 16 : 0;
+  if (precision == Precision::kFloat64) return evaluate_lobe<L, 0, double>(highlight);
+  if (highlight.lobe.order == kUsualOrder) return evaluate_lobe<L, kUsualOrder, float>(highlight);
+  return evaluate_lobe<L, 0, float>(highlight);
+}
+
+/// block(i, target of pixel i's floats) for whole registers; the rest of a row goes through a buffer.
+template <class Block>
+HWY_INLINE void in_blocks(int count, float* rgb, Block block) {
+  const int pixels = int(Lanes32::count());
+  const int whole = count / pixels * pixels, over = 3 * (count - whole);
+  HWY_ALIGN float rest[3 * kFusedBlock];
+  if (over > 0) std::copy_n(rgb + 3 * whole, over, rest);
+  for (int i = 0; i < count; i += pixels) block(i, i < whole ? rgb + 3 * i : rest);
+  if (over > 0) std::copy_n(rest, over, rgb + 3 * whole);
+}
+
+/// Where a light's colour goes.
+struct Target {
+  bool first;  ///< it is the first light: the sums are not to be read
+  bool adds;   ///< to the picture's pixels
+  float* rgb;  ///< the picture
+};
+
+/// Adds the light of one lamp, to the picture if it is the only one, otherwise to the sums.
+template <bool kOnly, bool kForeshortened, bool kDiffuse, bool kFresnel>
+void colour(const FusedLight& light, int count, const Target& target, Stretch& stretch) {
+  // Copies, so that their numbers stay in registers while the picture is written.
+  const Rgb specular = light.specular, grazing = light.grazing, diffuse = light.diffuse;
+  const bool falls_off = !light.is_directional, first = target.first, adds = target.adds;
+  const bool is_grey = kOnly && !kFresnel && !kDiffuse && !adds && specular.r == specular.g &&
+                       specular.g == specular.b;
+  const int lanes = int(Lanes::count());
+  const auto block = [&](int i, float* to) LOBELIA_INLINE {
+    Rgb3 low, high;
+    if (!kOnly && !first) {
+      low.load(stretch.sum, i);
+      high.load(stretch.sum, i + lanes);
+    }
+    const auto lit = [&](int at) LOBELIA_INLINE {
+      const Lanes n_dot_l = stretch.n_dot_l.load(at);
+      Lanes value = stretch.value.load(at);
+      if constexpr (kForeshortened) value = value * n_dot_l;
+      value = where_less(Lanes(0.0), n_dot_l, value);
+      if (falls_off) value = stretch.falloff.load(at) * value;
+      return value.v;
+    };
+    const Lanes value_low(lit(i)), value_high(lit(i + lanes));
+    if (is_grey) return write_grey(value_low, value_high, specular.r, to);
+    const auto add = [&](int at, Lanes value, Rgb3& sum) LOBELIA_INLINE {
+      if (kOnly || first)
+        sum.set(value, specular);
+      else
+        sum.add(value, specular);
+      if constexpr (kFresnel) sum.add(value * stretch.fresnel.load(at), grazing);
+      if constexpr (kDiffuse) {
+        Lanes cosine = positive_part(stretch.n_dot_l.load(at));
+        if (falls_off) cosine = stretch.falloff.load(at) * cosine;
+        sum.add(cosine, diffuse);
+      }
+    };
+    add(i, value_low, low);
+    add(i + lanes, value_high, high);
+    if constexpr (kOnly) {
+      write(low, high, adds, to);
+    } else {
+      low.store(stretch.sum, i);
+      high.store(stretch.sum, i + lanes);
+    }
+  };
+  if constexpr (kOnly) {
+    in_blocks(count, target.rgb, block);
+  } else {
+    for (int i = 0; i < count; i += 2 * lanes) block(i, nullptr);
+  }
+}
+
+using Colour = void (*)(const FusedLight&, int count, const Target&, Stretch&);
+
+/// By whether the model is foreshortened, and whether there is a diffuse base and a Fresnel factor.
+template <bool kOnly>
+constexpr Colour kColours[2][2][2] = {
+    {{&colour<kOnly, false, false, false>, &colour<kOnly, false, false, true>},
+     {&colour<kOnly, false, true, false>, &colour<kOnly, false, true, true>}},
+    {{&colour<kOnly, true, false, false>, &colour<kOnly, true, false, true>},
+     {&colour<kOnly, true, true, false>, &colour<kOnly, true, true, true>}}};
+
 class Kernel final : public FusedKernel {
  public:
-  explicit Kernel(const FusedSphere& sphere)
-      : sphere_(sphere), lobe_({sphere.highlight.exponent, sphere.highlight.lobe.order}) {
-    const auto& table = info(sphere.highlight.model).angle == LobeAngle::kReflection
-                            ? kFindAngles<LobeAngle::kReflection>
-                            : kFindAngles<LobeAngle::kHalfVector>;
+  explicit Kernel(const FusedSphere& sphere) : sphere_(sphere) {
+    using Evaluate = EvaluateLobe (*)(const Highlight&, Precision);
+    static constexpr auto kLobes =
+        map_types<Evaluate>(Lobes{}, []<class L>() -> Evaluate { return &evaluate_at<L>; });
+    evaluate_lobe_ = kLobes.at(sphere.highlight.lobe.index)(sphere.highlight, sphere.precision);
+    const ModelInfo& model = info(sphere.highlight.model);
+    const auto& angles = model.angle == LobeAngle::kReflection
+                             ? kFindAngles<LobeAngle::kReflection>
+                             : kFindAngles<LobeAngle::kHalfVector>;
     for (const FusedLight& light : sphere.lights)
-      find_angles_.push_back(table[std::size_t(sphere.precision)][light.is_directional]);
+      find_angles_.push_back(angles[std::size_t(sphere.precision)][light.is_directional]);
+    const auto& colours = sphere.lights.size() == 1 ? kColours<true> : kColours<false>;
+    colour_ = colours[model.applies_cosine][sphere.diffuse][sphere.fresnel];
   }
 
   void render(const FusedRow& row, int begin, int end,
@@ -248,11 +374,11 @@ class Kernel final : public FusedKernel {
       const FusedLight& light = sphere_.lights[l];
       if (!light.is_directional) reach_point_light(sphere_, light, whole, stretch);
       find_angles_[l](light, whole, stretch);
-      if constexpr (kFresnel) find_fresnel(light, whole, stretch);
-      const bool first = l == 0, last = l + 1 == lights;
-      if (first && last) return colour<true>(light, count, true, adds, rgb, stretch);
-      colour<false>(light, whole, first, false, nullptr, stretch);
+      evaluate_lobe_(whole, stretch);
+      if (sphere_.fresnel) find_fresnel(light, whole, stretch);
+      colour_(light, lights == 1 ? count : whole, {l == 0, adds, rgb}, stretch);
     }
+    if (lights == 1) return;
     in_blocks(count, rgb, [&](int i, float* to) LOBELIA_INLINE {
       Rgb3 low, high;
       if (lights > 0) {
@@ -266,118 +392,28 @@ class Kernel final : public FusedKernel {
     });
   }
 
-  /// block(i, target of pixel i's floats) for whole registers; the rest of a row goes through a buffer.
-  template <class Block>
-  static HWY_INLINE void in_blocks(int count, float* rgb, Block block) {
-    const int pixels = int(Lanes32::count());
-    const int whole = count / pixels * pixels, over = 3 * (count - whole);
-    HWY_ALIGN float rest[3 * kFusedBlock];
-    if (over > 0) std::copy_n(rgb + 3 * whole, over, rest);
-    for (int i = 0; i < count; i += pixels) block(i, i < whole ? rgb + 3 * i : rest);
-    if (over > 0) std::copy_n(rest, over, rgb + 3 * whole);
-  }
-
-  /// Adds the light of one lamp, to the picture if it is the only one, otherwise to the sums.
-  template <bool kOnly>
-  void colour(const FusedLight& light, int count, bool first, bool adds, float* rgb,
-              Stretch& stretch) const {
-    // Copies, so that their numbers stay in registers while the picture is written.
-    L lobe = lobe_;
-    if constexpr (kOrder != 0) lobe.k = kOrder;
-    const Rgb specular = light.specular, grazing = light.grazing, diffuse = light.diffuse;
-    const bool falls_off = !light.is_directional;
-    const bool is_grey = kOnly && !kFresnel && !kDiffuse && !adds && specular.r == specular.g &&
-                         specular.g == specular.b;
-    const int lanes = int(Lanes::count());
-    const auto block = [&](int i, float* to) LOBELIA_INLINE {
-      Rgb3 low, high;
-      if (!kOnly && !first) {
-        low.load(stretch.sum, i);
-        high.load(stretch.sum, i + lanes);
-      }
-      Lanes value_low, value_high;
-      if constexpr (std::is_same_v<Real, float>) {
-        widen(lobe.value(Lanes32::load(stretch.s32 + i)), value_low, value_high);
-      } else {
-        value_low = lobe.value(stretch.s.load(i));
-        value_high = lobe.value(stretch.s.load(i + lanes));
-      }
-      const auto lit = [&](int at, Lanes value) LOBELIA_INLINE {
-        const Lanes n_dot_l = stretch.n_dot_l.load(at);
-        if constexpr (kForeshortened) value = value * n_dot_l;
-        value = where_less(Lanes(0.0), n_dot_l, value);
-        if (falls_off) value = stretch.falloff.load(at) * value;
-        return value.v;
-      };
-      value_low = Lanes(lit(i, value_low));
-      value_high = Lanes(lit(i + lanes, value_high));
-      if (is_grey) return write_grey(value_low, value_high, specular.r, to);
-      const auto add = [&](int at, Lanes value, Rgb3& sum) LOBELIA_INLINE {
-        if (kOnly || first)
-          sum.set(value, specular);
-        else
-          sum.add(value, specular);
-        if constexpr (kFresnel) sum.add(value * stretch.fresnel.load(at), grazing);
-        if constexpr (kDiffuse) {
-          Lanes cosine = positive_part(stretch.n_dot_l.load(at));
-          if (falls_off) cosine = stretch.falloff.load(at) * cosine;
-          sum.add(cosine, diffuse);
-        }
-      };
-      add(i, value_low, low);
-      add(i + lanes, value_high, high);
-      if constexpr (kOnly) {
-        write(low, high, adds, to);
-      } else {
-        low.store(stretch.sum, i);
-        high.store(stretch.sum, i + lanes);
-      }
-    };
-    if constexpr (kOnly) {
-      in_blocks(count, rgb, block);
-    } else {
-      for (int i = 0; i < count; i += 2 * lanes) block(i, nullptr);
-    }
-  }
-
   FusedSphere sphere_;
   std::vector<FindAngles> find_angles_;
-  L lobe_;
+  EvaluateLobe evaluate_lobe_;
+  Colour colour_;
 };
 
-using KernelPointer = std::unique_ptr<const FusedKernel>;
-
-template <class L, int kOrder, class Real, bool kDiffuse, bool kFresnel>
-KernelPointer make_of_model(const FusedSphere& sphere) {
-  if (info(sphere.highlight.model).applies_cosine)
-    return std::make_unique<Kernel<L, kOrder, Real, true, kDiffuse, kFresnel>>(sphere);
-  return std::make_unique<Kernel<L, kOrder, Real, false, kDiffuse, kFresnel>>(sphere);
+std::unique_ptr<const FusedKernel> make_kernel(const FusedSphere& sphere) {
+  return std::make_unique<Kernel>(sphere);
 }
 
-/// The order that is compiled in, for speed: the paper's.
-template <class L>
-inline constexpr int kUsualOrder = std::size(L::kOrders) > 0 ? 16 : 0;
-
-template <class L, bool kDiffuse, bool kFresnel>
-KernelPointer make_of_lobe(const FusedSphere& sphere) {
-  if (constexpr int kOrder = kUsualOrder<L>; kOrder != 0 && sphere.highlight.lobe.order == kOrder &&
-                                             sphere.precision != Precision::kFloat64)
-    return make_of_model<L, kOrder, float, kDiffuse, kFresnel>(sphere);
-  if (sphere.precision == Precision::kFloat64)
-    return make_of_model<L, 0, double, kDiffuse, kFresnel>(sphere);
-  return make_of_model<L, 0, float, kDiffuse, kFresnel>(sphere);
-}
-
-template <bool kDiffuse, bool kFresnel>
-KernelPointer make(const FusedSphere& sphere) {
-  using Make = KernelPointer (*)(const FusedSphere&);
-  static constexpr auto kTable = map_types<Make>(
-      Lobes{}, []<class L>() -> Make { return &make_of_lobe<L, kDiffuse, kFresnel>; });
-  return kTable.at(sphere.highlight.lobe.index)(sphere);
-}
-
-}  // namespace fused
+}  // namespace
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // per-target guard
+#if HWY_ONCE
+namespace lobelia {
+
+HWY_EXPORT(make_kernel);
+
+std::unique_ptr<const FusedKernel> make_fused_kernel(const FusedSphere& sphere) {
+  return HWY_DYNAMIC_DISPATCH(make_kernel)(sphere);
+}
+
+}  // namespace lobelia
+#endif
