@@ -13,10 +13,10 @@
 #include "records/cost.hpp"
 #include "records/words.hpp"
 
-namespace lobelia::gallery {
+namespace lobelia::gallery::cost_page {
 namespace {
 
-using records::CostError, records::CostTable, records::CostWay;
+using records::CostError, records::CostTable, records::CostVariant;
 
 constexpr char kRecord[] = "cost/cost.json", kCsv[] = "cost/cost.csv";
 constexpr char kTitle[] = "What accuracy costs in time";
@@ -27,17 +27,20 @@ constexpr std::size_t kMaxSentences = 8;  // about a front; the rest can be unfo
 /// Empty for seconds.
 std::string cost_unit(const CostTable& table) { return table.unit == "s" ? "" : table.unit; }
 
-double cost_of(const CostWay& way) {
-  return way.seconds ? way.seconds->median : way.count.value_or(kUnknown);
+double cost_of(const CostVariant& variant) {
+  return variant.seconds ? variant.seconds->median : variant.count.value_or(kUnknown);
 }
-double spread_of(const CostWay& way) { return way.seconds ? way.seconds->spread : 0; }
+double spread_of(const CostVariant& variant) {
+  return variant.seconds ? variant.seconds->spread : 0;
+}
 
-double error_of(const CostWay& way, const CostError& error) {
-  const double* value = records::find(way.errors, error.id);
+double error_of(const CostVariant& variant, const CostError& error) {
+  const double* value = records::find(variant.errors, error.id);
   return value ? *value : kUnknown;
 }
-double error_spread_of(const CostWay& way, const CostError& error) {
-  const double* spread = way.error_spreads ? records::find(*way.error_spreads, error.id) : nullptr;
+double error_spread_of(const CostVariant& variant, const CostError& error) {
+  const double* spread =
+      variant.error_spreads ? records::find(*variant.error_spreads, error.id) : nullptr;
   return spread ? *spread : 0;
 }
 
@@ -49,20 +52,22 @@ std::string cost_text(const CostTable& table, double cost) {
 std::string error_text(double error) { return std::isnan(error) ? "–" : number_text(error); }
 
 /// Whether no other variant is both as fast and as accurate.
-bool is_on_front(const CostTable& table, const CostError& error, const CostWay& way) {
+bool is_on_front(const CostTable& table, const CostError& error, const CostVariant& variant) {
   const records::CostFront* front = records::find(table.fronts, error.id);
-  return front && std::ranges::find(front->ways, way.name) != front->ways.end();
+  return front && std::ranges::find(front->variants, variant.name) != front->variants.end();
 }
 
 std::string chart_of(const CostTable& table, const CostError& error, const std::string& id) {
   ErrorTimes times{id, table.title, table.per, cost_unit(table), error.meaning, {}};
-  for (const CostWay& way : table.ways) {
-    const double cost = cost_of(way), spread = spread_of(way), value = error_of(way, error);
-    times.points.push_back({way.name,
-                            fmt::format("{}: {} ± {} %, {} {}", way.name, cost_text(table, cost),
-                                        number_text(100 * spread, 2), error.id, error_text(value)),
-                            cost, spread * cost, value, error_spread_of(way, error),
-                            is_on_front(table, error, way), way.name});
+  for (const CostVariant& variant : table.variants) {
+    const double cost = cost_of(variant), spread = spread_of(variant),
+                 value = error_of(variant, error);
+    times.points.push_back(
+        {variant.name,
+         fmt::format("{}: {} ± {} %, {} {}", variant.name, cost_text(table, cost),
+                     number_text(100 * spread, 2), error.id, error_text(value)),
+         cost, spread * cost, value, error_spread_of(variant, error),
+         is_on_front(table, error, variant), variant.name});
   }
   Chart chart = error_time_chart(times);
   chart.width = kChartWidth;
@@ -83,37 +88,38 @@ void write_sentences(Html& html, const std::vector<std::string>& sentences) {
 }
 
 void write_ways(Html& html, const CostTable& table) {
-  const Tag details(html, "details", {{"class", "ways"}});
-  html.element("summary", table.ways.size() == 1
-                              ? "The one way"
-                              : fmt::format("All {} ways, the fastest first", table.ways.size()));
+  const Tag details(html, "details", {{"class", "variants"}});
+  html.element("summary",
+               table.variants.size() == 1
+                   ? "The one variant"
+                   : fmt::format("All {} variants, the fastest first", table.variants.size()));
   const Tag scroll(html, "div", scroll_box("Ways: " + table.title));
   const Tag element(html, "table", {{"class", "figures"}});
   std::vector<std::string> titles = {
-      "way", (cost_unit(table).empty() ? "time per " : cost_unit(table) + " per ") + table.per,
+      "variant", (cost_unit(table).empty() ? "time per " : cost_unit(table) + " per ") + table.per,
       "±"};
   for (const CostError& error : table.errors) titles.push_back(error.id);
   titles.emplace_back("on the front by");
   write_columns(html, titles);
-  std::vector<const CostWay*> ways;
-  for (const CostWay& way : table.ways) ways.push_back(&way);
+  std::vector<const CostVariant*> variants;
+  for (const CostVariant& variant : table.variants) variants.push_back(&variant);
   // Unknown costs last: a NaN cannot be sorted.
-  std::ranges::stable_sort(ways, {}, [](const CostWay* way) {
-    const double cost = cost_of(*way);
+  std::ranges::stable_sort(variants, {}, [](const CostVariant* variant) {
+    const double cost = cost_of(*variant);
     return std::isnan(cost) ? HUGE_VAL : cost;
   });
   const Tag body(html, "tbody");
-  for (const CostWay* way : ways) {
-    const Tag row(html, "tr", {{"data-key", way->name}});
-    html.element("th", {{"scope", "row"}}, way->name);
-    html.element("td", {{"class", "number"}}, cost_text(table, cost_of(*way)));
+  for (const CostVariant* variant : variants) {
+    const Tag row(html, "tr", {{"data-key", variant->name}});
+    html.element("th", {{"scope", "row"}}, variant->name);
+    html.element("td", {{"class", "number"}}, cost_text(table, cost_of(*variant)));
     html.element("td", {{"class", "number"}},
-                 fmt::format("{} %", number_text(100 * spread_of(*way))));
+                 fmt::format("{} %", number_text(100 * spread_of(*variant))));
     for (const CostError& error : table.errors)
-      html.element("td", {{"class", "number"}}, error_text(error_of(*way, error)));
+      html.element("td", {{"class", "number"}}, error_text(error_of(*variant, error)));
     std::string on;
     for (const CostError& error : table.errors)
-      if (is_on_front(table, error, *way)) on += (on.empty() ? "" : ", ") + error.id;
+      if (is_on_front(table, error, *variant)) on += (on.empty() ? "" : ", ") + error.id;
     html.element("td", on);
   }
 }
@@ -141,9 +147,9 @@ void write_table(Html& html, const CostTable& table, std::size_t number) {
 
 void write_cost(Html& html, const records::Cost& cost) {
   write_lead(html, kTitle,
-             "Every way of making one thing, with its error and its time, measured in one run: "
+             "Every variant of one thing, with its error and its time, measured in one run: "
              "medians of interleaved rounds, ± half the spread between quartiles. The front is "
-             "those ways of which no other is both as fast and as accurate.");
+             "the variants that no other beats in both time and error.");
   {
     const Tag nav(html, "nav", {{"aria-label", "What was measured"}});
     const Tag list(html, "ul");
@@ -168,7 +174,7 @@ void write_cost(Html& html, const records::Cost& cost) {
   for (const auto& [name, value] : words_of(cost.host)) write_fact(html, name, value);
 }
 
-std::optional<ViewPage> cost_page(const std::filesystem::path& run) {
+std::optional<ViewPage> read_and_draw(const std::filesystem::path& run) {
   return record_page<records::Cost>(run, kRecord, kTitle,
                                     [&](ViewPage& page, const records::Cost& record) {
                                       write_cost(page.main, record);
@@ -178,7 +184,8 @@ std::optional<ViewPage> cost_page(const std::filesystem::path& run) {
 }
 
 }  // namespace
+}  // namespace lobelia::gallery::cost_page
 
-extern const View cost_view{"cost", "Cost", "cost.html", cost_page};
-
-}  // namespace lobelia::gallery
+namespace lobelia::gallery {
+extern const View cost_view{"cost", "Cost", "cost.html", cost_page::read_and_draw};
+}

@@ -12,7 +12,7 @@
 #include "records/pages.hpp"
 #include "records/words.hpp"
 
-namespace lobelia::gallery {
+namespace lobelia::gallery::explorer_page {
 namespace {
 
 using records::HighlightTable, records::HighlightTables, records::LobeTable, records::ModelTable;
@@ -308,12 +308,14 @@ void draw(ViewPage& page, const HighlightTables& tables) {
   page.data = records::record_line(page_data(tables));
 }
 
-std::optional<ViewPage> explorer_page(const std::filesystem::path& run) {
+std::optional<ViewPage> read_and_draw(const std::filesystem::path& run) {
   return record_page<HighlightTables>(run, kRecord, kTitle, draw);
 }
 
 }  // namespace
+}  // namespace lobelia::gallery::explorer_page
 
-extern const View explorer_view{"explorer", "Explorer", "explorer.html", explorer_page};
-
-}  // namespace lobelia::gallery
+namespace lobelia::gallery {
+extern const View explorer_view{"explorer", "Explorer", "explorer.html",
+                                explorer_page::read_and_draw};
+}

@@ -10,7 +10,7 @@
 #include "gallery/views.hpp"
 #include "records/pages.hpp"
 
-namespace lobelia::gallery {
+namespace lobelia::gallery::paper_page {
 namespace {
 
 using records::Claim, records::PaperFigure, records::VerifyPaper;
@@ -190,12 +190,13 @@ void draw(ViewPage& page, const VerifyPaper& record) {
   write_source(html, shell_join(record.command), kRecord);
 }
 
-std::optional<ViewPage> paper_page(const std::filesystem::path& run) {
+std::optional<ViewPage> read_and_draw(const std::filesystem::path& run) {
   return record_page<VerifyPaper>(run, kRecord, kTitle, draw);
 }
 
 }  // namespace
+}  // namespace lobelia::gallery::paper_page
 
-extern const View paper_view{"paper", "Paper", "paper.html", paper_page};
-
-}  // namespace lobelia::gallery
+namespace lobelia::gallery {
+extern const View paper_view{"paper", "Paper", "paper.html", paper_page::read_and_draw};
+}

@@ -13,7 +13,7 @@
 #include "gallery/views.hpp"
 #include "records/pages.hpp"
 
-namespace lobelia::gallery {
+namespace lobelia::gallery::stability_page {
 namespace {
 
 using records::VerifyStability, records::StabilityErrors, records::StabilityCurve;
@@ -262,14 +262,16 @@ void draw(ViewPage& page, const std::filesystem::path& run, const VerifyStabilit
   page.data = records::record_line(page_data(data));
 }
 
-std::optional<ViewPage> stability_page(const std::filesystem::path& run) {
+std::optional<ViewPage> read_and_draw(const std::filesystem::path& run) {
   return record_page<VerifyStability>(
       run, kRecord, kTitle,
       [&](ViewPage& page, const VerifyStability& data) { draw(page, run, data); });
 }
 
 }  // namespace
+}  // namespace lobelia::gallery::stability_page
 
-extern const View stability_view{"stability", "Stability", "stability.html", stability_page};
-
-}  // namespace lobelia::gallery
+namespace lobelia::gallery {
+extern const View stability_view{"stability", "Stability", "stability.html",
+                                 stability_page::read_and_draw};
+}

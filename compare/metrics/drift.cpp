@@ -10,26 +10,26 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {{"drift", "Mean difference, with its sign", Unit::kRadiance,
-                                      Better::kNearZero, false,
-                                      "signed mean of a - b over all RGB values",
-                                      "Positive where ours is brighter; noise cancels here."}};
-constexpr MetricOutput kMaskOutputs[] = {
+constexpr MetricOutput kDriftOutputs[] = {{"drift", "Mean difference, with its sign",
+                                           Unit::kRadiance, Better::kNearZero, false,
+                                           "signed mean of a - b over all RGB values",
+                                           "Positive where ours is brighter; noise cancels here."}};
+constexpr MetricOutput kDriftMaskOutputs[] = {
     {"drift.mask", "Mean difference with its sign, inside the mask", Unit::kRadiance,
      Better::kNearZero, false, "signed mean of a - b inside the mask",
      "Of the pixels that see a surface."}};
 
 template <Part part>
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_drift(const MetricInput& input, std::span<double> values) {
   values[0] = mean_over<part>(input, [](double a, double b) { return a - b; });
 }
 
 }  // namespace
 
-extern constinit const Metric drift_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                           measure<Part::kPicture>};
+extern constinit const Metric drift_metric{kDriftOutputs, Family::kRadiance, Needs::kNothing,
+                                           "textbook", measure_drift<Part::kPicture>};
 
-extern constinit const Metric drift_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
-                                                "textbook", measure<Part::kMask>};
+extern constinit const Metric drift_mask_metric{kDriftMaskOutputs, Family::kRadiance, Needs::kMask,
+                                                "textbook", measure_drift<Part::kMask>};
 
 }  // namespace lobelia

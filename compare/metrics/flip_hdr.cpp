@@ -21,7 +21,7 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kFlipHdrOutputs[] = {
     {"flip.hdr.mean", "HDR-FLIP, mean", Unit::kPlain, Better::kLower, true, "HDR-FLIP, mean",
      "The same at the exposure that shows each pixel’s difference best."},
     {"flip.hdr.max", "HDR-FLIP, largest", Unit::kPlain, Better::kLower, true,
@@ -38,7 +38,7 @@ std::vector<float> exposure_stops(const HdrExposures& range) {
   return stops;
 }
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_flip_hdr(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
   const std::vector<float> stops = exposure_stops(*input.hdr_exposures);
   pool_flip_errors(
@@ -58,7 +58,8 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric flip_hdr_metric{kOutputs, Family::kVisibility, Needs::kHdrExposures,
-                                              "Andersson et al. 2021; FLIP 1.6", measure};
+extern constinit const Metric flip_hdr_metric{kFlipHdrOutputs, Family::kVisibility,
+                                              Needs::kHdrExposures,
+                                              "Andersson et al. 2021; FLIP 1.6", measure_flip_hdr};
 
 }  // namespace lobelia

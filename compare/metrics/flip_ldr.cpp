@@ -22,13 +22,13 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kFlipLdrOutputs[] = {
     {"flip.ldr.mean", "LDR-FLIP, mean", Unit::kPlain, Better::kLower, true, "LDR-FLIP, mean",
      "What a person notices on flipping between the two pictures: 0 nothing, 1 everything."},
     {"flip.ldr.max", "LDR-FLIP, largest", Unit::kPlain, Better::kLower, true,
      "LDR-FLIP, the largest of all pixels", "The pixel where a person would notice most."}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_flip_ldr(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
   pool_flip_errors(
       input.shown_a.width(), input.shown_a.height(),
@@ -40,7 +40,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric flip_ldr_metric{kOutputs, Family::kVisibility, Needs::kNothing,
-                                              "Andersson et al. 2020; FLIP 1.6", measure};
+extern constinit const Metric flip_ldr_metric{kFlipLdrOutputs, Family::kVisibility, Needs::kNothing,
+                                              "Andersson et al. 2020; FLIP 1.6", measure_flip_ldr};
 
 }  // namespace lobelia

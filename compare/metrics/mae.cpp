@@ -10,25 +10,25 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kMaeOutputs[] = {
     {"mae", "Mean difference", Unit::kRadiance, Better::kLower, true,
      "mean absolute error of all RGB values",
      "Of all pixels and channels without their signs, in radiance."}};
-constexpr MetricOutput kMaskOutputs[] = {
+constexpr MetricOutput kMaeMaskOutputs[] = {
     {"mae.mask", "Mean difference, inside the mask", Unit::kRadiance, Better::kLower, true,
      "mean absolute error inside the mask", "Of the pixels that see a surface."}};
 
 template <Part part>
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_mae(const MetricInput& input, std::span<double> values) {
   values[0] = mean_over<part>(input, [](double a, double b) { return std::abs(a - b); });
 }
 
 }  // namespace
 
-extern constinit const Metric mae_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                         measure<Part::kPicture>};
+extern constinit const Metric mae_metric{kMaeOutputs, Family::kRadiance, Needs::kNothing,
+                                         "textbook", measure_mae<Part::kPicture>};
 
-extern constinit const Metric mae_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
-                                              "textbook", measure<Part::kMask>};
+extern constinit const Metric mae_mask_metric{kMaeMaskOutputs, Family::kRadiance, Needs::kMask,
+                                              "textbook", measure_mae<Part::kMask>};
 
 }  // namespace lobelia

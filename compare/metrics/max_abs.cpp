@@ -10,20 +10,20 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kMaxAbsOutputs[] = {
     {"max_abs", "Largest difference", Unit::kRadiance, Better::kLower, true,
      "largest error of an RGB value",
      "Of any channel of any pixel, in radiance; and at which pixel."},
     {"max_abs.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
     {"max_abs.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"}};
-constexpr MetricOutput kMaskOutputs[] = {
+constexpr MetricOutput kMaxAbsMaskOutputs[] = {
     {"max_abs.mask", "Largest difference, inside the mask", Unit::kRadiance, Better::kLower, true,
      "largest error of an RGB value inside the mask", "Of the pixels that see a surface."},
     {"max_abs.mask.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
     {"max_abs.mask.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"}};
 
 template <Part part>
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_max_abs(const MetricInput& input, std::span<double> values) {
   double largest = 0;
   std::size_t where = 0;
   for_each_value<part>(input, [&](double a, double b, std::size_t pixel) {
@@ -41,10 +41,10 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric max_abs_metric{kOutputs, Family::kRadiance, Needs::kNothing,
-                                             "textbook", measure<Part::kPicture>};
+extern constinit const Metric max_abs_metric{kMaxAbsOutputs, Family::kRadiance, Needs::kNothing,
+                                             "textbook", measure_max_abs<Part::kPicture>};
 
-extern constinit const Metric max_abs_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
-                                                  "textbook", measure<Part::kMask>};
+extern constinit const Metric max_abs_mask_metric{
+    kMaxAbsMaskOutputs, Family::kRadiance, Needs::kMask, "textbook", measure_max_abs<Part::kMask>};
 
 }  // namespace lobelia

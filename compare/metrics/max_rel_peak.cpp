@@ -12,13 +12,13 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kMaxRelPeakOutputs[] = {
     {"peak", "Peak", Unit::kRadiance, Better::kNeither, false,
      "brightest RGB value of the reference", "The brightest value of the reference picture."},
     {"max_rel_peak", "Largest difference, of the peak", Unit::kShare, Better::kLower, false,
      "largest error as a share of that", "The largest difference divided by the peak."}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_max_rel_peak(const MetricInput& input, std::span<double> values) {
   double largest = 0;
   for_each_value<Part::kPicture>(input, [&](double a, double b, std::size_t) {
     largest = std::max(largest, std::abs(a - b));
@@ -30,7 +30,8 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric max_rel_peak_metric{kOutputs, Family::kRadiance, Needs::kNothing,
-                                                  "ours: max_abs by the reference's peak", measure};
+extern constinit const Metric max_rel_peak_metric{
+    kMaxRelPeakOutputs, Family::kRadiance, Needs::kNothing, "ours: max_abs by the reference's peak",
+    measure_max_rel_peak};
 
 }  // namespace lobelia

@@ -20,17 +20,17 @@
 namespace lobelia {
 namespace {
 
-constexpr double kWeights[] = {0.0448, 0.2856, 0.3001, 0.2363, 0.1333};
-constexpr int kScales = int(std::size(kWeights));
+constexpr double kScaleWeights[] = {0.0448, 0.2856, 0.3001, 0.2363, 0.1333};
+constexpr int kScales = int(std::size(kScaleWeights));
 // ceil(175 / 16) would hold a window too; Wang's msssim.m requires side / 2^4 to hold one, and so do we.
 static_assert(kSsimSide << (kScales - 1) == kMsSsimSide);
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kMsSsimOutputs[] = {
     {"ms_ssim", "MS-SSIM", Unit::kPlain, Better::kHigher, true,
      "structural similarity at five scales",
      "The same at five scales, the coarse ones as from farther away.", 1, true}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_ms_ssim(const MetricInput& input, std::span<double> values) {
   // The full size is never kept as planes: two would take a third of the pictures' memory.
   LumaRows rows_a = luma(input.shown_a), rows_b = luma(input.shown_b);
   LumaPlane a, b;
@@ -39,7 +39,7 @@ void measure(const MetricInput& input, std::span<double> values) {
     const SsimMeans means = ssim_means(rows_a, rows_b);
     const bool last = scale == kScales - 1;
     const double mean = last ? means.similarity : means.contrast_structure;
-    product *= std::pow(std::max(mean, 0.0), kWeights[scale]);
+    product *= std::pow(std::max(mean, 0.0), kScaleWeights[scale]);
     if (last) break;
     a = half_size(rows_a);
     b = half_size(rows_b);
@@ -51,7 +51,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric ms_ssim_metric{kOutputs, Family::kStructure, Needs::kFiveScales,
-                                             "Wang, Simoncelli, Bovik 2003", measure};
+extern constinit const Metric ms_ssim_metric{kMsSsimOutputs, Family::kStructure, Needs::kFiveScales,
+                                             "Wang, Simoncelli, Bovik 2003", measure_ms_ssim};
 
 }  // namespace lobelia

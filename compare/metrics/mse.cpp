@@ -10,17 +10,18 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {{"mse", "Mean square difference", Unit::kPlain, Better::kLower,
-                                      true, "mean square error of all RGB values",
-                                      "The square of the root mean square difference.", 0, true}};
+constexpr MetricOutput kMseOutputs[] = {
+    {"mse", "Mean square difference", Unit::kPlain, Better::kLower, true,
+     "mean square error of all RGB values", "The square of the root mean square difference.", 0,
+     true}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_mse(const MetricInput& input, std::span<double> values) {
   values[0] = mean_square_error<Part::kPicture>(input);
 }
 
 }  // namespace
 
-extern constinit const Metric mse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                         measure};
+extern constinit const Metric mse_metric{kMseOutputs, Family::kRadiance, Needs::kNothing,
+                                         "textbook", measure_mse};
 
 }  // namespace lobelia

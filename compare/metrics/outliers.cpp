@@ -14,7 +14,7 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kOutliersOutputs[] = {
     {"outliers", "Pixels beyond the tolerance", Unit::kCount, Better::kLower, false,
      "pixels outside the tolerance",
      "A few pixels may be: on the silhouette and on the terminator rounding decides what a ray hits."},
@@ -22,7 +22,7 @@ constexpr MetricOutput kOutputs[] = {
      "of these, away from the edges of the scene",
      "Not on a silhouette, a terminator or a shadow’s edge, where only rounding decides."}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_outliers(const MetricInput& input, std::span<double> values) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   const double relative = input.tolerance->relative;
   const double floor = input.tolerance->of_peak * peak_value(input.b);
@@ -43,7 +43,8 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric outliers_metric{kOutputs, Family::kRadiance, Needs::kTolerance,
-                                              "idiff -fail, -failpercent", measure};
+extern constinit const Metric outliers_metric{kOutliersOutputs, Family::kRadiance,
+                                              Needs::kTolerance, "idiff -fail, -failpercent",
+                                              measure_outliers};
 
 }  // namespace lobelia

@@ -15,19 +15,19 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kPsnrOutputs[] = {
     {"psnr", "Peak signal-to-noise ratio", Unit::kPlain, Better::kHigher, false,
      "reference's peak over rmse, in decibels",
      "In decibels, of the reference’s peak; more is better.", kInfinity}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_psnr(const MetricInput& input, std::span<double> values) {
   const double error = mean_square_error<Part::kPicture>(input), peak = peak_value(input.b);
   values[0] = error == 0 ? kInfinity : 20 * std::log10(peak) - 10 * std::log10(error);
 }
 
 }  // namespace
 
-extern constinit const Metric psnr_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                          measure};
+extern constinit const Metric psnr_metric{kPsnrOutputs, Family::kRadiance, Needs::kNothing,
+                                          "textbook", measure_psnr};
 
 }  // namespace lobelia

@@ -13,21 +13,21 @@
 namespace lobelia {
 namespace {
 
-constexpr double kEpsilon = 0.01;
+constexpr double kRelmseEpsilon = 0.01;
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kRelmseOutputs[] = {
     {"relmse.eps=0.01", "Relative mean square difference", Unit::kPlain, Better::kLower, false,
      "mean of (a - b)^2 / (b^2 + 0.01)",
      "Each squared difference divided by the reference’s squared value plus 0.01.", 0, true}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_relmse(const MetricInput& input, std::span<double> values) {
   values[0] = mean_over<Part::kPicture>(
-      input, [](double a, double b) { return (a - b) * (a - b) / (b * b + kEpsilon); });
+      input, [](double a, double b) { return (a - b) * (a - b) / (b * b + kRelmseEpsilon); });
 }
 
 }  // namespace
 
-extern constinit const Metric relmse_metric{kOutputs, Family::kRadiance, Needs::kNothing,
-                                            "Rousselle, Knaus, Zwicker 2011", measure};
+extern constinit const Metric relmse_metric{kRelmseOutputs, Family::kRadiance, Needs::kNothing,
+                                            "Rousselle, Knaus, Zwicker 2011", measure_relmse};
 
 }  // namespace lobelia

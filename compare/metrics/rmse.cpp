@@ -10,24 +10,24 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kRmseOutputs[] = {
     {"rmse", "Root mean square difference", Unit::kRadiance, Better::kLower, true,
      "root mean square error of all RGB values", "Over all pixels and channels, in radiance."}};
-constexpr MetricOutput kMaskOutputs[] = {
+constexpr MetricOutput kRmseMaskOutputs[] = {
     {"rmse.mask", "Root mean square difference, inside the mask", Unit::kRadiance, Better::kLower,
      true, "root mean square error inside the mask", "Of the pixels that see a surface."}};
 
 template <Part part>
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_rmse(const MetricInput& input, std::span<double> values) {
   values[0] = std::sqrt(mean_square_error<part>(input));
 }
 
 }  // namespace
 
-extern constinit const Metric rmse_metric{kOutputs, Family::kRadiance, Needs::kNothing, "textbook",
-                                          measure<Part::kPicture>};
+extern constinit const Metric rmse_metric{kRmseOutputs, Family::kRadiance, Needs::kNothing,
+                                          "textbook", measure_rmse<Part::kPicture>};
 
-extern constinit const Metric rmse_mask_metric{kMaskOutputs, Family::kRadiance, Needs::kMask,
-                                               "textbook", measure<Part::kMask>};
+extern constinit const Metric rmse_mask_metric{kRmseMaskOutputs, Family::kRadiance, Needs::kMask,
+                                               "textbook", measure_rmse<Part::kMask>};
 
 }  // namespace lobelia

@@ -20,17 +20,17 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kSsimOutputs[] = {
     {"ssim", "SSIM", Unit::kPlain, Better::kHigher, true, "structural similarity of the luma, mean",
      "How alike the structure is, 1 for equal pictures; more is better.", 1, true}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_ssim(const MetricInput& input, std::span<double> values) {
   values[0] = ssim_means(luma(input.shown_a), luma(input.shown_b)).similarity;
 }
 
 }  // namespace
 
-extern constinit const Metric ssim_metric{kOutputs, Family::kStructure, Needs::kOneWindow,
-                                          "Wang, Bovik, Sheikh, Simoncelli 2004", measure};
+extern constinit const Metric ssim_metric{kSsimOutputs, Family::kStructure, Needs::kOneWindow,
+                                          "Wang, Bovik, Sheikh, Simoncelli 2004", measure_ssim};
 
 }  // namespace lobelia

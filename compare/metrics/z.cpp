@@ -14,7 +14,7 @@
 namespace lobelia {
 namespace {
 
-constexpr MetricOutput kOutputs[] = {
+constexpr MetricOutput kZOutputs[] = {
     {"z.max", "Largest difference, in units of its noise", Unit::kPlain, Better::kLower, false,
      "largest difference in units of its noise, as a normal number",
      "As a standard normal number; beyond the critical one it is no chance."},
@@ -37,7 +37,7 @@ constexpr MetricOutput kOutputs[] = {
      "pixels that are not sure to lie within the tolerance",
      "Not sure to lie within the tolerance."}};
 
-void measure(const MetricInput& input, std::span<double> values) {
+void measure_z(const MetricInput& input, std::span<double> values) {
   const ZTest test = z_test(input);
   const double results[] = {test.largest,          double(test.x),       double(test.y),
                             double(test.size),     test.critical,        double(test.beyond),
@@ -47,7 +47,7 @@ void measure(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric z_metric{kOutputs, Family::kRadiance, Needs::kNoise,
-                                       "Student's t, Sidak 1967", measure};
+extern constinit const Metric z_metric{kZOutputs, Family::kRadiance, Needs::kNoise,
+                                       "Student's t, Sidak 1967", measure_z};
 
 }  // namespace lobelia

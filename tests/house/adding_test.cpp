@@ -114,7 +114,8 @@ void add_model(const fs::path& tree) {
 
 void add_metric(const fs::path& tree) {
   Addition metric(tree, "a metric");
-  metric.copy("compare/metrics/relmse.cpp", "compare/metrics/NAME.cpp", {{"relmse", "throwaway"}});
+  metric.copy("compare/metrics/relmse.cpp", "compare/metrics/NAME.cpp",
+              {{"relmse", "throwaway"}, {"Relmse", "Throwaway"}});
   metric.list("compare/metrics/catalogue.cpp", "#define LOBELIA_METRICS(METRIC) ",
               "METRIC(throwaway) ");
   metric.expect_as_documented();
