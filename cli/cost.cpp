@@ -83,7 +83,7 @@ std::string level_lines() {
 
 void add_cost(CLI::App& app, ExitCode&) {
   auto* command = app.add_subcommand(
-      "cost", "Measure what accuracy costs in time: error and time of every way, in one run");
+      "cost", "Measure what accuracy costs in time: error and time of every variant, in one run");
   auto options = std::make_shared<CostArguments>();
   command->add_option("SCENE", options->scenes, "Scene files, for the levels that need some");
   std::vector<std::string> names;
@@ -102,7 +102,7 @@ void add_cost(CLI::App& app, ExitCode&) {
              "Write cost.json, cost.csv and a chart (.svg) of each table's front into DIR");
   output.add("--json", options->json, "-", "With -, print the record in place of the tables")
       ->check(CLI::IsMember({"-"}));
-  output.add_flag("--all", options->all, "Print the ways that others dominate as well");
+  output.add_flag("--all", options->all, "Print the variants that others dominate as well");
   output.add_flag("-q,--quiet", options->quiet, "No progress line");
   command->footer(
       "Levels:\n" + level_lines() +

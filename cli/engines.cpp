@@ -22,7 +22,7 @@ records::EngineFound engine_record(const EngineInfo& engine, const EngineStatus&
   record.version = status.version;
   if (!status.available()) record.why = status.why;
   record.supported_versions = engine.supported_versions;
-  record.witness = engine.shading;
+  record.shading = engine.shading;
   record.precision = engine.precision;
   record.effects = engine.effects;
   record.install = engine.install_hint;

@@ -85,7 +85,7 @@ void run_reference(const ReferenceArguments& options) {
   if (!options.quiet)
     say("{}: {} x {}, {:.3f} s, {} {}, {}\n", printable_path(options.output), result.image.width(),
         result.image.height(), record.seconds.total, engine_info.title, engine->status().version,
-        record.witness);
+        record.shading);
 }
 
 /// "half or float (povray), float (blender)"

@@ -140,7 +140,7 @@ void make_reference(const Scene& scene, const FarmEngine& engine, const std::str
   if (!result.log.empty()) write_file(draft.file(engine.name + ".log"), result.log);
   made.command = record.command;
   made.engine_commands = record.engine_commands;
-  made.witness = record.witness;
+  made.shading = record.shading;
 }
 
 Tolerance tolerance_of(std::string_view engine, std::vector<std::uint8_t> edges) {

@@ -44,7 +44,7 @@ void write_facts(Html& html, const records::FarmEngine& engine, const EnginePict
     write_fact(html, "Instruction set", made->instruction_set);
   }
   if (const auto& made = image.reference) {
-    write_fact(html, "Shading", made->witness);
+    write_fact(html, "Shading", made->shading);
     write_fact(html, "Time", seconds_words(made->seconds));
     write_fact(html, "Method", made->method);
     write_fact(html, "Passes", count_text(double(made->passes)));

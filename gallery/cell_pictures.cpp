@@ -55,9 +55,9 @@ std::string why_no_picture(const records::FarmEngine& engine, const CheckedCell&
 /// How the engine shaded the model.
 std::string shading_words(const EnginePicture& image) {
   if (!image.reference) return "";
-  const std::string& witness = image.reference->witness;
-  if (witness == "native") return "its own shading of this model";
-  return witness == "expressed" ? "the model written in its language"
+  const std::string& shading = image.reference->shading;
+  if (shading == "native") return "its own shading of this model";
+  return shading == "expressed" ? "the model written in its language"
                                 : "the formulas, pixel by pixel";
 }
 

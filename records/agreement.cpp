@@ -22,6 +22,7 @@ void define_agreement_tables(Tables& tables) {
       "A picture compared; its figures are of pixels that are not in the ring.", [](auto& t) {
         t.key("group").one_of(kGroups);
         t.key("what", "the light, or the effect");
+        t.key("variant").renamed("witness");
         t.key("view").one_of(kViews);
         t.keys({"width", "height"}).unit("pixels");
         t.keys({"maxOfPeak", "rmsOfPeak", "maxRelative"}).may_be_nonfinite();
@@ -29,7 +30,10 @@ void define_agreement_tables(Tables& tables) {
       });
   tables.define<SoftCount>("A soft effect by a number of points.",
                            [](auto& t) { t.key("rmsOfPeak").may_be_nonfinite(); });
-  tables.define<SoftRow>("A soft effect.", [](auto& t) { t.key("why").if_any(); });
+  tables.define<SoftRow>("A soft effect.", [](auto& t) {
+    t.key("variant").renamed("witness");
+    t.key("why").if_any();
+  });
   tables.define<Agreement>(
       "How far all engines are from the formulas: 'lobelia verify references --json'.",
       [](auto& t) { t.kind("agreement"); });

@@ -25,7 +25,7 @@ struct AgreementRow {
   double exponent = 0;
   std::string view;
   int width = 0, height = 0;
-  std::string witness;
+  std::string variant;
   std::optional<double> max_of_peak, rms_of_peak, max_relative;
   std::optional<Ring> ring;
   std::string why;
@@ -40,7 +40,7 @@ struct SoftCount {
 };
 
 struct SoftRow {
-  std::string what, witness;
+  std::string what, variant;
   std::vector<SoftCount> counts;
   std::string why, verdict;
 };

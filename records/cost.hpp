@@ -42,7 +42,7 @@ struct CostFacts {
   std::optional<double> seconds_of_tiny_call;
 };
 
-struct CostWay {
+struct CostVariant {
   std::string name;
   Named<std::string> settings;
   Named<double> errors;
@@ -53,7 +53,7 @@ struct CostWay {
 };
 
 struct CostFront {
-  std::vector<std::string> ways;
+  std::vector<std::string> variants;
   Named<std::string> dominated_by;
   std::vector<std::string> in_words;
   std::string chart;
@@ -66,7 +66,7 @@ struct CostTable {
   std::string unit = "s";
   std::string per;
   std::vector<CostError> errors;
-  std::vector<CostWay> ways;
+  std::vector<CostVariant> variants;
   Named<CostFront> fronts;
   std::vector<std::string> remarks;
 };

@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::string_view kAccuracyUnits[] = {"ofPeak", "de2000"};
 constexpr std::string_view kBases[] = {"bound", "look"};
-constexpr std::string_view kWitnesses[] = {"native", "expressed", "analytic"};
+constexpr std::string_view kShadings[] = {"native", "expressed", "analytic"};
 
 }  // namespace
 
@@ -72,10 +72,11 @@ void define_render_tables(Tables& tables) {
   });
   tables.define<Reference>("A picture by a reference engine.", [](auto& t) {
     t.kind("reference");
-    t.key("witness",
+    t.key("shading",
           "the engine's own shading of the model, the model written in the "
           "engine's language, or its formulas pixel by pixel")
-        .one_of(kWitnesses);
+        .renamed("witness")
+        .one_of(kShadings);
     t.key("points", "of each area light, of the lens and of the pixel");
     t.key("seed", "of these points");
     t.key("engineCommands", "without the temporary directory they ran in");
@@ -96,7 +97,7 @@ void define_render_tables(Tables& tables) {
     t.key("program", "missing if none was found").if_any();
     t.key("version", "missing if it told none").if_any();
     t.key("why", "why it cannot be used").if_any();
-    t.key("witness", "models that it shades itself, and by our formula");
+    t.key("shading", "models that it shades itself, and by our formula").renamed("witness");
     t.key("precision", "of its pictures");
     t.key("effects", "that scenes for it may have");
     t.key("install", "the command that installs it");

@@ -109,7 +109,7 @@ struct EngineSeconds {
 struct Reference {
   EngineUsed engine;
   ImageFile image;
-  std::string witness, method;
+  std::string shading, method;
   std::size_t passes = 0;
   std::optional<int> points;
   std::optional<std::uint64_t> seed;
@@ -129,7 +129,7 @@ struct Reference {
 struct EngineFound {
   std::string name, title;
   bool available = false;
-  std::string state, program, version, why, supported_versions, witness, precision, effects,
+  std::string state, program, version, why, supported_versions, shading, precision, effects,
       install;
 };
 

@@ -55,7 +55,8 @@ void define_result_tables(Tables& tables) {
       "A result in the cache: results/ab/KEY/result.json beside its files.", [](auto& t) {
         t.kind("result", Seal::kYes);
         t.key("job").one_of(kJobs);
-        t.keys({"engine", "witness", "verdict"}).if_any();
+        t.keys({"engine", "verdict"}).if_any();
+        t.key("shading").renamed("witness").if_any();
         t.key("firstMadeFor", "a cell");
         t.key("command", "makes it again").if_any();
         t.key("exposureStops").unit("stops");

@@ -51,7 +51,7 @@ struct Result {
   std::optional<std::vector<std::string>> warnings;
   // A reference only:
   std::optional<std::vector<std::string>> engine_commands;
-  std::string witness;
+  std::string shading;
   // A comparison only:
   std::string verdict;
   std::optional<CellComparison> entry;

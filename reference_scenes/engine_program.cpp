@@ -289,7 +289,7 @@ ImageMetadata reference_metadata(const Scene& scene, const records::Reference& r
   ImageMetadata metadata = render_metadata(scene);
   metadata.emplace_back("lobelia:engine",
                         fmt::format("{} {}", record.engine.title, record.engine.version));
-  metadata.emplace_back("lobelia:witness", record.witness);
+  metadata.emplace_back("lobelia:witness", record.shading);
   return metadata;
 }
 

@@ -48,7 +48,7 @@ class JsonSchema {
 
 template <class T>
 JsonSchema schema_of() {
-  return JsonSchema(records::schema_text({T::type, nullptr}));
+  return JsonSchema(records::schema_text({records::struct_type<T>, nullptr}));
 }
 
 /// What is wrong with a record by the schema of its kind.

@@ -172,11 +172,11 @@ class Measurement {
 
   void take(std::size_t i, const Variant& variant, ReferenceResult result) {
     const std::string_view asked = kShadingNames[std::size_t(variant.shading)];
-    if (result.error.empty() && result.record.witness != asked) {
+    if (result.error.empty() && result.record.shading != asked) {
       result.failure = FailureClass::kRefused;
       result.error =
           fmt::format("asked for highlights that are {}, the engine rendered some that are {}",
-                      asked, result.record.witness);
+                      asked, result.record.shading);
     }
     if (!result.error.empty()) {
       result_.rows.push_back({i, variant, {}, Verdict::kFailed, result.error});

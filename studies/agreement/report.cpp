@@ -17,7 +17,7 @@ records::AgreementRow row_record(const Agreement& agreement, const Row& row) {
   record.view = one.close_up ? "close-up" : "whole";
   record.width = one.scene.film.width;
   record.height = one.scene.film.height;
-  record.witness = row.variant.name;
+  record.variant = row.variant.name;
   record.why = row.why;
   if (row.why.empty()) {
     const Figures& f = row.figures;
@@ -37,7 +37,7 @@ records::AgreementRow row_record(const Agreement& agreement, const Row& row) {
 records::SoftRow soft_record(const SoftRow& row) {
   records::SoftRow record;
   record.what = row.what;
-  record.witness = row.variant.name;
+  record.variant = row.variant.name;
   record.counts = row.counts;
   record.why = row.why;
   record.verdict = kVerdictNames[std::size_t(row.verdict)];

@@ -4,7 +4,7 @@ namespace lobelia::cost {
 namespace {
 
 constexpr Benchmark kBenchmarks[] = {
-    {"lobe", "every lobe and every way of computing it", false, &measure_lobes},
+    {"lobe", "every lobe, computed in every variant", false, &measure_lobes},
     {"fixed-point", "lobes as circuits, by their number of bits", false, &measure_fixed_point},
     {"picture", "milliseconds a megapixel over the errors of the picture", true, &measure_pictures},
     {"transport",

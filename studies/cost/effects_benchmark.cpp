@@ -135,9 +135,9 @@ Table measure_scene(const std::string& name, const Scene& scene, const Options& 
     facts.rays_saved = double(rays(cases[0].result.work)) - double(rays(one.result.work));
     facts.seconds_saved = times[0].median - times[i].median;
     facts.work = effects_record(one.result);
-    table.ways.push_back(std::move(variant));
+    table.variants.push_back(std::move(variant));
     if (!one.effect.empty())
-      table.remarks.push_back(price(table.ways.back(), table.ways[0], one, cases[0]));
+      table.remarks.push_back(price(table.variants.back(), table.variants[0], one, cases[0]));
   }
   const Comparison noise = compare(with_more_samples(cases[0], more, 1), whole, seen);
   table.remarks.push_back(fmt::format(

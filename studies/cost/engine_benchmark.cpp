@@ -225,12 +225,12 @@ Table measure_scene(const NamedScene& named, const Options& options) {
   ComparisonOptions seen;
   seen.viewing.exposure_stops = exposure_for_peak(peak_value(truth.image));
   for (Contender& one : all)
-    table.ways.push_back(measured_contender(one, truth.image, edges, seen));
-  if (!(table.ways[0].errors[0].second <= kMostError))
+    table.variants.push_back(measured_contender(one, truth.image, edges, seen));
+  if (!(table.variants[0].errors[0].second <= kMostError))
     throw Error(ExitCode::kInternal,
                 fmt::format("engine: our picture of {} is off by {:.2g} of the peak", named.name,
-                            table.ways[0].errors[0].second));
-  for (const Variant& variant : table.ways) table.remarks.push_back(stages_text(variant));
+                            table.variants[0].errors[0].second));
+  for (const Variant& variant : table.variants) table.remarks.push_back(stages_text(variant));
   table.remarks.push_back(fmt::format(
       "times are of whole processes, all of an engine's passes included; errors are to the formulas in 50 "
       "digits, which took {}, rounded to float32 as all pictures are (6e-8 of a value), seen with the peak as white, without the {} pixels at edges where a rounding "

@@ -158,7 +158,7 @@ void add_sampling_remark(Table& table, const std::vector<CircuitErrors>& errors)
   }
   if (parts > 0)
     table.remarks.push_back(fmt::format(
-        "{} of {} ways have more than {} steps, of which {} were looked at: their max is a bracket, and the "
+        "{} of {} variants have more than {} steps, of which {} were looked at: their max is a bracket, and the "
         "standard errors are at most {:.1g} of rms and {:.1g} in energy.",
         parts, errors.size(), kMostSteps, 2 * kCells + 2, rms, energy));
 }
@@ -290,7 +290,7 @@ Table fixed_point_table(unsigned n, const std::vector<int>& bits) {
   const std::vector<Circuit> tried = circuits(n, bits);
   const std::vector<CircuitErrors> errors = errors_of_all(tried, n);
   for (std::size_t i = 0; i < tried.size(); ++i)
-    table.ways.push_back(circuit_variant(tried[i], errors[i]));
+    table.variants.push_back(circuit_variant(tried[i], errors[i]));
   for (const FixedRounding rounding : kRoundings)
     for (std::string& remark : remarks_of(n, rounding)) table.remarks.push_back(std::move(remark));
   add_sampling_remark(table, errors);

@@ -129,9 +129,9 @@ std::vector<std::string> limit_remarks(const std::vector<LobeVariant>& variants,
     if (rounding < least_rounding) least_rounding = rounding, least_by = variants[i].name();
     if (rounding > most_rounding) most_rounding = rounding, rounded_by = variants[i].name();
   }
-  std::vector<std::string> remarks{
-      fmt::format("The shape limits {} of {} ways: the most rounding seen is {:.2g} of it ({}).",
-                  by_shape, variants.size(), most, shaped_by)};
+  std::vector<std::string> remarks{fmt::format(
+      "The shape limits {} of {} variants: the most rounding seen is {:.2g} of it ({}).", by_shape,
+      variants.size(), most, shaped_by)};
   if (by_shape < variants.size())
     remarks.push_back(fmt::format(
         "Of the other {} the rounding is the larger error: seen from {:.2g} ({}) to {:.2g} ({}).",
@@ -141,19 +141,20 @@ std::vector<std::string> limit_remarks(const std::vector<LobeVariant>& variants,
 
 std::string bracket_remark(const Table& table) {
   const auto brackets = std::ranges::count_if(
-      table.ways, [](const Variant& variant) { return variant.errors_at_most.has_value(); });
+      table.variants, [](const Variant& variant) { return variant.errors_at_most.has_value(); });
   if (brackets == 0) return "";
   return fmt::format(
-      "The max of {} ways is of all float32 numbers s, that of {} a bracket: the largest found, and a bound that no "
+      "The max of {} variants is of all float32 numbers s, that of {} a bracket: the largest found, and a bound that no "
       "number exceeds.",
-      std::ssize(table.ways) - brackets, brackets);
+      std::ssize(table.variants) - brackets, brackets);
 }
 
 std::string time_remark(const Table& table, double copy) {
   double fastest = kInfinity;
-  for (const Variant& variant : table.ways) fastest = std::min(fastest, variant.seconds->median);
+  for (const Variant& variant : table.variants)
+    fastest = std::min(fastest, variant.seconds->median);
   return fmt::format(
-      "Reading s and writing a value takes {} in float32; the fastest way takes {:.1f} times that.",
+      "Reading s and writing a value takes {} in float32; the fastest variant takes {:.1f} times that.",
       short_time_text(copy), fastest / copy);
 }
 
@@ -186,7 +187,7 @@ Table lobe_table(double exponent, int rounds, bool quick) {
                                : quick               ? kMostNumbersQuick
                                : variants[i].wide    ? kMostNumbers64
                                                      : kAllNumbers;
-    table.ways.push_back(
+    table.variants.push_back(
         measured_lobe(variants[i], errors[i],
                       largest_error(variants[i], exponent, errors[i].all.max, most), each(i)));
   }

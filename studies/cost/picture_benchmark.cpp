@@ -61,7 +61,7 @@ std::string order_remark(const std::vector<Variant>& variants) {
       worst = std::max({worst, ratio, 1 / ratio});
     }
   return fmt::format(
-      "of {} pairs of ways of which one is clearly slower, the order of costs that --accuracy goes by has {} "
+      "of {} pairs of variants of which one is clearly slower, the order of costs that --accuracy goes by has {} "
       "the other way round, by {:.0f} % of the time at most",
       clear, reversed, 100 * (worst - 1));
 }
@@ -109,7 +109,7 @@ Table table_of(const NamedScene& named, const Options& options) {
       return accuracy::measure_at_peak(metric, c.first.image, truth.image);
     };
     const std::string lobe(info(c.lobe).name), precision(name(c.precision));
-    Variant& variant = table.ways.emplace_back();
+    Variant& variant = table.variants.emplace_back();
     variant.name = fmt::format("{}, {}", lobe, precision);
     variant.settings = {
         {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.first.samples)}};
@@ -127,7 +127,7 @@ Table table_of(const NamedScene& named, const Options& options) {
     table.remarks.push_back(
         fmt::format("errors are of lobe, precision and the noise of {} samples together",
                     scene.sampler.sample_count));
-  table.remarks.push_back(order_remark(table.ways));
+  table.remarks.push_back(order_remark(table.variants));
   return table;
 }
 

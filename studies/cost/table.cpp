@@ -26,7 +26,7 @@ std::string times_text(double more, double less) {
 }
 
 bool on_front(const Table& table, std::size_t error, const Variant& variant) {
-  return std::ranges::count(table.fronts[error].second.ways, variant.name) > 0;
+  return std::ranges::count(table.fronts[error].second.variants, variant.name) > 0;
 }
 
 /// A variant's own value of an error, if it has one.
@@ -53,7 +53,7 @@ std::string error_text(const Table& table, const Variant& variant, std::size_t e
 std::string one_table_text(const Table& table, bool all) {
   const bool timed = is_timed(table);
   studies::Table shown{table.title,
-                       {{.title = "way", .width = -6, .margin = 2},
+                       {{.title = "variant", .width = -6, .margin = 2},
                         {timed ? "per " + table.per : table.unit, 15, "{:.6g}"},
                         {timed ? "+-" : "", 8}},
                        {}};
@@ -61,7 +61,7 @@ std::string one_table_text(const Table& table, bool all) {
     shown.columns.push_back({.title = error.id, .width = 14, .margin = 3});
   shown.columns.push_back({.title = "front", .gap = 2});
   std::vector<const Variant*> order;
-  for (const Variant& variant : table.ways) order.push_back(&variant);
+  for (const Variant& variant : table.variants) order.push_back(&variant);
   std::ranges::stable_sort(order, [](const Variant* a, const Variant* b) {
     return cost_of(*a).median < cost_of(*b).median;
   });
@@ -118,7 +118,7 @@ records::CostFront pareto_front(const Table& table, std::size_t error) {
     const Point* better = nullptr;  ///< of the front
   };
   std::vector<Point> points;
-  for (const Variant& variant : table.ways)
+  for (const Variant& variant : table.variants)
     if (!std::isnan(variant.errors[error].second))
       points.push_back({&variant, cost_of(variant).median, variant.errors[error].second});
   std::vector<Point*> order;
@@ -141,7 +141,7 @@ records::CostFront pareto_front(const Table& table, std::size_t error) {
   record.chart = table.id + "-" + table.errors[error].id + ".svg";
   const std::string unit = is_timed(table) ? "time" : table.unit;
   for (std::size_t i = 0; i < front.size(); ++i) {
-    record.ways.push_back(front[i]->variant->name);
+    record.variants.push_back(front[i]->variant->name);
     if (i == 0) continue;
     const Point &from = *front[i - 1], &to = *front[i];
     record.in_words.push_back(
@@ -175,7 +175,7 @@ std::string cost_csv(const records::Cost& report) {
   const auto if_any = [](const double* value) { return value ? studies::Cell(*value) : ""; };
   for (const Table& table : report.tables)
     for (std::size_t e = 0; e < table.errors.size(); ++e)
-      for (const Variant& variant : table.ways) {
+      for (const Variant& variant : table.variants) {
         const records::CostSeconds cost = cost_of(variant);
         std::string settings;
         for (const auto& [key, value] : variant.settings)
@@ -201,7 +201,7 @@ std::string cost_chart(const Table& table, std::size_t error) {
   ErrorTimes times{
       table.id + "-" + id,         table.title, table.per, is_timed(table) ? "" : table.unit,
       table.errors[error].meaning, {}};
-  for (const Variant& variant : table.ways) {
+  for (const Variant& variant : table.variants) {
     const records::CostSeconds cost = cost_of(variant);
     const double* spread = value_of(variant.error_spreads, table, error);
     const double value = variant.errors[error].second;

@@ -14,7 +14,7 @@ namespace lobelia::cost {
 using Table = records::CostTable;
 /// Its name is unique in its table. Errors are in the order of the table's kinds, not negative, NaN where not known;
 /// spreads are standard deviations over repeats.
-using Variant = records::CostWay;
+using Variant = records::CostVariant;
 
 inline bool is_timed(const Table& table) { return table.unit == "s"; }
 records::CostSeconds seconds_record(const Times& times);

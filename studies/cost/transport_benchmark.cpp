@@ -202,7 +202,7 @@ void add_series(const Series& series, const Converged& truth, Table& table) {
     samples.push_back(point.samples);
     seconds.push_back(variant.seconds->median);
     errors.push_back(variant.errors[0].second);
-    table.ways.push_back(std::move(variant));
+    table.variants.push_back(std::move(variant));
   }
   // Slopes leave out a single sample, which goes through the pixel's centre and so misses edges, and times that are
   // mostly the start.

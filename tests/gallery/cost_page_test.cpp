@@ -17,8 +17,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-records::CostWay way(const std::string& name, double median, double error) {
-  records::CostWay way;
+records::CostVariant way(const std::string& name, double median, double error) {
+  records::CostVariant way;
   way.name = name;
   way.settings = {{"lobe", name}};
   way.errors = {{"max", error}};
@@ -34,8 +34,9 @@ records::Cost cost_record() {
   table.unit = "s";
   table.per = "evaluation";
   table.errors = {{"max", "largest error of the lobe"}};
-  table.ways = {way("cs16", 1e-9, 0.017), way("cosine", 2e-9, 1e-7),
-                way("<img src=x onerror=alert(1)>", 9e-9, std::nan("")), way("slow", 7e-9, 0.5)};
+  table.variants = {way("cs16", 1e-9, 0.017), way("cosine", 2e-9, 1e-7),
+                    way("<img src=x onerror=alert(1)>", 9e-9, std::nan("")),
+                    way("slow", 7e-9, 0.5)};
   table.fronts = {{"max",
                    {{"cs16", "cosine"},
                     {},
@@ -87,7 +88,7 @@ TEST_F(CostPage, SaysWhatTheFrontSaysAndHowItWasMeasured) {
 TEST_F(CostPage, ShowsWhatIsCountedWhereThereIsNothingToTime) {
   records::Cost record = cost_record();
   record.tables[0].unit = "bit operations";
-  for (records::CostWay& one : record.tables[0].ways) {
+  for (records::CostVariant& one : record.tables[0].variants) {
     one.seconds.reset();
     one.count = 1408;
   }
@@ -121,7 +122,7 @@ TEST_F(CostPage, OfABrokenRecordSaysSoAndTheGalleryIsThere) {
 
 TEST_F(CostPage, SurvivesNumbersOfAnySize) {
   records::Cost record = cost_record();
-  std::vector<records::CostWay>& ways = record.tables[0].ways;
+  std::vector<records::CostVariant>& ways = record.tables[0].variants;
   ways.push_back(way("huge", 1e300, 1e300));
   ways.push_back(way("tiny", 1e-300, 1e-300));
   ways.push_back(way("negative", -1, 0));

@@ -41,7 +41,7 @@ void write_reference(const fs::path& cell) {
   record.engine = used("povray");
   record.command = {"lobelia", "reference", "scene with space.xml"};
   record.image = picture_of("povray");
-  record.witness = "native";
+  record.shading = "native";
   record.method = "one pass";
   record.passes = 1;
   record.engine_commands = {"povray +Iscene.pov"};

@@ -150,7 +150,7 @@ TEST(Analytic, IsAlwaysThereAndSaysWhatItIs) {
   EXPECT_TRUE(engine->status().available());
   EXPECT_EQ(engine->status().version, kVersion);
   const ReferenceResult quick = evaluated(hall_scene(kChoice, 16));
-  EXPECT_EQ(quick.record.witness, "analytic");
+  EXPECT_EQ(quick.record.shading, "analytic");
   EXPECT_EQ(quick.record.engine.version, kVersion);
   EXPECT_THAT(quick.record.method, HasSubstr("double precision"));
   EXPECT_GT(quick.record.seconds.total, 0);

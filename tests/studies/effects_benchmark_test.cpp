@@ -150,10 +150,10 @@ TEST_F(OfEverything, TheTableHasARowForEveryEffectThatIsOn) {
   for (const std::string& name : effects_that_are(true, make_plan(everything(), kAsCalledFor)))
     names.push_back("without " + name);
   std::vector<std::string> rows;
-  for (const Variant& way : table().ways) {
-    rows.push_back(way.name);
-    EXPECT_EQ(way.errors.size(), table().errors.size());
-    EXPECT_GT(cost_of(way).median, 0);
+  for (const Variant& variant : table().variants) {
+    rows.push_back(variant.name);
+    EXPECT_EQ(variant.errors.size(), table().errors.size());
+    EXPECT_GT(cost_of(variant).median, 0);
   }
   EXPECT_EQ(rows, names);
   EXPECT_EQ(table().id, "effects-all");
@@ -161,19 +161,19 @@ TEST_F(OfEverything, TheTableHasARowForEveryEffectThatIsOn) {
 
 TEST_F(OfEverything, OnlyThatIsWithoutLoss) {
   for (std::size_t e = 0; e < table().errors.size(); ++e) {
-    EXPECT_EQ(table().ways[0].errors[e].second, 0);
-    for (std::size_t i = 1; i < table().ways.size(); ++i)
-      EXPECT_GT(table().ways[i].errors[e].second, 1e-4) << table().ways[i].name;
+    EXPECT_EQ(table().variants[0].errors[e].second, 0);
+    for (std::size_t i = 1; i < table().variants.size(); ++i)
+      EXPECT_GT(table().variants[i].errors[e].second, 1e-4) << table().variants[i].name;
   }
 }
 
 TEST_F(OfEverything, RaysAddUpToWhatIsSaved) {
-  const auto all = [](const Variant& way) {
-    const records::Rays& rays = way.facts.value().rays.value();
+  const auto all = [](const Variant& variant) {
+    const records::Rays& rays = variant.facts.value().rays.value();
     return double(rays.camera + rays.shadow + rays.mirror + rays.scattered);
   };
-  for (const Variant& way : table().ways)
-    EXPECT_EQ(way.facts->rays_saved, all(table().ways[0]) - all(way)) << way.name;
+  for (const Variant& variant : table().variants)
+    EXPECT_EQ(variant.facts->rays_saved, all(table().variants[0]) - all(variant)) << variant.name;
   EXPECT_THAT(table().remarks, testing::Contains(HasSubstr("shadows")));
 }
 

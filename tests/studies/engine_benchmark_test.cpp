@@ -38,18 +38,18 @@ Options without_engines(const std::string& file) {
 
 TEST(EngineLevel, MeasuresOurselvesAndTheFormulasWhereNoEngineIs) {
   const Table table = measure_engines(without_engines("two_lights.xml")).at(0);
-  ASSERT_EQ(table.ways.size(), 2u);
+  ASSERT_EQ(table.variants.size(), 2u);
   EXPECT_EQ(table.id, "engine-scene");
-  EXPECT_EQ(table.ways[0].name, "ours");
-  EXPECT_LT(table.ways[0].errors[0].second, 1e-6);
-  EXPECT_LT(table.ways[1].errors[0].second, 1e-7);
+  EXPECT_EQ(table.variants[0].name, "ours");
+  EXPECT_LT(table.variants[0].errors[0].second, 1e-6);
+  EXPECT_LT(table.variants[1].errors[0].second, 1e-7);
   EXPECT_THAT(table.remarks, Contains(HasSubstr("without POV-Ray: ")));
   EXPECT_THAT(table.remarks, Contains(HasSubstr("without Blender Cycles: ")));
 }
 
 TEST(EngineLevel, TellsOurStagesApartAndTheyAreTheWhole) {
   const Table table = measure_engines(without_engines("head_on.xml")).at(0);
-  const auto& stages = *table.ways[0].facts->stage_seconds;
+  const auto& stages = *table.variants[0].facts->stage_seconds;
   double sum = 0;
   for (const char* stage : {"start", "parse", "trace", "write"}) {
     const double* seconds = records::find(stages, stage);
@@ -57,13 +57,13 @@ TEST(EngineLevel, TellsOurStagesApartAndTheyAreTheWhole) {
     EXPECT_GT(*seconds, 0) << stage;
     sum += *seconds;
   }
-  EXPECT_NEAR(sum, cost_of(table.ways[0]).median, 1e-9) << "of one round";
+  EXPECT_NEAR(sum, cost_of(table.variants[0]).median, 1e-9) << "of one round";
   EXPECT_THAT(table.remarks, Contains(HasSubstr("ours: start ")));
 }
 
 TEST(EngineLevel, SaysWhyASceneWithoutTruthIsNotMeasured) {
   const Table table = measure_engines(without_engines("effects/area_light.xml")).at(0);
-  EXPECT_THAT(table.ways, IsEmpty());
+  EXPECT_THAT(table.variants, IsEmpty());
   EXPECT_THAT(table.remarks, Contains(HasSubstr("a light with a size")));
 }
 
@@ -81,11 +81,11 @@ class EngineLevelWithEngines : public testing::Test {
 
 TEST_F(EngineLevelWithEngines, RanksTheirNumberFormatsByError) {
   const Table table = measure_engines(quick("two_lights.xml")).at(0);
-  std::map<std::string, const Variant*> ways;
-  for (const Variant& way : table.ways) ways[way.name] = &way;
-  ASSERT_EQ(ways.size(), 5u);
-  const Variant &half = *ways.at("POV-Ray, half"), &fine = *ways.at("POV-Ray, float"),
-                &cycles = *ways.at("Blender Cycles");
+  std::map<std::string, const Variant*> variants;
+  for (const Variant& variant : table.variants) variants[variant.name] = &variant;
+  ASSERT_EQ(variants.size(), 5u);
+  const Variant &half = *variants.at("POV-Ray, half"), &fine = *variants.at("POV-Ray, float"),
+                &cycles = *variants.at("Blender Cycles");
   EXPECT_GT(half.errors[0].second, 1e-5);
   EXPECT_LT(half.errors[0].second, 6e-4);
   EXPECT_LT(fine.errors[0].second, 1e-5);

@@ -268,11 +268,11 @@ TEST(FixedPointTable, CountsBitOperationsAndHasNamesOfItsOwn) {
   EXPECT_EQ(table.id, "fixed-point-n64");
   EXPECT_EQ(table.unit, "bit operations");
   std::set<std::string> names;
-  for (const Variant& way : table.ways) {
-    EXPECT_TRUE(names.insert(way.name).second) << way.name;
-    EXPECT_GT(cost_of(way).median, 0) << way.name;
-    for (const auto& [kind, error] : way.errors)
-      EXPECT_TRUE(std::isfinite(error)) << way.name << ", " << kind;
+  for (const Variant& variant : table.variants) {
+    EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
+    EXPECT_GT(cost_of(variant).median, 0) << variant.name;
+    for (const auto& [kind, error] : variant.errors)
+      EXPECT_TRUE(std::isfinite(error)) << variant.name << ", " << kind;
   }
   for (const int k : kOrders)
     EXPECT_THAT(names, Contains("cs" + std::to_string(k) + ", 16 bits, truncated"));

@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::uint64_t kAll = ~std::uint64_t(0), kFew = 1 << 18;
 
-LobeVariant way_of(double exponent, const std::string& name) {
-  for (const LobeVariant& way : lobe_variants(exponent))
-    if (way.name() == name) return way;
-  throw std::runtime_error("no way is called " + name);
+LobeVariant variant_named(double exponent, const std::string& name) {
+  for (const LobeVariant& variant : lobe_variants(exponent))
+    if (variant.name() == name) return variant;
+  throw std::runtime_error("no variant is called " + name);
 }
 
 double cosine(double s, double n) {
@@ -25,12 +25,12 @@ double cosine(double s, double n) {
 }
 
 /// The largest of every number from `from` to `to`, one after the other.
-double by_force(const LobeVariant& way, double n, float from, float to) {
+double by_force(const LobeVariant& variant, double n, float from, float to) {
   double most = 0;
   for (float s = from; s < to;) {
     std::vector<float> block(1 << 12);
     for (float& one : block) one = s, s = std::nextafter(s, 2.0f);
-    const std::vector<double> value = way.values(block);
+    const std::vector<double> value = variant.values(block);
     for (std::size_t i = 0; i < block.size(); ++i)
       most = std::max(most, std::abs(value[i] - cosine(block[i], n)));
   }
@@ -53,7 +53,7 @@ TEST(LargestError, OfSquaringARoundedCosineIsThatOfEveryNumber) {
         most = std::max(most, double(std::abs(power - truth)));
       }
     for (const char* name : {"cosine, squaring, float32", "cosine, squaring, float32 SIMD"}) {
-      const LargestError e = largest_error(way_of(n, name), n, 0, kAll);
+      const LargestError e = largest_error(variant_named(n, name), n, 0, kAll);
       EXPECT_NEAR(e.found, most, 1e-13) << n;
       EXPECT_EQ(e.at_most, e.found) << n;
     }
@@ -66,22 +66,23 @@ TEST(LargestError, OfSquaringARoundedCosineIsThatOfEveryNumber) {
 TEST(LargestError, OfALobeOfAnotherShapeIsThatOfEveryNumberAboutItsPlace) {
   for (const char* name : {"cs16, stable, float32 SIMD", "cs16, squaring, float32",
                            "schlick, stable, float32 SIMD", "cs16, textbook, float32"}) {
-    const LobeVariant way = way_of(1024, name);
+    const LobeVariant variant = variant_named(1024, name);
     double s = 0, most = 0;
     for (double x = 0; x < 16 / 1024.0; x += 1e-6) {
-      const double here = std::abs(lobe_value(way.lobe, x, 1024) - cosine(x, 1024));
+      const double here = std::abs(lobe_value(variant.lobe, x, 1024) - cosine(x, 1024));
       if (here > most) most = here, s = x;
     }
-    const LargestError e = largest_error(way, 1024, 0, kAll);
-    EXPECT_NEAR(e.found, by_force(way, 1024, float(0.98 * s), float(1.02 * s)), 1e-14) << name;
+    const LargestError e = largest_error(variant, 1024, 0, kAll);
+    EXPECT_NEAR(e.found, by_force(variant, 1024, float(0.98 * s), float(1.02 * s)), 1e-14) << name;
     EXPECT_EQ(e.at_most, e.found) << name;
     EXPECT_NEAR(e.found, most, 1e-4) << name;
   }
 }
 
 TEST(LargestError, OfOurCosineLiesInItsBracketAndNoNumberIsFartherOff) {
-  const LobeVariant way = way_of(64, "cosine, exp(n log1p(-s)), float32 SIMD");
-  const LargestError few = largest_error(way, 64, 0, kFew), all = largest_error(way, 64, 0, kAll);
+  const LobeVariant variant = variant_named(64, "cosine, exp(n log1p(-s)), float32 SIMD");
+  const LargestError few = largest_error(variant, 64, 0, kFew),
+                     all = largest_error(variant, 64, 0, kAll);
   EXPECT_LE(few.found, all.found);
   EXPECT_LT(few.found, few.at_most);
   EXPECT_LE(all.found, few.at_most);
@@ -90,45 +91,46 @@ TEST(LargestError, OfOurCosineLiesInItsBracketAndNoNumberIsFartherOff) {
   // Half a unit in the last place just below 1 is met, and no more than the lobe's file states.
   EXPECT_GT(all.found, 0x1p-25);
   EXPECT_LE(all.found, 2e-7);
-  EXPECT_LE(by_force(way, 64, 0.9f / 64, 1.1f / 64), all.found);
-  EXPECT_GE(by_force(way, 64, 0.9f / 64, 1.1f / 64), 0.5 * all.found);
+  EXPECT_LE(by_force(variant, 64, 0.9f / 64, 1.1f / 64), all.found);
+  EXPECT_GE(by_force(variant, 64, 0.9f / 64, 1.1f / 64), 0.5 * all.found);
 }
 
 TEST(LargestError, BoundsEveryWayAtRandomNumbers) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform;
   for (const double n : {16.0, 64.5, 1e6})
-    for (const LobeVariant& way : lobe_variants(n)) {
-      const LargestError e = largest_error(way, n, 0, kFew);
-      EXPECT_LE(e.found, e.at_most) << way.name() << " " << n;
+    for (const LobeVariant& variant : lobe_variants(n)) {
+      const LargestError e = largest_error(variant, n, 0, kFew);
+      EXPECT_LE(e.found, e.at_most) << variant.name() << " " << n;
       std::vector<float> s(1 << 12);
       for (float& one : s) one = float(std::min(1.0, std::pow(10, 9 * uniform(random) - 7) / n));
-      const std::vector<double> value = way.values(s);
+      const std::vector<double> value = variant.values(s);
       for (std::size_t i = 0; i < s.size(); ++i) {
         const double off = std::abs(value[i] - cosine(s[i], n));
         // At 1 some lobes end in a step.
         if (s[i] < 1) {
-          EXPECT_LE(off, e.at_most + 1e-18) << way.name() << " n = " << n << " s = " << s[i];
+          EXPECT_LE(off, e.at_most + 1e-18) << variant.name() << " n = " << n << " s = " << s[i];
         }
       }
     }
 }
 
 TEST(LargestError, ThrowsWhereAWayIsFartherOffThanItMayBe) {
-  LobeVariant way = way_of(64, "cs16, stable, float32 SIMD");
-  way.over32 = way_of(64, "cs8, stable, float32 SIMD").over32;
-  EXPECT_THROW(largest_error(way, 64, 0, kAll), Error);
+  LobeVariant variant = variant_named(64, "cs16, stable, float32 SIMD");
+  variant.over32 = variant_named(64, "cs8, stable, float32 SIMD").over32;
+  EXPECT_THROW(largest_error(variant, 64, 0, kAll), Error);
 }
 
 TEST(LobeWays, InFloat32GiveOneWhereTheyAreTooCloseToIt) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> uniform;
   for (const double n : {1.0, 16.0, 64.5, 1024.0, 1e6})
-    for (const LobeVariant& way : lobe_variants(n)) {
-      if (way.wide) continue;
+    for (const LobeVariant& variant : lobe_variants(n)) {
+      if (variant.wide) continue;
       std::vector<float> s(1 << 12);
       for (float& one : s) one = float(0x1p-26 / n * std::pow(10, -30 * uniform(random)) * 0.999);
-      for (const double value : way.values(s)) ASSERT_EQ(value, 1) << way.name() << " " << n;
+      for (const double value : variant.values(s))
+        ASSERT_EQ(value, 1) << variant.name() << " " << n;
     }
 }
 
@@ -137,15 +139,15 @@ TEST(LobeWays, ThatSeeTheRoundedCosineAloneAreSteps) {
   std::uniform_real_distribution<double> uniform;
   int of_cosine = 0;
   for (const double n : {16.0, 64.5, 1024.0})
-    for (const LobeVariant& way : lobe_variants(n)) {
-      if (!way.of_cosine) continue;
+    for (const LobeVariant& variant : lobe_variants(n)) {
+      if (!variant.of_cosine) continue;
       ++of_cosine;
       std::vector<float> given(1 << 12), same(1 << 12);
       for (std::size_t i = 0; i < given.size(); ++i) {
         given[i] = float(20 / n * uniform(random));
         same[i] = 1 - (1 - given[i]);
       }
-      EXPECT_EQ(way.values(given), way.values(same)) << way.name();
+      EXPECT_EQ(variant.values(given), variant.values(same)) << variant.name();
     }
   EXPECT_GT(of_cosine, 30);
 }

@@ -18,24 +18,25 @@ using ::testing::Contains;
 using ::testing::DoubleNear;
 using ::testing::HasSubstr;
 
-/// The one way of that name; a test fails where there is none.
-LobeVariant way_of(const std::vector<LobeVariant>& ways, const std::string& name) {
-  for (const LobeVariant& way : ways)
-    if (way.name() == name) return way;
-  throw std::runtime_error("no way is called " + name);
+/// The one variant of that name; a test fails where there is none.
+LobeVariant variant_named(const std::vector<LobeVariant>& variants, const std::string& name) {
+  for (const LobeVariant& variant : variants)
+    if (variant.name() == name) return variant;
+  throw std::runtime_error("no variant is called " + name);
 }
 
 LobeVariantErrors errors_of(double exponent, const std::string& name) {
-  return LobeTruth(exponent).errors(way_of(lobe_variants(exponent), name));
+  return LobeTruth(exponent).errors(variant_named(lobe_variants(exponent), name));
 }
 
 TEST(LobeWays, AreOfEveryLobeOfTheCatalogueInEveryPrecision) {
-  const std::vector<LobeVariant> ways = lobe_variants(64);
+  const std::vector<LobeVariant> variants = lobe_variants(64);
   for (const LobeId lobe : all_lobes()) {
     std::set<std::string> kinds;
-    for (const LobeVariant& way : ways)
-      if (way.lobe == lobe)
-        kinds.insert(std::string(way.wide ? "float64" : "float32") + (way.simd ? " SIMD" : ""));
+    for (const LobeVariant& variant : variants)
+      if (variant.lobe == lobe)
+        kinds.insert(std::string(variant.wide ? "float64" : "float32") +
+                     (variant.simd ? " SIMD" : ""));
     EXPECT_EQ(kinds.size(), 4u) << info(lobe).name;
   }
 }
@@ -43,31 +44,31 @@ TEST(LobeWays, AreOfEveryLobeOfTheCatalogueInEveryPrecision) {
 TEST(LobeWays, HaveNamesOfTheirOwnAndSomethingToDo) {
   for (const double exponent : {1.0, 16.0, 64.5, 1e6}) {
     std::set<std::string> names;
-    for (const LobeVariant& way : lobe_variants(exponent)) {
-      EXPECT_TRUE(names.insert(way.name()).second) << way.name();
-      EXPECT_EQ(bool(way.over64), way.wide) << way.name();
-      EXPECT_EQ(bool(way.over32), !way.wide) << way.name();
-      const OperationCount& c = way.operations;
-      EXPECT_GT(c.multiply + c.add + c.divide + c.transcendental, 0) << way.name();
+    for (const LobeVariant& variant : lobe_variants(exponent)) {
+      EXPECT_TRUE(names.insert(variant.name()).second) << variant.name();
+      EXPECT_EQ(bool(variant.over64), variant.wide) << variant.name();
+      EXPECT_EQ(bool(variant.over32), !variant.wide) << variant.name();
+      const OperationCount& c = variant.operations;
+      EXPECT_GT(c.multiply + c.add + c.divide + c.transcendental, 0) << variant.name();
     }
   }
 }
 
 TEST(LobeWays, CountWhatTheyDo) {
-  const std::vector<LobeVariant> ways = lobe_variants(1000);  // 0b1111101000
-  EXPECT_EQ(way_of(ways, "cosine, squaring, float32 SIMD").operations.multiply, 9 + 5);
-  EXPECT_EQ(way_of(ways, "cs16, stable, float32 SIMD").operations.multiply, 1 + 4);
-  EXPECT_EQ(way_of(ways, "cosine, std::pow, float64").operations.transcendental, 1);
-  EXPECT_EQ(way_of(ways, "gauss, textbook, float32").operations.transcendental, 2);
-  EXPECT_EQ(way_of(ways, "cosine, std::pow, float64").operations.add, 1);
+  const std::vector<LobeVariant> variants = lobe_variants(1000);  // 0b1111101000
+  EXPECT_EQ(variant_named(variants, "cosine, squaring, float32 SIMD").operations.multiply, 9 + 5);
+  EXPECT_EQ(variant_named(variants, "cs16, stable, float32 SIMD").operations.multiply, 1 + 4);
+  EXPECT_EQ(variant_named(variants, "cosine, std::pow, float64").operations.transcendental, 1);
+  EXPECT_EQ(variant_named(variants, "gauss, textbook, float32").operations.transcendental, 2);
+  EXPECT_EQ(variant_named(variants, "cosine, std::pow, float64").operations.add, 1);
   // c / (n - n c + c), and c = 1 - s
-  EXPECT_EQ(way_of(ways, "schlick, textbook, float32").operations.add, 3);
-  EXPECT_EQ(way_of(ways, "schlick, textbook, float32").operations.divide, 1);
+  EXPECT_EQ(variant_named(variants, "schlick, textbook, float32").operations.add, 3);
+  EXPECT_EQ(variant_named(variants, "schlick, textbook, float32").operations.divide, 1);
 }
 
 TEST(LobeWays, SquareOnlyWholeExponents) {
-  for (const LobeVariant& way : lobe_variants(64.5))
-    EXPECT_FALSE(info(way.lobe).name == "cosine" && way.method == "squaring");
+  for (const LobeVariant& variant : lobe_variants(64.5))
+    EXPECT_FALSE(info(variant.lobe).name == "cosine" && variant.method == "squaring");
 }
 
 TEST(LobeTruth, LooksAcrossTheHighlightAndAtItsEndsAtNumbersOfEveryPrecision) {
@@ -135,23 +136,23 @@ TEST(LobeErrors, OfARoundedCosineGrowWithTheExponent) {
 }
 
 TEST(LobeErrors, SumWhatRoundingDriftsTo) {
-  // A way that is 1e-6 of its value too large has so much too much energy, and a rounding of as much.
-  LobeVariant way = way_of(lobe_variants(64), "cosine, exp(n log1p(-s)), float64");
-  way.allowed = 1e-5;
-  way.over64 = [over = way.over64](std::size_t count, const double* s, double* value) {
+  // A variant that is 1e-6 of its value too large has so much too much energy, and a rounding of as much.
+  LobeVariant variant = variant_named(lobe_variants(64), "cosine, exp(n log1p(-s)), float64");
+  variant.allowed = 1e-5;
+  variant.over64 = [over = variant.over64](std::size_t count, const double* s, double* value) {
     over(count, s, value);
     for (std::size_t i = 0; i < count; ++i) value[i] *= 1 + 1e-6;
   };
-  const LobeVariantErrors e = LobeTruth(64).errors(way);
+  const LobeVariantErrors e = LobeTruth(64).errors(variant);
   EXPECT_THAT(e.all.energy, DoubleNear(1e-6, 2e-9));
   EXPECT_THAT(e.all.max, DoubleNear(1e-6, 1e-12));
 }
 
 TEST(LobeErrors, OfAWayThatComputesSomethingElseAreABug) {
-  LobeVariant way = way_of(lobe_variants(64), "cs16, stable, float32 SIMD");
-  way.over32 = way_of(lobe_variants(64), "cs32, stable, float32 SIMD").over32;
+  LobeVariant variant = variant_named(lobe_variants(64), "cs16, stable, float32 SIMD");
+  variant.over32 = variant_named(lobe_variants(64), "cs32, stable, float32 SIMD").over32;
   try {
-    LobeTruth(64).errors(way);
+    LobeTruth(64).errors(variant);
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::kInternal);
@@ -162,25 +163,25 @@ TEST(LobeErrors, OfAWayThatComputesSomethingElseAreABug) {
 TEST(LobeTable, HasEveryWayWithItsTimeErrorsAndOperations) {
   const Table table = lobe_table(64, 1, true);
   EXPECT_EQ(table.id, "lobe-n64");
-  EXPECT_EQ(table.ways.size(), lobe_variants(64).size());
+  EXPECT_EQ(table.variants.size(), lobe_variants(64).size());
   EXPECT_TRUE(is_timed(table));
-  for (const Variant& way : table.ways) {
-    EXPECT_GT(cost_of(way).median, 0) << way.name;
-    EXPECT_EQ(way.errors.size(), table.errors.size()) << way.name;
-    for (const auto& [kind, error] : way.errors)
-      EXPECT_TRUE(std::isfinite(error)) << way.name << ", " << kind;
-    EXPECT_TRUE(way.facts->operations) << way.name;
-    EXPECT_EQ(way.settings.size(), 4u) << way.name;
+  for (const Variant& variant : table.variants) {
+    EXPECT_GT(cost_of(variant).median, 0) << variant.name;
+    EXPECT_EQ(variant.errors.size(), table.errors.size()) << variant.name;
+    for (const auto& [kind, error] : variant.errors)
+      EXPECT_TRUE(std::isfinite(error)) << variant.name << ", " << kind;
+    EXPECT_TRUE(variant.facts->operations) << variant.name;
+    EXPECT_EQ(variant.settings.size(), 4u) << variant.name;
   }
   EXPECT_THAT(table.remarks, Contains(HasSubstr("The shape limits")));
   EXPECT_THAT(table.remarks, Contains(HasSubstr("a bracket: the largest found")));
 }
 
 TEST(LobeTable, HasTheLargestErrorAndNotTheLargestOfItsPoints) {
-  for (const Variant& way : lobe_table(64, 1, true).ways)
-    if (way.name == "cosine, squaring, float32") {
-      EXPECT_THAT(way.errors[0].second, DoubleNear(3.24e-6, 5e-9));
-      EXPECT_FALSE(way.errors_at_most);
+  for (const Variant& variant : lobe_table(64, 1, true).variants)
+    if (variant.name == "cosine, squaring, float32") {
+      EXPECT_THAT(variant.errors[0].second, DoubleNear(3.24e-6, 5e-9));
+      EXPECT_FALSE(variant.errors_at_most);
     }
 }
 

@@ -18,46 +18,46 @@ TEST(ParetoFront, GoesFromTheFastestToTheMostAccurate) {
   const Table t = table({variant("exact", 9, 0), variant("cheap", 1, 0.5), variant("bad", 4, 0.6),
                          variant("middle", 3, 0.1), variant("worse", 10, 0.1)});
   const records::CostFront front = pareto_front(t, 0);
-  EXPECT_THAT(front.ways, ElementsAre("cheap", "middle", "exact"));
+  EXPECT_THAT(front.variants, ElementsAre("cheap", "middle", "exact"));
   EXPECT_THAT(front.dominated_by, ElementsAre(Pair("bad", "cheap"), Pair("worse", "middle")));
 }
 
 TEST(ParetoFront, HasTheFirstOfWaysThatAreEqual) {
-  EXPECT_THAT(pareto_front(table({variant("a", 1, 1), variant("b", 1, 1)}), 0).ways,
+  EXPECT_THAT(pareto_front(table({variant("a", 1, 1), variant("b", 1, 1)}), 0).variants,
               ElementsAre("a"));
 }
 
 TEST(ParetoFront, LeavesOutWhatHasNoError) {
   const records::CostFront front =
       pareto_front(table({variant("a", 1, std::nan("")), variant("b", 2, 1)}), 0);
-  EXPECT_THAT(front.ways, ElementsAre("b"));
+  EXPECT_THAT(front.variants, ElementsAre("b"));
   EXPECT_THAT(front.dominated_by, IsEmpty());
-  EXPECT_THAT(pareto_front(table({}), 0).ways, IsEmpty());
+  EXPECT_THAT(pareto_front(table({}), 0).variants, IsEmpty());
 }
 
 TEST(ParetoFront, IsThatOfTheDefinitionForAnyWays) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> small(1, 12);
   for (int trial = 0; trial < 200; ++trial) {
-    std::vector<Variant> ways;
+    std::vector<Variant> variants;
     for (int i = 0; i < 15; ++i)
-      ways.push_back(variant(("w" + std::to_string(i)).c_str(), small(random), small(random)));
-    const Table t = table(ways);
+      variants.push_back(variant(("w" + std::to_string(i)).c_str(), small(random), small(random)));
+    const Table t = table(variants);
     const records::CostFront front = pareto_front(t, 0);
     const auto dominates = [&](std::size_t i, std::size_t j) {
-      const double ti = cost_of(ways[i]).median, tj = cost_of(ways[j]).median;
-      const double ei = ways[i].errors[0].second, ej = ways[j].errors[0].second;
+      const double ti = cost_of(variants[i]).median, tj = cost_of(variants[j]).median;
+      const double ei = variants[i].errors[0].second, ej = variants[j].errors[0].second;
       return ti <= tj && ei <= ej && (ti < tj || ei < ej || i < j);
     };
-    for (std::size_t j = 0; j < ways.size(); ++j) {
+    for (std::size_t j = 0; j < variants.size(); ++j) {
       bool dominated = false;
-      for (std::size_t i = 0; i < ways.size(); ++i) dominated |= i != j && dominates(i, j);
-      const std::string* by = records::find(front.dominated_by, ways[j].name);
+      for (std::size_t i = 0; i < variants.size(); ++i) dominated |= i != j && dominates(i, j);
+      const std::string* by = records::find(front.dominated_by, variants[j].name);
       EXPECT_EQ(by != nullptr, dominated) << j;
       if (by) {
-        const auto better = std::ranges::find(ways, *by, &Variant::name);
-        ASSERT_NE(better, ways.end());
-        EXPECT_TRUE(dominates(std::size_t(better - ways.begin()), j));
+        const auto better = std::ranges::find(variants, *by, &Variant::name);
+        ASSERT_NE(better, variants.end());
+        EXPECT_TRUE(dominates(std::size_t(better - variants.begin()), j));
       }
     }
   }

@@ -16,8 +16,8 @@ namespace {
 using ::testing::HasSubstr;
 
 const Variant& find(const Table& table, const std::string& name) {
-  for (const Variant& way : table.ways)
-    if (way.name == name) return way;
+  for (const Variant& variant : table.variants)
+    if (variant.name == name) return variant;
   throw std::out_of_range(name);
 }
 
@@ -29,16 +29,16 @@ TEST(PictureLevel, HasAWayForEachLobeAndPrecisionHeldAgainstTheFormulas) {
   ASSERT_EQ(tables.size(), 1u);
   const Table& table = tables[0];
   EXPECT_EQ(table.id, "picture-head_on");
-  EXPECT_EQ(table.ways.size(), all_lobes().size() * precision_names().size());
+  EXPECT_EQ(table.variants.size(), all_lobes().size() * precision_names().size());
   EXPECT_THAT(table.remarks[0], HasSubstr("formulas"));
   std::set<std::string> names;
-  for (const Variant& way : table.ways) {
-    EXPECT_TRUE(names.insert(way.name).second) << way.name;
-    EXPECT_EQ(way.errors.size(), table.errors.size());
-    ASSERT_TRUE(way.facts && way.facts->rays) << way.name;
-    EXPECT_EQ(way.facts->rays->camera, table.ways[0].facts->rays->camera);
-    EXPECT_GT(way.facts->rays->camera, 0);
-    EXPECT_GT(cost_of(way).median, 0);
+  for (const Variant& variant : table.variants) {
+    EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
+    EXPECT_EQ(variant.errors.size(), table.errors.size());
+    ASSERT_TRUE(variant.facts && variant.facts->rays) << variant.name;
+    EXPECT_EQ(variant.facts->rays->camera, table.variants[0].facts->rays->camera);
+    EXPECT_GT(variant.facts->rays->camera, 0);
+    EXPECT_GT(cost_of(variant).median, 0);
   }
   EXPECT_THAT(table.remarks.back(), HasSubstr("--accuracy goes by"));
   EXPECT_LT(find(table, "cs16, float32").facts.value().predicted_cost,
@@ -52,9 +52,9 @@ TEST(PictureLevel, HasAWayForEachLobeAndPrecisionHeldAgainstTheFormulas) {
   EXPECT_LE(find(table, "cosine, float32").errors[2].second, kAllowedShadingError);
   double before = 1e9;
   for (const char* lobe : {"cs2", "cs4", "cs8", "cs16", "cs32", "cs64"}) {
-    const Variant& way = find(table, std::string(lobe) + ", float64");
-    EXPECT_LT(way.errors[2].second, before) << lobe;
-    before = way.errors[2].second;
+    const Variant& variant = find(table, std::string(lobe) + ", float64");
+    EXPECT_LT(variant.errors[2].second, before) << lobe;
+    before = variant.errors[2].second;
   }
 }
 
@@ -67,7 +67,7 @@ TEST(PictureLevel, SaysOfARandomPictureWhatItsTruthIs) {
   const Table table = measure_pictures(options).at(0);
   EXPECT_THAT(table.remarks[0], HasSubstr("8 samples a pixel, another seed"));
   EXPECT_THAT(table.remarks[1], HasSubstr("noise of 2 samples"));
-  // As noisy whatever the precision, and no way is the truth itself.
+  // As noisy whatever the precision, and no variant is the truth itself.
   EXPECT_GT(find(table, "cosine, float64").errors[2].second, 1e-3);
   EXPECT_EQ(find(table, "cosine, float64").facts.value().samples, 2);
 }

@@ -22,7 +22,7 @@ inline Table table(std::vector<Variant> variants) {
 inline Table counted_table(std::vector<Variant> variants) {
   Table result = table(std::move(variants));
   result.unit = "bit operations";
-  for (Variant& variant : result.ways) {
+  for (Variant& variant : result.variants) {
     variant.count = variant.seconds->median;
     variant.seconds.reset();
   }

@@ -51,24 +51,24 @@ TEST_F(Transport, HasATableForEachKindOfSceneAndEachGivenThatIsRandom) {
 TEST_F(Transport, ErrorsOfImportanceSamplingFallWithSamples) {
   for (const Table& table : *tables_) {
     std::vector<double> errors;
-    for (const Variant& way : table.ways) {
-      ASSERT_TRUE(way.error_spreads) << way.name;
-      EXPECT_EQ(way.error_spreads->size(), 1u);
-      if (way.name.starts_with("ours, ") && way.settings[1].second.ends_with("as planned"))
-        errors.push_back(way.errors[0].second);
+    for (const Variant& variant : table.variants) {
+      ASSERT_TRUE(variant.error_spreads) << variant.name;
+      EXPECT_EQ(variant.error_spreads->size(), 1u);
+      if (variant.name.starts_with("ours, ") && variant.settings[1].second.ends_with("as planned"))
+        errors.push_back(variant.errors[0].second);
     }
     ASSERT_EQ(errors.size(), 3u);
     EXPECT_GT(errors[0], 1.5 * errors[1]) << table.id;
     EXPECT_GT(errors[1], 1.5 * errors[2]) << table.id;
-    EXPECT_EQ(table.ways.size(), 9u) << "three ways to draw directions";
+    EXPECT_EQ(table.variants.size(), 9u) << "three variants to draw directions";
   }
 }
 
 TEST_F(Transport, ImportanceSamplingHasLessErrorWithAsManySamples) {
   for (const Table& table : *tables_) {
     std::map<std::string, double> at_16;
-    for (const Variant& way : table.ways)
-      if (setting(way, "samples") == 16) at_16[way.name] = way.errors[0].second;
+    for (const Variant& variant : table.variants)
+      if (setting(variant, "samples") == 16) at_16[variant.name] = variant.errors[0].second;
     EXPECT_LT(at_16.at("ours, 16"), at_16.at("ours, evenly, 16")) << table.id;
   }
 }

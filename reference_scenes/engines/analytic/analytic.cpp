@@ -62,7 +62,7 @@ class AnalyticSession final : public SimpleSession {
       return result;
     }
     result.image = to_image(picture, scene.film);
-    result.record.witness = "analytic";
+    result.record.shading = "analytic";
     result.record.method = fmt::format(
         "textbook formulas in {}, one ray per pixel centre, none of the renderer's kernels",
         options_.fine ? "50 digits" : "double precision");

@@ -353,7 +353,7 @@ class Worker {
     result.begun = order.begun;
     records::Reference& record = result.record =
         reference_record(kBlenderInfo, queue_.status, order.scene);
-    record.witness = queue_.native() || options_.own_transport ? "native" : "expressed";
+    record.shading = queue_.native() || options_.own_transport ? "native" : "expressed";
     record.method = method();
     record.passes = order.input.passes;
     record.engine_commands = {command_};

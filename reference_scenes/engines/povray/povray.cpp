@@ -273,7 +273,7 @@ ReferenceResult PovraySession::render(const Scene& scene, std::size_t scenes) {
   result.failure = all.failure.kind;
   if (!all.failure) result.image = sum_of(images);
   records::Reference& record = result.record = reference_record(kPovrayInfo, status_, scene);
-  record.witness = job.input.native ? "native" : "expressed";
+  record.shading = job.input.native ? "native" : "expressed";
   record.method = job.input.native ? "POV-Ray's own highlight under its own lamps"
                                    : "pattern function under a real lamp, one pass per light";
   if (options_.fine)

@@ -4,7 +4,7 @@ import { numberText, percentText } from '../lib/numbers';
 import { cssGradient } from './colours';
 import { kDecades, type Viewer } from './viewer';
 
-const kLeastOfMap = 2 ** -10;  // gallery/difference_maps.hpp
+const kLeastOfMap = 2 ** -10;  // gallery/difference_maps.cpp
 
 export function legendOf(viewer: Viewer, a: number, b: number): (HTMLElement | string)[] {
   const mode = viewer.choice.mode();

@@ -3,10 +3,10 @@ import { h } from '../lib/dom';
 import { clamp } from '../lib/numbers';
 import { HashState } from '../lib/state';
 
-type State = HashState<'table' | 'way'>;
+type State = HashState<'table' | 'variant'>;
 
 export function cost(main: HTMLElement): void {
-  const state: State = new HashState({ table: '', way: '' });
+  const state: State = new HashState({ table: '', variant: '' });
   for (const section of main.querySelectorAll<HTMLElement>('section[id^="table-"]')) new CostTable(section, state);
 }
 
@@ -20,7 +20,7 @@ class CostTable {
     this.number = section.id.slice('table-'.length);
     this.rows = [...section.querySelectorAll<HTMLElement>('tr[data-key]')];
     this.points = [...section.querySelectorAll<SVGGElement>('g.point[data-key]')];
-    const details = section.querySelector<HTMLDetailsElement>('details.ways');
+    const details = section.querySelector<HTMLDetailsElement>('details.variants');
     if (details) details.open = true;
     for (const row of this.rows) {
       row.tabIndex = 0;
@@ -73,11 +73,11 @@ class CostTable {
 
   private pin(key: string): void {
     const again = this.pinned() === key;
-    this.state.set(again ? { table: '', way: '' } : { table: this.number, way: key });
+    this.state.set(again ? { table: '', variant: '' } : { table: this.number, variant: key });
     this.refresh();
   }
 
-  private pinned(): string { return this.state.get('table') === this.number ? this.state.get('way') : ''; }
+  private pinned(): string { return this.state.get('table') === this.number ? this.state.get('variant') : ''; }
 
   private refresh(): void {
     const key = this.pinned();
@@ -94,7 +94,7 @@ class CostTable {
     for (const { chart, place } of this.readouts) {
       const point = this.points.find((p) => chart.contains(p) && p.dataset['key'] === key);
       place.textContent = point?.querySelector('title')?.textContent ??
-        (key === '' ? 'Point at the chart or the table, or use arrow keys; Enter keeps a way marked.' : `${key}: no error that can be drawn`);
+        (key === '' ? 'Point at the chart or the table, or use arrow keys; Enter keeps a variant marked.' : `${key}: no error that can be drawn`);
     }
   }
 }
