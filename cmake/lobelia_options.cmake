@@ -18,15 +18,6 @@ set(LOBELIA_LEFT_OUT HWY_SSE4)
 if(LOBELIA_SANITIZE)
   # Instrumented, a fused kernel takes minutes to compile for all targets. All share one source, so one target is enough.
   set(LOBELIA_LEFT_OUT "(HWY_SSE4|HWY_AVX2|HWY_AVX3|HWY_AVX3_DL)")
-elseif(LOBELIA_UNITY AND EXISTS /proc/cpuinfo)
-  # A build from scratch has kernels for the widest registers of this machine and for the baseline. A third target would
-  # add half of the kernels' compile time. Elsewhere the program still runs (docs/decisions/0002).
-  file(STRINGS /proc/cpuinfo flags REGEX "^flags" LIMIT_COUNT 1)
-  if(flags MATCHES "avx512f" AND flags MATCHES "avx512bw" AND flags MATCHES "avx512dq" AND flags MATCHES "avx512vl")
-    set(LOBELIA_LEFT_OUT "(HWY_SSE4|HWY_AVX2)")
-  else()
-    set(LOBELIA_LEFT_OUT "(HWY_SSE4|HWY_AVX3)")
-  endif()
 endif()
 target_compile_definitions(lobelia_options INTERFACE "HWY_DISABLED_TARGETS=${LOBELIA_LEFT_OUT}")
 if(LOBELIA_WERROR)
