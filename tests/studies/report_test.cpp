@@ -31,10 +31,10 @@ TEST(CostRecord, HoldsEveryWayAndItsFronts) {
   const Json record = as_json(report());
   EXPECT_EQ(record["kind"], "cost");
   const Json& table = record["tables"][0];
-  EXPECT_EQ(table["variants"].size(), 4u);
-  EXPECT_EQ(table["variants"][0]["seconds"]["median"], 1e-9);
-  EXPECT_EQ(table["variants"][0]["errors"]["max"], 0.017);
-  EXPECT_EQ(table["fronts"]["max"]["variants"], Json::array({"cs16", "cosine", "exact"}));
+  EXPECT_EQ(table["ways"].size(), 4u);
+  EXPECT_EQ(table["ways"][0]["seconds"]["median"], 1e-9);
+  EXPECT_EQ(table["ways"][0]["errors"]["max"], 0.017);
+  EXPECT_EQ(table["fronts"]["max"]["ways"], Json::array({"cs16", "cosine", "exact"}));
   EXPECT_EQ(table["fronts"]["max"]["dominatedBy"]["slow, \"but\""], "cs16");
   EXPECT_THAT(table["fronts"]["max"]["inWords"][0].get<std::string>(),
               HasSubstr("from cs16 to cosine"));
@@ -55,9 +55,9 @@ TEST(AnErrorThatIsTheLargestOfSome, IsPrintedWithItsBoundWhereTheDigitsDiffer) {
   const std::string text = cost_text(bracketed, true);
   EXPECT_THAT(text, AllOf(HasSubstr(" 0.017  max"), HasSubstr(" 1e-07..3e-07  max")));
   const Json table = as_json(bracketed)["tables"][0];
-  EXPECT_EQ(table["variants"][1]["errorsAtMost"]["max"], 3e-7);
-  EXPECT_FALSE(table["variants"][2].contains("errorsAtMost"));
-  EXPECT_FALSE(table["variants"][3].contains("errorsAtMost"));
+  EXPECT_EQ(table["ways"][1]["errorsAtMost"]["max"], 3e-7);
+  EXPECT_FALSE(table["ways"][2].contains("errorsAtMost"));
+  EXPECT_FALSE(table["ways"][3].contains("errorsAtMost"));
   EXPECT_THAT(cost_csv(bracketed), HasSubstr(",max,1e-07,,yes,3e-07\r\n"));
 }
 
@@ -82,8 +82,8 @@ TEST(CountedTables, SayWhatTheyCountInEveryForm) {
   const Table& table = counted.tables[0];
   const Json record = as_json(counted);
   EXPECT_EQ(record["tables"][0]["unit"], "bit operations");
-  EXPECT_EQ(record["tables"][0]["variants"][1]["count"], 256);
-  EXPECT_FALSE(record["tables"][0]["variants"][1].contains("seconds"));
+  EXPECT_EQ(record["tables"][0]["ways"][1]["count"], 256);
+  EXPECT_FALSE(record["tables"][0]["ways"][1].contains("seconds"));
   EXPECT_THAT(cost_csv(counted), HasSubstr(",evaluation,bit operations,256,"));
   EXPECT_THAT(cost_text(counted, true), HasSubstr("4.0 times the bit operations, 100 times less"));
   EXPECT_THAT(cost_text(counted, true), AllOf(Not(HasSubstr("%")), Not(HasSubstr("256 s"))));

@@ -203,7 +203,7 @@ test('paper: claims by verdict and words, and a link to one shows it', async () 
   await close(page);
 });
 
-test('cost: a way is marked in chart and table, by pointer and by keys, and in the link', async () => {
+test('cost: a variant is marked in chart and table, by pointer and by keys, and in the link', async () => {
   const page = await view('cost');
   const marked = () => page.locator('.marked').evaluateAll((all) => all.map((e) => `${e.tagName} ${e.dataset.key}`).sort());
   await page.locator('tr[data-key=slow]').hover();
@@ -215,7 +215,7 @@ test('cost: a way is marked in chart and table, by pointer and by keys, and in t
   await page.keyboard.press('ArrowRight');
   assert.deepEqual(await marked(), ['TR middling', 'g middling']);
   await page.keyboard.press('Enter');
-  assert.deepEqual(await hashOf(page), { table: '0', way: 'middling' });
+  assert.deepEqual(await hashOf(page), { table: '0', variant: 'middling' });
   const again = await open(browser, await address(page));
   assert.deepEqual(await again.locator('.marked').evaluateAll((all) => all.map((e) => e.dataset.key)), ['middling', 'middling']);
   await close(again);
