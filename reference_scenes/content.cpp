@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <functional>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -155,8 +156,11 @@ void ContentReader::add_directory(const fs::path& directory) {
 Content ContentReader::content() {
   const auto keep_each_once = [](auto& values, auto key) {
     std::ranges::sort(values, {}, key);
-    const auto repeated = std::ranges::unique(values, {}, key);
-    values.erase(repeated.begin(), repeated.end());
+    // Clang 14 does not compile std::ranges::unique of GCC 12's library.
+    const auto same = [&](const auto& a, const auto& b) {
+      return std::invoke(key, a) == std::invoke(key, b);
+    };
+    values.erase(std::unique(values.begin(), values.end(), same), values.end());
   };
   keep_each_once(parts_, std::identity());
   keep_each_once(files_, &records::ContentFile::path);

@@ -11,6 +11,8 @@ template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;  // Clang 14 deduces none for an aggregate
 
 /// f(parameter, value) for each parameter of the light's table.
 template <class F>
