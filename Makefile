@@ -27,7 +27,7 @@ help: ## this list
 	@echo 'GRID (a grid file), SETUP=no (look for no missing packages), FUZZ_SECONDS, MINUTES, SEED'
 
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
-	@echo 'make gallery: from a fresh clone about 4 minutes on 2 idle cores, plus the time to install missing packages'
+	@echo 'make gallery: from a fresh clone about 6 minutes on 2 idle cores, plus 1 or 2 to install missing packages'
 	$(setup) build engines
 	$(configure)
 	$(build) --target lobelia lobelia_image_io
