@@ -17,13 +17,13 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-records::CostVariant way(const std::string& name, double median, double error) {
-  records::CostVariant way;
-  way.name = name;
-  way.settings = {{"lobe", name}};
-  way.errors = {{"max", error}};
-  way.seconds = {median, 0.05, median, median, 5};
-  return way;
+records::CostVariant variant(const std::string& name, double median, double error) {
+  records::CostVariant variant;
+  variant.name = name;
+  variant.settings = {{"lobe", name}};
+  variant.errors = {{"max", error}};
+  variant.seconds = {median, 0.05, median, median, 5};
+  return variant;
 }
 
 records::Cost cost_record() {
@@ -34,9 +34,9 @@ records::Cost cost_record() {
   table.unit = "s";
   table.per = "evaluation";
   table.errors = {{"max", "largest error of the lobe"}};
-  table.variants = {way("cs16", 1e-9, 0.017), way("cosine", 2e-9, 1e-7),
-                    way("<img src=x onerror=alert(1)>", 9e-9, std::nan("")),
-                    way("slow", 7e-9, 0.5)};
+  table.variants = {variant("cs16", 1e-9, 0.017), variant("cosine", 2e-9, 1e-7),
+                    variant("<img src=x onerror=alert(1)>", 9e-9, std::nan("")),
+                    variant("slow", 7e-9, 0.5)};
   table.fronts = {{"max",
                    {{"cs16", "cosine"},
                     {},
@@ -63,7 +63,7 @@ class CostPage : public ::testing::Test {
   FakeFarm farm_;
 };
 
-TEST_F(CostPage, IsThereWithAChartOfEveryWayThatHasAnError) {
+TEST_F(CostPage, IsThereWithAChartOfEveryVariantThatHasAnError) {
   put(cost_record());
   const Site site(farm_.directory());
   EXPECT_THAT(site.bad_links(), IsEmpty());
@@ -122,14 +122,14 @@ TEST_F(CostPage, OfABrokenRecordSaysSoAndTheGalleryIsThere) {
 
 TEST_F(CostPage, SurvivesNumbersOfAnySize) {
   records::Cost record = cost_record();
-  std::vector<records::CostVariant>& ways = record.tables[0].variants;
-  ways.push_back(way("huge", 1e300, 1e300));
-  ways.push_back(way("tiny", 1e-300, 1e-300));
-  ways.push_back(way("negative", -1, 0));
-  ways.push_back(way("endless", 1, std::numeric_limits<double>::infinity()));
+  std::vector<records::CostVariant>& variants = record.tables[0].variants;
+  variants.push_back(variant("huge", 1e300, 1e300));
+  variants.push_back(variant("tiny", 1e-300, 1e-300));
+  variants.push_back(variant("negative", -1, 0));
+  variants.push_back(variant("endless", 1, std::numeric_limits<double>::infinity()));
   put(record);
   EXPECT_THAT(Site(farm_.directory()).bad_links(), IsEmpty());
-  ways.clear();
+  variants.clear();
   put(record);
   EXPECT_EQ(Site(farm_.directory()).page("cost.html").select_nodes("//g[@class='point']").size(),
             0u);

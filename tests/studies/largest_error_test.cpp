@@ -95,7 +95,7 @@ TEST(LargestError, OfOurCosineLiesInItsBracketAndNoNumberIsFartherOff) {
   EXPECT_GE(by_force(variant, 64, 0.9f / 64, 1.1f / 64), 0.5 * all.found);
 }
 
-TEST(LargestError, BoundsEveryWayAtRandomNumbers) {
+TEST(LargestError, BoundsEveryVariantAtRandomNumbers) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform;
   for (const double n : {16.0, 64.5, 1e6})
@@ -115,13 +115,13 @@ TEST(LargestError, BoundsEveryWayAtRandomNumbers) {
     }
 }
 
-TEST(LargestError, ThrowsWhereAWayIsFartherOffThanItMayBe) {
+TEST(LargestError, ThrowsWhereAVariantIsFartherOffThanItMayBe) {
   LobeVariant variant = variant_named(64, "cs16, stable, float32 SIMD");
   variant.over32 = variant_named(64, "cs8, stable, float32 SIMD").over32;
   EXPECT_THROW(largest_error(variant, 64, 0, kAll), Error);
 }
 
-TEST(LobeWays, InFloat32GiveOneWhereTheyAreTooCloseToIt) {
+TEST(LobeVariants, InFloat32GiveOneWhereTheyAreTooCloseToIt) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> uniform;
   for (const double n : {1.0, 16.0, 64.5, 1024.0, 1e6})
@@ -134,7 +134,7 @@ TEST(LobeWays, InFloat32GiveOneWhereTheyAreTooCloseToIt) {
     }
 }
 
-TEST(LobeWays, ThatSeeTheRoundedCosineAloneAreSteps) {
+TEST(LobeVariants, ThatSeeTheRoundedCosineAloneAreSteps) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> uniform;
   int of_cosine = 0;

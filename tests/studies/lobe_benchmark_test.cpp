@@ -29,7 +29,7 @@ LobeVariantErrors errors_of(double exponent, const std::string& name) {
   return LobeTruth(exponent).errors(variant_named(lobe_variants(exponent), name));
 }
 
-TEST(LobeWays, AreOfEveryLobeOfTheCatalogueInEveryPrecision) {
+TEST(LobeVariants, AreOfEveryLobeOfTheCatalogueInEveryPrecision) {
   const std::vector<LobeVariant> variants = lobe_variants(64);
   for (const LobeId lobe : all_lobes()) {
     std::set<std::string> kinds;
@@ -41,7 +41,7 @@ TEST(LobeWays, AreOfEveryLobeOfTheCatalogueInEveryPrecision) {
   }
 }
 
-TEST(LobeWays, HaveNamesOfTheirOwnAndSomethingToDo) {
+TEST(LobeVariants, HaveNamesOfTheirOwnAndSomethingToDo) {
   for (const double exponent : {1.0, 16.0, 64.5, 1e6}) {
     std::set<std::string> names;
     for (const LobeVariant& variant : lobe_variants(exponent)) {
@@ -54,7 +54,7 @@ TEST(LobeWays, HaveNamesOfTheirOwnAndSomethingToDo) {
   }
 }
 
-TEST(LobeWays, CountWhatTheyDo) {
+TEST(LobeVariants, CountWhatTheyDo) {
   const std::vector<LobeVariant> variants = lobe_variants(1000);  // 0b1111101000
   EXPECT_EQ(variant_named(variants, "cosine, squaring, float32 SIMD").operations.multiply, 9 + 5);
   EXPECT_EQ(variant_named(variants, "cs16, stable, float32 SIMD").operations.multiply, 1 + 4);
@@ -66,7 +66,7 @@ TEST(LobeWays, CountWhatTheyDo) {
   EXPECT_EQ(variant_named(variants, "schlick, textbook, float32").operations.divide, 1);
 }
 
-TEST(LobeWays, SquareOnlyWholeExponents) {
+TEST(LobeVariants, SquareOnlyWholeExponents) {
   for (const LobeVariant& variant : lobe_variants(64.5))
     EXPECT_FALSE(info(variant.lobe).name == "cosine" && variant.method == "squaring");
 }
@@ -148,7 +148,7 @@ TEST(LobeErrors, SumWhatRoundingDriftsTo) {
   EXPECT_THAT(e.all.max, DoubleNear(1e-6, 1e-12));
 }
 
-TEST(LobeErrors, OfAWayThatComputesSomethingElseAreABug) {
+TEST(LobeErrors, OfAVariantThatComputesSomethingElseAreABug) {
   LobeVariant variant = variant_named(lobe_variants(64), "cs16, stable, float32 SIMD");
   variant.over32 = variant_named(lobe_variants(64), "cs32, stable, float32 SIMD").over32;
   try {
@@ -160,7 +160,7 @@ TEST(LobeErrors, OfAWayThatComputesSomethingElseAreABug) {
   }
 }
 
-TEST(LobeTable, HasEveryWayWithItsTimeErrorsAndOperations) {
+TEST(LobeTable, HasEveryVariantWithItsTimeErrorsAndOperations) {
   const Table table = lobe_table(64, 1, true);
   EXPECT_EQ(table.id, "lobe-n64");
   EXPECT_EQ(table.variants.size(), lobe_variants(64).size());

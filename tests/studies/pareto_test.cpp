@@ -22,7 +22,7 @@ TEST(ParetoFront, GoesFromTheFastestToTheMostAccurate) {
   EXPECT_THAT(front.dominated_by, ElementsAre(Pair("bad", "cheap"), Pair("worse", "middle")));
 }
 
-TEST(ParetoFront, HasTheFirstOfWaysThatAreEqual) {
+TEST(ParetoFront, HasTheFirstOfVariantsThatAreEqual) {
   EXPECT_THAT(pareto_front(table({variant("a", 1, 1), variant("b", 1, 1)}), 0).variants,
               ElementsAre("a"));
 }
@@ -35,7 +35,7 @@ TEST(ParetoFront, LeavesOutWhatHasNoError) {
   EXPECT_THAT(pareto_front(table({}), 0).variants, IsEmpty());
 }
 
-TEST(ParetoFront, IsThatOfTheDefinitionForAnyWays) {
+TEST(ParetoFront, IsThatOfTheDefinitionForAnyVariants) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> small(1, 12);
   for (int trial = 0; trial < 200; ++trial) {
@@ -77,7 +77,7 @@ TEST(FrontSentences, SayLargeRatiosInTwoDigits) {
               ElementsAre("from float32 to float64: 2.0 times the time, 6.5e+08 times less error"));
 }
 
-TEST(FrontSentences, AreNotUpsetByWaysWithoutAnyError) {
+TEST(FrontSentences, AreNotUpsetByVariantsWithoutAnyError) {
   const Table t =
       table({variant("cs16", 1, 0.017), variant("exact", 2, 0), variant("other", 4, 0)});
   EXPECT_THAT(

@@ -27,7 +27,7 @@ records::Cost report() {
                   variant("slow, \"but\"", 9e-9, 0.5), variant("exact", 5e-9, 0)})}};
 }
 
-TEST(CostRecord, HoldsEveryWayAndItsFronts) {
+TEST(CostRecord, HoldsEveryVariantAndItsFronts) {
   const Json record = as_json(report());
   EXPECT_EQ(record["kind"], "cost");
   const Json& table = record["tables"][0];
@@ -40,7 +40,7 @@ TEST(CostRecord, HoldsEveryWayAndItsFronts) {
               HasSubstr("from cs16 to cosine"));
 }
 
-TEST(CostCsv, HasALineForEachWayAndError) {
+TEST(CostCsv, HasALineForEachVariantAndError) {
   const std::string csv = cost_csv(report());
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
   EXPECT_THAT(csv, HasSubstr("\"slow, \"\"but\"\"\""));
@@ -67,7 +67,7 @@ TEST(CostText, ShowsTheFrontAndWithAllEverything) {
   EXPECT_THAT(cost_text(report(), false), HasSubstr("from cs16 to cosine: 2.0 times the time"));
 }
 
-TEST(CostChart, IsXmlWithAPointForEachWayEvenWhereItHasNoError) {
+TEST(CostChart, IsXmlWithAPointForEachVariantEvenWhereItHasNoError) {
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(cost_chart(report().tables[0], 0).c_str()));
   auto points = document.select_nodes("//g[@class='point']");

@@ -24,7 +24,7 @@ const summary = (rest, naive) => ({ group: 'lobe', ...rest, cases: 3, outside: 0
 const curve = (exponent) => ({ exponent, model: 'modified_phong', lobe: 'cosine', degrees: [0, 1, 2], truth: [1, 0.5, 0.1], naive: [1.2, 0.4, 'inf'], ours: [1, 0.5, 0.1] });
 const claim = (name, verdict) => ({ name, where: 'eq. (1)', statement: `it is so: ${name}`, printed: '1.7e-2', verdict,
   measured: [{ what: 'largest', value: 0.017, text: '1.70e-2', at: 'n = 16' }], definition: 'by a scan', reason: '' });
-const way = (name, median, max) => ({ name, settings: {}, seconds: { median, spread: 0.05, least: median, most: median, rounds: 5 }, errors: { max } });
+const variant = (name, median, max) => ({ name, settings: {}, seconds: { median, spread: 0.05, least: median, most: median, rounds: 5 }, errors: { max } });
 
 before(async () => {
   writeFarm(run, { axes: { model: ['phong'] }, size: 8, cell: () => ({}) });
@@ -44,7 +44,7 @@ before(async () => {
   }));
   put('cost/cost.json', made('cost', { command: ['lobelia', 'cost'], host: { processor: 'abacus', threads: 2, system: 'Debian' }, instructionSet: 'AVX2', tables: [{
     id: 'lobe', unit: 's', level: 'lobe', title: 'A lobe', per: 'evaluation', errors: [{ id: 'max', meaning: 'largest error' }],
-    ways: [way('quick', 1e-9, 0.1), way('middling', 2e-9, 0.05), way('slow', 8e-9, 1e-7), way(kHostile, 9e-9, 0.2), way('unknown', 1e-9, 'nan')],
+    ways: [variant('quick', 1e-9, 0.1), variant('middling', 2e-9, 0.05), variant('slow', 8e-9, 1e-7), variant(kHostile, 9e-9, 0.2), variant('unknown', 1e-9, 'nan')],
     fronts: { max: { ways: ['quick', 'middling', 'slow'], dominatedBy: {}, inWords: ['quick to slow'], chart: 'lobe-max.svg' } }, remarks: [] }] }));
   lobelia('gallery', run, '-o', site);
   [browser, server] = await Promise.all([launch(), serve(site)]);
