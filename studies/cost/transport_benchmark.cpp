@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
 
 #include "core/constants.hpp"
 #include "core/error.hpp"
@@ -85,74 +85,67 @@ void measure_ours(const Scene& scene, int seed, const Converged& truth, Directio
   }
 }
 
-/// An engine with its own light transport; null if none is available.
-struct TransportEngine {
-  std::unique_ptr<Engine> engine;
-  std::string title;  ///< "Cycles"
-  std::string why;    ///< it is not available
-  explicit operator bool() const { return engine != nullptr; }
-};
-
-/// The first engine of the catalogue with its own light transport.
-TransportEngine find_transport_engine(const Options& options) {
-  const auto infos = engine_infos();
-  const auto info =
-      std::ranges::find_if(infos, [](const EngineInfo& i) { return !i.transport.empty(); });
-  if (info == infos.end()) return {nullptr, "an engine", "no engine traces light by itself"};
-  auto engine = make_engine(info->name, options.program(info->name));
-  const EngineStatus& status = engine->status();
-  TransportEngine found{nullptr, std::string(info->transport), status.why};
-  if (status.available()) found.engine = std::move(engine);
-  return found;
-}
-
-/// Renders one picture after the other, each on all processors.
-class TransportSession {
+/// The first engine of the catalogue with its own light transport. It renders one picture after the other, each on all
+/// processors, in one process: a start takes seconds.
+class TransportEngine {
  public:
-  explicit TransportSession(const TransportEngine& by)
-      : title_(by.title), session_(*by.engine, options()) {}
+  explicit TransportEngine(const Options& options) {
+    const auto infos = engine_infos();
+    const auto info =
+        std::ranges::find_if(infos, [](const EngineInfo& i) { return !i.transport.empty(); });
+    if (info == infos.end()) {
+      title = "an engine";
+      why_not = "no engine traces light by itself";
+      return;
+    }
+    name = info->name;
+    title = info->transport;
+    engine_ = make_engine(name, options.program(name));
+    const EngineStatus& status = engine_->status();
+    why_not = status.why;
+    if (!status.available()) return;
+    ReferenceOptions how;
+    how.processes = 1;
+    how.own_transport = true;
+    how.no_progress_limit = std::chrono::minutes(5);
+    session_.emplace(*engine_, how);
+  }
+
+  explicit operator bool() const { return session_.has_value(); }
 
   ReferenceResult render(Scene scene, int samples, std::uint64_t seed) {
     scene.sampler.sample_count = samples;
     scene.sampler.seed = seed;
-    ReferenceResult result = session_.render(scene);
+    ReferenceResult result = session_->render(scene);
     if (!result.error.empty()) throw Error(ExitCode::kEngine, result.error);
-    require_picture(result.image, title_.c_str());
+    require_picture(result.image, title.c_str());
     return result;
   }
 
+  std::string name;
+  std::string title;    ///< "Cycles"
+  std::string why_not;  ///< the reason if it is not available
+
  private:
-  static ReferenceOptions options() {
-    ReferenceOptions options;
-    options.processes = 1;
-    options.own_transport = true;
-    options.no_progress_limit = std::chrono::minutes(5);
-    return options;
-  }
-  const std::string title_;
-  Session session_;
+  std::unique_ptr<Engine> engine_;
+  std::optional<Session> session_;
 };
 
-void measure_engine(const TransportEngine& by, const Scene& scene, const std::vector<int>& seeds,
-                    const Converged& truth, Series& series) {
-  TransportSession session(by);
-  // The fixed cost of a call. The first call of a process costs more.
-  const Scene tiny = with_film(scene, 8);
-  session.render(tiny, 1, 1);
-  const double tiny_seconds = session.render(tiny, 1, 1).record.seconds.total;
-  for (const int seed : seeds)
-    for (Point& point : series.points) {
-      const ReferenceResult result = session.render(scene, point.samples, std::uint64_t(seed));
-      point.seconds.push_back(result.record.seconds.total);
-      point.errors.push_back(rms_of_difference(result.image, truth.image));
-      point.facts.seconds_of_tiny_call = tiny_seconds;
-    }
+void measure_engine(TransportEngine& by, const Scene& scene, int seed, const Converged& truth,
+                    Series& series) {
+  // The fixed cost of a call: of this scene, which Cycles prepares anew for each picture.
+  const double tiny_seconds = by.render(with_film(scene, 8), 1, 1).record.seconds.total;
+  for (Point& point : series.points) {
+    const ReferenceResult result = by.render(scene, point.samples, std::uint64_t(seed));
+    point.seconds.push_back(result.record.seconds.total);
+    point.errors.push_back(rms_of_difference(result.image, truth.image));
+    point.facts.seconds_of_tiny_call = tiny_seconds;
+  }
 }
 
-Converged converged_picture(const TransportEngine& by, const Scene& scene, int samples) {
-  TransportSession session(by);
-  return {session.render(scene, samples, kTruthSeeds[0]).image,
-          session.render(scene, samples, kTruthSeeds[1]).image};
+Converged converged_picture(TransportEngine& by, const Scene& scene, int samples) {
+  return {by.render(scene, samples, kTruthSeeds[0]).image,
+          by.render(scene, samples, kTruthSeeds[1]).image};
 }
 
 /// Relative to the picture, without the converged picture's own error.
@@ -246,7 +239,7 @@ std::string agreement(const Converged& ours, const Converged& theirs, const std:
 }
 
 Table measure_scene(const std::string& id, const std::string& title, const Scene& scene,
-                    const TransportEngine& by, const Options& options) {
+                    TransportEngine* by, const Options& options) {
   const std::vector<int> counts = sample_counts(options);
   const int most = kTruthFactor * counts.back();
   Table table;
@@ -261,44 +254,34 @@ Table measure_scene(const std::string& id, const std::string& title, const Scene
   options.progress(id + ": converged pictures");
   const Converged ours(render_timed(scene, most, kTruthSeeds[0]).result.image,
                        render_timed(scene, most, kTruthSeeds[1]).result.image);
-  const bool both = bool(by);
-  const Converged theirs = both ? converged_picture(by, scene, most) : Converged();
+  const Converged theirs = by ? converged_picture(*by, scene, most) : Converged();
   std::vector<Series> series;
   for (const Sampling& sampling : kSamplings)
     series.emplace_back(sampling.name, "lobelia", sampling.setting, counts);
-  if (both)
-    series.emplace_back(by.title, std::string(by.engine->info().name),
-                        fmt::format("light and surface, by {} itself", by.title), counts);
+  if (by)
+    series.emplace_back(by->title, by->name,
+                        fmt::format("light and surface, by {} itself", by->title), counts);
 
-  // A program takes a second to start: too long for each round of a quick measurement.
-  const bool at_once = options.effort == Effort::kQuick;
   // Interleaved, so that a change in the machine's speed affects all alike.
   const int rounds = options.rounds(2, 3, 7);
   for (int seed = 1; seed <= rounds; ++seed) {
     options.progress(fmt::format("{}: round {} of {}", id, seed, rounds));
     for (std::size_t s = 0; s < std::size(kSamplings); ++s)
       measure_ours(scene, seed, ours, kSamplings[s].directions, series[s]);
-    if (both && !at_once) measure_engine(by, scene, {seed}, theirs, series.back());
-  }
-  if (both && at_once) {
-    std::vector<int> seeds(std::size_t(rounds), 1);
-    std::iota(seeds.begin(), seeds.end(), 1);
-    measure_engine(by, scene, seeds, theirs, series.back());
+    if (by) measure_engine(*by, scene, seed, theirs, series.back());
   }
   for (const Series& one : series) add_series(one, one.engine == "lobelia" ? ours : theirs, table);
   table.remarks.push_back(fmt::format(
       "errors of the picture: of {} seeds each, against {} samples of two others, whose own error is "
       "taken out (ours {:.1e}{})",
       rounds, most, ours.error / rms(ours.image),
-      both ? fmt::format(", {} {:.1e}", by.title, theirs.error / rms(theirs.image)) : ""));
-  if (both) {
-    table.remarks.push_back(agreement(ours, theirs, by.title));
+      by ? fmt::format(", {} {:.1e}", by->title, theirs.error / rms(theirs.image)) : ""));
+  if (by) {
+    table.remarks.push_back(agreement(ours, theirs, by->title));
     table.remarks.push_back(fmt::format(
         "times of {} are of a running program that is given the scene, with setting it up and the file; ours "
         "are of plan and picture",
-        by.title));
-  } else {
-    table.remarks.push_back(fmt::format("without {}: {}", by.title, by.why));
+        by->title));
   }
   return table;
 }
@@ -313,22 +296,26 @@ bool has_transport(const Scene& scene) {
 
 std::vector<Table> measure_transport(const Options& options) {
   const int side = options.rounds(48, 96, 192);
-  const TransportEngine by = find_transport_engine(options);
+  TransportEngine engine(options);
   std::vector<Table> tables;
-  const auto add = [&](const char* id, const char* title, const Scene& scene) {
+  const auto add = [&](const std::string& id, const std::string& title, const Scene& scene,
+                       TransportEngine* by, const std::string& why_not) {
     tables.push_back(measure_scene(id, title, scene, by, options));
+    if (!by) tables.back().remarks.push_back(fmt::format("without {}: {}", engine.title, why_not));
   };
-  add("rectangle_light", "A sphere on a plane below a rectangle of light", below_rectangle(side));
-  add("environment", "A sphere on a plane below a sky with a small sun", below_sky(side));
-  add("inter_reflection", "Below the rectangle, with light that goes from surface to surface",
-      with_inter_reflection(below_rectangle(side)));
-  const TransportEngine not_told{
-      nullptr, by.title,
-      "only the built-in scenes are told to it in this way (see the level engine)"};
+  const auto add_built_in = [&](const char* id, const char* title, const Scene& scene) {
+    add(id, title, scene, engine ? &engine : nullptr, engine.why_not);
+  };
+  add_built_in("rectangle_light", "A sphere on a plane below a rectangle of light",
+               below_rectangle(side));
+  add_built_in("environment", "A sphere on a plane below a sky with a small sun", below_sky(side));
+  add_built_in("inter_reflection",
+               "Below the rectangle, with light that goes from surface to surface",
+               with_inter_reflection(below_rectangle(side)));
   for (const NamedScene& given : options.scenes)
     if (has_transport(given.scene))
-      tables.push_back(
-          measure_scene(given.name, given.name, with_film(given.scene, side), not_told, options));
+      add(given.name, given.name, with_film(given.scene, side), nullptr,
+          "only the built-in scenes are told to it in this way (see the level engine)");
   return tables;
 }
 
