@@ -2,7 +2,9 @@
 add_library(lobelia_options INTERFACE)
 target_include_directories(lobelia_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 target_compile_options(lobelia_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
+  # In a unity build the names of one file are no concern of the next.
+  $<IF:$<OR:$<BOOL:${LOBELIA_SANITIZE}>,$<BOOL:${LOBELIA_UNITY}>>,-Wno-subobject-linkage,-Wshadow>
   # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Kernels fuse a*b+c explicitly (Highway's MulAdd). Elsewhere results must not depend on the processor.
@@ -46,8 +48,6 @@ set(LOBELIA_COMPUTING_ROOMS core renderer compare formulas accuracy studies)
 function(lobelia_compile_quickly target room)
   if(LOBELIA_SANITIZE OR LOBELIA_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-    # Names of one file are no concern of the next; the other presets have these warnings.
-    target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)
   endif()
   if(LOBELIA_SANITIZE AND room IN_LIST LOBELIA_COMPUTING_ROOMS)
     target_compile_options(${target} PRIVATE -O1)
