@@ -3,8 +3,6 @@ add_library(lobelia_options INTERFACE)
 target_include_directories(lobelia_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 target_compile_options(lobelia_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
-  # In a unity build the names of one file are no concern of the next.
-  $<IF:$<OR:$<BOOL:${LOBELIA_SANITIZE}>,$<BOOL:${LOBELIA_UNITY}>>,-Wno-subobject-linkage,-Wshadow>
   # GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Kernels fuse a*b+c explicitly (Highway's MulAdd). Elsewhere results must not depend on the processor.
@@ -22,6 +20,12 @@ if(LOBELIA_SANITIZE)
   set(LOBELIA_LEFT_OUT "(HWY_SSE4|HWY_AVX2|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 target_compile_definitions(lobelia_options INTERFACE "HWY_DISABLED_TARGETS=${LOBELIA_LEFT_OUT}")
+if(LOBELIA_SANITIZE OR LOBELIA_UNITY)
+  # Where a room is one file, the names of one of its files are no concern of the next.
+  target_compile_options(lobelia_options INTERFACE -Wno-subobject-linkage)
+else()
+  target_compile_options(lobelia_options INTERFACE -Wshadow)
+endif()
 if(LOBELIA_WERROR)
   target_compile_options(lobelia_options INTERFACE -Werror)
 endif()
