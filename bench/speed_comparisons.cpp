@@ -19,7 +19,8 @@ void render_file(const std::string& program, const char* scene, int width, int h
 /// All metrics, with a limit that always holds, so that the exit code is 0.
 ProcessResult compare(const std::string& program, const fs::path& a, const fs::path& b,
                       std::vector<std::string> options) {
-  std::vector<std::string> command{program, "compare", a, b, "--fail", "max_abs=1e30"};
+  std::vector<std::string> command{program,  "compare",     a, b, "--no-default-limits",
+                                   "--fail", "max_abs=1e30"};
   command.insert(command.end(), options.begin(), options.end());
   return run(command);
 }

@@ -8,10 +8,13 @@
 #include "cli/commands.hpp"
 #include "cli/compare_pictures.hpp"
 #include "cli/options.hpp"
+#include "compare/highlight_region.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
+#include "compare/sensitivity.hpp"
 #include "core/colour.hpp"
 #include "core/files.hpp"
+#include "core/image_io.hpp"
 #include "core/threads.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
@@ -25,6 +28,8 @@ namespace fs = std::filesystem;
 struct CompareArguments {
   CompareJob job;
   std::string json, csv, junit, tolerance, exposures;
+  std::string exposure = "auto", junit_undecided = "failure";
+  bool sensitivity = false, no_default_limits = false;
   std::vector<std::string> fail, warn;
   DisplayViewChoice display;
   int threads = 0;
@@ -70,6 +75,15 @@ HdrExposures parse_exposures(const std::string& text) {
                   range.start_stops, range.stop_stops);
   range.count = int(std::clamp<long long>(count, 0, kMaxHdrExposures + 1));
   return range;
+}
+
+/// Sets the exposure of the perceptual metrics: "auto" or stops.
+void parse_exposure(const std::string& text, Viewing& viewing) {
+  viewing.automatic = text == "auto";
+  if (!viewing.automatic && !parse_number(text, viewing.exposure_stops))
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("--exposure {}: expected stops, for example -2, or auto", printable(text)));
 }
 
 constexpr std::string_view kStdout = "-";
@@ -200,7 +214,7 @@ void write_reports(const CompareArguments& options, const SetReport& report, boo
       write_file(file, text());
   };
   put(options.csv, [&] { return set_csv(report); });
-  put(options.junit, [&] { return set_junit(report); });
+  put(options.junit, [&] { return set_junit(report, options.junit_undecided == "skipped"); });
   put(options.json, [&] {
     return folders ? record_text(set_record(report))
                    : record_text(pair_record(report.pairs.front()));
@@ -209,8 +223,44 @@ void write_reports(const CompareArguments& options, const SetReport& report, boo
   fmt::print("{}", printed);
 }
 
+/// Prints what the limits let pass of changed copies of the picture.
+ExitCode run_sensitivity(const CompareArguments& options) {
+  const CompareJob& job = options.job;
+  for (const auto& [given, name] :
+       {std::pair(!job.b.empty(), "B"),
+        {!job.c.empty(), "--reference-floor"},
+        {job.comparison.noise.has_value(), "the noise of a picture"},
+        {!job.difference.path.empty(), "--diff-image"},
+        {!(options.json.empty() && options.csv.empty() && options.junit.empty()), "a report"}})
+    if (given)
+      throw Error(
+          ExitCode::kUsage,
+          fmt::format("--sensitivity takes one picture and changes it itself: leave out {}", name));
+  std::vector<Change> changes;
+  ThreadLimit(options.threads).run([&] {
+    changes = sensitivity(read_picture(job.a, job.layers.layer).image, job.comparison);
+  });
+  fmt::print("{}\n\n  {:<38}{:<12}{}\n", printable_path(job.a), "changed copy", "verdict", "by");
+  bool as_expected = true;
+  for (const Change& change : changes) {
+    as_expected = as_expected && change.is_as_expected();
+    const std::string why = change.is_as_expected() ? change.found_by
+                            : change.expected == Expected::kFound
+                                ? "NOT FOUND"
+                                : "FOUND, though it is no difference: " + change.found_by;
+    fmt::print("  {:<38}{:<{}}{}\n", change.name, verdict_name(change.verdict),
+               why.empty() ? 0 : 12, why);
+  }
+  fmt::print("\n{}\n", as_expected ? "These limits find what they should."
+                                   : "These limits do not find what they should.");
+  return as_expected ? ExitCode::kSuccess : ExitCode::kDiffers;
+}
+
 ExitCode run_compare(CompareArguments options) {
   ComparisonOptions& comparison = options.job.comparison;
+  comparison.highlight = true;
+  comparison.default_limits = !options.no_default_limits;
+  parse_exposure(options.exposure, comparison.viewing);
   for (const std::string& text : options.fail)
     comparison.limits.push_back(parse_limit("--fail", text));
   for (const std::string& text : options.warn)
@@ -233,6 +283,8 @@ ExitCode run_compare(CompareArguments options) {
                 "--allow-equal-nonfinite: a value that is not finite has no noise; leave out the "
                 "noise of A and B");
   check_options(comparison);
+  if (options.sensitivity) return run_sensitivity(options);
+  if (options.job.b.empty()) throw Error(ExitCode::kUsage, "B is required: the reference picture");
   const bool folders = are_folders(options.job);
   const bool has_table = !prints_report(options);
   check_difference(options.job.difference, folders);
@@ -253,12 +305,15 @@ ExitCode run_compare(CompareArguments options) {
 
 std::string footer() {
   std::string defaults;
-  for (const MetricLimit& limit : default_limits())
-    defaults += fmt::format("{}{} {:g}", defaults.empty() ? "" : ", ", limit.metric, limit.limit);
+  for (const auto limits : {default_limits(), highlight_limits()})
+    for (const MetricLimit& limit : limits)
+      defaults += fmt::format("{}{} {:g}", defaults.empty() ? "" : ", ", limit.metric, limit.limit);
   return fmt::format(
       "Metrics that a limit can be set on:\n"
       "  {}\n"
-      "Without --fail and --tolerance the limits are {}: a look, not a proof.\n"
+      "Of most there is one more for a part of the picture: with .highlight at the end (rmse.highlight) of\n"
+      "the pixels that have {:g} % of the peak of A or B, and with --scene .mask and .outside.\n"
+      "The default limits are {}. --sensitivity shows what they find.\n"
       "Channels are taken by their names, grey as three equal ones. A file's integers are decoded from\n"
       "sRGB to linear light unless it says otherwise, floats are light; the record says how each was read.\n"
       "Of a picture that is a crop of its display window, the rest is black. Data outside of it are compared as\n"
@@ -275,16 +330,17 @@ std::string footer() {
       "  lobelia compare ours.exr blender.exr --fail max_rel_peak=3e-5 --fail flip.ldr.mean=1e-3\n"
       "  lobelia compare half1.exr reference.exr --a-replicate half2.exr --b-error error.exr\n"
       "\n"
-      "  lobelia compare renders/ references/ --fail ciede2000.p99=2 --junit report.xml --csv report.csv\n"
+      "  lobelia compare --sensitivity reference.exr\n"
+      "  lobelia compare renders/ references/ --fail max_rel_peak=0.005 --junit report.xml --csv report.csv\n"
       "\n"
       "A picture's format is told by its first bytes, not by its name. A picture that crashes its decoder\n"
       "is an error of its pair, and the others go on.\n"
       "Of two folders, a name that only B has fails, one that only A has is named. A link to a folder is\n"
       "followed if it stays inside A or B; else it is named and fails. Exit codes: 0 pass or same, 1 over a\n"
-      "limit, not measured, undecided, not finite, missing or not followed, 2 usage, 3 a picture is\n"
-      "unreadable, has no such layer or another size, or there is no pair, 4 an output cannot be written,\n"
+      "limit, not measured, not finite, missing or not followed, 2 usage, 3 a picture is unreadable, has\n"
+      "no such layer or another size, or there is no pair, 4 an output cannot be written, 6 undecided,\n"
       "130 Ctrl-C, 143 SIGTERM.",
-      join(limit_names()), defaults);
+      join(limit_names(false)), 100 * kHighlightShare, defaults);
 }
 
 void add_display_options(OptionGroup& viewing, DisplayViewChoice& display) {
@@ -334,11 +390,10 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   CompareJob& job = options->job;
   Viewing& viewing = job.comparison.viewing;
   command->add_option("A", job.a, "Picture to judge, or a folder of them")->required();
-  command
-      ->add_option("B", job.b,
-                   "Reference picture, of the same size, or a folder of references: pictures are "
-                   "paired by their name within the folders")
-      ->required();
+  command->add_option(
+      "B", job.b,
+      "Reference picture, of the same size, or a folder of references: pictures are "
+      "paired by their name within the folders");
   OptionGroup(*command).add(
       "--reference-floor", job.c, "C",
       "A second reference: how far it is from B is shown beside how far A is");
@@ -371,6 +426,14 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   add_limits(
       "--fail", options->fail,
       "Verdict 'differs' if METRIC is over LIMIT (a likeness, such as psnr: below it); may be given again");
+  verdict.add_flag(
+      "--no-default-limits", options->no_default_limits,
+      "Judge by --fail and --tolerance alone; otherwise they add to the default limits, "
+      "each of which --fail on the same metric replaces");
+  verdict.add_flag(
+      "--sensitivity", options->sensitivity,
+      "Of A alone: what would these limits let pass? Compares changed copies of it, and "
+      "ends with 1 if one that matters is not found");
   add_limits("--warn", options->warn, "As --fail, but a line and no verdict; may be given again");
   verdict.add("--tolerance", options->tolerance, "REL,PEAK,COUNT",
               "A pixel is an outlier if |A - B| > REL * |B| + PEAK * (brightest value of B) in "
@@ -386,10 +449,11 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
 
   job.noise.add_to(*command);
 
-  look.add_number(
-          "--exposure", viewing.exposure_stops, -kMaxExposureStops, kMaxExposureStops,
-          "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted")
-      ->type_name("STOPS");
+  look.add("--exposure", options->exposure, "STOPS|auto",
+           "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted; with "
+           "auto it is 0 for what a display can show, and otherwise two that show the peak of the "
+           "highlight and its tail, of which the worse counts")
+      ->capture_default_str();
   look.add("--exposures", options->exposures, "START,STOP,COUNT|auto",
            "Measure HDR-FLIP over COUNT exposures from START to STOP, in stops, shown through "
            "the ACES curve; with auto over the range that the reference alone suggests");
@@ -407,6 +471,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   output.add("--junit", options->junit, "FILE.xml|-",
              "Write the verdicts as JUnit's XML, for continuous integration; with - to "
              "stdout, likewise");
+  output.add_choice("--junit-undecided", options->junit_undecided, {"failure", "skipped"},
+                    "What an undecided pair is in --junit");
   add_difference_options(output, job.difference);
   output.add("--threads", options->threads, "", "Threads that work; 0: one for each processor")
       ->check(CLI::Range(0, 1024))

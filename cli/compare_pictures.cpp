@@ -10,6 +10,7 @@
 #include <mutex>
 #include <utility>
 
+#include "compare/highlight_region.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
@@ -95,6 +96,13 @@ HdrExposures exposures_or_why_not(const Image& reference) {
   }
 }
 
+/// The options with the exposures of this pair, for another one.
+ComparisonOptions at_exposures_of(const Image& a, const Image& b, ComparisonOptions options) {
+  options.viewing = with_exposures(options.viewing, a, b);
+  options.viewing.automatic = false;
+  return options;
+}
+
 /// With `equal_allowed`, values that are not finite in both references are no difference.
 ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, const Image& b,
                         bool equal_allowed, const ComparisonOptions& options) {
@@ -123,7 +131,8 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOption
   if (choose_exposures) options.viewing.hdr_exposures = exposures_or_why_not(b);
   std::optional<ReferenceFloor> floor;
   if (!pair.c.empty())
-    floor = floor_of(pair, layer, b, allows_equal_nonfinite(options, pictures.b.source), options);
+    floor = floor_of(pair, layer, b, allows_equal_nonfinite(options, pictures.b.source),
+                     at_exposures_of(a, b, options));
   pair.comparison = compare_pictures(pictures, pair.a, pair.b, options);
   pair.comparison->reference_floor = std::move(floor);
   pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
@@ -224,30 +233,64 @@ std::string error_bar_text(const Comparison& comparison, std::string_view id) {
   return fmt::format("{:<12}", bar ? fmt::format("± {:.2g}", bar->standard_error) : "");
 }
 
+void print_exposures(const Viewing& viewing) {
+  if (viewing.tail_stops)
+    fmt::print(
+        "  shown at {:.3g} stops for the peak and at {:.3g} for the tail; the worse counts\n\n",
+        viewing.exposure_stops, *viewing.tail_stops);
+}
+
+/// A column of the table of metrics: values by the id that a metric has in it.
+struct Column {
+  const char* title;
+  const records::Named<double>* values;
+  Region region;
+};
+
 void print_metric_lines(const Comparison& comparison) {
   const auto& floor = comparison.reference_floor;
-  if (floor)
-    fmt::print("  {:<20}{:>14}{:>14}  {}\n", "", "A and B", "C and B", "C is the second reference");
-  for (const auto& [id, value] : comparison.metrics) {
-    fmt::print("  {:<20}{:>14.6g}", id, value);
-    if (floor) {
-      const double* found = records::find(floor->metrics, id);
-      fmt::print("{:>14}", found ? fmt::format("{:.6g}", *found) : "-");
-    }
-    fmt::print("  {}{}\n", error_bar_text(comparison, id), find_metric_output(id)->meaning);
+  std::vector<Column> columns{{"A and B", &comparison.metrics, Region::kWhole}};
+  if (floor) columns.push_back({"C and B", &floor->metrics, Region::kWhole});
+  if (comparison.highlight_pixels.value_or(0) > 0)
+    columns.push_back({"highlight", &comparison.metrics, Region::kHighlight});
+  if (comparison.mask_pixels) {
+    columns.push_back({"in the mask", &comparison.metrics, Region::kMask});
+    columns.push_back({"outside", &comparison.metrics, Region::kOutside});
   }
+  fmt::print("  {:<20}", "");
+  for (const Column& column : columns) fmt::print("{:>13}", column.title);
+  fmt::print("\n");
+  for (const Metric* metric : metrics())
+    for (const MetricOutput& output : metric->outputs) {
+      const std::string id(output.id);
+      if (metric->region != Region::kWhole || std::isnan(comparison.value(id))) continue;
+      fmt::print("  {:<20}", id);
+      for (const Column& column : columns) {
+        const double* value =
+            records::find(*column.values, id_in_region(*metric, output, column.region));
+        fmt::print("{:>13}", value ? fmt::format("{:.6g}", *value) : "");
+      }
+      fmt::print("  {}{}\n", error_bar_text(comparison, id), output.meaning);
+    }
   for (const NotMeasured& one : comparison.not_measured)
-    fmt::print("  {:<20}{:>14}  not measured: {}\n", one.metric, "-", one.because);
+    if (find_metric(one.metric)->region == Region::kWhole)
+      fmt::print("  {:<20}{:>13}  not measured: {}\n", one.metric, "-", one.because);
 }
 
 void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view before) {
   for (const LimitResult& limit : limits)
-    fmt::print("  {}{:<20}{:>14.6g}  {} {:g}\n", before, limit.metric, limit.value,
+    fmt::print("  {}{:<26}{:>14.6g}  {} {:g}\n", before, limit.metric, limit.value,
                std::isnan(limit.value)             ? "was NOT MEASURED; the limit is"
                : limit.pass                        ? "is within"
                : limit.standing == Standing::kOpen ? "MAY BE ON EITHER SIDE OF"
                                                    : "is OUTSIDE",
                limit.limit);
+}
+
+/// Of metrics in regions only those with a default limit.
+bool is_in_short_table(std::string_view id) {
+  return find_metric(id)->region == Region::kWhole ||
+         std::ranges::count(highlight_limits(), id, &MetricLimit::metric) > 0;
 }
 
 /// A line for each metric that some pairs lack, with the reason of the first of them.
@@ -258,7 +301,8 @@ void print_not_measured(const std::vector<PairReport>& pairs) {
       for (const NotMeasured& one : pair.comparison->not_measured)
         ++reasons.try_emplace(one.metric, 0, one.because).first->second.first;
   for (const auto& [id, why] : reasons)
-    fmt::print("  {:<20}not measured in {} pairs: {}\n", id, why.first, why.second);
+    if (is_in_short_table(id))
+      fmt::print("  {:<26}not measured in {} pairs: {}\n", id, why.first, why.second);
 }
 
 }  // namespace
@@ -312,6 +356,9 @@ void print_pair(const PairReport& pair) {
   if (comparison.nonfinite.equal_allowed.value_or(0) > 0)
     fmt::print("  in {} pixels both have the same NaN or infinity, which counts as no difference\n",
                *comparison.nonfinite.equal_allowed);
+  if (const std::string sentence = highlight_sentence(comparison); !sentence.empty())
+    fmt::print("  {}\n\n", sentence);
+  print_exposures(comparison.viewing);
   print_metric_lines(comparison);
   fmt::print("\n");
   if (comparison.verdict != Verdict::kNonFinite) {
@@ -324,6 +371,8 @@ void print_pair(const PairReport& pair) {
                  limit.metric);
   for (const std::string& sentence : comparison.disagreement)
     fmt::print("  metrics disagree: {}\n", sentence);
+  for (const std::string& sentence : comparison.blind_limits)
+    fmt::print("  warning: {}\n", sentence);
   if (pair.layers) print_layers(*pair.layers, pair.a, pair.b);
   if (pair.sources) print_profiles(*pair.sources);
   fmt::print("\nverdict: {}\n", verdict_name(pair.verdict()));
@@ -354,10 +403,11 @@ void print_set(const SetReport& report) {
   for (const std::string& name : report.extra) line("extra", name, "there is no reference");
 
   const std::vector<MetricSummary> summaries = summarise(report.pairs);
-  if (!summaries.empty()) fmt::print("\n  {:<20}{:>14}{:>14}\n", "", "mean", "worst");
+  if (!summaries.empty()) fmt::print("\n  {:<26}{:>14}{:>14}\n", "", "mean", "worst");
   for (const MetricSummary& metric : summaries)
-    fmt::print("  {:<20}{:>14.6g}{:>14.6g}  {}\n", metric.id, metric.mean, metric.worst,
-               printable_path(metric.worst_at->name));
+    if (is_in_short_table(metric.id))
+      fmt::print("  {:<26}{:>14.6g}{:>14.6g}  {}\n", metric.id, metric.mean, metric.worst,
+                 printable_path(metric.worst_at->name));
   print_not_measured(report.pairs);
   const records::SetSummary counts = count(report);
   fmt::print(

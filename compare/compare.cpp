@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compare/disagreement.hpp"
+#include "compare/highlight_region.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
 #include "compare/uncertainty/critical.hpp"
@@ -41,7 +42,11 @@ std::string_view missing_input(const Metric& metric, const ComparisonOptions& op
   if (metric.needs == Needs::kTolerance && !options.tolerance) return "a tolerance";
   if (metric.needs == Needs::kHdrExposures && !options.viewing.hdr_exposures)
     return "a range of exposures";
-  if (metric.needs == Needs::kMask && options.mask.empty()) return "a mask";
+  const bool by_mask = metric.region == Region::kMask || metric.region == Region::kOutside;
+  if (by_mask && options.mask.empty()) return "a mask";
+  const bool of_highlight =
+      metric.region == Region::kHighlight || metric.needs == Needs::kHighlight;
+  if (of_highlight && !options.highlight) return "the highlight";
   if (metric.needs == Needs::kNoise && !options.noise) return "the noise of a picture";
   return {};
 }
@@ -52,7 +57,7 @@ records::Named<double> measure_all(const MetricInput& input) {
   for (const Metric* metric : metrics()) {
     if (!is_measurable(*metric, input)) continue;
     values.assign(metric->outputs.size(), 0.0);
-    metric->measure(input, values);
+    measure_metric(*metric, input, values);
     for (std::size_t i = 0; i < values.size(); ++i)
       results.emplace_back(metric->outputs[i].id, values[i]);
   }
@@ -99,14 +104,29 @@ records::Uncertainty uncertainty_of(const MetricInput& input, const NoiseOptions
 ///   a tolerance   no more pixels than it allows are beyond tolerance and noise together, and no region is. Without
 ///                 limits also: no more pixels are open, so that the same pictures surely lie within the tolerance.
 ///                 With limits the tolerance is for rounding, and the limits say how fine the answer has to be;
-///   neither       nothing is beyond the noise, and the default limits. So pictures that are too noisy to find
-///                 anything are undecided, not the same.
-/// Without noise, a tolerance limits the outliers instead.
-std::vector<MetricLimit> requested_limits(const ComparisonOptions& options) {
+///   neither       nothing is beyond the noise. So pictures that are too noisy to find anything are undecided, not the
+///                 same.
+/// Without noise, a tolerance limits the outliers instead. The default limits come on top, unless they are left out.
+/// Where noise leaves one of them open that was not asked for, it does not count.
+std::vector<MetricLimit> requested_limits(const ComparisonOptions& options,
+                                          const Comparison& measured) {
   std::vector<MetricLimit> limits = options.limits;
   const bool by_default = limits.empty() && !options.tolerance;
   const bool by_tolerance = limits.empty() && options.tolerance;
-  if (by_default) limits.assign(default_limits().begin(), default_limits().end());
+  const auto add = [&](MetricLimit limit) {
+    const bool is_given =
+        std::ranges::count(options.limits, limit.metric, &MetricLimit::metric) > 0;
+    // Shares of the light may be off by the rounding of stored values.
+    if (find_metric_output(limit.metric)->unit == Unit::kShare && measured.value("peak") > 0)
+      limit.limit += options.rounding / measured.value("peak");
+    // A tolerance allows a few pixels any difference.
+    if (options.tolerance && limit.metric == "max_rel_peak") return;
+    if (!is_given && measured.why_not_measured(limit.metric).empty()) limits.push_back(limit);
+  };
+  if (options.default_limits) {
+    std::ranges::for_each(default_limits(), add);
+    if (options.highlight) std::ranges::for_each(highlight_limits(), add);
+  }
   const double allowed = options.tolerance ? double(options.tolerance->allowed_outliers) : 0;
   const std::string beyond = options.noise ? "z.beyond" : "outliers";
   if (options.tolerance || (options.noise && by_default)) limits.push_back({beyond, allowed});
@@ -175,6 +195,14 @@ std::vector<LimitResult> judge(std::span<const MetricLimit> limits, const Compar
   return results;
 }
 
+/// Whether a default limit on the metric stands, as none was given.
+bool is_by_default(std::string_view metric, const ComparisonOptions& options) {
+  const auto has = [&](std::span<const MetricLimit> limits) {
+    return std::ranges::count(limits, metric, &MetricLimit::metric) > 0;
+  };
+  return !has(options.limits) && (has(default_limits()) || has(highlight_limits()));
+}
+
 Verdict verdict_of(std::span<const LimitResult> limits, bool noisy) {
   if (!noisy)
     return std::ranges::all_of(limits, &LimitResult::pass) ? Verdict::kPass : Verdict::kDiffers;
@@ -196,6 +224,19 @@ std::span<const MetricLimit> default_limits() {
       // 1 is about a just noticeable difference. One pixel in twenty may have more: engines sample the edge of the
       // silhouette differently, which max_rel_peak judges.
       {"ciede2000.p95", 1.0},
+  }};
+  return limits;
+}
+
+std::span<const MetricLimit> highlight_limits() {
+  static const std::array<MetricLimit, 5> limits{{
+      // A wrong coefficient is off by 3 % and more, a wrong exponent by half as many per cent in width.
+      {"energy.highlight", 0.01},
+      {"width.highlight", 0.01},
+      // Half a pixel is what a wrong pixel centre shifts.
+      {"shift.highlight", 0.25},
+      {"ciede2000.p95.highlight", 1.0},
+      {"flip.ldr.mean.highlight", 0.03},
   }};
   return limits;
 }
@@ -224,13 +265,14 @@ void check_options(const ComparisonOptions& options) {
     require_range("the last exposure", range->stop_stops, range->start_stops, kMaxExposureStops);
     require_range("the number of exposures", range->count, 2, kMaxHdrExposures);
   }
-  const std::vector<std::string_view> names = limit_names();
+  const std::vector<std::string_view> names = limit_names(true);
   const auto check_limit = [&](const MetricLimit& limit) {
     const MetricOutput* output = find_metric_output(limit.metric);
     if (!output || output->better == Better::kNeither)
-      throw Error(ExitCode::kUsage, fmt::format("no metric '{}' to set a limit on{}; there are {}",
-                                                printable(limit.metric),
-                                                did_you_mean(limit.metric, names), join(names)));
+      throw Error(
+          ExitCode::kUsage,
+          fmt::format("no metric '{}' to set a limit on{}; there are {}", printable(limit.metric),
+                      did_you_mean(limit.metric, names), join(limit_names(false))));
     if (const std::string_view missing = missing_input(*find_metric(limit.metric), options);
         !missing.empty())
       throw Error(ExitCode::kUsage, fmt::format("a limit on '{}' needs {}", limit.metric, missing));
@@ -294,28 +336,42 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   if (!finite) {
     result.nonfinite.first = {first_nonfinite(a), first_nonfinite(b)};
   } else {
-    const MetricInput input{
-        a,
-        b,
-        as_shown(a, options.viewing),
-        as_shown(b, options.viewing),
-        options.viewing.pixels_per_degree,
-        options.tolerance ? &*options.tolerance : nullptr,
-        options.viewing.hdr_exposures ? &*options.viewing.hdr_exposures : nullptr,
-        options.mask,
-        options.noise ? &noise : nullptr};
+    const Viewing& viewing = result.viewing = with_exposures(options.viewing, a, b);
+    std::vector<std::uint8_t> highlight;
+    if (options.highlight) {
+      highlight = highlight_region(a, b, options.mask);
+      result.highlight_pixels = std::ranges::count(highlight, 1);
+    }
+    const MetricInput input{a,
+                            b,
+                            as_shown(a, viewing),
+                            as_shown(b, viewing),
+                            viewing.pixels_per_degree,
+                            options.tolerance ? &*options.tolerance : nullptr,
+                            viewing.hdr_exposures ? &*viewing.hdr_exposures : nullptr,
+                            options.mask,
+                            options.noise ? &noise : nullptr,
+                            highlight,
+                            tail_as_shown(a, b, viewing)};
     result.metrics = measure_all(input);
     result.not_measured = all_not_measured(input);
     if (options.noise) {
       result.uncertainty = uncertainty_of(input, *options.noise);
       result.error_bars =
-          error_bars(input, options.viewing, options.noise->bootstraps, options.noise->seed);
+          error_bars(input, viewing, options.noise->bootstraps, options.noise->seed);
     }
   }
   const bool noisy = options.noise.has_value();
-  result.limits = judge(requested_limits(options), result, noisy);
+  result.limits = judge(requested_limits(options, result), result, noisy);
+  if (noisy && (!options.limits.empty() || options.tolerance))
+    std::erase_if(result.limits, [&](const LimitResult& limit) {
+      return limit.standing == Standing::kOpen && is_by_default(limit.metric, options);
+    });
   result.warnings = judge(options.warnings, result, false);
   result.disagreement = disagreements(result.limits);
+  if (result.highlight_pixels.value_or(0) > 0)
+    result.blind_limits = blind_limits(judge(options.limits, result, false),
+                                       double(*result.highlight_pixels) / double(a.pixel_count()));
   result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;
   return result;
 }

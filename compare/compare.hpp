@@ -22,19 +22,28 @@ struct NoiseOptions {
 
 struct ComparisonOptions {
   Viewing viewing;
+  /// The default limits are judged too, each unless `limits` has one on its metric; with a tolerance without the one on
+  /// max_rel_peak.
   std::vector<MetricLimit> limits;
+  bool default_limits = true;
   std::vector<MetricLimit> warnings = {};  ///< reported like limits, but no part of the verdict
   std::optional<Tolerance> tolerance = {};
-  /// By pixel in reading order, not 0 inside the mask. Errors are also measured inside it, under ids that end in
-  /// .mask. Empty for none.
+  /// By pixel in reading order, not 0 inside the mask. Differences are also measured inside and outside of it. Empty for
+  /// none.
   std::vector<std::uint8_t> mask = {};
+  /// Differences are also measured in the highlight, and its default limits are judged.
+  bool highlight = false;
+  /// The largest rounding error of a stored value as bright as the reference's peak, in radiance: default limits on
+  /// shares of the light allow it.
+  double rounding = 0;
   /// A NaN or an infinity that both pictures have in the same place is no difference; see compare_pictures().
   bool allow_equal_nonfinite = false;
   std::optional<NoiseOptions> noise = {};  ///< if set, the verdict is same, different or undecided
 };
 
-/// The limits if neither limits nor a tolerance are given.
+/// The default limits on the whole picture, and on its highlight.
 std::span<const MetricLimit> default_limits();
+std::span<const MetricLimit> highlight_limits();
 
 /// From the best to the worst; named by records::kVerdicts.
 enum class Verdict : std::uint8_t {
@@ -76,8 +85,11 @@ struct Comparison {
   std::vector<LimitResult> warnings;
   /// Sentences: limits that contradict each other, see disagreements(). The verdict does not depend on them.
   std::vector<std::string> disagreement;
+  std::vector<std::string>
+      blind_limits;  ///< sentences: what given limits cannot see, see blind_limits()
   std::optional<Tolerance> tolerance;
-  std::optional<std::int64_t> mask_pixels;        ///< inside the mask, if there was one
+  std::optional<std::int64_t> mask_pixels;       ///< inside the mask, if there was one
+  std::optional<std::int64_t> highlight_pixels;  ///< if it was asked for, and all values are finite
   std::optional<ReferenceFloor> reference_floor;  ///< if there was a second reference
   /// How the noise was taken into account, if it was known and every value is finite.
   std::optional<records::Uncertainty> uncertainty;

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "compare/overscan.hpp"
 #include "compare/require_same_size.hpp"
+#include "core/colour.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
 #include "core/text.hpp"
@@ -72,6 +74,7 @@ LayerComparison compare_alpha(const fs::path& a, const fs::path& b, const Pictur
   layer.identical = are_identical(pair.a.image, pair.b.image);
   // Alpha is a share of the pixel, not light: exposure and display do not apply.
   options.viewing.exposure_stops = 0;
+  options.viewing.automatic = false;
   options.viewing.display = nullptr;
   if (!layer.identical) layer.comparison = compare_pictures(pair, a.string(), b.string(), options);
   return layer;
@@ -131,13 +134,31 @@ bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSourc
   return options.allow_equal_nonfinite || (has_depth && !options.noise);
 }
 
+double rounding_of(const PictureSource& source, double value) {
+  const double steps = source.value_type == "uint8"    ? 255
+                       : source.value_type == "uint16" ? 65535
+                                                       : 0;
+  if (steps == 0 || !(value >= 0 && value <= 1)) return 0;
+  if (source.transfer != "sRGB") return 0.5 / steps;
+  const double encoded =
+      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+  const auto decoded = [](double code) {
+    return double(srgb_decoded(float(std::clamp(code, 0.0, 1.0))));
+  };
+  return std::max(decoded(encoded + 0.5 / steps) - value, value - decoded(encoded - 0.5 / steps));
+}
+
 Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const std::string& file_b,
                             const ComparisonOptions& options) {
   require_same_size(pair.a.image, pair.b.image, file_a, file_b);
   std::optional<std::int64_t> equal;
   if (allows_equal_nonfinite(options, pair.b.source))
     equal = clear_equal_nonfinite(pair.a.image, pair.b.image);
-  Comparison comparison = compare(pair.a.image, pair.b.image, options);
+  ComparisonOptions rounded = options;
+  const double peak = peak_value(pair.b.image);
+  for (const Picture* one : {&pair.a, &pair.b})
+    rounded.rounding = std::max(rounded.rounding, rounding_of(one->source, peak));
+  Comparison comparison = compare(pair.a.image, pair.b.image, rounded);
   comparison.nonfinite.equal_allowed = equal;
   if (auto& first = comparison.nonfinite.first) {
     if (first->a) name_channel(*first->a, pair.a.source);

@@ -21,6 +21,9 @@ PicturePair read_pair(const std::filesystem::path& a, const std::filesystem::pat
 /// True if requested, or if the layer is_depth_like() and no noise is known.
 bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSource& source);
 
+/// The largest rounding error of a stored integer as bright as `value`, in radiance; 0 for floats.
+double rounding_of(const PictureSource& source, double value);
+
 /// compare() for pictures read from files, which messages name. If allows_equal_nonfinite(), sets non-finite values
 /// that both share to 0 in `pair`. Throws Error(kInput) if the sizes differ, and the errors of compare().
 Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const std::string& file_b,

@@ -1,4 +1,5 @@
 // A comparison and its layers as records.
+#include "compare/highlight_region.hpp"
 #include "compare/layers.hpp"
 
 namespace lobelia {
@@ -6,7 +7,7 @@ namespace {
 
 records::Viewing viewing_record(const Viewing& viewing, bool measured) {
   records::Viewing record{viewing.exposure_stops, viewing.pixels_per_degree, std::nullopt,
-                          std::nullopt};
+                          std::nullopt, viewing.tail_stops};
   if (const auto& range = viewing.hdr_exposures; range && range->problem.empty() && measured)
     record.hdr_exposures = records::HdrExposures{range->start_stops, range->stop_stops,
                                                  range->count, range->automatic, "aces"};
@@ -69,11 +70,14 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   record.nonfinite = comparison.nonfinite;
   record.viewing = viewing_record(comparison.viewing, !comparison.metrics.empty());
   if (comparison.mask_pixels) record.mask = records::Mask{*comparison.mask_pixels};
+  if (comparison.highlight_pixels)
+    record.highlight = records::HighlightRegion{*comparison.highlight_pixels, kHighlightShare};
   record.metrics = comparison.metrics;
   record.not_measured = comparison.not_measured;
   record.limits = comparison.limits;
   record.warnings = comparison.warnings;
   record.disagreement = comparison.disagreement;
+  record.blind_limits = comparison.blind_limits;
   record.uncertainty = comparison.uncertainty;
   if (comparison.uncertainty) record.error_bars = comparison.error_bars;
   if (comparison.tolerance)

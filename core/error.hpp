@@ -18,6 +18,7 @@ enum class ExitCode : int {
   kInput = 3,          ///< an input cannot be read, is invalid, or does not match the other one
   kOutput = 4,         ///< an output is missing: it cannot be written, or a job of a farm failed
   kEngine = 5,         ///< a reference engine is missing or failed
+  kUndecided = 6,      ///< no difference was found, and the noise of the pictures could hide one
   kInternal = 70,      ///< a bug of ours
   kNoResources = 71,   ///< the system gives no more memory, threads, processes or open files
   kHungUp = 129,       ///< SIGHUP: the terminal was closed

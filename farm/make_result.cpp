@@ -165,6 +165,7 @@ void make_comparison(const Scene& scene, const MadePicture& ours, const MadePict
     return;
   }
   ComparisonOptions options;
+  options.default_limits = false;
   options.viewing.exposure_stops = exposure;
   options.tolerance =
       tolerance_of(engine, exact ? truth::edge_ring(scene) : std::vector<std::uint8_t>());

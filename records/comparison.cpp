@@ -71,12 +71,20 @@ void define_comparison_tables(Tables& tables) {
   });
   tables.define<Viewing>("How the pictures are looked at.", [](auto& t) {
     t.key("exposureStops").unit("stops");
+    t.key("tailStops",
+          "a second exposure, for the tail of the highlight: of two figures the worse is given")
+        .unit("stops");
     t.key("pixelsPerDegree").at_least(1e-300);
     t.key("hdrExposures", "missing if HDR-FLIP was not measured");
     t.key("display", "missing for a plain sRGB display");
   });
   tables.define<Mask>("The part in which metrics were measured again.",
                       [](auto& t) { t.key("pixels", "inside the mask").at_least(0); });
+  tables.define<HighlightRegion>("The part that metrics in .highlight are of.", [](auto& t) {
+    t.key("pixels", "before it is grown by a metric's footprint").at_least(0);
+    t.key("shareOfPeak", "a value of the pixel is at least this share of its picture's brightest")
+        .between(0, 1);
+  });
   tables.define<NotMeasured>("A metric that could not be computed. A limit on it fails.");
   tables.define<Limit>("A limit, and what was measured.", [](auto& t) {
     t.key("limit", "the last value that passes; the metric says which way");
@@ -150,6 +158,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("limits").items(1);
     t.key("warnings", "limits that are no part of the verdict").if_any();
     t.key("disagreement", "sentences: which limits say opposite things by far");
+    t.key("blindLimits", "sentences: what the limits that were given cannot see").if_any();
     t.key("errorBars", "by metric, where the noise is known");
     t.key("layers",
           "what was compared besides the display window of the picture: its alpha, overscan, "

@@ -63,10 +63,16 @@ struct Viewing {
   double exposure_stops = 0, pixels_per_degree = 0;
   std::optional<HdrExposures> hdr_exposures;
   std::optional<Display> display;
+  std::optional<double> tail_stops;
 };
 
 struct Mask {
   std::int64_t pixels = 0;
+};
+
+struct HighlightRegion {
+  std::int64_t pixels = 0;
+  double share_of_peak = 0;
 };
 
 struct NotMeasured {
@@ -139,10 +145,11 @@ struct Comparison {
   Nonfinite nonfinite;
   Viewing viewing;
   std::optional<Mask> mask;
+  std::optional<HighlightRegion> highlight;
   Named<double> metrics;
   std::vector<NotMeasured> not_measured;
   std::vector<Limit> limits, warnings;
-  std::vector<std::string> disagreement;
+  std::vector<std::string> disagreement, blind_limits;
   std::optional<Uncertainty> uncertainty;
   std::optional<Named<ErrorBar>> error_bars;
   std::optional<Tolerance> tolerance;

@@ -5,11 +5,19 @@
 
 namespace lobelia {
 
+/// Of every metric that is measured in regions, also one for each region.
 std::span<const Metric* const> metrics();
+
+/// Fills one value per output, over the metric's region. With a second exposure the worse of both values counts.
+void measure_metric(const Metric& metric, const MetricInput& input, std::span<double> values);
 
 /// The metric with an output of this id, and the output; null if there is none.
 const Metric* find_metric(std::string_view id);
 const MetricOutput* find_metric_output(std::string_view id);
+
+/// The id of an output of a metric of the whole picture in a region: "flip.ldr.mean.highlight", and of a place
+/// "max_abs.highlight.x", as the region follows the figure.
+std::string id_in_region(const Metric& metric, const MetricOutput& output, Region region);
 
 /// Whether the input has everything that the metric needs.
 bool is_measurable(const Metric& metric, const MetricInput& input);
@@ -19,8 +27,8 @@ std::string why_not_measured(const Metric& metric, const MetricInput& input);
 /// Whether a value passes a limit; false if either is NaN.
 bool is_within(const MetricOutput& output, double value, double limit);
 
-/// Ids that take a limit, in the order of the catalogue.
-std::vector<std::string_view> limit_names();
+/// Ids that take a limit, in the order of the catalogue; without those of regions or with them.
+std::vector<std::string_view> limit_names(bool with_regions);
 
 /// docs/metrics.md, written by `lobelia compare --list-metrics`.
 std::string metrics_document();

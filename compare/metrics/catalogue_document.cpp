@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include "compare/compare.hpp"
 #include "compare/disagreement.hpp"
+#include "compare/highlight_region.hpp"
 #include "compare/metrics/catalogue.hpp"
 
 namespace lobelia {
@@ -18,9 +20,17 @@ std::string needs_text(Needs needs) {
       return fmt::format("{} pixels a side", kMsSsimSide);
     default:
       constexpr std::string_view kOptions[] = {
-          "", "`--tolerance`", "`--scene`", "`--exposures`", "", "", "`--a-replicate` and others"};
+          "", "`--tolerance`", "", "`--exposures`", "", "", "`--a-replicate` and others"};
       return std::string(kOptions[std::size_t(needs)]);
   }
+}
+
+/// "`max_rel_peak` 0.01, `flip.ldr.mean` 0.01"
+std::string limits_text(std::span<const MetricLimit> limits) {
+  std::string text;
+  for (const MetricLimit& limit : limits)
+    text += fmt::format("{}`{}` {:g}", text.empty() ? "" : ", ", limit.metric, limit.limit);
+  return text;
 }
 
 }  // namespace
@@ -34,14 +44,15 @@ std::string metrics_document() {
       "`compare/metrics/` is its contract: formula, constants, borders, and which tool it agrees with\n"
       "to how many digits.\n"
       "\n"
-      "| id | family | better | needs | what it is | source |\n"
-      "|---|---|---|---|---|---|\n";
+      "| id | family | better | regions | needs | what it is | source |\n"
+      "|---|---|---|---|---|---|---|\n";
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs)
-      text +=
-          fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", output.id,
-                      kFamilies[std::size_t(metric->family)], kBetter[std::size_t(output.better)],
-                      needs_text(metric->needs), output.meaning, metric->source);
+      if (metric->region == Region::kWhole)
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", output.id,
+                            kFamilies[std::size_t(metric->family)],
+                            kBetter[std::size_t(output.better)], metric->in_regions ? "yes" : "",
+                            needs_text(metric->needs), output.meaning, metric->source);
   text += fmt::format(
       "\n"
       "**Better** is what a limit means: `--fail rmse=0.01` passes up to 0.01, `--fail drift=0.01`\n"
@@ -54,13 +65,31 @@ std::string metrics_document() {
       "in place of the one, through the ACES curve; the record names it. `--ocio`, `--display` and\n"
       "`--view` put a display of OpenColorIO's in place of the plain one, for all but HDR-FLIP.\n"
       "\n"
+      "**Exposure**: with `--exposure auto`, the default, it is 0 for pictures whose brightest value a display\n"
+      "can show. Otherwise there are two: at the first the brightest value of A and B is white, at the second,\n"
+      "{1:g} stops more, the tail of the highlight can be seen. Of the two figures the worse is given; the record\n"
+      "has both exposures.\n"
+      "\n"
+      "**Regions**: a highlight is a small part of a picture, and the black around it dilutes every mean and\n"
+      "percentile. So metrics with *yes* are also measured\n"
+      "\n"
+      "- in the highlight, under ids with `.highlight` (`rmse.highlight`): the pixels of which a value is at least\n"
+      "  {2:g} % of the brightest of its own picture, in A or in B. For FLIP and SSIM it is grown by the reach of\n"
+      "  their filters;\n"
+      "- with `--scene`, on the pixels whose centre sees a surface, under ids with `.mask`, and on all others, with\n"
+      "  `.outside`. The highlight then lies on a surface.\n"
+      "\n"
+      "**Default limits** judge the whole picture ({3}) and the highlight ({4}). Limits that are given add to\n"
+      "them. A limit on a metric that has a default replaces it; `--no-default-limits` leaves all of them out.\n"
+      "A limit that can hardly see the highlight draws a warning. `lobelia compare --sensitivity PICTURE` shows\n"
+      "what the limits find: it compares changed copies of the picture with it.\n"
+      "\n"
       "**Percentiles** are nearest ranks: the smallest value that so many per cent of the pixels do not\n"
       "exceed.\n"
       "\n"
       "**What is needed** and is not there leaves a metric out of the record. What was asked for and cannot\n"
       "be computed is left out with its reason (`notMeasured`): SSIM of a small picture, or HDR-FLIP where\n"
-      "`--exposures auto` finds no range, as for a sphere over black. Errors in `.mask` are of the pixels\n"
-      "whose centre sees a surface of the scene, the others of all pixels.\n"
+      "`--exposures auto` finds no range.\n"
       "\n"
       "**Metrics disagree** where, of two limits on metrics of different families, one passes and the\n"
       "other fails, and one of them by a wide margin: what fails takes up more than {0:g} times its limit,\n"
@@ -88,7 +117,7 @@ std::string metrics_document() {
       "\n"
       "**The verdict** is one of three. A limit *holds* if it does for the whole error bar, is *broken* if it\n"
       "is for the whole bar, and otherwise *open*. Pictures are **different** if a limit is broken, the\n"
-      "**same** if all hold, and else **undecided**: neither a pass nor a difference, with exit code 1\n"
+      "**same** if all hold, and else **undecided**: neither a pass nor a difference, with exit code 6\n"
       "and how many times the samples would tell. What is asked:\n"
       "\n"
       "- with `--fail`, those limits;\n"
@@ -96,11 +125,13 @@ std::string metrics_document() {
       "  (`z.beyond`), and no region is (`z.regions`). Alone it also asks that no more are open\n"
       "  (`z.open`): the same is said of pictures that surely lie within it. With `--fail` it is what\n"
       "  rounding may do, and the limits say how fine the answer has to be;\n"
-      "- with neither, that nothing is beyond the noise, and the limits that stand where none are\n"
-      "  given: so what is too noisy to find anything in is undecided.\n"
+      "- with neither, that nothing is beyond the noise: so what is too noisy to find anything in is undecided;\n"
+      "- the default limits, unless they are left out. With `--fail` or `--tolerance`, one that noise leaves open\n"
+      "  does not count.\n"
       "\n"
       "A limit on a z itself is passed by noise: it asks whether a difference was found.\n",
-      kWideMargin);
+      kWideMargin, kTailStops, 100 * kHighlightShare, limits_text(default_limits()),
+      limits_text(highlight_limits()));
   return text;
 }
 

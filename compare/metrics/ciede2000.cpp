@@ -175,7 +175,8 @@ constexpr MetricOutput kOutputs[] = {
      "the largest of all pixels", "The pixel whose colour differs most."}};
 
 void measure(const MetricInput& input, std::span<double> values) {
-  ciede2000_of_pixels(input.shown_a, input.shown_b).write_figures({0.50, 0.95, 0.99}, values);
+  ciede2000_of_pixels(input.shown_a, input.shown_b, input.region)
+      .write_figures({0.50, 0.95, 0.99}, values);
 }
 
 }  // namespace
@@ -188,8 +189,9 @@ double ciede2000(Lab a, Lab b) { return HWY_DYNAMIC_DISPATCH(ciede2000_of_one)(a
 
 Lab lab_from_display(Rgb shown) { return HWY_DYNAMIC_DISPATCH(lab_of_one)(shown); }
 
-PixelDifferences ciede2000_of_pixels(const DisplayLight& a, const DisplayLight& b) {
-  return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(ciede2000_lanes));
+PixelDifferences ciede2000_of_pixels(const DisplayLight& a, const DisplayLight& b,
+                                     std::span<const std::uint8_t> region) {
+  return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(ciede2000_lanes), region);
 }
 
 extern constinit const Metric ciede2000_metric{kOutputs, Family::kColour, Needs::kNothing,

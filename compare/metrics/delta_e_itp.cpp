@@ -120,7 +120,7 @@ HWY_EXPORT(itp_of_one);
 HWY_EXPORT(delta_e_itp_of_one);
 
 void measure(const MetricInput& input, std::span<double> values) {
-  delta_e_itp_of_pixels(input.shown_a, input.shown_b).write_figures({0.95}, values);
+  delta_e_itp_of_pixels(input.shown_a, input.shown_b, input.region).write_figures({0.95}, values);
 }
 
 }  // namespace
@@ -129,8 +129,9 @@ Itp itp_from_display(Rgb shown) { return HWY_DYNAMIC_DISPATCH(itp_of_one)(shown)
 
 double delta_e_itp(Itp a, Itp b) { return HWY_DYNAMIC_DISPATCH(delta_e_itp_of_one)(a, b); }
 
-PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b) {
-  return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(delta_e_itp_lanes));
+PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b,
+                                       std::span<const std::uint8_t> region) {
+  return pixel_differences(a, b, HWY_DYNAMIC_DISPATCH(delta_e_itp_lanes), region);
 }
 
 extern constinit const Metric delta_e_itp_metric{kOutputs, Family::kColour, Needs::kNothing,

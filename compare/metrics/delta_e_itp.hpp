@@ -17,6 +17,7 @@ Itp itp_from_display(Rgb shown);
 double delta_e_itp(Itp a, Itp b);
 
 /// Delta E ITP of each pixel.
-PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b);
+PixelDifferences delta_e_itp_of_pixels(const DisplayLight& a, const DisplayLight& b,
+                                       std::span<const std::uint8_t> region = {});
 
 }  // namespace lobelia

@@ -19,15 +19,16 @@ constexpr int kTileWidth = 256, kTileHeight = 256;
 int tiles_across(int width) { return (width + kTileWidth - 1) / kTileWidth; }
 int tiles_down(int height) { return (height + kTileHeight - 1) / kTileHeight; }
 
-/// On many threads, for all tiles: errors_of(tile, errors), then visit(i, x, y, row) for each row of errors, from the
+/// On many threads, for all tiles of the area: errors_of(tile, errors), then visit(i, x, y, row) for each row of errors, from the
 /// top. i is the tile's index; x and y are the row's first pixel.
 template <class ErrorsOf, class Visit>
-void for_each_row_of_tiles(int width, int height, const ErrorsOf& errors_of, const Visit& visit) {
-  const int across = tiles_across(width);
-  oneapi::tbb::parallel_for(0, across * tiles_down(height), [&](int i) {
-    const int left = i % across * kTileWidth, top = i / across * kTileHeight;
-    const FlipTile tile{left, top, std::min(kTileWidth, width - left),
-                        std::min(kTileHeight, height - top)};
+void for_each_row_of_tiles(const FlipTile& area, const ErrorsOf& errors_of, const Visit& visit) {
+  const int across = tiles_across(area.width);
+  oneapi::tbb::parallel_for(0, across * tiles_down(area.height), [&](int i) {
+    const int x = i % across * kTileWidth, y = i / across * kTileHeight;
+    const int left = area.left + x, top = area.top + y;
+    const FlipTile tile{left, top, std::min(kTileWidth, area.width - x),
+                        std::min(kTileHeight, area.height - y)};
     const std::size_t columns = std::size_t(tile.width), padded = flip_padded(columns);
     std::vector<float> errors(padded * std::size_t(tile.height));
     errors_of(tile, std::span<float>(errors));
@@ -144,6 +145,22 @@ const FlipFiltered& FlipTileRows::next() {
   return out_;
 }
 
+/// The smallest area that holds the region.
+FlipTile area_of(const MetricInput& input) {
+  const int width = input.a.width(), height = input.a.height();
+  if (input.region.empty()) return {0, 0, width, height};
+  int left = width, right = 0, top = height, bottom = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (input.region[std::size_t(y) * std::size_t(width) + std::size_t(x)] == 0) continue;
+      left = std::min(left, x);
+      right = std::max(right, x + 1);
+      top = std::min(top, y);
+      bottom = y + 1;
+    }
+  return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
+}
+
 }  // namespace
 
 void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
@@ -159,7 +176,7 @@ std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
                                   const FlipFilters& filters) {
   std::vector<float> map(a.pixel_count());
   for_each_row_of_tiles(
-      a.width(), a.height(),
+      {0, 0, a.width(), a.height()},
       [&](const FlipTile& tile, std::span<float> errors) {
         flip_tile_errors(a, b, filters, tile, errors);
       },
@@ -169,24 +186,39 @@ std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
   return map;
 }
 
-void pool_flip_errors(int width, int height,
+int flip_radius(const MetricInput& input) {
+  const FlipFilters filters(float(input.pixels_per_degree));
+  return std::max(filters.contrast_radius, filters.feature_radius);
+}
+
+void pool_flip_errors(const MetricInput& input,
                       const std::function<void(const FlipTile&, std::span<float>)>& errors_of,
                       std::span<double> values) {
-  std::vector<double> tile_sum(std::size_t(tiles_across(width)) * std::size_t(tiles_down(height))),
-      tile_max(tile_sum);
-  for_each_row_of_tiles(width, height, errors_of,
-                        [&](std::size_t tile, int, int, std::span<const float> errors) {
-                          for (const float error : errors) {
-                            tile_sum[tile] += double(error);
-                            tile_max[tile] = std::max(tile_max[tile], double(error));
+  const FlipTile area = area_of(input);
+  struct Sum {
+    double sum = 0, largest = 0;
+    std::size_t count = 0;
+  };
+  std::vector<Sum> of_tile(std::size_t(tiles_across(area.width)) *
+                           std::size_t(tiles_down(area.height)));
+  const auto width = std::size_t(input.a.width());
+  for_each_row_of_tiles(area, errors_of,
+                        [&](std::size_t tile, int x, int y, std::span<const float> errors) {
+                          Sum& in_tile = of_tile[tile];
+                          for (std::size_t i = 0; i < errors.size(); ++i) {
+                            if (!input.in_region(std::size_t(y) * width + std::size_t(x) + i))
+                              continue;
+                            in_tile.sum += double(errors[i]);
+                            in_tile.largest = std::max(in_tile.largest, double(errors[i]));
+                            ++in_tile.count;
                           }
                         });
   // In order of the tiles: the sum must not depend on the number of threads.
-  double sum = 0, largest = 0;
-  for (const double value : tile_sum) sum += value;
-  for (const double value : tile_max) largest = std::max(largest, value);
-  values[0] = sum / std::max(double(width) * double(height), 1.0);
-  values[1] = largest;
+  Sum all;
+  for (const Sum& one : of_tile)
+    all = {all.sum + one.sum, std::max(all.largest, one.largest), all.count + one.count};
+  values[0] = all.sum / double(std::max<std::size_t>(all.count, 1));
+  values[1] = all.largest;
 }
 
 }  // namespace lobelia

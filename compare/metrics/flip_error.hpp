@@ -34,9 +34,12 @@ void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFi
 std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
                                   const FlipFilters& filters);
 
-/// Writes {mean, maximum} of the errors over a picture. errors_of(tile, errors) fills in the errors of a tile; many
-/// threads call it.
-void pool_flip_errors(int width, int height,
+/// The metric's footprint.
+int flip_radius(const MetricInput& input);
+
+/// Writes {mean, maximum} of the errors over the input's region. errors_of(tile, errors) fills in the errors of a tile;
+/// many threads call it.
+void pool_flip_errors(const MetricInput& input,
                       const std::function<void(const FlipTile&, std::span<float>)>& errors_of,
                       std::span<double> values);
 

@@ -33,14 +33,16 @@ HdrExposures automatic_exposures(const Image& reference) {
     throw Error(ExitCode::kInput,
                 "the automatic range of exposures needs a reference without a NaN or an infinity");
   const float largest = std::ranges::max(luminances);
+  // Of a small highlight on black the tool's median is 0, and its range infinite.
+  const auto middle_of = [&] { return luminances.begin() + std::ptrdiff_t(luminances.size() / 2); };
+  std::nth_element(luminances.begin(), middle_of(), luminances.end());
+  if (!(*middle_of() > 0)) std::erase_if(luminances, [](float l) { return !(l > 0); });
+  if (luminances.empty())
+    throw Error(ExitCode::kInput,
+                "the automatic range of exposures needs a reference with a pixel above 0");
   // The upper of the two middle values, like the tool.
-  const auto middle = luminances.begin() + std::ptrdiff_t(luminances.size() / 2);
+  const auto middle = middle_of();
   std::nth_element(luminances.begin(), middle, luminances.end());
-  if (!(*middle > 0))
-    throw Error(
-        ExitCode::kInput,
-        "the automatic range of exposures is infinite, as half of the reference's pixels are "
-        "black (its median luminance is 0); give a fixed range");
   const float light = light_shown_as(kShown);
   const float start = std::log2(light / largest), stop = std::log2(light / *middle);
   const HdrExposures exposures{start, stop, std::max(2, int(std::ceil(stop - start))), true};

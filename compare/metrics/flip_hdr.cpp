@@ -42,7 +42,7 @@ void measure_flip_hdr(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
   const std::vector<float> stops = exposure_stops(*input.hdr_exposures);
   pool_flip_errors(
-      input.a.width(), input.a.height(),
+      input,
       [&](const FlipTile& tile, std::span<float> largest) {
         std::vector<float> errors(largest.size());
         for (const float stop : stops) {
@@ -58,8 +58,10 @@ void measure_flip_hdr(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric flip_hdr_metric{kFlipHdrOutputs, Family::kVisibility,
-                                              Needs::kHdrExposures,
-                                              "Andersson et al. 2021; FLIP 1.6", measure_flip_hdr};
+extern constinit const Metric flip_hdr_metric{
+    kFlipHdrOutputs,      Family::kVisibility,
+    Needs::kHdrExposures, "Andersson et al. 2021; FLIP 1.6",
+    measure_flip_hdr,     true,
+    flip_radius};
 
 }  // namespace lobelia

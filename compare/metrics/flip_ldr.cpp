@@ -31,7 +31,7 @@ constexpr MetricOutput kFlipLdrOutputs[] = {
 void measure_flip_ldr(const MetricInput& input, std::span<double> values) {
   const FlipFilters filters(float(input.pixels_per_degree));
   pool_flip_errors(
-      input.shown_a.width(), input.shown_a.height(),
+      input,
       [&](const FlipTile& tile, std::span<float> errors) {
         flip_tile_errors(input.shown_a, input.shown_b, filters, tile, errors);
       },
@@ -40,7 +40,9 @@ void measure_flip_ldr(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric flip_ldr_metric{kFlipLdrOutputs, Family::kVisibility, Needs::kNothing,
-                                              "Andersson et al. 2020; FLIP 1.6", measure_flip_ldr};
+extern constinit const Metric flip_ldr_metric{kFlipLdrOutputs,  Family::kVisibility,
+                                              Needs::kNothing,  "Andersson et al. 2020; FLIP 1.6",
+                                              measure_flip_ldr, true,
+                                              flip_radius};
 
 }  // namespace lobelia

@@ -3,7 +3,7 @@
 // Source:       textbook.
 // Formula:      max |a - b| over the R, G and B values of all pixels, and the first such pixel in
 //               reading order: x to the right, y down, from 0. Equal pictures: 0 at (0, 0).
-// Input:        scene-linear values, neither exposed nor clipped; with .mask only pixels inside the mask.
+// Input:        scene-linear values, neither exposed nor clipped.
 // Agrees with:  `idiff` ("Max error"), to the float32 digits it prints.
 #include "compare/metrics/picture_part.hpp"
 
@@ -16,17 +16,11 @@ constexpr MetricOutput kMaxAbsOutputs[] = {
      "Of any channel of any pixel, in radiance; and at which pixel."},
     {"max_abs.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
     {"max_abs.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"}};
-constexpr MetricOutput kMaxAbsMaskOutputs[] = {
-    {"max_abs.mask", "Largest difference, inside the mask", Unit::kRadiance, Better::kLower, true,
-     "largest error of an RGB value inside the mask", "Of the pixels that see a surface."},
-    {"max_abs.mask.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
-    {"max_abs.mask.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"}};
 
-template <Part part>
 void measure_max_abs(const MetricInput& input, std::span<double> values) {
   double largest = 0;
   std::size_t where = 0;
-  for_each_value<part>(input, [&](double a, double b, std::size_t pixel) {
+  for_each_value(input, [&](double a, double b, std::size_t pixel) {
     const double difference = std::abs(a - b);
     if (difference > largest) {
       largest = difference;
@@ -42,9 +36,6 @@ void measure_max_abs(const MetricInput& input, std::span<double> values) {
 }  // namespace
 
 extern constinit const Metric max_abs_metric{kMaxAbsOutputs, Family::kRadiance, Needs::kNothing,
-                                             "textbook", measure_max_abs<Part::kPicture>};
-
-extern constinit const Metric max_abs_mask_metric{
-    kMaxAbsMaskOutputs, Family::kRadiance, Needs::kMask, "textbook", measure_max_abs<Part::kMask>};
+                                             "textbook", measure_max_abs};
 
 }  // namespace lobelia

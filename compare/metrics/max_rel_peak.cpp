@@ -20,7 +20,7 @@ constexpr MetricOutput kMaxRelPeakOutputs[] = {
 
 void measure_max_rel_peak(const MetricInput& input, std::span<double> values) {
   double largest = 0;
-  for_each_value<Part::kPicture>(input, [&](double a, double b, std::size_t) {
+  for_each_value(input, [&](double a, double b, std::size_t) {
     largest = std::max(largest, std::abs(a - b));
   });
   const double peak = peak_value(input.b);

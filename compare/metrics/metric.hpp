@@ -34,23 +34,41 @@ struct HdrExposures {
 inline constexpr int kMaxHdrExposures = 100;
 
 /// The range of Andersson et al. 2021, section 3, as in NVIDIA's tool 1.6 for ACES: from the exposure at which the
-/// tone curve maps the reference's largest luminance to 0.85, to that for its median luminance. Has as many exposures
-/// as stops, rounded up, at least 2. Each reference has its own range; only figures of equal ranges are comparable.
-/// Throws Error(kInput) if the range is infinite, as for a sphere over black, or has over kMaxHdrExposures.
+/// tone curve maps the reference's largest luminance to 0.85, to that for its median luminance. If that is 0, as of a
+/// small highlight on black, the median of the pixels above 0. Has as many exposures as stops, rounded up, at least 2.
+/// Each reference has its own range; only figures of equal ranges are comparable. Throws Error(kInput) if no pixel is
+/// above 0, or the range has over kMaxHdrExposures.
 HdrExposures automatic_exposures(const Image& reference);
 
-/// The viewing condition. One for a whole set of comparisons, and in every record.
+/// The viewing condition, in every record.
 struct Viewing {
   double exposure_stops = 0;
   double pixels_per_degree = kDefaultPixelsPerDegree;
   std::optional<HdrExposures> hdr_exposures = {};   ///< without them HDR-FLIP is not measured
   std::shared_ptr<const DisplayView> display = {};  ///< null: a plain sRGB display
+  bool automatic = false;  ///< choose the exposure of each pair, see with_exposures()
+  /// A second exposure of the perceptual metrics but HDR-FLIP: the worse of two figures counts.
+  std::optional<double> tail_stops = {};
 };
 
 /// The picture at the exposure and on the display of `viewing`; finite values only. On a plain display it is a view,
 /// which the picture must outlive.
 inline DisplayLight as_shown(const Image& image, const Viewing& viewing) {
   return DisplayLight::of(image, viewing.exposure_stops, viewing.display.get());
+}
+
+/// Both pictures as a display shows them.
+struct ShownPair {
+  DisplayLight a, b;
+};
+
+/// Both at the second exposure, if there is one.
+inline std::optional<ShownPair> tail_as_shown(const Image& a, const Image& b,
+                                              const Viewing& viewing) {
+  if (!viewing.tail_stops) return std::nullopt;
+  const DisplayView* display = viewing.display.get();
+  return ShownPair{DisplayLight::of(a, *viewing.tail_stops, display),
+                   DisplayLight::of(b, *viewing.tail_stops, display)};
 }
 
 /// A pixel is an outlier if |a - b| > relative * |b| + of_peak * peak in any of its channels.
@@ -63,6 +81,20 @@ struct Tolerance {
   std::vector<std::uint8_t> edges = {};
 };
 
+/// The pixels that a figure is of.
+enum class Region : std::uint8_t {
+  kWhole,
+  kHighlight,  ///< the bright pixels of either picture (compare/highlight_region.hpp), grown by the metric's footprint
+  kMask,       ///< inside the comparison's mask
+  kOutside,    ///< outside of it
+};
+inline constexpr Region kPartRegions[] = {Region::kHighlight, Region::kMask, Region::kOutside};
+/// "", "highlight", "mask", "outside": part of a figure's id
+constexpr std::string_view region_name(Region region) {
+  constexpr std::string_view kNames[] = {"", "highlight", "mask", "outside"};
+  return kNames[std::size_t(region)];
+}
+
 /// A pair of pictures of one size without non-finite values; `b` is the reference.
 struct MetricInput {
   const Image& a;
@@ -74,6 +106,13 @@ struct MetricInput {
   /// By pixel, not 0 inside the mask; empty if none was given.
   std::span<const std::uint8_t> mask = {};
   const NoiseOfPair* noise = nullptr;  ///< null if neither picture is known to have noise
+  /// By pixel, not 0 in the highlight, before it is grown; empty if it was not asked for.
+  std::span<const std::uint8_t> highlight = {};
+  std::optional<ShownPair> shown_tail = {};  ///< at the second exposure, if there is one
+  /// By pixel, not 0 where the metric is measured; empty: everywhere. Set by measure_metric().
+  std::span<const std::uint8_t> region = {};
+
+  bool in_region(std::size_t pixel) const { return region.empty() || region[pixel] != 0; }
 };
 
 /// The direction in which a value improves. It decides the meaning of a limit, and the value of equal pictures.
@@ -106,7 +145,7 @@ constexpr std::string_view unit_name(Unit unit) {
 enum class Needs : std::uint8_t {
   kNothing,
   kTolerance,
-  kMask,  ///< with at least one pixel inside
+  kHighlight,
   kHdrExposures,
   kOneWindow,   ///< sides of at least kSsimSide
   kFiveScales,  ///< sides of at least kMsSsimSide
@@ -133,8 +172,13 @@ struct Metric {
   Family family;
   Needs needs;
   std::string_view source;  ///< a short citation of the formula; the metric's file is the contract
-  /// Fills one value per output, in their order.
+  /// Fills one value per output, in their order, over the pixels of input.region.
   void (*measure)(const MetricInput& input, std::span<double> values);
+  /// Measured in regions as well, under ids with the region's name.
+  bool in_regions = true;
+  /// A difference in one pixel moves the figure of pixels up to so far away; null for 0.
+  int (*footprint)(const MetricInput& input) = nullptr;
+  Region region = Region::kWhole;
 };
 
 }  // namespace lobelia

@@ -10,6 +10,7 @@
 //               metric under the same name. So it is not measured below 176 pixels a side, where the
 //               fifth scale holds no window.
 // Input:        as ssim.
+// Regions:      none: a window of the fifth scale is 176 pixels wide, more than most highlights.
 // Agrees with:  Wang's msssim.m in formula, weights, windows and halving, beyond odd borders too
 //               (not run for comparison); a plain double loop, to 1e-12.
 #include <algorithm>
@@ -51,7 +52,8 @@ void measure_ms_ssim(const MetricInput& input, std::span<double> values) {
 
 }  // namespace
 
-extern constinit const Metric ms_ssim_metric{kMsSsimOutputs, Family::kStructure, Needs::kFiveScales,
-                                             "Wang, Simoncelli, Bovik 2003", measure_ms_ssim};
+extern constinit const Metric ms_ssim_metric{kMsSsimOutputs,     Family::kStructure,
+                                             Needs::kFiveScales, "Wang, Simoncelli, Bovik 2003",
+                                             measure_ms_ssim,    false};
 
 }  // namespace lobelia

@@ -16,7 +16,7 @@ constexpr MetricOutput kMseOutputs[] = {
      true}};
 
 void measure_mse(const MetricInput& input, std::span<double> values) {
-  values[0] = mean_square_error<Part::kPicture>(input);
+  values[0] = mean_square_error(input);
 }
 
 }  // namespace

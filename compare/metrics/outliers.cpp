@@ -29,6 +29,7 @@ void measure_outliers(const MetricInput& input, std::span<double> values) {
   const std::vector<std::uint8_t>& edges = input.tolerance->edges;
   std::int64_t outliers = 0, off_edge = 0;
   for (std::size_t i = 0; i < a.size(); i += 3) {
+    if (!input.in_region(i / 3)) continue;
     bool outside = false;
     for (std::size_t j = i; j < i + 3; ++j) {
       const double reference = b[j];

@@ -1,4 +1,4 @@
-// Errors of RGB values, over the whole picture or inside the comparison's mask.
+// Errors of RGB values, over the pixels of the input's region.
 #pragma once
 
 #include <algorithm>
@@ -8,16 +8,13 @@
 
 namespace lobelia {
 
-enum class Part { kPicture, kMask };
-
-/// Calls visit(a, b, pixel) for each RGB value of the part in reading order. Returns the number of calls.
-template <Part part, class Visit>
+/// Calls visit(a, b, pixel) for each RGB value of the region in reading order. Returns the number of calls.
+template <class Visit>
 std::size_t for_each_value(const MetricInput& input, Visit visit) {
   const std::span<const float> a = input.a.values(), b = input.b.values();
   std::size_t count = 0;
   for (std::size_t pixel = 0; pixel < a.size() / 3; ++pixel) {
-    if constexpr (part == Part::kMask)
-      if (input.mask[pixel] == 0) continue;
+    if (!input.in_region(pixel)) continue;
     for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
       visit(double(a[i]), double(b[i]), pixel);
     count += 3;
@@ -25,19 +22,18 @@ std::size_t for_each_value(const MetricInput& input, Visit visit) {
   return count;
 }
 
-/// Mean of error(a, b); 0 for a part without pixels. Summed in double: a float32 sum loses a percent on a
+/// Mean of error(a, b); 0 for a region without pixels. Summed in double: a float32 sum loses a percent on a
 /// large picture.
-template <Part part, class Error>
+template <class Error>
 double mean_over(const MetricInput& input, Error error) {
   double sum = 0;
   const std::size_t count =
-      for_each_value<part>(input, [&](double a, double b, std::size_t) { sum += error(a, b); });
+      for_each_value(input, [&](double a, double b, std::size_t) { sum += error(a, b); });
   return count == 0 ? 0 : sum / double(count);
 }
 
-template <Part part>
-double mean_square_error(const MetricInput& input) {
-  return mean_over<part>(input, [](double a, double b) { return (a - b) * (a - b); });
+inline double mean_square_error(const MetricInput& input) {
+  return mean_over(input, [](double a, double b) { return (a - b) * (a - b); });
 }
 
 }  // namespace lobelia

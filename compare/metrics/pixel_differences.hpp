@@ -21,9 +21,10 @@ struct PixelDifferences {
   void write_figures(std::initializer_list<double> shares, std::span<double> figures);
 };
 
-/// The result does not depend on the number of threads.
+/// Of the pixels where `region` is not 0; empty: of all. The result does not depend on the number of threads.
 PixelDifferences pixel_differences(const DisplayLight& a, const DisplayLight& b,
-                                   DifferenceKernel kernel);
+                                   DifferenceKernel kernel,
+                                   std::span<const std::uint8_t> region = {});
 
 /// The smallest value that at least `share` of the values do not exceed: the nearest rank, without
 /// interpolation, so some pixel has this value. 0 < share <= 1. Reorders the values; there must be at least one.

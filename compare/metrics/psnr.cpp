@@ -21,7 +21,7 @@ constexpr MetricOutput kPsnrOutputs[] = {
      "In decibels, of the reference’s peak; more is better.", kInfinity}};
 
 void measure_psnr(const MetricInput& input, std::span<double> values) {
-  const double error = mean_square_error<Part::kPicture>(input), peak = peak_value(input.b);
+  const double error = mean_square_error(input), peak = peak_value(input.b);
   values[0] = error == 0 ? kInfinity : 20 * std::log10(peak) - 10 * std::log10(error);
 }
 

@@ -21,7 +21,7 @@ constexpr MetricOutput kRelmseOutputs[] = {
      "Each squared difference divided by the reference’s squared value plus 0.01.", 0, true}};
 
 void measure_relmse(const MetricInput& input, std::span<double> values) {
-  values[0] = mean_over<Part::kPicture>(
+  values[0] = mean_over(
       input, [](double a, double b) { return (a - b) * (a - b) / (b * b + kRelmseEpsilon); });
 }
 

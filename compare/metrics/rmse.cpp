@@ -2,7 +2,7 @@
 //
 // Source:       textbook.
 // Formula:      sqrt( sum (a - b)^2 / (3 N) ) over the R, G and B values of all N pixels.
-// Input:        scene-linear values, neither exposed nor clipped; with .mask only pixels inside the mask.
+// Input:        scene-linear values, neither exposed nor clipped.
 // Agrees with:  `idiff` and `oiiotool --diff` ("RMS error"), to the float32 digits they print.
 // Differs:      the sum is in double; a float32 sum loses a percent on a large picture.
 #include "compare/metrics/picture_part.hpp"
@@ -13,21 +13,14 @@ namespace {
 constexpr MetricOutput kRmseOutputs[] = {
     {"rmse", "Root mean square difference", Unit::kRadiance, Better::kLower, true,
      "root mean square error of all RGB values", "Over all pixels and channels, in radiance."}};
-constexpr MetricOutput kRmseMaskOutputs[] = {
-    {"rmse.mask", "Root mean square difference, inside the mask", Unit::kRadiance, Better::kLower,
-     true, "root mean square error inside the mask", "Of the pixels that see a surface."}};
 
-template <Part part>
 void measure_rmse(const MetricInput& input, std::span<double> values) {
-  values[0] = std::sqrt(mean_square_error<part>(input));
+  values[0] = std::sqrt(mean_square_error(input));
 }
 
 }  // namespace
 
 extern constinit const Metric rmse_metric{kRmseOutputs, Family::kRadiance, Needs::kNothing,
-                                          "textbook", measure_rmse<Part::kPicture>};
-
-extern constinit const Metric rmse_mask_metric{kRmseMaskOutputs, Family::kRadiance, Needs::kMask,
-                                               "textbook", measure_rmse<Part::kMask>};
+                                          "textbook", measure_rmse};
 
 }  // namespace lobelia

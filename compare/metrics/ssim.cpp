@@ -25,12 +25,17 @@ constexpr MetricOutput kSsimOutputs[] = {
      "How alike the structure is, 1 for equal pictures; more is better.", 1, true}};
 
 void measure_ssim(const MetricInput& input, std::span<double> values) {
-  values[0] = ssim_means(luma(input.shown_a), luma(input.shown_b)).similarity;
+  values[0] = ssim_means(luma(input.shown_a), luma(input.shown_b), input.region).similarity;
 }
 
 }  // namespace
 
-extern constinit const Metric ssim_metric{kSsimOutputs, Family::kStructure, Needs::kOneWindow,
-                                          "Wang, Bovik, Sheikh, Simoncelli 2004", measure_ssim};
+extern constinit const Metric ssim_metric{kSsimOutputs,
+                                          Family::kStructure,
+                                          Needs::kOneWindow,
+                                          "Wang, Bovik, Sheikh, Simoncelli 2004",
+                                          measure_ssim,
+                                          true,
+                                          [](const MetricInput&) { return kSsimSide / 2; }};
 
 }  // namespace lobelia

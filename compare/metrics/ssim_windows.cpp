@@ -108,14 +108,24 @@ LumaPlane half_size(const LumaRows& whole) {
   return result;
 }
 
-SsimMeans ssim_means(const LumaRows& a, const LumaRows& b) {
+SsimMeans ssim_means(const LumaRows& a, const LumaRows& b, std::span<const std::uint8_t> region) {
   const auto taps = gaussian_window();
   const int across = a.width - kSsimSide + 1, down = a.height - kSsimSide + 1;
   const auto width = std::size_t(a.width), windows = std::size_t(across);
   std::vector<double> row_similarity(std::size_t(down), 0.0), row_contrast(row_similarity);
+  std::vector<std::size_t> row_count(std::size_t(down), 0);
+  const auto has_window = [&](int row, std::size_t x) {
+    constexpr std::size_t kMiddle = kSsimSide / 2;
+    return region.empty() || region[(std::size_t(row) + kMiddle) * width + x + kMiddle] != 0;
+  };
   const int tasks = (down + kRowsPerTask - 1) / kRowsPerTask;
   oneapi::tbb::parallel_for(0, tasks, [&](int task) {
     const int first = task * kRowsPerTask, last = std::min(down, first + kRowsPerTask);
+    for (int row = first; row < last; ++row)
+      for (std::size_t x = 0; x < windows; ++x) row_count[std::size_t(row)] += has_window(row, x);
+    if (std::all_of(row_count.begin() + first, row_count.begin() + last,
+                    [](std::size_t count) { return count == 0; }))
+      return;
     const int rows = last - first + kSsimSide - 1;
     // Filtered along the rows, then down the columns.
     Moments source, filtered, mean;
@@ -150,6 +160,7 @@ SsimMeans ssim_means(const LumaRows& a, const LumaRows& b) {
       }
       double similarity = 0, contrast = 0;
       for (std::size_t x = 0; x < windows; ++x) {
+        if (!has_window(row, x)) continue;
         const double ma = mean[kA][x], mb = mean[kB][x];
         // Population moments. Rounding can make a variance of 0 a little negative.
         const double variance_a = std::max(0.0, mean[kAA][x] - ma * ma);
@@ -166,7 +177,8 @@ SsimMeans ssim_means(const LumaRows& a, const LumaRows& b) {
   });
   // In order of the rows: the sum must not depend on the number of threads.
   const auto mean_of = [&](const std::vector<double>& sums) {
-    return std::accumulate(sums.begin(), sums.end(), 0.0) / (double(across) * double(down));
+    return std::accumulate(sums.begin(), sums.end(), 0.0) /
+           double(std::accumulate(row_count.begin(), row_count.end(), std::size_t{0}));
   };
   return {mean_of(row_similarity), mean_of(row_contrast)};
 }

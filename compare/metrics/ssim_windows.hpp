@@ -36,7 +36,9 @@ struct SsimMeans {
   double contrast_structure;  ///< c s, without the luminance term
 };
 
-/// Over all windows of kSsimSide pixels a side that lie wholly inside the picture. There must be one.
-SsimMeans ssim_means(const LumaRows& a, const LumaRows& b);
+/// Over all windows of kSsimSide pixels a side that lie wholly inside the picture, and whose middle is a pixel where
+/// `region` is not 0, unless that is empty. There must be one.
+SsimMeans ssim_means(const LumaRows& a, const LumaRows& b,
+                     std::span<const std::uint8_t> region = {});
 
 }  // namespace lobelia

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -59,9 +60,11 @@ SetNotCompared not_compared(const SetReport& report) {
 ExitCode set_exit_code(const SetReport& report) {
   const records::SetSummary counts = count(report);
   if (counts.errors > 0 || report.pairs.empty()) return ExitCode::kInput;
-  const std::size_t failures = counts.differs + counts.undecided + counts.non_finite +
-                               counts.missing + counts.links_not_followed;
-  return failures > 0 ? ExitCode::kDiffers : ExitCode::kSuccess;
+  const std::size_t failures =
+      counts.differs + counts.non_finite + counts.missing + counts.links_not_followed;
+  return failures > 0           ? ExitCode::kDiffers
+         : counts.undecided > 0 ? ExitCode::kUndecided
+                                : ExitCode::kSuccess;
 }
 
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
@@ -88,6 +91,40 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
       summaries.push_back(summary);
     }
   return summaries;
+}
+
+std::string highlight_sentence(const Comparison& comparison) {
+  const double energy = comparison.value("energy.highlight");
+  if (std::isnan(energy)) return "";
+  if (energy == -1) return "a has no highlight where b has one";
+  if (std::isinf(energy)) return "b has no highlight where a has one";
+  // Smaller shares and shifts are said to be equal.
+  constexpr double kLeastShare = 0.001, kLeastShift = 0.05;
+  const auto words = [](double share, std::string_view more, std::string_view less) {
+    if (std::abs(share) < kLeastShare) return std::string();
+    if (share >= 1) return fmt::format("{:.3g} times as {}", 1 + share, more);
+    return fmt::format("{:.2g} % {}", 100 * std::abs(share), share > 0 ? more : less);
+  };
+  std::vector<std::string> parts;
+  for (std::string& part :
+       std::array{words(comparison.value("width.highlight"), "wider", "narrower"),
+                  words(comparison.value("brightness.highlight"), "brighter", "dimmer")})
+    if (!part.empty()) parts.push_back(std::move(part));
+  const std::string more_energy = words(energy, "more", "less");
+  const double right = comparison.value("shift.highlight.x"),
+               down = comparison.value("shift.highlight.y");
+  std::vector<std::string> ways;
+  if (std::abs(right) >= kLeastShift)
+    ways.push_back(
+        fmt::format("{:.2g} pixels to the {}", std::abs(right), right > 0 ? "right" : "left"));
+  if (std::abs(down) >= kLeastShift)
+    ways.push_back(fmt::format("{:.2g} pixels {}", std::abs(down), down > 0 ? "down" : "up"));
+  std::string text = parts.empty()
+                         ? "a's highlight is as wide and as bright as b's"
+                         : "a's highlight is " + fmt::format("{}", fmt::join(parts, " and "));
+  text += more_energy.empty() ? ", its energy equal" : ", its energy " + more_energy;
+  if (!ways.empty()) text += fmt::format("; it lies {}", fmt::join(ways, " and "));
+  return text;
 }
 
 std::string value_text(const Comparison& comparison, const LimitResult& limit) {

@@ -41,8 +41,8 @@ struct SetNotCompared {
 };
 SetNotCompared not_compared(const SetReport& report);
 
-/// kInput if a pair could not be compared or there are no pairs. Otherwise kDiffers if a pair does not pass or is
-/// missing, or a link was not followed. Otherwise kSuccess: names without a reference do not fail.
+/// kInput if a pair could not be compared or there are no pairs. Otherwise kDiffers if a pair differs or is missing, or a
+/// link was not followed. Otherwise kUndecided if a pair is. Otherwise kSuccess: names without a reference do not fail.
 ExitCode set_exit_code(const SetReport& report);
 
 /// A metric over the pairs for which it was measured.
@@ -55,6 +55,10 @@ struct MetricSummary {
 
 /// A summary of every output that takes a limit, in the catalogue's order.
 std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
+
+/// What an artist would say of the highlight: "a's highlight is 4 % wider and 7 % dimmer, its energy equal; 0.5 pixels to
+/// the left". Empty if it was not measured.
+std::string highlight_sentence(const Comparison& comparison);
 
 /// "is 0.02", or "was not measured (why)".
 std::string value_text(const Comparison& comparison, const LimitResult& limit);
@@ -75,7 +79,8 @@ records::ComparisonSet set_record(const SetReport& report);
 std::string set_csv(const SetReport& report);
 
 /// JUnit's XML: a test case for each pair (a failure, or an error if it could not be compared), a failure for each
-/// missing name and each link that was not followed, and a skipped test for each extra name.
-std::string set_junit(const SetReport& report);
+/// missing name and each link that was not followed, and a skipped test for each extra name. An undecided pair is a
+/// failure, or with `skip_undecided` a skipped test.
+std::string set_junit(const SetReport& report, bool skip_undecided);
 
 }  // namespace lobelia

@@ -27,7 +27,7 @@ void add_outcome(pugi::xml_node one, const char* kind, std::string_view type,
   outcome.append_attribute("message") = printable_path(message).c_str();
 }
 
-void add_pair(pugi::xml_node suite, const PairReport& pair) {
+void add_pair(pugi::xml_node suite, const PairReport& pair, bool skip_undecided) {
   pugi::xml_node one = add_case(suite, pair.name, pair.seconds);
   if (!pair.comparison) {
     add_outcome(one, "error", "not compared", pair.error);
@@ -40,12 +40,14 @@ void add_pair(pugi::xml_node suite, const PairReport& pair) {
     property.append_attribute("value") = fmt::format("{}", value).c_str();
   }
   if (!is_pass(pair.verdict()))
-    add_outcome(one, "failure", verdict_name(pair.verdict()), why_not_pass(pair));
+    add_outcome(one,
+                skip_undecided && pair.verdict() == Verdict::kUndecided ? "skipped" : "failure",
+                verdict_name(pair.verdict()), why_not_pass(pair));
 }
 
 }  // namespace
 
-std::string set_junit(const SetReport& report) {
+std::string set_junit(const SetReport& report, bool skip_undecided) {
   const records::SetSummary counts = count(report);
   double seconds = 0;
   for (const PairReport& pair : report.pairs) seconds += pair.seconds;
@@ -56,13 +58,14 @@ std::string set_junit(const SetReport& report) {
     node.append_attribute("name") = printable_path(report.a + " against " + report.b).c_str();
     node.append_attribute("tests") =
         report.pairs.size() + counts.missing + counts.extra + counts.links_not_followed;
-    node.append_attribute("failures") = counts.differs + counts.undecided + counts.non_finite +
-                                        counts.missing + counts.links_not_followed;
+    node.append_attribute("failures") = counts.differs + counts.non_finite + counts.missing +
+                                        counts.links_not_followed +
+                                        (skip_undecided ? 0 : counts.undecided);
     node.append_attribute("errors") = counts.errors;
-    node.append_attribute("skipped") = counts.extra;
+    node.append_attribute("skipped") = counts.extra + (skip_undecided ? counts.undecided : 0);
     node.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();
   }
-  for (const PairReport& pair : report.pairs) add_pair(suite, pair);
+  for (const PairReport& pair : report.pairs) add_pair(suite, pair, skip_undecided);
   for (const std::string& name : report.missing)
     add_outcome(add_case(suite, name, 0), "failure", "missing", "there is only a reference");
   for (const std::string& name : report.extra)

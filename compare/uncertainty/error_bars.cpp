@@ -51,7 +51,7 @@ void measure_each(const MetricInput& input, Visit visit) {
   for (const Metric* metric : metrics()) {
     if (metric->needs == Needs::kNoise || !is_measurable(*metric, input)) continue;
     values.assign(metric->outputs.size(), 0.0);
-    metric->measure(input, values);
+    measure_metric(*metric, input, values);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (metric->outputs[i].better != Better::kNeither) visit(metric->outputs[i], values[i]);
   }
@@ -144,7 +144,10 @@ ErrorBars error_bars(const MetricInput& input, const Viewing& viewing, int count
                       input.pixels_per_degree,
                       input.tolerance,
                       input.hdr_exposures,
-                      input.mask};
+                      input.mask,
+                      nullptr,
+                      input.highlight,
+                      tail_as_shown(noisy_a, noisy_b, viewing)};
     std::size_t next = 0;
     measure_each(noisy, [&](const MetricOutput& output, double value) {
       keep(figures[next++], as_distance(output, value), value);

@@ -142,7 +142,11 @@ TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
   };
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr"}).exit_code, 0);
   EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr"}).exit_code, 1);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9"}).exit_code, 0);
+  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9"}).exit_code, 1)
+      << "limits add to the default ones";
+  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "rmse=1e9", "--no-default-limits"})
+                .exit_code,
+            0);
   EXPECT_EQ(compare({"head_on.exr", "large.exr"}).exit_code, 3);
   // The pictures are 64 x 64, the scene's film 256 x 256.
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--tolerance", "0,0,3", "--scene",
@@ -153,9 +157,11 @@ TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
     return compare({"large.exr", "large.exr", "--scene", kScenes + "head_on.xml", "--fail", limit});
   };
   EXPECT_EQ(masked("max_abs.mask=0").exit_code, 0);
-  EXPECT_THAT(masked("max_abs.mask=0").output_tail, HasSubstr("rmse.mask"));
+  EXPECT_THAT(masked("max_abs.mask=0").output_tail, HasSubstr("in the mask"));
   EXPECT_EQ(compare({"large.exr", "large.exr", "--fail", "max_abs.mask=0"}).exit_code, 2);
-  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "psnr=-100"}).exit_code, 0);
+  EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "psnr=-100", "--no-default-limits"})
+                .exit_code,
+            0);
   EXPECT_EQ(compare({"head_on.exr", "oblique_45.exr", "--fail", "relmse.eps=0.01=0"}).exit_code, 1);
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--fail", "flip.hdr.mean=0"}).exit_code, 2);
   EXPECT_EQ(
@@ -165,9 +171,17 @@ TEST(Compare, ExitsWith0ForTheSamePictureAnd1ForAnother) {
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--exposures", "2,1,7"}).exit_code, 2);
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--exposures", "often"}).exit_code, 2);
   const auto automatic = compare({"head_on.exr", "head_on.exr", "--exposures", "auto"});
-  EXPECT_EQ(automatic.exit_code, 0)
-      << "a sphere over black has no range, and nobody asked for HDR-FLIP";
-  EXPECT_THAT(automatic.output_tail, HasSubstr("median luminance is 0"));
+  EXPECT_EQ(automatic.exit_code, 0) << "a sphere over black has the range of its lit pixels";
+  EXPECT_THAT(automatic.output_tail, HasSubstr("flip.hdr.mean"));
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--exposure", "bright"}).exit_code, 2);
+  EXPECT_EQ(compare({"head_on.exr", "--sensitivity"}).exit_code, 0);
+  EXPECT_EQ(
+      compare({"head_on.exr", "--sensitivity", "--fail", "ciede2000.p99=2", "--no-default-limits"})
+          .exit_code,
+      1)
+      << "a percentile does not see a small highlight";
+  EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--sensitivity"}).exit_code, 2);
+  EXPECT_EQ(compare({"head_on.exr"}).exit_code, 2) << "B is required";
   EXPECT_EQ(compare({"head_on.exr", "head_on.exr", "--fail", "rsme=1"}).exit_code, 2);
   EXPECT_THAT(compare({"head_on.exr", "head_on.exr", "--json", "-"}).output_tail,
               HasSubstr("\"schemaVersion\": 1"));
@@ -189,6 +203,28 @@ TEST(Farm, WhoseFilterPicksNoJobSaysSoInOneLine) {
               "'n16/render'\n")
         << more;
   }
+}
+
+TEST(Compare, PrintsTheSensitivityThatTheDocumentationShows) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(
+      run_lobelia({"render", kScenes + "head_on.xml", "--exponent", "1000", "-o", "head_on.exr"},
+                  directory.path())
+          .exit_code,
+      0);
+  const std::string document =
+      read_file(std::filesystem::path(LOBELIA_SOURCE_DIR) / "docs/limits.md", 1 << 20);
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"compare", "--sensitivity", "head_on.exr"});
+    return run_lobelia(more, directory.path());
+  };
+  const auto defaults = run({});
+  EXPECT_EQ(defaults.exit_code, 0);
+  EXPECT_THAT(document, HasSubstr(defaults.output_tail));
+  const auto blind =
+      run({"--no-default-limits", "--fail", "ciede2000.p99=2", "--fail", "flip.ldr.mean=0.01"});
+  EXPECT_EQ(blind.exit_code, 1);
+  EXPECT_THAT(document, HasSubstr(blind.output_tail));
 }
 
 }  // namespace

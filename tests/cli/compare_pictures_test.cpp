@@ -138,32 +138,31 @@ TEST_F(ComparePictures, WithEqualInfinitiesPassWhereThatIsAllowedAndSayWhereTheF
       2);
 }
 
-TEST_F(ComparePictures, OverBlackAreMeasuredWithoutHdrFlipAndSayWhy) {
-  // As a sphere over black: more than half of the pixels are black.
-  std::vector<float> some(32 * 32, 0.0f);
-  for (int i = 0; i < 300; ++i) some[std::size_t(i)] = 0.5f;
-  exr("sphere.exr", 32, 32, {{"Y", some}});
-  const Record made = record({"sphere.exr", "sphere.exr", "--exposures", "auto"}, 0);
+TEST_F(ComparePictures, OfBlackAreMeasuredWithoutHdrFlipAndSayWhy) {
+  const std::vector<float> black(32 * 32, 0.0f);
+  exr("black.exr", 32, 32, {{"Y", black}});
+  const Record made = record({"black.exr", "black.exr", "--exposures", "auto"}, 0);
   EXPECT_EQ(made["metrics"]["rmse"], 0);
   EXPECT_TRUE(made["metrics"].contains("flip.ldr.mean"));
   EXPECT_FALSE(made["metrics"].contains("flip.hdr.mean"));
   EXPECT_FALSE(made["viewing"].contains("hdrExposures"));
   std::map<std::string, std::string> why;
-  for (const Record& one : made["notMeasured"]) why[one["metric"]] = one["because"];
-  EXPECT_THAT(why, UnorderedElementsAre(Pair("flip.hdr.mean", HasSubstr("median luminance is 0")),
-                                        Pair("flip.hdr.max", HasSubstr("median luminance is 0")),
-                                        Pair("ms_ssim", HasSubstr("it needs 176 pixels a side"))));
-  const std::string table =
-      compare({"sphere.exr", "sphere.exr", "--exposures", "auto"}).output_tail;
-  EXPECT_THAT(table, HasSubstr("not measured: the automatic range of exposures is infinite"));
+  for (const Record& one : made["notMeasured"])
+    if (one["metric"].get<std::string>().find("highlight") == std::string::npos)
+      why[one["metric"]] = one["because"];
+  EXPECT_THAT(why, UnorderedElementsAre(
+                       Pair("flip.hdr.mean", HasSubstr("needs a reference with a pixel above 0")),
+                       Pair("flip.hdr.max", HasSubstr("needs a reference with a pixel above 0")),
+                       Pair("ms_ssim", HasSubstr("it needs 176 pixels a side"))));
+  const std::string table = compare({"black.exr", "black.exr", "--exposures", "auto"}).output_tail;
+  EXPECT_THAT(table, HasSubstr("not measured: the automatic range of exposures needs"));
 
   // The limits decide: one that holds, and two on metrics that were not measured.
   EXPECT_EQ(
-      compare({"sphere.exr", "sphere.exr", "--exposures", "auto", "--fail", "rmse=0"}).exit_code,
-      0);
+      compare({"black.exr", "black.exr", "--exposures", "auto", "--fail", "rmse=0"}).exit_code, 0);
   for (const char* limit : {"flip.hdr.mean=1", "ms_ssim=0"}) {
     const Record asked =
-        record({"sphere.exr", "sphere.exr", "--exposures", "auto", "--fail", limit}, 1);
+        record({"black.exr", "black.exr", "--exposures", "auto", "--fail", limit}, 1);
     EXPECT_EQ(asked["verdict"], "differs");
     EXPECT_EQ(asked["limits"][0]["pass"], false);
     EXPECT_EQ(asked["limits"][0]["value"], "nan");

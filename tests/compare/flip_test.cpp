@@ -241,17 +241,25 @@ TEST(HdrFlip, IsTheSameForHugeAndNegativeValuesAsForWhiteAndBlack) {
   EXPECT_EQ(compare(negative, huge, options).value("flip.hdr.mean"), expected);
 }
 
-TEST(HdrFlip, RefusesAnAutomaticRangeOfASphereOverBlackInWords) {
-  Image image = fixtures::flat(8, 8, 0, 0, 0);
-  for (int x = 0; x < 8; ++x) image.pixel(x, 0)[1] = 2;
+TEST(HdrFlip, HasAnAutomaticRangeForASmallHighlightOnBlackFromTheMedianOfTheLitPixels) {
+  Image small = fixtures::flat(16, 16, 0, 0, 0);
+  for (int x = 0; x < 9; ++x) small.pixel(x, 0)[1] = float(1 << x);
+  Image lit = fixtures::flat(9, 1, 0, 0, 0);
+  for (int x = 0; x < 9; ++x) lit.pixel(x, 0)[1] = float(1 << x);
+  const HdrExposures of_small = automatic_exposures(small), of_lit = automatic_exposures(lit);
+  EXPECT_EQ(of_small.start_stops, of_lit.start_stops);
+  EXPECT_EQ(of_small.stop_stops, of_lit.stop_stops);
+  EXPECT_EQ(of_small.count, 4) << "256 is four stops above 16";
+}
+
+TEST(HdrFlip, RefusesAnAutomaticRangeOfBlackInWords) {
   try {
-    automatic_exposures(image);
+    automatic_exposures(fixtures::flat(8, 8, 0, 0, 0));
     FAIL() << "it was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kInput);
     EXPECT_STREQ(error.what(),
-                 "the automatic range of exposures is infinite, as half of the reference's pixels "
-                 "are black (its median luminance is 0); give a fixed range");
+                 "the automatic range of exposures needs a reference with a pixel above 0");
   }
 }
 

@@ -33,7 +33,7 @@ std::vector<std::pair<Image, Image>> pairs() {
 std::vector<double> measure(const Metric& metric, const MetricInput& input) {
   if (!is_measurable(metric, input)) return {};
   std::vector<double> values(metric.outputs.size(), -7.0);
-  metric.measure(input, values);
+  measure_metric(metric, input, values);
   return values;
 }
 
@@ -131,7 +131,7 @@ TEST(MetricLaws, AMetricThatIsCalledSymmetricDoesNotChangeWhenThePicturesAreExch
     for (const Metric* metric : metrics()) {
       const std::vector<double> forth = measure(*metric, a, b), back = measure(*metric, b, a);
       for (std::size_t i = 0; i < forth.size(); ++i)
-        if (metric->outputs[i].symmetric) {
+        if (metric->outputs[i].symmetric && forth[i] != back[i]) {  // they may both be infinite
           // Not bit for bit: CIEDE2000's means of angles round differently.
           EXPECT_NEAR(forth[i], back[i], 1e-12 * std::abs(forth[i])) << metric->outputs[i].id;
         }
@@ -141,7 +141,7 @@ TEST(MetricLaws, AMetricThatIsCalledSymmetricDoesNotChangeWhenThePicturesAreExch
 TEST(MetricLaws, AMetricThatIsNotCalledSymmetricIsNot) {
   for (const Metric* metric : metrics())
     for (std::size_t i = 0; i < metric->outputs.size(); ++i) {
-      if (metric->outputs[i].symmetric) continue;
+      if (metric->outputs[i].symmetric || metric->region == Region::kOutside) continue;
       bool changed = false;
       const Image dim = fixtures::flat(8, 8, 0.0015f, 0, 0);
       Image bright = fixtures::flat(8, 8, 1, 0, 0);
@@ -163,8 +163,9 @@ void expect_ever_worse(const Image& reference, const std::vector<Image>& picture
       const std::vector<double> values = measure(*metric, pictures[k], reference);
       for (std::size_t i = 0; i < values.size(); ++i) {
         const MetricOutput& output = metric->outputs[i];
-        // What cancels in a signed mean is rounding there.
-        const double rounding = output.better == Better::kNearZero ? 1e-6 : 0;
+        // What cancels in a signed mean or in a centroid is rounding there.
+        const bool cancels = output.better == Better::kNearZero || output.id == "shift.highlight";
+        const double rounding = cancels ? 1e-6 : 0;
         if (is_judged(output)) {
           EXPECT_GE(badness(output, values[i]), badness(output, before[i]) - rounding)
               << output.id << ", picture " << k;

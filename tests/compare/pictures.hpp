@@ -71,7 +71,8 @@ inline MetricInput input(const Image& a, const Image& b, const Tolerance* tolera
           tolerance,
           &kHdrExposures,
           std::span(everywhere).first(a.pixel_count()),
-          &kExact};
+          &kExact,
+          std::span(everywhere).first(a.pixel_count())};
 }
 
 }  // namespace lobelia::fixtures

@@ -18,7 +18,9 @@ TEST(ComparisonRecord, HasWhatTheDocumentationPromises) {
   options.viewing.exposure_stops = -1;
   options.viewing.hdr_exposures = HdrExposures{-2, 1.5, 3};
   options.mask.assign(a.pixel_count(), 0);
-  options.mask[7] = options.mask[90] = 1;
+  options.mask[180 * 90 + 90] = options.mask[180 * 90 + 91] = 1;
+  options.highlight = true;
+  options.default_limits = false;
   options.limits = {{"rmse", 1}};
   options.tolerance = Tolerance{0.5, 0.25, 7};
   const Json record = as_json(comparison_record(compare(a, b, options), "a.exr", "b.exr"));

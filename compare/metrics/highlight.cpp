@@ -1,0 +1,87 @@
+// What an artist says of a highlight: how much wider, brighter and how far away it is, and whether its energy is equal.
+//
+// Source:       ours.
+// Formula:      of each picture L = max(0, (R + G + B) / 3 - kHighlightShare * its largest) over the pixels of the
+//               highlight. What is less bright does not count, so that a shift moves nothing out of the sums.
+//               energy = sum L. area = (sum L)^2 / sum L^2, the area of a flat disc with the same two sums: of
+//               cos^n it is in proportion to 1 / n. brightness = sum L^2 / sum L, so energy = area * brightness.
+//               Each is given as a / b - 1, width as the root of the ratio of areas. shift is the distance of the
+//               centroids (sum L x / sum L).
+// Input:        scene-linear values, neither exposed nor clipped.
+// Why:          they average over the highlight. So they find a shift of a tenth of a pixel or a change of a part in
+//               a thousand, which no single pixel shows, and rounding and noise hardly move them.
+// Degenerate:   a highlight that only one picture has: its ratio is -1 or infinite, its shift infinite.
+#include <algorithm>
+#include <cmath>
+
+#include "compare/highlight_region.hpp"
+#include "core/constants.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr MetricOutput kOutputs[] = {
+    {"energy.highlight", "Energy of the highlight", Unit::kShare, Better::kNearZero, false,
+     "sum over the highlight, a / b - 1", "How much more light the highlight has in all."},
+    {"brightness.highlight", "Brightness of the highlight", Unit::kShare, Better::kNearZero, false,
+     "sum of squares over sum, a / b - 1", "How much brighter the highlight is."},
+    {"width.highlight", "Width of the highlight", Unit::kShare, Better::kNearZero, false,
+     "root of squared sum over sum of squares, a / b - 1", "How much wider the highlight is."},
+    {"shift.highlight", "Shift of the highlight", Unit::kPlain, Better::kLower, true,
+     "distance of the centroids in pixels", "How far away the highlight is, in pixels."},
+    {"shift.highlight.x", "", Unit::kPlain, Better::kNeither, false, "to the right, in pixels"},
+    {"shift.highlight.y", "", Unit::kPlain, Better::kNeither, false, "down, in pixels"}};
+
+struct Sums {
+  double light = 0, squares = 0, x = 0, y = 0;
+
+  double area() const { return squares > 0 ? light * light / squares : 0; }
+  double brightness() const { return light > 0 ? squares / light : 0; }
+};
+
+Sums sums_over(const Image& image, std::span<const std::uint8_t> highlight) {
+  const std::span<const float> values = image.values();
+  const auto mean_at = [&](std::size_t pixel) {
+    return (double(values[3 * pixel]) + double(values[3 * pixel + 1]) +
+            double(values[3 * pixel + 2])) /
+           3;
+  };
+  double largest = 0;
+  for (std::size_t pixel = 0; pixel < highlight.size(); ++pixel)
+    if (highlight[pixel] != 0) largest = std::max(largest, mean_at(pixel));
+  Sums sums;
+  const auto width = std::size_t(image.width());
+  for (std::size_t pixel = 0; pixel < highlight.size(); ++pixel) {
+    const double light = mean_at(pixel) - kHighlightShare * largest;
+    if (highlight[pixel] == 0 || !(light > 0)) continue;
+    sums.light += light;
+    sums.squares += light * light;
+    sums.x += light * double(pixel % width);
+    sums.y += light * double(pixel / width);
+  }
+  return sums;
+}
+
+double excess(double a, double b) { return a == b ? 0 : b > 0 ? a / b - 1 : kInfinity; }
+
+void measure(const MetricInput& input, std::span<double> values) {
+  const Sums a = sums_over(input.a, input.highlight), b = sums_over(input.b, input.highlight);
+  values[0] = excess(a.light, b.light);
+  values[1] = excess(a.brightness(), b.brightness());
+  values[2] = excess(std::sqrt(a.area()), std::sqrt(b.area()));
+  values[4] = values[5] = 0;
+  if (a.light > 0 && b.light > 0) {
+    values[4] = a.x / a.light - b.x / b.light;
+    values[5] = a.y / a.light - b.y / b.light;
+  } else if (a.light != b.light) {
+    values[4] = values[5] = kInfinity;
+  }
+  values[3] = std::hypot(values[4], values[5]);
+}
+
+}  // namespace
+
+extern constinit const Metric highlight_metric{kOutputs, Family::kRadiance, Needs::kHighlight,
+                                               "ours",   measure,           false};
+
+}  // namespace lobelia
