@@ -287,7 +287,7 @@ void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view 
                limit.limit);
 }
 
-/// Of metrics in regions only those with a default limit.
+/// The short table leaves out regions, unless a figure has a default limit.
 bool is_in_short_table(std::string_view id) {
   return find_metric(id)->region == Region::kWhole ||
          std::ranges::count(highlight_limits(), id, &MetricLimit::metric) > 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/colour.hpp"
 #include "core/image_values.hpp"
 
 namespace lobelia {
@@ -62,7 +63,7 @@ Viewing with_exposures(Viewing viewing, const Image& a, const Image& b) {
   viewing.tail_stops.reset();
   if (!(peak > 0) || (peak <= 1 && peak >= kDimmestShown)) return viewing;
   viewing.exposure_stops =
-      std::clamp(-std::log2(peak), -kMaxExposureStops, kMaxExposureStops - kTailStops);
+      std::clamp(exposure_for_peak(peak), -kMaxExposureStops, kMaxExposureStops - kTailStops);
   viewing.tail_stops = viewing.exposure_stops + kTailStops;
   return viewing;
 }

@@ -1,4 +1,4 @@
-// What a set of limits would let pass: the reference compared with changed copies of itself.
+// Tests a set of limits: compares changed copies of a picture with it, and tells which changes the limits find.
 #pragma once
 
 #include "compare/compare.hpp"

@@ -5,7 +5,7 @@
 
 namespace lobelia {
 
-/// Of every metric that is measured in regions, also one for each region.
+/// A metric that is measured in regions has an entry for each of them.
 std::span<const Metric* const> metrics();
 
 /// Fills one value per output, over the metric's region. With a second exposure the worse of both values counts.

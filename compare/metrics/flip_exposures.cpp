@@ -33,7 +33,7 @@ HdrExposures automatic_exposures(const Image& reference) {
     throw Error(ExitCode::kInput,
                 "the automatic range of exposures needs a reference without a NaN or an infinity");
   const float largest = std::ranges::max(luminances);
-  // Of a small highlight on black the tool's median is 0, and its range infinite.
+  // With a small highlight on black, the median of all pixels is 0 and the tool's range is infinite.
   const auto middle_of = [&] { return luminances.begin() + std::ptrdiff_t(luminances.size() / 2); };
   std::nth_element(luminances.begin(), middle_of(), luminances.end());
   if (!(*middle_of() > 0)) std::erase_if(luminances, [](float l) { return !(l > 0); });

@@ -1,4 +1,4 @@
-// What an artist says of a highlight: how much wider, brighter and how far away it is, and whether its energy is equal.
+// The figures that describe a highlight: its energy, brightness and width against the reference, and its shift.
 //
 // Source:       ours.
 // Formula:      of each picture L = max(0, (R + G + B) / 3 - kHighlightShare * its largest) over the pixels of the

@@ -88,7 +88,6 @@ enum class Region : std::uint8_t {
   kMask,       ///< inside the comparison's mask
   kOutside,    ///< outside of it
 };
-inline constexpr Region kPartRegions[] = {Region::kHighlight, Region::kMask, Region::kOutside};
 /// "", "highlight", "mask", "outside": part of a figure's id
 constexpr std::string_view region_name(Region region) {
   constexpr std::string_view kNames[] = {"", "highlight", "mask", "outside"};
