@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/commands.hpp"
+#include "cli/compare_html.hpp"
 #include "cli/compare_pictures.hpp"
 #include "cli/options.hpp"
 #include "compare/highlight_region.hpp"
@@ -27,7 +28,10 @@ namespace fs = std::filesystem;
 
 struct CompareArguments {
   CompareJob job;
-  std::string json, csv, junit, tolerance, exposures;
+  std::string json, csv, junit, html, title, tolerance, exposures;
+  bool single_file = false;
+  std::string a, b;
+  std::vector<std::string> further;
   std::string exposure = "auto", junit_undecided = "failure";
   bool sensitivity = false, no_default_limits = false;
   std::vector<std::string> fail, warn;
@@ -88,19 +92,24 @@ void parse_exposure(const std::string& text, Viewing& viewing) {
 
 constexpr std::string_view kStdout = "-";
 
-/// Whether the pictures are folders. Throws Error(kInput) if only some of them are.
-bool are_folders(const CompareJob& job) {
-  const auto is_folder = [](const std::string& path) {
-    std::error_code unknown;
-    return fs::is_directory(path, unknown);
+/// Throws unless the second reference and the pictures of noise can be told which pair they are of.
+void check_companions(const CompareJob& job, const Pairing& pairing) {
+  const auto fail = [&](std::string_view what) {
+    throw Error(ExitCode::kUsage, fmt::format("{} needs two files, or folders that are paired by "
+                                              "name, in which it has the same name",
+                                              what));
   };
-  const bool folders = is_folder(job.a);
-  for (const std::string& path : {job.b, job.c})
-    if (!path.empty() && is_folder(path) != folders)
-      throw Error(ExitCode::kInput,
-                  fmt::format("{} is {}a folder, but {} is{}; compare two files or two folders",
-                              job.a, folders ? "" : "not ", path, folders ? " not" : ""));
-  return folders;
+  const bool by_name = has_folders_by_name(job, pairing);
+  if (!by_name && !is_one_pair(pairing)) {
+    if (!job.c.empty()) fail("--reference-floor");
+    if (!job.noise.files("").empty()) fail("a picture of noise");
+  }
+  std::error_code unknown;
+  if (!job.c.empty() && fs::is_directory(job.c, unknown) != by_name)
+    throw Error(ExitCode::kInput,
+                fmt::format("{} is {}a folder, but {} is{}; compare two files or two folders",
+                            job.pictures.given.front(), by_name ? "" : "not ", job.c,
+                            by_name ? " not" : ""));
 }
 
 void check_difference(const DifferencePicture& difference, bool folders) {
@@ -125,60 +134,62 @@ std::optional<FileId> file_id(const fs::path& path) {
   return FileId{status.st_dev, status.st_ino};
 }
 
-/// The pictures of the pair `name`, and those of their noise; "": the files or folders as they were given.
-std::vector<fs::path> pictures_of(const CompareJob& job, const std::string& name) {
-  std::vector<fs::path> files = job.noise.files(name);
-  for (const std::string& given : {job.a, job.b, job.c})
-    if (!given.empty()) files.push_back(file_of(given, name));
-  return files;
-}
-
-/// All files that are read. `names`: the pairs of two folders; null for two files.
-std::set<FileId> inputs_of(const CompareArguments& options, const FolderPairs* names) {
+/// All files that are read.
+std::set<FileId> inputs_of(const CompareArguments& options, const Pairing& pairing) {
+  const CompareJob& job = options.job;
   std::set<FileId> inputs;
-  const auto add = [&](const std::vector<fs::path>& files) {
-    for (const fs::path& file : files)
-      if (const auto id = file_id(file)) inputs.insert(*id);
+  const auto add = [&](const fs::path& file) {
+    if (const auto id = file_id(file)) inputs.insert(*id);
   };
-  add({options.job.scene, options.display.config});
-  if (!names) {
-    add(pictures_of(options.job, ""));
-    return inputs;
+  add(job.scene);
+  add(options.display.config);
+  if (!job.pictures.csv.empty()) add(job.pictures.csv);
+  const bool by_name = has_folders_by_name(job, pairing);
+  for (const PictureRow& row : pairing.rows) {
+    for (const std::string& file : row.files) add(file);
+    for (const fs::path& file : job.noise.files(by_name ? row.name : "")) add(file);
+    if (!job.c.empty()) add(file_of(job.c, by_name ? row.name : ""));
   }
-  for (const auto* list : {&names->both, &names->missing, &names->extra})
-    for (const std::string& name : *list) add(pictures_of(options.job, name));
   return inputs;
 }
 
-/// Throws Error(kUsage) if the folder for difference pictures lies in a folder that is read: the next run would compare
-/// them.
-void require_outside(const fs::path& directory, const CompareJob& job) {
+/// Throws Error(kUsage) if a folder that is written lies in one that is read: the next run would compare its pictures.
+void require_outside(std::string_view option, const fs::path& directory, const CompareJob& job) {
   std::error_code unknown;
   const fs::path real = fs::weakly_canonical(fs::absolute(directory, unknown), unknown);
-  for (const fs::path& folder : pictures_of(job, ""))
+  std::vector<fs::path> folders = job.noise.files("");
+  folders.insert(folders.end(), job.pictures.given.begin(), job.pictures.given.end());
+  if (!job.c.empty()) folders.emplace_back(job.c);
+  for (const fs::path& folder : folders)
     if (const fs::path there = fs::canonical(folder, unknown); !unknown && is_below(real, there))
       throw Error(ExitCode::kUsage,
-                  fmt::format("--diff-image {}: lies in {}, which is read by this command; choose "
+                  fmt::format("{} {}: lies in {}, which is read by this command; choose "
                               "a folder outside it",
-                              directory.string(), folder.string()));
+                              option, directory.string(), folder.string()));
 }
 
 /// Throws unless all outputs can be written, are different files, and are not inputs under another path.
-void require_outputs(const CompareArguments& options, const FolderPairs* names) {
+void require_outputs(const CompareArguments& options, const Pairing& pairing) {
   const CompareJob& job = options.job;
   std::vector<fs::path> reports, pictures;
   for (const std::string& file : {options.json, options.csv, options.junit})
     if (!file.empty() && file != kStdout) reports.emplace_back(file);
+  const bool one = is_one_pair(pairing);
   if (!job.difference.path.empty()) {
-    if (names) {
-      require_outside(job.difference.path, job);
-      for (const std::string& name : names->both) pictures.push_back(difference_file(job, name));
-    } else {
+    if (one) {
       reports.push_back(job.difference.path);
+    } else {
+      require_outside("--diff-image", job.difference.path, job);
+      for (const PairReport& pair : pairs_of(pairing))
+        pictures.push_back(difference_file(job, pair.name));
     }
   }
+  if (!options.html.empty()) {
+    require_outside("--html", options.html, job);
+    require_place({options.html, options.single_file, options.title});
+  }
   if (reports.empty() && pictures.empty()) return;
-  const std::set<FileId> inputs = inputs_of(options, names);
+  const std::set<FileId> inputs = inputs_of(options, pairing);
   std::set<fs::path> taken;
   for (const auto* files : {&reports, &pictures})
     for (const fs::path& file : *files) {
@@ -190,7 +201,7 @@ void require_outputs(const CompareArguments& options, const FolderPairs* names) 
                     fmt::format("{}: is read or written by this command already", file.string()));
     }
   for (const fs::path& file : reports) require_writable(file);
-  if (names && !job.difference.path.empty()) make_directories(job.difference.path);
+  if (!one && !job.difference.path.empty()) make_directories(job.difference.path);
 }
 
 /// Whether a report goes to stdout in place of the table.
@@ -203,7 +214,7 @@ bool prints_report(const CompareArguments& options) {
   return count == 1;
 }
 
-void write_reports(const CompareArguments& options, const SetReport& report, bool folders,
+void write_reports(const CompareArguments& options, const SetReport& report, bool one,
                    FilesTogether& files) {
   std::string printed;
   const auto put = [&](const std::string& file, const auto& text) {
@@ -216,8 +227,7 @@ void write_reports(const CompareArguments& options, const SetReport& report, boo
   put(options.csv, [&] { return set_csv(report); });
   put(options.junit, [&] { return set_junit(report, options.junit_undecided == "skipped"); });
   put(options.json, [&] {
-    return folders ? record_text(set_record(report))
-                   : record_text(pair_record(report.pairs.front()));
+    return one ? record_text(pair_record(report.pairs.front())) : record_text(set_record(report));
   });
   files.commit();
   fmt::print("{}", printed);
@@ -227,7 +237,8 @@ void write_reports(const CompareArguments& options, const SetReport& report, boo
 ExitCode run_sensitivity(const CompareArguments& options) {
   const CompareJob& job = options.job;
   for (const auto& [given, name] :
-       {std::pair(!job.b.empty(), "B"),
+       {std::pair(job.pictures.given.size() > 1, "B"),
+        {!options.html.empty(), "--html"},
         {!job.c.empty(), "--reference-floor"},
         {job.comparison.noise.has_value(), "the noise of a picture"},
         {!job.difference.path.empty(), "--diff-image"},
@@ -236,11 +247,13 @@ ExitCode run_sensitivity(const CompareArguments& options) {
       throw Error(
           ExitCode::kUsage,
           fmt::format("--sensitivity takes one picture and changes it itself: leave out {}", name));
+  if (job.pictures.given.empty()) throw Error(ExitCode::kUsage, "--sensitivity needs a picture: A");
+  const std::string& picture = job.pictures.given.front();
   std::vector<Change> changes;
   ThreadLimit(options.threads).run([&] {
-    changes = sensitivity(read_picture(job.a, job.layers.layer).image, job.comparison);
+    changes = sensitivity(read_picture(picture, job.layers.layer).image, job.comparison);
   });
-  fmt::print("{}\n\n  {:<38}{:<12}{}\n", printable_path(job.a), "changed copy", "verdict", "by");
+  fmt::print("{}\n\n  {:<38}{:<12}{}\n", printable_path(picture), "changed copy", "verdict", "by");
   bool as_expected = true;
   for (const Change& change : changes) {
     as_expected = as_expected && change.is_as_expected();
@@ -258,6 +271,9 @@ ExitCode run_sensitivity(const CompareArguments& options) {
 
 ExitCode run_compare(CompareArguments options) {
   ComparisonOptions& comparison = options.job.comparison;
+  for (const std::string& given : {options.a, options.b})
+    if (!given.empty()) options.job.pictures.given.push_back(given);
+  for (const std::string& given : options.further) options.job.pictures.given.push_back(given);
   comparison.highlight = true;
   comparison.default_limits = !options.no_default_limits;
   parse_exposure(options.exposure, comparison.viewing);
@@ -284,22 +300,27 @@ ExitCode run_compare(CompareArguments options) {
                 "noise of A and B");
   check_options(comparison);
   if (options.sensitivity) return run_sensitivity(options);
-  if (options.job.b.empty()) throw Error(ExitCode::kUsage, "B is required: the reference picture");
-  const bool folders = are_folders(options.job);
+  if (options.job.pictures.given.empty() && options.job.pictures.csv.empty())
+    throw Error(ExitCode::kUsage, "A and B are required: the pictures to judge and the references");
   const bool has_table = !prints_report(options);
-  check_difference(options.job.difference, folders);
-  std::optional<FolderPairs> names;
-  if (folders) names = pair_by_name(options.job.a, options.job.b);
-  require_outputs(options, names ? &*names : nullptr);
+  const Pairing pairing = pair_pictures(options.job.pictures);
+  const bool one = is_one_pair(pairing);
+  check_companions(options.job, pairing);
+  check_difference(options.job.difference, !one);
+  require_outputs(options, pairing);
 
-  FilesTogether files;
   SetReport report;
-  ThreadLimit(options.threads).run([&] {
-    report = names ? compare_folders(options.job, *names) : compare_files(options.job);
-  });
-  write_reports(options, report, folders, files);
-  if (has_table && folders) print_set(report);
-  if (has_table && !folders) print_pair(report.pairs.front());
+  {
+    FilesTogether files;
+    ThreadLimit(options.threads).run([&] { report = compare_pairs(options.job, pairing); });
+    write_reports(options, report, one, files);
+  }
+  if (!options.html.empty())
+    ThreadLimit(options.threads).run([&] {
+      write_html({options.html, options.single_file, options.title}, options.job, pairing, report);
+    });
+  if (has_table && !one) print_set(report);
+  if (has_table && one) print_pair(report.pairs.front());
   return set_exit_code(report);
 }
 
@@ -389,11 +410,23 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<CompareArguments>();
   CompareJob& job = options->job;
   Viewing& viewing = job.comparison.viewing;
-  command->add_option("A", job.a, "Picture to judge, or a folder of them")->required();
+  command->add_option("A", options->a,
+                      "Picture to judge, a folder of them, or a sequence such as a.%04d.exr");
   command->add_option(
-      "B", job.b,
-      "Reference picture, of the same size, or a folder of references: pictures are "
-      "paired by their name within the folders");
+      "B", options->b,
+      "Reference picture, of the same size, or a folder or sequence of references: pictures are "
+      "paired by their name within the folders, or by their number");
+  command->add_option("MORE", options->further, "Further pictures, each judged against B as A is");
+  OptionGroup pairs(*command, "Pairs");
+  pairs.add("--pairs", job.pictures.csv, "FILE.csv",
+            "In place of A and B: a table whose first line has the titles of the sets, the "
+            "reference second, and perhaps 'name'; each further line is a pair of files");
+  pairs.add("--pattern", job.pictures.pattern, "PATTERN",
+            "Pair by fields of the names within the folders, such as '{scene}_{light}.exr'; {} "
+            "fits what differs");
+  pairs.add("--sets", job.pictures.sets, "FIELD=A,B[,..]",
+            "The field of --pattern that tells the sets apart, and its values: with it one folder "
+            "can hold all sets");
   OptionGroup(*command).add(
       "--reference-floor", job.c, "C",
       "A second reference: how far it is from B is shown beside how far A is");
@@ -473,6 +506,15 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
              "stdout, likewise");
   output.add_choice("--junit-undecided", options->junit_undecided, {"failure", "skipped"},
                     "What an undecided pair is in --junit");
+  auto* html = output.add("--html", options->html, "DIR",
+                          "Write a report: all pairs, the worst first, each with its pictures, "
+                          "maps, values and verdict; DIR/index.html opens without a server");
+  output
+      .add_flag(
+          "--single-file", options->single_file,
+          "The report is one file that can be sent: DIR/index.html, or DIR if it ends in .html")
+      ->needs(html);
+  output.add("--title", options->title, "TEXT", "The title of the report")->needs(html);
   add_difference_options(output, job.difference);
   output.add("--threads", options->threads, "", "Threads that work; 0: one for each processor")
       ->check(CLI::Range(0, 1024))

@@ -114,14 +114,12 @@ ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, const 
   return measure_reference_floor(c, cleared, options);
 }
 
-/// `name_within`: the pair's name in folders, which the pictures of noise have in theirs; empty for two files.
-PairReport compare_pair(PairReport pair, const CompareJob& job, ComparisonOptions options,
-                        bool choose_exposures, const std::string& name_within,
+PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& pairing,
+                        const ComparisonOptions& given, bool choose_exposures,
                         const fs::path& difference_path) {
   const auto started = std::chrono::steady_clock::now();
   const std::string layer = main_layer(pair.a, pair.b, job.layers);
-  PicturePair pictures = read_pair(pair.a, pair.b, layer);
-  job.noise.read(name_within, pictures.a.image, pictures.b.image, options);
+  auto [pictures, options] = read_compared(pair, job, pairing, given);
   const Image &a = pictures.a.image, &b = pictures.b.image;
   pair.sources = {pictures.a.source, pictures.b.source};
   if (!options.mask.empty() && options.mask.size() != a.pixel_count())
@@ -179,6 +177,12 @@ HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const Layer
   const double stops = std::ceil(all->stop_stops - all->start_stops);
   all->count = std::clamp(int(stops), 2, kMaxHdrExposures);
   return *all;
+}
+
+/// The row's name, after the set's title if several sets are judged.
+std::string name_of(const Pairing& pairing, std::size_t row, std::size_t set) {
+  const std::string& name = pairing.rows[row].name;
+  return pairing.sets.size() > 2 ? pairing.sets[set] + "/" + name : name;
 }
 
 std::string layer_reasons(const LayerComparison& layer, const std::string& a,
@@ -307,37 +311,67 @@ void print_not_measured(const std::vector<PairReport>& pairs) {
 
 }  // namespace
 
-SetReport compare_files(const CompareJob& job) {
-  SetReport report{job.a, job.b, job.c, {}, {}, {}, 0};
-  report.pairs.push_back(compare_pair(
-      {fs::path(job.a).filename().string(), job.a, job.b, job.c, {}, {}, 0}, job, job.comparison,
-      has_automatic_exposures(job.comparison), "", job.difference.path));
-  return report;
+std::vector<PairReport> pairs_of(const Pairing& pairing) {
+  std::vector<PairReport> pairs;
+  for (std::size_t row = 0; row < pairing.rows.size(); ++row)
+    for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
+      const std::vector<std::string>& files = pairing.rows[row].files;
+      if (set == kReferenceSet || files[set].empty() || files[kReferenceSet].empty()) continue;
+      PairReport pair{name_of(pairing, row, set), files[set], files[kReferenceSet], "", {}, {}, 0};
+      pair.row = row;
+      pair.set = set;
+      pairs.push_back(std::move(pair));
+    }
+  return pairs;
 }
 
-SetReport compare_folders(const CompareJob& job, const FolderPairs& names) {
-  SetReport report{
-      job.a, job.b, job.c, {}, names.missing, names.extra, names.passed_over, names.not_followed};
-  for (const std::string& name : names.both) {
-    const auto within = [&](const std::string& folder) {
-      return folder.empty() ? folder : file_of(folder, name).string();
-    };
-    report.pairs.push_back({name, within(job.a), within(job.b), within(job.c), {}, {}, 0});
+ComparedPair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
+                           ComparisonOptions options) {
+  ComparedPair read{read_pair(pair.a, pair.b, main_layer(pair.a, pair.b, job.layers)),
+                    std::move(options)};
+  job.noise.read(has_folders_by_name(job, pairing) ? pairing.rows[pair.row].name : "",
+                 read.pictures.a.image, read.pictures.b.image, read.options);
+  return read;
+}
+
+SetReport compare_pairs(const CompareJob& job, const Pairing& pairing) {
+  const bool one = is_one_pair(pairing);
+  SetReport report;
+  for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
+    const auto& given = job.pictures.given;
+    const std::string& title = given.size() > 1 ? given[set] : pairing.sets[set];
+    if (set == kReferenceSet)
+      report.b = title;
+    else
+      report.a += (report.a.empty() ? "" : ", ") + title;
   }
+  report.c = job.c;
+  report.passed_over = pairing.passed_over;
+  report.not_followed = pairing.not_followed;
+  for (std::size_t row = 0; row < pairing.rows.size(); ++row)
+    for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
+      const std::vector<std::string>& files = pairing.rows[row].files;
+      if (set != kReferenceSet && files[set].empty() != files[kReferenceSet].empty())
+        (files[set].empty() ? report.missing : report.extra).push_back(name_of(pairing, row, set));
+    }
+  report.pairs = pairs_of(pairing);
+  for (PairReport& pair : report.pairs)
+    if (!job.c.empty()) pair.c = one ? job.c : file_of(job.c, pairing.rows[pair.row].name).string();
   ComparisonOptions options = job.comparison;
-  if (has_automatic_exposures(options))
+  const bool automatic = has_automatic_exposures(options);
+  if (automatic && !one)
     options.viewing.hdr_exposures = exposures_for_all(report.pairs, job.layers);
   for_each_pair(report.pairs.size(), [&](std::size_t i) {
     PairReport& pair = report.pairs[i];
-    fs::path difference;
-    if (!job.difference.path.empty()) {
+    fs::path difference = job.difference.path;
+    if (!difference.empty() && !one) {
       difference = difference_file(job, pair.name);
       make_directories(difference.parent_path());
     }
     try {
-      pair = compare_pair(pair, job, options, false, pair.name, difference);
+      pair = compare_pair(pair, job, pairing, options, automatic && one, difference);
     } catch (const Error& error) {
-      if (error.code() != ExitCode::kInput) throw;
+      if (one || error.code() != ExitCode::kInput) throw;
       pair.error = error.what();
     }
   });

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compare/layers.hpp"
-#include "compare/set/folder_pairs.hpp"
+#include "compare/set/pairing.hpp"
 #include "compare/set/report.hpp"
 
 namespace lobelia::cli {
@@ -56,23 +56,43 @@ struct DifferencePicture {
 inline constexpr std::string_view kChannels = "channels";
 
 struct CompareJob {
-  std::string a, b, c;  ///< files, or folders; c is the second reference or empty
-  std::string scene;    ///< the scene file for the mask, or empty
+  PairingChoice pictures;
+  std::string c;      ///< the second reference, or a folder of them; may be empty
+  std::string scene;  ///< the scene file for the mask, or empty
   ComparisonOptions comparison;
   DifferencePicture difference;
   LayerOptions layers;
   NoiseFlags noise;
 };
 
-/// Throws what reading, measuring and writing throw.
-SetReport compare_files(const CompareJob& job);
+/// Whether there is one pair, whose files were given by themselves.
+inline bool is_one_pair(const Pairing& pairing) {
+  return pairing.is_one_row && pairing.sets.size() == 2;
+}
+/// Whether pictures of noise and second references have the names of the rows.
+inline bool has_folders_by_name(const CompareJob& job, const Pairing& pairing) {
+  return !pairing.is_one_row && pairing.fields.empty() && job.pictures.csv.empty() &&
+         job.pictures.pattern.empty();
+}
 
-/// A pair that cannot be compared has its error in the report, and the others go on. An automatic range of exposures
-/// becomes one that holds those of all references.
-/// Throws Error(kInput) where a folder cannot be read, Error(kOutput) where a picture cannot be written.
-SetReport compare_folders(const CompareJob& job, const FolderPairs& names);
+/// Every pair of the rows, without results: each judged set's picture with the reference.
+std::vector<PairReport> pairs_of(const Pairing& pairing);
 
-/// The file for the difference of a pair in folders. The ending is added, so that a.exr and a.png stay apart.
+/// The picture that is judged and its reference, with what was taken from the options for them.
+struct ComparedPair {
+  PicturePair pictures;
+  ComparisonOptions options;
+};
+/// Reads the pair as it is compared: the chosen layer, the mean of its replicates. Throws as read_pair().
+ComparedPair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
+                           ComparisonOptions options);
+
+/// Compares all pairs. A pair that cannot be compared has its error in the report, and the others go on, but where it is
+/// the only one its error is thrown. An automatic range of exposures becomes one that holds those of all references.
+/// Throws Error(kOutput) where a picture cannot be written.
+SetReport compare_pairs(const CompareJob& job, const Pairing& pairing);
+
+/// The file for the difference of a pair of several. The ending is added, so that a.exr and a.png stay apart.
 inline std::filesystem::path difference_file(const CompareJob& job, const std::string& name) {
   return job.difference.path / (name + ".png");
 }

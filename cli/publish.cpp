@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compare/highlight_region.hpp"
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "core/standard_streams.hpp"
@@ -27,20 +28,41 @@ std::vector<gallery::MapKind> visual_maps() {
 std::vector<gallery::MetricInfo> metric_infos() {
   std::vector<gallery::MetricInfo> infos;
   for (const Metric* metric : metrics())
-    for (const MetricOutput& output : metric->outputs)
-      if (!output.title.empty())
-        infos.push_back({std::string(output.id), std::string(output.title),
-                         std::string(output.explanation), std::string(unit_name(output.unit)),
-                         output.better == Better::kHigher});
+    for (const MetricOutput& output : metric->outputs) {
+      if (output.title.empty()) continue;
+      infos.push_back({std::string(output.id), std::string(output.title),
+                       std::string(output.explanation), std::string(unit_name(output.unit)),
+                       output.better == Better::kHigher});
+      if (!metric->in_regions) continue;
+      for (const auto& [region, where] : {std::pair(Region::kHighlight, "of the highlight"),
+                                          {Region::kMask, "in the mask"},
+                                          {Region::kOutside, "outside of the mask"}}) {
+        gallery::MetricInfo info = infos.back();
+        info.id = id_in_region(*metric, output, region);
+        info.title = fmt::format("{}, {}", output.title, where);
+        info.meaning.clear();
+        infos.push_back(std::move(info));
+      }
+    }
   return infos;
 }
 
 }  // namespace
 
-gallery::PublishedGallery publish(const std::filesystem::path& run,
-                                  gallery::GalleryOptions options) {
+gallery::GalleryOptions gallery_options() {
+  gallery::GalleryOptions options;
   options.maps = visual_maps();
   options.metrics = metric_infos();
+  options.region = [](const Image& a, const Image& b) { return highlight_region(a, b, {}); };
+  return options;
+}
+
+gallery::PublishedGallery publish(const std::filesystem::path& run,
+                                  gallery::GalleryOptions options) {
+  gallery::GalleryOptions known = gallery_options();
+  options.maps = std::move(known.maps);
+  options.metrics = std::move(known.metrics);
+  options.region = std::move(known.region);
   gallery::PublishedGallery made = write_gallery(run, options);
   constexpr std::size_t kMostNamed = 20;
   const std::size_t count = made.doubts.size();

@@ -6,6 +6,9 @@
 
 namespace lobelia::cli {
 
+/// The maps, regions and metrics that pages can show.
+gallery::GalleryOptions gallery_options();
+
 /// write_gallery() with a map of every visible difference. Lists on stderr the cells that are not as the farm wrote them.
 gallery::PublishedGallery publish(const std::filesystem::path& run,
                                   gallery::GalleryOptions options);

@@ -88,9 +88,22 @@ void write_engine(Html& html, const records::FarmEngine& engine, const EnginePic
   write_file_link(html, image->log, "the engine’s own output");
 }
 
+/// Of a report: where each picture comes from, and how to compare them again.
+void write_origins(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
+  const Tag section(html, "section", {{"class", "making"}, {"aria-labelledby", "making"}});
+  html.element("h2", {{"id", "making"}}, "Where the pictures come from");
+  for (const EnginePicture& image : cell.images) {
+    const Tag block(html, "div", {{"class", "engine"}});
+    html.element("h3", farm.engine_title(image.engine));
+    const Tag list(html, "dl", {{"class", "facts"}});
+    for (const auto& [name, value] : image.facts) write_fact(html, name, value);
+  }
+}
+
 }  // namespace
 
 void write_making(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
+  if (farm.is_report) return write_origins(html, farm, cell);
   const Tag section(html, "section", {{"class", "making"}, {"aria-labelledby", "making"}});
   if (cell.has_record) {
     html.element("h2", {{"id", "making"}}, "How each picture was made");

@@ -76,24 +76,28 @@ void write_agreement(Html& html, const ShownFarm& farm, const CheckedCell& cell)
   constexpr char kFigure[] = "max_rel_peak";
   if (cell.comparisons.empty()) return;
   const Tag table(html, "table", {{"class", "agreement"}});
-  write_columns(html, {"Picture", farm.metrics.info(kFigure).title, "Verdict", "Time"});
+  std::vector<std::string> columns = {"Picture", farm.metrics.info(kFigure).title, "Verdict"};
+  if (!farm.is_report) columns.emplace_back("Time");
+  write_columns(html, columns);
   const Tag body(html, "tbody");
   for (const CheckedComparison& comparison : cell.comparisons) {
     const Tag row(html, "tr");
-    html.element("th", {{"scope", "row"}}, farm.engine_title(comparison.entry.b));
+    const std::string& other = cell.other_of(comparison);
+    html.element("th", {{"scope", "row"}}, farm.engine_title(other));
     const auto worst = comparison.metric(kFigure);
     html.element("td", {{"class", "number"}}, worst ? farm.metrics.text(kFigure, *worst) : "–");
     std::string words = verdict_words(comparison);
     if (const double outliers = comparison.metric("outliers").value_or(0); outliers > 0)
       words += ", " + count_text(outliers) + " px beyond the tolerance";
     html.element("td", words);
-    html.element("td", time_text(cell.find_image(comparison.entry.b)));
+    if (!farm.is_report) html.element("td", time_text(cell.find_image(other)));
   }
+  if (farm.is_report) return;
   const Tag row(html, "tr");
-  html.element("th", {{"scope", "row"}}, farm.engine_title(kOurEngine));
+  html.element("th", {{"scope", "row"}}, farm.engine_title(farm.hub));
   html.element("td", {{"class", "number"}}, "–");
   html.element("td", "ours");
-  html.element("td", time_text(cell.find_image(kOurEngine)));
+  html.element("td", time_text(cell.find_image(farm.hub)));
 }
 
 /// Lists each file that is not as the farm wrote it.
@@ -115,16 +119,27 @@ void write_flaws(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   write_command(html, farm.record.command);
 }
 
+/// What an artist would say of each highlight, and the limits that are broken.
+void write_findings(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
+  for (const CheckedComparison& comparison : cell.comparisons) {
+    if (!comparison.sentence.empty())
+      html.element("p", {{"class", "finding"}}, comparison.sentence + ".");
+    if (!farm.is_report) continue;
+    for (const std::string& reason : broken_limits(farm, comparison)) html.element("p", reason);
+  }
+}
+
 void write_verdict(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag box(html, "div", {{"class", "verdict " + std::string(info(cell.status).name)}});
   {
     const Tag line(html, "p");
     write_status(html, cell.status);
     html.text(" ");
-    html.text(info(cell.status).meaning);
+    html.text(farm.is_report ? info(cell.status).of_pair : info(cell.status).meaning);
   }
   if (!cell.unreadable.empty()) html.element("p", cell.unreadable);
   write_flaws(html, farm, cell);
+  write_findings(html, farm, cell);
   write_agreement(html, farm, cell);
   for (const records::CellProblem& problem : cell.record.problems) {
     const Tag line(html, "p");
@@ -168,13 +183,13 @@ std::string cell_page(const SiteFrame& site, const ShownFarm& farm, const CellEn
   }
   if (cell.has_record) {
     write_pictures(html, farm, cell);
-    write_profile(html, farm, cell);
+    if (!farm.is_report) write_profile(html, farm, cell);
     write_numbers(html, farm, cell);
-    write_plan(html, cell);
+    if (!farm.is_report) write_plan(html, cell);
   }
   write_making(html, farm, cell);
   const std::string folder = link_to({"cells", entry.id}) + "/";
-  const EnginePicture* ours = cell.find_image(kOurEngine);
+  const EnginePicture* ours = cell.find_image(farm.hub);
   const PageFrame frame{title,
                         "cell",
                         "../../",

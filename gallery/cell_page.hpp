@@ -27,6 +27,8 @@ void write_plan(Html& html, const CheckedCell& cell);
 /// Commands, versions, times and files of each picture.
 void write_making(Html& html, const ShownFarm& farm, const CheckedCell& cell);
 
+/// "Largest difference: 2 %, limit 1 %" for each limit that does not hold.
+std::vector<std::string> broken_limits(const ShownFarm& farm, const CheckedComparison& comparison);
 /// "✓ pass", or why there is no verdict.
 std::string verdict_words(const CheckedComparison& comparison);
 /// The zones of a highlight, from the middle outward.

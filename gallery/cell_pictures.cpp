@@ -67,9 +67,9 @@ void write_engine_picture(Html& html, const records::FarmEngine& engine, const C
   {
     const Tag caption(html, "figcaption");
     html.element("strong", engine.title);
-    const std::string words = !image                      ? ""
-                              : engine.name == kOurEngine ? "ours"
-                                                          : shading_words(*image);
+    const std::string words = !image || cell.hub != kOurEngine ? ""
+                              : engine.name == kOurEngine      ? "ours"
+                                                               : shading_words(*image);
     if (!words.empty()) html.text(" · " + words);
   }
   if (image && image->png.shown())
@@ -91,11 +91,12 @@ void write_scale(Html& html, const CheckedComparison& comparison) {
 void write_difference(Html& html, const records::FarmEngine& engine, const CheckedCell& cell) {
   const CheckedComparison* comparison = cell.find_comparison(engine.name);
   const Tag figure(html, "figure");
-  html.element("figcaption", {}, "Difference from " + engine.title);
+  html.element("figcaption", {},
+               (cell.hub == kOurEngine ? "Difference from " : "Difference of ") + engine.title);
   if (!comparison) {
     write_absence(html, "There is nothing to compare with: no picture by " + engine.title + ".");
   } else if (comparison->png.shown()) {
-    write_image(html, comparison->png, "Difference between ours and " + engine.title);
+    write_image(html, comparison->png, "Difference of the two pictures: " + engine.title);
     write_scale(html, *comparison);
   } else {
     write_absence(html, comparison->png.why_not);
@@ -111,9 +112,9 @@ void write_explanation(Html& html, const CheckedCell& cell) {
                           "from the linear float pictures, not from these.");
   }
   html.element("p",
-               "A difference picture shows |ours − theirs| for red, green and blue, divided by the "
-               "value printed below it and clipped at 1. It is not encoded for the display: half "
-               "the value is half the light level in the file.");
+               "A difference picture shows |a − b| of the two for red, green and blue, divided by "
+               "the value printed below it and clipped at 1. It is not encoded for the display: "
+               "half the value is half the light level in the file.");
 }
 
 }  // namespace
@@ -130,7 +131,7 @@ void write_pictures(Html& html, const ShownFarm& farm, const CheckedCell& cell) 
   }
   const Tag row(html, "div", {{"class", "picture-row"}});
   for (const records::FarmEngine& engine : farm.record.engines) {
-    if (engine.name == kOurEngine)
+    if (engine.name == farm.hub)
       write_explanation(html, cell);
     else
       write_difference(html, engine, cell);

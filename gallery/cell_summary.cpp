@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/numbers.hpp"
+#include "gallery/cell_page.hpp"
 #include "gallery/index_page.hpp"
 
 namespace lobelia::gallery {
@@ -36,20 +37,28 @@ std::vector<std::string> reasons_of(const ShownFarm& farm, const CheckedCell& ce
   for (const records::NotComparable& one : cell.record.not_comparable)
     reasons.push_back(farm.engine_title(one.engine) + ": not comparable, because " + one.because);
   for (const CheckedComparison& comparison : cell.comparisons) {
-    const std::string pair = farm.engine_title(comparison.entry.b) + " · ";
+    const bool is_named = farm.record.engines.size() > 2 || !farm.is_report;
+    const std::string pair =
+        is_named ? farm.engine_title(cell.other_of(comparison)) + " · " : std::string();
+    if (!comparison.sentence.empty()) reasons.push_back(pair + comparison.sentence);
     if (comparison.verdict == "non-finite") reasons.push_back(pair + "pixels that are not finite");
-    for (const records::Limit& limit : comparison.record.limits) {
-      if (limit.pass) continue;
-      reasons.push_back(fmt::format("{}{}: {}, limit {}", pair,
-                                    farm.metrics.info(limit.metric).title,
-                                    farm.metrics.text(limit.metric, limit.value),
-                                    farm.metrics.text(limit.metric, limit.limit)));
-    }
+    for (const std::string& reason : broken_limits(farm, comparison))
+      reasons.push_back(pair + reason);
   }
   return reasons;
 }
 
 }  // namespace
+
+std::vector<std::string> broken_limits(const ShownFarm& farm, const CheckedComparison& comparison) {
+  std::vector<std::string> sentences;
+  for (const records::Limit& limit : comparison.record.limits)
+    if (!limit.pass)
+      sentences.push_back(fmt::format("{}: {}, limit {}", farm.metrics.info(limit.metric).title,
+                                      farm.metrics.text(limit.metric, limit.value),
+                                      farm.metrics.text(limit.metric, limit.limit)));
+  return sentences;
+}
 
 CellSummary summarise(const ShownFarm& farm, const CellEntry& entry, const CheckedCell& cell) {
   CellSummary summary;
@@ -57,16 +66,23 @@ CellSummary summarise(const ShownFarm& farm, const CellEntry& entry, const Check
   summary.status = cell.status;
   summary.is_as_written =
       !is_flaw(cell.status) && cell.status != CellStatus::kUnsealed && cell.contradictions.empty();
-  if (const EnginePicture* ours = cell.find_image(kOurEngine)) summary.picture = ours->png;
-  for (const records::FarmEngine& engine : farm.record.engines)
-    if (engine.name != kOurEngine && engine.available)
-      summary.figures.push_back(figure(farm, engine, cell));
+  if (const EnginePicture* ours = cell.find_image(farm.hub)) summary.picture = ours->png;
+  for (const records::FarmEngine& engine : farm.record.engines) {
+    if (engine.name == farm.hub || !engine.available) continue;
+    summary.figures.push_back(figure(farm, engine, cell));
+    if (!farm.is_report) continue;
+    if (const EnginePicture* theirs = cell.find_image(engine.name))
+      summary.beside.push_back(theirs->png);
+    if (const CheckedComparison* comparison = cell.find_comparison(engine.name))
+      summary.beside.push_back(comparison->png);
+  }
   for (const CheckedComparison& comparison : cell.comparisons) {
-    if (comparison.entry.a != kOurEngine || comparison.doubt) continue;
+    if ((comparison.entry.a != farm.hub && comparison.entry.b != farm.hub) || comparison.doubt)
+      continue;
     records::Named<double> numbers;
     for (const auto& metric : comparison.record.metrics)
       if (!is_coordinate(metric.first)) numbers.push_back(metric);
-    summary.metrics.emplace_back(comparison.entry.b, std::move(numbers));
+    summary.metrics.emplace_back(cell.other_of(comparison), std::move(numbers));
   }
   if (summary.status != CellStatus::kPass) summary.reasons = reasons_of(farm, cell);
   return summary;

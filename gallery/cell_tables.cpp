@@ -92,8 +92,8 @@ std::string tolerance_text(const CheckedComparison& comparison) {
 
 std::string nonfinite_text(const CheckedComparison& comparison) {
   const records::Nonfinite& nonfinite = comparison.record.nonfinite;
-  return count_text(double(nonfinite.a)) + " in ours, " + count_text(double(nonfinite.b)) +
-         " in theirs";
+  return count_text(double(nonfinite.a)) + " in the first, " + count_text(double(nonfinite.b)) +
+         " in the second";
 }
 
 std::string viewing_text(const CheckedComparison& comparison) {
@@ -127,8 +127,10 @@ void write_numbers(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
   const Tag section(html, "section", {{"aria-labelledby", "numbers"}});
   html.element("h2", {{"id", "numbers"}}, "The numbers");
   if (cell.comparisons.empty())
-    return write_absence(html,
-                         "Our picture was compared with no other: no reference picture was there.");
+    return write_absence(html, farm.is_report
+                                   ? "The pictures could not be compared."
+                                   : "Our picture was compared with no other: no reference "
+                                     "picture was there.");
   const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
   const Tag table(html, "table", {{"class", "metrics"}});
   std::vector<std::string> titles = {"Measure"};
@@ -145,7 +147,7 @@ void write_numbers(Html& html, const ShownFarm& farm, const CheckedCell& cell) {
 }
 
 void write_plan(Html& html, const CheckedCell& cell) {
-  const EnginePicture* ours = cell.find_image(kOurEngine);
+  const EnginePicture* ours = cell.find_image(cell.hub);
   const Tag section(html, "section", {{"aria-labelledby", "plan"}});
   html.element("h2", {{"id", "plan"}}, "The plan");
   if (!ours || !ours->render || ours->render->plan.effects.empty())

@@ -215,8 +215,9 @@ const EnginePicture* CheckedCell::find_image(const std::string& engine) const {
   return at == images.end() ? nullptr : &*at;
 }
 
-const CheckedComparison* CheckedCell::find_comparison(const std::string& b) const {
-  const auto at = std::ranges::find(comparisons, b, [](const auto& one) { return one.entry.b; });
+const CheckedComparison* CheckedCell::find_comparison(const std::string& other) const {
+  const auto at = std::ranges::find_if(
+      comparisons, [&](const CheckedComparison& one) { return other_of(one) == other; });
   return at == comparisons.end() ? nullptr : &*at;
 }
 

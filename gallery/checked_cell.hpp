@@ -27,7 +27,8 @@ struct EnginePicture {
   std::string float_script;  ///< published beside the page, with its values (float_pictures.cpp)
   std::string problem;       ///< why its record cannot be read
   std::string made_by;
-  std::optional<records::Render> render;        ///< set for our picture
+  records::Named<std::string> facts;      ///< of a report's picture: its file, and how it was read
+  std::optional<records::Render> render;  ///< set for our picture
   std::optional<records::Reference> reference;  ///< set for the other engines' pictures
 };
 
@@ -39,12 +40,15 @@ struct CheckedComparison {
   std::string verdict;                  ///< of its record, or by its figures if that is worse
   std::optional<CellStatus> doubt;      ///< a flaw of its record or of one of its two pictures
   std::vector<records::ShownMap> maps;  ///< published beside the page (difference_maps.cpp)
+  std::string region;    ///< likewise, the pixels of the highlight; empty: there are none
+  std::string sentence;  ///< what an artist would say of the highlight; may be empty
 
   std::optional<double> metric(const std::string& id) const;
 };
 
 struct CheckedCell {
   std::string id;
+  std::string hub = kOurEngine;  ///< as ShownFarm has it
   CellStatus status = CellStatus::kMissing;
   std::string unreadable;  ///< why cell.json cannot be read; then nothing below is filled
   std::vector<Flaw> flaws;
@@ -61,7 +65,11 @@ struct CheckedCell {
   bool has_scene = false;
 
   const EnginePicture* find_image(const std::string& engine) const;
-  const CheckedComparison* find_comparison(const std::string& b) const;
+  /// The engine that a comparison has besides the hub.
+  const std::string& other_of(const CheckedComparison& comparison) const {
+    return comparison.entry.a == hub ? comparison.entry.b : comparison.entry.a;
+  }
+  const CheckedComparison* find_comparison(const std::string& other) const;
 };
 
 /// Reads DIR/cells/ID/cell.json and every file it names, and judges the cell again. Files with a flaw are not used.

@@ -13,6 +13,9 @@ class CellPictures {
  public:
   explicit CellPictures(std::filesystem::path cell_directory)
       : directory_(std::move(cell_directory)) {}
+  /// Pictures that are in memory already, by the names that they would have.
+  explicit CellPictures(std::map<std::string, std::optional<Image>> pictures)
+      : pictures_(std::move(pictures)) {}
   /// By its file's name. Empty if it cannot be read; throws Error of any kind but kInput.
   const std::optional<Image>& of(const std::string& file);
 
@@ -25,13 +28,17 @@ class CellPictures {
 /// picture's `small`. With `all`, for every picture larger than a preview; then only that is published.
 void publish_small_pictures(const std::filesystem::path& run, CheckedCell& cell, bool all,
                             Publisher& publisher);
+/// Writes a picture of a cell that is in memory, and its small one if it is large.
+Picture publish_shown(const std::string& cell, const std::string& file, const DisplayImage& shown,
+                      bool only_small, Publisher& publisher);
 /// Writes "ENGINE.float.js" for each readable EXR of the size of ours, and names it in the image's `float_script`.
 /// Ours is kept as it is, every other as its difference from ours, which shows the agreement to many more digits than two
 /// rounded pictures could.
-void publish_float_pictures(CellPictures& pictures, CheckedCell& cell, Publisher& publisher);
+void publish_float_pictures(CellPictures& pictures, const GalleryOptions& options,
+                            CheckedCell& cell, Publisher& publisher);
 /// Writes "ENGINE.map.ID.js" for each kind of map and each comparison of two pictures of one size on a plain display,
-/// and adds it to the comparison's `maps`.
-void publish_difference_maps(CellPictures& pictures, const std::vector<MapKind>& kinds,
+/// and adds it to the comparison's `maps`; and "ENGINE.region.js" with the pixels of the highlight.
+void publish_difference_maps(CellPictures& pictures, const GalleryOptions& options,
                              CheckedCell& cell, Publisher& publisher);
 
 /// Scales the bytes that a picture of 512 x 512 pixels may have to the size of `image`, if that is larger.

@@ -1,6 +1,11 @@
 #include <fmt/format.h>
 
+#include <span>
+
+#include "core/image_values.hpp"
 #include "gallery/derived_pictures.hpp"
+#include "gallery/page.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -41,11 +46,37 @@ std::string script_of(const MapKind& kind, const MapViewing& viewing, const std:
   return script;
 }
 
+/// Runs of pixels that are not 0.
+records::PixelRuns runs_of(std::span<const std::uint8_t> region, int width, int height) {
+  records::PixelRuns result{width, height, {}};
+  for (std::size_t i = 0; i < region.size();) {
+    const auto row_end = (i / std::size_t(width) + 1) * std::size_t(width);
+    std::size_t end = i;
+    while (end < row_end && region[end] != 0) ++end;
+    if (end > i) result.runs.insert(result.runs.end(), {int(i), int(end - i)});
+    i = std::max(end, i + 1);
+  }
+  return result;
+}
+
+/// "" if there is nothing to outline, or too much: a noisy picture has no outline that could be seen.
+std::string region_script(const RegionOf& region, const std::optional<Image>& a,
+                          const std::optional<Image>& b) {
+  constexpr std::size_t kMostRuns = 20'000;
+  if (!a || !b || a->width() != b->width() || a->height() != b->height() || !is_finite(*a) ||
+      !is_finite(*b))
+    return "";
+  const records::PixelRuns runs = runs_of(region(*a, *b), a->width(), a->height());
+  return runs.runs.empty() || runs.runs.size() > 2 * kMostRuns
+             ? ""
+             : data_script("region", records::record_line(runs));
+}
+
 }  // namespace
 
-void publish_difference_maps(CellPictures& pictures, const std::vector<MapKind>& kinds,
+void publish_difference_maps(CellPictures& pictures, const GalleryOptions& options,
                              CheckedCell& cell, Publisher& publisher) {
-  if (kinds.empty()) return;
+  const std::vector<MapKind>& kinds = options.maps;
   for (CheckedComparison& comparison : cell.comparisons) {
     const EnginePicture* a = cell.find_image(comparison.entry.a);
     const EnginePicture* b = cell.find_image(comparison.entry.b);
@@ -53,13 +84,22 @@ void publish_difference_maps(CellPictures& pictures, const std::vector<MapKind>&
     if (!a || !b || a->exr.empty() || b->exr.empty() || !comparison.problem.empty() || seen.display)
       continue;
     const MapViewing viewing{seen.exposure_stops, seen.pixels_per_degree};
-    const std::size_t bytes = kMapBytes / (kinds.size() * cell.comparisons.size());
+    const std::string folder = "cells/" + cell.id + "/";
+    const std::string pair = a->exr_sha256 + " and " + b->exr_sha256;
+    if (const std::string file = cell.other_of(comparison) + ".region.js";
+        options.region && publisher.derive(folder + file, "region 1 of " + pair, [&] {
+          return region_script(options.region, pictures.of(a->exr), pictures.of(b->exr));
+        }))
+      comparison.region = file;
+    if (kinds.empty()) continue;
+    const auto bytes = std::size_t(options.share_of_bytes * double(kMapBytes)) /
+                       (kinds.size() * cell.comparisons.size());
     for (const MapKind& kind : kinds) {
-      const std::string file = fmt::format("{}.map.{}.js", comparison.entry.b, kind.id);
-      const std::string key = fmt::format(
-          "{} of {}: {} of {} and {}, {} stops, {} pixels per degree", kMapFormat, bytes, kind.id,
-          a->exr_sha256, b->exr_sha256, viewing.exposure_stops, viewing.pixels_per_degree);
-      if (publisher.derive("cells/" + cell.id + "/" + file, key, [&] {
+      const std::string file = fmt::format("{}.map.{}.js", cell.other_of(comparison), kind.id);
+      const std::string key =
+          fmt::format("{} of {}: {} of {}, {} stops, {} pixels per degree", kMapFormat, bytes,
+                      kind.id, pair, viewing.exposure_stops, viewing.pixels_per_degree);
+      if (publisher.derive(folder + file, key, [&] {
             return script_of(kind, viewing, pictures.of(a->exr), pictures.of(b->exr), bytes);
           }))
         comparison.maps.push_back({kind.id, kind.title, kind.meaning, file});

@@ -54,7 +54,8 @@ Packing pack_as_fine_as_fits(const std::vector<PackedImage>& images, std::size_t
 
 /// The scripts of all float pictures of a cell, by engine.
 std::map<std::string, std::string> make_scripts(CellPictures& pictures, const CheckedCell& cell,
-                                                const EnginePicture& our_image) {
+                                                const EnginePicture& our_image,
+                                                std::size_t bytes_of_512) {
   std::map<std::string, std::string> scripts;
   const std::optional<Image>& ours = pictures.of(our_image.exr);
   if (!ours) return scripts;
@@ -67,9 +68,9 @@ std::map<std::string, std::string> make_scripts(CellPictures& pictures, const Ch
     if (!theirs || theirs->width() != ours->width() || theirs->height() != ours->height()) continue;
     others.push_back({image.engine, from_ours ? difference(*theirs, *ours) : *theirs, from_ours});
   }
-  const std::size_t max_bytes = bytes_for(*ours, kFloatPictureBytes);
+  const std::size_t max_bytes = bytes_for(*ours, bytes_of_512);
   std::vector<PackedImage> first;
-  first.push_back({kOurEngine, *ours, false});
+  first.push_back({our_image.engine, *ours, false});
   // A noisy picture takes all it can get: ours has half, the others the rest, and ours again what they leave.
   const Packing half = pack_as_fine_as_fits(first, max_bytes / 2, scripts);
   const std::size_t rest = max_bytes - std::min(max_bytes, half.bytes);
@@ -81,9 +82,11 @@ std::map<std::string, std::string> make_scripts(CellPictures& pictures, const Ch
 
 }  // namespace
 
-void publish_float_pictures(CellPictures& pictures, CheckedCell& cell, Publisher& publisher) {
-  const EnginePicture* our_image = cell.find_image(kOurEngine);
+void publish_float_pictures(CellPictures& pictures, const GalleryOptions& options,
+                            CheckedCell& cell, Publisher& publisher) {
+  const EnginePicture* our_image = cell.find_image(cell.hub);
   if (!our_image || our_image->exr.empty()) return;
+  const auto bytes = std::size_t(options.share_of_bytes * double(kFloatPictureBytes));
   // The key names all pictures, because they share the bytes.
   std::string all_hashes;
   for (const EnginePicture& image : cell.images)
@@ -94,8 +97,8 @@ void publish_float_pictures(CellPictures& pictures, CheckedCell& cell, Publisher
     if (image.exr.empty()) continue;
     const std::string file = image.engine + ".float.js";
     if (publisher.derive("cells/" + cell.id + "/" + file,
-                         fmt::format("{} of {}, {}", kFormat, kFloatPictureBytes, all_hashes), [&] {
-                           if (!scripts) scripts = make_scripts(pictures, cell, *our_image);
+                         fmt::format("{} of {}, {}", kFormat, bytes, all_hashes), [&] {
+                           if (!scripts) scripts = make_scripts(pictures, cell, *our_image, bytes);
                            return (*scripts)[image.engine];
                          }))
       image.float_script = file;

@@ -25,10 +25,15 @@ struct MapKind {
       measure;
 };
 
+/// The pixels that a verdict was about, by pixel not 0: the highlight of two finite pictures of one size.
+using RegionOf = std::function<std::vector<std::uint8_t>(const Image& a, const Image& b)>;
+
 struct GalleryOptions {
   std::filesystem::path site;       ///< output directory; empty: the run's own directory
   bool metrics_only = false;        ///< no float pictures: numbers, curves and thumbnails
   std::vector<MapKind> maps;        ///< made for every comparison, unless metrics_only
+  RegionOf region;                  ///< likewise; may be empty
+  double share_of_bytes = 1;        ///< of what float pictures and maps of a cell may take
   std::vector<MetricInfo> metrics;  ///< that pages can explain; any other is shown by its id
   std::string title;                ///< empty: the grid's
   std::string base_url;             ///< public address, for previews of links to it; empty: unknown

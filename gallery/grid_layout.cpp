@@ -36,10 +36,16 @@ std::vector<int> in_reading_order(const ShownFarm& farm) {
 
 }  // namespace
 
+bool is_list(const ShownFarm& farm) {
+  return farm.record.axes.size() == 1 &&
+         (farm.is_report || axis_size(farm, 0) > kMaxGroupedColumns);
+}
+
 GridLayout lay_out(const ShownFarm& farm) {
   require_drawable(farm);
   std::vector<int> axes = in_reading_order(farm);
   GridLayout layout;
+  if (is_list(farm)) return layout;
   const auto take_first = [&] {
     const int axis = axes.front();
     axes.erase(axes.begin());

@@ -7,7 +7,7 @@ namespace lobelia::gallery {
 
 /// The first axis runs down, the second groups the columns, the third runs across, and every combination
 /// of the others has a section of its own. With fewer axes, or too many columns, there are no groups. The light is
-/// always the last axis. -1: no such axis.
+/// always the last axis. -1: no such axis. A single axis that is too long for a line is a list: it has no columns either.
 struct GridLayout {
   int rows = -1, groups = -1, columns = -1;
   std::vector<int> section_axes;
@@ -19,6 +19,8 @@ struct GridLayout {
   /// "Light: 45 degrees"; empty if there are no section axes.
   std::string section_label(const ShownFarm& farm, const std::vector<int>& section) const;
 };
+
+bool is_list(const ShownFarm& farm);
 
 /// Throws Error(kInput) if the axes span more places than a page can show.
 GridLayout lay_out(const ShownFarm& farm);

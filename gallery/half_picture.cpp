@@ -87,14 +87,14 @@ std::string deflated(const std::string& bytes) {
   return result;
 }
 
-std::string base64(const std::string& bytes) {
+}  // namespace
+
+std::string base64(std::string_view bytes) {
   std::string text((bytes.size() + 2) / 3 * 4, '\0');
   EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
                   reinterpret_cast<const unsigned char*>(bytes.data()), int(bytes.size()));
   return text;
 }
-
-}  // namespace
 
 records::PackedPicture half_picture(const Image& image, int precision) {
   records::PackedPicture result;

@@ -12,6 +12,7 @@ class GridWriter {
       : html_(html), farm_(farm), cells_(cells), layout_(lay_out(farm)) {}
 
   void write() {
+    if (is_list(farm_)) return write_list();
     for (std::size_t i = 0; i < layout_.sections.size(); ++i) write_section(i);
     write_rest();
   }
@@ -105,20 +106,49 @@ class GridWriter {
     const std::string words = cell.entry->label + ": " + std::string(info(cell.status).word);
     {
       const Tag link(html_, "a", {{"href", link_to({"cells", cell.entry->id, "index.html"})}});
-      if (cell.picture.shown()) {
-        const SmallPicture picture = cell.picture.preview();
-        html_.empty("img", {{"src", link_to({"cells", cell.entry->id, picture.file})},
-                            {"alt", words},
-                            {"width", std::to_string(picture.width)},
-                            {"height", std::to_string(picture.height)},
-                            {"loading", "lazy"},
-                            {"decoding", "async"}});
-      } else {
+      write_picture(cell, cell.picture, words);
+      if (!cell.picture.shown()) {
         html_.element("span", {{"class", "no-picture"}, {"aria-label", words + ", no picture"}},
                       "no picture");
       }
     }
     write_status(html_, cell.status);
+    write_figures(cell);
+  }
+
+  /// The whole grid as a list, the worst first.
+  void write_list() {
+    const Tag outer(html_, "section",
+                    {{"class", "grid-section"}, {"aria-labelledby", "grid-list"}});
+    html_.element("h2", {{"id", "grid-list"}}, fmt::format("All {}s", farm_.noun()));
+    const Tag list(html_, "ul", {{"class", "cell-list"}});
+    for (const CellSummary& cell : cells_) {
+      const Tag item(html_, "li");
+      const std::string href = link_to({"cells", cell.entry->id, "index.html"});
+      {
+        const Tag link(html_, "a", {{"href", href}, {"class", "pictures-beside"}});
+        write_picture(cell, cell.picture, "");
+        for (const Picture& picture : cell.beside) write_picture(cell, picture, "");
+      }
+      html_.element("a", {{"href", href}, {"class", "cell-name"}}, cell.entry->label);
+      html_.text(" ");
+      write_status(html_, cell.status);
+      write_figures(cell);
+    }
+  }
+
+  void write_picture(const CellSummary& cell, const Picture& picture, const std::string& words) {
+    if (!picture.shown()) return;
+    const SmallPicture small = picture.preview();
+    html_.empty("img", {{"src", link_to({"cells", cell.entry->id, small.file})},
+                        {"alt", words},
+                        {"width", std::to_string(small.width)},
+                        {"height", std::to_string(small.height)},
+                        {"loading", "lazy"},
+                        {"decoding", "async"}});
+  }
+
+  void write_figures(const CellSummary& cell) {
     for (const EngineFigure& figure : cell.figures) {
       const Tag line(html_, "span", {{"class", "worst"}});
       html_.element("span", figure.engine);

@@ -23,19 +23,19 @@ constexpr CellStatus kLookOrder[] = {
 std::string reference_titles(const ShownFarm& farm) {
   std::vector<std::string> titles;
   for (const records::FarmEngine& engine : farm.record.engines)
-    if (engine.name != kOurEngine && engine.available) titles.push_back(engine.title);
+    if (engine.name != farm.hub && engine.available) titles.push_back(engine.title);
   if (titles.empty()) return "";
   const std::string last = titles.back();
   titles.pop_back();
   return titles.empty() ? last : fmt::format("{} and {}", fmt::join(titles, ", "), last);
 }
 
-void write_counts(Html& html, const std::vector<CellSummary>& cells) {
+void write_counts(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const Tag list(html, "ul", {{"class", "counts"}});
   {
     const Tag item(html, "li");
     html.element("strong", count_text(static_cast<double>(cells.size())));
-    html.text(cells.size() == 1 ? " cell" : " cells");
+    html.text(fmt::format(" {}{}", farm.noun(), cells.size() == 1 ? "" : "s"));
   }
   for (const CellStatus status : kCellStatuses) {
     const auto count = std::ranges::count(cells, status, &CellSummary::status);
@@ -56,7 +56,13 @@ bool has_formulas(const ShownFarm& farm) {
 void write_introduction(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const Tag header(html, "header", {{"class", "top"}});
   html.element("h1", farm.record.title);
-  write_counts(html, cells);
+  write_counts(html, farm, cells);
+  if (farm.is_report) {
+    html.element("p", {{"class", "lead"}},
+                 fmt::format("{}: each picture was compared with the one of {}.",
+                             reference_titles(farm), farm.engine_title(farm.hub)));
+    return;
+  }
   const std::string references = reference_titles(farm);
   html.element(
       "p", {{"class", "lead"}},
@@ -127,8 +133,16 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
         const Tag term(html, "dt");
         write_status(html, status);
       }
-      html.element("dd", info(status).meaning);
+      html.element("dd", farm.is_report ? info(status).of_pair : info(status).meaning);
     }
+  }
+  if (farm.is_report) {
+    html.element(
+        "p",
+        "The pictures of a pair, from the left: the reference, and each other one followed "
+        "by its difference from it, |a − b|, whose largest value is white. The worst pair "
+        "is first: the one whose figure is the most times over its limit.");
+    return;
   }
   const Tag words(html, "div");
   html.element(

@@ -19,7 +19,8 @@ struct CellSummary {
   const CellEntry* entry = nullptr;
   CellStatus status = CellStatus::kMissing;
   bool is_as_written = true;          ///< no flaw, no contradiction, and sealed
-  Picture picture;                    ///< ours
+  Picture picture;                    ///< the hub's
+  std::vector<Picture> beside;        ///< of a report: each other's, followed by the difference
   std::vector<EngineFigure> figures;  ///< one per available reference engine
   std::vector<std::string> reasons;   ///< why it is not a pass
   /// By each engine that was compared with ours: all metrics but coordinates.

@@ -55,10 +55,15 @@ records::GridCell grid_cell(const CellSummary& cell, MetricColumns& columns) {
   data.at = entry.at;
   for (const auto& [engine, numbers] : cell.metrics)
     data.metrics.emplace_back(engine, columns.row_of(numbers));
-  if (cell.picture.shown()) {
-    const SmallPicture picture = cell.picture.preview();
-    data.picture = {link_to({"cells", entry.id, picture.file}), picture.width, picture.height};
-  }
+  const auto grid_picture = [&](const Picture& picture) {
+    const SmallPicture small = picture.preview();
+    return records::GridPicture{link_to({"cells", entry.id, small.file}), small.width,
+                                small.height};
+  };
+  if (cell.picture.shown()) data.picture = grid_picture(cell.picture);
+  for (const Picture& picture : cell.beside)
+    if (picture.shown()) data.beside.push_back(grid_picture(picture));
+  if (!cell.beside.empty() && !cell.reasons.empty()) data.finding = cell.reasons.front();
   return data;
 }
 
@@ -78,6 +83,7 @@ records::ShownComparison shown_comparison(const CheckedComparison& comparison) {
   data.relative_to_peak = comparison.entry.difference.relative_to_peak;
   data.maps = comparison.maps;
   for (records::ShownMap& map : data.maps) map.script = link_to({map.script});
+  if (!comparison.region.empty()) data.region = link_to({comparison.region});
   data.worst_x = comparison.metric("max_abs.x");
   data.worst_y = comparison.metric("max_abs.y");
   return data;
@@ -96,13 +102,14 @@ std::optional<records::ShownProfile> shown_profile(const CheckedCell& cell) {
 
 records::GridPage grid_page_data(const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   records::GridPage data;
+  data.noun = farm.noun();
   for (const records::Axis& axis : farm.record.axes) {
     data.axes.push_back({axis.name, {}});
     for (const records::AxisValue& value : axis.values)
       data.axes.back().values.push_back(value.label);
   }
   for (const records::FarmEngine& engine : farm.record.engines)
-    if (engine.name != kOurEngine && engine.available)
+    if (engine.name != farm.hub && engine.available)
       data.engines.push_back({engine.name, engine.title, farm.short_title(engine)});
   const GridLayout layout = lay_out(farm);
   data.layout = {layout.rows, layout.groups, layout.columns};
@@ -120,6 +127,7 @@ records::CellPage cell_page_data(const ShownFarm& farm, const CellEntry& entry,
   records::CellPage data;
   data.id = cell.id;
   data.label = entry.label;
+  data.is_report = farm.is_report;
   data.exposure_stops = cell.record.exposure_stops;
   for (const records::FarmEngine& engine : farm.record.engines) {
     const EnginePicture* image = cell.find_image(engine.name);

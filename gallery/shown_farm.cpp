@@ -63,6 +63,18 @@ const CellEntry* ShownFarm::find_cell(const std::vector<int>& at) const {
   return found == cell_at.end() ? nullptr : &cells[found->second];
 }
 
+ShownFarm show(records::Farm record, const Metrics& metrics) {
+  ShownFarm farm;
+  farm.record = std::move(record);
+  farm.metrics = metrics;
+  fill_titles(farm.record);
+  for (const records::FarmCell& cell : farm.record.cells) {
+    farm.cells.push_back(entry_of(cell, farm.record.axes));
+    farm.cell_at.emplace(farm.cells.back().at, farm.cells.size() - 1);
+  }
+  return farm;
+}
+
 ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics) {
   const auto path = directory / "farm.json";
   std::error_code ignored;
@@ -71,20 +83,13 @@ ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metri
                 path.string() +
                     ": no such file; a gallery is made of a directory that 'lobelia farm' wrote");
   records::Origin origin;
-  ShownFarm farm;
-  farm.record = records::read_record<records::Farm>(path, &origin);
+  ShownFarm farm = show(records::read_record<records::Farm>(path, &origin), metrics);
   farm.made_by = origin.made_by;
-  farm.metrics = metrics;
-  fill_titles(farm.record);
   std::set<std::string> ids;
-  for (const records::FarmCell& cell : farm.record.cells) {
-    if (!ids.insert(cell.id).second)
-      throw Error(ExitCode::kInput,
-                  fmt::format("{}: cells[{}].id: '{}' stands there twice", path.string(),
-                              farm.cells.size(), printable(cell.id)));
-    farm.cells.push_back(entry_of(cell, farm.record.axes));
-    farm.cell_at.emplace(farm.cells.back().at, farm.cells.size() - 1);
-  }
+  for (std::size_t i = 0; i < farm.cells.size(); ++i)
+    if (!ids.insert(farm.cells[i].id).second)
+      throw Error(ExitCode::kInput, fmt::format("{}: cells[{}].id: '{}' stands there twice",
+                                                path.string(), i, printable(farm.cells[i].id)));
   return farm;
 }
 

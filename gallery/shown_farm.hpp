@@ -10,7 +10,7 @@
 
 namespace lobelia::gallery {
 
-/// The engine of our pictures; all others are its references.
+/// The engine of a farm's own pictures.
 inline constexpr char kOurEngine[] = "lobelia";
 
 struct CellEntry {
@@ -23,12 +23,17 @@ struct CellEntry {
 };
 
 struct ShownFarm {
-  records::Farm record;  ///< no title and no label is empty
+  records::Farm record;          ///< no title and no label is empty
+  std::string hub = kOurEngine;  ///< the engine whose picture is compared with each other's
+  /// Pictures from anywhere that `lobelia compare` has just compared: there are no scenes, no plans and no hashes.
+  bool is_report = false;
   std::string made_by;
   Metrics metrics;
   std::vector<CellEntry> cells;                     ///< in the record's order
   std::map<std::vector<int>, std::size_t> cell_at;  ///< the first cell at each position
 
+  /// "cell", or "pair" of a report.
+  std::string_view noun() const { return is_report ? "pair" : "cell"; }
   /// The engine's title, or its name if farm.json does not know it.
   std::string engine_title(const std::string& name) const;
   /// The title's first word if that tells the engines apart, else the title.
@@ -36,6 +41,9 @@ struct ShownFarm {
   /// The cell at these indices, or null.
   const CellEntry* find_cell(const std::vector<int>& at) const;
 };
+
+/// With titles and the place of each cell. The ids of the cells are plain names, each used once.
+ShownFarm show(records::Farm record, const Metrics& metrics);
 
 /// Throws Error(kInput), naming the file and the key.
 ShownFarm read_farm(const std::filesystem::path& directory, const Metrics& metrics = {});

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "gallery/derived_pictures.hpp"
 
 #include "core/colour.hpp"
@@ -37,16 +39,42 @@ Image reduced(const Image& image, int width, int height) {
   return result;
 }
 
-std::string small_png(const fs::path& picture, int width, int height) {
+std::string png_bytes(const DisplayImage& shown) {
   const TemporaryDirectory scratch;
-  const fs::path file = scratch.path() / "small.png";
+  const fs::path file = scratch.path() / "shown.png";
+  write_png(file, shown);
+  return read_file(file, std::uint64_t{1} << 32);
+}
+
+std::string small_png(const fs::path& picture, int width, int height) {
   try {
-    write_png(file, to_display(reduced(read_image(picture), width, height), 0));
+    return png_bytes(to_display(reduced(read_image(picture), width, height), 0));
   } catch (const Error& error) {
     if (error.code() != ExitCode::kInput) throw;
     return "";  // a broken picture has no preview
   }
-  return read_file(file, std::uint64_t{1} << 24);
+}
+
+struct Size {
+  int width, height;
+};
+
+/// Of the preview of a picture with the longer side over kSmallSide.
+Size small_size(int width, int height) {
+  const double factor = double(kSmallSide) / std::max(width, height);
+  return {std::max(1, int(width * factor + 0.5)), std::max(1, int(height * factor + 0.5))};
+}
+
+std::string small_name(const std::string& file) {
+  return fs::path(file).stem().string() + ".small.png";
+}
+
+/// The light of a display's pixels.
+Image light_of(const DisplayImage& shown) {
+  Image image(shown.width, shown.height);
+  for (std::size_t i = 0; i < shown.rgb.size(); ++i)
+    image.values()[i] = srgb_decoded(float(shown.rgb[i]) / 255);
+  return image;
 }
 
 void publish_small(const fs::path& run, const std::string& folder, bool all, Picture& picture,
@@ -55,10 +83,8 @@ void publish_small(const fs::path& run, const std::string& folder, bool all, Pic
   const fs::path file = run / folder / picture.file;
   std::error_code ignored;
   if (!all && fs::file_size(file, ignored) <= kLightBytes) return;
-  const double factor = double(kSmallSide) / std::max(picture.width, picture.height);
-  const int width = std::max(1, static_cast<int>(picture.width * factor + 0.5));
-  const int height = std::max(1, static_cast<int>(picture.height * factor + 0.5));
-  const std::string name = fs::path(picture.file).stem().string() + ".small.png";
+  const auto [width, height] = small_size(picture.width, picture.height);
+  const std::string name = small_name(picture.file);
   if (publisher.derive(folder + name, "small picture 1 of " + hex(sha256_of_file(file)),
                        [&] { return small_png(file, width, height); }))
     picture.small = {name, width, height};
@@ -66,6 +92,28 @@ void publish_small(const fs::path& run, const std::string& folder, bool all, Pic
 }
 
 }  // namespace
+
+Picture publish_shown(const std::string& cell, const std::string& file, const DisplayImage& shown,
+                      bool only_small, Publisher& publisher) {
+  const std::string folder = "cells/" + cell + "/";
+  const std::string_view bytes(reinterpret_cast<const char*>(shown.rgb.data()), shown.rgb.size());
+  const std::string key =
+      fmt::format("{} x {} of {}", shown.width, shown.height, hex(sha256(bytes)));
+  Picture picture{file, shown.width, shown.height, ""};
+  const bool is_large = std::max(shown.width, shown.height) > kSmallSide;
+  if (is_large) {
+    const auto [width, height] = small_size(shown.width, shown.height);
+    const std::string name = small_name(file);
+    publisher.derive(folder + name, "small shown 1 " + key, [&] {
+      return png_bytes(to_display(reduced(light_of(shown), width, height), 0));
+    });
+    picture.small = {name, width, height};
+    picture.is_published = !only_small;
+  }
+  if (picture.is_published)
+    publisher.derive(folder + file, "shown 1 " + key, [&] { return png_bytes(shown); });
+  return picture;
+}
 
 void publish_small_pictures(const fs::path& run, CheckedCell& cell, bool all,
                             Publisher& publisher) {

@@ -36,6 +36,7 @@ struct StatusInfo {
   std::string_view word;     ///< "pass", for people
   std::string_view mark;     ///< "✓"
   std::string_view meaning;  ///< one sentence
+  std::string_view of_pair;  ///< the same of a report's pair, for states that it may have
 };
 
 const StatusInfo& info(CellStatus status);

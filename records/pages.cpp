@@ -16,10 +16,13 @@ void define_page_tables(Tables& tables) {
   tables.define<GridCell>("A cell of the grid.", [](auto& t) {
     t.key("at", "its value on each axis; -1 where the axis does not know it");
     t.key("metrics", "by engine, a value of each metric").may_be_nonfinite();
+    t.key("beside", "of a report: the other pictures, each followed by its difference").if_any();
+    t.key("finding", "of a report: a sentence").if_any();
   });
   tables.define<GridMetric>("A metric that a grid can be coloured by.",
                             [](auto& t) { t.key("unit").one_of(kMetricUnits); });
-  tables.define<GridPage>("The page of the grid.");
+  tables.define<GridPage>("The page of the grid.",
+                          [](auto& t) { t.key("noun", "what a cell is called"); });
   tables.define<ShownPicture>("A picture; both files are drawn at this size.", [](auto& t) {
     t.key("small", "shorter to load where src is heavy, else the same");
   });
@@ -34,6 +37,7 @@ void define_page_tables(Tables& tables) {
     t.keys({"whiteAt", "worstY"}).or_null().may_be_nonfinite();
     t.key("relativeToPeak").or_null();
     t.key("worstX", "pixel of the largest difference").or_null().may_be_nonfinite();
+    t.key("region", "script with the PixelRuns of the highlight").if_any();
   });
   tables.define<ShownZone>("A zone of a highlight.", [](auto& t) {
     t.keys({"from", "to"}).unit("degrees");
@@ -48,6 +52,9 @@ void define_page_tables(Tables& tables) {
   });
   tables.define<CellPage>("The page of a cell.", [](auto& t) {
     t.keys({"exposureStops", "profile"}).or_null();
+  });
+  tables.define<PixelRuns>("Pixels of a picture.", [](auto& t) {
+    t.key("runs", "for each run its first pixel in reading order, and its length");
   });
   tables.define<PackedPicture>("A float picture in half floats, as text.", [](auto& t) {
     t.key("fromOurs", "it is the difference from our picture");

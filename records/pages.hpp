@@ -35,6 +35,8 @@ struct GridCell {
   std::vector<int> at;
   Named<std::vector<std::optional<double>>> metrics;
   std::optional<GridPicture> picture;
+  std::vector<GridPicture> beside;
+  std::string finding;
 };
 
 struct GridMetric {
@@ -43,6 +45,7 @@ struct GridMetric {
 };
 
 struct GridPage {
+  std::string noun;
   std::vector<GridAxis> axes;
   std::vector<GridEngine> engines;
   GridLayout layout;
@@ -72,6 +75,7 @@ struct ShownComparison {
   std::optional<double> white_at, relative_to_peak;
   std::vector<ShownMap> maps;
   std::optional<double> worst_x, worst_y;
+  std::string region;
 };
 
 struct ShownZone {
@@ -93,10 +97,17 @@ struct ShownProfile {
 
 struct CellPage {
   std::string id, label;
+  bool is_report = false;
   std::optional<double> exposure_stops;
   std::vector<ShownEngine> engines;
   std::vector<ShownComparison> comparisons;
   std::optional<ShownProfile> profile;
+};
+
+/// Pixels of a picture.
+struct PixelRuns {
+  int width = 0, height = 0;
+  std::vector<int> runs;
 };
 
 struct PackedPicture {

@@ -93,11 +93,12 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs) {
   return summaries;
 }
 
-std::string highlight_sentence(const Comparison& comparison) {
+std::string highlight_sentence(const Comparison& comparison, std::string_view a,
+                               std::string_view b) {
   const double energy = comparison.value("energy.highlight");
   if (std::isnan(energy)) return "";
-  if (energy == -1) return "a has no highlight where b has one";
-  if (std::isinf(energy)) return "b has no highlight where a has one";
+  if (energy == -1) return fmt::format("{} has no highlight where {} has one", a, b);
+  if (std::isinf(energy)) return fmt::format("{} has no highlight where {} has one", b, a);
   // Smaller shares and shifts are said to be equal.
   constexpr double kLeastShare = 0.001, kLeastShift = 0.05;
   const auto words = [](double share, std::string_view more, std::string_view less) {
@@ -120,8 +121,8 @@ std::string highlight_sentence(const Comparison& comparison) {
   if (std::abs(down) >= kLeastShift)
     ways.push_back(fmt::format("{:.2g} pixels {}", std::abs(down), down > 0 ? "down" : "up"));
   std::string text = parts.empty()
-                         ? "a's highlight is as wide and as bright as b's"
-                         : "a's highlight is " + fmt::format("{}", fmt::join(parts, " and "));
+                         ? fmt::format("{}'s highlight is as wide and as bright as {}'s", a, b)
+                         : fmt::format("{}'s highlight is {}", a, fmt::join(parts, " and "));
   text += more_energy.empty() ? ", its energy equal" : ", its energy " + more_energy;
   if (!ways.empty()) text += fmt::format("; it lies {}", fmt::join(ways, " and "));
   return text;

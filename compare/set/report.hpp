@@ -7,20 +7,22 @@
 namespace lobelia {
 
 struct PairReport {
-  std::string name;     ///< of both files: the path within their folders
+  std::string
+      name;  ///< of the row, after the set's title and '/' if there are several to be judged
   std::string a, b, c;  ///< files; c is empty without a second reference
   std::optional<Comparison> comparison;
   std::string error;  ///< why there is no comparison; empty if there is one
   double seconds = 0;
   std::optional<PicturePairSource> sources = {};  ///< how both files were read
   std::optional<OtherLayers> layers = {};         ///< everything besides the display window
+  std::size_t row = 0, set = 0;                   ///< of `a` in the Pairing
 
   /// The worst of the picture and its layers. There must be a comparison.
   Verdict verdict() const;
 };
 
 struct SetReport {
-  std::string a, b, c;  ///< folders, or files of a single pair
+  std::string a, b, c;  ///< folders, or files of a single pair, or titles of sets
   std::vector<PairReport> pairs;
   std::vector<std::string> missing;            ///< names that only the reference has
   std::vector<std::string> extra;              ///< names without a reference
@@ -58,7 +60,8 @@ std::vector<MetricSummary> summarise(std::span<const PairReport> pairs);
 
 /// What an artist would say of the highlight: "a's highlight is 4 % wider and 7 % dimmer, its energy equal; 0.5 pixels to
 /// the left". Empty if it was not measured.
-std::string highlight_sentence(const Comparison& comparison);
+std::string highlight_sentence(const Comparison& comparison, std::string_view a = "a",
+                               std::string_view b = "b");
 
 /// "is 0.02", or "was not measured (why)".
 std::string value_text(const Comparison& comparison, const LimitResult& limit);

@@ -29,7 +29,7 @@ TEST_F(ComparePictures, RefusesWhatIsNoPictureInOneLine) {
   file("empty.exr", "");
   expect_refused("empty.exr", "not a readable picture");
   std::filesystem::create_directory(directory_.path() / "directory.exr");
-  expect_refused("directory.exr", "compare two files or two folders");
+  expect_refused("directory.exr", "compare files with files, folders with folders");
   ASSERT_EQ(::mkfifo((directory_.path() / "pipe.exr").c_str(), 0600), 0);
   expect_refused("pipe.exr", "not a regular file");
   expect_refused("/dev/zero", "not a regular file");

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <pugixml.hpp>
 
-#include "compare/set/folder_pairs.hpp"
+#include "compare/set/pairing.hpp"
 #include "compare/set/report.hpp"
 #include "core/files.hpp"
 #include "tests/compare/pictures.hpp"
@@ -25,7 +25,46 @@ class FolderPairing : public ::testing::Test {
     fs::create_directories((folder_.path() / file).parent_path());
     write_file(folder_.path() / file, "x");
   }
-  FolderPairs pairs() const { return pair_by_name(folder_.path() / "a", folder_.path() / "b"); }
+  struct Pairs {
+    std::vector<std::string> both, missing, extra;  ///< names of rows
+    std::size_t passed_over;
+    std::vector<std::string> not_followed;
+  };
+  PairingChoice choice() const {
+    PairingChoice choice;
+    choice.given = {(folder_.path() / "a").string(), (folder_.path() / "b").string()};
+    return choice;
+  }
+  Pairs pairs() const { return in_words(pair_pictures(choice())); }
+  static Pairs in_words(const Pairing& pairing) {
+    Pairs pairs{{}, {}, {}, pairing.passed_over, pairing.not_followed};
+    for (const PictureRow& row : pairing.rows)
+      (row.files[0].empty()   ? pairs.missing
+       : row.files[1].empty() ? pairs.extra
+                              : pairs.both)
+          .push_back(row.name);
+    return pairs;
+  }
+  /// The files of a set, without the test's directory; "-" where a row has none.
+  std::vector<std::string> files(const Pairing& pairing, std::size_t set) const {
+    std::vector<std::string> names;
+    for (const PictureRow& row : pairing.rows)
+      names.push_back(row.files[set].empty()
+                          ? "-"
+                          : fs::path(row.files[set]).lexically_relative(folder_.path()).string());
+    return names;
+  }
+  /// Why the choice cannot be paired.
+  static std::string refusal(const PairingChoice& choice, ExitCode code) {
+    try {
+      pair_pictures(choice);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code) << error.what();
+      return error.what();
+    }
+    ADD_FAILURE() << "was paired";
+    return "";
+  }
   void SetUp() override {
     fs::create_directories(folder_.path() / "a");
     fs::create_directories(folder_.path() / "b");
@@ -88,23 +127,171 @@ TEST_F(FolderPairing, OfLinksThatMultiplyIsRefusedInsteadOfGoingOnForEver) {
     }
     inside = next;
   }
-  try {
-    pair_by_name(folder_.path() / "a", folder_.path() / "b", 20'000);
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kInput);
-    EXPECT_THAT(error.what(), HasSubstr("holds over 20000 files"));
-  }
+  PairingChoice few = choice();
+  few.most_files = 20'000;
+  EXPECT_THAT(refusal(few, ExitCode::kInput), HasSubstr("holds over 20000 files"));
 }
 
 TEST_F(FolderPairing, OfAFolderThatIsNotThereSaysWhich) {
-  try {
-    pair_by_name(folder_.path() / "a", folder_.path() / "nowhere");
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kInput);
-    EXPECT_THAT(error.what(), HasSubstr("nowhere: cannot be read: No such file"));
+  PairingChoice nowhere = choice();
+  nowhere.given[1] = (folder_.path() / "nowhere").string();
+  EXPECT_THAT(refusal(nowhere, ExitCode::kInput), HasSubstr("nowhere: no such file or folder"));
+}
+
+TEST_F(FolderPairing, GoesAcrossEndingsWhereThereIsNoDoubt) {
+  for (const char* file : {"a/x.exr", "b/x.png", "a/both.exr", "b/both.exr", "a/both.png",
+                           "a/two.exr", "b/two.png", "b/two.jpg", "a/sub/y.EXR", "b/sub/y.hdr"})
+    put(file);
+  const Pairing pairing = pair_pictures(choice());
+  EXPECT_THAT(in_words(pairing).both, ElementsAre("both.exr", "sub/y.hdr", "x.png"));
+  EXPECT_THAT(in_words(pairing).missing, ElementsAre("two.jpg", "two.png"))
+      << "either may be meant";
+  EXPECT_THAT(in_words(pairing).extra, ElementsAre("both.png", "two.exr"));
+  EXPECT_THAT(files(pairing, 0), ::testing::Contains("a/sub/y.EXR"));
+}
+
+TEST_F(FolderPairing, OfThreeFoldersJudgesEachAgainstTheSecond) {
+  for (const char* file : {"a/x.exr", "b/x.exr", "c/x.exr", "b/y.exr", "c/y.exr"}) put(file);
+  PairingChoice three = choice();
+  three.given.push_back((folder_.path() / "c").string());
+  const Pairing pairing = pair_pictures(three);
+  EXPECT_THAT(pairing.sets, ElementsAre("a", "b", "c"));
+  EXPECT_THAT(files(pairing, 0), ElementsAre("a/x.exr", "-"));
+  EXPECT_THAT(files(pairing, 2), ElementsAre("c/x.exr", "c/y.exr"));
+}
+
+TEST_F(FolderPairing, TellsFoldersOfOneNameApart) {
+  put("a/render/x.exr");
+  put("b/render/x.exr");
+  PairingChoice same = choice();
+  for (std::string& folder : same.given) folder += "/render/";
+  EXPECT_EQ(pair_pictures(same).sets, same.given);
+}
+
+using PatternPairing = FolderPairing;
+
+TEST_F(PatternPairing, FindsAllSetsInOneFolderByTheFieldThatTellsThemApart) {
+  for (const char* file : {"a/ball_mine.exr", "a/ball_ref.exr", "a/big_ball_mine.exr",
+                           "a/big_ball_ref.exr", "a/cube_ref.exr", "a/ball_other.exr", "a/x.exr"})
+    put(file);
+  PairingChoice one = choice();
+  one.given.pop_back();
+  one.pattern = "{scene}_{engine}.exr";
+  one.sets = "engine=mine,ref";
+  const Pairing pairing = pair_pictures(one);
+  EXPECT_THAT(pairing.sets, ElementsAre("mine", "ref"));
+  EXPECT_THAT(pairing.fields, ElementsAre("scene"));
+  EXPECT_THAT(in_words(pairing).both, ElementsAre("ball", "big_ball"));
+  EXPECT_THAT(in_words(pairing).missing, ElementsAre("cube"));
+  EXPECT_EQ(pairing.passed_over, 2u) << "another engine's, and one that the pattern does not fit";
+}
+
+TEST_F(PatternPairing, OfTwoFoldersGoesByTheFieldsAndForgetsWhatIsInEmptyBraces) {
+  for (const char* file : {"a/area/ball.v2.exr", "a/point/ball.v2.exr", "b/area/ball.v1.exr",
+                           "b/point/ball.final.exr"})
+    put(file);
+  PairingChoice two = choice();
+  two.pattern = "{light}/{scene}.{}.exr";
+  const Pairing pairing = pair_pictures(two);
+  EXPECT_THAT(pairing.fields, ElementsAre("light", "scene"));
+  EXPECT_THAT(in_words(pairing).both, ElementsAre("area/ball", "point/ball"));
+  EXPECT_THAT(pairing.rows[1].fields, ElementsAre("point", "ball"));
+}
+
+TEST_F(PatternPairing, TakesSignsOfExpressionsAsTheyAre) {
+  for (const char* file : {"a/x+(1).exr", "b/x+(1).exr", "a/xx1.exr"}) put(file);
+  PairingChoice literal = choice();
+  literal.pattern = "x+({n}).exr";
+  EXPECT_THAT(in_words(pair_pictures(literal)).both, ElementsAre("1"));
+}
+
+TEST_F(PatternPairing, RefusesWhatCannotBeMeant) {
+  put("a/x_1.exr");
+  put("a/x_2.exr");
+  PairingChoice choice = this->choice();
+  const auto why = [&](const char* pattern, const char* sets, ExitCode code = ExitCode::kUsage) {
+    choice.pattern = pattern;
+    choice.sets = sets;
+    return refusal(choice, code);
+  };
+  EXPECT_THAT(why("x.exr", ""), HasSubstr("no {field}"));
+  EXPECT_THAT(why("{a.exr", ""), HasSubstr("without its '}'"));
+  EXPECT_THAT(why("a}.exr", ""), HasSubstr("without its '{'"));
+  EXPECT_THAT(why("{a}{a}", ""), HasSubstr("stands there twice"));
+  EXPECT_THAT(why("{a}_{b}.exr", "c=1,2"), HasSubstr("has no field {c}"));
+  EXPECT_THAT(why("{a}_{b}.exr", "b=1"), HasSubstr("expected FIELD=JUDGED,REFERENCE"));
+  EXPECT_THAT(why("{a}_{b}.exr", "b=1,1"), HasSubstr("each once"));
+  EXPECT_THAT(why("{a}_{b}.exr", "b=1,2,3"), HasSubstr("names 3 sets, and there are 2 folders"));
+  EXPECT_THAT(why("", "b=1,2"), HasSubstr("--sets needs --pattern"));
+  EXPECT_THAT(why("{a}_{}.exr", "", ExitCode::kInput), HasSubstr("both are the picture of x"));
+  choice.given.pop_back();
+  EXPECT_THAT(why("{a}_{b}.exr", ""), HasSubstr("needs --sets"));
+}
+
+using SequencePairing = FolderPairing;
+
+TEST_F(SequencePairing, IsByTheNumberHoweverItIsWritten) {
+  for (const char* file : {"a/f.0001.exr", "a/f.0002.exr", "a/f.0010.exr", "a/f.x.exr", "b/g1.png",
+                           "b/g10.png", "b/g3.png", "b/g03.png", "a/f.12345.exr", "b/g12345.png"})
+    put(file);
+  PairingChoice frames = choice();
+  frames.given = {(folder_.path() / "a/f.%04d.exr").string(),
+                  (folder_.path() / "b/g%d.png").string()};
+  const Pairing pairing = pair_pictures(frames);
+  EXPECT_THAT(in_words(pairing).both, ElementsAre("00001", "00010", "12345"));
+  EXPECT_THAT(in_words(pairing).extra, ElementsAre("00002"));
+  EXPECT_THAT(in_words(pairing).missing, ElementsAre("00003")) << "g03 is not how %d writes three";
+  frames.given[0] = (folder_.path() / "a/f.####.exr").string();
+  EXPECT_EQ(pair_pictures(frames).rows.size(), pairing.rows.size());
+  frames.given[0] = (folder_.path() / "a/h.%04d.exr").string();
+  EXPECT_THAT(refusal(frames, ExitCode::kInput), HasSubstr("no file is a frame of this sequence"));
+  frames.given[0] = (folder_.path() / "a/f.0001.exr").string();
+  EXPECT_THAT(refusal(frames, ExitCode::kInput), HasSubstr("sequences with sequences"));
+}
+
+TEST_F(SequencePairing, LeavesAFileAloneWhoseNameOnlyLooksLikeOne) {
+  put("a/#1.exr");
+  put("b/#1.exr");
+  PairingChoice files = choice();
+  for (std::string& file : files.given) file += "/#1.exr";
+  EXPECT_TRUE(pair_pictures(files).is_one_row);
+}
+
+class TablePairing : public FolderPairing {
+ protected:
+  PairingChoice table(const std::string& text) {
+    write_file(folder_.path() / "pairs.csv", text);
+    PairingChoice choice;
+    choice.csv = (folder_.path() / "pairs.csv").string();
+    return choice;
   }
+};
+
+TEST_F(TablePairing, HasTheTitlesOfTheSetsInItsFirstLineAndPathsFromWhereItLies) {
+  const Pairing pairing =
+      pair_pictures(table("\xef\xbb\xbfmine,name,reference,old\r\n"
+                          "a/x.exr,first,b/x.exr,\r\n"
+                          "\"a/with, comma and \"\"quote\"\".exr\",,b/y.exr,c/y.exr\n\n"
+                          ",third,b/z.exr,c/z.exr"));
+  EXPECT_THAT(pairing.sets, ElementsAre("mine", "reference", "old"));
+  EXPECT_THAT(in_words(pairing).both, ElementsAre("b/y.exr", "first"));
+  EXPECT_THAT(in_words(pairing).missing, ElementsAre("third"));
+  EXPECT_THAT(files(pairing, 0), ElementsAre("a/with, comma and \"quote\".exr", "a/x.exr", "-"));
+}
+
+TEST_F(TablePairing, RefusesWhatIsNoTableOfPairs) {
+  for (const auto& [text, why] : {std::pair("", "is empty"),
+                                  {"a\nx\n", "titles of two sets or more"},
+                                  {"a,a\nx,y\n", "two sets have one title"},
+                                  {"a,b\nx\n", "record 2 has 1 fields, the first 2"},
+                                  {"a,b\n\"x,y\n", "a quotation mark is not closed"},
+                                  {"a,b\n\"x\"z,y\n", "text after a quotation mark"},
+                                  {"a,b\n,\n", "names no file"},
+                                  {"a,b\nx,y\nz,y\n", "both are the picture of y"}})
+    EXPECT_THAT(refusal(table(text), ExitCode::kInput), HasSubstr(why)) << text;
+  PairingChoice both = table("a,b\nx,y\n");
+  both.given = {"x"};
+  EXPECT_THAT(refusal(both, ExitCode::kUsage), HasSubstr("leave out A, B"));
 }
 
 PairReport compared(const std::string& name, float value_a, float value_b) {

@@ -47,6 +47,10 @@ export interface GridCell {
   /** by engine, a value of each metric */
   metrics: Record<string, (number | "nan" | "inf" | "-inf" | null)[]>;
   picture?: GridPicture;
+  /** of a report: the other pictures, each followed by its difference */
+  beside?: GridPicture[];
+  /** of a report: a sentence */
+  finding?: string;
 }
 
 /** A metric that a grid can be coloured by. */
@@ -60,6 +64,8 @@ export interface GridMetric {
 
 /** The page of the grid. */
 export interface GridPage {
+  /** what a cell is called */
+  noun: string;
   axes: GridAxis[];
   engines: GridEngine[];
   layout: GridLayout;
@@ -108,6 +114,8 @@ export interface ShownComparison {
   /** pixel of the largest difference */
   worstX: number | "nan" | "inf" | "-inf" | null;
   worstY: number | "nan" | "inf" | "-inf" | null;
+  /** script with the PixelRuns of the highlight */
+  region?: string;
 }
 
 /** A zone of a highlight. */
@@ -139,6 +147,7 @@ export interface ShownProfile {
 export interface CellPage {
   id: string;
   label: string;
+  isReport: boolean;
   exposureStops: number | null;
   engines: ShownEngine[];
   comparisons: ShownComparison[];
@@ -160,6 +169,14 @@ export interface PackedPicture {
   predicted: boolean;
   /** base64, deflated */
   planes: string;
+}
+
+/** Pixels of a picture. */
+export interface PixelRuns {
+  width: number;
+  height: number;
+  /** for each run its first pixel in reading order, and its length */
+  runs: number[];
 }
 
 /** The largest errors of a lobe: of the peak, and in ulp. */

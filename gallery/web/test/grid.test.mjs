@@ -37,7 +37,7 @@ const heads = (page) => page.locator('.grid').first().locator('tbody th').allTex
 for (const from of ['file', 'server']) {
   test(`opens from a ${from} without a complaint, every cell in its place`, async () => {
     const page = await grid('', from === 'file' ? fileUrl(site) : server.url);
-    assert.equal(await page.locator('.count').textContent(), 'showing 12 of 12');
+    assert.equal(await page.locator('.count').textContent(), 'showing 12 of 12 cells');
     assert.deepEqual(await heads(page), ['phong', 'blinn', kHostile]);
     assert.equal(await page.locator('.grid .cell').count(), 12);
     await close(page);
@@ -63,11 +63,11 @@ test('text and status filter, and say how many are left', async () => {
   const page = await grid();
   await page.keyboard.press('/');
   await page.keyboard.type('blinn SIDE');
-  assert.equal(await page.locator('.count').textContent(), 'showing 2 of 12');
+  assert.equal(await page.locator('.count').textContent(), 'showing 2 of 12 cells');
   assert.equal(await page.locator('.grid .cell').count(), 2);
   await page.locator('#find').fill('');
   await page.getByRole('combobox', { name: 'Status', exact: true }).selectOption('failed');
-  assert.equal(await page.locator('.count').textContent(), 'showing 1 of 12');
+  assert.equal(await page.locator('.count').textContent(), 'showing 1 of 12 cells');
   assert.equal((await hashOf(page)).status, 'failed');
   await page.locator('#find').fill('no such cell');
   await page.getByText('No cell is like that.').waitFor();
@@ -123,11 +123,11 @@ test('a cell leads to its page, and one named like markup is text everywhere', a
 
 test('two thousand cells are all there, but only the pictures in view are loaded', async () => {
   const page = await open(browser, fileUrl(many) + 'index.html');
-  assert.equal(await page.locator('.count').textContent(), 'showing 2000 of 2000');
+  assert.equal(await page.locator('.count').textContent(), 'showing 2000 of 2000 cells');
   assert.equal(await page.locator('.cell').count(), 2000);
   assert.equal(await page.locator('.cell img:not([loading=lazy])').count(), 0);
   await page.locator('#find').fill('model 49');
-  assert.equal(await page.locator('.count').textContent(), 'showing 40 of 2000');
+  assert.equal(await page.locator('.count').textContent(), 'showing 40 of 2000 cells');
   await page.getByRole('button', { name: 'Exchange rows and columns' }).click();
   assert.equal(await page.locator('.cell').count(), 40);
   await close(page);
@@ -160,7 +160,7 @@ test('what is not as the farm wrote it is first, marked in words, and has its re
     assert.deepEqual((await cells.locator('.status').allInnerTexts()).slice(0, 3), ['!damaged', '∅missing', 'Δchanged']);
     assert.equal(await page.locator('.status.pass').count(), 1, 'the counts say: none');
     await page.locator('#find').fill('missing');
-    assert.equal(await page.locator('.count').textContent(), 'showing 1 of 4');
+    assert.equal(await page.locator('.count').textContent(), 'showing 1 of 4 cells');
     await close(page);
     for (const [id, words] of [['phong-16', /lobelia-povray\.json is missing/], ['phong-128', /povray\.exr cannot be read/], ['blinn-16', /povray\.exr is not the file that the farm wrote/]]) {
       const one = await open(browser, `${fileUrl(odd)}cells/${id}/index.html`, { colorScheme });

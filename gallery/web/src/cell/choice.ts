@@ -21,7 +21,7 @@ export const kStops = { from: -10, to: 14 }, kMostGain = 12;
 
 const kDefaults = {
   a: '', b: '', mode: 'slide', shown: 'a', ev: '', colour: '', gain: '0', measure: 'absolute',
-  x: '', y: '', z: '', at: '', split: '50', line: '', scale: 'linear',
+  x: '', y: '', z: '', at: '', split: '50', line: '', scale: 'linear', region: '',
 };
 export type ViewerState = HashState<keyof typeof kDefaults>;
 export const viewerState = (): ViewerState => new HashState(kDefaults);
@@ -40,6 +40,8 @@ export class Choice {
     if (named >= 0) return named;
     // Ours, and another engine rather than our formula.
     const others = shown.filter((i) => i !== shown[0]);
+    // A report has the reference first, and the picture that is judged is seen from its side.
+    if (this.data.isReport && others.length > 0) return which === 'a' ? others[0]! : shown[0]!;
     return (which === 'a' ? shown[0] : others.find((i) => this.data.engines[i]!.name !== 'analytic') ?? others[0]) ?? 0;
   }
 
@@ -75,6 +77,12 @@ export class Choice {
   comparison(a: number, b: number): CellPage['comparisons'][number] | undefined {
     const names = [this.data.engines[a]?.name, this.data.engines[b]?.name];
     return a === b ? undefined : this.data.comparisons.find((c) => names.includes(c.a) && names.includes(c.b) && c.a !== c.b);
+  }
+
+  /** A report draws in what its verdict is about. */
+  showsRegion(): boolean {
+    const asked = this.state.get('region');
+    return asked === '' ? this.data.isReport : asked === 'on';
   }
 
   /** From pixel to pixel. */

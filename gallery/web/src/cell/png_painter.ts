@@ -1,4 +1,5 @@
 // Without float pictures or WebGL 2: the 8-bit pictures, at their only exposure.
+import { pictureAt } from '../lib/single_file';
 import type { CellPage, ShownPicture } from '../records';
 import type { Painter, Pane, Viewport } from './painter';
 
@@ -49,7 +50,7 @@ export class PngPainter implements Painter {
     let image = this.images.get(source);
     if (!image) {
       image = new Image();
-      image.src = source;
+      image.src = pictureAt(source);
       image.addEventListener('load', this.repaint);
       this.images.set(source, image);
     }

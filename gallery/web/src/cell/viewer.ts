@@ -8,12 +8,14 @@ import { Choice, kMeasures, kModes, kMostGain, kStops, type ViewerState } from '
 import { FloatPictures, type Worst } from './float_pictures';
 import { GlPainter } from './gl_painter';
 import { legendOf } from './legend';
+import { Histogram } from './histogram';
 import { LineBox } from './line_box';
 import { DifferenceMaps, type LoadedMap } from './maps';
 import { overlayOf } from './overlay';
 import type { Content, Look, Painter, Pane } from './painter';
 import { PixelValues } from './pixel_values';
 import { PngPainter } from './png_painter';
+import { RegionOutline } from './region';
 import { listenToKeys, listenToPointer } from './viewer_input';
 
 export const kDecades = 6;  // of false colour
@@ -35,6 +37,9 @@ export class Viewer {
   private readonly pick: { a: ReturnType<typeof select>; b: ReturnType<typeof select> };
   private readonly measure: ReturnType<typeof select>;
   private readonly lineBox = new LineBox();
+  private readonly histogram = new Histogram(() => this.schedule());
+  private readonly outline = new RegionOutline(() => this.schedule());
+  private readonly region = h('input', { type: 'checkbox', id: 'region' });
   private readonly lineButton: HTMLButtonElement;
 
   private readonly maps = new DifferenceMaps(() => this.schedule(), (words) => this.tell(words));
@@ -65,6 +70,7 @@ export class Viewer {
     this.exposure.addEventListener('input', () =>
       this.change(this.choice.mode() === 'diff' ? { gain: this.exposure.value } : { ev: this.exposure.value }));
     this.colour.addEventListener('change', () => this.change({ colour: this.colour.checked ? 'false' : '' }));
+    this.region.addEventListener('change', () => this.change({ region: this.region.checked ? 'on' : 'off' }));
     this.divider.addEventListener('input', () => this.change({ split: this.divider.value }));
     for (const mode of kModes)
       this.modes.append(button(mode.label, () => this.change({ mode: mode.value }),
@@ -90,6 +96,7 @@ export class Viewer {
           h('div', { class: 'controls' },
             h('div', { class: 'exposure' }, this.exposureName, this.exposure),
             h('label', { class: 'check' }, this.colour, 'False colour'),
+            ...(data.comparisons.some((c) => c.region) ? [h('label', { class: 'check', title: 'The pixels that the verdict on the highlight is about' }, this.region, 'Outline the highlight')] : []),
             this.measure.element),
           h('div', { class: 'controls', role: 'group', 'aria-label': 'Zoom' },
             button('−', () => this.camera.zoomBy(0.5), { 'aria-label': 'Zoom out' }),
@@ -103,7 +110,7 @@ export class Viewer {
             button('None', () => this.change({ line: '' }), { title: 'No line' })),
           this.values.element,
           keysHelp())),
-      this.lineBox.element);
+      this.lineBox.element, this.histogram.element);
 
     this.painter = new PngPainter(this.canvas, data, () => this.schedule(), () => this.isWaiting);
     listenToPointer(this);
@@ -141,6 +148,7 @@ export class Viewer {
     this.divider.hidden = mode !== 'slide';
     this.divider.value = this.state.get('split');
     this.colour.checked = this.state.get('colour') === 'false';
+    this.region.checked = this.choice.showsRegion();
     const base = this.choice.baseStops();
     this.exposure.min = String(mode === 'diff' ? -kMostGain : base + kStops.from);
     this.exposure.max = String(mode === 'diff' ? kMostGain : base + kStops.to);
@@ -246,8 +254,11 @@ export class Viewer {
     this.showTags(mode, a, b, isFlipped);
     this.legend.replaceChildren(...legendOf(this, a, b));
     this.values.show(this, a, b);
-    this.overlay.replaceChildren(...overlayOf(this.choice, panes, view, this.cursorNow(a, b)));
+    const region = this.choice.showsRegion() ? this.choice.comparison(a, b)?.region : undefined;
+    this.overlay.replaceChildren(...overlayOf(this.choice, panes, view, this.cursorNow(a, b),
+      (transform) => (region ? this.outline.drawn(region, transform) : [])));
     this.lineBox.show(this, a, b);
+    this.histogram.show(this, a, b);
   }
 
   look(a: number, b: number): Look {

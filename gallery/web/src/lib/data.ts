@@ -1,5 +1,6 @@
 // Data in classic scripts, because a page on file:// may load nothing else: each calls
 // lobelia("name",'JSON'), and JSON.parse keeps a hostile record from being anything but data.
+import { inlined, type InlinedData } from './single_file';
 
 const received = new Map<string, unknown>();
 
@@ -12,8 +13,13 @@ window.lobelia = (name, json) => { received.set(name, JSON.parse(json)); };
 /** The data from the script in the page's head, if there is one. */
 export function pageData<T>(): T | undefined { return received.get('page') as T | undefined; }
 
+/** Data of a script that this file holds, under its name. */
+export function receive({ name, data }: InlinedData): void { received.set(name, data); }
+
 /** Loads the script `source` (relative to the page) and returns its data called `name`. For each script once. */
 export function load<T>(name: string, source: string): Promise<T> {
+  const here = inlined<InlinedData>(source);
+  if (here) return here.name === name ? Promise.resolve(here.data as T) : Promise.reject(new Error(source + ' holds no "' + name + '"'));
   return new Promise((resolve, reject) => {
     const script = document.createElement('script');
     script.src = source;

@@ -3,10 +3,11 @@
 
 export class HashState<Key extends string> {
   private values = new Map<string, string>();
+  private page: string | null = null;  // of a report in one file (single_file.ts)
   private readonly listeners: (() => void)[] = [];
 
   /** Values at their default are left out of the link. */
-  constructor(private readonly defaults: Readonly<Record<Key, string>>) {
+  constructor(readonly defaults: Readonly<Record<Key, string>>) {
     this.read();
     addEventListener('hashchange', () => {
       if (!this.read()) return;
@@ -27,7 +28,8 @@ export class HashState<Key extends string> {
       if (value === this.defaults[key]) this.values.delete(key);
       else this.values.set(key, value);
     }
-    const query = new URLSearchParams([...this.values]).toString();
+    const page: [string, string][] = this.page === null ? [] : [['page', this.page]];
+    const query = new URLSearchParams([...page, ...this.values]).toString();
     if (query === '' && !location.hash.includes('=')) return;
     history.replaceState(history.state, '', query === '' ? '#top' : '#' + query);
   }
@@ -39,6 +41,7 @@ export class HashState<Key extends string> {
     const text = location.hash.slice(1);
     if (text !== '' && !text.includes('=')) return false;
     this.values = new Map();
+    this.page = new URLSearchParams(text).get('page');
     for (const [key, value] of new URLSearchParams(text))
       if (Object.hasOwn(this.defaults, key)) this.values.set(key, value);
     return true;

@@ -9,7 +9,11 @@ import { pageData } from '../lib/data';
 function takeStateAlong(main: HTMLElement): void {
   const take = (event: Event): void => {
     const link = event.target instanceof Element ? event.target.closest<HTMLAnchorElement>('nav.axes a') : null;
-    if (link) link.hash = location.hash.includes('=') ? location.hash : '';
+    if (!link) return;
+    const state = new URLSearchParams(location.hash.includes('=') ? location.hash.slice(1) : '');
+    const page = new URLSearchParams(link.hash.slice(1)).get('page');
+    if (page !== null) state.set('page', page);
+    link.hash = state.toString();
   };
   for (const kind of ['pointerdown', 'focusin', 'click'] as const) main.addEventListener(kind, take);
 }

@@ -3,6 +3,7 @@ import { colourAt, cssGradient } from '../cell/colours';
 import { pageData } from '../lib/data';
 import { announce, button, h, isTyping, select } from '../lib/dom';
 import { numberText, percentText, toNumber } from '../lib/numbers';
+import { pageAt, pictureAt } from '../lib/single_file';
 import { HashState } from '../lib/state';
 import type { GridCell, GridMetric, GridPage } from '../records';
 
@@ -53,7 +54,7 @@ class GridView {
   constructor(main: HTMLElement, first: Element, private readonly data: GridPage) {
     const { rows, groups, columns } = data.layout;
     this.state = new HashState({
-      rows: String(rows), cols: String(columns), group: String(groups), find: '', status: '', order: 'grid',
+      rows: String(rows), cols: String(columns), group: String(groups), find: '', status: '', order: this.isReport() || this.isList() ? 'worst' : 'grid',
       colour: this.colourChoices()[0]?.value ?? 'status',
     });
     const named = data.axes.map((axis, i) => ({ value: String(i), label: axis.name }));
@@ -65,7 +66,7 @@ class GridView {
     this.status = select('Status', [{ value: '', label: 'any' },
       ...data.statuses.filter((s) => data.cells.some((c) => c.status === s.name)).map((s) => ({ value: s.name, label: s.word }))], '',
       (status) => this.change({ status }));
-    this.order = select('Order', [{ value: 'grid', label: 'the grid' }, { value: 'worst', label: 'failures first' }], '',
+    this.order = select('Order', [{ value: 'grid', label: this.isList() ? 'by name' : 'the grid' }, { value: 'worst', label: 'failures first' }], '',
       (order) => this.change({ order }));
     this.find.addEventListener('input', () => this.change({ find: this.find.value }));
     const words = new Map(data.statuses.map((s) => [s.name, s.word]));
@@ -73,7 +74,7 @@ class GridView {
 
     const bar = h('div', { class: 'grid-bar', role: 'search', 'aria-label': 'The grid' },
       h('label', {}, h('span', {}, 'Find'), this.find), this.status.element, this.order.element, this.colour.element,
-      h('div', { class: 'axes-choice' }, this.axes.rows.element,
+      this.isList() ? null : h('div', { class: 'axes-choice' }, this.axes.rows.element,
         button('⇄', () => this.takeAxis('rows', this.state.get('cols')),
           { 'aria-label': 'Exchange rows and columns', title: 'Exchange rows and columns (x)', 'aria-keyshortcuts': 'x' }),
         this.axes.cols.element, ...(data.axes.length > 2 ? [this.axes.group.element] : [])),
@@ -84,6 +85,11 @@ class GridView {
     document.addEventListener('keydown', (event) => this.key(event));
     this.refresh();
   }
+
+  private isReport(): boolean { return this.data.noun === 'pair'; }
+
+  /** One axis, too long for a line. */
+  private isList(): boolean { return this.data.layout.columns < 0; }
 
   private colourChoices(): { value: string; label: string }[] {
     const engines = this.data.engines.length > 1 ? [{ name: kAll, shortTitle: 'Worst of all' }, ...this.data.engines] : this.data.engines;
@@ -137,12 +143,12 @@ class GridView {
     const words = state.get('find').toLowerCase().split(/\s+/).filter(Boolean);
     const shown = this.data.cells.filter((cell) => (!status || cell.status === status) &&
       words.every((word) => this.haystack.get(cell)!.includes(word)));
-    const text = `showing ${shown.length} of ${this.data.cells.length}`;
+    const text = `showing ${shown.length} of ${this.data.cells.length} ${this.data.noun}s`;
     if (this.count.textContent && this.count.textContent !== text) announce(text);
     this.count.textContent = text;
     this.paint(shown);
-    this.place.replaceChildren(...(shown.length === 0 ? [h('p', { class: 'absent' }, 'No cell is like that.')]
-      : state.get('order') === 'worst' ? [this.list(shown)] : this.sections(shown)));
+    this.place.replaceChildren(...(shown.length === 0 ? [h('p', { class: 'absent' }, `No ${this.data.noun} is like that.`)]
+      : state.get('order') === 'worst' || this.isList() ? [this.list(shown)] : this.sections(shown)));
   }
 
   // ---- colours
@@ -203,12 +209,14 @@ class GridView {
     if (known) return known;
     const status = this.data.statuses.find((s) => s.name === cell.status);
     const words = `${cell.label || cell.id}: ${status?.word ?? cell.status}`;
+    const image = ({ src, width, height }: NonNullable<GridCell['picture']>, alt: string): HTMLImageElement =>
+      h('img', { loading: 'lazy', decoding: 'async', alt, width, height, src: pictureAt(src) });
     const picture = cell.picture
-      ? h('img', { loading: 'lazy', decoding: 'async', alt: words, width: cell.picture.width, height: cell.picture.height, src: cell.picture.src })
+      ? image(cell.picture, words)
       : h('span', { class: 'no-picture' }, 'no picture', h('span', { class: 'unseen' }, ', ' + words));
     const swatch = h('span', { class: 'swatch', hidden: true }), value = h('span', { class: 'value' });
     const element = h('div', { class: `cell ${cell.status}` },
-      h('a', { href: cell.href, title: words }, picture, swatch),
+      h('a', { href: pageAt(cell.href), title: words, class: cell.beside ? 'pictures-beside' : undefined }, picture, ...(cell.beside ?? []).map((one) => image(one, '')), swatch),
       h('span', { class: 'cell-foot' }, h('span', { class: `status ${cell.status}`, title: status?.word },
         h('span', { 'aria-hidden': 'true' }, status?.mark ?? ''), h('span', { class: kFlaws.includes(cell.status) ? 'word' : 'unseen' }, status?.word ?? '')), value));
     const parts = { element, value, swatch };
@@ -223,9 +231,14 @@ class GridView {
       return Number.isNaN(size) ? -Infinity : by?.metric.moreIsBetter ? -size : size;
     };
     const rank = (cell: GridCell): number => kSeverity.indexOf(cell.status);
-    const sorted = [...shown].sort((p, q) => rank(p) - rank(q) || (badness(q) > badness(p) ? 1 : badness(q) < badness(p) ? -1 : 0));
-    return h('ul', { class: 'cell-list' }, ...sorted.map((cell) =>
-      h('li', {}, this.cell(cell).element, h('a', { href: cell.href, class: 'cell-name' }, cell.label || cell.id))));
+    // A report has its pairs in an order of its own: by how far the worst figure is over its limit.
+    const isAsWritten = this.isReport() && this.state.get('colour') === this.state.defaults.colour;
+    const byName = this.isList() && this.state.get('order') !== 'worst';
+    const sorted = byName ? [...shown].sort((p, q) => (p.label < q.label ? -1 : 1)) : isAsWritten && this.isList() ? shown
+      : [...shown].sort((p, q) => rank(p) - rank(q) || (badness(q) > badness(p) ? 1 : badness(q) < badness(p) ? -1 : 0));
+    return h('ul', { class: this.isReport() ? 'cell-list of-pairs' : 'cell-list' }, ...sorted.map((cell) =>
+      h('li', {}, this.cell(cell).element, h('div', {}, h('a', { href: pageAt(cell.href), class: 'cell-name' }, cell.label || cell.id),
+        cell.finding ? h('p', { class: 'finding' }, cell.finding) : null))));
   }
 
   private sections(shown: readonly GridCell[]): HTMLElement[] {

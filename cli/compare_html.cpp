@@ -1,0 +1,347 @@
+#include "cli/compare_html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "cli/publish.hpp"
+#include "compare/highlight_region.hpp"
+#include "compare/metrics/catalogue.hpp"
+#include "core/colour.hpp"
+#include "core/files.hpp"
+#include "core/image_io.hpp"
+#include "core/image_values.hpp"
+#include "core/sha256.hpp"
+#include "core/standard_streams.hpp"
+#include "core/text.hpp"
+#include "gallery/report.hpp"
+#include "gallery/single_file.hpp"
+#include "records/record.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using gallery::CellStatus;
+
+/// "a", "b", ...: a set's name in files and links.
+std::string set_name(std::size_t set) {
+  constexpr std::size_t kLetters = 26;
+  return set < kLetters ? std::string(1, char('a' + set)) : fmt::format("set{}", set + 1);
+}
+
+/// A plain name that stays the same from report to report. One that had to be changed is told apart by a hash.
+std::string cell_id(const std::string& name) {
+  constexpr std::size_t kLongest = 80;
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  std::string id = name.substr(0, kLongest);
+  for (char& c : id)
+    if (kPlain.find(c) == std::string_view::npos) c = '-';
+  if (id == name && is_plain_name(id)) return id;
+  constexpr std::size_t kDigits = 10;
+  return "p" + id + "-" + hex(sha256(name)).substr(0, kDigits);
+}
+
+CellStatus status_of(Verdict verdict) {
+  return is_pass(verdict)                 ? CellStatus::kPass
+         : verdict == Verdict::kUndecided ? CellStatus::kUndecided
+                                          : CellStatus::kDiffers;
+}
+
+/// How many times over its limit the worst figure is.
+double excess(const Comparison& comparison) {
+  double worst = 0;
+  for (const LimitResult& limit : comparison.limits) {
+    if (std::isnan(limit.value)) return INFINITY;
+    const bool likeness = find_metric_output(limit.metric)->better == Better::kHigher;
+    const double by = likeness           ? (limit.value != 0 ? limit.limit / limit.value : INFINITY)
+                      : limit.limit != 0 ? std::abs(limit.value) / limit.limit
+                                         : (limit.value != 0 ? INFINITY : 0);
+    worst = std::max(worst, by);
+  }
+  return worst;
+}
+
+/// A row of the pairing with what was found of it.
+struct Judged {
+  std::size_t row = 0;
+  std::vector<const PairReport*> pairs;
+  CellStatus status = CellStatus::kPass;
+  double excess = 0;
+};
+
+/// Lower is worse.
+int rank(CellStatus status) {
+  constexpr CellStatus kWorstFirst[] = {CellStatus::kFailed,    CellStatus::kMissing,
+                                        CellStatus::kDiffers,   CellStatus::kUndecided,
+                                        CellStatus::kUnchecked, CellStatus::kPass};
+  return int(std::ranges::find(kWorstFirst, status) - std::begin(kWorstFirst));
+}
+
+/// All rows, the worst first.
+std::vector<Judged> judge_rows(const Pairing& pairing, const SetReport& report) {
+  std::vector<Judged> rows(pairing.rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].row = i;
+    const std::vector<std::string>& files = pairing.rows[i].files;
+    const bool has_reference = !files[kReferenceSet].empty();
+    for (std::size_t set = 0; set < files.size(); ++set)
+      if (set != kReferenceSet && files[set].empty() == has_reference)
+        rows[i].status = has_reference ? CellStatus::kMissing : CellStatus::kUnchecked;
+  }
+  for (const PairReport& pair : report.pairs) {
+    Judged& row = rows[pair.row];
+    row.pairs.push_back(&pair);
+    const CellStatus status = pair.comparison ? status_of(pair.verdict()) : CellStatus::kFailed;
+    if (rank(status) < rank(row.status)) row.status = status;
+    if (pair.comparison) row.excess = std::max(row.excess, excess(*pair.comparison));
+  }
+  std::ranges::stable_sort(rows, [](const Judged& p, const Judged& q) {
+    return std::pair(rank(p.status), -p.excess) < std::pair(rank(q.status), -q.excess);
+  });
+  return rows;
+}
+
+/// The axes of the report: the fields of the names, or one axis of all rows, the worst first.
+std::vector<records::Axis> axes_of(const Pairing& pairing, const std::vector<Judged>& rows) {
+  std::vector<records::Axis> axes;
+  if (pairing.fields.size() < 2) {
+    records::Axis& axis = axes.emplace_back();
+    axis.name = pairing.fields.empty() ? "picture" : pairing.fields.front();
+    for (const Judged& judged : rows) {
+      const std::string name = printable_path(pairing.rows[judged.row].name);
+      axis.values.push_back({name, name});
+    }
+    return axes;
+  }
+  const auto by_number = [](const std::string& p, const std::string& q) {
+    double a = 0, b = 0;
+    if (parse_number(p, a) && parse_number(q, b) && a != b) return a < b;
+    return p < q;
+  };
+  for (std::size_t field = 0; field < pairing.fields.size(); ++field) {
+    std::set<std::string, decltype(by_number)> values(by_number);
+    for (const PictureRow& row : pairing.rows) values.insert(printable(row.fields[field]));
+    records::Axis& axis = axes.emplace_back();
+    axis.name = printable(pairing.fields[field]);
+    for (const std::string& value : values) axis.values.push_back({value, value});
+  }
+  return axes;
+}
+
+std::string hash_of(const Image& image) {
+  const auto bytes = std::as_bytes(image.values());
+  return fmt::format("{} x {} {}", image.width(), image.height(),
+                     hex(sha256({reinterpret_cast<const char*>(bytes.data()), bytes.size()})));
+}
+
+records::Named<std::string> facts_of(const std::string& file, const PictureSource& source) {
+  records::Named<std::string> facts;
+  facts.emplace_back("File", printable_path(file));
+  facts.emplace_back("Format", source.format);
+  facts.emplace_back("Size", fmt::format("{} × {}", source.display.width, source.display.height));
+  facts.emplace_back("Values", fmt::format("{}, {}", source.value_type, source.transfer));
+  if (!source.layer.empty()) facts.emplace_back("Layer", printable(source.layer));
+  if (!source.icc_profile.empty()) facts.emplace_back("ICC profile", printable(source.icc_profile));
+  return facts;
+}
+
+/// Makes the cells of a report. The pictures of a cell are read again when it is written.
+class ReportWriter {
+ public:
+  ReportWriter(const CompareJob& job, const Pairing& pairing, const SetReport& report)
+      : job_(job), pairing_(pairing), rows_(judge_rows(pairing, report)) {
+    for (const Judged& judged : rows_) by_id_[cell_id(pairing_.rows[judged.row].name)] = &judged;
+  }
+
+  const std::vector<Judged>& rows() const { return rows_; }
+
+  gallery::ShownFarm farm(const HtmlReport& html, const std::vector<gallery::MetricInfo>& metrics) {
+    records::Farm farm;
+    farm.title = !html.title.empty() ? html.title
+                                     : fmt::format("{} and {}", judged_sets(),
+                                                   printable_path(pairing_.sets[kReferenceSet]));
+    farm.command = shell_join(command_line());
+    farm.axes = axes_of(pairing_, rows_);
+    add_set(farm, kReferenceSet);
+    for (std::size_t set = 0; set < pairing_.sets.size(); ++set)
+      if (set != kReferenceSet) add_set(farm, set);
+    for (const Judged& judged : rows_) {
+      const PictureRow& row = pairing_.rows[judged.row];
+      records::FarmCell cell{cell_id(row.name), std::string(info(judged.status).name), {}};
+      for (std::size_t i = 0; i < farm.axes.size(); ++i)
+        cell.axes.emplace_back(farm.axes[i].name, pairing_.fields.size() < 2
+                                                      ? printable_path(row.name)
+                                                      : printable(row.fields[i]));
+      farm.cells.push_back(std::move(cell));
+    }
+    gallery::ShownFarm shown = show(std::move(farm), gallery::Metrics(metrics));
+    if (pairing_.fields.empty())  // a name that begins with a digit needs no word before it
+      for (std::size_t i = 0; i < rows_.size(); ++i)
+        shown.cells[i].label = printable_path(pairing_.rows[rows_[i].row].name);
+    shown.hub = set_name(kReferenceSet);
+    shown.is_report = true;
+    return shown;
+  }
+
+  gallery::ReportCell cell(const gallery::CellEntry& entry) const {
+    const Judged& judged = *by_id_.at(entry.id);
+    gallery::ReportCell made;
+    gallery::CheckedCell& cell = made.cell;
+    cell.id = entry.id;
+    cell.hub = set_name(kReferenceSet);
+    cell.status = judged.status;
+    cell.has_record = true;
+    for (const PairReport* pair : judged.pairs)
+      if (pair->comparison)
+        add_pair(*pair, made);
+      else
+        cell.record.problems.push_back({set_name(pair->set), printable_path(pair->error), "", 0});
+    add_lonely_pictures(judged, made);
+    std::ranges::stable_sort(cell.images, [&](const auto& p, const auto& q) {
+      return (p.engine == cell.hub) > (q.engine == cell.hub);
+    });
+    return made;
+  }
+
+ private:
+  std::string judged_sets() const {
+    std::vector<std::string> titles;
+    for (std::size_t set = 0; set < pairing_.sets.size(); ++set)
+      if (set != kReferenceSet) titles.push_back(printable_path(pairing_.sets[set]));
+    return fmt::format("{}", fmt::join(titles, ", "));
+  }
+
+  void add_set(records::Farm& farm, std::size_t set) const {
+    records::FarmEngine engine;
+    engine.name = set_name(set);
+    engine.title = printable_path(pairing_.sets[set]);
+    if (set == kReferenceSet) engine.title += " (reference)";
+    engine.available = true;
+    farm.engines.push_back(std::move(engine));
+  }
+
+  static void add_image(std::size_t set, const std::string& file, const Picture& picture,
+                        double stops, gallery::ReportCell& made) {
+    gallery::EnginePicture image;
+    image.engine = set_name(set);
+    if (made.cell.find_image(image.engine)) return;
+    image.exr = image.engine + ".exr";
+    image.png.file = image.engine + ".png";
+    image.exr_sha256 = hash_of(picture.image);
+    image.facts = facts_of(file, picture.source);
+    made.shown[image.png.file] = to_display(picture.image, stops);
+    made.pictures[image.exr] = picture.image;
+    made.cell.images.push_back(std::move(image));
+  }
+
+  void add_pair(const PairReport& pair, gallery::ReportCell& made) const {
+    const Comparison& comparison = *pair.comparison;
+    const ComparedPair read = read_compared(pair, job_, pairing_, job_.comparison);
+    const double stops = comparison.viewing.exposure_stops;
+    if (!made.cell.record.exposure_stops) made.cell.record.exposure_stops = stops;
+    add_image(kReferenceSet, pair.b, read.pictures.b, stops, made);
+    add_image(pair.set, pair.a, read.pictures.a, stops, made);
+    gallery::CheckedComparison checked;
+    checked.record = pair_record(pair);
+    checked.verdict = verdict_name(pair.verdict());
+    checked.entry.a = set_name(pair.set);
+    checked.entry.b = set_name(kReferenceSet);
+    const double largest = comparison.value("max_abs");
+    checked.entry.difference = {largest > 0 ? largest : 1, comparison.value("max_rel_peak")};
+    checked.png.file = fmt::format("{}-{}.png", checked.entry.a, checked.entry.b);
+    made.shown[checked.png.file] = difference_picture(read.pictures.a.image, read.pictures.b.image,
+                                                      checked.entry.difference.white_at);
+    checked.sentence = highlight_sentence(comparison, printable_path(pairing_.sets[pair.set]),
+                                          printable_path(pairing_.sets[kReferenceSet]));
+    made.cell.comparisons.push_back(std::move(checked));
+  }
+
+  /// Pictures that were compared with nothing, as far as they can be read.
+  void add_lonely_pictures(const Judged& judged, gallery::ReportCell& made) const {
+    const std::vector<std::string>& files = pairing_.rows[judged.row].files;
+    for (std::size_t set = 0; set < files.size(); ++set) {
+      if (files[set].empty() || made.cell.find_image(set_name(set))) continue;
+      try {
+        const Picture picture = read_picture(files[set], job_.layers.layer);
+        add_image(
+            set, files[set], picture,
+            made.cell.record.exposure_stops.value_or(exposure_for_peak(peak_value(picture.image))),
+            made);
+      } catch (const Error& error) {
+        if (error.code() != ExitCode::kInput) throw;
+        if (std::ranges::none_of(made.cell.record.problems, [&](const auto& problem) {
+              return problem.message.find(files[set]) != std::string::npos;
+            }))
+          made.cell.record.problems.push_back({set_name(set), printable_path(error.what()), "", 0});
+      }
+    }
+  }
+
+  const CompareJob& job_;
+  const Pairing& pairing_;
+  const std::vector<Judged> rows_;
+  std::map<std::string, const Judged*> by_id_;
+};
+
+/// What each pair may take of a file that is to be sent.
+double share_for_one_file(const SetReport& report) {
+  constexpr double kMostBytes = 64 << 20, kOfPair = 512 << 10, kOfPixels = 512 * 512;
+  double bytes = 0;
+  for (const PairReport& pair : report.pairs)
+    if (pair.sources)
+      bytes += kOfPair * std::max(1.0, double(pair.sources->b.display.width) *
+                                           pair.sources->b.display.height / kOfPixels);
+  return std::min(1.0, kMostBytes / std::max(bytes, 1.0));
+}
+
+/// The page that the reader opens.
+fs::path index_of(const HtmlReport& html) {
+  return html.single_file && html.path.extension() == ".html" ? html.path
+                                                              : html.path / "index.html";
+}
+
+}  // namespace
+
+void require_place(const HtmlReport& html) {
+  const fs::path index = index_of(html);
+  if (index.has_parent_path()) make_directories(index.parent_path());
+  require_writable(index);
+}
+
+void write_html(const HtmlReport& html, const CompareJob& job, const Pairing& pairing,
+                const SetReport& report) {
+  gallery::GalleryOptions options = gallery_options();
+  if (!job.comparison.mask.empty())
+    options.region = [&](const Image& a, const Image& b) {
+      return highlight_region(a, b, job.comparison.mask);
+    };
+  ReportWriter writer(job, pairing, report);
+  gallery::Report site;
+  site.farm = writer.farm(html, options.metrics);
+  site.cell = [&](const gallery::CellEntry& entry) { return writer.cell(entry); };
+  const bool one = is_one_pair(pairing);
+  site.files[one ? "comparison.json" : "comparison-set.json"] =
+      one ? record_text(pair_record(report.pairs.front())) : record_text(set_record(report));
+  const fs::path index = index_of(html);
+  if (html.single_file) {
+    const TemporaryDirectory scratch;
+    options.site = scratch.path();
+    options.share_of_bytes = share_for_one_file(report);
+    site.only_small_pictures = true;
+    write_report(site, options);
+    write_file(index, gallery::single_file(scratch.path(), site.farm.record.title));
+  } else {
+    options.site = html.path;
+    write_report(site, options);
+  }
+  say("lobelia: report: {}\n", printable_path(index.string()));
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,527 @@
+#include "compare/set/pairing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/text.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Endings of renders and photographs, in any case. OpenImageIO reads more, such as .txt and films.
+constexpr std::string_view kEndings[] = {
+    ".avif", ".bmp", ".dpx", ".exr", ".gif", ".hdr",  ".heic", ".iff", ".jp2", ".jpeg",
+    ".jpg",  ".pbm", ".pfm", ".pgm", ".png", ".pnm",  ".ppm",  ".psd", ".rgb", ".rgbe",
+    ".rla",  ".sgi", ".sxr", ".tga", ".tif", ".tiff", ".tx",   ".webp"};
+
+bool has_picture_ending(const fs::path& file) {
+  return std::ranges::count(kEndings, lower_case(file.extension().string())) > 0;
+}
+
+class FolderWalk {
+ public:
+  FolderWalk(fs::path root, std::size_t most_files)
+      : root_(std::move(root)), most_files_(most_files) {
+    std::error_code error;
+    real_root_ = fs::canonical(root_, error);
+    if (error) fail("cannot be read: " + error.message());
+    walk(real_root_, "");
+    std::ranges::sort(pictures);
+    std::ranges::sort(not_followed);
+  }
+
+  std::vector<std::string> pictures;
+  std::size_t passed_over = 0;
+  std::vector<std::string> not_followed;
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Error(ExitCode::kInput, fmt::format("{}: {}", root_.string(), why));
+  }
+
+  /// `real` contains no links; `name` is the path from the root, which may.
+  void walk(const fs::path& real, const fs::path& name) {
+    // The link leads back to a folder around it, which is compared without the link.
+    if (std::ranges::count(around_, real) > 0) return;
+    around_.push_back(real);
+    std::error_code error;
+    for (fs::directory_iterator entry(real, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (++files_ > most_files_)
+        fail(fmt::format("holds over {} files, which is what is compared at most", most_files_));
+      look_at(*entry, name / entry->path().filename());
+    }
+    if (error) fail("cannot be read: " + error.message());
+    around_.pop_back();
+  }
+
+  void look_at(const fs::directory_entry& entry, const fs::path& name) {
+    std::error_code unknown;
+    const bool is_link = entry.is_symlink(unknown);
+    if (entry.is_directory(unknown)) {
+      const fs::path real = is_link ? fs::canonical(entry.path(), unknown) : entry.path();
+      if (is_below(real, real_root_))
+        walk(real, name);
+      else
+        not_followed.push_back((root_ / name).generic_string());
+    } else if (has_picture_ending(name)) {  // a link to nothing as well: it cannot be read
+      pictures.push_back(name.generic_string());
+    } else if (is_link && !entry.exists(unknown)) {
+      not_followed.push_back((root_ / name).generic_string());
+    } else {
+      ++passed_over;
+    }
+  }
+
+  const fs::path root_;
+  const std::size_t most_files_;
+  fs::path real_root_;
+  std::vector<fs::path> around_;  ///< the current folder and those on the way to it
+  std::size_t files_ = 0;         ///< files and folders so far
+};
+
+/// Rows by name while they are gathered.
+class Rows {
+ public:
+  explicit Rows(std::size_t sets) : sets_(sets) {}
+
+  /// Throws Error(kInput) if the place is taken.
+  void put(const std::string& name, std::size_t set, const std::string& file,
+           const std::vector<std::string>& fields = {}) {
+    PictureRow& row = rows_[name];
+    row.name = name;
+    row.fields = fields;
+    row.files.resize(sets_);
+    if (!row.files[set].empty())
+      throw Error(ExitCode::kInput, fmt::format("{} and {}: both are the picture of {}",
+                                                row.files[set], file, printable(name)));
+    row.files[set] = file;
+  }
+  std::vector<PictureRow> sorted() && {
+    std::vector<PictureRow> list;
+    for (auto& [name, row] : rows_) list.push_back(std::move(row));
+    return list;
+  }
+
+ private:
+  std::size_t sets_;
+  std::map<std::string, PictureRow> rows_;
+};
+
+std::string last_name(const std::string& path) {
+  const fs::path clean = fs::path(path).lexically_normal();
+  return (clean.has_filename() ? clean : clean.parent_path()).filename().string();
+}
+
+/// The last names of the paths, or the paths themselves where two are the same.
+std::vector<std::string> titles_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> titles;
+  for (const std::string& path : paths) titles.push_back(last_name(path));
+  if (std::set(titles.begin(), titles.end()).size() < titles.size()) titles = paths;
+  std::set<std::string> taken;
+  for (std::string& title : titles)
+    for (int i = 2; !taken.insert(title).second; ++i) title = fmt::format("{} ({})", title, i);
+  return titles;
+}
+
+std::string file_in(const std::string& folder, const std::string& name) {
+  return (fs::path(folder) / name).string();
+}
+
+std::string without_ending(const std::string& name) {
+  return fs::path(name).replace_extension().generic_string();
+}
+
+/// Moves each picture that stands alone to the row of the only reference with its name but for the ending.
+void pair_across_endings(std::vector<PictureRow>& rows) {
+  const std::size_t sets = rows.empty() ? 0 : rows.front().files.size();
+  for (std::size_t set = 0; set < sets; ++set) {
+    if (set == kReferenceSet) continue;
+    std::map<std::string, std::vector<PictureRow*>> alone, lacking;  // by name without ending
+    for (PictureRow& row : rows) {
+      const bool has = !row.files[set].empty(), has_reference = !row.files[kReferenceSet].empty();
+      if (has != has_reference) (has ? alone : lacking)[without_ending(row.name)].push_back(&row);
+    }
+    for (const auto& [name, from] : alone)
+      if (const auto to = lacking.find(name);
+          from.size() == 1 && to != lacking.end() && to->second.size() == 1)
+        std::swap(from.front()->files[set], to->second.front()->files[set]);
+  }
+  std::erase_if(rows, [](const PictureRow& row) {
+    return std::ranges::all_of(row.files, &std::string::empty);
+  });
+}
+
+/// Walks each different folder once.
+std::map<std::string, FolderWalk> walk_all(const PairingChoice& choice, Pairing& pairing) {
+  std::map<std::string, FolderWalk> walks;
+  for (const std::string& folder : choice.given) {
+    const auto [at, is_new] = walks.try_emplace(folder, folder, choice.most_files);
+    if (!is_new) continue;
+    pairing.passed_over += at->second.passed_over;
+    pairing.not_followed.insert(pairing.not_followed.end(), at->second.not_followed.begin(),
+                                at->second.not_followed.end());
+  }
+  return walks;
+}
+
+Pairing pair_folders(const PairingChoice& choice) {
+  Pairing pairing{titles_of(choice.given), {}, {}, 0, {}};
+  const auto walks = walk_all(choice, pairing);
+  Rows rows(choice.given.size());
+  for (std::size_t set = 0; set < choice.given.size(); ++set)
+    for (const std::string& name : walks.at(choice.given[set]).pictures)
+      rows.put(name, set, file_in(choice.given[set], name));
+  pairing.rows = std::move(rows).sorted();
+  pair_across_endings(pairing.rows);
+  return pairing;
+}
+
+/// The field that tells the sets apart, and its value in each.
+struct SetField {
+  std::string name;
+  std::vector<std::string> values;
+};
+
+SetField parse_sets(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  SetField field;
+  if (equals != std::string::npos)
+    field = {text.substr(0, equals), split(std::string_view(text).substr(equals + 1), ",")};
+  if (field.name.empty() || field.values.size() < 2 ||
+      std::set(field.values.begin(), field.values.end()).size() < field.values.size())
+    throw Error(ExitCode::kUsage,
+                fmt::format("--sets {}: expected FIELD=JUDGED,REFERENCE and perhaps more values, "
+                            "each once, for example engine=mine,reference",
+                            printable(text)));
+  return field;
+}
+
+/// "{scene}_{engine}.exr" as an expression whose groups are its fields.
+class NamePattern {
+ public:
+  NamePattern(const std::string& pattern, const SetField& sets) {
+    constexpr std::string_view kSpecial = R"(\^$.|?*+()[]{})";
+    constexpr std::size_t kMostFields = 16;
+    std::string expression;
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+      if (pattern[i] != '{') {
+        if (pattern[i] == '}') fail(pattern, "a '}' without its '{'");
+        if (kSpecial.find(pattern[i]) != std::string_view::npos) expression += '\\';
+        expression += pattern[i];
+        continue;
+      }
+      const std::size_t end = pattern.find('}', i);
+      if (end == std::string::npos) fail(pattern, "a '{' without its '}'");
+      const std::string field = pattern.substr(i + 1, end - i - 1);
+      if (!field.empty() && std::ranges::count(fields, field) > 0)
+        fail(pattern, "a field that stands there twice");
+      expression += field == sets.name && !field.empty() ? alternatives(sets.values) : "([^/]+)";
+      fields.push_back(field);
+      i = end;
+    }
+    if (fields.empty()) fail(pattern, "no {field}");
+    if (fields.size() > kMostFields) fail(pattern, "over 16 fields");
+    if (!sets.name.empty() && std::ranges::count(fields, sets.name) == 0)
+      throw Error(ExitCode::kUsage, fmt::format("--sets: --pattern {} has no field {{{}}}",
+                                                printable(pattern), printable(sets.name)));
+    expression_ = std::regex(expression);
+  }
+
+  std::vector<std::string> fields;  ///< in their order; "" tells nothing apart
+
+  /// The values of the fields; empty if the name does not fit.
+  std::vector<std::string> values_in(const std::string& name) const {
+    std::smatch match;
+    // The library's matcher recurses for each character.
+    constexpr std::size_t kLongest = 4096;
+    if (name.size() > kLongest || !std::regex_match(name, match, expression_)) return {};
+    return {match.begin() + 1, match.end()};
+  }
+
+ private:
+  [[noreturn]] static void fail(const std::string& pattern, std::string_view what) {
+    throw Error(ExitCode::kUsage, fmt::format("--pattern {}: {}; expected a name with fields, "
+                                              "for example {{scene}}_{{engine}}.exr",
+                                              printable(pattern), what));
+  }
+  static std::string alternatives(const std::vector<std::string>& values) {
+    std::string text;
+    for (const std::string& value : values) {
+      text += text.empty() ? "(" : "|";
+      for (const char c : value) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    }
+    return text + ")";
+  }
+  std::regex expression_;
+};
+
+Pairing pair_by_pattern(const PairingChoice& choice) {
+  const SetField sets = choice.sets.empty() ? SetField{} : parse_sets(choice.sets);
+  const NamePattern pattern(choice.pattern, sets);
+  const bool one_folder = choice.given.size() == 1;
+  if (one_folder && sets.name.empty())
+    throw Error(ExitCode::kUsage,
+                "--pattern with one folder needs --sets: which field tells the sets apart, and "
+                "its values, for example --sets engine=mine,reference");
+  if (!one_folder && !sets.name.empty() && sets.values.size() != choice.given.size())
+    throw Error(ExitCode::kUsage, fmt::format("--sets names {} sets, and there are {} folders",
+                                              sets.values.size(), choice.given.size()));
+  Pairing pairing;
+  pairing.sets = one_folder ? sets.values : titles_of(choice.given);
+  for (const std::string& field : pattern.fields)
+    if (!field.empty() && field != sets.name) pairing.fields.push_back(field);
+  const auto walks = walk_all(choice, pairing);
+  Rows rows(pairing.sets.size());
+  const auto place = [&](const std::string& name, std::size_t only_set, const std::string& file) {
+    const std::vector<std::string> values = pattern.values_in(name);
+    if (values.empty()) return false;
+    std::size_t set = only_set;
+    std::vector<std::string> own;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string& field = pattern.fields[i];
+      if (field.empty()) continue;
+      if (field != sets.name) {
+        own.push_back(values[i]);
+        continue;
+      }
+      const auto at = std::size_t(std::ranges::find(sets.values, values[i]) - sets.values.begin());
+      if (!one_folder && at != only_set) return false;
+      set = at;
+    }
+    rows.put(own.empty() ? values.front() : fmt::format("{}", fmt::join(own, "/")), set, file, own);
+    return true;
+  };
+  for (std::size_t set = 0; set < choice.given.size(); ++set)
+    for (const std::string& name : walks.at(choice.given[set]).pictures)
+      if (!place(name, set, file_in(choice.given[set], name))) ++pairing.passed_over;
+  pairing.rows = std::move(rows).sorted();
+  return pairing;
+}
+
+/// The text before and after a sequence's number, and the least number of its digits.
+struct Sequence {
+  std::string before, after;
+  std::size_t digits = 0;
+};
+
+std::optional<Sequence> sequence_in(const std::string& path) {
+  static const std::regex kNumber("%(0([1-9]))?d|#+");
+  const std::string name = fs::path(path).filename().string();
+  std::smatch match;
+  constexpr std::size_t kLongest = 255;
+  if (name.size() > kLongest || !std::regex_search(name, match, kNumber)) return std::nullopt;
+  const std::string after = match.suffix();
+  if (std::regex_search(after, kNumber)) return std::nullopt;
+  const bool is_hashes = match[0].str().front() == '#';
+  return Sequence{match.prefix(), after,
+                  is_hashes          ? std::size_t(match.length(0))
+                  : match[2].matched ? std::size_t(match[2].str().front() - '0')
+                                     : 1};
+}
+
+/// The frame's number without leading zeros; empty if the file is none of the sequence's.
+std::string frame_of(const std::string& name, const Sequence& sequence) {
+  const std::size_t around = sequence.before.size() + sequence.after.size();
+  if (name.size() < around + sequence.digits || !name.starts_with(sequence.before) ||
+      !name.ends_with(sequence.after))
+    return "";
+  std::string digits = name.substr(sequence.before.size(), name.size() - around);
+  const bool is_padded = digits.size() > sequence.digits && digits.front() == '0';
+  if (is_padded || digits.find_first_not_of("0123456789") != std::string::npos) return "";
+  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
+  return digits;
+}
+
+Pairing pair_sequences(const PairingChoice& choice) {
+  Pairing pairing{titles_of(choice.given), {"frame"}, {}, 0, {}};
+  struct Frame {
+    std::string number;
+    std::size_t set;
+    std::string file;
+  };
+  std::vector<Frame> frames;
+  std::size_t longest = 1;
+  for (std::size_t set = 0; set < choice.given.size(); ++set) {
+    const fs::path path = choice.given[set];
+    const Sequence sequence = *sequence_in(choice.given[set]);
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    std::error_code error;
+    std::size_t files = 0;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (++files > choice.most_files)
+        throw Error(ExitCode::kInput,
+                    fmt::format("{}: holds over {} files", folder.string(), choice.most_files));
+      const std::string name = entry->path().filename().string();
+      const std::string number = frame_of(name, sequence);
+      if (number.empty()) continue;
+      longest = std::max(longest, number.size());
+      frames.push_back({number, set, (path.parent_path() / name).string()});
+    }
+    if (error)
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+    if (std::ranges::none_of(frames, [&](const Frame& frame) { return frame.set == set; }))
+      throw Error(ExitCode::kInput, fmt::format("{}: no file is a frame of this sequence",
+                                                printable_path(choice.given[set])));
+  }
+  // With leading zeros, so that names sort as numbers.
+  constexpr std::size_t kUsualDigits = 4;
+  longest = std::max(longest, kUsualDigits);
+  Rows rows(choice.given.size());
+  for (const Frame& frame : frames) {
+    const std::string name = std::string(longest - frame.number.size(), '0') + frame.number;
+    rows.put(name, frame.set, frame.file, {name});
+  }
+  pairing.rows = std::move(rows).sorted();
+  return pairing;
+}
+
+/// The records of RFC 4180. Throws Error(kInput).
+std::vector<std::vector<std::string>> csv_records(const std::string& file,
+                                                  const std::string& text) {
+  std::vector<std::vector<std::string>> records;
+  std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  while (at < text.size()) {
+    std::vector<std::string>& record = records.emplace_back();
+    for (bool more = true; more;) {
+      std::string field;
+      if (at < text.size() && text[at] == '"') {
+        for (++at;; ++at) {
+          if (at >= text.size())
+            throw Error(
+                ExitCode::kInput,
+                fmt::format("{}: record {}: a quotation mark is not closed", file, records.size()));
+          if (text[at] == '"' && (++at >= text.size() || text[at] != '"')) break;
+          field += text[at];
+        }
+      } else {
+        const std::size_t end = std::min(text.find_first_of(",\r\n", at), text.size());
+        field = text.substr(at, end - at);
+        at = end;
+      }
+      record.push_back(field);
+      more = at < text.size() && text[at] == ',';
+      if (more) ++at;
+    }
+    if (at < text.size() && text[at] != '\r' && text[at] != '\n')
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: record {}: text after a quotation mark", file, records.size()));
+    if (at < text.size() && text[at] == '\r') ++at;
+    if (at < text.size() && text[at] == '\n') ++at;
+    if (record.size() == 1 && record.front().empty()) records.pop_back();
+  }
+  return records;
+}
+
+Pairing pair_by_csv(const PairingChoice& choice) {
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;
+  constexpr std::size_t kMostSets = 64;
+  const auto records = csv_records(choice.csv, read_file(choice.csv, kMostBytes));
+  const auto fail = [&](std::string_view why) {
+    throw Error(ExitCode::kInput, fmt::format("{}: {}", printable_path(choice.csv), why));
+  };
+  if (records.empty()) fail("is empty; its first line has the titles of the sets");
+  std::vector<std::string> header = records.front();
+  const auto name_at = std::size_t(std::ranges::find(header, "name") - header.begin());
+  Pairing pairing;
+  for (std::size_t i = 0; i < header.size(); ++i)
+    if (i != name_at) pairing.sets.push_back(printable(header[i]));
+  if (pairing.sets.size() < 2 || pairing.sets.size() > kMostSets)
+    fail("its first line must have the titles of two sets or more, the reference second");
+  if (std::set(pairing.sets.begin(), pairing.sets.end()).size() < pairing.sets.size())
+    fail("two sets have one title");
+  if (records.size() > choice.most_files) fail("has too many lines");
+  const fs::path folder = fs::path(choice.csv).parent_path();
+  Rows rows(pairing.sets.size());
+  for (std::size_t line = 1; line < records.size(); ++line) {
+    if (records[line].size() != header.size())
+      fail(fmt::format("record {} has {} fields, the first {}", line + 1, records[line].size(),
+                       header.size()));
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < header.size(); ++i)
+      if (i != name_at) files.push_back(records[line][i]);
+    const auto some = std::ranges::find_if_not(files, &std::string::empty);
+    if (some == files.end()) fail(fmt::format("record {} names no file", line + 1));
+    const std::string& reference = files[kReferenceSet];
+    const std::string name = name_at < header.size() && !records[line][name_at].empty()
+                                 ? records[line][name_at]
+                             : reference.empty() ? *some
+                                                 : reference;
+    for (std::size_t set = 0; set < files.size(); ++set)
+      if (!files[set].empty()) rows.put(name, set, (folder / files[set]).string());
+  }
+  pairing.rows = std::move(rows).sorted();
+  return pairing;
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code unknown;
+  return fs::is_directory(path, unknown);
+}
+
+/// Whether all are such, or none. Throws Error(kInput) for a mixture.
+bool all_are(const std::vector<std::string>& given, bool (*is_such)(const std::string&),
+             std::string_view such) {
+  const bool first = is_such(given.front());
+  for (const std::string& path : given)
+    if (std::error_code unknown;
+        is_such(path) != first && !fs::exists(path, unknown) && !is_sequence(path))
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: no such file or folder", printable_path(path)));
+    else if (is_such(path) != first)
+      throw Error(ExitCode::kInput,
+                  fmt::format("{} is {}a {}, but {} is{}; compare files with files, folders with "
+                              "folders and sequences with sequences",
+                              printable_path(given.front()), first ? "" : "not ", such,
+                              printable_path(path), first ? " not" : ""));
+  return first;
+}
+
+}  // namespace
+
+bool is_below(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+bool is_sequence(const std::string& path) {
+  std::error_code unknown;
+  return !fs::exists(path, unknown) && sequence_in(path).has_value();
+}
+
+Pairing pair_pictures(const PairingChoice& choice) {
+  if (!choice.sets.empty() && choice.pattern.empty())
+    throw Error(ExitCode::kUsage, "--sets needs --pattern, which has the field");
+  if (!choice.csv.empty()) {
+    if (!choice.given.empty() || !choice.pattern.empty())
+      throw Error(ExitCode::kUsage, "--pairs names all pictures: leave out A, B and --pattern");
+    return pair_by_csv(choice);
+  }
+  const bool folders = all_are(choice.given, is_folder, "folder");
+  if (!choice.pattern.empty()) {
+    if (!folders)
+      throw Error(ExitCode::kInput, fmt::format("{} is no folder, which --pattern needs",
+                                                printable_path(choice.given.front())));
+    return pair_by_pattern(choice);
+  }
+  if (choice.given.size() < 2)
+    throw Error(ExitCode::kUsage, "B is required: the reference picture");
+  if (folders) return pair_folders(choice);
+  if (all_are(choice.given, is_sequence, "sequence")) return pair_sequences(choice);
+  Pairing pairing{titles_of(choice.given), {}, {}, 0, {}};
+  pairing.rows.push_back({fs::path(choice.given.front()).filename().string(), choice.given});
+  pairing.is_one_row = true;
+  return pairing;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,60 @@
+// Sets of pictures, and which pictures of them belong together.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lobelia {
+
+/// Pictures of the same thing, at most one of each set.
+struct PictureRow {
+  /// Of all of them, such as "lights/area.exr", a frame's number, or the values of a pattern's fields, joined by '/'.
+  std::string name;
+  std::vector<std::string> files;        ///< by set; empty where it has none
+  std::vector<std::string> fields = {};  ///< values of Pairing::fields
+};
+
+struct Pairing {
+  std::vector<std::string> sets;  ///< titles, all different; the second is the reference
+  std::vector<std::string>
+      fields;                    ///< names of what tells the rows apart, if the files' names say it
+  std::vector<PictureRow> rows;  ///< sorted by name, each once
+  std::size_t passed_over =
+      0;  ///< files without a picture's ending, or that the pattern does not fit
+  /// Links to a folder outside the set's, or to nothing; their paths begin with the folder's.
+  std::vector<std::string> not_followed = {};
+  bool is_one_row = false;  ///< files that were given one by one
+};
+inline constexpr std::size_t kReferenceSet = 1;
+
+/// How to read what the user gave.
+struct PairingChoice {
+  std::vector<std::string>
+      given;  ///< files, folders or sequences: a set each; one folder with `pattern` and `sets`
+  std::string csv;      ///< a table of files, in place of `given`
+  std::string pattern;  ///< "{scene}_{engine}.exr", of paths within the folders; may be empty
+  std::string
+      sets;  ///< "engine=mine,reference": the field that tells the sets apart, and its values
+  std::size_t most_files = 1'000'000;
+};
+
+/// Whether an absolute, canonical path is the folder or lies in it.
+bool is_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+/// Whether the file's name stands for a sequence: it holds %04d, %d or ####, once.
+bool is_sequence(const std::string& path);
+
+/// Pairs two files, or
+/// - folders by name within them, and what is left by name without its ending, if that is unique on both sides;
+/// - folders by the fields of a pattern: {name} fits any text without '/', {} as well but tells nothing apart;
+/// - sequences by their frames' numbers;
+/// - the columns of a CSV file (RFC 4180, with a header: the titles of the sets, and perhaps "name"), whose paths are
+///   relative to it.
+/// Walks folders and the folders inside them. Follows a link to a folder inside, but never to one that contains the link.
+/// Throws Error(kUsage) for a choice that does not fit together, Error(kInput) if a folder or the table cannot be read,
+/// two files have one place, or a folder holds over `most_files`, probably the wrong one.
+Pairing pair_pictures(const PairingChoice& choice);
+
+}  // namespace lobelia
