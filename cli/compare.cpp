@@ -10,7 +10,6 @@
 #include "cli/compare_pictures.hpp"
 #include "cli/options.hpp"
 #include "compare/highlight_region.hpp"
-#include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/sensitivity.hpp"
 #include "core/colour.hpp"
@@ -28,66 +27,54 @@ namespace fs = std::filesystem;
 
 struct CompareArguments {
   CompareJob job;
-  std::string json, csv, junit, html, title, tolerance, exposures;
+  ViewingFlags viewing;
+  std::string json, csv, junit, html, title, tolerance;
   bool single_file = false;
   std::string a, b;
   std::vector<std::string> further;
-  std::string exposure = "auto", junit_undecided = "failure";
+  std::string junit_undecided = "failure", metrics;
   bool sensitivity = false, no_default_limits = false;
   std::vector<std::string> fail, warn;
   DisplayViewChoice display;
   int threads = 0;
 };
 
+/// The id with a threshold in its shortest form, as a record has it.
+std::string in_shortest_form(const std::string& id) {
+  const MetricOutput* output = find_metric_output(id);
+  return output ? std::string(output->id) : id;
+}
+
 MetricLimit parse_limit(std::string_view option, const std::string& text) {
   // The last one, because an id may hold another: relmse.eps=0.01.
   const std::size_t equals = text.rfind('=');
-  MetricLimit limit{text.substr(0, equals), 0};
-  if (equals == std::string::npos || !parse_number(text.substr(equals + 1), limit.limit))
+  MetricLimit limit{in_shortest_form(text.substr(0, equals)), 0};
+  const bool is_percent = text.ends_with('%');
+  const std::size_t digits = text.size() - std::min(text.size(), equals + 1) - is_percent;
+  if (equals == std::string::npos || !parse_number(text.substr(equals + 1, digits), limit.limit))
     throw Error(ExitCode::kUsage,
                 fmt::format("{} {}: expected METRIC=LIMIT, for example rmse=0.001", option,
                             printable(text)));
+  const MetricOutput* output = find_metric_output(limit.metric);
+  if (is_percent && output && output->unit != Unit::kShare)
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} {}: {} is no share, so its limit is no percentage", option,
+                            printable(text), limit.metric));
+  if (is_percent) limit.limit /= 100;
   return limit;
 }
 
-/// Reads "NUMBER,NUMBER,COUNT" into `first` and `second`, and returns the count.
-long long parse_three(std::string_view option, const std::string& text, std::string_view expected,
-                      double& first, double& second) {
-  const std::vector<std::string> parts = split(text, ",");
-  long long count = 0;
-  if (parts.size() != 3 || !parse_number(parts[0], first) || !parse_number(parts[1], second) ||
-      !parse_integer(parts[2], count))
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} {}: expected {}", option, printable(text), expected));
-  return count;
-}
-
 Tolerance parse_tolerance(const std::string& text) {
+  const std::vector<std::string> parts = split(text, ",");
   Tolerance tolerance;
-  tolerance.allowed_outliers =
-      parse_three("--tolerance", text, "RELATIVE,OF_PEAK,OUTLIERS, for example 6e-4,1e-6,3",
-                  tolerance.relative, tolerance.of_peak);
+  long long count = 0;
+  if (parts.size() != 3 || !parse_number(parts[0], tolerance.relative) ||
+      !parse_number(parts[1], tolerance.of_peak) || !parse_integer(parts[2], count))
+    throw Error(ExitCode::kUsage, fmt::format("--tolerance {}: expected RELATIVE,OF_PEAK,OUTLIERS, "
+                                              "for example 6e-4,1e-6,3",
+                                              printable(text)));
+  tolerance.allowed_outliers = count;
   return tolerance;
-}
-
-HdrExposures parse_exposures(const std::string& text) {
-  // The numbers of an automatic range come from the reference, once it is read.
-  if (text == "auto") return {0, 0, 2, true};
-  HdrExposures range;
-  const long long count =
-      parse_three("--exposures", text, "START,STOP,COUNT, for example -6,2,9, or auto",
-                  range.start_stops, range.stop_stops);
-  range.count = int(std::clamp<long long>(count, 0, kMaxHdrExposures + 1));
-  return range;
-}
-
-/// Sets the exposure of the perceptual metrics: "auto" or stops.
-void parse_exposure(const std::string& text, Viewing& viewing) {
-  viewing.automatic = text == "auto";
-  if (!viewing.automatic && !parse_number(text, viewing.exposure_stops))
-    throw Error(
-        ExitCode::kUsage,
-        fmt::format("--exposure {}: expected stops, for example -2, or auto", printable(text)));
 }
 
 constexpr std::string_view kStdout = "-";
@@ -112,19 +99,6 @@ void check_companions(const CompareJob& job, const Pairing& pairing) {
                             by_name ? " not" : ""));
 }
 
-void check_difference(const DifferencePicture& difference, bool folders) {
-  if (difference.path.empty()) return;
-  if (difference.of == kChannels && !difference.colour_map.empty())
-    throw Error(ExitCode::kUsage,
-                "--diff-colours is for one value a pixel; choose it with --diff-of");
-  if (folders) return;
-  const std::string ending = difference.path.extension().string();
-  if (ending != ".png" && !(ending == ".exr" && difference.of != kChannels))
-    throw Error(ExitCode::kUsage,
-                fmt::format("--diff-image {} must end in .png{}", difference.path.string(),
-                            difference.of == kChannels ? "" : " (colours) or .exr (values)"));
-}
-
 /// The same for all paths and links to a file.
 using FileId = std::pair<dev_t, ino_t>;
 
@@ -143,6 +117,7 @@ std::set<FileId> inputs_of(const CompareArguments& options, const Pairing& pairi
   };
   add(job.scene);
   add(options.display.config);
+  for (const fs::path& file : job.regions.files()) add(file);
   if (!job.pictures.csv.empty()) add(job.pictures.csv);
   const bool by_name = has_folders_by_name(job, pairing);
   for (const PictureRow& row : pairing.rows) {
@@ -174,6 +149,7 @@ void require_outputs(const CompareArguments& options, const Pairing& pairing) {
   std::vector<fs::path> reports, pictures;
   for (const std::string& file : {options.json, options.csv, options.junit})
     if (!file.empty() && file != kStdout) reports.emplace_back(file);
+  if (!job.difference.histogram.empty()) reports.push_back(job.difference.histogram);
   const bool one = is_one_pair(pairing);
   if (!job.difference.path.empty()) {
     if (one) {
@@ -242,6 +218,7 @@ ExitCode run_sensitivity(const CompareArguments& options) {
         {!job.c.empty(), "--reference-floor"},
         {job.comparison.noise.has_value(), "the noise of a picture"},
         {!job.difference.path.empty(), "--diff-image"},
+        {!job.difference.histogram.empty(), "--histogram"},
         {!(options.json.empty() && options.csv.empty() && options.junit.empty()), "a report"}})
     if (given)
       throw Error(
@@ -251,7 +228,12 @@ ExitCode run_sensitivity(const CompareArguments& options) {
   const std::string& picture = job.pictures.given.front();
   std::vector<Change> changes;
   ThreadLimit(options.threads).run([&] {
-    changes = sensitivity(read_picture(picture, job.layers.layer).image, job.comparison);
+    PicturePair pictures{read_picture(picture, job.layers.layer), {}};
+    pictures.b = pictures.a;
+    ComparisonOptions comparison = job.comparison;
+    job.regions.apply(pictures.a.image.width(), pictures.a.image.height(), comparison);
+    take_part(pictures, picture, picture, comparison);
+    changes = sensitivity(pictures.b.image, comparison);
   });
   fmt::print("{}\n\n  {:<38}{:<12}{}\n", printable_path(picture), "changed copy", "verdict", "by");
   bool as_expected = true;
@@ -276,20 +258,22 @@ ExitCode run_compare(CompareArguments options) {
   for (const std::string& given : options.further) options.job.pictures.given.push_back(given);
   comparison.highlight = true;
   comparison.default_limits = !options.no_default_limits;
-  parse_exposure(options.exposure, comparison.viewing);
+  options.viewing.apply(comparison.viewing);
   for (const std::string& text : options.fail)
     comparison.limits.push_back(parse_limit("--fail", text));
   for (const std::string& text : options.warn)
     comparison.warnings.push_back(parse_limit("--warn", text));
+  for (const std::string& name : split(options.metrics, ","))
+    comparison.metrics.push_back(in_shortest_form(name));
   if (!options.tolerance.empty()) comparison.tolerance = parse_tolerance(options.tolerance);
-  if (!options.exposures.empty())
-    comparison.viewing.hdr_exposures = parse_exposures(options.exposures);
   comparison.viewing.display = DisplayView::open(options.display);
   if (!options.job.scene.empty()) {
     const Scene scene = read_scene(options.job.scene);
-    comparison.mask = truth::surface_mask(scene);
+    comparison.surfaces = truth::surface_mask(scene);
+    comparison.mask_of = {options.job.scene};
     if (comparison.tolerance) comparison.tolerance->edges = truth::edge_ring(scene);
   }
+  options.job.regions.read(comparison);
   options.job.noise.apply(comparison);
   if (comparison.noise && options.job.layers.all)
     throw Error(ExitCode::kUsage,
@@ -298,6 +282,11 @@ ExitCode run_compare(CompareArguments options) {
     throw Error(ExitCode::kUsage,
                 "--allow-equal-nonfinite: a value that is not finite has no noise; leave out the "
                 "noise of A and B");
+  if (options.no_default_limits && comparison.limits.empty() && !comparison.tolerance &&
+      !comparison.noise)
+    throw Error(ExitCode::kUsage,
+                "--no-default-limits: nothing is left to judge by; add --fail METRIC=LIMIT or "
+                "--tolerance");
   check_options(comparison);
   if (options.sensitivity) return run_sensitivity(options);
   if (options.job.pictures.given.empty() && options.job.pictures.csv.empty())
@@ -306,7 +295,7 @@ ExitCode run_compare(CompareArguments options) {
   const Pairing pairing = pair_pictures(options.job.pictures);
   const bool one = is_one_pair(pairing);
   check_companions(options.job, pairing);
-  check_difference(options.job.difference, !one);
+  options.job.difference.check(!one, comparison.viewing.hdr_exposures.has_value());
   require_outputs(options, pairing);
 
   SetReport report;
@@ -325,16 +314,12 @@ ExitCode run_compare(CompareArguments options) {
 }
 
 std::string footer() {
-  std::string defaults;
-  for (const auto limits : {default_limits(), highlight_limits()})
-    for (const MetricLimit& limit : limits)
-      defaults += fmt::format("{}{} {:g}", defaults.empty() ? "" : ", ", limit.metric, limit.limit);
   return fmt::format(
       "Metrics that a limit can be set on:\n"
       "  {}\n"
       "Of most there is one more for a part of the picture: with .highlight at the end (rmse.highlight) of\n"
-      "the pixels that have {:g} % of the peak of A or B, and with --scene .mask and .outside.\n"
-      "The default limits are {}. --sensitivity shows what they find.\n"
+      "the pixels that have {:g} % of the peak of A or B, and with --mask or --scene .mask and .outside.\n"
+      "The default limits are {}, {}. --sensitivity shows what they find.\n"
       "Channels are taken by their names, grey as three equal ones. A file's integers are decoded from\n"
       "sRGB to linear light unless it says otherwise, floats are light; the record says how each was read.\n"
       "Of a picture that is a crop of its display window, the rest is black. Data outside of it are compared as\n"
@@ -361,7 +346,8 @@ std::string footer() {
       "limit, not measured, not finite, missing or not followed, 2 usage, 3 a picture is unreadable, has\n"
       "no such layer or another size, or there is no pair, 4 an output cannot be written, 6 undecided,\n"
       "130 Ctrl-C, 143 SIGTERM.",
-      join(limit_names(false)), 100 * kHighlightShare, defaults);
+      join(limit_names(false)), 100 * kHighlightShare, limits_text(default_limits()),
+      limits_text(highlight_limits()));
 }
 
 void add_display_options(OptionGroup& viewing, DisplayViewChoice& display) {
@@ -375,32 +361,6 @@ void add_display_options(OptionGroup& viewing, DisplayViewChoice& display) {
   viewing.add("--input-space", display.input_space, "NAME",
               "The colour space of A and B in it; default: its linear Rec. 709, or else its "
               "role scene_linear");
-}
-
-void add_difference_options(OptionGroup& output, DifferencePicture& difference) {
-  std::vector<std::string> maps{std::string(kChannels)};
-  for (const std::string_view id : difference_map_names()) maps.emplace_back(id);
-  auto* picture = output.add(
-      "--diff-image", difference.path, "FILE|DIR",
-      "Write where the two differ, in colours (.png, with the scale in its metadata) or as values "
-      "(.exr); of folders, a folder of .png");
-  output
-      .add_choice(
-          "--diff-of", difference.of, maps,
-          "What it shows: channels is |A - B| of each in its own colour, the others are one "
-          "value a pixel")
-      ->needs(picture);
-  output
-      .add_choice("--diff-colours", difference.colour_map,
-                  {colour_map_names().begin(), colour_map_names().end()},
-                  fmt::format("Its colour map; default {}, of signed values {}", kDefaultColourMap,
-                              kSignedColourMap))
-      ->needs(picture);
-  output
-      .add("--diff-scale", difference.scale, "NUMBER",
-           "The difference that has the map's last colour; default: the largest")
-      ->check(CLI::PositiveNumber)
-      ->needs(picture);
 }
 
 }  // namespace
@@ -458,7 +418,13 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   };
   add_limits(
       "--fail", options->fail,
-      "Verdict 'differs' if METRIC is over LIMIT (a likeness, such as psnr: below it); may be given again");
+      "Verdict 'differs' if METRIC is over LIMIT (a likeness, such as psnr: below it); a limit on a "
+      "share may be a percentage (share_over.abs=0.004=10%); may be given again");
+  verdict.add(
+      "--metrics", options->metrics, "LIST",
+      "Measure only these, and what the limits are on: ids or their beginnings (rmse,flip.ldr), "
+      "families (colour), with a region (rmse.mask), regions (highlight), default or all. "
+      "Default limits are still judged, unless --no-default-limits leaves them out");
   verdict.add_flag(
       "--no-default-limits", options->no_default_limits,
       "Judge by --fail and --tolerance alone; otherwise they add to the default limits, "
@@ -480,20 +446,10 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       "A NaN or an infinity that both pictures have in the same pixel and channel is no "
       "difference; always so for layers named Z, ZBack, depth, distance or position");
 
+  job.regions.add_to(*command);
   job.noise.add_to(*command);
 
-  look.add("--exposure", options->exposure, "STOPS|auto",
-           "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted; with "
-           "auto it is 0 for what a display can show, and otherwise two that show the peak of the "
-           "highlight and its tail, of which the worse counts")
-      ->capture_default_str();
-  look.add("--exposures", options->exposures, "START,STOP,COUNT|auto",
-           "Measure HDR-FLIP over COUNT exposures from START to STOP, in stops, shown through "
-           "the ACES curve; with auto over the range that the reference alone suggests");
-  look.add_number("--pixels-per-degree", viewing.pixels_per_degree, kMinPixelsPerDegree,
-                  kMaxPixelsPerDegree,
-                  "How many pixels of the display a degree of the viewer's eye sees, for FLIP")
-      ->type_name("NUMBER");
+  options->viewing.add_to(*command, viewing);
   add_display_options(look, options->display);
 
   output.add("--json", options->json, "FILE|-",
@@ -515,7 +471,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
           "The report is one file that can be sent: DIR/index.html, or DIR if it ends in .html")
       ->needs(html);
   output.add("--title", options->title, "TEXT", "The title of the report")->needs(html);
-  add_difference_options(output, job.difference);
+  job.difference.add_to(*command);
   output.add("--threads", options->threads, "", "Threads that work; 0: one for each processor")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

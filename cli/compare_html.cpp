@@ -243,11 +243,12 @@ class ReportWriter {
 
   void add_pair(const PairReport& pair, gallery::ReportCell& made) const {
     const Comparison& comparison = *pair.comparison;
-    const ComparedPair read = read_compared(pair, job_, pairing_, job_.comparison);
+    ComparisonOptions options = job_.comparison;
+    const PicturePair read = read_compared(pair, job_, pairing_, options);
     const double stops = comparison.viewing.exposure_stops;
     if (!made.cell.record.exposure_stops) made.cell.record.exposure_stops = stops;
-    add_image(kReferenceSet, pair.b, read.pictures.b, stops, made);
-    add_image(pair.set, pair.a, read.pictures.a, stops, made);
+    add_image(kReferenceSet, pair.b, read.b, stops, made);
+    add_image(pair.set, pair.a, read.a, stops, made);
     gallery::CheckedComparison checked;
     checked.record = pair_record(pair);
     checked.verdict = verdict_name(pair.verdict());
@@ -256,8 +257,8 @@ class ReportWriter {
     const double largest = comparison.value("max_abs");
     checked.entry.difference = {largest > 0 ? largest : 1, comparison.value("max_rel_peak")};
     checked.png.file = fmt::format("{}-{}.png", checked.entry.a, checked.entry.b);
-    made.shown[checked.png.file] = difference_picture(read.pictures.a.image, read.pictures.b.image,
-                                                      checked.entry.difference.white_at);
+    made.shown[checked.png.file] =
+        difference_picture(read.a.image, read.b.image, checked.entry.difference.white_at);
     checked.sentence = highlight_sentence(comparison, printable_path(pairing_.sets[pair.set]),
                                           printable_path(pairing_.sets[kReferenceSet]));
     made.cell.comparisons.push_back(std::move(checked));
@@ -318,9 +319,11 @@ void require_place(const HtmlReport& html) {
 void write_html(const HtmlReport& html, const CompareJob& job, const Pairing& pairing,
                 const SetReport& report) {
   gallery::GalleryOptions options = gallery_options();
-  if (!job.comparison.mask.empty())
+  if (!job.comparison.crop)  // the mask of a cut has another size
     options.region = [&](const Image& a, const Image& b) {
-      return highlight_region(a, b, job.comparison.mask);
+      ComparisonOptions parts = job.comparison;
+      job.regions.apply(b.width(), b.height(), parts);
+      return highlight_region(a, b, parts.mask);
     };
   ReportWriter writer(job, pairing, report);
   gallery::Report site;

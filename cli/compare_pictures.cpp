@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "compare/highlight_region.hpp"
-#include "compare/maps/difference_map.hpp"
 #include "compare/metrics/catalogue.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/files.hpp"
@@ -35,64 +34,13 @@ std::string main_layer(const std::string& a, const std::string& b, const LayerOp
   return common_layers(a, b).both.front();
 }
 
-/// A map's values in three equal channels.
-Image grey_picture(std::span<const float> values, int width, int height) {
-  Image image(width, height);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    std::fill_n(image.values().begin() + std::ptrdiff_t(3 * i), 3, values[i]);
-  return image;
-}
-
-/// Without --diff-scale the largest difference has the last colour.
-double scale_of(const DifferencePicture& wanted, double largest) {
-  return wanted.scale > 0 ? wanted.scale : largest > 0 ? largest : 1.0;
-}
-
-void write_channels(const DifferencePicture& wanted, const fs::path& path, const Image& a,
-                    const Image& b, double largest) {
-  // A difference that is not finite is magenta.
-  const double scale = scale_of(wanted, largest);
-  write_png(path, difference_picture(a, b, scale),
-            {{"Description", fmt::format("|A - B| of R, G and B (radiance), 0 to {:.6g}", scale)},
-             {"lobelia:difference", std::string(kChannels)},
-             {"lobelia:unit", "radiance"},
-             {"lobelia:scaleFrom", "0"},
-             {"lobelia:scaleTo", fmt::format("{}", scale)},
-             {"lobelia:notFinite", "#ff00ff"}});
-  say("{}: white is a difference of {:.6g}\n", printable_path(path.string()), scale);
-}
-
-void write_difference(const DifferencePicture& wanted, const fs::path& path, const Image& a,
-                      const Image& b, const Comparison& comparison) {
-  if (wanted.of == kChannels) {
-    write_channels(wanted, path, a, b, comparison.value("max_abs"));
-    return;
-  }
-  const DifferenceMap& map = *find_difference_map(wanted.of);
-  const std::vector<float> values = measure_difference_map(map, a, b, comparison.viewing);
-  const double largest = largest_magnitude(values);
-  const double scale = scale_of(wanted, largest);
-  const std::string_view colours = !wanted.colour_map.empty() ? std::string_view(wanted.colour_map)
-                                   : map.is_signed            ? kSignedColourMap
-                                                              : kDefaultColourMap;
-  if (path.extension() == ".exr")
-    write_exr(path, grey_picture(values, a.width(), a.height()),
-              {{"Description", fmt::format("{} ({})", map.meaning, map.unit)},
-               {"lobelia:difference", std::string(map.id)},
-               {"lobelia:unit", std::string(map.unit)}});
-  else
-    write_png(path, colour_picture(values, a.width(), a.height(), scale, colours),
-              colour_metadata(map, scale, colours));
-  say("{}: {} up to {:.6g}, the largest is {:.6g}\n", printable_path(path.string()), map.id, scale,
-      largest);
-}
-
-/// The exposures that suit `reference`, or no range and the reason.
-HdrExposures exposures_or_why_not(const Image& reference) {
+/// `asked` with the exposures that suit `reference`, or with the reason why there are none.
+HdrExposures exposures_or_why_not(const Image& reference, HdrExposures asked) {
   try {
-    return automatic_exposures(reference);
+    return automatic_exposures(reference, asked);
   } catch (const Error& error) {
-    return {0, 0, 2, true, error.what()};
+    asked.problem = error.what();
+    return asked;
   }
 }
 
@@ -104,38 +52,36 @@ ComparisonOptions at_exposures_of(const Image& a, const Image& b, ComparisonOpti
 }
 
 /// With `equal_allowed`, values that are not finite in both references are no difference.
-ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, const Image& b,
+ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, Image& b,
                         bool equal_allowed, const ComparisonOptions& options) {
   Image c = read_picture(pair.c, layer).image;
-  require_same_size(c, b, pair.c, pair.b);
+  if (!options.crop) require_same_size(c, b, pair.c, pair.b);
+  take_part(c, b, options);
   if (!equal_allowed || is_finite(b)) return measure_reference_floor(c, b, options);
   Image cleared = b;
   clear_equal_nonfinite(c, cleared);
   return measure_reference_floor(c, cleared, options);
 }
 
+/// Calls difference(a, b, comparison) once the pair is compared.
+template <class Difference>
 PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& pairing,
-                        const ComparisonOptions& given, bool choose_exposures,
-                        const fs::path& difference_path) {
+                        ComparisonOptions options, bool choose_exposures, Difference difference) {
   const auto started = std::chrono::steady_clock::now();
-  const std::string layer = main_layer(pair.a, pair.b, job.layers);
-  auto [pictures, options] = read_compared(pair, job, pairing, given);
-  const Image &a = pictures.a.image, &b = pictures.b.image;
+  PicturePair pictures = read_compared(pair, job, pairing, options);
+  Image &a = pictures.a.image, &b = pictures.b.image;
   pair.sources = {pictures.a.source, pictures.b.source};
-  if (!options.mask.empty() && options.mask.size() != a.pixel_count())
-    throw Error(ExitCode::kInput,
-                fmt::format("{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
-                            a.height(), job.scene, options.mask.size()));
-  if (choose_exposures) options.viewing.hdr_exposures = exposures_or_why_not(b);
+  if (choose_exposures)
+    options.viewing.hdr_exposures = exposures_or_why_not(b, *options.viewing.hdr_exposures);
   std::optional<ReferenceFloor> floor;
   if (!pair.c.empty())
-    floor = floor_of(pair, layer, b, allows_equal_nonfinite(options, pictures.b.source),
+    floor = floor_of(pair, main_layer(pair.a, pair.b, job.layers), b,
+                     allows_equal_nonfinite(options, pictures.b.source),
                      at_exposures_of(a, b, options));
   pair.comparison = compare_pictures(pictures, pair.a, pair.b, options);
   pair.comparison->reference_floor = std::move(floor);
   pair.layers = compare_others(pair.a, pair.b, pictures, job.layers, options);
-  if (!job.difference.path.empty())
-    write_difference(job.difference, difference_path, a, b, *pair.comparison);
+  difference(a, b, *pair.comparison, pair.verdict());
   pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return pair;
 }
@@ -150,17 +96,19 @@ void for_each_pair(std::size_t count, Work work) {
 }
 
 /// One range for the set, so that a number means the same in every pair.
-HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const LayerOptions& layers) {
+HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const CompareJob& job) {
+  const HdrExposures& asked = *job.comparison.viewing.hdr_exposures;
   std::mutex mutex;
   std::optional<HdrExposures> all;
   std::string why = "no reference has finite values alone";
   std::size_t why_of = pairs.size();
   for_each_pair(pairs.size(), [&](std::size_t i) {
     try {
-      const Image reference =
-          read_picture(pairs[i].b, main_layer(pairs[i].a, pairs[i].b, layers)).image;
+      Image reference =
+          read_picture(pairs[i].b, main_layer(pairs[i].a, pairs[i].b, job.layers)).image;
+      if (job.comparison.crop) reference = cut(std::move(reference), *job.comparison.crop);
       if (!is_finite(reference)) return;
-      const HdrExposures one = automatic_exposures(reference);
+      const HdrExposures one = automatic_exposures(reference, asked);
       const std::lock_guard lock(mutex);
       if (!all) all = one;
       all->start_stops = std::min(all->start_stops, one.start_stops);
@@ -173,9 +121,12 @@ HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const Layer
       why_of = i;
     }
   });
-  if (!all) return {0, 0, 2, true, why};
-  const double stops = std::ceil(all->stop_stops - all->start_stops);
-  all->count = std::clamp(int(stops), 2, kMaxHdrExposures);
+  if (!all) {
+    all = asked;
+    all->problem = why;
+  }
+  if (!asked.given_count)
+    all->count = std::min(count_of_exposures(all->start_stops, all->stop_stops), kMaxHdrExposures);
   return *all;
 }
 
@@ -244,6 +195,23 @@ void print_exposures(const Viewing& viewing) {
         viewing.exposure_stops, *viewing.tail_stops);
 }
 
+void print_parts(const Comparison& comparison) {
+  const auto print = [](std::string_view what, std::span<const std::string> of,
+                        std::int64_t pixels) {
+    std::string shapes;
+    for (const std::string& shape : of)
+      shapes += (shapes.empty() ? "" : " and ") + printable_path(shape);
+    fmt::print("  {} {}: {} pixels\n", what, shapes, pixels);
+  };
+  if (const auto& crop = comparison.crop)
+    fmt::print("  of both, {} x {} pixels from x {}, y {}\n", crop->width, crop->height, crop->x,
+               crop->y);
+  if (const auto& ignored = comparison.ignored)
+    print("equal by --ignore", ignored->of, ignored->pixels);
+  if (!comparison.mask_of.empty() && comparison.mask_pixels)
+    print("the mask is", comparison.mask_of, *comparison.mask_pixels);
+}
+
 /// A column of the table of metrics: values by the id that a metric has in it.
 struct Column {
   const char* title;
@@ -266,14 +234,18 @@ void print_metric_lines(const Comparison& comparison) {
   fmt::print("\n");
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs) {
+      if (metric->region != Region::kWhole) continue;
       const std::string id(output.id);
-      if (metric->region != Region::kWhole || std::isnan(comparison.value(id))) continue;
-      fmt::print("  {:<20}", id);
+      std::string cells;
+      bool any = false;
       for (const Column& column : columns) {
         const double* value =
             records::find(*column.values, id_in_region(*metric, output, column.region));
-        fmt::print("{:>13}", value ? fmt::format("{:.6g}", *value) : "");
+        any = any || (value && !std::isnan(*value));
+        cells += fmt::format("{:>13}", value ? fmt::format("{:.6g}", *value) : "");
       }
+      if (!any) continue;
+      fmt::print("  {:<20}{}", id, cells);
       fmt::print("  {}{}\n", error_bar_text(comparison, id), output.meaning);
     }
   for (const NotMeasured& one : comparison.not_measured)
@@ -325,13 +297,19 @@ std::vector<PairReport> pairs_of(const Pairing& pairing) {
   return pairs;
 }
 
-ComparedPair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
-                           ComparisonOptions options) {
-  ComparedPair read{read_pair(pair.a, pair.b, main_layer(pair.a, pair.b, job.layers)),
-                    std::move(options)};
+PicturePair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
+                          ComparisonOptions& options) {
+  PicturePair pictures = read_pair(pair.a, pair.b, main_layer(pair.a, pair.b, job.layers));
   job.noise.read(has_folders_by_name(job, pairing) ? pairing.rows[pair.row].name : "",
-                 read.pictures.a.image, read.pictures.b.image, read.options);
-  return read;
+                 pictures.a.image, pictures.b.image, options);
+  const Image &a = pictures.a.image, &b = pictures.b.image;
+  if (!options.surfaces.empty() && options.surfaces.size() != a.pixel_count())
+    throw Error(ExitCode::kInput,
+                fmt::format("{} has {} x {} pixels, the film of {} {}", pair.a, a.width(),
+                            a.height(), job.scene, options.surfaces.size()));
+  job.regions.apply(b.width(), b.height(), options);
+  take_part(pictures, pair.a, pair.b, options);
+  return pictures;
 }
 
 SetReport compare_pairs(const CompareJob& job, const Pairing& pairing) {
@@ -359,21 +337,45 @@ SetReport compare_pairs(const CompareJob& job, const Pairing& pairing) {
     if (!job.c.empty()) pair.c = one ? job.c : file_of(job.c, pairing.rows[pair.row].name).string();
   ComparisonOptions options = job.comparison;
   const bool automatic = has_automatic_exposures(options);
-  if (automatic && !one)
-    options.viewing.hdr_exposures = exposures_for_all(report.pairs, job.layers);
+  if (automatic && !one) options.viewing.hdr_exposures = exposures_for_all(report.pairs, job);
+  const DifferencePicture& wanted = job.difference;
+  const auto write = [&](const PairReport& pair, const Image& a, const Image& b,
+                         const Comparison& comparison, std::optional<double> of_set) {
+    const fs::path file = one ? wanted.path : difference_file(job, pair.name);
+    if (!one) make_directories(file.parent_path());
+    wanted.write(file, a, b, comparison, of_set);
+  };
+  const bool at_once = one || wanted.has_own_scale();
+  // One scale for the set. If that is the largest difference, all pairs come first.
+  std::vector<double> largest(report.pairs.size(), -1.0);
   for_each_pair(report.pairs.size(), [&](std::size_t i) {
     PairReport& pair = report.pairs[i];
-    fs::path difference = job.difference.path;
-    if (!difference.empty() && !one) {
-      difference = difference_file(job, pair.name);
-      make_directories(difference.parent_path());
-    }
     try {
-      pair = compare_pair(pair, job, pairing, options, automatic && one, difference);
+      pair = compare_pair(
+          pair, job, pairing, options, automatic && one,
+          [&](const Image& a, const Image& b, const Comparison& comparison, Verdict verdict) {
+            if (one) wanted.write_histogram(a, b, comparison);
+            if (!wanted.is_wanted(verdict)) return;
+            if (at_once)
+              write(pair, a, b, comparison, std::nullopt);
+            else
+              largest[i] = wanted.largest(a, b, comparison);
+          });
     } catch (const Error& error) {
       if (one || error.code() != ExitCode::kInput) throw;
       pair.error = error.what();
     }
+  });
+  if (wanted.path.empty() || at_once || largest.empty()) return report;
+  const double of_set = std::ranges::max(largest);
+  for_each_pair(report.pairs.size(), [&](std::size_t i) {
+    const PairReport& pair = report.pairs[i];
+    if (!(largest[i] >= 0)) return;
+    ComparisonOptions unused = options;
+    PicturePair pictures = read_compared(pair, job, pairing, unused);
+    if (allows_equal_nonfinite(options, pictures.b.source))
+      clear_equal_nonfinite(pictures.a.image, pictures.b.image);
+    write(pair, pictures.a.image, pictures.b.image, *pair.comparison, of_set);
   });
   return report;
 }
@@ -390,6 +392,7 @@ void print_pair(const PairReport& pair) {
   if (comparison.nonfinite.equal_allowed.value_or(0) > 0)
     fmt::print("  in {} pixels both have the same NaN or infinity, which counts as no difference\n",
                *comparison.nonfinite.equal_allowed);
+  print_parts(comparison);
   if (const std::string sentence = highlight_sentence(comparison); !sentence.empty())
     fmt::print("  {}\n\n", sentence);
   print_exposures(comparison.viewing);

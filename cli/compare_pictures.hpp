@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compare/layers.hpp"
+#include "compare/mask.hpp"
 #include "compare/set/pairing.hpp"
 #include "compare/set/report.hpp"
 
@@ -46,14 +47,65 @@ class NoiseFlags {
   NoiseOptions judged_;
 };
 
-struct DifferencePicture {
-  std::filesystem::path path;   ///< a file, .png or .exr, or of folders a folder; empty for none
-  std::string of = "channels";  ///< a difference map's id, or kChannels
-  std::string colour_map;       ///< empty: the one that suits the map
-  double scale = 0;             ///< the map's last colour; 0: the largest difference
+/// The options of `lobelia compare` on parts of the pictures.
+class RegionFlags {
+ public:
+  void add_to(CLI::App& command);
+
+  /// Reads the shapes and their pictures, and sets the words and the cut in `options`. Throws as parse_mask_shape().
+  void read(ComparisonOptions& options);
+  /// Pictures that read() reads.
+  std::vector<std::filesystem::path> files() const;
+  /// Sets the parts for pictures of this size in `options`, which has those of the scene and the noise of whole
+  /// pictures. Throws Error(kInput) if the picture of a mask has another size, a cut does not lie inside, or every pixel
+  /// is ignored.
+  void apply(int width, int height, ComparisonOptions& options) const;
+
+ private:
+  std::vector<std::string> mask_texts_, ignore_texts_;
+  std::string crop_text_;
+  std::vector<MaskShape> mask_, ignored_;
 };
+
 /// |A - B| of each channel by itself, in its own colour.
 inline constexpr std::string_view kChannels = "channels";
+
+/// The options of `lobelia compare` on pictures of the difference, and on the histogram of FLIP.
+struct DifferencePicture {
+  std::filesystem::path path;  ///< a file, .png or .exr, or of folders a folder; empty for none
+  std::string of{kChannels};   ///< a difference map's id, or kChannels
+  std::string colour_map;      ///< empty: the one that suits the map
+  double scale = 0;            ///< the map's last colour; 0: the one that suits the map
+  bool only_failed = false;    ///< none of a pair that passes
+  std::filesystem::path histogram;  ///< a file, .svg or .csv; empty for none
+  std::string histogram_of = "flip.ldr";
+
+  void add_to(CLI::App& command);
+  /// Throws Error(kUsage) for options that contradict each other or the pictures.
+  void check(bool folders, bool has_exposures) const;
+  /// Whether the scale does not depend on the pictures.
+  bool has_own_scale() const;
+  /// Whether a pair with this verdict has a picture.
+  bool is_wanted(Verdict verdict) const;
+  /// The largest value of the map.
+  double largest(const Image& a, const Image& b, const Comparison& comparison) const;
+  /// Writes the picture. `of_set`: the last colour, unless the scale is fixed; without it that of the largest value.
+  void write(const std::filesystem::path& file, const Image& a, const Image& b,
+             const Comparison& comparison, std::optional<double> of_set) const;
+  void write_histogram(const Image& a, const Image& b, const Comparison& comparison) const;
+};
+
+/// The options of `lobelia compare` on the viewer and the exposures.
+class ViewingFlags {
+ public:
+  void add_to(CLI::App& command, Viewing& viewing);
+  /// Throws Error(kUsage) for numbers and ranges that cannot be read.
+  void apply(Viewing& viewing) const;
+
+ private:
+  std::string exposure_ = "auto", exposures_, tone_curve_ = "aces";
+  double distance_ = 0.7, width_ = 0.7, pixels_ = 3840;  ///< FLIP's viewer
+};
 
 struct CompareJob {
   PairingChoice pictures;
@@ -63,6 +115,7 @@ struct CompareJob {
   DifferencePicture difference;
   LayerOptions layers;
   NoiseFlags noise;
+  RegionFlags regions;
 };
 
 /// Whether there is one pair, whose files were given by themselves.
@@ -78,14 +131,10 @@ inline bool has_folders_by_name(const CompareJob& job, const Pairing& pairing) {
 /// Every pair of the rows, without results: each judged set's picture with the reference.
 std::vector<PairReport> pairs_of(const Pairing& pairing);
 
-/// The picture that is judged and its reference, with what was taken from the options for them.
-struct ComparedPair {
-  PicturePair pictures;
-  ComparisonOptions options;
-};
-/// Reads the pair as it is compared: the chosen layer, the mean of its replicates. Throws as read_pair().
-ComparedPair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
-                           ComparisonOptions options);
+/// Reads the pair as it is compared: the part of the chosen layer, or of the mean of its replicates. Sets what depends on
+/// them in `options`. Throws as read_pair().
+PicturePair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
+                          ComparisonOptions& options);
 
 /// Compares all pairs. A pair that cannot be compared has its error in the report, and the others go on, but where it is
 /// the only one its error is thrown. An automatic range of exposures becomes one that holds those of all references.

@@ -11,11 +11,10 @@
 namespace lobelia::cli {
 namespace {
 
-/// Only maps of visible differences: a page draws differences of values itself.
-std::vector<gallery::MapKind> visual_maps() {
+std::vector<gallery::MapKind> gallery_maps() {
   std::vector<gallery::MapKind> kinds;
   for (const DifferenceMap& map : difference_maps()) {
-    if (!map.is_visual) continue;
+    if (!map.in_gallery) continue;
     kinds.push_back({std::string(map.id), std::string(map.unit), std::string(map.meaning),
                      [&map](const Image& a, const Image& b, const gallery::MapViewing& viewing) {
                        return measure_difference_map(
@@ -29,7 +28,7 @@ std::vector<gallery::MetricInfo> metric_infos() {
   std::vector<gallery::MetricInfo> infos;
   for (const Metric* metric : metrics())
     for (const MetricOutput& output : metric->outputs) {
-      if (output.title.empty()) continue;
+      if (output.title.empty() || metric->on_request) continue;
       infos.push_back({std::string(output.id), std::string(output.title),
                        std::string(output.explanation), std::string(unit_name(output.unit)),
                        output.better == Better::kHigher});
@@ -51,7 +50,7 @@ std::vector<gallery::MetricInfo> metric_infos() {
 
 gallery::GalleryOptions gallery_options() {
   gallery::GalleryOptions options;
-  options.maps = visual_maps();
+  options.maps = gallery_maps();
   options.metrics = metric_infos();
   options.region = [](const Image& a, const Image& b) { return highlight_region(a, b, {}); };
   return options;

@@ -19,6 +19,9 @@
 namespace lobelia {
 namespace {
 
+/// In ComparisonOptions::metrics: all that need not be requested.
+constexpr std::string_view kDefaultMetrics = "default";
+
 /// Pixels that noise leaves undecided. Over its limit this count is open, never broken.
 constexpr char kOpenPixels[] = "z.open";
 
@@ -43,7 +46,8 @@ std::string_view missing_input(const Metric& metric, const ComparisonOptions& op
   if (metric.needs == Needs::kHdrExposures && !options.viewing.hdr_exposures)
     return "a range of exposures";
   const bool by_mask = metric.region == Region::kMask || metric.region == Region::kOutside;
-  if (by_mask && options.mask.empty()) return "a mask";
+  if (by_mask && options.mask.empty() && options.mask_of.empty())
+    return "a mask (--mask or --scene)";
   const bool of_highlight =
       metric.region == Region::kHighlight || metric.needs == Needs::kHighlight;
   if (of_highlight && !options.highlight) return "the highlight";
@@ -51,10 +55,53 @@ std::string_view missing_input(const Metric& metric, const ComparisonOptions& op
   return {};
 }
 
-records::Named<double> measure_all(const MetricInput& input) {
+/// Whether the options ask for the metric, by its name or by a limit.
+bool is_asked_for(const Metric& metric, const ComparisonOptions& options) {
+  const auto is_in = [&](std::span<const MetricLimit> limits) {
+    return std::ranges::any_of(limits, [&](const MetricLimit& limit) {
+      return std::ranges::count(metric.outputs, limit.metric, &MetricOutput::id) > 0;
+    });
+  };
+  if (is_in(options.limits) || is_in(options.warnings)) return true;
+  if (options.default_limits &&
+      (is_in(default_limits()) || (options.highlight && is_in(highlight_limits()))))
+    return true;
+  // Noise and tolerance are judged by limits that requested_limits() adds.
+  if (metric.region == Region::kWhole && ((metric.needs == Needs::kNoise && options.noise) ||
+                                          (metric.needs == Needs::kTolerance && options.tolerance)))
+    return true;
+  if (options.metrics.empty()) return !metric.on_request;
+  return std::ranges::any_of(options.metrics, [&](const std::string& name) {
+    return name == kDefaultMetrics ? !metric.on_request : is_named(metric, name);
+  });
+}
+
+using MetricList = std::vector<const Metric*>;
+
+MetricList metrics_asked_for(const ComparisonOptions& options) {
+  MetricList list;
+  for (const Metric* metric : metrics())
+    if (is_asked_for(*metric, options)) list.push_back(metric);
+  return list;
+}
+
+/// Whether one of them needs the highlight.
+bool need_highlight(const MetricList& list) {
+  return std::ranges::any_of(list, [](const Metric* metric) {
+    return metric->region == Region::kHighlight || metric->needs == Needs::kHighlight;
+  });
+}
+
+/// Whether one of them looks at the pictures as shown.
+bool need_display(const MetricList& list) {
+  return std::ranges::any_of(
+      list, [](const Metric* metric) { return metric->family != Family::kRadiance; });
+}
+
+records::Named<double> measure_all(const MetricList& list, const MetricInput& input) {
   records::Named<double> results;
   std::vector<double> values;
-  for (const Metric* metric : metrics()) {
+  for (const Metric* metric : list) {
     if (!is_measurable(*metric, input)) continue;
     values.assign(metric->outputs.size(), 0.0);
     measure_metric(*metric, input, values);
@@ -64,9 +111,9 @@ records::Named<double> measure_all(const MetricInput& input) {
   return results;
 }
 
-std::vector<NotMeasured> all_not_measured(const MetricInput& input) {
+std::vector<NotMeasured> all_not_measured(const MetricList& list, const MetricInput& input) {
   std::vector<NotMeasured> result;
-  for (const Metric* metric : metrics())
+  for (const Metric* metric : list)
     if (const std::string why = why_not_measured(*metric, input); !why.empty())
       for (const MetricOutput& output : metric->outputs)
         if (output.better != Better::kNeither) result.push_back({std::string(output.id), why});
@@ -241,6 +288,13 @@ std::span<const MetricLimit> highlight_limits() {
   return limits;
 }
 
+std::string limits_text(std::span<const MetricLimit> limits, std::string_view mark) {
+  std::string text;
+  for (const auto& [metric, limit] : limits)
+    text += fmt::format("{}{}{}{} {:g}", text.empty() ? "" : ", ", mark, metric, mark, limit);
+  return text;
+}
+
 bool is_pass(Verdict verdict) { return verdict == Verdict::kPass || verdict == Verdict::kSame; }
 
 double Comparison::value(std::string_view id) const {
@@ -266,6 +320,16 @@ void check_options(const ComparisonOptions& options) {
     require_range("the number of exposures", range->count, 2, kMaxHdrExposures);
   }
   const std::vector<std::string_view> names = limit_names(true);
+  const auto check_name = [&](const std::string& name) {
+    const bool is_known =
+        name == kDefaultMetrics || find_metric(name) ||
+        std::ranges::any_of(metrics(), [&](const Metric* m) { return is_named(*m, name); });
+    if (!is_known)
+      throw Error(
+          ExitCode::kUsage,
+          fmt::format("no metric '{}'{}; there are {}, families, regions, default and all",
+                      printable(name), did_you_mean(name, names), join(limit_names(false))));
+  };
   const auto check_limit = [&](const MetricLimit& limit) {
     const MetricOutput* output = find_metric_output(limit.metric);
     if (!output || output->better == Better::kNeither)
@@ -283,6 +347,7 @@ void check_options(const ComparisonOptions& options) {
     const double least = output->better == Better::kHigher ? -kLargest : 0;
     require_range(fmt::format("the limit on {}", limit.metric), limit.limit, least, kLargest);
   };
+  for (const std::string& name : options.metrics) check_name(name);
   for (const MetricLimit& limit : options.limits) check_limit(limit);
   for (const MetricLimit& limit : options.warnings) check_limit(limit);
   if (options.tolerance) {
@@ -320,6 +385,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   };
   if (options.tolerance) require_pixels("scene", options.tolerance->edges.size());
   require_pixels("mask", options.mask.size());
+  require_pixels("surfaces", options.surfaces.size());
   const NoiseOfPair noise = noise_of_pair(options);
   for (const PictureNoise* one : {noise.a, noise.b})
     if (one) require_same_size(a, one->cautious);
@@ -327,19 +393,28 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   Comparison result;
   result.viewing = options.viewing;
   result.tolerance = options.tolerance;
-  if (!options.mask.empty())
-    result.mask_pixels =
-        std::ranges::count_if(options.mask, [](auto inside) { return inside != 0; });
+  const auto count_of = [](std::span<const std::uint8_t> pixels) {
+    return std::ranges::count_if(pixels, [](auto inside) { return inside != 0; });
+  };
+  if (!options.mask.empty()) result.mask_pixels = count_of(options.mask);
+  result.mask_of = options.mask_of;
+  if (!options.ignored.empty())
+    result.ignored = records::Mask{count_of(options.ignored), options.ignored_of};
+  result.crop = options.crop;
   result.nonfinite.a = count_nonfinite_pixels(a);
   result.nonfinite.b = count_nonfinite_pixels(b);
   const bool finite = result.nonfinite.a == 0 && result.nonfinite.b == 0;
   if (!finite) {
     result.nonfinite.first = {first_nonfinite(a), first_nonfinite(b)};
   } else {
-    const Viewing& viewing = result.viewing = with_exposures(options.viewing, a, b);
+    const MetricList list = metrics_asked_for(options);
+    if (need_display(list)) result.viewing = with_exposures(options.viewing, a, b);
+    Viewing viewing = result.viewing;
+    if (!need_display(list)) viewing.display = nullptr;
     std::vector<std::uint8_t> highlight;
-    if (options.highlight) {
-      highlight = highlight_region(a, b, options.mask);
+    // Limits that hardly see it draw a warning.
+    if (options.highlight && (need_highlight(list) || !options.limits.empty())) {
+      highlight = highlight_region(a, b, options.surfaces);
       result.highlight_pixels = std::ranges::count(highlight, 1);
     }
     const MetricInput input{a,
@@ -353,12 +428,12 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
                             options.noise ? &noise : nullptr,
                             highlight,
                             tail_as_shown(a, b, viewing)};
-    result.metrics = measure_all(input);
-    result.not_measured = all_not_measured(input);
+    result.metrics = measure_all(list, input);
+    result.not_measured = all_not_measured(list, input);
     if (options.noise) {
       result.uncertainty = uncertainty_of(input, *options.noise);
       result.error_bars =
-          error_bars(input, viewing, options.noise->bootstraps, options.noise->seed);
+          error_bars(list, input, viewing, options.noise->bootstraps, options.noise->seed);
     }
   }
   const bool noisy = options.noise.has_value();

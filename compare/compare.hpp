@@ -31,6 +31,17 @@ struct ComparisonOptions {
   /// By pixel in reading order, not 0 inside the mask. Differences are also measured inside and outside of it. Empty for
   /// none.
   std::vector<std::uint8_t> mask = {};
+  std::vector<std::string> mask_of = {};  ///< what the mask was made of, for readers of the record
+  /// By pixel, not 0 where the highlight may lie. Empty: anywhere.
+  std::vector<std::uint8_t> surfaces = {};
+  /// The part of pictures from files that is compared; see take_part().
+  std::optional<PixelWindow> crop = {};
+  /// By pixel of that part, not 0 where all pictures count as equal. Empty for none.
+  std::vector<std::uint8_t> ignored = {};
+  std::vector<std::string> ignored_of = {};
+  /// The metrics to measure: names as is_named() takes them, or "default" for all that need not be requested; empty is
+  /// "default". What the limits are on is measured as well.
+  std::vector<std::string> metrics = {};
   /// Differences are also measured in the highlight, and its default limits are judged.
   bool highlight = false;
   /// The largest rounding error of a stored value as bright as the reference's peak, in radiance: default limits on
@@ -44,6 +55,9 @@ struct ComparisonOptions {
 /// The default limits on the whole picture, and on its highlight.
 std::span<const MetricLimit> default_limits();
 std::span<const MetricLimit> highlight_limits();
+
+/// "rmse 0.01, psnr 40", with `mark` on both sides of each id.
+std::string limits_text(std::span<const MetricLimit> limits, std::string_view mark = "");
 
 /// From the best to the worst; named by records::kVerdicts.
 enum class Verdict : std::uint8_t {
@@ -89,6 +103,9 @@ struct Comparison {
       blind_limits;  ///< sentences: what given limits cannot see, see blind_limits()
   std::optional<Tolerance> tolerance;
   std::optional<std::int64_t> mask_pixels;       ///< inside the mask, if there was one
+  std::vector<std::string> mask_of;              ///< what the mask was made of, if that is known
+  std::optional<records::Mask> ignored;          ///< pixels that count as equal
+  std::optional<PixelWindow> crop;               ///< the part that was compared; if not, everything
   std::optional<std::int64_t> highlight_pixels;  ///< if it was asked for, and all values are finite
   std::optional<ReferenceFloor> reference_floor;  ///< if there was a second reference
   /// How the noise was taken into account, if it was known and every value is finite.

@@ -43,9 +43,10 @@ void clip_lanes(double gain, const float* in, float* out, std::size_t count) {
           });
 }
 
-void aces_lanes(float gain, const float* in, float* out, std::size_t count) {
-  for_all(hn::ScalableTag<float>(), in, out, count, [gain](auto d, auto v) HWY_ATTR {
-    const auto c = [d](int i) HWY_ATTR { return hn::Set(d, kAces[i]); };
+void rational_lanes(const ToneConstants& constants, float gain, const float* in, float* out,
+                    std::size_t count) {
+  for_all(hn::ScalableTag<float>(), in, out, count, [&constants, gain](auto d, auto v) HWY_ATTR {
+    const auto c = [&constants, d](int i) HWY_ATTR { return hn::Set(d, constants.c[i]); };
     const auto scaled = hn::Mul(hn::Set(d, gain), v);
     const auto x = hn::IfThenElseZero(hn::Gt(scaled, hn::Zero(d)), scaled), square = hn::Mul(x, x);
     const auto above = hn::Add(hn::Add(hn::Mul(square, c(0)), hn::Mul(x, c(1))), c(2));
@@ -55,6 +56,33 @@ void aces_lanes(float gain, const float* in, float* out, std::size_t count) {
   });
 }
 
+template <class D>
+HWY_INLINE void reinhard(D d, float gain, const float* in, float* out) {
+  hn::Vec<D> rgb[3];
+  hn::LoadInterleaved3(d, in, rgb[0], rgb[1], rgb[2]);
+  for (auto& v : rgb) {
+    v = hn::Mul(hn::Set(d, gain), v);
+    v = hn::IfThenElseZero(hn::Gt(v, hn::Zero(d)), v);
+  }
+  const auto luminance =
+      hn::Add(hn::Add(hn::Mul(hn::Set(d, 0.2126f), rgb[0]), hn::Mul(hn::Set(d, 0.7152f), rgb[1])),
+              hn::Mul(hn::Set(d, 0.0722f), rgb[2]));
+  const auto factor = hn::Div(hn::Set(d, 1.0f), hn::Add(hn::Set(d, 1.0f), luminance));
+  const auto is_huge =
+      hn::Gt(hn::Mul(luminance, luminance), hn::Set(d, std::numeric_limits<float>::max()));
+  for (auto& v : rgb)
+    v = hn::IfThenElse(hn::And(is_huge, hn::Gt(v, hn::Zero(d))), hn::Set(d, 1.0f),
+                       clipped(d, hn::Mul(v, factor)));
+  hn::StoreInterleaved3(rgb[0], rgb[1], rgb[2], d, out);
+}
+
+void reinhard_lanes(float gain, const float* in, float* out, std::size_t count) {
+  const hn::ScalableTag<float> d;
+  std::size_t i = 0;
+  for (; i + 3 * hn::Lanes(d) <= count; i += 3 * hn::Lanes(d)) reinhard(d, gain, in + i, out + i);
+  for (; i < count; i += 3) reinhard(hn::CappedTag<float, 1>(), gain, in + i, out + i);
+}
+
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -62,13 +90,14 @@ HWY_AFTER_NAMESPACE();
 namespace lobelia {
 
 HWY_EXPORT(clip_lanes);
-HWY_EXPORT(aces_lanes);
+HWY_EXPORT(rational_lanes);
+HWY_EXPORT(reinhard_lanes);
 
 DisplayLight::DisplayLight(const Image& image, double exposure_stops, ToneCurve curve)
     : image_(&image),
       curve_(curve),
-      gain_(curve == ToneCurve::kAces ? double(std::pow(2.0f, float(exposure_stops)))
-                                      : std::exp2(exposure_stops)) {}
+      gain_(curve == ToneCurve::kClip ? std::exp2(exposure_stops)
+                                      : double(std::pow(2.0f, float(exposure_stops)))) {}
 
 DisplayLight DisplayLight::of(const Image& image, double exposure_stops, const DisplayView* view) {
   if (!view) return {image, exposure_stops};
@@ -81,10 +110,13 @@ DisplayLight DisplayLight::of(const Image& image, double exposure_stops, const D
 void DisplayLight::fill(int y, int first, std::span<float> rgb) const {
   const std::size_t start = std::size_t(y) * std::size_t(width()) + std::size_t(first);
   const float* values = image_->values().data() + 3 * start;
-  if (curve_ == ToneCurve::kAces)
-    HWY_DYNAMIC_DISPATCH(aces_lanes)(float(gain_), values, rgb.data(), rgb.size());
-  else
+  if (curve_ == ToneCurve::kClip)
     HWY_DYNAMIC_DISPATCH(clip_lanes)(gain_, values, rgb.data(), rgb.size());
+  else if (curve_ == ToneCurve::kReinhard)
+    HWY_DYNAMIC_DISPATCH(reinhard_lanes)(float(gain_), values, rgb.data(), rgb.size());
+  else
+    HWY_DYNAMIC_DISPATCH(rational_lanes)
+  (tone_constants(curve_), float(gain_), values, rgb.data(), rgb.size());
 }
 
 }  // namespace lobelia

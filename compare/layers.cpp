@@ -1,11 +1,15 @@
 #include "compare/layers.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
 #include <set>
 
+#include "compare/mask.hpp"
 #include "compare/overscan.hpp"
 #include "compare/require_same_size.hpp"
 #include "core/colour.hpp"
@@ -54,8 +58,10 @@ std::vector<LayerComparison> compare_layer(const fs::path& a, const fs::path& b,
                                 size_a.height, size_b.width, size_b.height);
     return {layer};
   }
+  take_part(pair, a.string(), b.string(), options);
   layer.comparison = compare_pictures(pair, a.string(), b.string(), options);
   std::vector<LayerComparison> results{std::move(layer)};
+  if (options.crop) return results;
   if (const auto overscan = find_overscan(pair.a.source, pair.b.source))
     results.push_back(compare_overscan(name, pair, *overscan, options));
   return results;
@@ -71,6 +77,7 @@ LayerComparison compare_alpha(const fs::path& a, const fs::path& b, const Pictur
   PicturePair pair{read_picture(a, picture.a.source.alpha),
                    read_picture(b, picture.b.source.alpha)};
   LayerComparison layer{picture.a.source.alpha, pair.a.source, pair.b.source};
+  take_part(pair, a.string(), b.string(), options);
   layer.identical = are_identical(pair.a.image, pair.b.image);
   // Alpha is a share of the pixel, not light: exposure and display do not apply.
   options.viewing.exposure_stops = 0;
@@ -124,7 +131,42 @@ std::string LayerComparison::title() const {
 }
 
 PicturePair read_pair(const fs::path& a, const fs::path& b, const std::string& layer) {
-  return {read_picture(a, layer), read_picture(b, layer)};
+  PicturePair pair;
+  std::array<std::exception_ptr, 2> failed;
+  oneapi::tbb::parallel_for(std::size_t{0}, failed.size(), [&](std::size_t i) {
+    try {
+      (i == 0 ? pair.a : pair.b) = read_picture(i == 0 ? a : b, layer);
+    } catch (...) {
+      failed[i] = std::current_exception();
+    }
+  });
+  // If both cannot be read, the error is always the same.
+  for (const std::exception_ptr& one : failed)
+    if (one) std::rethrow_exception(one);
+  return pair;
+}
+
+void take_part(PicturePair& pair, const std::string& file_a, const std::string& file_b,
+               const ComparisonOptions& options) {
+  Image &a = pair.a.image, &b = pair.b.image;
+  require_same_size(a, b, file_a, file_b);
+  if (options.crop) b = cut(std::move(b), *options.crop);
+  take_part(a, b, options);
+}
+
+void take_part(Image& a, Image& b, const ComparisonOptions& options) {
+  if (options.crop) a = cut(std::move(a), *options.crop);
+  if (options.ignored.empty()) return;
+  if (options.ignored.size() != b.pixel_count())
+    throw Error(ExitCode::kInput,
+                fmt::format("a layer has {} x {} pixels, the ignored part belongs to {}", b.width(),
+                            b.height(), options.ignored.size()));
+  for (std::size_t i = 0; i < b.values().size(); ++i) {
+    if (options.ignored[i / 3] == 0) continue;
+    float& value = b.values()[i];
+    if (!std::isfinite(value)) value = 0;
+    a.values()[i] = value;
+  }
 }
 
 bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSource& source) {
@@ -187,7 +229,7 @@ OtherLayers compare_others(const fs::path& a, const fs::path& b, const PicturePa
   NotCompared& left = result.not_compared;
   left.mip_levels = std::max(source_a.mip_levels, source_b.mip_levels) - 1;
   const auto overscan = find_overscan(source_a, source_b);
-  if (options.noise) {
+  if (options.noise || options.crop) {
     left.overscan_pixels = overscan ? overscan->pixels : 0;
   } else if (overscan) {
     result.compared.push_back(compare_overscan(source_a.layer, picture, *overscan, options));

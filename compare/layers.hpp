@@ -18,6 +18,13 @@ struct PicturePairSource {
 PicturePair read_pair(const std::filesystem::path& a, const std::filesystem::path& b,
                       const std::string& layer);
 
+/// Cuts both pictures to `options.crop`, and sets the pixels of `options.ignored` in `a` to those of `b`, or in both to 0
+/// where `b` is not finite. Throws Error(kInput) if the sizes differ, or do not hold the part.
+void take_part(PicturePair& pair, const std::string& file_a, const std::string& file_b,
+               const ComparisonOptions& options);
+/// The same, where `b` is cut already.
+void take_part(Image& a, Image& b, const ComparisonOptions& options);
+
 /// True if requested, or if the layer is_depth_like() and no noise is known.
 bool allows_equal_nonfinite(const ComparisonOptions& options, const PictureSource& source);
 

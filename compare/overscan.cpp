@@ -55,7 +55,8 @@ std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& mask, const P
 
 ComparisonOptions on_window(ComparisonOptions options, const PixelWindow& display,
                             const PixelWindow& window) {
-  options.mask = widened(options.mask, display, window);
+  for (auto* part : {&options.mask, &options.surfaces, &options.ignored})
+    *part = widened(*part, display, window);
   if (options.tolerance)
     options.tolerance->edges = widened(options.tolerance->edges, display, window);
   return options;
@@ -109,6 +110,8 @@ LayerComparison compare_overscan(const std::string& layer, const PicturePair& pa
   result.problem = window_problem("the window of all data", window);
   if (!result.problem.empty()) return result;
   Image a = all_data(pair.a, window), b = all_data(pair.b, window);
+  ComparisonOptions on_all = on_window(options, at_origin(pair.a.source.display), window);
+  take_part(a, b, on_all);
   const Unshared outside = compare_outside(a, b, pair, window);
   if (allows_equal_nonfinite(options, pair.b.source)) clear_equal_nonfinite(a, b);
   if (outside.only_a + outside.only_b > 0)
@@ -117,7 +120,7 @@ LayerComparison compare_overscan(const std::string& layer, const PicturePair& pa
   else if (outside.identical)
     result.identical = true;
   else
-    result.comparison = compare(a, b, on_window(options, at_origin(pair.a.source.display), window));
+    result.comparison = compare(a, b, on_all);
   return result;
 }
 

@@ -9,8 +9,9 @@ records::Viewing viewing_record(const Viewing& viewing, bool measured) {
   records::Viewing record{viewing.exposure_stops, viewing.pixels_per_degree, std::nullopt,
                           std::nullopt, viewing.tail_stops};
   if (const auto& range = viewing.hdr_exposures; range && range->problem.empty() && measured)
-    record.hdr_exposures = records::HdrExposures{range->start_stops, range->stop_stops,
-                                                 range->count, range->automatic, "aces"};
+    record.hdr_exposures =
+        records::HdrExposures{range->start_stops, range->stop_stops, range->count, range->automatic,
+                              std::string(kToneCurveNames[std::size_t(range->curve)])};
   if (const auto& display = viewing.display) {
     const auto& choice = display->choice();
     record.display =
@@ -69,7 +70,10 @@ records::Comparison comparison_record(const Comparison& comparison, const std::s
   record.b = b;
   record.nonfinite = comparison.nonfinite;
   record.viewing = viewing_record(comparison.viewing, !comparison.metrics.empty());
-  if (comparison.mask_pixels) record.mask = records::Mask{*comparison.mask_pixels};
+  if (comparison.mask_pixels)
+    record.mask = records::Mask{*comparison.mask_pixels, comparison.mask_of};
+  record.ignored = comparison.ignored;
+  if (comparison.crop) record.crop = window_record(*comparison.crop);
   if (comparison.highlight_pixels)
     record.highlight = records::HighlightRegion{*comparison.highlight_pixels, kHighlightShare};
   record.metrics = comparison.metrics;

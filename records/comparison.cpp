@@ -4,7 +4,7 @@ namespace lobelia::records {
 namespace {
 
 constexpr std::string_view kDecoders[] = {"XYZ", "sRGB"};
-constexpr std::string_view kToneCurves[] = {"aces"};
+constexpr std::string_view kToneCurves[] = {"aces", "reinhard", "hable"};
 
 std::string contradiction_of_pair(const PairOfSet& pair) {
   return pair.comparison.has_value() != pair.error.empty() ? "needs either a comparison or an error"
@@ -61,7 +61,7 @@ void define_comparison_tables(Tables& tables) {
   tables.define<HdrExposures>("The exposures that HDR-FLIP looked at.", [](auto& t) {
     t.keys({"startStops", "stopStops"}).unit("stops");
     t.key("count").at_least(2);
-    t.key("automatic", "chosen from the reference");
+    t.key("automatic", "chosen from the reference, but for what was given");
     t.key("toneCurve").one_of(kToneCurves);
   });
   tables.define<Display>("What OpenColorIO showed the perceptual metrics.", [](auto& t) {
@@ -78,8 +78,13 @@ void define_comparison_tables(Tables& tables) {
     t.key("hdrExposures", "missing if HDR-FLIP was not measured");
     t.key("display", "missing for a plain sRGB display");
   });
-  tables.define<Mask>("The part in which metrics were measured again.",
-                      [](auto& t) { t.key("pixels", "inside the mask").at_least(0); });
+  tables.define<Mask>("A part of the pictures that a user named.", [](auto& t) {
+    t.key("pixels", "inside it").at_least(0);
+    t.key("of",
+          "what it was made of: rectangles, polygons and files as they were given, and the file "
+          "of the scene with the surfaces that it lies on")
+        .if_any();
+  });
   tables.define<HighlightRegion>("The part that metrics in .highlight are of.", [](auto& t) {
     t.key("pixels", "before it is grown by a metric's footprint").at_least(0);
     t.key("shareOfPeak", "a value of the pixel is at least this share of its picture's brightest")
@@ -153,6 +158,9 @@ void define_comparison_tables(Tables& tables) {
         .one_of(kVerdicts);
     t.key("a", "file of the picture that was judged");
     t.key("b", "file of the reference");
+    t.key("mask", "the part in which metrics were measured again");
+    t.key("ignored", "the pixels that count as equal: in a they have the values of b");
+    t.key("crop", "the part of both files that was compared; if missing, all");
     t.key("metrics", "docs/metrics.md says what each is and what it needs").may_be_nonfinite();
     t.key("notMeasured").if_any();
     t.key("limits").items(1);

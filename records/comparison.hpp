@@ -68,6 +68,7 @@ struct Viewing {
 
 struct Mask {
   std::int64_t pixels = 0;
+  std::vector<std::string> of;
 };
 
 struct HighlightRegion {
@@ -144,7 +145,8 @@ struct Comparison {
   std::string verdict, a, b;
   Nonfinite nonfinite;
   Viewing viewing;
-  std::optional<Mask> mask;
+  std::optional<Mask> mask, ignored;
+  std::optional<Window> crop;
   std::optional<HighlightRegion> highlight;
   Named<double> metrics;
   std::vector<NotMeasured> not_measured;

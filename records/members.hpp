@@ -55,7 +55,7 @@ consteval auto pointers_to(const Members&... members) {
 
 template <class T>
 consteval auto member_pointers() {
-  static_assert(count_members<T>() <= 22, "a struct of more members needs more lines here");
+  static_assert(count_members<T>() <= 24, "a struct of more members needs more lines here");
 #define LOBELIA_MEMBERS(count, ...)               \
   if constexpr (count_members<T>() == count) {    \
     const auto& [__VA_ARGS__] = kUnmade<T>.value; \
@@ -83,6 +83,8 @@ consteval auto member_pointers() {
   LOBELIA_MEMBERS(20, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t)
   LOBELIA_MEMBERS(21, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u)
   LOBELIA_MEMBERS(22, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v)
+  LOBELIA_MEMBERS(23, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w)
+  LOBELIA_MEMBERS(24, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x)
 #undef LOBELIA_MEMBERS
 }
 

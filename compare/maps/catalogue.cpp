@@ -5,6 +5,7 @@
 
 #include "compare/maps/difference_map.hpp"
 #include "compare/metrics/ciede2000.hpp"
+#include "compare/metrics/code_values.hpp"
 #include "compare/metrics/delta_e_itp.hpp"
 #include "compare/metrics/flip_error.hpp"
 
@@ -48,6 +49,14 @@ std::vector<float> relative(const MetricInput& input) {
   });
 }
 
+std::vector<float> code_map(const MetricInput& input) {
+  return code_differences(input.shown_a, input.shown_b);
+}
+
+std::vector<float> yiq_map(const MetricInput& input) {
+  return yiq_differences(input.shown_a, input.shown_b);
+}
+
 std::vector<float> ciede2000_map(const MetricInput& input) {
   return ciede2000_of_pixels(input.shown_a, input.shown_b).values;
 }
@@ -65,13 +74,20 @@ constexpr DifferenceMap kMaps[] = {
     {"signed", "radiance", "mean of A - B over R, G and B", true, false, mean_signed},
     {"relative", "share of the reference", "largest |A - B| / |B| of R, G and B", false, false,
      relative},
+    {"code", "code values", "largest difference of 8-bit sRGB code values", false, false, code_map},
+    {"yiq", "YIQ, 0 to 1", "colour difference as pixelmatch and odiff have it", false, false,
+     yiq_map},
     {"ciede2000", "CIEDE2000", "colour difference as shown, 1 is about just noticeable", false,
      true, ciede2000_map},
     {"delta_e_itp", "delta E ITP",
      "colour difference as shown to an adapted eye, 1 is just noticeable", false, true,
      delta_e_itp_map},
     {"flip.ldr", "LDR-FLIP, 0 to 1", "what is noticed when the two are shown in turn", false, true,
-     flip_ldr_map}};
+     flip_ldr_map, MapScale::kOne},
+    {"flip.hdr", "HDR-FLIP, 0 to 1", "the same at the exposure that shows it best", false, false,
+     flip_hdr_error_map, MapScale::kOne, true},
+    {"flip.hdr.exposure", "stops", "the exposure at which HDR-FLIP is largest", false, false,
+     flip_hdr_exposure_map, MapScale::kExposures, true, "viridis"}};
 
 }  // namespace
 

@@ -46,7 +46,9 @@ Image without_non_finite(const Image& image, std::vector<std::uint8_t>& broken) 
 
 std::vector<float> measure_finite(const DifferenceMap& map, const Image& a, const Image& b,
                                   const Viewing& viewing) {
-  return map.measure({a, b, as_shown(a, viewing), as_shown(b, viewing), viewing.pixels_per_degree});
+  MetricInput input{a, b, as_shown(a, viewing), as_shown(b, viewing), viewing.pixels_per_degree};
+  if (viewing.hdr_exposures) input.hdr_exposures = &*viewing.hdr_exposures;
+  return map.measure(input);
 }
 
 }  // namespace
@@ -66,6 +68,8 @@ const DifferenceMap* find_difference_map(std::string_view id) {
 std::vector<float> measure_difference_map(const DifferenceMap& map, const Image& a, const Image& b,
                                           const Viewing& viewing) {
   require_same_size(a, b);
+  if (map.needs_exposures && !viewing.hdr_exposures)
+    throw Error(ExitCode::kUsage, fmt::format("the map {} needs a range of exposures", map.id));
   if (is_finite(a) && is_finite(b)) return measure_finite(map, a, b, viewing);
   std::vector<std::uint8_t> broken(a.pixel_count(), 0);
   const Image finite_a = without_non_finite(a, broken), finite_b = without_non_finite(b, broken);
@@ -77,7 +81,7 @@ std::vector<float> measure_difference_map(const DifferenceMap& map, const Image&
 
 std::span<const std::string_view> colour_map_names() { return kColourMaps; }
 
-DisplayImage colour_picture(std::span<const float> values, int width, int height, double scale,
+DisplayImage colour_picture(std::span<const float> values, int width, int height, ColourScale scale,
                             std::string_view colour_map) {
   if (std::ranges::count(kColourMaps, colour_map) == 0)
     throw Error(ExitCode::kUsage,
@@ -86,9 +90,10 @@ DisplayImage colour_picture(std::span<const float> values, int width, int height
   const bool diverges = colour_map == kSignedColourMap;
   const ColourTable table = diverges ? blue_white_red() : colour_table(colour_map);
   DisplayImage picture{width, height, std::vector<std::uint8_t>(3 * values.size())};
+  if (diverges) scale.from = -scale.to;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double share = double(values[i]) / scale;
-    const double position = std::clamp(diverges ? (share + 1) / 2 : share, 0.0, 1.0);
+    const double share = (double(values[i]) - scale.from) / (scale.to - scale.from);
+    const double position = std::clamp(share, 0.0, 1.0);
     const auto& colour = std::isnan(share)
                              ? kNotFinite
                              : table[std::size_t(std::lround(position * (kColourTableSize - 1)))];
@@ -97,15 +102,16 @@ DisplayImage colour_picture(std::span<const float> values, int width, int height
   return picture;
 }
 
-ImageMetadata colour_metadata(const DifferenceMap& map, double scale, std::string_view colour_map) {
-  const double first = colour_map == kSignedColourMap ? -scale : 0;
+ImageMetadata colour_metadata(const DifferenceMap& map, ColourScale scale,
+                              std::string_view colour_map) {
+  const double first = colour_map == kSignedColourMap ? -scale.to : scale.from;
   return {{"Description", fmt::format("{} ({}), {:.6g} to {:.6g} in {}", map.meaning, map.unit,
-                                      first, scale, colour_map)},
+                                      first, scale.to, colour_map)},
           {"lobelia:difference", std::string(map.id)},
           {"lobelia:unit", std::string(map.unit)},
           {"lobelia:colourMap", std::string(colour_map)},
           {"lobelia:scaleFrom", fmt::format("{}", first)},
-          {"lobelia:scaleTo", fmt::format("{}", scale)},
+          {"lobelia:scaleTo", fmt::format("{}", scale.to)},
           {"lobelia:notFinite", "#00ff00"}};
 }
 

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <mutex>
 
 #include "compare/highlight_region.hpp"
+#include "core/text.hpp"
 
-// One line per metric. A file of that name in this directory defines `const Metric <name>_metric`.
+// One line per metric. A file of that name in this directory defines `const Metric <name>_metric`; pixels_over.cpp
+// defines those that end in _over.
 #define LOBELIA_METRICS(METRIC) \
   METRIC(highlight)             \
   METRIC(mae)                   \
@@ -26,7 +29,14 @@
   METRIC(flip_ldr)              \
   METRIC(flip_hdr)              \
   METRIC(outliers)              \
-  METRIC(z)
+  METRIC(z)                     \
+  METRIC(code)                  \
+  METRIC(abs_over)              \
+  METRIC(code_over)             \
+  METRIC(yiq_over)              \
+  METRIC(ciede2000_over)        \
+  METRIC(delta_e_itp_over)      \
+  METRIC(flip_ldr_over)
 
 namespace lobelia {
 
@@ -36,6 +46,13 @@ LOBELIA_METRICS(LOBELIA_DECLARE)
 
 namespace {
 
+/// The region of this name; kWhole if there is none.
+Region region_of(std::string_view name) {
+  for (const Region region : {Region::kHighlight, Region::kMask, Region::kOutside})
+    if (region_name(region) == name) return region;
+  return Region::kWhole;
+}
+
 std::string region_id(std::string_view first, std::string_view id, Region region) {
   const bool has_place =
       id.starts_with(first) && id.size() > first.size() && id[first.size()] == '.';
@@ -43,10 +60,14 @@ std::string region_id(std::string_view first, std::string_view id, Region region
   return fmt::format("{}.{}{}", figure, region_name(region), id.substr(figure.size()));
 }
 
+/// The ending of an id that stands for any threshold.
+constexpr std::string_view kAnyThreshold = "=0";
+
 /// The whole catalogue: the metrics of the highlight first, then those of the picture, of the mask and outside of it.
 class Catalogue {
  public:
   Catalogue() {
+    list_.reserve(kMost);  // a span of it stays valid
 #define LOBELIA_ADDRESS(name) &name##_metric,
     static constexpr const Metric* kMetrics[] = {LOBELIA_METRICS(LOBELIA_ADDRESS)};
 #undef LOBELIA_ADDRESS
@@ -60,9 +81,55 @@ class Catalogue {
     add_regions(Region::kMask);
     add_regions(Region::kOutside);
   }
-  std::span<const Metric* const> list() const { return list_; }
+  std::span<const Metric* const> list() const {
+    const std::lock_guard lock(mutex_);
+    return list_;
+  }
+
+  const Metric* find(std::string_view id) {
+    const std::lock_guard lock(mutex_);
+    if (const Metric* metric = find_in_list(id)) return metric;
+    // "share_over.abs=0.004.mask": stem, threshold, region
+    const std::size_t equals = id.find('=');
+    if (equals == id.npos) return nullptr;
+    const std::size_t dot = id.rfind('.');
+    const bool in_region = dot > equals && region_of(id.substr(dot + 1)) != Region::kWhole;
+    const std::size_t end = in_region ? dot : id.size();
+    double threshold = 0;
+    if (!parse_number(id.substr(equals + 1, end - equals - 1), threshold) || threshold < 0)
+      return nullptr;
+    const auto with = [&](std::string_view ending) {
+      return fmt::format("{}{}{}", id.substr(0, equals), ending, id.substr(end));
+    };
+    const Metric* any = find_in_list(with(kAnyThreshold));
+    if (!any || !any->on_request || threshold == 0) return any;
+    const std::string ending = fmt::format("={}", threshold);
+    if (const Metric* metric = find_in_list(with(ending))) return metric;
+    return list_.size() == kMost ? nullptr : add_threshold(*any, threshold, ending);
+  }
 
  private:
+  static constexpr std::size_t kMost = 2048;
+
+  const Metric* find_in_list(std::string_view id) const {
+    for (const Metric* metric : list_)
+      if (std::ranges::count(metric->outputs, id, &MetricOutput::id) > 0) return metric;
+    return nullptr;
+  }
+
+  const Metric* add_threshold(const Metric& any, double threshold, const std::string& ending) {
+    auto& outputs = outputs_.emplace_back(any.outputs.begin(), any.outputs.end());
+    for (MetricOutput& output : outputs) {
+      std::string id(output.id);
+      id.replace(id.find(kAnyThreshold), kAnyThreshold.size(), ending);
+      output.id = texts_.emplace_back(std::move(id));
+    }
+    Metric& metric = metrics_.emplace_back(any);
+    metric.outputs = outputs;
+    metric.threshold = threshold;
+    return list_.emplace_back(&metric);
+  }
+
   void add(const Metric& whole, Region region) {
     constexpr std::string_view kWhere[] = {"", "in the highlight", "inside the mask",
                                            "outside the mask"};
@@ -86,7 +153,13 @@ class Catalogue {
   std::deque<std::vector<MetricOutput>> outputs_;
   std::deque<Metric> metrics_;
   std::vector<const Metric*> list_;
+  mutable std::mutex mutex_;
 };
+
+Catalogue& catalogue() {
+  static Catalogue catalogue;
+  return catalogue;
+}
 
 /// Whether the input's pixels hold at least one of the region.
 bool has_pixels(Region region, const MetricInput& input) {
@@ -137,13 +210,11 @@ double worse(const MetricOutput& output, double one, double other) {
 
 }  // namespace
 
-std::span<const Metric* const> metrics() {
-  static const Catalogue catalogue;
-  return catalogue.list();
-}
+std::span<const Metric* const> metrics() { return catalogue().list(); }
 
 void measure_metric(const Metric& metric, const MetricInput& input, std::span<double> values) {
   MetricInput part = input;
+  part.threshold = metric.threshold;
   std::vector<std::uint8_t> pixels;
   if (metric.region != Region::kWhole) part.region = pixels = pixels_of(metric, input);
   metric.measure(part, values);
@@ -162,15 +233,37 @@ std::string id_in_region(const Metric& metric, const MetricOutput& output, Regio
   return region_id(metric.outputs.front().id, output.id, region);
 }
 
-const Metric* find_metric(std::string_view id) {
-  for (const Metric* metric : metrics())
-    if (std::ranges::count(metric->outputs, id, &MetricOutput::id) > 0) return metric;
-  return nullptr;
-}
+const Metric* find_metric(std::string_view id) { return catalogue().find(id); }
 
 const MetricOutput* find_metric_output(std::string_view id) {
   const Metric* metric = find_metric(id);
-  return metric ? &*std::ranges::find(metric->outputs, id, &MetricOutput::id) : nullptr;
+  if (!metric) return nullptr;
+  const auto has = [&](auto is_it) { return std::ranges::find_if(metric->outputs, is_it); };
+  const auto found = has([&](const MetricOutput& output) { return output.id == id; });
+  if (found != metric->outputs.end()) return &*found;
+  // Its threshold was not in the shortest form.
+  return &*has([&](const MetricOutput& output) {
+    return output.id.substr(0, output.id.find('=')) == id.substr(0, id.find('='));
+  });
+}
+
+bool is_named(const Metric& metric, std::string_view name) {
+  if (name == "all") return true;
+  if (metric.region != Region::kWhole && region_name(metric.region) == name)
+    return !metric.on_request;
+  if (metric.needs == Needs::kHighlight && name == region_name(Region::kHighlight)) return true;
+  std::string_view stem = name;
+  Region region = Region::kWhole;
+  if (const std::size_t dot = name.rfind('.'); dot != name.npos)
+    region = region_of(name.substr(dot + 1));
+  if (region != Region::kWhole) stem = name.substr(0, name.rfind('.'));
+  if (metric.region == region && stem == family_name(metric.family)) return !metric.on_request;
+  return std::ranges::any_of(metric.outputs, [&](const MetricOutput& output) {
+    if (output.id == name) return true;
+    const bool begins = output.id.size() > stem.size() && output.id.starts_with(stem);
+    return begins && metric.region == region &&
+           (output.id[stem.size()] == '.' || output.id[stem.size()] == '=');
+  });
 }
 
 bool is_measurable(const Metric& metric, const MetricInput& input) {

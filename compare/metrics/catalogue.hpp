@@ -5,13 +5,14 @@
 
 namespace lobelia {
 
-/// A metric that is measured in regions has an entry for each of them.
+/// A metric that is measured in regions has an entry for each of them. Thresholds that find_metric() met come last.
 std::span<const Metric* const> metrics();
 
 /// Fills one value per output, over the metric's region. With a second exposure the worse of both values counts.
 void measure_metric(const Metric& metric, const MetricInput& input, std::span<double> values);
 
-/// The metric with an output of this id, and the output; null if there is none.
+/// The metric with an output of this id, and the output; null if there is none. An id of the catalogue that ends in "=0"
+/// stands for any threshold: "share_over.abs=0.0040" finds one with the id "share_over.abs=0.004".
 const Metric* find_metric(std::string_view id);
 const MetricOutput* find_metric_output(std::string_view id);
 
@@ -23,6 +24,11 @@ std::string id_in_region(const Metric& metric, const MetricOutput& output, Regio
 bool is_measurable(const Metric& metric, const MetricInput& input);
 /// Why a metric cannot be measured although no option is missing; otherwise empty.
 std::string why_not_measured(const Metric& metric, const MetricInput& input);
+
+/// Whether a name of --metrics means the metric: "all"; the id of an output, its beginning up to a dot or an equals sign
+/// ("flip.ldr", "relmse") or a family ("colour"), each of the whole picture; one of these with a region ("rmse.mask");
+/// or a region ("highlight").
+bool is_named(const Metric& metric, std::string_view name);
 
 /// Whether a value passes a limit; false if either is NaN.
 bool is_within(const MetricOutput& output, double value, double limit);

@@ -10,7 +10,6 @@ namespace {
 
 // In the order of the enumerators.
 constexpr std::string_view kBetter[] = {"lower", "nearer to 0", "higher", "(a fact)"};
-constexpr std::string_view kFamilies[] = {"radiance", "colour", "structure", "visibility"};
 
 std::string needs_text(Needs needs) {
   switch (needs) {
@@ -23,14 +22,6 @@ std::string needs_text(Needs needs) {
           "", "`--tolerance`", "", "`--exposures`", "", "", "`--a-replicate` and others"};
       return std::string(kOptions[std::size_t(needs)]);
   }
-}
-
-/// "`max_rel_peak` 0.01, `flip.ldr.mean` 0.01"
-std::string limits_text(std::span<const MetricLimit> limits) {
-  std::string text;
-  for (const MetricLimit& limit : limits)
-    text += fmt::format("{}`{}` {:g}", text.empty() ? "" : ", ", limit.metric, limit.limit);
-  return text;
 }
 
 }  // namespace
@@ -50,9 +41,9 @@ std::string metrics_document() {
     for (const MetricOutput& output : metric->outputs)
       if (metric->region == Region::kWhole)
         text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", output.id,
-                            kFamilies[std::size_t(metric->family)],
-                            kBetter[std::size_t(output.better)], metric->in_regions ? "yes" : "",
-                            needs_text(metric->needs), output.meaning, metric->source);
+                            family_name(metric->family), kBetter[std::size_t(output.better)],
+                            metric->in_regions ? "yes" : "", needs_text(metric->needs),
+                            output.meaning, metric->source);
   text += fmt::format(
       "\n"
       "**Better** is what a limit means: `--fail rmse=0.01` passes up to 0.01, `--fail drift=0.01`\n"
@@ -76,8 +67,15 @@ std::string metrics_document() {
       "- in the highlight, under ids with `.highlight` (`rmse.highlight`): the pixels of which a value is at least\n"
       "  {2:g} % of the brightest of its own picture, in A or in B. For FLIP and SSIM it is grown by the reach of\n"
       "  their filters;\n"
-      "- with `--scene`, on the pixels whose centre sees a surface, under ids with `.mask`, and on all others, with\n"
-      "  `.outside`. The highlight then lies on a surface.\n"
+      "- with `--mask`, on the pixels inside it, under ids with `.mask`, and on all others, with `.outside`;\n"
+      "- with `--scene`, likewise on the pixels whose centre sees a surface. The highlight then lies on a surface.\n"
+      "  With both options, a pixel is inside the mask if it is inside by both.\n"
+      "\n"
+      "**Parts**: `--ignore` takes pixels out of all metrics. A gets B's values there before anything is\n"
+      "measured, so a window of SSIM or FLIP that reaches into the part sees no difference in it. The pixels still\n"
+      "count in means and shares. `--crop` cuts both pictures first; data outside of the display window are then\n"
+      "left out. Masks, scenes and noise have the size and the coordinates of the whole pictures; places such as\n"
+      "`max_abs.x` are of the part.\n"
       "\n"
       "**Default limits** judge the whole picture ({3}) and the highlight ({4}). Limits that are given add to\n"
       "them. A limit on a metric that has a default replaces it; `--no-default-limits` leaves all of them out.\n"
@@ -130,8 +128,8 @@ std::string metrics_document() {
       "  does not count.\n"
       "\n"
       "A limit on a z itself is passed by noise: it asks whether a difference was found.\n",
-      kWideMargin, kTailStops, 100 * kHighlightShare, limits_text(default_limits()),
-      limits_text(highlight_limits()));
+      kWideMargin, kTailStops, 100 * kHighlightShare, limits_text(default_limits(), "`"),
+      limits_text(highlight_limits(), "`"));
   return text;
 }
 

@@ -172,18 +172,20 @@ void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFi
                 errors.subspan(padded * std::size_t(row), padded).data(), padded);
 }
 
+std::vector<float> flip_map(int width, int height, const FlipTileValues& values_of) {
+  std::vector<float> map(std::size_t(width) * std::size_t(height));
+  for_each_row_of_tiles({0, 0, width, height}, values_of,
+                        [&](std::size_t, int x, int y, std::span<const float> values) {
+                          std::ranges::copy(values, map.begin() + std::ptrdiff_t(y) * width + x);
+                        });
+  return map;
+}
+
 std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
                                   const FlipFilters& filters) {
-  std::vector<float> map(a.pixel_count());
-  for_each_row_of_tiles(
-      {0, 0, a.width(), a.height()},
-      [&](const FlipTile& tile, std::span<float> errors) {
-        flip_tile_errors(a, b, filters, tile, errors);
-      },
-      [&](std::size_t, int x, int y, std::span<const float> errors) {
-        std::ranges::copy(errors, map.begin() + std::ptrdiff_t(y) * a.width() + x);
-      });
-  return map;
+  return flip_map(a.width(), a.height(), [&](const FlipTile& tile, std::span<float> errors) {
+    flip_tile_errors(a, b, filters, tile, errors);
+  });
 }
 
 int flip_radius(const MetricInput& input) {
@@ -191,8 +193,7 @@ int flip_radius(const MetricInput& input) {
   return std::max(filters.contrast_radius, filters.feature_radius);
 }
 
-void pool_flip_errors(const MetricInput& input,
-                      const std::function<void(const FlipTile&, std::span<float>)>& errors_of,
+void pool_flip_errors(const MetricInput& input, const FlipTileValues& errors_of,
                       std::span<double> values) {
   const FlipTile area = area_of(input);
   struct Sum {

@@ -30,17 +30,26 @@ struct FlipTile {
 void flip_tile_errors(const DisplayLight& a, const DisplayLight& b, const FlipFilters& filters,
                       const FlipTile& tile, std::span<float> errors);
 
+/// Fills in the values of a tile, in rows that are flip_padded(tile.width) apart. Called on many threads.
+using FlipTileValues = std::function<void(const FlipTile& tile, std::span<float> values)>;
+
+/// One value for each pixel of a picture, in reading order.
+std::vector<float> flip_map(int width, int height, const FlipTileValues& values_of);
+
 /// FLIP's error of each pixel of the picture, in reading order.
 std::vector<float> flip_error_map(const DisplayLight& a, const DisplayLight& b,
                                   const FlipFilters& filters);
 
+/// HDR-FLIP's error of each pixel of the picture, and the exposure in stops at which it is so large; the first exposure
+/// where there is no error. The input has exposures.
+std::vector<float> flip_hdr_error_map(const MetricInput& input);
+std::vector<float> flip_hdr_exposure_map(const MetricInput& input);
+
 /// The metric's footprint.
 int flip_radius(const MetricInput& input);
 
-/// Writes {mean, maximum} of the errors over the input's region. errors_of(tile, errors) fills in the errors of a tile;
-/// many threads call it.
-void pool_flip_errors(const MetricInput& input,
-                      const std::function<void(const FlipTile&, std::span<float>)>& errors_of,
+/// Writes {mean, maximum} of the errors over the input's region.
+void pool_flip_errors(const MetricInput& input, const FlipTileValues& errors_of,
                       std::span<double> values);
 
 }  // namespace lobelia

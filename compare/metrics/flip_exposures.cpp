@@ -13,16 +13,23 @@ namespace {
 constexpr float kShown = 0.85f;
 
 /// Inverts the tone curve, in the tool's order of operations.
-float light_shown_as(float shown) {
-  const float a = kAces[0] - shown * kAces[3], b = kAces[1] - shown * kAces[4],
-              c = kAces[2] - shown * kAces[5];
+float light_shown_as(float shown, ToneCurve curve) {
+  const auto constants = tone_constants(curve);
+  const auto& k = constants.c;
+  const float a = k[0] - shown * k[3], b = k[1] - shown * k[4], c = k[2] - shown * k[5];
+  if (a == 0) return -c / b;
   const float half = -0.5f * (b / a);
   return half + std::sqrt(half * half - c / a);
 }
 
 }  // namespace
 
-HdrExposures automatic_exposures(const Image& reference) {
+int count_of_exposures(double start_stops, double stop_stops) {
+  // In float32, like the tool: seven stops may be seven and a rounding in double.
+  return std::max(2, int(std::ceil(std::min(float(stop_stops) - float(start_stops), 1e6f))));
+}
+
+HdrExposures automatic_exposures(const Image& reference, const HdrExposures& asked) {
   const std::span<const float> values = reference.values();
   std::vector<float> luminances;
   luminances.reserve(reference.pixel_count());
@@ -43,9 +50,19 @@ HdrExposures automatic_exposures(const Image& reference) {
   // The upper of the two middle values, like the tool.
   const auto middle = middle_of();
   std::nth_element(luminances.begin(), middle, luminances.end());
-  const float light = light_shown_as(kShown);
-  const float start = std::log2(light / largest), stop = std::log2(light / *middle);
-  const HdrExposures exposures{start, stop, std::max(2, int(std::ceil(stop - start))), true};
+  const float light = light_shown_as(kShown, asked.curve);
+  const float start = asked.given_start ? float(asked.start_stops) : std::log2(light / largest),
+              stop = asked.given_stop ? float(asked.stop_stops) : std::log2(light / *middle);
+  HdrExposures exposures = asked;
+  exposures.start_stops = start;
+  exposures.stop_stops = stop;
+  exposures.automatic = true;
+  if (!asked.given_count) exposures.count = count_of_exposures(start, stop);
+  if (start > stop)
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("the range of exposures begins at {:.4g} stops, above its end at {:.4g}", start,
+                    stop));
   if (exposures.count > kMaxHdrExposures || !(std::abs(start) <= kMaxExposureStops) ||
       !(std::abs(stop) <= kMaxExposureStops))
     throw Error(

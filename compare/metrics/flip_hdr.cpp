@@ -4,8 +4,8 @@
 // Source:       P. Andersson, J. Nilsson, P. Shirley, T. Akenine-Moeller, "Visualizing Errors in
 //               Rendered High Dynamic Range Images", Eurographics 2021 Short Papers.
 // Formula:      per pixel the largest LDR-FLIP (flip_ldr.cpp) over a range of exposures, evenly
-//               spaced in stops, each shown through the ACES curve of display_light.hpp. mean and max
-//               over all pixels.
+//               spaced in stops, each shown through a tone curve of display_light.hpp, ACES unless the
+//               range has another. mean and max over all pixels.
 // Input:        scene-linear values; values below 0 count as 0. The range of exposures, which the record
 //               holds, replaces the exposure of the viewing condition.
 // Left out:     where no range is given. A figure depends on its range, so one range should serve a whole
@@ -38,25 +38,39 @@ std::vector<float> exposure_stops(const HdrExposures& range) {
   return stops;
 }
 
+/// HDR-FLIP of tiles: the largest error, or the exposure that has it.
+FlipTileValues tile_values(const MetricInput& input, bool exposures) {
+  return [&input, exposures, filters = FlipFilters(float(input.pixels_per_degree)),
+          stops = exposure_stops(*input.hdr_exposures)](const FlipTile& tile,
+                                                        std::span<float> values) {
+    std::vector<float> errors(values.size()), largest(values.size(), 0.0f);
+    if (exposures) std::ranges::fill(values, stops.front());
+    for (const float stop : stops) {
+      const ToneCurve curve = input.hdr_exposures->curve;
+      const DisplayLight a(input.a, double(stop), curve), b(input.b, double(stop), curve);
+      flip_tile_errors(a, b, filters, tile, errors);
+      for (std::size_t i = 0; i < errors.size(); ++i) {
+        if (!(errors[i] > largest[i])) continue;
+        largest[i] = errors[i];
+        values[i] = exposures ? stop : errors[i];
+      }
+    }
+  };
+}
+
 void measure_flip_hdr(const MetricInput& input, std::span<double> values) {
-  const FlipFilters filters(float(input.pixels_per_degree));
-  const std::vector<float> stops = exposure_stops(*input.hdr_exposures);
-  pool_flip_errors(
-      input,
-      [&](const FlipTile& tile, std::span<float> largest) {
-        std::vector<float> errors(largest.size());
-        for (const float stop : stops) {
-          const DisplayLight a(input.a, double(stop), ToneCurve::kAces);
-          const DisplayLight b(input.b, double(stop), ToneCurve::kAces);
-          flip_tile_errors(a, b, filters, tile, errors);
-          for (std::size_t i = 0; i < errors.size(); ++i)
-            largest[i] = std::max(largest[i], errors[i]);
-        }
-      },
-      values);
+  pool_flip_errors(input, tile_values(input, false), values);
 }
 
 }  // namespace
+
+std::vector<float> flip_hdr_error_map(const MetricInput& input) {
+  return flip_map(input.a.width(), input.a.height(), tile_values(input, false));
+}
+
+std::vector<float> flip_hdr_exposure_map(const MetricInput& input) {
+  return flip_map(input.a.width(), input.a.height(), tile_values(input, true));
+}
 
 extern constinit const Metric flip_hdr_metric{
     kFlipHdrOutputs,      Family::kVisibility,

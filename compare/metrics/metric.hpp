@@ -30,15 +30,21 @@ struct HdrExposures {
   bool automatic = false;  ///< chosen from the reference, see automatic_exposures()
   /// Why an automatic range could not be chosen, so that HDR-FLIP is not measured. Empty if there is a range.
   std::string problem = {};
+  ToneCurve curve = ToneCurve::kAces;
+  /// Of an automatic range: what is not chosen but given.
+  bool given_start = false, given_stop = false, given_count = false;
 };
 inline constexpr int kMaxHdrExposures = 100;
 
-/// The range of Andersson et al. 2021, section 3, as in NVIDIA's tool 1.6 for ACES: from the exposure at which the
+/// The number of exposures from start to stop that the tool chooses: as many as stops, rounded up, at least 2.
+int count_of_exposures(double start_stops, double stop_stops);
+
+/// The range of Andersson et al. 2021, section 3, as in NVIDIA's tool 1.6: from the exposure at which the
 /// tone curve maps the reference's largest luminance to 0.85, to that for its median luminance. If that is 0, as of a
-/// small highlight on black, the median of the pixels above 0. Has as many exposures as stops, rounded up, at least 2.
+/// small highlight on black, the median of the pixels above 0. What `asked` gives stays.
 /// Each reference has its own range; only figures of equal ranges are comparable. Throws Error(kInput) if no pixel is
-/// above 0, or the range has over kMaxHdrExposures.
-HdrExposures automatic_exposures(const Image& reference);
+/// above 0, the range has over kMaxHdrExposures, or begins above its end.
+HdrExposures automatic_exposures(const Image& reference, const HdrExposures& asked = {});
 
 /// The viewing condition, in every record.
 struct Viewing {
@@ -110,6 +116,7 @@ struct MetricInput {
   std::optional<ShownPair> shown_tail = {};  ///< at the second exposure, if there is one
   /// By pixel, not 0 where the metric is measured; empty: everywhere. Set by measure_metric().
   std::span<const std::uint8_t> region = {};
+  double threshold = 0;  ///< the metric's own. Set by measure_metric().
 
   bool in_region(std::size_t pixel) const { return region.empty() || region[pixel] != 0; }
 };
@@ -130,6 +137,12 @@ enum class Family : std::uint8_t {
   kStructure,   ///< correlation within windows, as shown
   kVisibility,  ///< what an eye notices at a viewing distance
 };
+
+/// "radiance", "colour", "structure", "visibility"
+constexpr std::string_view family_name(Family family) {
+  constexpr std::string_view kNames[] = {"radiance", "colour", "structure", "visibility"};
+  return kNames[std::size_t(family)];
+}
 
 /// The unit of a metric's values decides how they are printed.
 enum class Unit : std::uint8_t { kPlain, kRadiance, kShare, kCount };
@@ -178,6 +191,8 @@ struct Metric {
   /// A difference in one pixel moves the figure of pixels up to so far away; null for 0.
   int (*footprint)(const MetricInput& input) = nullptr;
   Region region = Region::kWhole;
+  bool on_request = false;  ///< measured only if a limit or ComparisonOptions::metrics names it
+  double threshold = 0;     ///< of a metric that counts pixels: MetricInput::threshold
 };
 
 }  // namespace lobelia

@@ -46,9 +46,9 @@ struct Figure {
 };
 
 template <class Visit>
-void measure_each(const MetricInput& input, Visit visit) {
+void measure_each(std::span<const Metric* const> list, const MetricInput& input, Visit visit) {
   std::vector<double> values;
-  for (const Metric* metric : metrics()) {
+  for (const Metric* metric : list) {
     if (metric->needs == Needs::kNoise || !is_measurable(*metric, input)) continue;
     values.assign(metric->outputs.size(), 0.0);
     measure_metric(*metric, input, values);
@@ -127,11 +127,11 @@ double from_distance(const MetricOutput& output, double distance) {
   return output.better == Better::kHigher ? output.best - apart : output.best + apart;
 }
 
-ErrorBars error_bars(const MetricInput& input, const Viewing& viewing, int count,
-                     std::uint64_t seed) {
+ErrorBars error_bars(std::span<const Metric* const> list, const MetricInput& input,
+                     const Viewing& viewing, int count, std::uint64_t seed) {
   const NoiseOfPair& noise = *input.noise;
   std::vector<Figure> figures;
-  measure_each(input, [&](const MetricOutput& output, double value) {
+  measure_each(list, input, [&](const MetricOutput& output, double value) {
     figures.push_back({&output, as_distance(output, value), {}});
   });
   const auto measure_noisy = [&](const Image& a, std::uint64_t stream, bool together, auto keep) {
@@ -149,7 +149,7 @@ ErrorBars error_bars(const MetricInput& input, const Viewing& viewing, int count
                       input.highlight,
                       tail_as_shown(noisy_a, noisy_b, viewing)};
     std::size_t next = 0;
-    measure_each(noisy, [&](const MetricOutput& output, double value) {
+    measure_each(list, noisy, [&](const MetricOutput& output, double value) {
       keep(figures[next++], as_distance(output, value), value);
     });
   };

@@ -3,6 +3,8 @@
 #include <hwy/targets.h>
 
 #include "compare/compare.hpp"
+#include "compare/maps/difference_map.hpp"
+#include "compare/maps/flip_histogram.hpp"
 #include "compare/metrics/flip_error.hpp"
 #include "compare/metrics/flip_kernels.hpp"
 #include "core/error.hpp"
@@ -164,11 +166,14 @@ TEST(Flip, AgreesWithADoubleLoopOverEachPixelsWindow) {
     }
 }
 
+constexpr ToneCurve kCurves[] = {ToneCurve::kClip, ToneCurve::kAces, ToneCurve::kReinhard,
+                                 ToneCurve::kHable};
+
 TEST(Flip, HasTheSameErrorsOnEveryInstructionSet) {
   const Image a = fixtures::noise(261, 40, 5, 1.3f), b = fixtures::highlight(261, 40, 20, 1.2);
   const FlipFilters filters{float(kDefaultPixelsPerDegree)};
   const FlipTile whole{0, 0, 261, 40};
-  for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
+  for (const ToneCurve curve : kCurves) {
     const DisplayLight shown_a(a, 0.3, curve), shown_b(b, 0.3, curve);
     const std::vector<float> widest = errors_of(shown_a, shown_b, filters, whole);
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
@@ -214,6 +219,167 @@ TEST(HdrFlip, AgreesWithTheReferenceToolOnARamp) {
   EXPECT_NEAR(options.viewing.hdr_exposures->stop_stops, 1.083297, 5e-7);
   EXPECT_EQ(options.viewing.hdr_exposures->count, 7);
   EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"), 0.21011607, 1e-8);
+  // The other curves, in the digits that the tool prints; its sum is in float32.
+  for (const auto& [curve, start, mean] : {std::tuple(ToneCurve::kReinhard, -4.4975, 0.167316),
+                                           {ToneCurve::kHable, -5.3549, 0.181528}}) {
+    HdrExposures asked;
+    asked.curve = curve;
+    options.viewing.hdr_exposures = automatic_exposures(reference, asked);
+    EXPECT_NEAR(options.viewing.hdr_exposures->start_stops, start, 5e-5);
+    EXPECT_EQ(options.viewing.hdr_exposures->count, 7);
+    EXPECT_NEAR(compare(picture, reference, options).value("flip.hdr.mean"), mean, 2e-6);
+  }
+}
+
+/// A tone curve as its formula stands, in double. Negative light counts as none.
+std::array<double, 3> plainly_toned(std::array<double, 3> light, ToneCurve curve) {
+  for (double& x : light) x = std::max(x, 0.0);
+  const double luminance = 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
+  for (double& x : light) {
+    if (curve == ToneCurve::kReinhard) x /= 1 + luminance;
+    if (curve == ToneCurve::kAces) {
+      const double y = 0.6 * x;
+      x = y * (2.51 * y + 0.03) / (y * (2.43 * y + 0.59) + 0.14);
+    }
+    // Hable's curve with the tool's numbers.
+    if (curve == ToneCurve::kHable)
+      x = x * (0.231683 * x + 0.013791) / (x * (0.18 * x + 0.3) + 0.018);
+    x = std::min(x, 1.0);
+  }
+  return light;
+}
+
+TEST(ToneCurve, IsItsFormulaInDoubleToSixDigits) {
+  Image image = fixtures::noise(37, 5, 2, 9.0f);
+  image.pixel(3, 0)[1] = -2;
+  image.pixel(4, 0)[0] = 3e38f;
+  for (const ToneCurve curve : {ToneCurve::kAces, ToneCurve::kReinhard, ToneCurve::kHable})
+    for (const double stops : {-3.0, 0.0, 2.5}) {
+      const DisplayLight shown(image, stops, curve);
+      for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+        const float* v = image.values().data() + 3 * i;
+        const double gain = std::exp2(stops);
+        const auto expected = plainly_toned({gain * v[0], gain * v[1], gain * v[2]}, curve);
+        const Rgb is = fixtures::shown_at(shown, i);
+        // Of a value without end the formula's other channels are lost.
+        if (v[0] > 1e30f) {
+          EXPECT_EQ(is.r, 1);
+          continue;
+        }
+        EXPECT_NEAR(is.r, expected[0], 1e-6);
+        EXPECT_NEAR(is.g, expected[1], 1e-6);
+        EXPECT_NEAR(is.b, expected[2], 1e-6);
+      }
+    }
+}
+
+TEST(HdrExposures, OfEachCurveShowTheBrightestAndTheMedianAtEightyFivePercent) {
+  const Image reference = fixtures::noise(31, 31, 3, 5.0f);
+  std::vector<double> luminances;
+  for (std::size_t i = 0; i < reference.values().size(); i += 3) {
+    const float* v = reference.values().data() + i;
+    luminances.push_back(0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2]);
+  }
+  std::ranges::sort(luminances);
+  for (const ToneCurve curve : {ToneCurve::kAces, ToneCurve::kReinhard, ToneCurve::kHable}) {
+    HdrExposures asked;
+    asked.curve = curve;
+    const HdrExposures range = automatic_exposures(reference, asked);
+    EXPECT_EQ(range.curve, curve);
+    for (const auto& [stops, luminance] :
+         {std::pair(range.start_stops, luminances.back()),
+          std::pair(range.stop_stops, luminances[luminances.size() / 2])}) {
+      const double light = std::exp2(stops) * luminance;
+      EXPECT_NEAR(plainly_toned({light, light, light}, curve)[0], 0.85, 1e-5);
+    }
+    EXPECT_EQ(range.count, std::max(2, int(std::ceil(range.stop_stops - range.start_stops))));
+  }
+}
+
+TEST(HdrExposures, KeepWhatIsGiven) {
+  const Image reference = fixtures::noise(31, 31, 3, 5.0f);
+  const HdrExposures all = automatic_exposures(reference);
+  HdrExposures asked{0, 4, 2, true};
+  asked.given_stop = true;
+  HdrExposures range = automatic_exposures(reference, asked);
+  EXPECT_EQ(range.start_stops, all.start_stops);
+  EXPECT_EQ(range.stop_stops, 4);
+  EXPECT_EQ(range.count, count_of_exposures(all.start_stops, 4));
+  asked.given_count = true;
+  EXPECT_EQ(automatic_exposures(reference, asked).count, 2);
+  asked.stop_stops = -50;
+  EXPECT_THROW(automatic_exposures(reference, asked), Error);
+}
+
+TEST(HdrFlipMaps, HaveTheLargestErrorOfAllExposuresAndTheFirstExposureThatHasIt) {
+  const Image a = fixtures::noise(70, 40, 1, 3.0f);
+  Image b = fixtures::noise(70, 40, 2, 3.0f);
+  for (int x = 0; x < 70; ++x) std::ranges::copy(a.pixel(x, 39), b.pixel(x, 39).begin());
+  Viewing viewing;
+  viewing.hdr_exposures = HdrExposures{-4, 2, 4};
+  viewing.hdr_exposures->curve = ToneCurve::kReinhard;
+  const auto map = [&](const char* id) {
+    return measure_difference_map(*find_difference_map(id), a, b, viewing);
+  };
+  const std::vector<float> errors = map("flip.hdr"), stops = map("flip.hdr.exposure");
+  const FlipFilters filters{float(kDefaultPixelsPerDegree)};
+  std::vector<float> largest(a.pixel_count(), 0.0f), where(a.pixel_count(), -4.0f);
+  for (const float stop : {-4.0f, -2.0f, 0.0f, 2.0f}) {
+    const std::vector<float> one =
+        flip_error_map(DisplayLight(a, double(stop), ToneCurve::kReinhard),
+                       DisplayLight(b, double(stop), ToneCurve::kReinhard), filters);
+    for (std::size_t i = 0; i < one.size(); ++i)
+      if (one[i] > largest[i]) largest[i] = one[i], where[i] = stop;
+  }
+  EXPECT_EQ(errors, largest);
+  EXPECT_EQ(stops, where);
+  ComparisonOptions options;
+  options.viewing = viewing;
+  double sum = 0;
+  for (const float error : errors) sum += double(error);
+  EXPECT_NEAR(compare(a, b, options).value("flip.hdr.mean"), sum / double(errors.size()), 1e-9);
+}
+
+TEST(FlipHistogram, HasThePixelsAndTheWeightedQuantilesOfAPlainCount) {
+  const Image noise = fixtures::noise(211, 97, 4, 1.0f);
+  std::vector<float> errors;
+  for (std::size_t i = 0; i < noise.values().size(); i += 3)
+    errors.push_back(noise.values()[i] * noise.values()[i]);
+  errors.push_back(1.0f);
+  errors.push_back(0.0f);
+  const FlipHistogram histogram = flip_histogram(errors);
+  std::int64_t pixels = 0;
+  for (int bucket = 0; bucket < kFlipBuckets; ++bucket) {
+    const auto count = std::ranges::count_if(errors, [&](float error) {
+      return std::min(int(double(error) / double(0.01f)), 99) == bucket;
+    });
+    EXPECT_EQ(histogram.pixels[std::size_t(bucket)], count) << bucket;
+    EXPECT_NEAR(histogram.weighted[std::size_t(bucket)],
+                double(count) * (bucket + 0.5) / 100 * 1048576 / double(errors.size()), 1e-6);
+    pixels += count;
+  }
+  EXPECT_EQ(pixels, std::int64_t(errors.size()));
+  // A weighted quantile: the errors up to it hold its share of all light, and without it they do not.
+  double all = 0;
+  for (const float error : errors) all += double(error);
+  for (const auto& [share, quantile] : {std::pair(0.25, histogram.first_quartile),
+                                        {0.5, histogram.median},
+                                        {0.75, histogram.third_quartile}}) {
+    double below = 0, up_to = 0;
+    for (const float error : errors) {
+      if (double(error) < quantile) below += double(error);
+      if (double(error) <= quantile) up_to += double(error);
+    }
+    EXPECT_LE(below, share * all);
+    EXPECT_GT(up_to, share * all);
+  }
+  EXPECT_NEAR(histogram.mean, all / double(errors.size()), 1e-12);
+  EXPECT_EQ(histogram.least, 0);
+  EXPECT_EQ(histogram.largest, 1);
+  const std::string csv = histogram_csv(histogram);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + kFlipBuckets);
+  EXPECT_EQ(flip_histogram({}).mean, 0);
+  EXPECT_EQ(flip_histogram(std::vector<float>(9, 0.0f)).median, 0);
 }
 
 TEST(HdrFlip, IsLeftOutWithoutARangeOfExposures) {

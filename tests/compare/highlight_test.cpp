@@ -98,6 +98,7 @@ TEST(Highlight, WithAnySingleLimitABlackAShiftedAndADimmerHighlightDiffer) {
       ComparisonOptions options = as_by_default();
       options.limits = {
           {std::string(id), loose_limit(*find_metric_output(id), peak_value(reference))}};
+      options.metrics = {std::string(id)};
       const Metric& metric = *find_metric(id);
       if (metric.needs == Needs::kNoise || id == "outliers.off_edge" ||
           metric.region == Region::kMask || metric.region == Region::kOutside)

@@ -51,14 +51,21 @@ TEST_P(EveryDifferenceMap, IsFoundByAnIdOfItsOwn) {
   EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size());
 }
 
+/// With exposures, of which the first is 0.
+const Viewing kViewing = [] {
+  Viewing viewing;
+  viewing.hdr_exposures = HdrExposures{0, 2, 3};
+  return viewing;
+}();
+
 TEST_P(EveryDifferenceMap, IsZeroEverywhereForEqualPictures) {
   const Image image = fixtures::highlight(70, 67, 20, 3);
-  EXPECT_THAT(measure_difference_map(*GetParam(), image, image, {}), Each(0.0f));
+  EXPECT_THAT(measure_difference_map(*GetParam(), image, image, kViewing), Each(0.0f));
 }
 
 TEST_P(EveryDifferenceMap, SaysSomethingWhereTheTwoDiffer) {
   const Image a = fixtures::highlight(70, 67, 20, 0.9), b = fixtures::highlight(70, 67, 24, 0.9);
-  const auto map = measure_difference_map(*GetParam(), a, b, {});
+  const auto map = measure_difference_map(*GetParam(), a, b, kViewing);
   ASSERT_EQ(map.size(), a.pixel_count());
   EXPECT_GT(largest_magnitude(map), 0.01);
 }
@@ -66,8 +73,8 @@ TEST_P(EveryDifferenceMap, SaysSomethingWhereTheTwoDiffer) {
 TEST_P(EveryDifferenceMap, ExchangesItsSignOrNothingWhenThePicturesAre) {
   if (GetParam()->id == "relative") return;  // a share of the second picture
   const Image a = fixtures::noise(40, 30, 1, 0.7f), b = fixtures::noise(40, 30, 2, 0.7f);
-  const auto one = measure_difference_map(*GetParam(), a, b, {});
-  const auto other = measure_difference_map(*GetParam(), b, a, {});
+  const auto one = measure_difference_map(*GetParam(), a, b, kViewing);
+  const auto other = measure_difference_map(*GetParam(), b, a, kViewing);
   for (std::size_t i = 0; i < one.size(); ++i)
     EXPECT_FLOAT_EQ(one[i], GetParam()->is_signed ? -other[i] : other[i]);
 }
@@ -76,7 +83,7 @@ TEST_P(EveryDifferenceMap, IsNanWhereAPictureIsNotFiniteAndNowhereElse) {
   Image a = fixtures::noise(40, 30, 1, 0.7f), b = fixtures::noise(40, 30, 2, 0.7f);
   a.pixel(3, 0)[1] = std::numeric_limits<float>::quiet_NaN();
   b.pixel(5, 0)[2] = -std::numeric_limits<float>::infinity();
-  const auto map = measure_difference_map(*GetParam(), a, b, {});
+  const auto map = measure_difference_map(*GetParam(), a, b, kViewing);
   for (std::size_t i = 0; i < map.size(); ++i) EXPECT_EQ(std::isnan(map[i]), i == 3 || i == 5) << i;
 }
 
@@ -112,6 +119,14 @@ TEST(DifferenceMaps, RelativeIsOfTheReferenceAndLargestWhereThatHasNothing) {
   b.pixel(2, 0)[0] = -3;
   const auto map = measure_difference_map(*find_difference_map("relative"), a, b, {});
   EXPECT_THAT(map, ElementsAre(0.5f, std::numeric_limits<float>::max(), 1.5f));
+}
+
+TEST(DifferenceMaps, OfHdrFlipAreRefusedWithoutExposures) {
+  for (const DifferenceMap& map : difference_maps())
+    if (map.needs_exposures) {
+      EXPECT_THROW(measure_difference_map(map, Image(2, 3), Image(2, 3), {}), Error);
+      EXPECT_FALSE(map.in_gallery) << "its cells have no exposures";
+    }
 }
 
 TEST(DifferenceMaps, OfDifferentSizesAreRefused) {

@@ -297,7 +297,8 @@ TEST(DisplayLight, IsExposedAndClipped) {
 
 TEST(DisplayLight, OfARowIsThatOfItsPixels) {
   const Image image = fixtures::noise(13, 3, 1, 2.5f);
-  for (const ToneCurve curve : {ToneCurve::kClip, ToneCurve::kAces}) {
+  for (const ToneCurve curve :
+       {ToneCurve::kClip, ToneCurve::kAces, ToneCurve::kReinhard, ToneCurve::kHable}) {
     const DisplayLight shown(image, 0.3, curve);
     std::vector<float> rgb(3 * 9);
     shown.fill(1, 4, rgb);

@@ -18,8 +18,10 @@ Image grey_code(int width, int height, int code) {
   return fixtures::flat(width, height, light, light, light);
 }
 
-/// {mean of l c s, mean of c s} with 121 weights a window and deviations from the mean.
-std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b) {
+/// {mean of l c s, mean of c s} with 121 weights a window and deviations from the mean, over the windows around a pixel
+/// of the region.
+std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b,
+                                 const std::vector<std::uint8_t>& region = {}) {
   double weights[11][11], total = 0, lcs = 0, cs = 0;
   for (int j = 0; j < 11; ++j)
     for (int i = 0; i < 11; ++i)
@@ -31,8 +33,11 @@ std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b) {
     return sum;
   };
   const int across = a.width - 10, down = a.height - 10;
+  int windows = 0;
   for (int y = 0; y < down; ++y)
     for (int x = 0; x < across; ++x) {
+      if (!region.empty() && region[std::size_t((y + 5) * a.width + x + 5)] == 0) continue;
+      ++windows;
       const auto va = [&](int i, int j) { return double(a.row(j)[i]); };
       const auto vb = [&](int i, int j) { return double(b.row(j)[i]); };
       const double ma = mean(x, y, va), mb = mean(x, y, vb);
@@ -44,7 +49,7 @@ std::array<double, 2> plain_ssim(const LumaPlane& a, const LumaPlane& b) {
       cs += contrast;
       lcs += contrast * (2 * ma * mb + 0.0001) / (ma * ma + mb * mb + 0.0001);
     }
-  return {lcs / (across * down), cs / (across * down)};
+  return {lcs / windows, cs / windows};
 }
 
 LumaPlane shown_luma(const Image& image) {
@@ -67,6 +72,23 @@ TEST(Ssim, AgreesWithADoubleLoopOverTheWindows) {
                 b = fixtures::noise(width, height, 2, 1);
     EXPECT_NEAR(compare(a, b, {}).value("ssim"), plain_ssim(shown_luma(a), shown_luma(b))[0], 1e-12)
         << width << " x " << height;
+  }
+}
+
+TEST(Ssim, OfARandomMaskAgreesWithADoubleLoopOverTheWindowsAroundItsPixels) {
+  const Image a = fixtures::noise(40, 33, 1, 1.2f), b = fixtures::noise(40, 33, 2, 1);
+  for (const std::uint64_t seed : {3, 4}) {
+    const Image random = fixtures::noise(40, 33, seed, 1);
+    ComparisonOptions options;
+    std::vector<std::uint8_t> rest;
+    for (std::size_t i = 0; i < a.pixel_count(); ++i) {
+      options.mask.push_back(random.values()[3 * i] < 0.3f);
+      rest.push_back(!options.mask.back());
+    }
+    const Comparison comparison = compare(a, b, options);
+    const LumaPlane of_a = shown_luma(a), of_b = shown_luma(b);
+    EXPECT_NEAR(comparison.value("ssim.mask"), plain_ssim(of_a, of_b, options.mask)[0], 1e-12);
+    EXPECT_NEAR(comparison.value("ssim.outside"), plain_ssim(of_a, of_b, rest)[0], 1e-12);
   }
 }
 

@@ -1,0 +1,39 @@
+// Parts of a picture that a user names, to be measured by themselves or left out, and the cut of a picture.
+#pragma once
+
+#include <array>
+#include <span>
+#include <variant>
+
+#include "core/picture.hpp"
+
+namespace lobelia {
+
+struct MaskShape {
+  struct Rectangle {
+    int x = 0, y = 0, width = 0, height = 0;  ///< pixels; may reach beyond the picture
+  };
+  using Polygon = std::vector<std::array<double, 2>>;  ///< corners in pixels; closed by itself
+
+  std::string text;  ///< as it was given
+  /// Of a picture the pixels that are not 0 in any channel are inside; of a polygon those whose centre is, by the
+  /// even-odd rule. The centre of the first pixel is (0.5, 0.5).
+  std::variant<Rectangle, Polygon, Image> form;
+};
+
+inline constexpr int kMaxPolygonCorners = 1000;
+
+/// Reads "rect:X,Y,W,H", "polygon:X,Y X,Y X,Y ..." or the file of a picture. Throws Error(kUsage) for a shape that is
+/// malformed, and Error(kInput) for a picture that cannot be read or has a NaN.
+MaskShape parse_mask_shape(std::string_view option, const std::string& text);
+
+/// By pixel, 1 where it is inside any of the shapes. Throws Error(kInput) if a picture has another size.
+std::vector<std::uint8_t> pixels_inside(std::span<const MaskShape> shapes, int width, int height);
+
+/// What a window holds. Throws Error(kInput) unless it lies within the picture.
+Image cut(Image image, const PixelWindow& window);
+/// The same of a value for each pixel of a picture that is `width` wide; nothing of nothing.
+std::vector<std::uint8_t> cut(std::span<const std::uint8_t> pixels, int width,
+                              const PixelWindow& window);
+
+}  // namespace lobelia

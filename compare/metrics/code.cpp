@@ -1,0 +1,53 @@
+// The difference of two pictures as 8-bit files would have it.
+//
+// Source:       ours; what `compare -metric PAE` and pixel diffs of PNGs count.
+// Formula:      code values by code_values(). max: the largest |a - b| of any R, G or B value, and the first such pixel
+//               in reading order, from 0; mean: over all of them.
+// Input:        DisplayLight (linear, clipped).
+// On request:   one step of 8 bits is the rounding of the file, so it says little of a float picture.
+#include <algorithm>
+
+#include "compare/metrics/code_values.hpp"
+#include "compare/metrics/metric.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr MetricOutput kCodeOutputs[] = {
+    {"code.max", "Largest difference in code values", Unit::kPlain, Better::kLower, true,
+     "largest difference of 8-bit sRGB code values", "In steps of an 8-bit picture."},
+    {"code.max.x", "", Unit::kPlain, Better::kNeither, true, "its column"},
+    {"code.max.y", "", Unit::kPlain, Better::kNeither, true, "its row, from the top"},
+    {"code.mean", "Mean difference in code values", Unit::kPlain, Better::kLower, true,
+     "mean difference of 8-bit sRGB code values", "In steps of an 8-bit picture."}};
+
+void measure_code(const MetricInput& input, std::span<double> values) {
+  const std::vector<std::uint8_t> a = code_values(input.shown_a), b = code_values(input.shown_b);
+  int largest = 0;
+  std::size_t where = 0;
+  std::int64_t sum = 0, count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!input.in_region(i / 3)) continue;
+    const int difference = std::abs(int(a[i]) - int(b[i]));
+    if (difference > largest) where = i / 3;
+    largest = std::max(largest, difference);
+    sum += difference;
+    ++count;
+  }
+  const auto width = std::size_t(std::max(input.a.width(), 1));
+  values[0] = largest;
+  values[1] = double(where % width);
+  values[2] = double(where / width);
+  values[3] = double(sum) / double(std::max<std::int64_t>(count, 1));
+}
+
+}  // namespace
+
+extern constinit const Metric code_metric{.outputs = kCodeOutputs,
+                                          .family = Family::kColour,
+                                          .needs = Needs::kNothing,
+                                          .source = "ours: 8-bit sRGB",
+                                          .measure = measure_code,
+                                          .on_request = true};
+
+}  // namespace lobelia
