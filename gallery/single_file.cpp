@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/error.hpp"
@@ -12,6 +11,7 @@
 #include "core/sha256.hpp"
 #include "gallery/half_picture.hpp"
 #include "gallery/page.hpp"
+#include "records/record.hpp"
 
 namespace lobelia::gallery {
 namespace {
@@ -19,8 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
-
-std::string json_text(const std::string& text) { return nlohmann::json(text).dump(); }
 
 /// What a policy names an inline script or style by.
 std::string source_hash(std::string_view text) {
@@ -63,22 +61,32 @@ Data data_in(std::string_view script) {
   return data;
 }
 
-/// The content of a site's file for the script: {"page"}, {"name", "data"} or base64 of a picture. Empty: left out.
-std::string payload(const std::string& name, const std::string& content) {
+records::InlinedPage page_in(std::string_view html) {
+  const bool is_cell = html.find("data-view=\"cell\"") != std::string_view::npos;
+  return {is_cell ? "cell" : "grid",
+          std::string(between(html.substr(0, html.find("</title>") + 8), "<title>", "</title>")),
+          std::string(between(html, "<main id=\"main\">", "</main>"))};
+}
+
+/// An element that holds a file of the site; nothing for a file that no page opens.
+void write_file_element(Html& html, const std::string& name, const std::string& content) {
+  Attributes attributes{{"type", "application/json"}, {"data-file", name}};
+  std::string text;
   if (name.ends_with(".html")) {
-    std::string title, main;
-    title = between(content.substr(0, content.find("</title>") + 8), "<title>", "</title>");
-    main = between(content, "<main id=\"main\">", "</main>");
-    const bool is_cell = content.find("data-view=\"cell\"") != std::string::npos;
-    return fmt::format(R"({{"view":{},"title":{},"main":{}}})", is_cell ? "\"cell\"" : "\"grid\"",
-                       json_text(title), json_text(main));
-  }
-  if (name.ends_with(".js")) {
+    text = within_element(records::record_line(page_in(content)));
+  } else if (name.ends_with(".js")) {
     const Data data = data_in(content);
-    return fmt::format(R"({{"name":{},"data":{}}})", json_text(data.name), data.json);
+    attributes.push_back({"data-name", data.name});
+    text = within_element(data.json);
+  } else if (name.ends_with(".png")) {
+    attributes.front().value = "text/plain";
+    text = "data:image/png;base64," + base64(content);
+  } else {
+    return;
   }
-  if (name.ends_with(".png")) return json_text("data:image/png;base64," + base64(content));
-  return "";
+  html.raw("\n");
+  const Tag element(html, "script", attributes);
+  html.raw(text);
 }
 
 }  // namespace
@@ -121,11 +129,7 @@ std::string single_file(const fs::path& directory, const std::string& title) {
     for (const fs::path& file : files) {
       const std::string name = file.lexically_relative(directory).generic_string();
       if (name == kScriptFile) continue;
-      const std::string json = payload(name, read_file(file, kMostBytes));
-      if (json.empty()) continue;
-      html.raw("\n<script type=\"application/json\" data-file=\"");
-      html.text(name);
-      html.raw("\">" + within_element(json) + "</script>");
+      write_file_element(html, name, read_file(file, kMostBytes));
     }
     html.raw("<script>" + script + "</script>");
   }

@@ -156,8 +156,8 @@ std::string typescript_text() {
   Definitions definitions;
   for (const Struct* page :
        {&struct_type<GridPage>(), &struct_type<CellPage>(), &struct_type<PackedPicture>(),
-        &struct_type<PixelRuns>(), &struct_type<StabilityPage>(), &struct_type<PaperPage>(),
-        &struct_type<ExplorerPage>()})
+        &struct_type<PixelRuns>(), &struct_type<InlinedPage>(), &struct_type<StabilityPage>(),
+        &struct_type<PaperPage>(), &struct_type<ExplorerPage>()})
     definitions.add(*page);
   std::string text =
       "// What the program gives the pages' scripts. Written by `lobelia records --typescript > "

@@ -67,6 +67,9 @@ void define_page_tables(Tables& tables) {
                                     t.keys({"naive", "ours"}).may_be_nonfinite();
                                   });
   tables.define<StabilityPage>("The page of the hard cases.");
+  tables.define<InlinedPage>("A page of a report in one file.", [](auto& t) {
+    t.key("main", "markup of its <main>").most_text(std::size_t{1} << 26);
+  });
   tables.define<PaperPage>("The page of the paper's claims.");
 }
 

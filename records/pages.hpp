@@ -134,6 +134,11 @@ struct PaperPage {
   std::vector<PaperFigure> charts;
 };
 
+/// A page of a report in one file.
+struct InlinedPage {
+  std::string view, title, main;
+};
+
 /// The explorer's page has HighlightTables with rows as second differences.
 using ExplorerPage = HighlightTables;
 

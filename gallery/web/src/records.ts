@@ -179,6 +179,14 @@ export interface PixelRuns {
   runs: number[];
 }
 
+/** A page of a report in one file. */
+export interface InlinedPage {
+  view: string;
+  title: string;
+  /** markup of its <main> */
+  main: string;
+}
+
 /** The largest errors of a lobe: of the peak, and in ulp. */
 export interface StabilitySummary {
   group: string;

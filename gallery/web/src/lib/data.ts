@@ -18,7 +18,7 @@ export function receive({ name, data }: InlinedData): void { received.set(name, 
 
 /** Loads the script `source` (relative to the page) and returns its data called `name`. For each script once. */
 export function load<T>(name: string, source: string): Promise<T> {
-  const here = inlined<InlinedData>(source);
+  const here = inlined(source);
   if (here) return here.name === name ? Promise.resolve(here.data as T) : Promise.reject(new Error(source + ' holds no "' + name + '"'));
   return new Promise((resolve, reject) => {
     const script = document.createElement('script');

@@ -1,8 +1,9 @@
 // A report in one file: all other files of the site are elements of the page, with JSON inside (gallery/single_file.cpp).
 // The hash names the page that is shown: #page=cells/a/index.html&mode=flip.
 
+import type { InlinedPage } from '../records';
+
 export interface InlinedData { readonly name: string; readonly data: unknown }
-interface InlinedPage { readonly view: string; readonly title: string; readonly main: string }
 
 const kIndex = 'index.html';
 let files: Map<string, Element> | undefined;
@@ -19,14 +20,17 @@ function pathOf(source: string): string {
   return decodeURIComponent(new URL(source, base).pathname).replace(/^\/+/, '');
 }
 
-/** What the file holds of a file of the site, named on the page that is shown. */
-export function inlined<T>(source: string): T | undefined {
-  const at = allFiles().get(pathOf(source));
-  return at ? JSON.parse(at.textContent ?? '') as T : undefined;
+/** The element that holds a file of the site, named on the page that is shown. */
+const fileAt = (source: string): Element | undefined => (allFiles().size === 0 ? undefined : files!.get(pathOf(source)));
+
+/** The data of a script that this file holds. */
+export function inlined(source: string): InlinedData | undefined {
+  const at = fileAt(source);
+  return at ? { name: at.getAttribute('data-name') ?? '', data: JSON.parse(at.textContent ?? '') } : undefined;
 }
 
 /** A picture's address: a file beside the page, or what this file holds of it. */
-export const pictureAt = (source: string): string => (allFiles().size === 0 ? source : inlined<string>(source) ?? source);
+export const pictureAt = (source: string): string => fileAt(source)?.textContent ?? source;
 
 /** A page's address. */
 export const pageAt = (source: string): string => (allFiles().size === 0 ? source : '#page=' + pathOf(source));
@@ -40,7 +44,7 @@ const pageInHash = (): string => {
 export function openPage(main: HTMLElement, receive: (data: InlinedData) => void): void {
   if (allFiles().size === 0) return;
   page = pageInHash();
-  const shown = inlined<InlinedPage>(page.split('/').at(-1)!);
+  const shown = JSON.parse(allFiles().get(page)?.textContent ?? 'null') as InlinedPage | null;
   if (!shown) return;
   const markup = new DOMParser().parseFromString(shown.main, 'text/html');
   // The view draws the list itself.
@@ -55,7 +59,7 @@ export function openPage(main: HTMLElement, receive: (data: InlinedData) => void
   document.title = shown.title;
   document.body.dataset['view'] = shown.view;
   document.body.className = 'view-' + shown.view;
-  const data = inlined<InlinedData>(page === kIndex ? 'grid.data.js' : 'data.js');
+  const data = inlined(page === kIndex ? 'grid.data.js' : 'data.js');
   if (data) receive(data);
   // A page begins as a page of its own does, without the listeners of the one before.
   addEventListener('hashchange', () => { if (pageInHash() !== page) location.reload(); });
