@@ -121,6 +121,8 @@ class GridWriter {
     const Tag outer(html_, "section",
                     {{"class", "grid-section"}, {"aria-labelledby", "grid-list"}});
     html_.element("h2", {{"id", "grid-list"}}, fmt::format("All {}s", farm_.noun()));
+    // The script draws the list itself. Where it runs, a thousand pairs are one text here, and no elements.
+    const Tag without_script(html_, "noscript");
     const Tag list(html_, "ul", {{"class", "cell-list"}});
     for (const CellSummary& cell : cells_) {
       const Tag item(html_, "li");

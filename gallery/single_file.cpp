@@ -63,9 +63,15 @@ Data data_in(std::string_view script) {
 
 records::InlinedPage page_in(std::string_view html) {
   const bool is_cell = html.find("data-view=\"cell\"") != std::string_view::npos;
+  std::string main(between(html, "<main id=\"main\">", "</main>"));
+  // What is for readers without script is of no use in a file that needs one.
+  constexpr std::string_view kOpen = "<noscript>", kClose = "</noscript>";
+  for (std::size_t from = main.find(kOpen); from != std::string::npos;
+       from = main.find(kOpen, from))
+    main.erase(from, main.find(kClose, from) + kClose.size() - from);
   return {is_cell ? "cell" : "grid",
           std::string(between(html.substr(0, html.find("</title>") + 8), "<title>", "</title>")),
-          std::string(between(html, "<main id=\"main\">", "</main>"))};
+          std::move(main)};
 }
 
 /// An element that holds a file of the site; nothing for a file that no page opens.

@@ -105,7 +105,7 @@ test('an error that has a sign is coloured and ranked by its size', async () => 
 
 test('a link that makes no sense shows what there is without', async () => {
   const page = await grid('#rows=99&cols=-7&group=x&status=bogus&colour=zz&order=?');
-  await says(page, '.count', /^showing (\d+) of \1$/);
+  await says(page, '.count', /^showing (\d+) of \1 cells$/);
   for (const list of await page.locator('.grid-bar select').all()) assert.ok(await list.evaluate((element) => element.selectedIndex >= 0));
   await close(page);
 });

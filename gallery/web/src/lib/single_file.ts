@@ -47,8 +47,6 @@ export function openPage(main: HTMLElement, receive: (data: InlinedData) => void
   const shown = JSON.parse(allFiles().get(page)?.textContent ?? 'null') as InlinedPage | null;
   if (!shown) return;
   const markup = new DOMParser().parseFromString(shown.main, 'text/html');
-  // The view draws the list itself.
-  for (const list of markup.querySelectorAll('.grid-section .cell-list')) list.remove();
   for (const image of markup.querySelectorAll('img')) image.setAttribute('src', pictureAt(image.getAttribute('src') ?? ''));
   for (const link of markup.querySelectorAll('a')) {
     const to = link.getAttribute('href') ?? '';
