@@ -219,13 +219,18 @@ ExitCode run_sensitivity(const CompareArguments& options) {
         {job.comparison.noise.has_value(), "the noise of a picture"},
         {!job.difference.path.empty(), "--diff-image"},
         {!job.difference.histogram.empty(), "--histogram"},
-        {!(options.json.empty() && options.csv.empty() && options.junit.empty()), "a report"}})
+        {!(options.csv.empty() && options.junit.empty()), "--csv and --junit"}})
     if (given)
       throw Error(
           ExitCode::kUsage,
           fmt::format("--sensitivity takes one picture and changes it itself: leave out {}", name));
   if (job.pictures.given.empty()) throw Error(ExitCode::kUsage, "--sensitivity needs a picture: A");
   const std::string& picture = job.pictures.given.front();
+  const bool has_table = !prints_report(options);
+  Pairing of_one;
+  of_one.rows.push_back({.name = {}, .files = {picture}});
+  require_outputs(options, of_one);
+  FilesTogether files;
   std::vector<Change> changes;
   ThreadLimit(options.threads).run([&] {
     PicturePair pictures{read_picture(picture, job.layers.layer), {}};
@@ -235,10 +240,18 @@ ExitCode run_sensitivity(const CompareArguments& options) {
     take_part(pictures, picture, picture, comparison);
     changes = sensitivity(pictures.b.image, comparison);
   });
+  const bool as_expected = are_as_expected(changes);
+  const ExitCode code = as_expected ? ExitCode::kSuccess : ExitCode::kDiffers;
+  if (!options.json.empty()) {
+    const std::string record =
+        record_text(sensitivity_record(picture, changes, options.job.comparison));
+    if (has_table) write_file(options.json, record);
+    files.commit();
+    if (!has_table) fmt::print("{}", record);
+  }
+  if (!has_table) return code;
   fmt::print("{}\n\n  {:<38}{:<12}{}\n", printable_path(picture), "changed copy", "verdict", "by");
-  bool as_expected = true;
   for (const Change& change : changes) {
-    as_expected = as_expected && change.is_as_expected();
     const std::string why = change.is_as_expected() ? change.found_by
                             : change.expected == Expected::kFound
                                 ? "NOT FOUND"
@@ -248,7 +261,7 @@ ExitCode run_sensitivity(const CompareArguments& options) {
   }
   fmt::print("\n{}\n", as_expected ? "These limits find what they should."
                                    : "These limits do not find what they should.");
-  return as_expected ? ExitCode::kSuccess : ExitCode::kDiffers;
+  return code;
 }
 
 ExitCode run_compare(CompareArguments options) {
@@ -453,8 +466,8 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   add_display_options(look, options->display);
 
   output.add("--json", options->json, "FILE|-",
-             "Write the record (kind comparison, of folders comparison-set) to FILE; with - to "
-             "stdout, in place of the table");
+             "Write the record (kind comparison, of folders comparison-set, with --sensitivity "
+             "sensitivity) to FILE; with - to stdout, in place of the table");
   output.add("--csv", options->csv, "FILE|-",
              "Write a table with a line for each pair; with - to stdout, likewise");
   output.add("--junit", options->junit, "FILE.xml|-",

@@ -18,7 +18,7 @@ struct PicturePairSource {
 PicturePair read_pair(const std::filesystem::path& a, const std::filesystem::path& b,
                       const std::string& layer);
 
-/// Cuts both pictures to `options.crop`, and sets the pixels of `options.ignored` in `a` to those of `b`, or in both to 0
+/// Cuts both pictures to `options.crop`. Sets the pixels of `options.ignored` in `a` to those of `b`, or in both to 0
 /// where `b` is not finite. Throws Error(kInput) if the sizes differ, or do not hold the part.
 void take_part(PicturePair& pair, const std::string& file_a, const std::string& file_b,
                const ComparisonOptions& options);

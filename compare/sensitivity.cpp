@@ -12,6 +12,7 @@
 #include "core/colour.hpp"
 #include "core/error.hpp"
 #include "core/image_values.hpp"
+#include "core/text.hpp"
 
 namespace lobelia {
 namespace {
@@ -173,6 +174,22 @@ std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions&
   add_pair("noise that is known, 2 %", Expected::kNotFound, with_noise(reference, 1),
            with_noise(reference, 2), noisy);
   return changes;
+}
+
+bool are_as_expected(std::span<const Change> changes) {
+  return std::ranges::all_of(changes, &Change::is_as_expected);
+}
+
+records::Sensitivity sensitivity_record(const std::string& a, std::span<const Change> changes,
+                                        const ComparisonOptions& options) {
+  records::Sensitivity record{a, are_as_expected(changes), options.default_limits, {}, {}};
+  for (const auto& [metric, limit] : options.limits) record.limits.push_back({metric, limit});
+  for (const Change& change : changes)
+    record.changes.push_back({change.name,
+                              std::string(records::kExpected[std::size_t(change.expected)]),
+                              std::string(verdict_name(change.verdict)), change.is_as_expected(),
+                              split(change.found_by, ", ")});
+  return record;
 }
 
 }  // namespace lobelia

@@ -30,4 +30,11 @@ struct Change {
 /// edges. Throws Error(kInput) if the picture has no positive value or one that is not finite.
 std::vector<Change> sensitivity(const Image& reference, const ComparisonOptions& options);
 
+/// Whether every change is as expected.
+bool are_as_expected(std::span<const Change> changes);
+
+/// `a` is the file of the picture.
+records::Sensitivity sensitivity_record(const std::string& a, std::span<const Change> changes,
+                                        const ComparisonOptions& options);
+
 }  // namespace lobelia

@@ -34,7 +34,7 @@ constexpr auto kKinds =
     kinds_of<Agreement, Blob, Cell, Comparison, ComparisonSet, Content, Cost, Engines, Failure,
              Farm, FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus, KnownHashes,
              GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Reference, Render,
-             Result, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
+             Result, Sensitivity, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {

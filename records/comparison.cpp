@@ -208,6 +208,22 @@ void define_comparison_tables(Tables& tables) {
         t.key("linksNotFollowed",
               "links in a or b to a folder outside it, or to nothing; any makes the exit code 1");
       });
+  tables.define<ChangedCopy>("A changed copy of the picture.", [](auto& t) {
+    t.key("name", "what was changed");
+    t.key("expected", "what limits should do").one_of(kExpected);
+    t.key("verdict").one_of(kVerdicts);
+    t.key("foundBy", "the limits that it broke");
+  });
+  tables.define<GivenLimit>("A limit that was given.",
+                            [](auto& t) { t.key("limit", "the last value that passes"); });
+  tables.define<Sensitivity>("What limits find in changed copies of a picture.", [](auto& t) {
+    t.kind("sensitivity");
+    t.key("a", "file of the picture");
+    t.key("asExpected", "every change that matters was found, and nothing else");
+    t.key("defaultLimits", "the default limits were judged too");
+    t.key("limits", "besides the default ones");
+    t.key("changes").items(1);
+  });
 }
 
 }  // namespace lobelia::records

@@ -8,6 +8,8 @@ namespace lobelia::records {
 /// The last three are for pictures with noise.
 inline constexpr std::string_view kVerdicts[] = {"pass", "differs",   "non-finite",
                                                  "same", "different", "undecided"};
+/// Whether limits should find a change.
+inline constexpr std::string_view kExpected[] = {"found", "not found", "either"};
 /// Whether a limit holds over the whole error bar.
 inline constexpr std::string_view kStandings[] = {"holds", "broken", "open"};
 
@@ -194,6 +196,25 @@ struct ComparisonSet {
   Named<WorstOfSet> worst;
   std::vector<std::string> missing, extra, links_not_followed;
   std::vector<PairOfSet> pairs;
+};
+
+/// A changed copy of a picture, compared with it.
+struct ChangedCopy {
+  std::string name, expected, verdict;
+  bool as_expected = false;
+  std::vector<std::string> found_by;
+};
+
+struct GivenLimit {
+  std::string metric;
+  double limit = 0;
+};
+
+struct Sensitivity {
+  std::string a;
+  bool as_expected = false, default_limits = true;
+  std::vector<GivenLimit> limits;
+  std::vector<ChangedCopy> changes;
 };
 
 void define_comparison_tables(Tables& tables);

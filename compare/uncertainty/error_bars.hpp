@@ -34,9 +34,9 @@ using ErrorBars = records::Named<ErrorBar>;
 
 inline constexpr int kFewestBootstraps = 4, kMostBootstraps = 1000;
 
-/// Error bars of all figures of the listed metrics that are neither facts nor about noise, for an input with noise. `count` is from
-/// kFewestBootstraps to kMostBootstraps. Holds two more pictures. Takes 2 * count times as long as the metrics, twice
-/// that if pixels err together.
+/// Error bars of all figures of the listed metrics that are neither facts nor about noise, for an input with noise.
+/// `count` is from kFewestBootstraps to kMostBootstraps. Holds two more pictures. Takes 2 * count times as long as the
+/// metrics, twice that if pixels err together.
 ErrorBars error_bars(std::span<const Metric* const> list, const MetricInput& input,
                      const Viewing& viewing, int count, std::uint64_t seed);
 
