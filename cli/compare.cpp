@@ -1,13 +1,13 @@
 #include "compare/compare.hpp"
 
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <set>
+#include <cstdlib>
 
 #include "cli/commands.hpp"
-#include "cli/compare_html.hpp"
-#include "cli/compare_pictures.hpp"
+#include "cli/compare_arguments.hpp"
+#include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "compare/highlight_region.hpp"
 #include "compare/metrics/catalogue.hpp"
@@ -25,59 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct CompareArguments {
-  CompareJob job;
-  ViewingFlags viewing;
-  std::string json, csv, junit, html, title, tolerance;
-  bool single_file = false;
-  std::string a, b;
-  std::vector<std::string> further;
-  std::string junit_undecided = "failure", metrics;
-  bool sensitivity = false, no_default_limits = false;
-  std::vector<std::string> fail, warn;
-  DisplayViewChoice display;
-  int threads = 0;
-};
-
 /// The id with a threshold in its shortest form, as a record has it.
 std::string in_shortest_form(const std::string& id) {
   const MetricOutput* output = find_metric_output(id);
   return output ? std::string(output->id) : id;
 }
-
-MetricLimit parse_limit(std::string_view option, const std::string& text) {
-  // The last one, because an id may hold another: relmse.eps=0.01.
-  const std::size_t equals = text.rfind('=');
-  MetricLimit limit{in_shortest_form(text.substr(0, equals)), 0};
-  const bool is_percent = text.ends_with('%');
-  const std::size_t digits = text.size() - std::min(text.size(), equals + 1) - is_percent;
-  if (equals == std::string::npos || !parse_number(text.substr(equals + 1, digits), limit.limit))
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} {}: expected METRIC=LIMIT, for example rmse=0.001", option,
-                            printable(text)));
-  const MetricOutput* output = find_metric_output(limit.metric);
-  if (is_percent && output && output->unit != Unit::kShare)
-    throw Error(ExitCode::kUsage,
-                fmt::format("{} {}: {} is no share, so its limit is no percentage", option,
-                            printable(text), limit.metric));
-  if (is_percent) limit.limit /= 100;
-  return limit;
-}
-
-Tolerance parse_tolerance(const std::string& text) {
-  const std::vector<std::string> parts = split(text, ",");
-  Tolerance tolerance;
-  long long count = 0;
-  if (parts.size() != 3 || !parse_number(parts[0], tolerance.relative) ||
-      !parse_number(parts[1], tolerance.of_peak) || !parse_integer(parts[2], count))
-    throw Error(ExitCode::kUsage, fmt::format("--tolerance {}: expected RELATIVE,OF_PEAK,OUTLIERS, "
-                                              "for example 6e-4,1e-6,3",
-                                              printable(text)));
-  tolerance.allowed_outliers = count;
-  return tolerance;
-}
-
-constexpr std::string_view kStdout = "-";
 
 /// Throws unless the second reference and the pictures of noise can be told which pair they are of.
 void check_companions(const CompareJob& job, const Pairing& pairing) {
@@ -99,127 +51,19 @@ void check_companions(const CompareJob& job, const Pairing& pairing) {
                             by_name ? " not" : ""));
 }
 
-/// The same for all paths and links to a file.
-using FileId = std::pair<dev_t, ino_t>;
-
-std::optional<FileId> file_id(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return FileId{status.st_dev, status.st_ino};
-}
-
-/// All files that are read.
-std::set<FileId> inputs_of(const CompareArguments& options, const Pairing& pairing) {
-  const CompareJob& job = options.job;
-  std::set<FileId> inputs;
-  const auto add = [&](const fs::path& file) {
-    if (const auto id = file_id(file)) inputs.insert(*id);
-  };
-  add(job.scene);
-  add(options.display.config);
-  for (const fs::path& file : job.regions.files()) add(file);
-  if (!job.pictures.csv.empty()) add(job.pictures.csv);
-  const bool by_name = has_folders_by_name(job, pairing);
-  for (const PictureRow& row : pairing.rows) {
-    for (const std::string& file : row.files) add(file);
-    for (const fs::path& file : job.noise.files(by_name ? row.name : "")) add(file);
-    if (!job.c.empty()) add(file_of(job.c, by_name ? row.name : ""));
-  }
-  return inputs;
-}
-
-/// Throws Error(kUsage) if a folder that is written lies in one that is read: the next run would compare its pictures.
-void require_outside(std::string_view option, const fs::path& directory, const CompareJob& job) {
-  std::error_code unknown;
-  const fs::path real = fs::weakly_canonical(fs::absolute(directory, unknown), unknown);
-  std::vector<fs::path> folders = job.noise.files("");
-  folders.insert(folders.end(), job.pictures.given.begin(), job.pictures.given.end());
-  if (!job.c.empty()) folders.emplace_back(job.c);
-  for (const fs::path& folder : folders)
-    if (const fs::path there = fs::canonical(folder, unknown); !unknown && is_below(real, there))
-      throw Error(ExitCode::kUsage,
-                  fmt::format("{} {}: lies in {}, which is read by this command; choose "
-                              "a folder outside it",
-                              option, directory.string(), folder.string()));
-}
-
-/// Throws unless all outputs can be written, are different files, and are not inputs under another path.
-void require_outputs(const CompareArguments& options, const Pairing& pairing) {
-  const CompareJob& job = options.job;
-  std::vector<fs::path> reports, pictures;
-  for (const std::string& file : {options.json, options.csv, options.junit})
-    if (!file.empty() && file != kStdout) reports.emplace_back(file);
-  if (!job.difference.histogram.empty()) reports.push_back(job.difference.histogram);
-  const bool one = is_one_pair(pairing);
-  if (!job.difference.path.empty()) {
-    if (one) {
-      reports.push_back(job.difference.path);
-    } else {
-      require_outside("--diff-image", job.difference.path, job);
-      for (const PairReport& pair : pairs_of(pairing))
-        pictures.push_back(difference_file(job, pair.name));
-    }
-  }
-  if (!options.html.empty()) {
-    require_outside("--html", options.html, job);
-    require_place({options.html, options.single_file, options.title});
-  }
-  if (reports.empty() && pictures.empty()) return;
-  const std::set<FileId> inputs = inputs_of(options, pairing);
-  std::set<fs::path> taken;
-  for (const auto* files : {&reports, &pictures})
-    for (const fs::path& file : *files) {
-      std::error_code unknown;
-      const auto id = file_id(file);
-      if ((id && inputs.contains(*id)) ||
-          !taken.insert(fs::weakly_canonical(fs::absolute(file, unknown), unknown)).second)
-        throw Error(ExitCode::kUsage,
-                    fmt::format("{}: is read or written by this command already", file.string()));
-    }
-  for (const fs::path& file : reports) require_writable(file);
-  if (!one && !job.difference.path.empty()) make_directories(job.difference.path);
-}
-
-/// Whether a report goes to stdout in place of the table.
-bool prints_report(const CompareArguments& options) {
-  const std::string* reports[] = {&options.json, &options.csv, &options.junit};
-  const auto count =
-      std::ranges::count_if(reports, [](const std::string* report) { return *report == kStdout; });
-  if (count > 1)
-    throw Error(ExitCode::kUsage, "only one of --json -, --csv - and --junit - can go to stdout");
-  return count == 1;
-}
-
-void write_reports(const CompareArguments& options, const SetReport& report, bool one,
-                   FilesTogether& files) {
-  std::string printed;
-  const auto put = [&](const std::string& file, const auto& text) {
-    if (file.empty()) return;
-    if (file == kStdout)
-      printed = text();
-    else
-      write_file(file, text());
-  };
-  put(options.csv, [&] { return set_csv(report); });
-  put(options.junit, [&] { return set_junit(report, options.junit_undecided == "skipped"); });
-  put(options.json, [&] {
-    return one ? record_text(pair_record(report.pairs.front())) : record_text(set_record(report));
-  });
-  files.commit();
-  fmt::print("{}", printed);
-}
-
 /// Prints what the limits let pass of changed copies of the picture.
 ExitCode run_sensitivity(const CompareArguments& options) {
   const CompareJob& job = options.job;
   for (const auto& [given, name] :
        {std::pair(job.pictures.given.size() > 1, "B"),
-        {!options.html.empty(), "--html"},
+        {!options.html.path.empty(), "--html"},
         {!job.c.empty(), "--reference-floor"},
         {job.comparison.noise.has_value(), "the noise of a picture"},
         {!job.difference.path.empty(), "--diff-image"},
         {!job.difference.histogram.empty(), "--histogram"},
-        {!(options.csv.empty() && options.junit.empty()), "--csv and --junit"}})
+        {options.accept, "--accept"},
+        {!(options.csv.empty() && options.junit.empty() && options.markdown.empty()),
+         "--csv, --junit and --markdown"}})
     if (given)
       throw Error(
           ExitCode::kUsage,
@@ -264,27 +108,54 @@ ExitCode run_sensitivity(const CompareArguments& options) {
   return code;
 }
 
+/// Throws Error(kInput) where a rule of the project names no metric that takes a limit, or an impossible limit.
+void check_rules(const CompareArguments& options) {
+  for (std::size_t i = 0; i < options.job.rules.size(); ++i) try {
+      const PairRule& rule = options.job.rules[i];
+      ComparisonOptions judged = options.job.comparison;
+      judged.limits = rule.limits;
+      judged.warnings = rule.warnings;
+      check_options(judged);
+    } catch (const Error& error) {
+      throw Error(ExitCode::kInput, fmt::format("{}: rules[{}]: {}",
+                                                printable_path(options.project), i, error.what()));
+    }
+}
+
+/// Whether stdout shall have colours: no-color.org.
+bool has_colours(const std::string& choice) {
+  const char* no = std::getenv("NO_COLOR");
+  return choice == "always" || (choice == "auto" && ::isatty(STDOUT_FILENO) == 1 && !(no && *no));
+}
+
 ExitCode run_compare(CompareArguments options) {
+  options.print.colour = has_colours(options.colour);
   ComparisonOptions& comparison = options.job.comparison;
   for (const std::string& given : {options.a, options.b})
     if (!given.empty()) options.job.pictures.given.push_back(given);
   for (const std::string& given : options.further) options.job.pictures.given.push_back(given);
   comparison.highlight = true;
   comparison.default_limits = !options.no_default_limits;
-  options.viewing.apply(comparison.viewing);
   for (const std::string& text : options.fail)
     comparison.limits.push_back(parse_limit("--fail", text));
   for (const std::string& text : options.warn)
     comparison.warnings.push_back(parse_limit("--warn", text));
   for (const std::string& name : split(options.metrics, ","))
     comparison.metrics.push_back(in_shortest_form(name));
-  if (!options.tolerance.empty()) comparison.tolerance = parse_tolerance(options.tolerance);
+  if (!options.tolerance.empty())
+    comparison.tolerance = parse_tolerance("--tolerance", options.tolerance);
+  apply_project(options);
+  options.viewing.apply(comparison.viewing);
   comparison.viewing.display = DisplayView::open(options.display);
   if (!options.job.scene.empty()) {
     const Scene scene = read_scene(options.job.scene);
     comparison.surfaces = truth::surface_mask(scene);
     comparison.mask_of = {options.job.scene};
-    if (comparison.tolerance) comparison.tolerance->edges = truth::edge_ring(scene);
+    const auto set_edges = [&](std::optional<Tolerance>& tolerance) {
+      if (tolerance) tolerance->edges = truth::edge_ring(scene);
+    };
+    set_edges(comparison.tolerance);
+    for (PairRule& rule : options.job.rules) set_edges(rule.tolerance);
   }
   options.job.regions.read(comparison);
   options.job.noise.apply(comparison);
@@ -301,10 +172,13 @@ ExitCode run_compare(CompareArguments options) {
                 "--no-default-limits: nothing is left to judge by; add --fail METRIC=LIMIT or "
                 "--tolerance");
   check_options(comparison);
+  check_rules(options);
   if (options.sensitivity) return run_sensitivity(options);
   if (options.job.pictures.given.empty() && options.job.pictures.csv.empty())
-    throw Error(ExitCode::kUsage, "A and B are required: the pictures to judge and the references");
+    throw Error(ExitCode::kUsage,
+                "A and B are required, the pictures to judge and the references, or a --project");
   const bool has_table = !prints_report(options);
+  if (options.accept) require_person();
   const Pairing pairing = pair_pictures(options.job.pictures);
   const bool one = is_one_pair(pairing);
   check_companions(options.job, pairing);
@@ -314,15 +188,24 @@ ExitCode run_compare(CompareArguments options) {
   SetReport report;
   {
     FilesTogether files;
-    ThreadLimit(options.threads).run([&] { report = compare_pairs(options.job, pairing); });
+    const std::size_t count = pairs_of(pairing).size();
+    ProgressLine progress(!one && !options.print.quiet);
+    ThreadLimit(options.threads).run([&] {
+      report = compare_pairs(options.job, pairing, [&](std::size_t done) {
+        progress.show(double(done) / double(count), fmt::format("{} of {} pairs", done, count));
+      });
+    });
+    progress.clear();
     write_reports(options, report, one, files);
   }
-  if (!options.html.empty())
+  if (!options.html.path.empty())
     ThreadLimit(options.threads).run([&] {
-      write_html({options.html, options.single_file, options.title}, options.job, pairing, report);
+      write_html(options.html, options.job, pairing, report);
     });
-  if (has_table && !one) print_set(report);
-  if (has_table && one) print_pair(report.pairs.front());
+  if (has_table && !one) print_set(report, options.print);
+  if (has_table && one) print_pair(report.pairs.front(), options.print);
+  if (options.format == "github") fmt::print("{}", set_github(report));
+  if (options.accept && accept_pictures(options, pairing, report)) return ExitCode::kSuccess;
   return set_exit_code(report);
 }
 
@@ -378,6 +261,38 @@ void add_display_options(OptionGroup& viewing, DisplayViewChoice& display) {
 
 }  // namespace
 
+MetricLimit parse_limit(std::string_view where, const std::string& text) {
+  // The last one, because an id may hold another: relmse.eps=0.01.
+  const std::size_t equals = text.rfind('=');
+  MetricLimit limit{in_shortest_form(text.substr(0, equals)), 0};
+  const bool is_percent = text.ends_with('%');
+  const std::size_t digits = text.size() - std::min(text.size(), equals + 1) - is_percent;
+  if (equals == std::string::npos || !parse_number(text.substr(equals + 1, digits), limit.limit))
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} {}: expected METRIC=LIMIT, for example rmse=0.001", where,
+                            printable(text)));
+  const MetricOutput* output = find_metric_output(limit.metric);
+  if (is_percent && output && output->unit != Unit::kShare)
+    throw Error(ExitCode::kUsage,
+                fmt::format("{} {}: {} is no share, so its limit is no percentage", where,
+                            printable(text), limit.metric));
+  if (is_percent) limit.limit /= 100;
+  return limit;
+}
+
+Tolerance parse_tolerance(std::string_view where, const std::string& text) {
+  const std::vector<std::string> parts = split(text, ",");
+  Tolerance tolerance;
+  long long count = 0;
+  if (parts.size() != 3 || !parse_number(parts[0], tolerance.relative) ||
+      !parse_number(parts[1], tolerance.of_peak) || !parse_integer(parts[2], count))
+    throw Error(ExitCode::kUsage, fmt::format("{} {}: expected RELATIVE,OF_PEAK,OUTLIERS, "
+                                              "for example 6e-4,1e-6,3",
+                                              where, printable(text)));
+  tolerance.allowed_outliers = count;
+  return tolerance;
+}
+
 void add_compare(CLI::App& app, ExitCode& exit_code) {
   auto* command = app.add_subcommand("compare", "Compare two pictures: metrics and a verdict");
   auto options = std::make_shared<CompareArguments>();
@@ -400,9 +315,23 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   pairs.add("--sets", job.pictures.sets, "FIELD=A,B[,..]",
             "The field of --pattern that tells the sets apart, and its values: with it one folder "
             "can hold all sets");
-  OptionGroup(*command).add(
-      "--reference-floor", job.c, "C",
-      "A second reference: how far it is from B is shown beside how far A is");
+  OptionGroup general(*command);
+  general.add(
+      "--project", options->project, "FILE",
+      "Sets of pictures, limits by their names, masks, known differences: TOML, or JSON if it ends in "
+      ".json (docs/comparing.md). The command line counts more. Default without A: lobelia.toml");
+  general
+      .add("--also-accept", job.pictures.also_accepted, "B2",
+           "A further reference, in the form of B: each picture is judged by the one that it "
+           "fits best; may be given again")
+      ->expected(1)
+      ->take_all();
+  general.add_flag(
+      "--accept", options->accept,
+      "Afterwards, show which references would change, ask, and copy A over those that "
+      "it differs from; only at a terminal, never in CI");
+  general.add("--reference-floor", job.c, "C",
+              "A second reference: how far it is from B is shown beside how far A is");
   add_any_format(*command);
   OptionGroup layers(*command, "Layers"), verdict(*command, "Verdict"), look(*command, "Viewing"),
       output(*command, "Output");
@@ -473,17 +402,31 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   output.add("--junit", options->junit, "FILE.xml|-",
              "Write the verdicts as JUnit's XML, for continuous integration; with - to "
              "stdout, likewise");
+  output.add(
+      "--markdown", options->markdown, "FILE|-",
+      "Write what does not pass as Markdown, for a pull request; with - to stdout, likewise");
+  output.add_choice("--format", options->format, {"text", "github"},
+                    "With github, print a line for each problem besides, which GitHub Actions "
+                    "shows beside the change");
+  auto* quiet =
+      output.add_flag("-q,--quiet", options->print.quiet, "Print only what does not pass");
+  output
+      .add_flag("-v,--verbose", options->print.verbose,
+                "Of folders, print a line for each pair that passes, and every metric")
+      ->excludes(quiet);
+  output.add_choice("--color", options->colour, {"auto", "always", "never"},
+                    "Colour the verdicts; auto: on a terminal, unless $NO_COLOR is set");
   output.add_choice("--junit-undecided", options->junit_undecided, {"failure", "skipped"},
                     "What an undecided pair is in --junit");
-  auto* html = output.add("--html", options->html, "DIR",
+  auto* html = output.add("--html", options->html.path, "DIR",
                           "Write a report: all pairs, the worst first, each with its pictures, "
                           "maps, values and verdict; DIR/index.html opens without a server");
   output
       .add_flag(
-          "--single-file", options->single_file,
+          "--single-file", options->html.single_file,
           "The report is one file that can be sent: DIR/index.html, or DIR if it ends in .html")
       ->needs(html);
-  output.add("--title", options->title, "TEXT", "The title of the report")->needs(html);
+  output.add("--title", options->html.title, "TEXT", "The title of the report")->needs(html);
   job.difference.add_to(*command);
   output.add("--threads", options->threads, "", "Threads that work; 0: one for each processor")
       ->check(CLI::Range(0, 1024))

@@ -54,20 +54,6 @@ CellStatus status_of(Verdict verdict) {
                                           : CellStatus::kDiffers;
 }
 
-/// How many times over its limit the worst figure is.
-double excess(const Comparison& comparison) {
-  double worst = 0;
-  for (const LimitResult& limit : comparison.limits) {
-    if (std::isnan(limit.value)) return INFINITY;
-    const bool likeness = find_metric_output(limit.metric)->better == Better::kHigher;
-    const double by = likeness           ? (limit.value != 0 ? limit.limit / limit.value : INFINITY)
-                      : limit.limit != 0 ? std::abs(limit.value) / limit.limit
-                                         : (limit.value != 0 ? INFINITY : 0);
-    worst = std::max(worst, by);
-  }
-  return worst;
-}
-
 /// A row of the pairing with what was found of it.
 struct Judged {
   std::size_t row = 0;
@@ -90,9 +76,9 @@ std::vector<Judged> judge_rows(const Pairing& pairing, const SetReport& report) 
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].row = i;
     const std::vector<std::string>& files = pairing.rows[i].files;
-    const bool has_reference = !files[kReferenceSet].empty();
+    const bool has_reference = !pairing.references_of(pairing.rows[i]).empty();
     for (std::size_t set = 0; set < files.size(); ++set)
-      if (set != kReferenceSet && files[set].empty() == has_reference)
+      if (!pairing.is_reference(set) && files[set].empty() == has_reference)
         rows[i].status = has_reference ? CellStatus::kMissing : CellStatus::kUnchecked;
   }
   for (const PairReport& pair : report.pairs) {
@@ -100,7 +86,7 @@ std::vector<Judged> judge_rows(const Pairing& pairing, const SetReport& report) 
     row.pairs.push_back(&pair);
     const CellStatus status = pair.comparison ? status_of(pair.verdict()) : CellStatus::kFailed;
     if (rank(status) < rank(row.status)) row.status = status;
-    if (pair.comparison) row.excess = std::max(row.excess, excess(*pair.comparison));
+    if (pair.comparison) row.excess = std::max(row.excess, excess(pair));
   }
   std::ranges::stable_sort(rows, [](const Judged& p, const Judged& q) {
     return std::pair(rank(p.status), -p.excess) < std::pair(rank(q.status), -q.excess);
@@ -171,7 +157,7 @@ class ReportWriter {
     farm.axes = axes_of(pairing_, rows_);
     add_set(farm, kReferenceSet);
     for (std::size_t set = 0; set < pairing_.sets.size(); ++set)
-      if (set != kReferenceSet) add_set(farm, set);
+      if (!pairing_.is_reference(set)) add_set(farm, set);
     for (const Judged& judged : rows_) {
       const PictureRow& row = pairing_.rows[judged.row];
       records::FarmCell cell{cell_id(row.name), std::string(info(judged.status).name), {}};
@@ -214,7 +200,7 @@ class ReportWriter {
   std::string judged_sets() const {
     std::vector<std::string> titles;
     for (std::size_t set = 0; set < pairing_.sets.size(); ++set)
-      if (set != kReferenceSet) titles.push_back(printable_path(pairing_.sets[set]));
+      if (!pairing_.is_reference(set)) titles.push_back(printable_path(pairing_.sets[set]));
     return fmt::format("{}", fmt::join(titles, ", "));
   }
 
@@ -243,8 +229,9 @@ class ReportWriter {
 
   void add_pair(const PairReport& pair, gallery::ReportCell& made) const {
     const Comparison& comparison = *pair.comparison;
-    ComparisonOptions options = job_.comparison;
-    const PicturePair read = read_compared(pair, job_, pairing_, options);
+    const CompareJob job = job_of(job_, pair.name);
+    ComparisonOptions options = job.comparison;
+    const PicturePair read = read_compared(pair, job, pairing_, options);
     const double stops = comparison.viewing.exposure_stops;
     if (!made.cell.record.exposure_stops) made.cell.record.exposure_stops = stops;
     add_image(kReferenceSet, pair.b, read.b, stops, made);
@@ -261,6 +248,13 @@ class ReportWriter {
         difference_picture(read.a.image, read.b.image, checked.entry.difference.white_at);
     checked.sentence = highlight_sentence(comparison, printable_path(pairing_.sets[pair.set]),
                                           printable_path(pairing_.sets[kReferenceSet]));
+    for (const std::string& more :
+         {pair.references.size() > 1
+              ? fmt::format("of {} acceptable references, this is the one that it fits best",
+                            pair.references.size())
+              : "",
+          printable_path(known_text(pair))})
+      if (!more.empty()) checked.sentence += (checked.sentence.empty() ? "" : "; ") + more;
     made.cell.comparisons.push_back(std::move(checked));
   }
 
@@ -268,7 +262,9 @@ class ReportWriter {
   void add_lonely_pictures(const Judged& judged, gallery::ReportCell& made) const {
     const std::vector<std::string>& files = pairing_.rows[judged.row].files;
     for (std::size_t set = 0; set < files.size(); ++set) {
-      if (files[set].empty() || made.cell.find_image(set_name(set))) continue;
+      if (files[set].empty() || (set != kReferenceSet && pairing_.is_reference(set)) ||
+          made.cell.find_image(set_name(set)))
+        continue;
       try {
         const Picture picture = read_picture(files[set], job_.layers.layer);
         add_image(

@@ -1,13 +1,14 @@
 #include "cli/compare_pictures.hpp"
 
+#include <fnmatch.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <cmath>
-#include <map>
 #include <mutex>
+#include <tuple>
 #include <utility>
 
 #include "compare/highlight_region.hpp"
@@ -66,8 +67,9 @@ ReferenceFloor floor_of(const PairReport& pair, const std::string& layer, Image&
 /// Calls difference(a, b, comparison) once the pair is compared.
 template <class Difference>
 PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& pairing,
-                        ComparisonOptions options, bool choose_exposures, Difference difference) {
+                        bool choose_exposures, Difference difference) {
   const auto started = std::chrono::steady_clock::now();
+  ComparisonOptions options = job.comparison;
   PicturePair pictures = read_compared(pair, job, pairing, options);
   Image &a = pictures.a.image, &b = pictures.b.image;
   pair.sources = {pictures.a.source, pictures.b.source};
@@ -84,6 +86,42 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& p
   difference(a, b, *pair.comparison, pair.verdict());
   pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return pair;
+}
+
+/// Of several references, the one that the picture fits best: that it passes with, or else the least over its limits.
+void choose_reference(PairReport& pair, const CompareJob& job, const Pairing& pairing,
+                      bool choose_exposures) {
+  if (pair.references.size() < 2) return;
+  std::pair<bool, double> best;
+  std::string best_file;
+  for (const std::string& reference : pair.references) {
+    PairReport one = pair;
+    one.b = reference;
+    one = compare_pair(one, job, pairing, choose_exposures, [](auto&&...) {});
+    const std::pair fit(!is_pass(one.verdict()), excess(one));
+    if (!best_file.empty() && best <= fit) continue;
+    best = fit;
+    best_file = reference;
+  }
+  pair.b = best_file;
+}
+
+bool fits(const std::string& match, const std::string& name) {
+  return ::fnmatch(match.c_str(), name.c_str(), 0) == 0;
+}
+
+std::optional<records::Known> known_of(const CompareJob& job, const std::string& name) {
+  for (const records::KnownDifference& known : job.known)
+    if (fits(known.match, name))
+      return records::Known{known.reason, known.expires, known.expires < job.today};
+  return std::nullopt;
+}
+
+void add_limits(const std::vector<MetricLimit>& more, std::vector<MetricLimit>& limits) {
+  for (const MetricLimit& limit : more) {
+    std::erase_if(limits, [&](const MetricLimit& old) { return old.metric == limit.metric; });
+    limits.push_back(limit);
+  }
 }
 
 /// Calls work(i) for i < count, in parallel. A thread that waits for a part of its own pair does not start another one,
@@ -133,167 +171,40 @@ HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const Compa
 /// The row's name, after the set's title if several sets are judged.
 std::string name_of(const Pairing& pairing, std::size_t row, std::size_t set) {
   const std::string& name = pairing.rows[row].name;
-  return pairing.sets.size() > 2 ? pairing.sets[set] + "/" + name : name;
-}
-
-std::string layer_reasons(const LayerComparison& layer, const std::string& a,
-                          const std::string& b) {
-  if (layer.identical) return "identical";
-  if (!layer.comparison) return layer.problem;
-  const Comparison& comparison = *layer.comparison;
-  if (comparison.verdict == Verdict::kNonFinite) return why_not_pass(comparison, a, b);
-  std::string text;
-  for (const LimitResult& limit : comparison.limits)
-    text += fmt::format("{}{} {:.4g}{}", text.empty() ? "" : ", ", limit.metric, limit.value,
-                        limit.pass ? "" : fmt::format(" (limit {:g})", limit.limit));
-  return text;
-}
-
-void print_layer_names(const char* where, const std::vector<std::string>& names) {
-  for (const std::string& name : names)
-    fmt::print("  only in {}: {}\n", where, name.empty() ? "the picture" : printable(name));
-}
-
-/// The verdict and the limits of each layer, the layers of one file alone, and what was not compared.
-void print_layers(const OtherLayers& layers, const std::string& a, const std::string& b) {
-  if (!layers.compared.empty() || layers.common) fmt::print("\n");
-  for (const LayerComparison& layer : layers.compared)
-    fmt::print("  {}: {}; {}\n", layer.title(), verdict_name(layer.verdict()),
-               layer_reasons(layer, a, b));
-  if (layers.common) {
-    print_layer_names("a", layers.common->only_a);
-    print_layer_names("b", layers.common->only_b);
-  }
-  if (!is_empty(layers.not_compared))
-    fmt::print("  not compared: {}\n", to_text(layers.not_compared));
-}
-
-/// Names each file with an ICC profile that is not applied.
-void print_profiles(const PicturePairSource& sources) {
-  for (const auto& [name, source] : {std::pair('a', &sources.a), {'b', &sources.b}})
-    if (!source->icc_profile.empty() && !source->icc_is_srgb)
-      fmt::print("  {}: its ICC profile '{}' is not sRGB, and is not applied\n", name,
-                 printable(source->icc_profile));
-}
-
-void print_names(const std::string& a, const std::string& b, const std::string& c) {
-  fmt::print("a  {}\nb  {}  (the reference)\n", printable_path(a), printable_path(b));
-  if (!c.empty()) fmt::print("c  {}  (the second reference)\n", printable_path(c));
-}
-
-/// "± 0.0012  "; blank for a figure without an error bar, "" where no noise is known.
-std::string error_bar_text(const Comparison& comparison, std::string_view id) {
-  if (!comparison.uncertainty) return "";
-  const ErrorBar* bar = records::find(comparison.error_bars, id);
-  return fmt::format("{:<12}", bar ? fmt::format("± {:.2g}", bar->standard_error) : "");
-}
-
-void print_exposures(const Viewing& viewing) {
-  if (viewing.tail_stops)
-    fmt::print(
-        "  shown at {:.3g} stops for the peak and at {:.3g} for the tail; the worse counts\n\n",
-        viewing.exposure_stops, *viewing.tail_stops);
-}
-
-void print_parts(const Comparison& comparison) {
-  const auto print = [](std::string_view what, std::span<const std::string> of,
-                        std::int64_t pixels) {
-    std::string shapes;
-    for (const std::string& shape : of)
-      shapes += (shapes.empty() ? "" : " and ") + printable_path(shape);
-    fmt::print("  {} {}: {} pixels\n", what, shapes, pixels);
-  };
-  if (const auto& crop = comparison.crop)
-    fmt::print("  of both, {} x {} pixels from x {}, y {}\n", crop->width, crop->height, crop->x,
-               crop->y);
-  if (const auto& ignored = comparison.ignored)
-    print("equal by --ignore", ignored->of, ignored->pixels);
-  if (!comparison.mask_of.empty() && comparison.mask_pixels)
-    print("the mask is", comparison.mask_of, *comparison.mask_pixels);
-}
-
-/// A column of the table of metrics: values by the id that a metric has in it.
-struct Column {
-  const char* title;
-  const records::Named<double>* values;
-  Region region;
-};
-
-void print_metric_lines(const Comparison& comparison) {
-  const auto& floor = comparison.reference_floor;
-  std::vector<Column> columns{{"A and B", &comparison.metrics, Region::kWhole}};
-  if (floor) columns.push_back({"C and B", &floor->metrics, Region::kWhole});
-  if (comparison.highlight_pixels.value_or(0) > 0)
-    columns.push_back({"highlight", &comparison.metrics, Region::kHighlight});
-  if (comparison.mask_pixels) {
-    columns.push_back({"in the mask", &comparison.metrics, Region::kMask});
-    columns.push_back({"outside", &comparison.metrics, Region::kOutside});
-  }
-  fmt::print("  {:<20}", "");
-  for (const Column& column : columns) fmt::print("{:>13}", column.title);
-  fmt::print("\n");
-  for (const Metric* metric : metrics())
-    for (const MetricOutput& output : metric->outputs) {
-      if (metric->region != Region::kWhole) continue;
-      const std::string id(output.id);
-      std::string cells;
-      bool any = false;
-      for (const Column& column : columns) {
-        const double* value =
-            records::find(*column.values, id_in_region(*metric, output, column.region));
-        any = any || (value && !std::isnan(*value));
-        cells += fmt::format("{:>13}", value ? fmt::format("{:.6g}", *value) : "");
-      }
-      if (!any) continue;
-      fmt::print("  {:<20}{}", id, cells);
-      fmt::print("  {}{}\n", error_bar_text(comparison, id), output.meaning);
-    }
-  for (const NotMeasured& one : comparison.not_measured)
-    if (find_metric(one.metric)->region == Region::kWhole)
-      fmt::print("  {:<20}{:>13}  not measured: {}\n", one.metric, "-", one.because);
-}
-
-void print_limit_lines(const std::vector<LimitResult>& limits, std::string_view before) {
-  for (const LimitResult& limit : limits)
-    fmt::print("  {}{:<26}{:>14.6g}  {} {:g}\n", before, limit.metric, limit.value,
-               std::isnan(limit.value)             ? "was NOT MEASURED; the limit is"
-               : limit.pass                        ? "is within"
-               : limit.standing == Standing::kOpen ? "MAY BE ON EITHER SIDE OF"
-                                                   : "is OUTSIDE",
-               limit.limit);
-}
-
-/// The short table leaves out regions, unless a figure has a default limit.
-bool is_in_short_table(std::string_view id) {
-  return find_metric(id)->region == Region::kWhole ||
-         std::ranges::count(highlight_limits(), id, &MetricLimit::metric) > 0;
-}
-
-/// A line for each metric that some pairs lack, with the reason of the first of them.
-void print_not_measured(const std::vector<PairReport>& pairs) {
-  std::map<std::string_view, std::pair<std::size_t, std::string>> reasons;
-  for (const PairReport& pair : pairs)
-    if (pair.comparison)
-      for (const NotMeasured& one : pair.comparison->not_measured)
-        ++reasons.try_emplace(one.metric, 0, one.because).first->second.first;
-  for (const auto& [id, why] : reasons)
-    if (is_in_short_table(id))
-      fmt::print("  {:<26}not measured in {} pairs: {}\n", id, why.first, why.second);
+  return pairing.sets.size() > 2 + pairing.also_accepted ? pairing.sets[set] + "/" + name : name;
 }
 
 }  // namespace
 
+CompareJob job_of(const CompareJob& job, const std::string& name) {
+  CompareJob own = job;
+  ComparisonOptions& options = own.comparison;
+  for (const PairRule& rule : job.rules) {
+    if (!fits(rule.match, name)) continue;
+    add_limits(rule.limits, options.limits);
+    add_limits(rule.warnings, options.warnings);
+    if (rule.tolerance) options.tolerance = rule.tolerance;
+    if (rule.default_limits) options.default_limits = *rule.default_limits;
+    if (!rule.mask.empty() || !rule.ignore.empty())
+      own.regions.change(rule.mask, rule.ignore, options);
+  }
+  return own;
+}
+
 std::vector<PairReport> pairs_of(const Pairing& pairing) {
   std::vector<PairReport> pairs;
-  for (std::size_t row = 0; row < pairing.rows.size(); ++row)
+  for (std::size_t row = 0; row < pairing.rows.size(); ++row) {
+    const std::vector<std::string> references = pairing.references_of(pairing.rows[row]);
     for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
       const std::vector<std::string>& files = pairing.rows[row].files;
-      if (set == kReferenceSet || files[set].empty() || files[kReferenceSet].empty()) continue;
-      PairReport pair{name_of(pairing, row, set), files[set], files[kReferenceSet], "", {}, {}, 0};
+      if (pairing.is_reference(set) || files[set].empty() || references.empty()) continue;
+      PairReport pair{name_of(pairing, row, set), files[set], references.front(), "", {}, {}, 0};
       pair.row = row;
       pair.set = set;
+      pair.references = references;
       pairs.push_back(std::move(pair));
     }
+  }
   return pairs;
 }
 
@@ -312,32 +223,35 @@ PicturePair read_compared(const PairReport& pair, const CompareJob& job, const P
   return pictures;
 }
 
-SetReport compare_pairs(const CompareJob& job, const Pairing& pairing) {
+SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
+                        const std::function<void(std::size_t)>& done) {
+  CompareJob job = asked;
   const bool one = is_one_pair(pairing);
   SetReport report;
   for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
-    const auto& given = job.pictures.given;
-    const std::string& title = given.size() > 1 ? given[set] : pairing.sets[set];
-    if (set == kReferenceSet)
-      report.b = title;
-    else
-      report.a += (report.a.empty() ? "" : ", ") + title;
+    const auto& [given, further] = std::tie(job.pictures.given, job.pictures.also_accepted);
+    const std::string& title = given.size() < 2     ? pairing.sets[set]
+                               : set < given.size() ? given[set]
+                                                    : further[set - given.size()];
+    std::string& side = pairing.is_reference(set) ? report.b : report.a;
+    side += (side.empty() ? "" : ", ") + title;
   }
   report.c = job.c;
   report.passed_over = pairing.passed_over;
   report.not_followed = pairing.not_followed;
   for (std::size_t row = 0; row < pairing.rows.size(); ++row)
     for (std::size_t set = 0; set < pairing.sets.size(); ++set) {
-      const std::vector<std::string>& files = pairing.rows[row].files;
-      if (set != kReferenceSet && files[set].empty() != files[kReferenceSet].empty())
-        (files[set].empty() ? report.missing : report.extra).push_back(name_of(pairing, row, set));
+      const PictureRow& pictures = pairing.rows[row];
+      const bool has_reference = !pairing.references_of(pictures).empty();
+      if (!pairing.is_reference(set) && pictures.files[set].empty() == has_reference)
+        (has_reference ? report.missing : report.extra).push_back(name_of(pairing, row, set));
     }
   report.pairs = pairs_of(pairing);
   for (PairReport& pair : report.pairs)
     if (!job.c.empty()) pair.c = one ? job.c : file_of(job.c, pairing.rows[pair.row].name).string();
-  ComparisonOptions options = job.comparison;
-  const bool automatic = has_automatic_exposures(options);
-  if (automatic && !one) options.viewing.hdr_exposures = exposures_for_all(report.pairs, job);
+  const bool automatic = has_automatic_exposures(job.comparison);
+  if (automatic && !one)
+    job.comparison.viewing.hdr_exposures = exposures_for_all(report.pairs, job);
   const DifferencePicture& wanted = job.difference;
   const auto write = [&](const PairReport& pair, const Image& a, const Image& b,
                          const Comparison& comparison, std::optional<double> of_set) {
@@ -348,11 +262,14 @@ SetReport compare_pairs(const CompareJob& job, const Pairing& pairing) {
   const bool at_once = one || wanted.has_own_scale();
   // One scale for the set. If that is the largest difference, all pairs come first.
   std::vector<double> largest(report.pairs.size(), -1.0);
+  std::atomic<std::size_t> count = 0;
   for_each_pair(report.pairs.size(), [&](std::size_t i) {
     PairReport& pair = report.pairs[i];
     try {
+      const CompareJob own = job_of(job, pair.name);
+      choose_reference(pair, own, pairing, automatic && one);
       pair = compare_pair(
-          pair, job, pairing, options, automatic && one,
+          pair, own, pairing, automatic && one,
           [&](const Image& a, const Image& b, const Comparison& comparison, Verdict verdict) {
             if (one) wanted.write_histogram(a, b, comparison);
             if (!wanted.is_wanted(verdict)) return;
@@ -361,102 +278,26 @@ SetReport compare_pairs(const CompareJob& job, const Pairing& pairing) {
             else
               largest[i] = wanted.largest(a, b, comparison);
           });
+      pair.known = known_of(job, pair.name);
     } catch (const Error& error) {
       if (one || error.code() != ExitCode::kInput) throw;
       pair.error = error.what();
     }
+    done(++count);
   });
   if (wanted.path.empty() || at_once || largest.empty()) return report;
   const double of_set = std::ranges::max(largest);
   for_each_pair(report.pairs.size(), [&](std::size_t i) {
     const PairReport& pair = report.pairs[i];
     if (!(largest[i] >= 0)) return;
-    ComparisonOptions unused = options;
-    PicturePair pictures = read_compared(pair, job, pairing, unused);
-    if (allows_equal_nonfinite(options, pictures.b.source))
+    const CompareJob own = job_of(job, pair.name);
+    ComparisonOptions unused = own.comparison;
+    PicturePair pictures = read_compared(pair, own, pairing, unused);
+    if (allows_equal_nonfinite(own.comparison, pictures.b.source))
       clear_equal_nonfinite(pictures.a.image, pictures.b.image);
     write(pair, pictures.a.image, pictures.b.image, *pair.comparison, of_set);
   });
   return report;
-}
-
-void print_pair(const PairReport& pair) {
-  const Comparison& comparison = *pair.comparison;
-  print_names(pair.a, pair.b, pair.c);
-  if (const auto& display = comparison.viewing.display)
-    fmt::print("shown by view {} of display {} in {}\n", printable(display->choice().view),
-               printable(display->choice().display), printable_path(display->choice().config));
-  fmt::print("\n");
-  if (comparison.verdict == Verdict::kNonFinite)
-    fmt::print("  {}; nothing was measured\n", why_not_pass(comparison, pair.a, pair.b));
-  if (comparison.nonfinite.equal_allowed.value_or(0) > 0)
-    fmt::print("  in {} pixels both have the same NaN or infinity, which counts as no difference\n",
-               *comparison.nonfinite.equal_allowed);
-  print_parts(comparison);
-  if (const std::string sentence = highlight_sentence(comparison); !sentence.empty())
-    fmt::print("  {}\n\n", sentence);
-  print_exposures(comparison.viewing);
-  print_metric_lines(comparison);
-  fmt::print("\n");
-  if (comparison.verdict != Verdict::kNonFinite) {
-    print_limit_lines(comparison.limits, "");
-    print_limit_lines(comparison.warnings, "warning: ");
-  }
-  for (const LimitResult& limit : comparison.limits)
-    if (limit.more_samples && std::isfinite(*limit.more_samples))
-      fmt::print("  about {:.3g} times the samples would tell about {}\n", *limit.more_samples,
-                 limit.metric);
-  for (const std::string& sentence : comparison.disagreement)
-    fmt::print("  metrics disagree: {}\n", sentence);
-  for (const std::string& sentence : comparison.blind_limits)
-    fmt::print("  warning: {}\n", sentence);
-  if (pair.layers) print_layers(*pair.layers, pair.a, pair.b);
-  if (pair.sources) print_profiles(*pair.sources);
-  fmt::print("\nverdict: {}\n", verdict_name(pair.verdict()));
-}
-
-void print_set(const SetReport& report) {
-  print_names(report.a, report.b, report.c);
-  fmt::print("\n");
-  const auto line = [](std::string_view what, const std::string& name, const std::string& why) {
-    fmt::print("  {:<12}{}{}{}\n", what, printable_path(name), why.empty() ? "" : ": ",
-               printable_path(why));
-  };
-  // Problems come first.
-  for (const PairReport& pair : report.pairs)
-    if (!pair.comparison) line("error", pair.name, pair.error);
-  for (const std::string& name : report.missing) line("missing", name, "there is only a reference");
-  for (const std::string& name : report.not_followed) line("link", name, std::string(kNotFollowed));
-  for (const PairReport& pair : report.pairs)
-    if (pair.comparison && !is_pass(pair.verdict()))
-      line(verdict_name(pair.verdict()), pair.name, why_not_pass(pair));
-  for (const PairReport& pair : report.pairs)
-    if (pair.comparison)
-      for (const LimitResult& limit : pair.comparison->warnings)
-        if (!limit.pass)
-          line("warning", pair.name,
-               fmt::format("{} {}, limit {:g}", limit.metric, value_text(*pair.comparison, limit),
-                           limit.limit));
-  for (const std::string& name : report.extra) line("extra", name, "there is no reference");
-
-  const std::vector<MetricSummary> summaries = summarise(report.pairs);
-  if (!summaries.empty()) fmt::print("\n  {:<26}{:>14}{:>14}\n", "", "mean", "worst");
-  for (const MetricSummary& metric : summaries)
-    if (is_in_short_table(metric.id))
-      fmt::print("  {:<26}{:>14.6g}{:>14.6g}  {}\n", metric.id, metric.mean, metric.worst,
-                 printable_path(metric.worst_at->name));
-  print_not_measured(report.pairs);
-  const records::SetSummary counts = count(report);
-  fmt::print(
-      "\n{} pairs: {} pass, {} differ, {}{} not finite, {} not comparable; {} missing, {} extra\n",
-      report.pairs.size(), counts.pass, counts.differs,
-      counts.undecided > 0 ? fmt::format("{} undecided, ", counts.undecided) : "",
-      counts.non_finite, counts.errors, counts.missing, counts.extra);
-  if (const SetNotCompared left = not_compared(report); left.pairs > 0)
-    fmt::print("not compared, in {} of the pairs: {}\n", left.pairs, to_text(left.all));
-  if (report.passed_over > 0) fmt::print("{} files are no pictures\n", report.passed_over);
-  if (counts.links_not_followed > 0)
-    fmt::print("{} links to folders elsewhere were not followed\n", counts.links_not_followed);
 }
 
 }  // namespace lobelia::cli

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "compare/mask.hpp"
 #include "compare/set/pairing.hpp"
 #include "compare/set/report.hpp"
+#include "records/project.hpp"
 
 namespace lobelia::cli {
 
@@ -54,6 +56,11 @@ class RegionFlags {
 
   /// Reads the shapes and their pictures, and sets the words and the cut in `options`. Throws as parse_mask_shape().
   void read(ComparisonOptions& options);
+  /// Adds what a project says, before what the command line says. A `mask` counts only where none is given.
+  void add(const std::vector<std::string>& mask, const std::vector<std::string>& ignore);
+  /// After read(): what a project says of some pairs. A `mask` takes the place of the others.
+  void change(const std::vector<std::string>& mask, const std::vector<std::string>& ignore,
+              ComparisonOptions& options);
   /// Pictures that read() reads.
   std::vector<std::filesystem::path> files() const;
   /// Sets the parts for pictures of this size in `options`, which has those of the scene and the noise of whole
@@ -99,12 +106,24 @@ struct DifferencePicture {
 class ViewingFlags {
  public:
   void add_to(CLI::App& command, Viewing& viewing);
+  /// Takes this exposure, unless it is empty or the command line has one.
+  void suggest_exposure(const std::string& exposure);
   /// Throws Error(kUsage) for numbers and ranges that cannot be read.
   void apply(Viewing& viewing) const;
 
  private:
   std::string exposure_ = "auto", exposures_, tone_curve_ = "aces";
   double distance_ = 0.7, width_ = 0.7, pixels_ = 3840;  ///< FLIP's viewer
+  const CLI::Option* exposure_option_ = nullptr;
+};
+
+/// How a project judges some of the pairs.
+struct PairRule {
+  std::string match;  ///< of a pair's name, as fnmatch(3) has it
+  std::vector<MetricLimit> limits, warnings;
+  std::optional<Tolerance> tolerance;
+  std::optional<bool> default_limits;
+  std::vector<std::string> mask, ignore;
 };
 
 struct CompareJob {
@@ -116,11 +135,17 @@ struct CompareJob {
   LayerOptions layers;
   NoiseFlags noise;
   RegionFlags regions;
+  std::vector<PairRule> rules;  ///< the last that fits a pair counts most
+  std::vector<records::KnownDifference> known;
+  std::string today;  ///< "2027-01-31", in UTC
 };
+
+/// The job with the rules that fit a pair of this name. Throws as RegionFlags::read().
+CompareJob job_of(const CompareJob& job, const std::string& name);
 
 /// Whether there is one pair, whose files were given by themselves.
 inline bool is_one_pair(const Pairing& pairing) {
-  return pairing.is_one_row && pairing.sets.size() == 2;
+  return pairing.is_one_row && pairing.sets.size() == 2 + pairing.also_accepted;
 }
 /// Whether pictures of noise and second references have the names of the rows.
 inline bool has_folders_by_name(const CompareJob& job, const Pairing& pairing) {
@@ -128,26 +153,34 @@ inline bool has_folders_by_name(const CompareJob& job, const Pairing& pairing) {
          job.pictures.pattern.empty();
 }
 
-/// Every pair of the rows, without results: each judged set's picture with the reference.
+/// Every pair of the rows, without results: each judged set's picture with the first of its references.
 std::vector<PairReport> pairs_of(const Pairing& pairing);
 
-/// Reads the pair as it is compared: the part of the chosen layer, or of the mean of its replicates. Sets what depends on
-/// them in `options`. Throws as read_pair().
+/// Reads the pair as it is compared: the part of the chosen layer, or of the mean of its replicates. `job` is that of the
+/// pair. Sets what depends on the pictures in `options`. Throws as read_pair().
 PicturePair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
                           ComparisonOptions& options);
 
-/// Compares all pairs. A pair that cannot be compared has its error in the report, and the others go on, but where it is
+/// Compares all pairs, each with the reference that it fits best. A pair that cannot be compared has its error in the report, and the others go on, but where it is
 /// the only one its error is thrown. An automatic range of exposures becomes one that holds those of all references.
 /// Throws Error(kOutput) where a picture cannot be written.
-SetReport compare_pairs(const CompareJob& job, const Pairing& pairing);
+///
+/// Calls done(pairs so far) after each, from any thread.
+SetReport compare_pairs(const CompareJob& job, const Pairing& pairing,
+                        const std::function<void(std::size_t)>& done);
 
 /// The file for the difference of a pair of several. The ending is added, so that a.exr and a.png stay apart.
 inline std::filesystem::path difference_file(const CompareJob& job, const std::string& name) {
   return job.difference.path / (name + ".png");
 }
 
-/// A table on stdout.
-void print_pair(const PairReport& pair);
-void print_set(const SetReport& report);
+/// What goes to stdout.
+struct PrintChoice {
+  bool quiet = false;    ///< only what does not pass
+  bool verbose = false;  ///< of a set, a line for each pair
+  bool colour = false;
+};
+void print_pair(const PairReport& pair, const PrintChoice& choice);
+void print_set(const SetReport& report, const PrintChoice& choice);
 
 }  // namespace lobelia::cli

@@ -42,6 +42,28 @@ void RegionFlags::read(ComparisonOptions& options) {
   options.crop = PixelWindow{x, y, width, height};
 }
 
+void RegionFlags::add(const std::vector<std::string>& mask,
+                      const std::vector<std::string>& ignore) {
+  if (mask_texts_.empty()) mask_texts_ = mask;
+  ignore_texts_.insert(ignore_texts_.begin(), ignore.begin(), ignore.end());
+}
+
+void RegionFlags::change(const std::vector<std::string>& mask,
+                         const std::vector<std::string>& ignore, ComparisonOptions& options) {
+  if (!mask.empty()) {
+    options.mask_of.erase(options.mask_of.begin(),
+                          options.mask_of.begin() + std::ptrdiff_t(mask_texts_.size()));
+    mask_texts_ = mask;
+    mask_.clear();
+    for (const std::string& text : mask) mask_.push_back(parse_mask_shape("mask", text));
+    options.mask_of.insert(options.mask_of.begin(), mask.begin(), mask.end());
+  }
+  for (const std::string& text : ignore) {
+    ignored_.push_back(parse_mask_shape("ignore", text));
+    options.ignored_of.push_back(text);
+  }
+}
+
 std::vector<std::filesystem::path> RegionFlags::files() const {
   std::vector<std::filesystem::path> files;
   for (const auto* shapes : {&mask_, &ignored_})

@@ -48,11 +48,13 @@ HdrExposures parse_exposures(const std::string& text) {
 
 void ViewingFlags::add_to(CLI::App& command, Viewing& viewing) {
   OptionGroup look(command, "Viewing");
-  look.add("--exposure", exposure_, "STOPS|auto",
-           "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted; with "
-           "auto it is 0 for what a display can show, and otherwise two that show the peak of the "
-           "highlight and its tail, of which the worse counts")
-      ->capture_default_str();
+  exposure_option_ =
+      look.add(
+              "--exposure", exposure_, "STOPS|auto",
+              "Exposure at which the perceptual metrics look at the pictures, HDR-FLIP excepted; with "
+              "auto it is 0 for what a display can show, and otherwise two that show the peak of the "
+              "highlight and its tail, of which the worse counts")
+          ->capture_default_str();
   auto* exposures = look.add(
       "--exposures", exposures_, "START,STOP[,COUNT]|auto",
       "Measure HDR-FLIP over COUNT exposures from START to STOP, in stops; one for each stop if there "
@@ -72,6 +74,10 @@ void ViewingFlags::add_to(CLI::App& command, Viewing& viewing) {
       "Metres from the viewer to the display: this and the next two in place of --pixels-per-degree");
   add("--display-width", width_, 1e3, "Metres that the display is wide");
   add("--display-pixels", pixels_, 1e6, "Pixels that the display is wide");
+}
+
+void ViewingFlags::suggest_exposure(const std::string& exposure) {
+  if (!exposure.empty() && exposure_option_->count() == 0) exposure_ = exposure;
 }
 
 void ViewingFlags::apply(Viewing& viewing) const {

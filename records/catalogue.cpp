@@ -15,6 +15,7 @@
 #include "records/pages.hpp"
 #include "records/paper.hpp"
 #include "records/profile.hpp"
+#include "records/project.hpp"
 #include "records/record.hpp"
 #include "records/render.hpp"
 #include "records/result.hpp"
@@ -33,8 +34,8 @@ constexpr std::array<Kind, sizeof...(T)> kinds_of() {
 constexpr auto kKinds =
     kinds_of<Agreement, Blob, Cell, Comparison, ComparisonSet, Content, Cost, Engines, Failure,
              Farm, FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus, KnownHashes,
-             GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Reference, Render,
-             Result, Sensitivity, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
+             GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Project, Reference,
+             Render, Result, Sensitivity, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {
@@ -105,11 +106,11 @@ std::string table_of(const Struct& type) {
 const Struct& detail::find_struct(const std::type_info& type) {
   static const Tables tables = [] {
     Tables all;
-    for (auto* const define :
-         {define_agreement_tables, define_chart_tables, define_cluster_tables,
-          define_comparison_tables, define_cost_tables, define_farm_tables, define_highlight_tables,
-          define_model_tables, define_page_tables, define_paper_tables, define_profile_tables,
-          define_render_tables, define_result_tables, define_stability_tables})
+    for (auto* const define : {define_agreement_tables, define_chart_tables, define_cluster_tables,
+                               define_comparison_tables, define_cost_tables, define_farm_tables,
+                               define_highlight_tables, define_model_tables, define_page_tables,
+                               define_paper_tables, define_profile_tables, define_project_tables,
+                               define_render_tables, define_result_tables, define_stability_tables})
       define(all);
     return all;
   }();

@@ -178,6 +178,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("missing", "only b has them");
     t.key("extra", "only a has them");
     t.key("passedOver", "files of both that are no pictures by their ending");
+    t.key("known", "that would not pass, but for a known difference");
   });
   tables.define<SetNotCompared>(
       "What was not compared of all pairs: names once, pixels added up, levels at their most.",
@@ -190,8 +191,11 @@ void define_comparison_tables(Tables& tables) {
     t.key("pair", "the first pair that has it");
     t.key("mean").may_be_nonfinite();
   });
+  tables.define<Known>("What a project says of a difference.",
+                       [](auto& t) { t.key("isExpired", "it counts again"); });
   tables.define<PairOfSet>("A pair of files of one name.", [](auto& t) {
-    t.key("name", "the path within both folders");
+    t.key("name", "the path within both folders, or what else they have in common");
+    t.key("references", "of several that are acceptable b is the best");
     t.key("error", "why there is no comparison").not_empty().if_any();
     t.needs({{"comparison"}, {"error"}});
     t.check(contradiction_of_pair);

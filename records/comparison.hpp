@@ -167,6 +167,7 @@ struct Comparison {
 struct SetSummary {
   std::size_t pairs = 0, pass = 0, differs = 0, undecided = 0, non_finite = 0, errors = 0,
               missing = 0, extra = 0, passed_over = 0, links_not_followed = 0;
+  std::optional<std::size_t> known;
 };
 
 struct SetNotCompared {
@@ -183,8 +184,16 @@ struct WorstOfSet {
   double mean = 0;
 };
 
+/// A difference that somebody has explained.
+struct Known {
+  std::string reason, expires;
+  bool is_expired = false;
+};
+
 struct PairOfSet {
   std::string name;
+  std::optional<Known> known;
+  std::optional<int> references;
   std::optional<Comparison> comparison;
   std::string error;
 };

@@ -45,7 +45,8 @@ Json Struct::write(const void* value) const {
 
 void Struct::read(const Json& json, const Bounds&, const Place& place, void* value) const {
   if (!json.is_object()) place.fail("not an object");
-  if (!kind_.empty()) require_kind(json, kind_, place);
+  if (is_by_hand_) refuse_others(json, place);
+  if (!kind_.empty() && (!is_by_hand_ || json.contains("kind"))) require_kind(json, kind_, place);
   for (const Field& field : fields_) {
     if (field.is_rest()) {
       field.type->read(others(json), field.bounds, place, field.member_of(value));
@@ -73,6 +74,15 @@ void Struct::read(const Json& json, const Bounds&, const Place& place, void* val
     if (const std::string sentence = contradiction_(value); !sentence.empty()) place.fail(sentence);
 }
 
+void Struct::refuse_others(const Json& json, const Place& place) const {
+  std::vector<std::string_view> known;
+  for (const Field& field : fields_) known.push_back(field.key);
+  const Json unknown = others(json);
+  for (const auto& [key, value] : unknown.items())
+    if (kind_.empty() || (key != "schemaVersion" && key != "kind" && key != "madeBy"))
+      Place(place, key).fail("there is no such key" + did_you_mean(key, known));
+}
+
 Json Struct::others(const Json& json) const {
   Json others = Json::object();
   for (const auto& [key, value] : json.items())
@@ -89,7 +99,7 @@ std::string Struct::typescript(const Bounds&) const { return std::string(name_);
 Json Struct::definition() const {
   Json required = Json::array(), properties = Json::object(), rest;
   if (!kind_.empty()) {
-    required = {"schemaVersion", "kind", "madeBy"};
+    if (!is_by_hand_) required = {"schemaVersion", "kind", "madeBy"};
     properties = {{"schemaVersion", {{"const", kRecordSchemaVersion}}},
                   {"kind", {{"const", kind_}}},
                   {"madeBy", {{"type", "string"}}}};
@@ -121,6 +131,7 @@ Json Struct::definition() const {
               {"properties", std::move(properties)}};
   for (const auto& keys : needs_) schema["anyOf"].push_back({{"required", keys}});
   if (!rest.is_null()) schema["additionalProperties"] = std::move(rest);
+  if (is_by_hand_) schema["additionalProperties"] = false;
   return schema;
 }
 

@@ -67,6 +67,7 @@ class Keys {
   Keys& if_any() { return set(&Field::presence, Presence::kIfAny); }
   /// Null if it is empty.
   Keys& or_null() { return set(&Field::presence, Presence::kOrNull); }
+  Keys& always() { return set(&Field::presence, Presence::kAlways); }
   /// A key that differs from the member's name.
   Keys& renamed(std::string_view key) { return set(&Field::key, key); }
 
@@ -115,11 +116,13 @@ class Struct final : public Type {
  private:
   template <class>
   friend class Table;
+  /// Fails at a key of `json` that is not in the table.
+  void refuse_others(const Json& json, const Place& place) const;
   /// The keys of `json` that are not in the table.
   Json others(const Json& json) const;
 
   std::string_view name_, meaning_, kind_;
-  bool is_sealed_ = false;
+  bool is_sealed_ = false, is_by_hand_ = false;
   std::vector<Field> fields_;
   std::vector<std::vector<std::string_view>> needs_;
   std::function<std::string(const void* record)> contradiction_;
@@ -165,6 +168,8 @@ class Table {
     type_.kind_ = kind;
     type_.is_sealed_ = seal == Seal::kYes;
   }
+  /// People write it: a key that is not in the table is an error, and a record of its own needs no kind and version.
+  void by_hand() { type_.is_by_hand_ = true; }
   /// Requires all keys of at least one of these lists.
   void needs(std::vector<std::vector<std::string_view>> lists) { type_.needs_ = std::move(lists); }
   /// Checks keys against each other. `contradiction` returns a sentence, or an empty text if all is well.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <utility>
 
 #include "compare/set/csv_table.hpp"
 #include "core/error.hpp"
@@ -458,12 +459,34 @@ bool is_below(const fs::path& path, const fs::path& folder) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
 }
 
+bool Pairing::is_reference(std::size_t set) const {
+  return set == kReferenceSet || set + also_accepted >= sets.size();
+}
+
+std::vector<std::string> Pairing::references_of(const PictureRow& row) const {
+  std::vector<std::string> files;
+  for (std::size_t set = 0; set < sets.size(); ++set)
+    if (is_reference(set) && !row.files[set].empty()) files.push_back(row.files[set]);
+  return files;
+}
+
 bool is_sequence(const std::string& path) {
   std::error_code unknown;
   return !fs::exists(path, unknown) && sequence_in(path).has_value();
 }
 
-Pairing pair_pictures(const PairingChoice& choice) {
+Pairing pair_pictures(PairingChoice choice) {
+  if (!choice.also_accepted.empty()) {
+    if (choice.given.size() < 2)
+      throw Error(ExitCode::kUsage,
+                  "a further reference needs A and B: files, folders or sequences");
+    choice.given.insert(choice.given.end(), choice.also_accepted.begin(),
+                        choice.also_accepted.end());
+    const std::size_t further = std::exchange(choice.also_accepted, {}).size();
+    Pairing pairing = pair_pictures(std::move(choice));
+    pairing.also_accepted = further;
+    return pairing;
+  }
   if (!choice.sets.empty() && choice.pattern.empty())
     throw Error(ExitCode::kUsage, "--sets needs --pattern, which has the field");
   if (!choice.csv.empty()) {

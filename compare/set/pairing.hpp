@@ -25,7 +25,12 @@ struct Pairing {
       0;  ///< files without a picture's ending, or that the pattern does not fit
   /// Links to a folder outside the set's, or to nothing; their paths begin with the folder's.
   std::vector<std::string> not_followed = {};
-  bool is_one_row = false;  ///< files that were given one by one
+  bool is_one_row = false;        ///< files that were given one by one
+  std::size_t also_accepted = 0;  ///< this many of the last sets are further references
+
+  bool is_reference(std::size_t set) const;
+  /// Files of the references that the row has.
+  std::vector<std::string> references_of(const PictureRow& row) const;
 };
 inline constexpr std::size_t kReferenceSet = 1;
 
@@ -33,6 +38,8 @@ inline constexpr std::size_t kReferenceSet = 1;
 struct PairingChoice {
   std::vector<std::string>
       given;  ///< files, folders or sequences: a set each; one folder with `pattern` and `sets`
+  /// Further references, in the form of `given`. The best one counts.
+  std::vector<std::string> also_accepted = {};
   std::string csv;      ///< a table of files, in place of `given`
   std::string pattern;  ///< "{scene}_{engine}.exr", of paths within the folders; may be empty
   std::string
@@ -55,6 +62,6 @@ bool is_sequence(const std::string& path);
 /// Walks folders and the folders inside them. Follows a link to a folder inside, but never to one that contains the link.
 /// Throws Error(kUsage) for a choice that does not fit together, Error(kInput) if a folder or the table cannot be read,
 /// two files have one place, or a folder holds over `most_files`, probably the wrong one.
-Pairing pair_pictures(const PairingChoice& choice);
+Pairing pair_pictures(PairingChoice choice);
 
 }  // namespace lobelia

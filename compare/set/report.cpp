@@ -20,10 +20,90 @@ double badness(Better better, double value) {
   return better == Better::kHigher ? -value : std::abs(value);
 }
 
+/// How many times over its limit the worst figure is.
+double excess(const Comparison& comparison) {
+  double worst = 0;
+  for (const LimitResult& limit : comparison.limits) {
+    if (std::isnan(limit.value)) return kInfinity;
+    const bool likeness = find_metric_output(limit.metric)->better == Better::kHigher;
+    const double by = likeness ? (limit.value != 0 ? limit.limit / limit.value : kInfinity)
+                      : limit.limit != 0 ? std::abs(limit.value) / limit.limit
+                                         : (limit.value != 0 ? kInfinity : 0);
+    worst = std::max(worst, by);
+  }
+  return worst;
+}
+
 }  // namespace
 
 Verdict PairReport::verdict() const {
   return layers ? worst_verdict(comparison->verdict, *layers) : comparison->verdict;
+}
+
+bool PairReport::is_excused() const {
+  return known && !known->is_expired && comparison && !is_pass(verdict());
+}
+
+std::string known_text(const PairReport& pair) {
+  if (!pair.known) return "";
+  const auto& [reason, expires, is_expired] = *pair.known;
+  return fmt::format("{} {}: {}", is_expired ? "known, but expired on" : "known until", expires,
+                     reason);
+}
+
+double excess(const PairReport& pair) {
+  if (!pair.comparison) return kInfinity;
+  double worst = excess(*pair.comparison);
+  if (pair.layers)
+    for (const LayerComparison& layer : pair.layers->compared)
+      if (layer.comparison) worst = std::max(worst, excess(*layer.comparison));
+  return worst;
+}
+
+std::vector<Problem> problems(const SetReport& report) {
+  using Weight = Problem::Weight;
+  std::vector<Problem> list;
+  const auto add = [&](Weight weight, std::string_view what, const std::string& name,
+                       std::string why, const PairReport* pair = nullptr) {
+    list.push_back({weight, what, name, std::move(why), pair});
+  };
+  for (const PairReport& pair : report.pairs)
+    if (!pair.comparison) add(Weight::kFails, "error", pair.name, pair.error);
+  for (const std::string& name : report.missing)
+    add(Weight::kFails, "missing", name, "there is only a reference");
+  for (const std::string& name : report.not_followed)
+    add(Weight::kFails, "link", name, std::string(kNotFollowed));
+  std::vector<const PairReport*> worst_first;
+  for (const PairReport& pair : report.pairs)
+    if (pair.comparison) worst_first.push_back(&pair);
+  std::ranges::stable_sort(worst_first, [](const PairReport* p, const PairReport* q) {
+    return excess(*p) > excess(*q);
+  });
+  for (const PairReport* pair : worst_first) {
+    if (is_pass(pair->verdict())) continue;
+    std::string why = why_not_pass(*pair);
+    if (const std::string known = known_text(*pair); !known.empty())
+      why = fmt::format("{} ({})", why, known);
+    add(pair->is_excused()                       ? Weight::kNotice
+        : pair->verdict() == Verdict::kUndecided ? Weight::kWarns
+                                                 : Weight::kFails,
+        pair->is_excused() ? "known" : verdict_name(pair->verdict()), pair->name, std::move(why),
+        pair);
+  }
+  for (const PairReport* pair : worst_first) {
+    for (const LimitResult& limit : pair->comparison->warnings)
+      if (!limit.pass)
+        add(Weight::kWarns, "warning", pair->name,
+            fmt::format("{} {}, limit {:g}", limit.metric, value_text(*pair->comparison, limit),
+                        limit.limit),
+            pair);
+    if (pair->known && is_pass(pair->verdict()))
+      add(Weight::kNotice, "no longer", pair->name,
+          fmt::format("it passes, but the project says that it is {}", known_text(*pair)), pair);
+  }
+  for (const std::string& name : report.extra)
+    add(Weight::kNotice, "extra", name, "there is no reference");
+  return list;
 }
 
 records::SetSummary count(const SetReport& report) {
@@ -32,13 +112,29 @@ records::SetSummary count(const SetReport& report) {
   // In the order of Verdict.
   std::size_t* const of_verdict[] = {&counts.pass, &counts.differs, &counts.non_finite,
                                      &counts.pass, &counts.differs, &counts.undecided};
-  for (const PairReport& pair : report.pairs)
-    ++(pair.comparison ? *of_verdict[std::size_t(pair.verdict())] : counts.errors);
+  for (const PairReport& pair : report.pairs) {
+    if (pair.known && !counts.known) counts.known = 0;
+    ++(pair.is_excused() ? *counts.known
+       : pair.comparison ? *of_verdict[std::size_t(pair.verdict())]
+                         : counts.errors);
+  }
   counts.missing = report.missing.size();
   counts.extra = report.extra.size();
   counts.passed_over = report.passed_over;
   counts.links_not_followed = report.not_followed.size();
   return counts;
+}
+
+std::string counts_text(const SetReport& report) {
+  const records::SetSummary counts = count(report);
+  const auto some = [](std::size_t number, std::string_view what) {
+    return number > 0 ? fmt::format("{} {}, ", number, what) : "";
+  };
+  return fmt::format(
+      "{} pairs: {} pass, {} differ, {}{}{} not finite, {} not comparable; {} missing, {} extra",
+      counts.pairs, counts.pass, counts.differs, some(counts.known.value_or(0), "known to differ"),
+      some(counts.undecided, "undecided"), counts.non_finite, counts.errors, counts.missing,
+      counts.extra);
 }
 
 SetNotCompared not_compared(const SetReport& report) {
@@ -189,6 +285,8 @@ records::ComparisonSet set_record(const SetReport& report) {
   for (const PairReport& pair : report.pairs) {
     records::PairOfSet& one = record.pairs.emplace_back();
     one.name = pair.name;
+    one.known = pair.known;
+    if (pair.references.size() > 1) one.references = int(pair.references.size());
     if (pair.comparison)
       one.comparison = pair_record(pair);
     else

@@ -16,7 +16,11 @@ struct PairReport {
   std::optional<PicturePairSource> sources = {};  ///< how both files were read
   std::optional<OtherLayers> layers = {};         ///< everything besides the display window
   std::size_t row = 0, set = 0;                   ///< of `a` in the Pairing
+  std::vector<std::string> references = {};  ///< all that are acceptable; `b` is the best of them
+  std::optional<records::Known> known = {};  ///< what was said of its difference beforehand
 
+  /// Whether it does not pass, and that counts as no failure.
+  bool is_excused() const;
   /// The worst of the picture and its layers. There must be a comparison.
   Verdict verdict() const;
 };
@@ -36,6 +40,9 @@ inline constexpr std::string_view kNotFollowed =
 
 records::SetSummary count(const SetReport& report);
 
+/// "3 pairs: 2 pass, 1 differ, ...": the counts as a sentence.
+std::string counts_text(const SetReport& report);
+
 /// Everything that was not compared, over all pairs.
 struct SetNotCompared {
   std::size_t pairs = 0;  ///< with anything not compared
@@ -43,8 +50,15 @@ struct SetNotCompared {
 };
 SetNotCompared not_compared(const SetReport& report);
 
+/// How many times over its limit the worst figure is, of the picture and its layers; infinite if one was not measured.
+double excess(const PairReport& pair);
+
+/// "known until 2027-01-31: why", "known, but expired on 2026-01-31: why", or empty.
+std::string known_text(const PairReport& pair);
+
 /// kInput if a pair could not be compared or there are no pairs. Otherwise kDiffers if a pair differs or is missing, or a
-/// link was not followed. Otherwise kUndecided if a pair is. Otherwise kSuccess: names without a reference do not fail.
+/// link was not followed. Otherwise kUndecided if a pair is. Otherwise kSuccess: names without a reference do not fail, and
+/// neither do pairs that are excused.
 ExitCode set_exit_code(const SetReport& report);
 
 /// A metric over the pairs for which it was measured.
@@ -83,7 +97,24 @@ std::string set_csv(const SetReport& report);
 
 /// JUnit's XML: a test case for each pair (a failure, or an error if it could not be compared), a failure for each
 /// missing name and each link that was not followed, and a skipped test for each extra name. An undecided pair is a
-/// failure, or with `skip_undecided` a skipped test.
+/// failure, or with `skip_undecided` a skipped test. An excused pair is a skipped test, with its reason.
 std::string set_junit(const SetReport& report, bool skip_undecided);
+
+/// Markdown for a pull request: a sentence, then a table of what does not pass, the worst first.
+std::string set_markdown(const SetReport& report);
+
+/// A line for each problem, in the words that GitHub Actions shows beside the change: "::error title=...::...".
+std::string set_github(const SetReport& report);
+
+/// Something to be said of a set besides its figures.
+struct Problem {
+  enum class Weight : std::uint8_t { kFails, kWarns, kNotice };
+  Weight weight;
+  std::string_view what;  ///< "differs", "missing", ...
+  std::string name, why;
+  const PairReport* pair = nullptr;  ///< of a pair with a comparison
+};
+/// All of them: first what could not be compared, then the pairs, the worst first, then what is no failure.
+std::vector<Problem> problems(const SetReport& report);
 
 }  // namespace lobelia

@@ -38,8 +38,9 @@ std::string set_csv(const SetReport& report) {
       text += fmt::format("{},error,{}{}\r\n", field(pair.name), field(pair.error), no_values);
       continue;
     }
-    text += fmt::format("{},{},{}", field(pair.name), verdict_name(pair.verdict()),
-                        field(why_not_pass(pair)));
+    std::string why = why_not_pass(pair);
+    if (pair.known) why += fmt::format("{}{}", why.empty() ? "" : "; ", known_text(pair));
+    text += fmt::format("{},{},{}", field(pair.name), verdict_name(pair.verdict()), field(why));
     for (const std::string_view id : ids) {
       const double* value = records::find(pair.comparison->metrics, id);
       text += value ? fmt::format(",{}", *value) : ",";

@@ -39,10 +39,12 @@ void add_pair(pugi::xml_node suite, const PairReport& pair, bool skip_undecided)
     property.append_attribute("name") = id.c_str();
     property.append_attribute("value") = fmt::format("{}", value).c_str();
   }
-  if (!is_pass(pair.verdict()))
-    add_outcome(one,
-                skip_undecided && pair.verdict() == Verdict::kUndecided ? "skipped" : "failure",
-                verdict_name(pair.verdict()), why_not_pass(pair));
+  if (is_pass(pair.verdict())) return;
+  const bool skipped =
+      pair.is_excused() || (skip_undecided && pair.verdict() == Verdict::kUndecided);
+  const std::string known = known_text(pair);
+  add_outcome(one, skipped ? "skipped" : "failure", verdict_name(pair.verdict()),
+              known.empty() ? why_not_pass(pair) : known + "; " + why_not_pass(pair));
 }
 
 }  // namespace
@@ -62,7 +64,8 @@ std::string set_junit(const SetReport& report, bool skip_undecided) {
                                         counts.links_not_followed +
                                         (skip_undecided ? 0 : counts.undecided);
     node.append_attribute("errors") = counts.errors;
-    node.append_attribute("skipped") = counts.extra + (skip_undecided ? counts.undecided : 0);
+    node.append_attribute("skipped") =
+        counts.extra + counts.known.value_or(0) + (skip_undecided ? counts.undecided : 0);
     node.append_attribute("time") = fmt::format("{:.6f}", seconds).c_str();
   }
   for (const PairReport& pair : report.pairs) add_pair(suite, pair, skip_undecided);

@@ -1,0 +1,130 @@
+// The files that `lobelia compare` writes.
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cli/compare_arguments.hpp"
+#include "records/record.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The same for all paths and links to a file.
+using FileId = std::pair<dev_t, ino_t>;
+
+std::optional<FileId> file_id(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileId{status.st_dev, status.st_ino};
+}
+
+/// All files that are read.
+std::set<FileId> inputs_of(const CompareArguments& options, const Pairing& pairing) {
+  const CompareJob& job = options.job;
+  std::set<FileId> inputs;
+  const auto add = [&](const fs::path& file) {
+    if (const auto id = file_id(file)) inputs.insert(*id);
+  };
+  add(job.scene);
+  add(options.project);
+  add(options.display.config);
+  for (const fs::path& file : job.regions.files()) add(file);
+  if (!job.pictures.csv.empty()) add(job.pictures.csv);
+  const bool by_name = has_folders_by_name(job, pairing);
+  for (const PictureRow& row : pairing.rows) {
+    for (const std::string& file : row.files) add(file);
+    for (const fs::path& file : job.noise.files(by_name ? row.name : "")) add(file);
+    if (!job.c.empty()) add(file_of(job.c, by_name ? row.name : ""));
+  }
+  return inputs;
+}
+
+/// Throws Error(kUsage) if a folder that is written lies in one that is read: the next run would compare its pictures.
+void require_outside(std::string_view option, const fs::path& directory, const CompareJob& job) {
+  std::error_code unknown;
+  const fs::path real = fs::weakly_canonical(fs::absolute(directory, unknown), unknown);
+  std::vector<fs::path> folders = job.noise.files("");
+  for (const auto* given : {&job.pictures.given, &job.pictures.also_accepted})
+    folders.insert(folders.end(), given->begin(), given->end());
+  if (!job.c.empty()) folders.emplace_back(job.c);
+  for (const fs::path& folder : folders)
+    if (const fs::path there = fs::canonical(folder, unknown); !unknown && is_below(real, there))
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{} {}: lies in {}, which is read by this command; choose "
+                              "a folder outside it",
+                              option, directory.string(), folder.string()));
+}
+
+}  // namespace
+
+void require_outputs(const CompareArguments& options, const Pairing& pairing) {
+  const CompareJob& job = options.job;
+  std::vector<fs::path> reports, pictures;
+  for (const std::string& file : {options.json, options.csv, options.junit, options.markdown})
+    if (!file.empty() && file != kStdout) reports.emplace_back(file);
+  if (!job.difference.histogram.empty()) reports.push_back(job.difference.histogram);
+  const bool one = is_one_pair(pairing);
+  if (!job.difference.path.empty()) {
+    if (one) {
+      reports.push_back(job.difference.path);
+    } else {
+      require_outside("--diff-image", job.difference.path, job);
+      for (const PairReport& pair : pairs_of(pairing))
+        pictures.push_back(difference_file(job, pair.name));
+    }
+  }
+  if (!options.html.path.empty()) {
+    require_outside("--html", options.html.path, job);
+    require_place(options.html);
+  }
+  if (reports.empty() && pictures.empty()) return;
+  const std::set<FileId> inputs = inputs_of(options, pairing);
+  std::set<fs::path> taken;
+  for (const auto* files : {&reports, &pictures})
+    for (const fs::path& file : *files) {
+      std::error_code unknown;
+      const auto id = file_id(file);
+      if ((id && inputs.contains(*id)) ||
+          !taken.insert(fs::weakly_canonical(fs::absolute(file, unknown), unknown)).second)
+        throw Error(ExitCode::kUsage,
+                    fmt::format("{}: is read or written by this command already", file.string()));
+    }
+  for (const fs::path& file : reports) require_writable(file);
+  if (!one && !job.difference.path.empty()) make_directories(job.difference.path);
+}
+
+bool prints_report(const CompareArguments& options) {
+  const std::string* reports[] = {&options.json, &options.csv, &options.junit, &options.markdown};
+  const auto count =
+      std::ranges::count_if(reports, [](const std::string* report) { return *report == kStdout; });
+  if (count > 1)
+    throw Error(ExitCode::kUsage,
+                "only one of --json, --csv, --junit and --markdown can go to stdout");
+  return count == 1;
+}
+
+void write_reports(const CompareArguments& options, const SetReport& report, bool one,
+                   FilesTogether& files) {
+  std::string printed;
+  const auto put = [&](const std::string& file, const auto& text) {
+    if (file.empty()) return;
+    if (file == kStdout)
+      printed = text();
+    else
+      write_file(file, text());
+  };
+  put(options.csv, [&] { return set_csv(report); });
+  put(options.junit, [&] { return set_junit(report, options.junit_undecided == "skipped"); });
+  put(options.markdown, [&] { return set_markdown(report); });
+  put(options.json, [&] {
+    return one ? record_text(pair_record(report.pairs.front())) : record_text(set_record(report));
+  });
+  files.commit();
+  fmt::print("{}", printed);
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,128 @@
+// What `lobelia compare` is told besides its command line: a project.
+#include <fmt/chrono.h>
+
+#include <algorithm>
+
+#include "cli/compare_arguments.hpp"
+#include "core/text.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kUsualFile[] = "lobelia.toml";
+
+/// A project's paths are from its own directory.
+class FromProject {
+ public:
+  explicit FromProject(const fs::path& file) : folder_(file.parent_path()) {}
+  std::string operator()(const std::string& path) const {
+    return path.empty() ? path : (folder_ / path).lexically_normal().string();
+  }
+  std::vector<std::string> operator()(std::vector<std::string> paths) const {
+    for (std::string& path : paths) path = (*this)(path);
+    return paths;
+  }
+  /// Of a mask only a picture has a path.
+  std::vector<std::string> masks(std::vector<std::string> masks) const {
+    for (std::string& mask : masks)
+      if (!mask.starts_with("rect:") && !mask.starts_with("polygon:")) mask = (*this)(mask);
+    return masks;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+std::vector<MetricLimit> limits_of(std::string_view where, const std::vector<std::string>& texts) {
+  std::vector<MetricLimit> limits;
+  for (const std::string& text : texts) limits.push_back(parse_limit(where, text));
+  return limits;
+}
+
+/// The project's limits, but for metrics that the command line has a limit on.
+void add_from_project(const std::vector<MetricLimit>& project, std::vector<MetricLimit>& limits) {
+  std::vector<MetricLimit> all;
+  for (const MetricLimit& limit : project)
+    if (std::ranges::count(limits, limit.metric, &MetricLimit::metric) == 0) all.push_back(limit);
+  limits.insert(limits.begin(), all.begin(), all.end());
+}
+
+PairRule rule_of(const records::ProjectRule& rule, std::size_t number, const FromProject& from) {
+  const auto where = [&](const char* key) { return fmt::format("rules[{}].{}", number, key); };
+  PairRule made{rule.match,
+                limits_of(where("fail"), rule.fail),
+                limits_of(where("warn"), rule.warn),
+                {},
+                rule.default_limits,
+                from.masks(rule.mask),
+                from.masks(rule.ignore)};
+  if (!rule.tolerance.empty()) made.tolerance = parse_tolerance(where("tolerance"), rule.tolerance);
+  return made;
+}
+
+void apply_pictures(const records::Project& project, const FromProject& from,
+                    PairingChoice& pictures) {
+  std::vector<std::string>& given = pictures.given;
+  if (pictures.csv.empty() && given.empty()) pictures.csv = from(project.pairs);
+  if (!pictures.csv.empty()) return;
+  const std::vector<std::string> judged = from(project.judged),
+                                 references = from(project.references);
+  const bool judges_given = !given.empty();
+  if (!judges_given && !judged.empty()) given.push_back(judged.front());
+  if (given.size() == 1 && !references.empty()) {
+    given.push_back(references.front());
+    pictures.also_accepted.assign(references.begin() + 1, references.end());
+  }
+  if (!judges_given && judged.size() > 1)
+    given.insert(given.end(), judged.begin() + 1, judged.end());
+  if (pictures.pattern.empty()) {
+    pictures.pattern = project.pattern;
+    if (pictures.sets.empty()) pictures.sets = project.sets;
+  }
+}
+
+void apply(const records::Project& project, const fs::path& file, CompareArguments& options) {
+  const FromProject from(file);
+  CompareJob& job = options.job;
+  ComparisonOptions& comparison = job.comparison;
+  apply_pictures(project, from, job.pictures);
+  if (options.html.title.empty()) options.html.title = project.title;
+  add_from_project(limits_of("fail", project.fail), comparison.limits);
+  add_from_project(limits_of("warn", project.warn), comparison.warnings);
+  if (!comparison.tolerance && !project.tolerance.empty())
+    comparison.tolerance = parse_tolerance("tolerance", project.tolerance);
+  comparison.default_limits = comparison.default_limits && project.default_limits.value_or(true);
+  job.regions.add(from.masks(project.mask), from.masks(project.ignore));
+  options.viewing.suggest_exposure(project.exposure);
+  if (job.layers.layer.empty() && !job.layers.all) job.layers.layer = project.layer;
+  if (job.scene.empty()) job.scene = from(project.scene);
+  job.layers.ignore_alpha = job.layers.ignore_alpha || project.ignore_alpha.value_or(false);
+  for (std::size_t i = 0; i < project.rules.size(); ++i)
+    job.rules.push_back(rule_of(project.rules[i], i, from));
+  job.known = project.known;
+  job.today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
+}
+
+}  // namespace
+
+void apply_project(CompareArguments& options) {
+  if (options.project.empty()) {
+    const PairingChoice& pictures = options.job.pictures;
+    std::error_code unknown;
+    if (options.sensitivity || !pictures.given.empty() || !pictures.csv.empty() ||
+        !fs::exists(kUsualFile, unknown))
+      return;
+    options.project = kUsualFile;
+  }
+  const records::Project project = records::read_project(options.project);
+  try {
+    apply(project, options.project, options);
+  } catch (const Error& error) {
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: {}", printable_path(options.project), error.what()));
+  }
+}
+
+}  // namespace lobelia::cli

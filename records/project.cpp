@@ -1,0 +1,128 @@
+#include "records/project.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "records/record.hpp"
+
+namespace lobelia::records {
+namespace {
+
+/// "2026-02-30" is no day.
+bool is_day(const std::string& text) {
+  std::istringstream in(text);
+  int year = 0, month = 0, day = 0;
+  char dash = 0, dash2 = 0;
+  return text.size() == 10 && in >> year >> dash >> month >> dash2 >> day && dash == '-' &&
+         dash2 == '-' && in.peek() == std::istringstream::traits_type::eof() &&
+         std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(unsigned(month)),
+                                     std::chrono::day(unsigned(day)))
+             .ok();
+}
+
+std::string contradiction_of_known(const KnownDifference& known) {
+  return is_day(known.expires) ? "" : "expires: expected a day, such as 2027-01-31";
+}
+
+std::string contradiction_of_project(const Project& project) {
+  const bool has_folders = !project.judged.empty() || !project.references.empty();
+  if (!project.pairs.empty() && has_folders)
+    return "pairs names all pictures: leave out judged and references";
+  return "";
+}
+
+/// Dates and times are the text that stands in the file.
+Json json_of(const toml::node& node) {
+  if (const toml::table* table = node.as_table()) {
+    Json object = Json::object();
+    for (const auto& [key, value] : *table) object[std::string(key.str())] = json_of(value);
+    return object;
+  }
+  if (const toml::array* array = node.as_array()) {
+    Json list = Json::array();
+    for (const toml::node& value : *array) list.push_back(json_of(value));
+    return list;
+  }
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto number = node.value_exact<std::int64_t>()) return *number;
+  if (const auto number = node.value_exact<double>()) return *number;
+  if (const auto truth = node.value_exact<bool>()) return *truth;
+  std::ostringstream out;
+  if (const auto* date = node.as_date()) out << *date;
+  if (const auto* time = node.as_time()) out << *time;
+  if (const auto* both = node.as_date_time()) out << *both;
+  return out.str();
+}
+
+Json parse_toml(const std::string& text, const std::string& where) {
+  try {
+    return json_of(toml::parse(text, where));
+  } catch (const toml::parse_error& error) {
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: line {}, column {}: {}", printable_path(where), error.source().begin.line,
+                    error.source().begin.column, printable(error.description())));
+  }
+}
+
+}  // namespace
+
+Project read_project(const std::filesystem::path& path) {
+  constexpr std::uint64_t kMostBytes = 4 << 20;
+  const std::string text = read_file(path, kMostBytes);
+  return parse_record<Project>(
+      path.extension() == ".json" ? text : parse_toml(text, path.string()).dump(), path.string());
+}
+
+void define_project_tables(Tables& tables) {
+  tables.define<ProjectRule>("How some of the pairs are judged.", [](auto& t) {
+    t.by_hand();
+    t.all().if_any();
+    t.key("match", "names of pairs; * fits any text, ? any character").not_empty().always();
+    t.key("fail", "as --fail; on the same metric in place of the project's");
+    t.key("warn", "as --warn");
+    t.key("mask", "as --mask, in place of the project's");
+    t.key("ignore", "as --ignore, besides the project's");
+    t.key("tolerance", "as --tolerance");
+    t.key("defaultLimits", "false: without the default limits");
+  });
+  tables.define<KnownDifference>("A difference that is no failure until it expires.", [](auto& t) {
+    t.by_hand();
+    t.key("match", "names of pairs; * fits any text, ? any character").not_empty();
+    t.key("reason", "for the report").not_empty();
+    t.key("expires", "the last day on which it counts, in UTC: 2027-01-31");
+    t.check(contradiction_of_known);
+  });
+  tables.define<Project>(
+      "Sets of pictures and how to judge them: 'lobelia compare --project'.", [](auto& t) {
+        t.kind("project");
+        t.by_hand();
+        t.all().if_any();
+        t.key("title", "of the report");
+        t.key("judged", "files, folders or sequences, from where the file lies");
+        t.key("references", "likewise; the picture is judged by the one that it fits best");
+        t.key("pairs", "as --pairs, in place of judged and references");
+        t.key("pattern", "as --pattern");
+        t.key("sets", "as --sets");
+        t.key("fail", "as --fail: \"rmse=0.001\"");
+        t.key("warn", "as --warn");
+        t.key("mask", "as --mask");
+        t.key("ignore", "as --ignore");
+        t.key("tolerance", "as --tolerance");
+        t.key("defaultLimits", "false: as --no-default-limits");
+        t.key("exposure", "as --exposure");
+        t.key("layer", "as --layer");
+        t.key("scene", "as --scene");
+        t.key("ignoreAlpha", "as --ignore-alpha");
+        t.key("rules", "the last that fits a pair counts most");
+        t.check(contradiction_of_project);
+      });
+}
+
+}  // namespace lobelia::records

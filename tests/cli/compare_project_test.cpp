@@ -1,0 +1,265 @@
+// `lobelia compare` with a project, several references, known differences and --accept; Markdown, GitHub's lines, colours.
+#include <filesystem>
+#include <random>
+
+#include "tests/cli/compare_pictures_fixture.hpp"
+
+namespace lobelia {
+namespace {
+
+using namespace fixtures;
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+class CompareProject : public ::testing::Test {
+ protected:
+  fs::path path(const std::string& name) const { return directory_.path() / name; }
+  /// A picture of one grey.
+  void grey(const std::string& name, float value) {
+    fs::create_directories(path(name).parent_path());
+    const std::vector<float> values(32 * 32, value);
+    write_exr_channels(path(name), 32, 32, {{"R", values}, {"G", values}, {"B", values}});
+  }
+  void project(const std::string& text, const std::string& name = "lobelia.toml") {
+    write_file(path(name), text);
+  }
+  ProcessResult compare(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "compare");
+    return run_lobelia(arguments, directory_.path());
+  }
+  void expect_refused(const std::string& text, const std::string& why) {
+    project(text);
+    const ProcessResult result = compare({});
+    EXPECT_EQ(result.exit_code, 3) << text << "\n" << result.output_tail;
+    EXPECT_THAT(result.output_tail, HasSubstr("lobelia.toml: ")) << text;
+    EXPECT_THAT(result.output_tail, HasSubstr(why)) << text;
+    EXPECT_EQ(std::ranges::count(result.output_tail, '\n'), 1) << result.output_tail;
+  }
+  /// `lobelia compare --accept` at a terminal of its own, where `answer` is typed, with $CI as given.
+  std::string accept_at_a_terminal(const std::string& answer, const std::string& ci = "") {
+    return run_shell("export LOBELIA CI=" + ci + "; unset JENKINS_URL TEAMCITY_VERSION TF_BUILD\n" +
+                         "echo " + answer + " | script -qec '\"$LOBELIA\" compare --accept; " +
+                         "echo ended with $?' typescript >/dev/null; cat typescript",
+                     directory_.path())
+        .output_tail;
+  }
+  TemporaryDirectory directory_;
+};
+
+constexpr char kTwoFolders[] = "judged = [\"mine\"]\nreferences = [\"truth\"]\n";
+
+TEST_F(CompareProject, InThisDirectoryNeedsNoOption) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.5f);
+  EXPECT_EQ(compare({}).exit_code, 2);
+  project(kTwoFolders);
+  EXPECT_EQ(compare({}).exit_code, 0);
+  grey("mine/x.exr", 0.6f);
+  EXPECT_EQ(compare({}).exit_code, 1);
+}
+
+TEST_F(CompareProject, HasPathsFromItsOwnDirectoryAndMayBeJson) {
+  grey("tests/mine/x.exr", 0.5f), grey("tests/truth/x.exr", 0.5f);
+  project(kTwoFolders, "tests/p.toml");
+  project(R"({"judged": ["mine"], "references": ["truth"]})", "tests/p.json");
+  for (const char* file : {"tests/p.toml", "tests/p.json"})
+    EXPECT_EQ(compare({"--project", file}).exit_code, 0) << file;
+}
+
+TEST_F(CompareProject, GivesWayToTheCommandLine) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.55f), grey("other/x.exr", 0.55f);
+  project(std::string(kTwoFolders) + "fail = [\"max_abs=0.01\"]\ndefaultLimits = false\n");
+  EXPECT_EQ(compare({}).exit_code, 1);
+  EXPECT_EQ(compare({"--project", "lobelia.toml", "--fail", "max_abs=0.1"}).exit_code, 0);
+  EXPECT_EQ(compare({"other", "--project", "lobelia.toml"}).exit_code, 0);
+  EXPECT_EQ(compare({"mine", "mine", "--project", "lobelia.toml"}).exit_code, 0);
+}
+
+TEST_F(CompareProject, HasRulesOfWhichTheLastThatFitsCountsMost) {
+  for (const char* name : {"glossy/a.exr", "glossy/b.exr", "matt.exr"})
+    grey(std::string("mine/") + name, 0.55f), grey(std::string("truth/") + name, 0.5f);
+  project(std::string(kTwoFolders) + "fail = [\"max_abs=0.01\"]\ndefaultLimits = false\n" +
+          "[[rules]]\nmatch = \"glossy/*\"\nfail = [\"max_abs=0.1\"]\n" +
+          "[[rules]]\nmatch = \"*/b.exr\"\nfail = [\"max_abs=0.02\"]\n");
+  const std::string output = compare({}).output_tail;
+  EXPECT_THAT(output, HasSubstr("3 pairs: 1 pass, 2 differ"));
+  EXPECT_THAT(output, HasSubstr("matt.exr: max_abs is 0.05, limit 0.01"));
+  EXPECT_THAT(output, HasSubstr("glossy/b.exr: max_abs is 0.05, limit 0.02"));
+}
+
+TEST_F(CompareProject, HasMasksAndIgnoredPartsByName) {
+  for (const char* name : {"x.exr", "y.exr"})
+    grey(std::string("mine/") + name, 0.6f), grey(std::string("truth/") + name, 0.5f);
+  project(std::string(kTwoFolders) + "defaultLimits = false\nfail = [\"max_abs=0.01\"]\n" +
+          "[[rules]]\nmatch = \"x.*\"\nignore = [\"rect:0,0,32,31\", \"rect:0,31,31,1\"]\n" +
+          "fail = [\"share_over.abs=0.05=1%\"]\ndefaultLimits = false\n");
+  const std::string output = compare({}).output_tail;
+  EXPECT_THAT(output, HasSubstr("x.exr: max_abs is 0.1, limit 0.01"));  // of the pixel that is left
+  EXPECT_THAT(output, Not(HasSubstr("x.exr: max_abs is 0.1, limit 0.01; share")));
+  project(std::string(kTwoFolders) + "[[rules]]\nmatch = \"x.exr\"\nmask = [\"gone.png\"]\n");
+  const auto without_mask = compare({});
+  EXPECT_EQ(without_mask.exit_code, 3);
+  EXPECT_THAT(without_mask.output_tail, HasSubstr("gone.png"));
+}
+
+TEST_F(CompareProject, MayAcceptSeveralReferencesOfWhichTheBestCounts) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f), grey("mac/x.exr", 0.5f);
+  grey("mine/y.exr", 0.5f), grey("mac/y.exr", 0.7f), grey("truth/y.exr", 0.9f);
+  project("judged = [\"mine\"]\nreferences = [\"truth\", \"mac\"]\n");
+  const auto result = compare({"--project", "lobelia.toml", "--json", "set.json"});
+  EXPECT_EQ(result.exit_code, 1);
+  const Record set = Record::parse(read_file(path("set.json"), 1 << 20));
+  EXPECT_EQ(set["summary"]["pass"], 1);
+  for (const Record& pair : set["pairs"]) {
+    EXPECT_EQ(pair["references"], 2);
+    EXPECT_THAT(pair["comparison"]["b"].get<std::string>(), HasSubstr("mac/")) << pair["name"];
+  }
+  const auto pair = compare({"mine/x.exr", "truth/x.exr", "--also-accept", "mac/x.exr"});
+  EXPECT_EQ(pair.exit_code, 0) << pair.output_tail;
+  EXPECT_THAT(pair.output_tail, HasSubstr("of 2 acceptable references"));
+}
+
+TEST_F(CompareProject, ExcusesAKnownDifferenceUntilItExpires) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f);
+  const auto known = [](const std::string& day) {
+    return std::string(kTwoFolders) +
+           "[[known]]\nmatch = \"x.*\"\nreason = \"the <b>new</b> lamp\"\nexpires = " + day + "\n";
+  };
+  project(known("9999-12-31"));
+  auto result = compare({"--project", "lobelia.toml", "--junit", "j.xml", "--csv", "c.csv"});
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("known       x.exr: "));
+  EXPECT_THAT(result.output_tail, HasSubstr("1 known to differ"));
+  const std::string junit = read_file(path("j.xml"), 1 << 20);
+  EXPECT_THAT(junit, HasSubstr("<skipped"));
+  EXPECT_THAT(junit, HasSubstr("failures=\"0\""));
+  EXPECT_THAT(junit, HasSubstr("&lt;b"));
+  EXPECT_THAT(read_file(path("c.csv"), 1 << 20), HasSubstr("known until 9999-12-31"));
+  project(known("\"2001-01-01\""));
+  result = compare({});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output_tail, HasSubstr("known, but expired on 2001-01-01"));
+  grey("mine/x.exr", 0.6f);
+  result = compare({});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output_tail, HasSubstr("no longer   x.exr: it passes"));
+}
+
+TEST_F(CompareProject, ThatIsWrongIsRefusedWithItsPlace) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.5f);
+  const std::string two = kTwoFolders;
+  expect_refused("judged = [", "line 1, column ");
+  expect_refused(two + "fial = [\"rmse=1\"]\n", "fial: there is no such key; did you mean 'fail'?");
+  expect_refused(two + "fail = [\"rmse\"]\n", "fail rmse: expected METRIC=LIMIT");
+  expect_refused(two + "[[rules]]\nmatch = \"*\"\nfail = [\"nonsense=1\"]\n", "rules[0]: ");
+  expect_refused(two + "[[rules]]\nfail = [\"rmse=1\"]\n", "rules[0].match: missing");
+  expect_refused(two + "tolerance = \"1\"\n", "tolerance 1: expected");
+  expect_refused(two + "[[known]]\nmatch = \"*\"\nreason = \"?\"\nexpires = 2027-02-30\n",
+                 "line 6");
+  expect_refused(two + "[[known]]\nmatch = \"*\"\nreason = \"?\"\nexpires = \"soon\"\n",
+                 "expires: expected a day");
+  expect_refused(two + "[[known]]\nmatch = \"*\"\nexpires = 2027-02-01\n",
+                 "known[0].reason: missing");
+  expect_refused(two + "judged = [\"twice\"]\n", "line 3");
+  expect_refused("title = 3\n" + two, "title: ");
+  expect_refused(std::string(100'000, '['), "line 1");
+  expect_refused("a" + std::string("\xff\xfe") + "=1", "line 1");
+  EXPECT_EQ(compare({"--project", "gone.toml"}).exit_code, 3);
+}
+
+TEST_F(CompareProject, MadeOfRandomBytesNeverCrashes) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.5f);
+  std::mt19937 random(4);
+  const std::string good =
+      std::string(kTwoFolders) + "fail = [\"rmse=1\"]\n[[rules]]\nmatch = \"*\"\n";
+  for (int i = 0; i < 30; ++i) {
+    std::string text = good;
+    for (int change = 0; change < 3; ++change) {
+      const std::size_t at = random() % text.size();
+      if (random() % 2)
+        text[at] = char(random());
+      else
+        text.erase(at, random() % 9);
+    }
+    project(text);
+    const ProcessResult result = compare({});
+    EXPECT_TRUE(result.exit_code >= 0 && result.exit_code <= 3) << text << result.output_tail;
+  }
+}
+
+TEST_F(CompareProject, IsAcceptedOnlyByAPersonWhoSaysYes) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f), grey("mine/new.exr", 0.3f);
+  project(kTwoFolders);
+  const auto bytes = [&](const std::string& name) { return read_file(path(name), 1 << 20); };
+  const std::string before = bytes("truth/x.exr");
+  const ProcessResult unattended = compare({"--accept"});
+  EXPECT_EQ(unattended.exit_code, 2);
+  EXPECT_THAT(unattended.output_tail, HasSubstr("somebody has to look"));
+  EXPECT_THAT(accept_at_a_terminal("no"), HasSubstr("nothing was changed"));
+  EXPECT_EQ(bytes("truth/x.exr"), before);
+  const std::string in_ci = accept_at_a_terminal("yes", "true");
+  EXPECT_THAT(in_ci, HasSubstr("this is a CI job"));
+  EXPECT_EQ(bytes("truth/x.exr"), before);
+  const std::string accepted = accept_at_a_terminal("yes");
+  EXPECT_THAT(accepted, HasSubstr("2 references were replaced"));
+  EXPECT_THAT(accepted, HasSubstr("ended with 0"));
+  EXPECT_EQ(bytes("truth/x.exr"), bytes("mine/x.exr"));
+  EXPECT_EQ(bytes("truth/new.exr"), bytes("mine/new.exr"));
+  EXPECT_EQ(compare({}).exit_code, 0);
+}
+
+TEST_F(CompareProject, AcceptedThroughALinkReplacesTheLinkAndNotTheFileBehindIt) {
+  grey("mine/x.exr", 0.5f), grey("archive/x.exr", 0.6f);
+  fs::create_directories(path("truth"));
+  fs::create_symlink(path("archive/x.exr"), path("truth/x.exr"));
+  project(kTwoFolders);
+  const std::string archived = read_file(path("archive/x.exr"), 1 << 20);
+  accept_at_a_terminal("yes");
+  EXPECT_EQ(read_file(path("archive/x.exr"), 1 << 20), archived);
+  EXPECT_EQ(read_file(path("truth/x.exr"), 1 << 20), read_file(path("mine/x.exr"), 1 << 20));
+}
+
+TEST_F(CompareProject, IsToldInMarkdownAndInGitHubsLinesWithItsTextsEscaped) {
+  grey("mine/a|b,c%<i>.exr", 0.5f), grey("truth/a|b,c%<i>.exr", 0.6f);
+  grey("mine/fine.exr", 0.5f), grey("truth/fine.exr", 0.5f);
+  project(kTwoFolders);
+  const ProcessResult markdown = compare({"--project", "lobelia.toml", "--markdown", "-"});
+  EXPECT_EQ(markdown.exit_code, 1);
+  EXPECT_THAT(markdown.output_tail, HasSubstr("2 pairs: 1 pass, 1 differ"));
+  EXPECT_THAT(markdown.output_tail, HasSubstr("| differs | a\\|b,c%\\<i\\>.exr |"));
+  EXPECT_THAT(markdown.output_tail, Not(HasSubstr("fine.exr")));
+  const ProcessResult github = compare({"--project", "lobelia.toml", "--format", "github", "-q"});
+  EXPECT_EQ(github.exit_code, 1);
+  EXPECT_THAT(
+      github.output_tail,
+      HasSubstr("\n::error file=mine/a|b%2Cc%25<i>.exr,title=a|b%2Cc%25<i>.exr%3A differs::"));
+}
+
+TEST_F(CompareProject, IsQuietVerboseAndColouredOnRequest) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f);
+  grey("mine/fine.exr", 0.5f), grey("truth/fine.exr", 0.5f);
+  project(kTwoFolders);
+  const auto told = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"--project", "lobelia.toml"});
+    return compare(more).output_tail;
+  };
+  EXPECT_EQ(std::ranges::count(told({"-q"}), '\n'), 1);
+  EXPECT_EQ(compare({"mine/fine.exr", "truth/fine.exr", "-q"}).output_tail, "");
+  EXPECT_THAT(told({}), Not(HasSubstr("pass        fine.exr")));
+  EXPECT_THAT(told({"-v"}), HasSubstr("pass        fine.exr"));
+  EXPECT_THAT(told({}), Not(HasSubstr("\x1b[")));
+  EXPECT_THAT(told({"--color", "always"}), HasSubstr("\x1b[31mdiffers"));
+}
+
+TEST_F(CompareProject, OfTheDocumentationIsOne) {
+  const std::string page =
+      read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/comparing.md", 1 << 20);
+  const std::size_t start = page.find("```toml\n") + 8;
+  project(page.substr(start, page.find("```", start) - start));
+  for (const char* folder : {"renders/", "references/", "references-mac/"})
+    grey(std::string(folder) + "cloth_n20000.exr", folder[2] == 'n' ? 0.5f : 0.6f);
+  EXPECT_THAT(compare({}).output_tail, HasSubstr("half floats cannot hold this peak"));
+}
+
+}  // namespace
+}  // namespace lobelia
