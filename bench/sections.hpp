@@ -19,6 +19,8 @@ void threads();                          ///< efficiency on 1 to all processors
 void sizes(const std::string& program);  ///< whole commands, 256^2 to 8192^2, with peak memory
 /// Whole commands that compare large pictures, with peak memory, and folders.
 void comparisons(const std::string& program);
+/// Whole commands that compare two pictures, beside idiff, odiff and flip where they are on PATH.
+void others(const std::string& program);
 void plan();      ///< cells of a grid, planned per second
 void exr();       ///< compressing and writing pictures
 void reading();   ///< the cost of reading a picture in a process of its own

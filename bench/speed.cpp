@@ -22,7 +22,7 @@ ProcessResult run(const std::vector<std::string>& command) {
 }  // namespace lobelia::bench
 
 /// bench_speed lobes|pictures|threads|plan|exr|reading|starting, bench_speed trace SCENE,
-/// bench_speed sizes|comparisons PROGRAM
+/// bench_speed sizes|comparisons|others PROGRAM
 int main(int count, char** arguments) {
   using namespace lobelia::bench;
   const std::string name = count > 1 ? arguments[1] : "", argument = count > 2 ? arguments[2] : "";
@@ -33,6 +33,7 @@ int main(int count, char** arguments) {
       {"threads", threads},
       {"sizes", [&] { sizes(argument); }},
       {"comparisons", [&] { comparisons(argument); }},
+      {"others", [&] { others(argument); }},
       {"plan", plan},
       {"exr", exr},
       {"reading", reading},

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "bench/sections.hpp"
 #include "core/files.hpp"
@@ -25,7 +27,92 @@ ProcessResult compare(const std::string& program, const fs::path& a, const fs::p
   return run(command);
 }
 
+/// A question that another program answers, too.
+struct Question {
+  std::string name;
+  std::vector<std::string> theirs, metrics;
+  int their_exit_code = 0;
+};
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + values.size() / 2);
+  return values[values.size() / 2];
+}
+
+void ask_both(const std::string& program, const Question& question, const fs::path& a,
+              const fs::path& b) {
+  const fs::path found = find_program(question.theirs.front());
+  if (found.empty()) {
+    fmt::print("{:<34}not on PATH\n", question.name);
+    return;
+  }
+  std::vector<std::string> theirs = question.theirs;
+  theirs.front() = found;
+  constexpr int kRounds = 7;
+  std::vector<double> ours_s, theirs_s, wall, processor;
+  for (int round = 0; round < kRounds; ++round) {
+    const ProcessResult other = run_process(theirs, {});
+    if (other.exit_code != question.their_exit_code) {
+      fmt::print(stderr, "{}: exit code {}\n{}\n", found.string(), other.exit_code,
+                 other.output_tail);
+      std::exit(EXIT_FAILURE);
+    }
+    const ProcessResult ours = compare(program, a, b, question.metrics);
+    ours_s.push_back(ours.seconds);
+    theirs_s.push_back(other.seconds);
+    wall.push_back(ours.seconds / other.seconds);
+    processor.push_back(ours.cpu_seconds / other.cpu_seconds);
+  }
+  const auto [least, most] = std::ranges::minmax(processor);
+  fmt::print("{:<34}{:>8.3f}{:>10.3f}{:>9.2f}{:>17.2f}{:>9.2f} to {:.2f}\n", question.name,
+             median(ours_s), median(theirs_s), median(wall), median(processor), least, most);
+}
+
 }  // namespace
+
+void others(const std::string& program) {
+  const TemporaryDirectory directory;
+  const auto file = [&](const char* name) { return directory.path() / name; };
+  render_file(program, "head_on", 1920, 1080, file("a.exr"));
+  render_file(program, "two_lights", 1920, 1080, file("b.exr"));
+  for (const char* side : {"a", "b"})
+    run({find_program("oiiotool"), file(side).replace_extension("exr"), "-d", "uint8", "-o",
+         file(side).replace_extension("png")});
+  fmt::print(
+      "\nWhole commands: lobelia compare --metrics beside other programs, 1920 x 1080, medians of 7 pairs "
+      "in turn\n");
+  fmt::print("{:<34}{:>8}{:>10}{:>9}{:>17}{:>9}\n", "question", "ours s", "theirs s", "ratio",
+             "processor ratio", "spread");
+  const std::vector<std::string> idiff{"idiff", "-q",   "-fail",     "1e30",
+                                       "-warn", "1e30", "-hardfail", "1e30"};
+  const auto with = [](std::vector<std::string> command, const fs::path& a, const fs::path& b) {
+    command.insert(command.end(), {a, b});
+    return command;
+  };
+  ask_both(program,
+           {"idiff, EXR: max_abs,rmse",
+            with(idiff, file("a.exr"), file("b.exr")),
+            {"--metrics=max_abs,rmse"}},
+           file("a.exr"), file("b.exr"));
+  ask_both(program,
+           {"idiff, PNG: code.max,code.mean",
+            with(idiff, file("a.png"), file("b.png")),
+            {"--metrics=code"}},
+           file("a.png"), file("b.png"));
+  // odiff ends with 22 where pictures differ.
+  ask_both(program,
+           {"odiff, PNG: pixels_over.yiq=0.1",
+            {"odiff", file("b.png"), file("a.png")},
+            {"--metrics=pixels_over.yiq=0.1"},
+            22},
+           file("a.png"), file("b.png"));
+  ask_both(
+      program,
+      {"flip, PNG: flip.ldr",
+       {"flip", "-r", file("b.png"), "-t", file("a.png"), "-nexm", "-nerm", "-d", directory.path()},
+       {"--metrics=flip.ldr", "--exposure=0"}},
+      file("a.png"), file("b.png"));
+}
 
 void comparisons(const std::string& program) {
   const TemporaryDirectory directory;
