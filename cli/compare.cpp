@@ -77,7 +77,7 @@ ExitCode run_sensitivity(const CompareArguments& options) {
   FilesTogether files;
   std::vector<Change> changes;
   ThreadLimit(options.threads).run([&] {
-    PicturePair pictures{read_picture(picture, job.layers.layer), {}};
+    PicturePair pictures{read_picture(picture, job.layers.layer.a), {}};
     pictures.b = pictures.a;
     ComparisonOptions comparison = job.comparison;
     job.regions.apply(pictures.a.image.width(), pictures.a.image.height(), comparison);
@@ -145,6 +145,7 @@ ExitCode run_compare(CompareArguments options) {
   if (!options.tolerance.empty())
     comparison.tolerance = parse_tolerance("--tolerance", options.tolerance);
   apply_project(options);
+  options.job.layers.layer = parse_layer_names(options.layer);
   options.viewing.apply(comparison.viewing);
   comparison.viewing.display = DisplayView::open(options.display);
   if (!options.job.scene.empty()) {
@@ -336,8 +337,9 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   OptionGroup layers(*command, "Layers"), verdict(*command, "Verdict"), look(*command, "Viewing"),
       output(*command, "Output");
   auto* layer = layers.add(
-      "--layer", job.layers.layer, "NAME",
-      "Compare this layer of both files: a prefix of channels, an EXR part, or one channel");
+      "--layer", options->layer, "NAME",
+      "Compare this layer of both files: a prefix of channels, an EXR part, a view of a stereo EXR, or one "
+      "channel; diffuse=ViewLayer.DiffDir where the files call it differently");
   layers
       .add_flag("--all-layers", job.layers.all,
                 "Compare every layer; the verdict is the worst, and a layer that only B has fails")

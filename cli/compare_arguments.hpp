@@ -19,7 +19,7 @@ struct CompareArguments {
   CompareJob job;
   ViewingFlags viewing;
   std::string project;
-  std::string json, csv, junit, markdown, tolerance;
+  std::string json, csv, junit, markdown, tolerance, layer;
   HtmlReport html;
   std::string a, b;
   std::vector<std::string> further;

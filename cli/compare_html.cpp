@@ -266,7 +266,8 @@ class ReportWriter {
           made.cell.find_image(set_name(set)))
         continue;
       try {
-        const Picture picture = read_picture(files[set], job_.layers.layer);
+        const Picture picture = read_picture(
+            files[set], set == kReferenceSet ? job_.layers.layer.b : job_.layers.layer.a);
         add_image(
             set, files[set], picture,
             made.cell.record.exposure_stops.value_or(exposure_for_peak(peak_value(picture.image))),

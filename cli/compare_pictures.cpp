@@ -30,9 +30,10 @@ bool has_automatic_exposures(const ComparisonOptions& options) {
 }
 
 /// `options.layer`; if all layers are asked for and a file has no picture, the first layer that both have.
-std::string main_layer(const std::string& a, const std::string& b, const LayerOptions& options) {
-  if (!options.all || !options.layer.empty()) return options.layer;
-  return common_layers(a, b).both.front();
+LayerNames main_layer(const std::string& a, const std::string& b, const LayerOptions& options) {
+  if (!options.all) return options.layer;
+  const std::string first = common_layers(a, b).both.front();
+  return {first, first};
 }
 
 /// `asked` with the exposures that suit `reference`, or with the reason why there are none.
@@ -77,7 +78,7 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& p
     options.viewing.hdr_exposures = exposures_or_why_not(b, *options.viewing.hdr_exposures);
   std::optional<ReferenceFloor> floor;
   if (!pair.c.empty())
-    floor = floor_of(pair, main_layer(pair.a, pair.b, job.layers), b,
+    floor = floor_of(pair, main_layer(pair.a, pair.b, job.layers).b, b,
                      allows_equal_nonfinite(options, pictures.b.source),
                      at_exposures_of(a, b, options));
   pair.comparison = compare_pictures(pictures, pair.a, pair.b, options);
@@ -143,7 +144,7 @@ HdrExposures exposures_for_all(const std::vector<PairReport>& pairs, const Compa
   for_each_pair(pairs.size(), [&](std::size_t i) {
     try {
       Image reference =
-          read_picture(pairs[i].b, main_layer(pairs[i].a, pairs[i].b, job.layers)).image;
+          read_picture(pairs[i].b, main_layer(pairs[i].a, pairs[i].b, job.layers).b).image;
       if (job.comparison.crop) reference = cut(std::move(reference), *job.comparison.crop);
       if (!is_finite(reference)) return;
       const HdrExposures one = automatic_exposures(reference, asked);

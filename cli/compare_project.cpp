@@ -96,7 +96,7 @@ void apply(const records::Project& project, const fs::path& file, CompareArgumen
   comparison.default_limits = comparison.default_limits && project.default_limits.value_or(true);
   job.regions.add(from.masks(project.mask), from.masks(project.ignore));
   options.viewing.suggest_exposure(project.exposure);
-  if (job.layers.layer.empty() && !job.layers.all) job.layers.layer = project.layer;
+  if (options.layer.empty() && !job.layers.all) options.layer = project.layer;
   if (job.scene.empty()) job.scene = from(project.scene);
   job.layers.ignore_alpha = job.layers.ignore_alpha || project.ignore_alpha.value_or(false);
   for (std::size_t i = 0; i < project.rules.size(); ++i)

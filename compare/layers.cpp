@@ -50,7 +50,7 @@ bool are_identical(const Image& a, const Image& b) {
 std::vector<LayerComparison> compare_layer(const fs::path& a, const fs::path& b,
                                            const std::string& name,
                                            const ComparisonOptions& options) {
-  PicturePair pair = read_pair(a, b, name);
+  PicturePair pair = read_pair(a, b, {name, name});
   LayerComparison layer{name, pair.a.source, pair.b.source};
   const PixelWindow &size_a = layer.a.display, &size_b = layer.b.display;
   if (size_a.width != size_b.width || size_a.height != size_b.height) {
@@ -130,12 +130,24 @@ std::string LayerComparison::title() const {
   return (overscan ? "overscan of layer " : "layer ") + printable(name);
 }
 
-PicturePair read_pair(const fs::path& a, const fs::path& b, const std::string& layer) {
+LayerNames parse_layer_names(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos) return {text, text};
+  LayerNames names{text.substr(0, equals), text.substr(equals + 1)};
+  if (names.a.empty() || names.b.empty())
+    throw Error(ExitCode::kUsage,
+                fmt::format("--layer {}: expected NAME, or NAME=NAME where the files call it "
+                            "differently",
+                            printable(text)));
+  return names;
+}
+
+PicturePair read_pair(const fs::path& a, const fs::path& b, const LayerNames& layer) {
   PicturePair pair;
   std::array<std::exception_ptr, 2> failed;
   oneapi::tbb::parallel_for(std::size_t{0}, failed.size(), [&](std::size_t i) {
     try {
-      (i == 0 ? pair.a : pair.b) = read_picture(i == 0 ? a : b, layer);
+      (i == 0 ? pair.a : pair.b) = read_picture(i == 0 ? a : b, i == 0 ? layer.a : layer.b);
     } catch (...) {
       failed[i] = std::current_exception();
     }

@@ -14,9 +14,17 @@ struct PicturePairSource {
   PictureSource a, b;
 };
 
-/// Reads one layer of both files, "" for the picture itself. Errors as read_picture().
+/// The names of one layer in two files; "" for the picture itself.
+struct LayerNames {
+  std::string a, b;
+};
+
+/// "NAME" for both files, or "NAME=NAME" where the two call it differently. Throws Error(kUsage) for one empty name of two.
+LayerNames parse_layer_names(const std::string& text);
+
+/// Reads one layer of both files. Errors as read_picture().
 PicturePair read_pair(const std::filesystem::path& a, const std::filesystem::path& b,
-                      const std::string& layer);
+                      const LayerNames& layer);
 
 /// Cuts both pictures to `options.crop`. Sets the pixels of `options.ignored` in `a` to those of `b`, or in both to 0
 /// where `b` is not finite. Throws Error(kInput) if the sizes differ, or do not hold the part.
@@ -37,7 +45,7 @@ Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const 
                             const ComparisonOptions& options);
 
 struct LayerOptions {
-  std::string layer;          ///< "" for the picture itself
+  LayerNames layer;
   bool all = false;           ///< also all other layers that both have
   bool ignore_alpha = false;  ///< the picture's alpha
 };

@@ -79,6 +79,16 @@ int count_mip_levels(OIIO::ImageInput& input, int part) {
   return levels;
 }
 
+/// The texts of an attribute that is a list of them.
+std::vector<std::string> texts(const OIIO::ImageSpec& spec, const char* name) {
+  const OIIO::ParamValue* list = spec.find_attribute(name);
+  if (!list || list->type().basetype != OIIO::TypeDesc::STRING) return {};
+  std::vector<std::string> result;
+  for (int i = 0; i < int(list->type().numelements()) * list->nvalues(); ++i)
+    result.emplace_back(list->get_string_indexed(i));
+  return result;
+}
+
 /// Uses an input of its own, because some readers fail for good once they are asked for a part that does not exist.
 std::vector<PicturePart> parts_of(const PictureBytes& file) {
   const auto input = open(file);
@@ -94,6 +104,8 @@ std::vector<PicturePart> parts_of(const PictureBytes& file) {
          ++c)
       part.channels.push_back(spec.channelnames[c]);
     part.mip_levels = count_mip_levels(*input, i);
+    part.view = spec.get_string_attribute("view");
+    part.views = texts(spec, "multiView");
     parts.push_back(std::move(part));
   }
   return parts;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/layer_names.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -97,13 +98,14 @@ std::string in_part(const PicturePart& part, std::size_t index, const std::strin
   return part_name + "." + name;
 }
 
-template <class Names>
-std::string list(const Names& names) {
-  constexpr std::size_t kShown = 40;  // a hostile file has thousands
+constexpr std::size_t kShown = 40;  // a hostile file has thousands
+
+/// The first of `count` names.
+std::string list(std::span<const std::string> names, std::size_t count) {
   std::vector<std::string> shown;
   for (const auto& name : names | std::views::take(kShown))
     shown.push_back(fmt::format("'{}'", printable(name)));
-  const std::size_t more = names.size() - shown.size();
+  const std::size_t more = count - shown.size();
   return fmt::format("{}{}", fmt::join(shown, ", "),
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
@@ -118,7 +120,7 @@ std::string list(const Names& names) {
       ExitCode::kInput,
       fmt::format("{}: no channels R, G and B, and no Y: its channels are {}; a layer has to "
                   "be chosen: {}",
-                  where, list(channels), list(names)));
+                  where, list(channels, channels.size()), list(names, names.size())));
 }
 
 /// The layer that a part's name means: its colours, or its only layer.
@@ -129,8 +131,24 @@ const PictureLayer* layer_of_part(std::size_t part, std::span<const PictureLayer
   return is_only ? &*std::ranges::find(layers, part, &PictureLayer::part) : nullptr;
 }
 
+/// All views of a file, the default one first. A hostile file has thousands.
+std::vector<std::string> views_of(std::span<const PicturePart> parts) {
+  constexpr std::size_t kMostViews = 16;
+  std::vector<std::string> views;
+  const auto add = [&](const std::string& view) {
+    if (!view.empty() && views.size() < kMostViews && std::ranges::count(views, view) == 0)
+      views.push_back(view);
+  };
+  for (const PicturePart& part : parts) {
+    add(part.view);
+    std::ranges::for_each(part.views, add);
+  }
+  return views;
+}
+
 /// The end if there is none, or several are possible.
-std::vector<RawLayer>::iterator find_picture(std::vector<RawLayer>& layers) {
+std::vector<RawLayer>::iterator find_picture(std::vector<RawLayer>& layers,
+                                             std::span<const PicturePart> parts) {
   const auto first = [&](auto is) { return std::find_if(layers.begin(), layers.end(), is); };
   const auto is_colour = [](const RawLayer& raw) { return raw.layer.is_colour; };
   const auto is_rgb = [](const RawLayer& raw) {
@@ -140,7 +158,58 @@ std::vector<RawLayer>::iterator find_picture(std::vector<RawLayer>& layers) {
   if (const auto rgb = first(is_rgb); rgb != layers.end()) return rgb;
   if (const auto grey = first(is_root); grey != layers.end()) return grey;
   if (std::ranges::count_if(layers, is_colour) == 1) return first(is_colour);
+  const std::vector<std::string> views = views_of(parts);
+  const auto has_other_view = [&](const RawLayer& raw) {
+    const std::string& name = raw.layer.name;
+    return std::ranges::any_of(views | std::views::drop(1), [&](const std::string& view) {
+      return name.ends_with("." + view) || parts[raw.layer.part].view == view;
+    });
+  };
+  const auto is_beauty = [&](const RawLayer& raw) {
+    return raw.layer.is_colour && is_called_picture(raw.layer.name, views) && !has_other_view(raw);
+  };
+  if (std::ranges::count_if(layers, is_beauty) == 1) return first(is_beauty);
   return layers.size() == 1 && layers[0].layer.where.size() == 1 ? layers.begin() : layers.end();
+}
+
+/// All dotted names that a layer has: its own, and by part, view and the prefix of its channels.
+std::vector<std::string> names_of(const PictureLayer& layer, const PicturePart& part) {
+  const auto& channels = part.channels;
+  const SplitName channel = split_name(channels[layer.where[0]]);
+  const auto shares_prefix = [&](const std::string& other) {
+    return split_name(other).prefix == channel.prefix;
+  };
+  std::vector<std::string> names{layer.name, in_part(part, layer.part, layer.name)};
+  const bool is_whole_prefix = layer.is_colour || layer.where.size() > 1 ||
+                               std::ranges::count_if(channels, shares_prefix) == 1;
+  if (is_whole_prefix && !channel.prefix.empty()) {
+    names.push_back(channel.prefix);
+    if (!part.view.empty()) names.push_back(channel.prefix + "." + part.view);
+  }
+  if (!part.view.empty()) {
+    names.push_back(part.view + "." + layer.name);
+    if (layer.is_colour && channel.prefix.empty()) names.push_back(part.view);
+  }
+  std::erase(names, "");
+  if (layer.name.empty()) {
+    names.emplace_back("beauty");  // found by all names for it
+    if (!part.views.empty()) names.push_back(part.views.front());
+  }
+  return names;
+}
+
+/// The layer that people call so. Throws Error(kInput) if it may be several.
+const PictureLayer* layer_called(const std::string& where, std::span<const PicturePart> parts,
+                                 std::span<const PictureLayer> layers, const std::string& name) {
+  std::vector<std::vector<std::string>> names;
+  for (const PictureLayer& layer : layers) names.push_back(names_of(layer, parts[layer.part]));
+  const std::vector<std::size_t> found = layers_meant(name, names, views_of(parts));
+  if (found.empty()) return nullptr;
+  if (found.size() == 1) return &layers[found[0]];
+  std::vector<std::string> several;
+  for (const std::size_t i : found) several.push_back(layers[i].name);
+  throw Error(ExitCode::kInput, fmt::format("{}: layer '{}' may be {}; give more of its name",
+                                            where, printable(name), list(several, several.size())));
 }
 
 }  // namespace
@@ -150,7 +219,7 @@ std::vector<PictureLayer> picture_layers(std::span<const PicturePart> parts) {
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (RawLayer& raw : layers_of_part(parts[p], p)) all.push_back(std::move(raw));
 
-  const auto picture = find_picture(all);
+  const auto picture = find_picture(all, parts);
   const bool has_picture = picture != all.end();
   if (has_picture) std::rotate(all.begin(), picture, picture + 1);
 
@@ -204,13 +273,17 @@ PictureLayer find_layer(const std::string& where, std::span<const PicturePart> p
       return {name, p, {c}, owner->is_colour, ""};
     }
   }
+  if (!is_part)
+    if (const PictureLayer* layer = layer_called(where, parts, layers, name)) return *layer;
   std::vector<std::string_view> names;
   for (const PictureLayer& layer : layers)
     if (!layer.name.empty()) names.push_back(layer.name);
-  throw Error(ExitCode::kInput, fmt::format("{}: no layer '{}'{}; {}", where, printable(name),
-                                            printable(did_you_mean(name, names)),
-                                            names.empty() ? "there is the picture alone"
-                                                          : "there are " + list(names)));
+  throw Error(
+      ExitCode::kInput,
+      fmt::format(
+          "{}: no layer '{}'{}; {}", where, printable(name), printable(did_you_mean(name, names)),
+          names.empty() ? "there is the picture alone"
+                        : "there are " + list(nearest_first(name, names, kShown), names.size())));
 }
 
 }  // namespace lobelia

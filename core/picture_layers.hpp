@@ -16,7 +16,10 @@ namespace lobelia {
 struct PicturePart {
   std::string name;  ///< may be empty
   std::vector<std::string> channels;
-  int mip_levels = 1;  ///< only the first is read
+  int mip_levels = 1;     ///< only the first is read
+  std::string view = {};  ///< "left": what a part of a stereo EXR shows
+  std::vector<std::string> views =
+      {};  ///< all views of a stereo EXR with one part, the default one first
 };
 
 struct PictureLayer {
@@ -31,9 +34,11 @@ struct PictureLayer {
 /// All layers, with unique names: the picture if there is one, then in the file's order.
 std::vector<PictureLayer> picture_layers(std::span<const PicturePart> parts);
 
-/// Finds a layer by its name, or by that of a channel or of a part (its colours, or its only layer). "" is the picture: R,
-/// G, B without a prefix, else Y without a prefix, else the only layer of colours, else the only channel. Throws
-/// Error(kInput) with the file's name `where`, the layers that there are, and the nearest name.
+/// Finds a layer by its name, or by that of a channel, of a part (its colours, or its only layer), or by what people call it
+/// (core/layer_names.hpp). "" is the picture: R, G, B without a prefix, else Y without a prefix, else the only layer of
+/// colours, else the only one called as renderers call their picture (is_called_picture(); the default view's), else the
+/// only channel. Throws Error(kInput) with the file's name `where` and the layers that there are, the nearest first; or with
+/// those that the name fits, if it fits several.
 PictureLayer find_layer(const std::string& where, std::span<const PicturePart> parts,
                         const std::string& name);
 

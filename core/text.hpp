@@ -10,6 +10,8 @@
 
 namespace lobelia {
 
+/// Letters inserted, dropped, changed, or swapped with their neighbour (Damerau's distance without edits inside a swap).
+std::size_t edit_distance(std::string_view a, std::string_view b);
 /// The candidate nearest to `word`, or "" if it takes more edits than a third of the length.
 std::string closest(std::string_view word, std::span<const std::string_view> candidates);
 /// "; did you mean 'x'?" or "", for the end of an error message.

@@ -35,6 +35,18 @@ TEST_F(ComparePictures, OneLayerIsComparedByItsName) {
               HasSubstr("no layer 'difuse'; did you mean 'diffuse'?; there are 'diffuse', 'Z'"));
 }
 
+TEST_F(ComparePictures, OneLayerMayHaveTwoNames) {
+  exr("a.exr", 32, 32,
+      {channel("View.DiffDir.R", 1), channel("View.DiffDir.G", 2), channel("View.DiffDir.B", 3),
+       channel("View.AO.R", 1), channel("View.AO.G", 1), channel("View.AO.B", 1)});
+  flat("b.exr", 9, {channel("diffuse.R", 1), channel("diffuse.G", 2), channel("diffuse.B", 3)});
+  const Record made = record({"a.exr", "b.exr", "--layer", "diffdir=diffuse"}, 0);
+  EXPECT_EQ(made["pictures"]["a"]["layer"], "View.DiffDir");
+  EXPECT_EQ(made["pictures"]["b"]["layer"], "diffuse");
+  EXPECT_EQ(compare({"a.exr", "b.exr", "--layer", "diffuse=diffdir"}).exit_code, 3);
+  EXPECT_EQ(compare({"a.exr", "b.exr", "--layer", "=diffuse"}).exit_code, 2);
+}
+
 TEST_F(ComparePictures, WithAllLayersTheWorstIsTheVerdictAndEachHasItsFigures) {
   flat("a.exr", 1, {channel("A", 0.5f), channel("Z", 70), channel("same.Y", 1)});
   flat("b.exr", 1, {channel("A", 0.75f), channel("same.Y", 1), channel("id", 3)});

@@ -176,5 +176,73 @@ TEST(PictureLayers, ThatHaveOneNameAreToldApart) {
   EXPECT_EQ(find_layer("", file, "eye#2").part, 2u);
 }
 
+const std::vector<PicturePart> kCycles = {
+    {"",
+     {"ViewLayer.Combined.R", "ViewLayer.Combined.G", "ViewLayer.Combined.B",
+      "ViewLayer.Combined.A", "ViewLayer.Denoising Albedo.R", "ViewLayer.Denoising Albedo.G",
+      "ViewLayer.Denoising Albedo.B", "ViewLayer.Normal.X", "ViewLayer.Normal.Y",
+      "ViewLayer.Normal.Z", "ViewLayer.Denoising Normal.X", "ViewLayer.Denoising Normal.Y",
+      "ViewLayer.Denoising Normal.Z", "ViewLayer.DiffDir.R", "ViewLayer.DiffDir.G",
+      "ViewLayer.DiffDir.B", "ViewLayer.Depth.Z"}}};
+
+TEST(PictureLayers, AreFoundByTheEndOfTheirNameInAnyCase) {
+  for (const char* name : {"Combined", "combined", "viewlayer.COMBINED", "beauty", "rgba"})
+    EXPECT_THAT(find_layer("", kCycles, name).where, ElementsAre(0, 1, 2)) << name;
+  EXPECT_THAT(find_layer("", kCycles, "diffdir").where, ElementsAre(13, 14, 15));
+  EXPECT_THAT(find_layer("", kCycles, "Depth").where, ElementsAre(16));
+  EXPECT_THAT(find_layer("", kCycles, "denoising_albedo").where, ElementsAre(4, 5, 6));
+}
+
+TEST(PictureLayers, AreFoundByTheNamesOfOtherRenderers) {
+  EXPECT_THAT(find_layer("", kCycles, "albedo").where, ElementsAre(4, 5, 6));
+  EXPECT_THAT(find_layer("", kCycles, "N").where, ElementsAre(7, 8, 9)) << "not the denoiser's";
+  EXPECT_THAT(find_layer("", kCycles, "diffuse_direct").where, ElementsAre(13, 14, 15));
+  EXPECT_THAT(find_layer("", kCycles, "z").where, ElementsAre(16));
+  EXPECT_THAT(message(kCycles, "diffuse"), HasSubstr("there are 'ViewLayer.DiffDir'"))
+      << "direct light is not all of it";
+  EXPECT_THAT(find_layer("", {{{"", {"R", "G", "B"}}}}, "combined").where, ElementsAre(0, 1, 2));
+}
+
+TEST(PictureLayers, WhatARendererCallsItsPictureIsThePicture) {
+  EXPECT_THAT(find_layer("", kCycles, "").where, ElementsAre(0, 1, 2));
+  auto two = kCycles;
+  for (const char* channel : {"Other.Combined.R", "Other.Combined.G", "Other.Combined.B"})
+    two[0].channels.emplace_back(channel);
+  EXPECT_THAT(message(two, ""), HasSubstr("a layer has to be chosen"));
+  EXPECT_THAT(message(two, "combined"),
+              HasSubstr("may be 'ViewLayer.Combined', 'Other.Combined'; give more of its name"));
+  EXPECT_THAT(find_layer("", two, "other.combined").where, ElementsAre(17, 18, 19));
+}
+
+TEST(PictureLayers, OfAStereoFileAreFoundByTheirView) {
+  // OpenEXR's rule: the default view is not in the names of channels without a layer.
+  PicturePart plain{"", {"R", "G", "B", "right.R", "right.G", "right.B"}};
+  plain.views = {"left", "right"};
+  EXPECT_THAT(find_layer("", {{plain}}, "").where, ElementsAre(0, 1, 2));
+  EXPECT_THAT(find_layer("", {{plain}}, "right").where, ElementsAre(3, 4, 5));
+  EXPECT_THAT(find_layer("", {{plain}}, "left").where, ElementsAre(0, 1, 2));
+
+  PicturePart cycles{"", {}};
+  for (const char* pass : {"AO", "Combined"})
+    for (const char* view : {"left", "right"})
+      for (const char* channel : {"R", "G", "B"})
+        cycles.channels.push_back(std::string("ViewLayer.") + pass + "." + view + "." + channel);
+  cycles.views = {"left", "right"};
+  EXPECT_THAT(find_layer("", {{cycles}}, "").where, ElementsAre(6, 7, 8));
+  EXPECT_THAT(find_layer("", {{cycles}}, "Left").where, ElementsAre(6, 7, 8));
+  EXPECT_THAT(find_layer("", {{cycles}}, "right").where, ElementsAre(9, 10, 11));
+  EXPECT_THAT(find_layer("", {{cycles}}, "combined.right").where, ElementsAre(9, 10, 11));
+  EXPECT_THAT(find_layer("", {{cycles}}, "ao").where, ElementsAre(0, 1, 2));
+
+  std::vector<PicturePart> parts = {
+      {"rgba_l", {"R", "G", "B"}}, {"rgba_r", {"R", "G", "B"}}, {"ao_r", {"AO.R", "AO.G", "AO.B"}}};
+  parts[0].view = "left";
+  parts[1].view = parts[2].view = "right";
+  EXPECT_EQ(find_layer("", parts, "right").part, 1u);
+  EXPECT_EQ(find_layer("", parts, "left").part, 0u);
+  EXPECT_EQ(find_layer("", parts, "ao.right").part, 2u);
+  EXPECT_EQ(find_layer("", parts, "rgba_r").part, 1u);
+}
+
 }  // namespace
 }  // namespace lobelia
