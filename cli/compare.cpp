@@ -333,7 +333,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
       "it differs from; only at a terminal, never in CI");
   general.add("--reference-floor", job.c, "C",
               "A second reference: how far it is from B is shown beside how far A is");
-  add_any_format(*command);
+  add_reading_options(*command);
   OptionGroup layers(*command, "Layers"), verdict(*command, "Verdict"), look(*command, "Viewing"),
       output(*command, "Output");
   auto* layer = layers.add(

@@ -34,10 +34,13 @@ CLI::Validator between(double min, double max) {
           fmt::format("{:g} to {:g}", min, max)};
 }
 
-void add_any_format(CLI::App& command) {
+void add_reading_options(CLI::App& command) {
   command.add_flag_callback(
       "--any-format", [] { read_any_picture_format(); },
       fmt::format("Read every format that OpenImageIO knows, not only {}", kPictureFormats));
+  command.add_flag_callback(
+      "--base-only", [] { read_base_pictures(); },
+      "Of a JPEG with a gain map read the picture without it (SDR)");
 }
 
 std::size_t chosen_place(const std::string& value, std::string_view option,

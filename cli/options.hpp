@@ -54,8 +54,8 @@ class OptionGroup {
   std::string heading_;
 };
 
-/// --any-format, for commands that read pictures from other programs.
-void add_any_format(CLI::App& command);
+/// --any-format and --base-only, for commands that read pictures from other programs.
+void add_reading_options(CLI::App& command);
 
 /// Looks up `value` with `find`. Throws Error(kUsage) that lists the `allowed` values and suggests the nearest of
 /// `names`.

@@ -372,7 +372,7 @@ void add_profile(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<ProfileArguments>();
   command->add_option("A", options->a, "Picture")->required();
   command->add_option("B", options->b, "Another one, the reference");
-  add_any_format(*command);
+  add_reading_options(*command);
   auto* scene = command->add_option(
       "--scene", options->scene,
       "The scene file that the pictures show; without it the brightest blob is measured");

@@ -12,9 +12,9 @@
 #include "compare/mask.hpp"
 #include "compare/overscan.hpp"
 #include "compare/require_same_size.hpp"
-#include "core/colour.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
+#include "core/picture_colour.hpp"
 #include "core/text.hpp"
 
 namespace lobelia {
@@ -192,14 +192,23 @@ double rounding_of(const PictureSource& source, double value) {
   const double steps = source.value_type == "uint8"    ? 255
                        : source.value_type == "uint16" ? 65535
                                                        : 0;
-  if (steps == 0 || !(value >= 0 && value <= 1)) return 0;
-  if (source.transfer != "sRGB") return 0.5 / steps;
-  const double encoded =
-      value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-  const auto decoded = [](double code) {
-    return double(srgb_decoded(float(std::clamp(code, 0.0, 1.0))));
+  if (steps == 0) return 0;
+  // A profile's curve is taken for that of sRGB: most are near it.
+  const auto named = named_curve(source.transfer), srgb = named_curve("sRGB");
+  const auto decoded = [&](double code) {
+    Image one(1, 1);
+    std::ranges::fill(one.values(), float(std::clamp(code, 0.0, 1.0)));
+    decode(named ? *named : *srgb, one);
+    return double(one.values()[0]);
   };
-  return std::max(decoded(encoded + 0.5 / steps) - value, value - decoded(encoded - 0.5 / steps));
+  if (!(value >= 0 && value <= decoded(1))) return 0;
+  double below = 0, above = 1;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (below + above) / 2;
+    (decoded(middle) < value ? below : above) = middle;
+  }
+  return std::max(
+      {0.0, decoded(above + 0.5 / steps) - value, value - decoded(above - 0.5 / steps)});
 }
 
 Comparison compare_pictures(PicturePair& pair, const std::string& file_a, const std::string& file_b,

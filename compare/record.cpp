@@ -37,7 +37,11 @@ records::PictureRead picture_record(const PictureSource& source) {
   record.display_window = window_record(source.display);
   record.chromaticities = source.chromaticities;
   record.icc_profile = source.icc_profile;
-  if (!source.icc_profile.empty()) record.icc_profile_is_srgb = source.icc_is_srgb;
+  if (!source.icc_profile.empty()) {
+    record.icc_profile_is_srgb = source.icc_is_srgb;
+    record.icc_profile_applied = source.transfer == kByProfile;
+  }
+  record.gain_map = source.gain_map;
   return record;
 }
 

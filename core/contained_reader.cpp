@@ -30,7 +30,7 @@ namespace lobelia {
 namespace fs = std::filesystem;
 namespace {
 
-std::atomic<bool> g_on_one_thread{false}, g_any_format{false};
+std::atomic<bool> g_on_one_thread{false}, g_any_format{false}, g_base_only{false};
 
 constexpr int kNotLoaded = 127;        // exit code of the dynamic linker
 constexpr int kPollMilliseconds = 50;  // between looks for Ctrl-C
@@ -223,6 +223,7 @@ Outcome ask(const fs::path& path, const std::string& layer, bool names_only,
   const PictureFile file(path);
   ReadingRequest request{.names_only = names_only,
                          .on_one_thread = g_on_one_thread || usual_threads() == 1,
+                         .base_only = g_base_only,
                          .format = {},
                          .path = path.string(),
                          .layer = layer,
@@ -287,5 +288,7 @@ std::vector<std::string> layer_names(const fs::path& path) { return ask(path, ""
 void decode_contained_on_one_thread() { g_on_one_thread = true; }
 
 void read_any_picture_format(bool any) { g_any_format = any; }
+
+void read_base_pictures(bool base_only) { g_base_only = base_only; }
 
 }  // namespace lobelia

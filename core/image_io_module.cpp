@@ -13,6 +13,8 @@
 
 #include "core/colour.hpp"
 #include "core/error.hpp"
+#include "core/gain_map.hpp"
+#include "core/icc_profile.hpp"
 #include "core/picture.hpp"
 #include "core/picture_colour.hpp"
 #include "core/picture_layers.hpp"
@@ -125,9 +127,12 @@ PixelWindow display_window(const OIIO::ImageSpec& spec, std::string_view format)
   return is_inside(data, display) || format == "openexr" ? display : data;
 }
 
-void check(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
-           std::string_view format) {
-  if (spec.deep) unreadable(path, "it is deep: a pixel has many values; flatten it first");
+void check(const std::filesystem::path& path, const OIIO::ImageSpec& spec, std::string_view format,
+           const std::string& part_name) {
+  if (spec.deep)
+    unreadable(path, fmt::format("{} is deep: a pixel has any number of samples; flatten it first "
+                                 "(oiiotool DEEP.exr --flatten -o FLAT.exr)",
+                                 part_name.empty() ? "it" : "its part '" + part_name + "'"));
   if (spec.depth > 1) unreadable(path, fmt::format("it is a volume, {} pictures deep", spec.depth));
   const PixelWindow data = data_window(spec), display = display_window(spec, format);
   for (const std::string& problem :
@@ -212,13 +217,14 @@ bool is_unassociated(const OIIO::ImageSpec& spec, std::string_view format) {
 /// How the file's colours become light with Rec. 709 primaries.
 struct ColourMeaning {
   TransferCurve curve{TransferCurve::Kind::kLinear, 1, "linear"};
-  std::optional<Chromaticities> primaries;  ///< nothing for Rec. 709
+  std::optional<Chromaticities> primaries = {};  ///< nothing for Rec. 709
+  std::optional<IccProfile> profile = {};        ///< in place of the two
 };
 
 ColourMeaning png_meaning(const PictureBytes& file) {
   const std::filesystem::path& path = file.path;
   const PngColour colour = png_colour(file.bytes);
-  ColourMeaning meaning{transfer_curve(path.string(), colour), std::nullopt};
+  ColourMeaning meaning{transfer_curve(path.string(), colour)};
   if (colour.cicp) {
     if (colour.cicp->matrix != 0 || !colour.cicp->full_range)
       unreadable(path, "its cICP chunk says no RGB of the full range");
@@ -226,10 +232,39 @@ ColourMeaning png_meaning(const PictureBytes& file) {
     if (!meaning.primaries)
       unreadable(path, fmt::format("its cICP chunk says colour primaries {}, which are not known",
                                    colour.cicp->primaries));
-  } else if (!colour.is_srgb) {
+  } else if (!colour.has_icc_profile && !colour.is_srgb) {
     meaning.primaries = colour.chromaticities;
   }
   return meaning;
+}
+
+/// The bytes of the ICC profile, where the format has a field for it; else empty.
+std::string_view icc_bytes(const PictureBytes& file, const OIIO::ImageSpec& spec,
+                           std::string_view format) {
+  if (format == "openexr") return {};
+  if (const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
+      profile && profile->type().basetype == OIIO::TypeDesc::UINT8)
+    return {static_cast<const char*>(profile->data()), std::size_t(profile->datasize())};
+  if (format == "png" && png_colour(file.bytes).has_icc_profile)
+    unreadable(file.path,
+               "libpng refuses its ICC profile: it is damaged, or not for the picture's colours");
+  return {};
+}
+
+/// A profile counts for integers, and for floats that it calls linear: other floats are light already. The chunk cICP of a
+/// PNG precedes it.
+void add_profile(const PictureBytes& file, const OIIO::ImageSpec& spec, std::string_view format,
+                 const PictureLayer& layer, PictureSource& source, ColourMeaning& meaning) {
+  if (!layer.is_colour || (format == "png" && png_colour(file.bytes).cicp)) return;
+  const std::string_view bytes = icc_bytes(file, spec, format);
+  if (bytes.empty()) return;
+  IccProfile profile(file.path, bytes, layer.where.size() == 1);
+  source.icc_profile =
+      spec.get_string_attribute("ICCProfile:profile_description", "without a name");
+  source.icc_is_srgb = profile.is_srgb();
+  const bool is_light = spec.channelformat(int(layer.where[0])).is_floating_point();
+  if (!profile.is_srgb() && (!is_light || profile.is_linear()))
+    meaning.profile = std::move(profile);
 }
 
 ColourMeaning colour_meaning(const PictureBytes& file, const OIIO::ImageSpec& spec,
@@ -263,19 +298,83 @@ void convert_primaries(const std::filesystem::path& path, const Chromaticities& 
   picture.source.chromaticities.assign(from.begin(), from.end());
 }
 
-void add_icc_profile(const OIIO::ImageSpec& spec, PictureSource& source) {
-  const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
-  if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return;
-  source.icc_is_srgb = is_srgb_profile(
-      {static_cast<const char*>(profile->data()), std::size_t(profile->datasize())});
-  source.icc_profile =
-      spec.get_string_attribute("ICCProfile:profile_description", "without a name");
+/// Makes the picture's colours light.
+void decode_colours(const std::filesystem::path& path, const ColourMeaning& meaning,
+                    Picture& picture) {
+  if (meaning.profile) {
+    meaning.profile->to_light(picture.image);
+    picture.source.transfer = kByProfile;
+    return;
+  }
+  const bool is_grey = picture.source.channels.size() == 1;
+  decode(meaning.curve, picture.image,
+         luminance_weights(meaning.primaries.value_or(kRec709Chromaticities)));
+  picture.source.transfer = meaning.curve.name;
+  if (meaning.primaries && !is_grey) convert_primaries(path, *meaning.primaries, picture);
+}
+
+/// A pixel's samples, as pbrt and Cycles write them into their files; 0 if there is no such number.
+double samples_of(const OIIO::ImageSpec& spec, const std::string& layer) {
+  double samples = spec.get_int_attribute("samplesPerPixel", 0);
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+    // "cycles.ViewLayer.samples", of the layer's first part.
+    const std::string_view name = attribute.name().string();
+    constexpr std::string_view kBegin = "cycles.", kEnd = ".samples";
+    if (!name.starts_with(kBegin) || !name.ends_with(kEnd) ||
+        name.size() <= kBegin.size() + kEnd.size())
+      continue;
+    const std::string view_layer(
+        name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size()));
+    double number = 0;
+    if ((layer + ".").starts_with(view_layer + ".") && parse_number(attribute.get_string(), number))
+      samples = number;
+  }
+  constexpr double kMostSamples = 1e12;
+  return samples >= 1 && samples <= kMostSamples ? samples : 0;
 }
 
 PictureClaim claim_of(const OIIO::ImageSpec& spec, std::string_view format) {
   const PixelWindow display = display_window(spec, format);
   return {std::uint64_t(spec.width) * spec.height + std::uint64_t(display.width) * display.height,
           spec.image_bytes(true)};
+}
+
+/// The values of a gain map, from 0 to 1, grey repeated.
+Image read_map(const PictureBytes& file, const GainMap& gain, PictureClaim claim) {
+  const PictureBytes bytes{.path = file.path, .bytes = gain.jpeg, .format = "jpeg"};
+  const auto input = open(bytes);
+  const OIIO::ImageSpec spec = input->spec();
+  if (is_cut_off(gain.jpeg, "jpeg")) unreadable(file.path, "its gain map is cut off");
+  check(file.path, spec, "jpeg", "");
+  if (spec.nchannels != 1 && spec.nchannels != 3)
+    unreadable(file.path, fmt::format("its gain map has {} channels", spec.nchannels));
+  const PictureClaim more = claim_of(spec, "jpeg");
+  if (file.on_header)
+    file.on_header({claim.pixels + more.pixels, claim.raw_bytes + more.raw_bytes});
+  std::vector<std::size_t> where{0};
+  if (spec.nchannels == 3) where = {0, 1, 2};
+  return read_channels({file.path, *input, 0, spec}, where);
+}
+
+/// Brightens the picture by its gain map, if it has one.
+void add_gain(const PictureBytes& file, const OIIO::ImageSpec& spec, const ColourMeaning& meaning,
+              Picture& picture) {
+  if (file.base_only) {
+    // Without --base-only a damaged map is an error; here it must not be one.
+    try {
+      if (find_gain_map(file.path, file.bytes)) picture.source.gain_map = "is left out";
+    } catch (const Error&) {
+      picture.source.gain_map = "is left out";
+    }
+    return;
+  }
+  const auto gain = find_gain_map(file.path, file.bytes);
+  if (!gain) return;
+  picture.source.gain_map = gain->base_is_hdr ? "is for SDR" : "is applied";
+  if (gain->base_is_hdr) return;
+  const RgbMatrix identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const RgbMatrix primaries = meaning.profile ? meaning.profile->primaries() : identity;
+  apply_gain(*gain, read_map(file, *gain, claim_of(spec, "jpeg")), primaries, picture.image);
 }
 
 Picture read(const PictureBytes& file, const std::string& layer_name) {
@@ -287,33 +386,37 @@ Picture read(const PictureBytes& file, const std::string& layer_name) {
   const OIIO::ImageSpec spec = input->spec(part);
   const std::string format = input->format_name();
   if (is_cut_off(file.bytes, format)) unreadable(path, "it is cut off");
-  check(path, spec, format);
+  if (format == "heif" && is_heif_of_hdr(file.bytes))
+    unreadable(
+        path,
+        "it is a HEIF or AVIF with PQ or HLG, of which OpenImageIO gives 8 bits alone; convert "
+        "it to a PNG of 16 bits with a cICP chunk");
+  check(path, spec, format, parts[layer.part].name);
   if (file.on_header) file.on_header(claim_of(spec, format));
 
   Picture picture;
   PictureSource& source = picture.source;
   const OIIO::TypeDesc type = spec.channelformat(int(layer.where[0]));
-  ColourMeaning meaning;
-  if (layer.is_colour) meaning = colour_meaning(file, spec, format, type);
-  const Reader reader{path, *input, part, spec};
-  picture.image = read_channels(reader, layer.where);
-  decode(meaning.curve, picture.image);
-  if (meaning.primaries && layer.where.size() == 3)
-    convert_primaries(path, *meaning.primaries, picture);
-  source.multiplied_by_alpha = layer.is_colour && is_unassociated(spec, format);
-  if (source.multiplied_by_alpha) multiply_by_alpha(reader, picture.image);
-
   source.format = format;
   source.layer = layer.name;
   for (const std::size_t c : layer.where) source.channels.push_back(parts[layer.part].channels[c]);
   source.alpha = layer.alpha;
   source.value_type = type.c_str();
-  source.transfer = meaning.curve.name;
-  add_icc_profile(spec, source);
+  source.samples = samples_of(spec, source.channels[0]);
   source.data = data_window(spec);
   source.display = display_window(spec, format);
   source.mip_levels = parts[layer.part].mip_levels;
   for (const PictureLayer& one : picture_layers(parts)) source.layers.push_back(one.name);
+
+  ColourMeaning meaning;
+  if (layer.is_colour) meaning = colour_meaning(file, spec, format, type);
+  add_profile(file, spec, format, layer, source, meaning);
+  const Reader reader{path, *input, part, spec};
+  picture.image = read_channels(reader, layer.where);
+  decode_colours(path, meaning, picture);
+  if (format == "jpeg" && layer_name.empty()) add_gain(file, spec, meaning, picture);
+  source.multiplied_by_alpha = layer.is_colour && is_unassociated(spec, format);
+  if (source.multiplied_by_alpha) multiply_by_alpha(reader, picture.image);
   if (!is_inside(source.data, source.display)) picture.overscan = picture.image;
   picture.image = place(std::move(picture.image), source.data, source.display);
   return picture;

@@ -20,6 +20,7 @@ struct PictureBytes {
   /// The plug-in of OpenImageIO to use, as picture_format(); "": any, which opens the file `reopen` by itself.
   std::string_view format;
   std::filesystem::path reopen = {};
+  bool base_only = false;                                   ///< leaves out a gain map
   std::function<void(const PictureClaim&)> on_header = {};  ///< may throw
 };
 

@@ -27,17 +27,23 @@ bool is_inside(const PixelWindow& inner, const PixelWindow& outer);
 /// Moves `image` from the window `data` to `display`: cut off outside, 0 where there are no data.
 Image place(Image image, const PixelWindow& data, const PixelWindow& display);
 
+/// PictureSource::transfer where the ICC profile was applied.
+inline constexpr char kByProfile[] = "ICC profile";
+
 struct PictureSource {
   std::string format;                 ///< "openexr", "png": OpenImageIO's name
   std::string layer;                  ///< "" for the picture itself
   std::vector<std::string> channels;  ///< in the file: three, a vector's two, or one for grey
   std::string value_type;             ///< as stored: "half", "float", "uint8", "uint16", "uint"
-  std::string transfer;               ///< TransferCurve::name: "linear", "sRGB", "gamma 1.8"
-  bool multiplied_by_alpha = false;   ///< by us, after the transfer curve
+  /// TransferCurve::name: "linear", "sRGB", "gamma 1.8", "PQ"; or kByProfile
+  std::string transfer;
+  bool multiplied_by_alpha = false;  ///< by us, after the transfer curve
   /// x, y of red, green, blue and white that the colours were converted from; empty for Rec. 709
   std::vector<double> chromaticities;
-  std::string icc_profile;   ///< description of a profile, which is not applied
+  std::string icc_profile;   ///< description of a profile
   bool icc_is_srgb = false;  ///< the profile is what is assumed anyway
+  std::string gain_map;      ///< "is applied", "is left out", "is for SDR"; empty if there is none
+  double samples = 0;        ///< of a pixel, if a renderer wrote them into the file; else 0
   PixelWindow data, display;
   std::string alpha;                ///< name of the layer with its alpha; empty if there is none
   std::vector<std::string> layers;  ///< all layers of the file, as layer_names()

@@ -19,13 +19,13 @@ constexpr double kLeastGamma = 0.1, kMostGamma = 10;
 using Kind = TransferCurve::Kind;
 
 const TransferCurve kLinear{Kind::kLinear, 1, "linear"}, kSrgb{Kind::kSrgb, 1, "sRGB"},
-    kRec709{Kind::kRec709, 1, "Rec709"};
+    kRec709{Kind::kRec709, 1, "Rec709"}, kPq{Kind::kPq, 1, "PQ"}, kHlg{Kind::kHlg, 1, "HLG"};
 
 [[noreturn]] void unknown_curve(const std::string& where, const std::string& what) {
   throw Error(
       ExitCode::kInput,
-      fmt::format("{}: not a readable picture: {}; sRGB, linear, Rec709 and a gamma from {} "
-                  "to {} are read",
+      fmt::format("{}: not a readable picture: {}; sRGB, linear, Rec709, PQ, HLG and a gamma from "
+                  "{} to {} are read",
                   where, what, kLeastGamma, kMostGamma));
 }
 
@@ -53,84 +53,14 @@ TransferCurve curve_of_code_point(const std::string& where, int transfer) {
     case 2:  // unspecified
     case 13:
       return kSrgb;
+    case 16:
+      return kPq;
+    case 18:
+      return kHlg;
     default:
       unknown_curve(where,
                     fmt::format("its cICP chunk says transfer characteristics {}", transfer));
   }
-}
-
-// ICC.1:2022: header 7.2, tags 7.3, XYZ 10.31, curves 10.6 and 10.18.
-
-std::uint64_t icc_number(std::string_view bytes, std::size_t at, std::size_t size = 4) {
-  return number_at(bytes, at, false, size);
-}
-
-double fixed(std::string_view bytes, std::size_t at) {
-  return double(std::int32_t(icc_number(bytes, at))) / 65536;
-}
-
-bool is_at(std::string_view bytes, std::size_t at, std::string_view name) {
-  return at < bytes.size() && bytes.substr(at).starts_with(name);
-}
-
-std::optional<std::string_view> find_tag(std::string_view profile, std::string_view name) {
-  constexpr std::size_t kTags = 128, kMostTags = 1000;
-  const std::size_t count = icc_number(profile, kTags);
-  for (std::size_t i = 0; i < count && i < kMostTags; ++i) {
-    const std::size_t entry = kTags + 4 + 12 * i;
-    if (!is_at(profile, entry, name)) continue;
-    const std::size_t at = icc_number(profile, entry + 4), size = icc_number(profile, entry + 8);
-    if (at > profile.size() || size > profile.size() - at || size < 12) return std::nullopt;
-    return profile.substr(at, size);
-  }
-  return std::nullopt;
-}
-
-bool is_near_primary(std::string_view profile, std::string_view name, double x, double y,
-                     double z) {
-  const auto tag = find_tag(profile, name);
-  if (!tag || !is_at(*tag, 0, "XYZ ") || tag->size() < 20) return false;
-  constexpr double kNear = 0.003;
-  return std::abs(fixed(*tag, 8) - x) < kNear && std::abs(fixed(*tag, 12) - y) < kNear &&
-         std::abs(fixed(*tag, 16) - z) < kNear;
-}
-
-/// NaN for an unknown type of curve.
-double parametric(std::string_view tag, double value) {
-  const std::size_t type = icc_number(tag, 8, 2);
-  constexpr std::size_t kParameters[] = {1, 3, 4, 5, 7};
-  if (type >= std::size(kParameters) || tag.size() < 12 + 4 * kParameters[type]) return NAN;
-  double p[7] = {1, 1, 0, 0, 0, 0, 0};  // g, a, b, c, d, e, f
-  for (std::size_t i = 0; i < kParameters[type]; ++i) p[i] = fixed(tag, 12 + 4 * i);
-  const auto [g, a, b, c, d, e, f] = p;
-  if (type == 0) return std::pow(value, g);
-  if (type <= 2)
-    return value >= -b / a ? std::pow(a * value + b, g) + (type == 2 ? c : 0) : type == 2 ? c : 0;
-  return value >= d ? std::pow(a * value + b, g) + (type == 4 ? e : 0)
-                    : c * value + (type == 4 ? f : 0);
-}
-
-double curve(std::string_view tag, double value) {
-  if (is_at(tag, 0, "para")) return parametric(tag, value);
-  if (!is_at(tag, 0, "curv")) return NAN;
-  const std::size_t count = icc_number(tag, 8);
-  if (count == 0) return value;
-  if (count == 1) return std::pow(value, double(icc_number(tag, 12, 2)) / 256);
-  if ((tag.size() - 12) / 2 < count) return NAN;
-  const double place = value * double(count - 1);
-  const auto below = std::size_t(place);
-  const auto low = double(icc_number(tag, 12 + 2 * below, 2)),
-             high = double(icc_number(tag, 14 + 2 * below, 2));
-  return (low + (high - low) * (place - double(below))) / 65535;
-}
-
-bool is_srgb_curve(std::string_view profile, std::string_view name) {
-  const auto tag = find_tag(profile, name);
-  if (!tag) return false;
-  constexpr double kNear = 0.002;
-  for (const float value : {0.1f, 0.5f, 0.9f})
-    if (!(std::abs(curve(*tag, value) - srgb_decoded(value)) < kNear)) return false;
-  return true;
 }
 
 using Column = std::array<double, 3>;
@@ -158,7 +88,44 @@ Column product(const RgbMatrix& a, const Column& b) {
   return result;
 }
 
-/// By cofactors; infinite or NaN if there is no inverse.
+/// XYZ of the colour at x, y with Y = 1.
+Column white_xyz(const Chromaticities& of) {
+  return {of[6] / of[7], 1, (1 - of[6] - of[7]) / of[7]};
+}
+
+// ITU-R BT.2100-2, tables 4 and 5; ITU-R BT.2408-7, 2.1 for the white.
+constexpr double kHdrWhite = 203, kPqPeak = 10000, kHlgPeak = 1000;  // cd/m^2
+
+float pq_decoded(float code) {
+  constexpr double m1 = 2610.0 / 16384, m2 = 2523.0 / 4096 * 128, c1 = 3424.0 / 4096,
+                   c2 = 2413.0 / 4096 * 32, c3 = 2392.0 / 4096 * 32;
+  const double power = std::pow(std::clamp(double(code), 0.0, 1.0), 1 / m2);
+  return float(kPqPeak / kHdrWhite *
+               std::pow(std::max(power - c1, 0.0) / (c2 - c3 * power), 1 / m1));
+}
+
+/// The light of the scene, from 0 to 1.
+double hlg_scene_light(double code) {
+  constexpr double a = 0.17883277, b = 1 - 4 * a, c = 0.55991073;
+  return code <= 0.5 ? code * std::max(code, 0.0) / 3 : (std::exp((code - c) / a) + b) / 12;
+}
+
+/// By the OOTF of a display of 1000 cd/m^2.
+void decode_hlg(std::span<float> values, const std::array<double, 3>& luminance) {
+  constexpr double kSystemGamma = 1.2;
+  for (std::size_t i = 0; i < values.size(); i += 3) {
+    double light[3], y = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      light[c] = hlg_scene_light(double(values[i + c]));
+      y += luminance[c] * light[c];
+    }
+    const double gain = y > 0 ? kHlgPeak / kHdrWhite * std::pow(y, kSystemGamma - 1) : 0;
+    for (std::size_t c = 0; c < 3; ++c) values[i + c] = float(gain * light[c]);
+  }
+}
+
+}  // namespace
+
 RgbMatrix inverse(const RgbMatrix& m) {
   RgbMatrix result;
   const auto cofactor = [&](std::size_t i, std::size_t j) {
@@ -172,12 +139,6 @@ RgbMatrix inverse(const RgbMatrix& m) {
   return result;
 }
 
-/// XYZ of the colour at x, y with Y = 1.
-Column white_xyz(const Chromaticities& of) {
-  return {of[6] / of[7], 1, (1 - of[6] - of[7]) / of[7]};
-}
-
-/// Columns are the XYZ of red, green and blue, which add up to white. Nothing if one would be negative.
 std::optional<RgbMatrix> to_xyz(const Chromaticities& of) {
   RgbMatrix primaries;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -194,7 +155,10 @@ std::optional<RgbMatrix> to_xyz(const Chromaticities& of) {
   return primaries;
 }
 
-}  // namespace
+std::array<double, 3> luminance_weights(const Chromaticities& of) {
+  const auto xyz = to_xyz(of);
+  return xyz ? (*xyz)[1] : luminance_weights(kRec709Chromaticities);
+}
 
 TransferCurve transfer_curve(const std::string& where, const StatedEncoding& stated) {
   constexpr std::string_view kFormatsWithField[] = {"dpx", "cineon", "targa", "hdr", "rla"};
@@ -211,13 +175,23 @@ TransferCurve transfer_curve(const std::string& where, const StatedEncoding& sta
 
 TransferCurve transfer_curve(const std::string& where, const PngColour& colour) {
   if (colour.cicp) return curve_of_code_point(where, colour.cicp->transfer);
-  if (colour.is_srgb || !colour.gamma) return kSrgb;
+  if (colour.has_icc_profile || colour.is_srgb || !colour.gamma) return kSrgb;
   // ImageMagick and POV-Ray write this for sRGB: the chunk sRGB is younger than gAMA.
   if (std::abs(*colour.gamma - 2.2) < 0.05) return {Kind::kSrgb, 1, "sRGB (gAMA 1/2.2)"};
   return gamma_curve(where, *colour.gamma);
 }
 
-void decode(const TransferCurve& curve, Image& image) {
+std::optional<TransferCurve> named_curve(std::string_view name) {
+  for (const TransferCurve& curve : {kLinear, kSrgb, kRec709, kPq, kHlg})
+    if (name == curve.name) return curve;
+  double gamma = 0;
+  constexpr std::string_view kGamma = "gamma ";
+  if (name.starts_with(kGamma) && parse_number(name.substr(kGamma.size()), gamma))
+    return TransferCurve{Kind::kPower, gamma, std::string(name)};
+  return std::nullopt;
+}
+
+void decode(const TransferCurve& curve, Image& image, const std::array<double, 3>& luminance) {
   switch (curve.kind) {
     case Kind::kLinear:
       return;
@@ -232,16 +206,13 @@ void decode(const TransferCurve& curve, Image& image) {
     case Kind::kPower:
       for (float& value : image.values())
         if (!(value <= 0)) value = std::pow(value, float(curve.gamma));
+      return;
+    case Kind::kPq:
+      for (float& value : image.values()) value = pq_decoded(value);
+      return;
+    case Kind::kHlg:
+      decode_hlg(image.values(), luminance);
   }
-}
-
-bool is_srgb_profile(std::string_view profile) {
-  if (is_at(profile, 16, "GRAY")) return is_srgb_curve(profile, "kTRC");
-  return is_at(profile, 16, "RGB ") && is_near_primary(profile, "rXYZ", 0.4360, 0.2225, 0.0139) &&
-         is_near_primary(profile, "gXYZ", 0.3851, 0.7169, 0.0971) &&
-         is_near_primary(profile, "bXYZ", 0.1431, 0.0606, 0.7141) &&
-         is_srgb_curve(profile, "rTRC") && is_srgb_curve(profile, "gTRC") &&
-         is_srgb_curve(profile, "bTRC");
 }
 
 bool are_rec709(const Chromaticities& chromaticities) {

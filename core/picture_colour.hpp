@@ -11,12 +11,22 @@
 
 namespace lobelia {
 
+/// CIE 1931 x, y of red, green, blue and white.
+using Chromaticities = std::array<double, 8>;
+
+/// ITU-R BT.709-6, item 1.3 and 1.4.
+inline constexpr Chromaticities kRec709Chromaticities = {0.64, 0.33, 0.30,   0.60,
+                                                         0.15, 0.06, 0.3127, 0.3290};
+
+/// By rows.
+using RgbMatrix = std::array<std::array<double, 3>, 3>;
+
 /// The curve that a file's values were encoded with.
 struct TransferCurve {
-  enum class Kind { kLinear, kSrgb, kRec709, kPower };
+  enum class Kind { kLinear, kSrgb, kRec709, kPower, kPq, kHlg };
   Kind kind = Kind::kLinear;
   double gamma = 1;  ///< for kPower: light = value^gamma
-  std::string name;  ///< for the record: "linear", "sRGB", "Rec709", "gamma 1.8", ...
+  std::string name;  ///< for the record: "linear", "sRGB", "Rec709", "gamma 1.8", "PQ", "HLG"
 };
 
 /// The encoding that a file states, as OpenImageIO reports it.
@@ -32,23 +42,20 @@ struct StatedEncoding {
 /// Throws Error(kInput) with the file's name `where` for a curve that is not read.
 TransferCurve transfer_curve(const std::string& where, const StatedEncoding& stated);
 
-/// The curve of a PNG, by its chunks: cICP, else sRGB, else gAMA, else sRGB.
+/// The curve of a PNG, by its chunks: cICP, else sRGB for a profile or the chunk sRGB, else gAMA, else sRGB.
 TransferCurve transfer_curve(const std::string& where, const PngColour& colour);
 
-/// In place. Negative values stay as they are, except on the straight pieces of sRGB and Rec. 709.
-void decode(const TransferCurve& curve, Image& image);
+/// The curve of that TransferCurve::name, if its name alone tells it.
+std::optional<TransferCurve> named_curve(std::string_view name);
 
-/// Whether an ICC profile is that of sRGB, by its colours and curves, not by its name: primaries within 0.003 of sRGB's
-/// in ICC profiles (D50), curves within 0.002 of sRGB's at three places. A grey profile has a curve only. False for a
-/// damaged profile and for one with tables of colours.
-bool is_srgb_profile(std::string_view profile);
+/// Y of red, green and blue, which add up to 1; those of Rec. 709 for impossible primaries.
+std::array<double, 3> luminance_weights(const Chromaticities& of);
 
-/// CIE 1931 x, y of red, green, blue and white.
-using Chromaticities = std::array<double, 8>;
-
-/// ITU-R BT.709-6, item 1.3 and 1.4.
-inline constexpr Chromaticities kRec709Chromaticities = {0.64, 0.33, 0.30,   0.60,
-                                                         0.15, 0.06, 0.3127, 0.3290};
+/// In place. Negative values stay as they are, except on the straight pieces of sRGB and Rec. 709, and with PQ and HLG,
+/// where they become 0. PQ and HLG become the light of the display, 1 for 203 cd/m^2: the white of ITU-R BT.2408. An HLG
+/// display has 1000 cd/m^2 and the system gamma 1.2 (ITU-R BT.2100), by the `luminance` of the picture's primaries.
+void decode(const TransferCurve& curve, Image& image,
+            const std::array<double, 3>& luminance = luminance_weights(kRec709Chromaticities));
 
 /// Within 1e-4 each, because published chromaticities are rounded.
 bool are_rec709(const Chromaticities& chromaticities);
@@ -60,8 +67,14 @@ std::optional<Chromaticities> chromaticities_of_code_point(int primaries);
 /// RGBtoXYZ (ImfChromaticities.cpp), from the file's white to D65 by Bradford's cone responses, to RGB. Grey stays as
 /// it is. Nothing for impossible primaries: not finite, far away, on a line, or with the white outside. Imaginary
 /// primaries such as those of ACES are allowed.
-using RgbMatrix = std::array<std::array<double, 3>, 3>;
 std::optional<RgbMatrix> to_rec709(const Chromaticities& from);
+
+/// Linear RGB to XYZ, without adaptation: columns are the XYZ of red, green and blue, which add up to white with Y = 1.
+/// Nothing if one would be negative.
+std::optional<RgbMatrix> to_xyz(const Chromaticities& from);
+
+/// Infinite or NaN if there is none.
+RgbMatrix inverse(const RgbMatrix& matrix);
 
 /// In place.
 void apply(const RgbMatrix& matrix, Image& image);

@@ -113,6 +113,18 @@ bool is_exr_that_claims_too_much(std::string_view bytes) {
   }
 }
 
+bool is_heif_of_hdr(std::string_view bytes) {
+  // ISO/IEC 23008-12: the box colr of kind nclx, as ITU-T H.273 has it. Boxes come before the pixels.
+  constexpr std::string_view kBox = "colrnclx";
+  constexpr std::size_t kBoxes = 1 << 16;
+  const std::string_view head = bytes.substr(0, kBoxes);
+  for (std::size_t at = head.find(kBox); at != head.npos; at = head.find(kBox, at + 1)) {
+    const std::uint64_t transfer = number_at(head, at + kBox.size() + 2, false, 2);
+    if (transfer == 16 || transfer == 18) return true;
+  }
+  return false;
+}
+
 bool is_cut_off(std::string_view bytes, std::string_view format) {
   if (format == "jpeg") {
     // ITU-T T.81, B.1.1.3: within a scan neither follows 0xff, so the last of each is a marker.

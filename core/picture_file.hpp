@@ -35,6 +35,9 @@ bool is_exr_that_claims_too_much(std::string_view bytes);
 /// fill in what is missing and report nothing. `format` is OpenImageIO's name; false for any other format.
 bool is_cut_off(std::string_view bytes, std::string_view format);
 
+/// Whether a HEIF or AVIF says that its values are PQ or HLG. OpenImageIO 2.4 decodes it to 8 bits and does not say so.
+bool is_heif_of_hdr(std::string_view bytes);
+
 /// Whether a page of a TIFF has no BitsPerSample. It is 1 by default (TIFF 6.0, page 29), but OpenImageIO 2.4 assumes 8
 /// and leaves the rest of each row uninitialised.
 bool is_tiff_without_bits(std::string_view bytes);

@@ -1,5 +1,6 @@
 #include "core/picture_message.hpp"
 
+#include <cmath>
 #include <cstring>
 
 namespace lobelia {
@@ -28,6 +29,7 @@ class Packer {
     add(texts.size());
     for (const std::string& text : texts) add(text);
   }
+  void add(double number) { add(std::vector<double>{number}); }
   void add(const std::vector<double>& numbers) {
     add(std::string(reinterpret_cast<const char*>(numbers.data()),
                     numbers.size() * sizeof(double)));
@@ -69,6 +71,13 @@ class Unpacker {
     // Each text takes at least the bytes of its length, so the message's size bounds the memory.
     for (take(left); left > 0; --left) take(texts.emplace_back());
   }
+  void take(double& number) {
+    std::vector<double> numbers;
+    take(numbers);
+    if (numbers.size() != 1 || !std::isfinite(numbers[0]))
+      throw std::runtime_error("a message has no number");
+    number = numbers[0];
+  }
   void take(std::vector<double>& numbers) {
     std::string bytes;
     take(bytes);
@@ -84,15 +93,18 @@ class Unpacker {
 template <class Through, class Source>
 void pass_source(Through& through, Source& source) {
   auto& [format, layer, channels, value_type, transfer, multiplied_by_alpha, chromaticities,
-         icc_profile, icc_is_srgb, data, display, alpha, layers, mip_levels] = source;
+         icc_profile, icc_is_srgb, gain_map, samples, data, display, alpha, layers, mip_levels] =
+      source;
   through.fields(format, layer, channels, value_type, transfer, multiplied_by_alpha, chromaticities,
-                 icc_profile, icc_is_srgb, data, display, alpha, layers, mip_levels);
+                 icc_profile, icc_is_srgb, gain_map, samples, data, display, alpha, layers,
+                 mip_levels);
 }
 
 template <class Through, class Request>
 void pass_request(Through& through, Request& request) {
-  through.fields(request.names_only, request.on_one_thread, request.format, request.path,
-                 request.layer, request.limit.pixels_of_any_file, request.limit.pixels_per_byte);
+  through.fields(request.names_only, request.on_one_thread, request.base_only, request.format,
+                 request.path, request.layer, request.limit.pixels_of_any_file,
+                 request.limit.pixels_per_byte);
 }
 
 template <class Through, class Answer>

@@ -16,7 +16,8 @@ namespace lobelia {
 struct ReadingRequest {
   bool names_only = false;  ///< layer names instead of a picture
   bool on_one_thread = false;
-  std::string format;  ///< as picture_format(); "": any
+  bool base_only = false;  ///< without gain maps
+  std::string format;      ///< as picture_format(); "": any
   std::string path, layer;
   PictureLimit limit{};
 };

@@ -102,7 +102,10 @@ Picture read_checked(const ImageIoTable& table, const PictureBytes& file,
 ReadingAnswer decode(const ImageIoTable& table, const Job& job, std::string_view bytes,
                      std::uint64_t began_with, Picture& picture) {
   const ReadingRequest& request = job.request;
-  PictureBytes file{.path = request.path, .bytes = bytes, .format = request.format};
+  PictureBytes file{.path = request.path,
+                    .bytes = bytes,
+                    .format = request.format,
+                    .base_only = request.base_only};
   if (request.format.empty()) file.reopen = fmt::format("/proc/self/fd/{}", job.file);
   std::uint64_t allowance = kMemoryToOpen;
   file.on_header = [&](const PictureClaim& claim) {

@@ -1,4 +1,5 @@
 
+#include "core/gain_map.hpp"
 #include "core/picture_file.hpp"
 #include "core/picture_message.hpp"
 #include "fuzz/bundle.hpp"
@@ -34,7 +35,13 @@ void check_picture_door(std::string_view bytes) {
   }
   is_exr_that_claims_too_much(bytes);
   is_tiff_without_bits(bytes);
+  is_heif_of_hdr(bytes);
   png_colour(bytes);
+  try {
+    find_gain_map("picture.jpg", bytes);
+  } catch (const Error& error) {
+    check_refusal(error);
+  }
 
   static const std::filesystem::path path = scratch() / "picture.tga";
   write_plainly(path, bytes);

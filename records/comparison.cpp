@@ -28,7 +28,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("channels", "names in the file: three, one for grey, or the two or three of a vector")
         .items(1, 3);
     t.key("valueType", "as stored: half, float, uint8, uint16, uint");
-    t.key("transfer", "decoded from: linear, sRGB, Rec709, gamma 1.8");
+    t.key("transfer", "decoded from: linear, sRGB, Rec709, gamma 1.8, PQ, HLG, ICC profile");
     t.key("multipliedByAlpha", "the file's colours were not");
     t.key("dataWindow", "where the file has values");
     t.key("displayWindow", "the picture");
@@ -37,8 +37,13 @@ void define_comparison_tables(Tables& tables) {
           "they are Rec. 709")
         .items(8, 8)
         .if_any();
-    t.key("iccProfile", "the profile's own name; it is not applied").if_any();
+    t.key("iccProfile", "the profile's own name").if_any();
     t.key("iccProfileIsSrgb", "its primaries and curves are those of sRGB, which is assumed");
+    t.key("iccProfileApplied",
+          "values became light by it: those of integers do, unless it is sRGB's");
+    t.key("gainMap",
+          "of a JPEG: \"is applied\", \"is left out\" or \"is for SDR\"; missing if it has none")
+        .if_any();
   });
   tables.define<PicturesRead>("How both files were read.");
   tables.define<NonfinitePlace>("A value that is not finite.", [](auto& t) {

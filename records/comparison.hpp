@@ -27,7 +27,8 @@ struct PictureRead {
   Window data_window, display_window;
   std::vector<double> chromaticities;
   std::string icc_profile;
-  std::optional<bool> icc_profile_is_srgb;
+  std::optional<bool> icc_profile_is_srgb, icc_profile_applied;
+  std::string gain_map;
 };
 
 struct PicturesRead {

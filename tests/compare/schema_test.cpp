@@ -111,6 +111,7 @@ records::Comparison record_of_files() {
   others.not_compared = {{"Z"}, true, 5, 2};
   others.common = {{}, {"Z"}, {}};
   source.icc_profile = "sRGB";
+  source.gain_map = "is applied";
   source.chromaticities = {0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
   const Comparison picture = compare(good, good, {});
   records::Comparison made = comparison_record(picture, "a.exr", "b.exr");
@@ -254,7 +255,7 @@ TEST(BrokenRecords, OfFilesAreRefused) {
     expect_refused<records::Comparison>(good, change);
   };
   for (const auto& [key, value] : good["pictures"]["a"].items())
-    if (!key.starts_with("iccProfile") && key != "chromaticities")
+    if (!key.starts_with("iccProfile") && key != "chromaticities" && key != "gainMap")
       broken([&](Plain& r) { r["pictures"]["a"].erase(key); });
   for (const char* key : {"layer", "verdict", "pictures", "metrics"})
     broken([&](Plain& r) { r["layers"][0].erase(key); });

@@ -4,6 +4,7 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIntAttribute.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
@@ -12,6 +13,7 @@
 #include <half.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -87,6 +89,7 @@ struct Tiff {
   std::string samples = {};
   bool directory_first = false;
   bool says_bits = true;
+  std::string profile = {};  ///< ICC
 };
 
 inline std::string tiff_file(const Tiff& tiff) {
@@ -94,7 +97,7 @@ inline std::string tiff_file(const Tiff& tiff) {
     std::uint32_t tag, type, count, value;
   };
   const auto samples = std::uint32_t(tiff.samples_per_pixel);
-  const std::uint32_t count = tiff.says_bits ? 10 : 9;
+  const std::uint32_t count = (tiff.says_bits ? 10u : 9u) + !tiff.profile.empty();
   const std::uint32_t start = tiff.directory_first ? 8 + 2 + 12 * count + 4 : 8;
   std::vector<Entry> entries = {{256, 4, 1, tiff.width},
                                 {257, 4, 1, tiff.height},
@@ -108,6 +111,12 @@ inline std::string tiff_file(const Tiff& tiff) {
                                 {339, 3, 1, tiff.is_float ? 3u : 1u}};
   if (!tiff.says_bits) entries.erase(entries.begin() + 2);
   std::string padded = tiff.samples;
+  if (!tiff.profile.empty()) {
+    padded.resize((padded.size() + 3) / 4 * 4);
+    entries.push_back(
+        {34675, 7, std::uint32_t(tiff.profile.size()), start + std::uint32_t(padded.size())});
+    padded += tiff.profile;
+  }
   if (padded.size() % 2 != 0) padded += '\0';
   std::string directory = little_endian(std::uint32_t(entries.size()), 2);
   for (const Entry& e : entries)
@@ -119,29 +128,59 @@ inline std::string tiff_file(const Tiff& tiff) {
          (tiff.directory_first ? directory + padded : padded + directory);
 }
 
-// ---- JPEG (ITU-T T.81): 8 x 8 pixels, every component in the middle of its range
+// ---- JPEG (ITU-T T.81)
 
-inline std::string grey_jpeg_file(int components) {
-  const auto segment = [](int marker, const std::string& data) {
-    return '\xff' + std::string(1, char(marker)) + big_endian(std::uint32_t(data.size() + 2), 2) +
-           data;
-  };
-  std::string frame = big_endian(8, 1) + big_endian(8, 2) + big_endian(8, 2) + char(components);
+inline std::string jpeg_segment(int marker, const std::string& data) {
+  return '\xff' + std::string(1, char(marker)) + big_endian(std::uint32_t(data.size() + 2), 2) +
+         data;
+}
+
+/// Blocks of 8 x 8 pixels, each of one colour: `values` has the grey or R, G and B of each block, row by row. Exact: one
+/// step of quantisation is an eighth of a code.
+inline std::string block_jpeg(int columns, int rows, int components,
+                              const std::vector<std::uint8_t>& values) {
+  std::string frame = big_endian(8, 1) + big_endian(std::uint32_t(8 * rows), 2) +
+                      big_endian(std::uint32_t(8 * columns), 2) + char(components);
   std::string scan(1, char(components));
   for (int c = 1; c <= components; ++c) {
     frame += std::string{char(c), '\x11', '\0'};
     scan += std::string{char(c), '\0'};
   }
-  // Tables with one code each: the step of a DC is 0, and no AC follows.
-  const std::string code = '\1' + std::string(15, '\0') + '\0';
-  // Two bits a component, 0, and ones up to a whole byte.
-  const int bits = 2 * components;
-  const char data = char(0xff >> bits);
+  // Twelve codes of four bits, the sizes of a DC's difference; one of one bit, the end of a block.
+  std::string sizes = std::string{0, 0, 0, 12} + std::string(12, '\0');
+  for (int size = 0; size < 12; ++size) sizes += char(size);
+  const std::string end_of_block = '\1' + std::string(15, '\0') + '\0';
+  std::string bits;
+  std::vector<int> before(std::size_t(components), 0);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int level = 8 * (int(values[i]) - 128);
+    int& last = before[i % std::size_t(components)];
+    const int difference = level - last;
+    last = level;
+    int size = 0;
+    while (std::abs(difference) >> size != 0) ++size;
+    const int coded = difference < 0 ? difference + (1 << size) - 1 : difference;
+    for (int bit = 3; bit >= 0; --bit) bits += char('0' + (size >> bit & 1));
+    for (int bit = size - 1; bit >= 0; --bit) bits += char('0' + (coded >> bit & 1));
+    bits += '0';
+  }
+  bits.resize((bits.size() + 7) / 8 * 8, '1');
+  std::string data;
+  for (std::size_t i = 0; i < bits.size(); i += 8) {
+    data += char(std::stoi(bits.substr(i, 8), nullptr, 2));
+    if (data.back() == '\xff') data += '\0';
+  }
+  // Without a colour transform three components are R, G and B, four are C, M, Y and K.
   return "\xff\xd8" +
-         (components == 4 ? segment(0xee, std::string("Adobe\0\x64\0\0\0\0\0", 12)) : "") +
-         segment(0xdb, '\0' + std::string(64, '\1')) + segment(0xc0, frame) +
-         segment(0xc4, '\0' + code) + segment(0xc4, '\x10' + code) +
-         segment(0xda, scan + std::string("\0\x3f\0", 3)) + data + "\xff\xd9";
+         (components > 1 ? jpeg_segment(0xee, std::string("Adobe\0\x64\0\0\0\0\0", 12)) : "") +
+         jpeg_segment(0xdb, '\0' + std::string(64, '\1')) + jpeg_segment(0xc0, frame) +
+         jpeg_segment(0xc4, '\0' + sizes) + jpeg_segment(0xc4, '\x10' + end_of_block) +
+         jpeg_segment(0xda, scan + std::string("\0\x3f\0", 3)) + data + "\xff\xd9";
+}
+
+/// 8 x 8 pixels, every component in the middle of its range.
+inline std::string grey_jpeg_file(int components) {
+  return block_jpeg(1, 1, components, std::vector<std::uint8_t>(std::size_t(components), 128));
 }
 
 // ---- GIF89a: frames of one pixel and one colour
@@ -181,6 +220,7 @@ struct ExrPart {
   std::vector<ExrChannel> channels;
   std::optional<Imf::Chromaticities> chromaticities = {};
   std::map<std::string, std::string> texts = {};
+  std::optional<int> samples = {};  ///< as pbrt writes them
 };
 
 inline Imath::Box2i window(int x, int y, int width, int height) {
@@ -196,6 +236,7 @@ inline void write_exr_parts(const std::filesystem::path& path, const std::vector
     header.setType(Imf::SCANLINEIMAGE);
     if (part.chromaticities) Imf::addChromaticities(header, *part.chromaticities);
     for (const auto& [name, text] : part.texts) header.insert(name, Imf::StringAttribute(text));
+    if (part.samples) header.insert("samplesPerPixel", Imf::IntAttribute(*part.samples));
     for (const ExrChannel& channel : part.channels)
       header.channels().insert(channel.name, Imf::Channel(channel.type));
     headers.push_back(header);

@@ -1,7 +1,9 @@
 // Picture files that are refused, each in one line that says why.
 #include <ImfDeepFrameBuffer.h>
-#include <ImfDeepScanLineOutputFile.h>
+#include <ImfDeepScanLineOutputPart.h>
 #include <ImfEnvmap.h>
+#include <ImfMultiPartOutputFile.h>
+#include <ImfOutputPart.h>
 #include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -83,14 +85,21 @@ TEST_F(Refusals, OfWhatWasCutOffKnowTheSizesThatHeadersState) {
   EXPECT_FALSE(cut(whole + "a film beside the picture", "jpeg"));
 }
 
-TEST_F(Refusals, OfADeepExrSayWhatToDo) {
-  const auto path = directory_.path() / "a.exr";
-  Imf::Header header(2, 1);
-  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-  header.setType(Imf::DEEPSCANLINE);
-  header.compression() = Imf::ZIPS_COMPRESSION;
+/// A deep part, and a flat one of two pixels behind it if `with_flat`.
+void write_deep_exr(const std::filesystem::path& path, bool with_flat) {
+  Imf::Header deep(2, 1), flat(2, 1);
+  for (const char* name : {"R", "G", "B"})
+    for (Imf::Header* header : {&deep, &flat})
+      header->channels().insert(name, Imf::Channel(Imf::FLOAT));
+  deep.setType(Imf::DEEPSCANLINE);
+  deep.setName("samples");
+  deep.compression() = Imf::ZIPS_COMPRESSION;
+  flat.setType(Imf::SCANLINEIMAGE);
+  flat.setName("flat");
+  const Imf::Header headers[] = {deep, flat};
+  Imf::MultiPartOutputFile file(path.c_str(), headers, with_flat ? 2 : 1);
   {
-    Imf::DeepScanLineOutputFile deep(path.c_str(), header);
+    Imf::DeepScanLineOutputPart part(file, 0);
     std::vector<unsigned> counts(2, 1);
     float value = 1;
     std::vector<float*> samples(2, &value);
@@ -100,10 +109,27 @@ TEST_F(Refusals, OfADeepExrSayWhatToDo) {
     for (const char* name : {"R", "G", "B"})
       buffer.insert(name, Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(samples.data()),
                                          sizeof(float*), 2 * sizeof(float*), 4));
-    deep.setFrameBuffer(buffer);
-    deep.writePixels(1);
+    part.setFrameBuffer(buffer);
+    part.writePixels(1);
   }
-  EXPECT_THAT(refusal(path), HasSubstr("it is deep: a pixel has many values; flatten it first"));
+  if (!with_flat) return;
+  Imf::OutputPart part(file, 1);
+  std::vector<float> values{0.5f, 0.25f};
+  Imf::FrameBuffer buffer;
+  for (const char* name : {"R", "G", "B"})
+    buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), 4, 8));
+  part.setFrameBuffer(buffer);
+  part.writePixels(1);
+}
+
+TEST_F(Refusals, OfADeepExrSayWhichPartItIsAndWhatToDo) {
+  const auto path = directory_.path() / "a.exr";
+  write_deep_exr(path, false);
+  EXPECT_THAT(refusal(path), HasSubstr("its part 'samples' is deep: a pixel has any number of "
+                                       "samples; flatten it first (oiiotool DEEP.exr --flatten"));
+  write_deep_exr(path, true);
+  EXPECT_THAT(refusal(path), HasSubstr("'samples' is deep"));
+  EXPECT_EQ(read_picture(path, "flat").image.pixel(1, 0)[2], 0.25f) << "the other part is flat";
 }
 
 TEST_F(Refusals, OfAnExrWhoseHeaderClaimsMoreThanTheFileHasComeBeforeOpenExrsOwn) {

@@ -279,7 +279,7 @@ TEST_F(Curves, OfAPngAreItsChunksAndNoTextsOfALibrary) {
   const auto bad = [&](const std::string& chunks) {
     return refusal(file("bad.png", png_file({.samples = grey, .chunks = chunks})));
   };
-  EXPECT_THAT(bad(cicp(9, 16, 0, 1)), HasSubstr("transfer characteristics 16"));
+  EXPECT_THAT(bad(cicp(9, 17, 0, 1)), HasSubstr("transfer characteristics 17"));
   EXPECT_THAT(bad(cicp(77, 13, 0, 1)), HasSubstr("colour primaries 77"));
   EXPECT_THAT(bad(cicp(1, 13, 0, 0)), HasSubstr("full range"));
   EXPECT_THAT(bad(cicp(1, 13, 9, 1)), HasSubstr("no RGB"));
