@@ -3,6 +3,7 @@
 #include "cli/compare_pictures.hpp"
 #include "cli/options.hpp"
 #include "compare/require_same_size.hpp"
+#include "compare/uncertainty/noise_layers.hpp"
 #include "compare/uncertainty/z_test.hpp"
 #include "core/image_io.hpp"
 
@@ -26,6 +27,15 @@ void NoiseFlags::add_to(CLI::App& command) {
                          picture))
         ->excludes(replicate);
   }
+  group.add_choice(
+      "--noise-from-layers", from_layers_, {"a", "b", "both"},
+      "Whose own file has its noise as layers, of Mitsuba, pbrt, old Cycles, or called "
+      "StandardError (docs/pictures.md)");
+  for (const auto& [letter, side] : {std::pair{'a', &a_}, {'b', &b_}})
+    group
+        .add(fmt::format("--{}-samples", letter), side->samples, "NUMBER",
+             "Samples per pixel of that file, if it does not say them")
+        ->check(between(2, 1e12));
   group
       .add_number("--freedom", freedom_, 1, 1e9,
                   "Degrees of freedom of those errors: independent estimates less one")
@@ -43,7 +53,18 @@ void NoiseFlags::add_to(CLI::App& command) {
 }
 
 void NoiseFlags::apply(ComparisonOptions& options) const {
-  if (a_.given() || b_.given()) options.noise = judged_;
+  for (const auto& [letter, side] : {std::pair{"a", &a_}, {"b", &b_}}) {
+    if (side->given() && is_from_layers(letter))
+      throw Error(ExitCode::kUsage,
+                  fmt::format("--noise-from-layers {0}: the noise of {0} is given twice", letter));
+    if (side->samples > 0 && !is_from_layers(letter))
+      throw Error(ExitCode::kUsage, fmt::format("--{}-samples is for --noise-from-layers", letter));
+  }
+  if (a_.given() || b_.given() || !from_layers_.empty()) options.noise = judged_;
+}
+
+bool NoiseFlags::is_from_layers(const std::string& letter) const {
+  return from_layers_ == letter || from_layers_ == "both";
 }
 
 std::vector<std::filesystem::path> NoiseFlags::files(const std::string& name) const {
@@ -57,36 +78,40 @@ std::vector<std::filesystem::path> NoiseFlags::files(const std::string& name) co
 }
 
 std::optional<PictureNoise> NoiseFlags::read_side(const Side& side, const std::string& letter,
-                                                  const std::string& name, Image& image) const {
+                                                  const std::string& name, const std::string& file,
+                                                  Picture& picture) const {
   const auto read = [&](const std::string& given) {
-    const auto file = file_of(given, name);
-    Image picture = read_image(file);
-    require_same_size(image, picture, "the picture", file.string());
-    return picture;
+    const auto other = file_of(given, name);
+    Image image = read_image(other);
+    require_same_size(picture.image, image, "the picture", other.string());
+    return image;
   };
   const bool shared =
       shared_.empty() ? !side.error.empty() : shared_ == letter || shared_ == "both";
+  const auto option = is_from_layers(letter) ? std::string("--noise-from-layers")
+                      : side.error.empty()   ? fmt::format("--{}-replicate", letter)
+                                             : fmt::format("--{}-error", letter);
   try {
+    if (is_from_layers(letter))
+      return noise_of_layers(file, picture, {side.samples, freedom_, shared});
     if (!side.error.empty()) return noise_of_standard_errors(read(side.error), freedom_, shared);
     if (side.replicates.empty()) return std::nullopt;
     std::vector<Image> pictures;
     for (const std::string& replicate : side.replicates) pictures.push_back(read(replicate));
-    pictures.insert(pictures.begin(), std::move(image));
+    pictures.insert(pictures.begin(), std::move(picture.image));
     NoisyPicture mean = mean_of_replicates(pictures, shared);
-    image = std::move(mean.image);
+    picture.image = std::move(mean.image);
     return std::move(mean.noise);
   } catch (const Error& error) {
-    throw Error(error.code(),
-                fmt::format("--{}-{}: {}", letter, side.error.empty() ? "replicate" : "error",
-                            error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", option, error.what()));
   }
 }
 
-void NoiseFlags::read(const std::string& name, Image& a, Image& b,
+void NoiseFlags::read(const std::string& name, const PairReport& files, PicturePair& pair,
                       ComparisonOptions& options) const {
   if (!options.noise) return;
-  options.noise->a = read_side(a_, "a", name, a);
-  options.noise->b = read_side(b_, "b", name, b);
+  options.noise->a = read_side(a_, "a", name, files.a, pair.a);
+  options.noise->b = read_side(b_, "b", name, files.b, pair.b);
 }
 
 }  // namespace lobelia::cli

@@ -212,8 +212,8 @@ std::vector<PairReport> pairs_of(const Pairing& pairing) {
 PicturePair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
                           ComparisonOptions& options) {
   PicturePair pictures = read_pair(pair.a, pair.b, main_layer(pair.a, pair.b, job.layers));
-  job.noise.read(has_folders_by_name(job, pairing) ? pairing.rows[pair.row].name : "",
-                 pictures.a.image, pictures.b.image, options);
+  job.noise.read(has_folders_by_name(job, pairing) ? pairing.rows[pair.row].name : "", pair,
+                 pictures, options);
   const Image &a = pictures.a.image, &b = pictures.b.image;
   if (!options.surfaces.empty() && options.surfaces.size() != a.pixel_count())
     throw Error(ExitCode::kInput,

@@ -30,21 +30,26 @@ class NoiseFlags {
   /// The files that read() reads for a pair of that name.
   std::vector<std::filesystem::path> files(const std::string& name) const;
   /// Reads the pictures of the noise: the named files, or if `name` is not empty the files of that name in the named
-  /// folders. `a` and `b` become the means of themselves and their replicates. Throws Error(kInput) for pictures that
-  /// cannot be read, have another size, or are no standard errors.
-  void read(const std::string& name, Image& a, Image& b, ComparisonOptions& options) const;
+  /// folders, or the layers of the pair's own files. `pair` become the means of themselves and their replicates. Throws
+  /// Error(kInput) for pictures that cannot be read, have another size, or are no standard errors; errors of
+  /// noise_of_layers().
+  void read(const std::string& name, const PairReport& files, PicturePair& pair,
+            ComparisonOptions& options) const;
 
  private:
   struct Side {
     std::string error;                    ///< picture of standard errors; empty for none
     std::vector<std::string> replicates;  ///< besides the picture itself
+    double samples = 0;                   ///< of a pixel; 0: as the file says
     bool given() const { return !error.empty() || !replicates.empty(); }
   };
+  bool is_from_layers(const std::string& letter) const;
   std::optional<PictureNoise> read_side(const Side& side, const std::string& letter,
-                                        const std::string& name, Image& image) const;
+                                        const std::string& name, const std::string& file,
+                                        Picture& picture) const;
 
   Side a_, b_;
-  std::string shared_;
+  std::string shared_, from_layers_;
   double freedom_ = 15;  ///< as `lobelia reference --standard-error` has it
   NoiseOptions judged_;
 };

@@ -129,7 +129,7 @@ NoiseOfPair noise_of_pair(const ComparisonOptions& options) {
 records::Uncertainty uncertainty_of(const MetricInput& input, const NoiseOptions& noise) {
   const auto in_short = [](const PictureNoise* one) -> std::optional<records::PictureNoise> {
     if (!one) return std::nullopt;
-    return records::PictureNoise{one->freedom, one->shared};
+    return records::PictureNoise{one->freedom, one->shared, one->layer};
   };
   const double tests = count_of_tests(input.a.width(), input.a.height());
   return {.a = in_short(input.noise->a),

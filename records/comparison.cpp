@@ -109,6 +109,7 @@ void define_comparison_tables(Tables& tables) {
   tables.define<PictureNoise>("The known noise of a picture.", [](auto& t) {
     t.key("freedom", "degrees of freedom of each value's error").at_least(1).may_be_nonfinite();
     t.key("shared", "its pixels err together");
+    t.key("layer", "of the picture's own file, that says it").if_any();
   });
   tables.define<Uncertainty>("How the noise of the pictures was taken into account.", [](auto& t) {
     t.key("significance").between(0, 1);

@@ -94,6 +94,7 @@ struct Limit {
 struct PictureNoise {
   double freedom = 0;
   bool shared = false;
+  std::string layer;
 };
 
 struct Uncertainty {

@@ -26,6 +26,8 @@
 //               tests/compare/uncertainty_test.cpp measures the levels.
 #pragma once
 
+#include <string>
+
 #include "core/image.hpp"
 
 namespace lobelia {
@@ -36,6 +38,7 @@ struct PictureNoise {
   double freedom = 0;         ///< degrees of freedom of one value by itself, at least 1
   double pooled_freedom = 0;  ///< of a value of `cautious`
   bool shared = false;        ///< pixels err together: they share their points, or were filtered
+  std::string layer = {};     ///< of the picture's file that says it; empty for other files
 };
 
 /// Noise from a picture of standard errors. Throws Error(kInput) if a value is negative or not finite, or there are no

@@ -1,0 +1,82 @@
+// The layers of a multilayer EXR that Blender itself writes.
+#include <gmock/gmock.h>
+
+#include "core/contained_reader.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "tests/reference_scenes/require_engine.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+/// Blender's own first scene, in both views of a stereo camera if asked.
+constexpr const char* kScript = R"(
+import bpy, sys
+scene = bpy.context.scene
+scene.render.engine = 'CYCLES'
+scene.cycles.samples = 4
+scene.cycles.use_denoising = False
+scene.render.resolution_x, scene.render.resolution_y = 24, 16
+scene.render.resolution_percentage = 100
+layer = scene.view_layers[0]
+for name in ('z', 'normal', 'diffuse_direct', 'glossy_direct', 'environment'):
+    setattr(layer, 'use_pass_' + name, True)
+layer.cycles.denoising_store_passes = True
+scene.render.image_settings.file_format = 'OPEN_EXR_MULTILAYER'
+scene.render.image_settings.color_depth = '32'
+scene.render.use_multiview = sys.argv[-1] == 'stereo'
+scene.render.image_settings.views_format = 'MULTIVIEW'
+scene.render.filepath = sys.argv[-2]
+bpy.ops.render.render(write_still=True)
+)";
+
+class BlenderLayers : public testing::Test {
+ protected:
+  void SetUp() override { require_engine(*blender_); }
+  std::filesystem::path render(const std::string& kind) {
+    const auto path = directory_.path() / (kind + ".exr");
+    const auto result = run_process(
+        {blender_->status().program.string(), "-b", "--factory-startup", "--python-exit-code", "1",
+         "--python-expr", kScript, "--", path.string(), kind},
+        {});
+    EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+    return path;
+  }
+  std::unique_ptr<Engine> blender_ = make_engine("blender", "");
+  TemporaryDirectory directory_;
+};
+
+TEST_F(BlenderLayers, AreFoundByTheNamesThatPeopleUse) {
+  const auto path = render("mono");
+  EXPECT_THAT(read_picture(path, "").source.channels, Contains("ViewLayer.Combined.R"));
+  EXPECT_EQ(read_picture(path, "").source.samples, 4);
+  for (const auto& [name, channel] : {std::pair{"combined", "ViewLayer.Combined.G"},
+                                      {"ViewLayer.Combined", "ViewLayer.Combined.G"},
+                                      {"albedo", "ViewLayer.Denoising Albedo.G"},
+                                      {"N", "ViewLayer.Normal.Y"},
+                                      {"depth", "ViewLayer.Depth.Z"},
+                                      {"diffuse_direct", "ViewLayer.DiffDir.G"},
+                                      {"GlossDir", "ViewLayer.GlossDir.G"}})
+    EXPECT_THAT(read_picture(path, name).source.channels, Contains(channel)) << name;
+  try {
+    read_picture(path, "difuse");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("there are 'ViewLayer.DiffDir'"));
+  }
+}
+
+TEST_F(BlenderLayers, OfAStereoCameraAreFoundByTheirView) {
+  const auto path = render("stereo");
+  EXPECT_THAT(read_picture(path, "").source.channels, Contains("ViewLayer.Combined.left.R"));
+  EXPECT_THAT(read_picture(path, "right").source.channels, Contains("ViewLayer.Combined.right.R"));
+  EXPECT_THAT(read_picture(path, "depth.right").source.channels,
+              Contains("ViewLayer.Depth.right.Z"));
+}
+
+}  // namespace
+}  // namespace lobelia
