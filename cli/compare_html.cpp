@@ -127,14 +127,14 @@ std::string hash_of(const Image& image) {
                      hex(sha256({reinterpret_cast<const char*>(bytes.data()), bytes.size()})));
 }
 
-records::Named<std::string> facts_of(const std::string& file, const PictureSource& source) {
+records::Named<std::string> facts_of(const std::string& file, const PictureSource& source,
+                                     const records::Named<std::string>& reading) {
   records::Named<std::string> facts;
   facts.emplace_back("File", printable_path(file));
   facts.emplace_back("Format", source.format);
   facts.emplace_back("Size", fmt::format("{} × {}", source.display.width, source.display.height));
   facts.emplace_back("Values", fmt::format("{}, {}", source.value_type, source.transfer));
-  if (!source.layer.empty()) facts.emplace_back("Layer", printable(source.layer));
-  if (!source.icc_profile.empty()) facts.emplace_back("ICC profile", printable(source.icc_profile));
+  facts.insert(facts.end(), reading.begin(), reading.end());
   return facts;
 }
 
@@ -214,14 +214,15 @@ class ReportWriter {
   }
 
   static void add_image(std::size_t set, const std::string& file, const Picture& picture,
-                        double stops, gallery::ReportCell& made) {
+                        const records::Named<std::string>& reading, double stops,
+                        gallery::ReportCell& made) {
     gallery::EnginePicture image;
     image.engine = set_name(set);
     if (made.cell.find_image(image.engine)) return;
     image.exr = image.engine + ".exr";
     image.png.file = image.engine + ".png";
     image.exr_sha256 = hash_of(picture.image);
-    image.facts = facts_of(file, picture.source);
+    image.facts = facts_of(file, picture.source, reading);
     made.shown[image.png.file] = to_display(picture.image, stops);
     made.pictures[image.exr] = picture.image;
     made.cell.images.push_back(std::move(image));
@@ -234,8 +235,9 @@ class ReportWriter {
     const PicturePair read = read_compared(pair, job, pairing_, options);
     const double stops = comparison.viewing.exposure_stops;
     if (!made.cell.record.exposure_stops) made.cell.record.exposure_stops = stops;
-    add_image(kReferenceSet, pair.b, read.b, stops, made);
-    add_image(pair.set, pair.a, read.a, stops, made);
+    const auto [reading_a, reading_b] = reading_of(pair);
+    add_image(kReferenceSet, pair.b, read.b, reading_b, stops, made);
+    add_image(pair.set, pair.a, read.a, reading_a, stops, made);
     gallery::CheckedComparison checked;
     checked.record = pair_record(pair);
     checked.verdict = verdict_name(pair.verdict());
@@ -269,7 +271,7 @@ class ReportWriter {
         const Picture picture = read_picture(
             files[set], set == kReferenceSet ? job_.layers.layer.b : job_.layers.layer.a);
         add_image(
-            set, files[set], picture,
+            set, files[set], picture, reading_facts(picture.source),
             made.cell.record.exposure_stops.value_or(exposure_for_peak(peak_value(picture.image))),
             made);
       } catch (const Error& error) {

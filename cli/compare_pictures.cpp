@@ -209,6 +209,15 @@ std::vector<PairReport> pairs_of(const Pairing& pairing) {
   return pairs;
 }
 
+std::array<records::Named<std::string>, 2> reading_of(const PairReport& pair) {
+  std::array facts{reading_facts(pair.sources->a), reading_facts(pair.sources->b)};
+  if (const auto& noise = pair.comparison->uncertainty)
+    for (std::size_t i = 0; i < facts.size(); ++i)
+      if (const auto& one = i == 0 ? noise->a : noise->b; one && !one->layer.empty())
+        facts[i].emplace_back("Noise", "layer " + printable(one->layer));
+  return facts;
+}
+
 PicturePair read_compared(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
                           ComparisonOptions& options) {
   PicturePair pictures = read_pair(pair.a, pair.b, main_layer(pair.a, pair.b, job.layers));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -160,6 +161,9 @@ inline bool has_folders_by_name(const CompareJob& job, const Pairing& pairing) {
 
 /// Every pair of the rows, without results: each judged set's picture with the first of its references.
 std::vector<PairReport> pairs_of(const Pairing& pairing);
+
+/// How the files of a compared pair became light, A first: reading_facts(), and the layers that have their noise.
+std::array<records::Named<std::string>, 2> reading_of(const PairReport& pair);
 
 /// Reads the pair as it is compared: the part of the chosen layer, or of the mean of its replicates. `job` is that of the
 /// pair. Sets what depends on the pictures in `options`. Throws as read_pair().

@@ -60,17 +60,10 @@ void print_layers(const OtherLayers& layers, const std::string& a, const std::st
     fmt::print("  not compared: {}\n", to_text(layers.not_compared));
 }
 
-/// Says what made the files' values light besides what is usual.
-void print_reading(const PicturePairSource& sources) {
-  for (const auto& [name, source] : {std::pair('a', &sources.a), {'b', &sources.b}}) {
-    if (!source->icc_profile.empty() && !source->icc_is_srgb)
-      fmt::print("  {}: its ICC profile '{}' is {}\n", name, printable(source->icc_profile),
-                 source->transfer == kByProfile ? "applied"
-                                                : "not applied, because floats are light already");
-    if (source->transfer == "PQ" || source->transfer == "HLG")
-      fmt::print("  {}: {}, 1 is 203 cd/m^2\n", name, source->transfer);
-    if (!source->gain_map.empty()) fmt::print("  {}: its gain map {}\n", name, source->gain_map);
-  }
+void print_reading(const PairReport& pair) {
+  const auto [a, b] = reading_of(pair);
+  for (const auto& [name, facts] : {std::pair('a', &a), {'b', &b}})
+    for (const auto& [what, words] : *facts) fmt::print("  {}: {}: {}\n", name, what, words);
 }
 
 void print_names(const std::string& a, const std::string& b, const std::string& c) {
@@ -217,7 +210,7 @@ void print_pair(const PairReport& pair, const PrintChoice& choice) {
   for (const std::string& sentence : comparison.blind_limits)
     fmt::print("  warning: {}\n", sentence);
   if (pair.layers) print_layers(*pair.layers, pair.a, pair.b);
-  if (pair.sources) print_reading(*pair.sources);
+  if (pair.sources) print_reading(pair);
   if (pair.references.size() > 1)
     fmt::print("  of {} acceptable references, b is the one that it fits best\n",
                pair.references.size());

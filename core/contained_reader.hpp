@@ -20,7 +20,8 @@ namespace lobelia {
 /// integers of an EXR keep their value. Of a MIP map the first level is read, of a cube map all faces.
 /// Any number of threads may call it. Throws Error(kInput) if the file is missing, not a regular file, not such a
 /// picture, truncated, over `limit`, over kMaxImageSide or kMaxImagePixels in either window, deep, CMYK or Lab, has
-/// impossible chromaticities, a damaged profile or gain map, or no such layer, crashes its decoder, or needs more memory or time than its size justifies.
+/// impossible chromaticities, a damaged profile or gain map, or no such layer, crashes its decoder, or needs more memory or
+/// time than its size justifies.
 /// Throws Error(kInterrupted) as soon as interrupted().
 Picture read_picture(const std::filesystem::path& path, const std::string& layer,
                      const PictureLimit& limit = {});

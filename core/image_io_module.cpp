@@ -362,15 +362,15 @@ void add_gain(const PictureBytes& file, const OIIO::ImageSpec& spec, const Colou
   if (file.base_only) {
     // Without --base-only a damaged map is an error; here it must not be one.
     try {
-      if (find_gain_map(file.path, file.bytes)) picture.source.gain_map = "is left out";
+      if (find_gain_map(file.path, file.bytes)) picture.source.gain_map = "left out";
     } catch (const Error&) {
-      picture.source.gain_map = "is left out";
+      picture.source.gain_map = "left out";
     }
     return;
   }
   const auto gain = find_gain_map(file.path, file.bytes);
   if (!gain) return;
-  picture.source.gain_map = gain->base_is_hdr ? "is for SDR" : "is applied";
+  picture.source.gain_map = gain->base_is_hdr ? "for SDR" : "applied";
   if (gain->base_is_hdr) return;
   const RgbMatrix identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const RgbMatrix primaries = meaning.profile ? meaning.profile->primaries() : identity;

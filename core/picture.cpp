@@ -1,9 +1,12 @@
 #include "core/picture.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
+
+#include "core/text.hpp"
 
 namespace lobelia {
 
@@ -43,6 +46,25 @@ Image place(Image image, const PixelWindow& data, const PixelWindow& display) {
     std::copy_n(image.pixel(left - data.x, y - data.y).data(), std::size_t(right - left) * 3,
                 result.pixel(left - display.x, y - display.y).data());
   return result;
+}
+
+std::vector<std::pair<std::string, std::string>> reading_facts(const PictureSource& source) {
+  std::vector<std::pair<std::string, std::string>> facts;
+  if (!source.layer.empty()) facts.emplace_back("Layer", printable(source.layer));
+  if (!source.icc_profile.empty())
+    facts.emplace_back(
+        "ICC profile",
+        fmt::format("{}, {}", printable(source.icc_profile),
+                    source.transfer == kByProfile ? "applied"
+                    : source.icc_is_srgb          ? "the same as sRGB"
+                                         : "not applied, because floats are light already"));
+  if (source.transfer == "PQ" || source.transfer == "HLG")
+    facts.emplace_back("Curve", source.transfer + ", 1 is 203 cd/m^2");
+  if (!source.chromaticities.empty())
+    facts.emplace_back("Primaries", fmt::format("{:.4g}, converted to Rec. 709",
+                                                fmt::join(source.chromaticities, " ")));
+  if (!source.gain_map.empty()) facts.emplace_back("Gain map", source.gain_map);
+  return facts;
 }
 
 }  // namespace lobelia

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/image.hpp"
@@ -42,13 +43,16 @@ struct PictureSource {
   std::vector<double> chromaticities;
   std::string icc_profile;   ///< description of a profile
   bool icc_is_srgb = false;  ///< the profile is what is assumed anyway
-  std::string gain_map;      ///< "is applied", "is left out", "is for SDR"; empty if there is none
+  std::string gain_map;      ///< "applied", "left out", "for SDR"; empty if there is none
   double samples = 0;        ///< of a pixel, if a renderer wrote them into the file; else 0
   PixelWindow data, display;
   std::string alpha;                ///< name of the layer with its alpha; empty if there is none
   std::vector<std::string> layers;  ///< all layers of the file, as layer_names()
   int mip_levels = 1;               ///< in the file; the first was read
 };
+
+/// How the file's values became light, where that is more than its format alone says: names and words for people.
+std::vector<std::pair<std::string, std::string>> reading_facts(const PictureSource& source);
 
 /// How many pixels may be read from a file of a given size. A few bytes can unpack to very many pixels: callers that know
 /// the size of their pictures set a tighter limit. The header is checked before anything is unpacked.

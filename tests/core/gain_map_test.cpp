@@ -33,15 +33,6 @@ struct Numbers {
   }
 };
 
-std::string xmp_segment(const std::string& properties) {
-  return jpeg_segment(
-      0xe1, std::string("http://ns.adobe.com/xap/1.0/\0", 29) +
-                "<x:xmpmeta xmlns:x='adobe:ns:meta/'><rdf:RDF "
-                "xmlns:rdf='http://www.w3.org/1999/02/22-rdf-syntax-ns#'><rdf:Description "
-                "xmlns:hdrgm='http://ns.adobe.com/hdr-gain-map/1.0/' hdrgm:Version='1.0' " +
-                properties + "</rdf:Description></rdf:RDF></x:xmpmeta>");
-}
-
 std::string xmp_of(const Numbers& numbers, const std::string& more = "") {
   std::string attributes, elements;
   const auto add = [&](const char* name, const std::vector<double>& values) {
@@ -78,29 +69,6 @@ std::string iso_of(const Numbers& numbers) {
   return jpeg_segment(0xe2, std::string("urn:iso:std:iso:ts:21496:-1\0", 28) + data);
 }
 
-/// A JPEG with a segment behind its first marker.
-std::string with_segments(const std::string& jpeg, const std::string& segments) {
-  return jpeg.substr(0, 2) + segments + jpeg.substr(2);
-}
-
-/// The base picture and its map in one file. `shift` moves the place of the map in MPF's list.
-std::string ultra_hdr(const std::string& base, const std::string& map,
-                      const std::string& base_segments = xmp_segment(">"), std::int64_t shift = 0) {
-  const auto mpf = [&](std::size_t base_size, std::size_t header) {
-    const std::string entries =
-        big_endian(0x30000) + big_endian(std::uint32_t(base_size)) + big_endian(0) + big_endian(0) +
-        big_endian(0) + big_endian(std::uint32_t(map.size())) +
-        big_endian(std::uint32_t(std::int64_t(base_size - header) + shift)) + big_endian(0);
-    return jpeg_segment(0xe2, std::string("MPF\0MM\0*", 8) + big_endian(8) + big_endian(2, 2) +
-                                  big_endian(0xb001, 2) + big_endian(4, 2) + big_endian(1) +
-                                  big_endian(2) + big_endian(0xb002, 2) + big_endian(7, 2) +
-                                  big_endian(32) + big_endian(38) + big_endian(0) + entries);
-  };
-  const std::size_t size = base.size() + base_segments.size() + mpf(0, 0).size();
-  const std::size_t header = 2 + base_segments.size() + 4 + 4;  // of MPF's TIFF
-  return with_segments(base, base_segments + mpf(size, header)) + map;
-}
-
 class GainMaps : public PictureFiles {
  protected:
   Picture read(const std::string& bytes) { return read_picture(file("a.jpg", bytes), ""); }
@@ -118,7 +86,7 @@ TEST_F(GainMaps, OfOneChannelBrightenByAdobesFormula) {
   numbers.gamma = {1.4};
   const std::string map = with_segments(block_jpeg(1, 1, 1, {180}), xmp_of(numbers));
   const Picture picture = read(ultra_hdr(base_, map));
-  EXPECT_EQ(picture.source.gain_map, "is applied");
+  EXPECT_EQ(picture.source.gain_map, "applied");
   const std::uint8_t codes[] = {200, 150, 90};
   for (std::size_t c = 0; c < 3; ++c) {
     const double light = double(srgb_decoded(float(codes[c]) / 255));
@@ -185,11 +153,11 @@ TEST_F(GainMaps, AreLeftOutIfAskedOrIfTheBaseIsTheHdrPicture) {
   const std::string map = block_jpeg(1, 1, 1, {180});
   const Picture hdr_base =
       read(ultra_hdr(base_, with_segments(map, xmp_of({}, "hdrgm:BaseRenditionIsHDR='True'"))));
-  EXPECT_EQ(hdr_base.source.gain_map, "is for SDR");
+  EXPECT_EQ(hdr_base.source.gain_map, "for SDR");
   EXPECT_EQ(values(hdr_base.image), values(plain.image));
   read_base_pictures();
   const Picture left_out = read(ultra_hdr(base_, with_segments(map, xmp_of({}))));
-  EXPECT_EQ(left_out.source.gain_map, "is left out");
+  EXPECT_EQ(left_out.source.gain_map, "left out");
   EXPECT_EQ(values(left_out.image), values(plain.image));
 }
 

@@ -1,6 +1,7 @@
 // Picture files that are refused, each in one line that says why.
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineOutputPart.h>
+#include <ImfDeepTiledOutputFile.h>
 #include <ImfEnvmap.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
@@ -130,6 +131,31 @@ TEST_F(Refusals, OfADeepExrSayWhichPartItIsAndWhatToDo) {
   write_deep_exr(path, true);
   EXPECT_THAT(refusal(path), HasSubstr("'samples' is deep"));
   EXPECT_EQ(read_picture(path, "flat").image.pixel(1, 0)[2], 0.25f) << "the other part is flat";
+}
+
+TEST_F(Refusals, OfADeepExrOfTilesAreTheSame) {
+  const auto path = directory_.path() / "tiles.exr";
+  Imf::Header header(2, 1);
+  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  header.setType(Imf::DEEPTILE);
+  header.compression() = Imf::ZIPS_COMPRESSION;
+  header.setTileDescription(Imf::TileDescription(2, 1, Imf::ONE_LEVEL));
+  {
+    Imf::DeepTiledOutputFile file(path.c_str(), header);
+    std::vector<unsigned> counts{2, 1};
+    std::vector<float> values{0.5f, 0.25f};
+    std::vector<float*> samples(2, values.data());
+    Imf::DeepFrameBuffer buffer;
+    buffer.insertSampleCountSlice(Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()),
+                                             sizeof(unsigned), 2 * sizeof(unsigned)));
+    for (const char* name : {"R", "G", "B"})
+      buffer.insert(name, Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(samples.data()),
+                                         sizeof(float*), 2 * sizeof(float*), sizeof(float)));
+    file.setFrameBuffer(buffer);
+    file.writeTile(0, 0, 0);
+  }
+  EXPECT_THAT(refusal(path),
+              HasSubstr("it is deep: a pixel has any number of samples; flatten it"));
 }
 
 TEST_F(Refusals, OfAnExrWhoseHeaderClaimsMoreThanTheFileHasComeBeforeOpenExrsOwn) {

@@ -1,0 +1,87 @@
+// `lobelia compare` says how the files' values became light.
+#include <gmock/gmock.h>
+
+#include "tests/cli/compare_pictures_fixture.hpp"
+
+namespace lobelia {
+namespace {
+
+using namespace fixtures;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class HowPicturesAreRead : public ComparePictures {
+ protected:
+  /// The pages of all pairs of a report.
+  std::string pages(std::vector<std::string> arguments, int exit_code) {
+    arguments.insert(arguments.end(), {"--html", "report"});
+    const ProcessResult result = compare(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.output_tail;
+    std::string all;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(directory_.path() / "report" / "cells"))
+      all += read_file(entry.path() / "index.html", 1 << 20);
+    return all;
+  }
+};
+
+TEST_F(HowPicturesAreRead, IsSaidOfCurvesAndGainMapsInTheTableTheRecordAndTheReport) {
+  file("pq.png", png_file({.width = 8,
+                           .height = 8,
+                           .bits = 16,
+                           .samples = std::string(8 * 8 * 6, '\x70'),
+                           .chunks = png_chunk("cICP", std::string("\x9\x10\0\1", 4))}));
+  file("gain.jpg",
+       ultra_hdr(block_jpeg(1, 1, 3, {200, 150, 90}),
+                 with_segments(block_jpeg(1, 1, 1, {180}), xmp_segment("hdrgm:GainMapMax='2'>"))));
+  const std::vector<std::string> pair{"gain.jpg", "pq.png"};
+  EXPECT_THAT(compare(pair).output_tail,
+              AllOf(HasSubstr("a: Gain map: applied\n"), HasSubstr("b: Curve: PQ, 1 is 203"),
+                    HasSubstr("b: Primaries: 0.708 0.292 ")));
+  const Record made = record(pair, 1);
+  EXPECT_EQ(made["pictures"]["a"]["gainMap"], "applied");
+  EXPECT_EQ(made["pictures"]["a"]["transfer"], "sRGB");
+  EXPECT_EQ(made["pictures"]["b"]["transfer"], "PQ");
+  EXPECT_EQ(made["pictures"]["b"]["chromaticities"][0], 0.708);
+  EXPECT_THAT(pages(pair, 1), AllOf(HasSubstr("<dt>Gain map</dt>\n<dd>applied</dd>"),
+                                    HasSubstr("<dt>Curve</dt>\n<dd>PQ, 1 is 203"),
+                                    HasSubstr("<dt>Primaries</dt>\n<dd>0.708 0.292 ")));
+  EXPECT_EQ(record({"gain.jpg", "pq.png", "--base-only"}, 1)["pictures"]["a"]["gainMap"],
+            "left out");
+}
+
+TEST_F(HowPicturesAreRead, IsSaidOfLayersAndTheirNoise) {
+  for (const char* name : {"a.exr", "b.exr"})
+    flat(name, 1,
+         {channel("spec.R", 2), channel("spec.G", 2), channel("spec.B", 2),
+          channel("spec.StandardError.R", 0.1f), channel("spec.StandardError.G", 0.1f),
+          channel("spec.StandardError.B", 0.1f)});
+  const std::vector<std::string> pair{
+      "a.exr", "b.exr", "--layer", "specular", "--noise-from-layers", "b"};
+  EXPECT_THAT(compare(pair).output_tail,
+              AllOf(HasSubstr("a: Layer: spec\n"), HasSubstr("b: Layer: spec\n"),
+                    HasSubstr("b: Noise: layer spec.StandardError\n")));
+  EXPECT_THAT(pages(pair, 6),
+              AllOf(HasSubstr("<dt>Layer</dt>\n<dd>spec</dd>"),
+                    HasSubstr("<dt>Noise</dt>\n<dd>layer spec.StandardError</dd>")));
+}
+
+TEST_F(HowPicturesAreRead, IsTheLayerThatEachSetCallsSoInAReportOfFoldersToo) {
+  for (const char* folder : {"a", "b"})
+    std::filesystem::create_directory(directory_.path() / folder);
+  flat("a/only.exr", 1, {channel("spec.R", 2), channel("spec.G", 2), channel("spec.B", 2)});
+  flat("b/other.exr", 1, {channel("gloss.R", 3), channel("gloss.G", 3), channel("gloss.B", 3)});
+  // Each picture is without another: exit code 3.
+  const std::string all = pages({"a", "b", "--layer", "spec=gloss"}, 3);
+  EXPECT_THAT(all, AllOf(HasSubstr("<dt>Layer</dt>\n<dd>spec</dd>"),
+                         HasSubstr("<dt>Layer</dt>\n<dd>gloss</dd>")));
+}
+
+TEST_F(HowPicturesAreRead, IsNoMatterForAnOrdinaryPicture) {
+  good_exr();
+  EXPECT_THAT(compare({"good.exr", "good.exr"}).output_tail,
+              ::testing::Not(::testing::ContainsRegex("\n  [ab]: ")));
+}
+
+}  // namespace
+}  // namespace lobelia
