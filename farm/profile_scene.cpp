@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compare/profile/clipping.hpp"
 #include "core/error.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/pixel_ray.hpp"
@@ -54,6 +55,45 @@ std::optional<FilmPoint> plane_of_incidence(const Scene& scene, int light, int s
   return FilmPoint{x / size, y / size};
 }
 
+/// A picture without its specks, and where it is clipped.
+struct CleanPicture {
+  Image image;
+  std::vector<Speck> specks;
+  ClippedChannels clipped;
+
+  /// Only a highlight that the scene resolves may have specks: a smaller one is one.
+  CleanPicture(const Image& picture, const std::vector<std::size_t>& lit, bool resolved)
+      : image(picture) {
+    Field field = radiance_field(image);
+    if (resolved) specks = take_specks(field);
+    for (const Speck& speck : specks)
+      for (const std::size_t i : speck.pixels)
+        std::ranges::fill(image.values().subspan(3 * i, 3), float(field.values[i]));
+    clipped = find_clipping(image, largest_values(image, {}), lit);
+  }
+  PictureFacts facts(const PictureNoise* noise) const {
+    PictureFacts facts{.noise = noise, .thorough = true};
+    if (!clipped.names().empty())
+      for (std::size_t i = 0; i < image.pixel_count(); ++i)
+        facts.clipped.push_back(clipped.holds(image, i));
+    return facts;
+  }
+};
+
+/// What was left out of the highlight. Specks are listed that are at least as high as a highlight without a scene has to be.
+void add_left_out(records::HighlightFigures& figures, const CleanPicture& picture,
+                  const PictureFacts& facts, const HighlightMap& map, double end, double peak) {
+  constexpr std::size_t kMostSpecks = 16;
+  for (const Speck& speck : picture.specks)
+    if (figures.specks.size() < kMostSpecks && speck.value > kLeastShare * peak &&
+        map.angle[speck.pixels.front()] < end)
+      figures.specks.push_back({{speck.place.x, speck.place.y}, speck.value, speck.pixels.size()});
+  records::ClippedPixels clipped{0, picture.clipped.names()};
+  for (std::size_t i = 0; i < facts.clipped.size(); ++i)
+    clipped.pixels += facts.clipped[i] && map.angle[i] < end;
+  if (clipped.pixels > 0) figures.clipped = clipped;
+}
+
 }  // namespace
 
 Image analytic_image(const Scene& scene, int sphere) {
@@ -71,8 +111,8 @@ Image analytic_image(const Scene& scene, int sphere) {
   return image;
 }
 
-records::Profile profile_scene(const Scene& scene, int light, int sphere,
-                               const NamedImages& images) {
+records::Profile profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images,
+                               bool thorough, const std::vector<const PictureNoise*>& noise) {
   require_index("light", light, scene.lights.size());
   require_index("sphere", sphere, scene.spheres.size());
   if (!is_delta(scene.lights[std::size_t(light)]))
@@ -86,29 +126,6 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere,
       throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, the scene's film {} x {}",
                                                 name, image->width(), image->height(),
                                                 scene.film.width, scene.film.height));
-
-  // Subtracts the formula's value for the other lights from every picture: the curve is for one highlight.
-  Scene one_light = scene;
-  one_light.lights = {scene.lights[std::size_t(light)]};
-  const Image analytic = analytic_image(one_light, sphere);
-  std::vector<Image> single;
-  Image with_all;
-  if (scene.lights.size() > 1) {
-    with_all = analytic_image(scene, sphere);
-    for (const auto& [name, image] : images) {
-      single.push_back(*image);
-      const std::span<float> values = single.back().values();
-      for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] =
-            float(double(values[i]) - (double(with_all.values()[i]) - analytic.values()[i]));
-    }
-  }
-  NamedImages all{{records::kAnalytic, &analytic}};
-  for (std::size_t k = 0; k < images.size(); ++k)
-    all.emplace_back(images[k].first, single.empty() ? images[k].second : &single[k]);
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t k = 2; k < all.size(); ++k) pairs.emplace_back(1, k);
-  for (std::size_t k = 1; k < all.size(); ++k) pairs.emplace_back(k, 0);
 
   const Material& material =
       scene.materials.at(std::size_t(scene.spheres[std::size_t(sphere)].material));
@@ -126,8 +143,48 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere,
     geometry.scale = map.scale;
     geometry.base = diffuse;
     geometry.incidence = plane_of_incidence(scene, light, sphere);
+    geometry.lobes = {map.reflection, map.half_vector, map.n_dot_l, map.n_dot_v, map.irradiance};
   }
-  const Profile profile = measure_profile(geometry, all, pairs);
+
+  std::vector<PictureFacts> facts(images.size() + 1);
+  std::vector<CleanPicture> clean;
+  if (thorough && has_highlight(material)) {
+    std::vector<std::size_t> lit;
+    std::size_t middle = 0;
+    for (std::size_t i = 0; i < map.angle.size(); ++i) {
+      if (!std::isnan(map.angle[i])) lit.push_back(i);
+      middle += map.angle[i] < geometry.ends.front();
+    }
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      clean.emplace_back(*images[k].second, lit, middle >= kFewestPixelsOfALobe);
+      facts[k + 1] = clean[k].facts(k < noise.size() ? noise[k] : nullptr);
+    }
+  }
+
+  // Subtracts the formula's value for the other lights from every picture: the curve is for one highlight.
+  Scene one_light = scene;
+  one_light.lights = {scene.lights[std::size_t(light)]};
+  const Image analytic = analytic_image(one_light, sphere);
+  const Image with_all = scene.lights.size() > 1 ? analytic_image(scene, sphere) : Image();
+  std::vector<Image> single;
+  NamedImages all{{records::kAnalytic, &analytic}};
+  single.reserve(images.size());
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    const Image* image = clean.empty() ? images[k].second : &clean[k].image;
+    if (scene.lights.size() > 1) {
+      const std::span<float> values = single.emplace_back(*image).values();
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] =
+            float(double(values[i]) - (double(with_all.values()[i]) - analytic.values()[i]));
+      image = &single.back();
+    }
+    all.emplace_back(images[k].first, image);
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k = 2; k < all.size(); ++k) pairs.emplace_back(1, k);
+  for (std::size_t k = 1; k < all.size(); ++k) pairs.emplace_back(k, 0);
+
+  const Profile profile = measure_profile(geometry, all, pairs, facts);
   const bool reflection = info(highlight.model).angle == LobeAngle::kReflection;
   records::Profile record =
       profile_record(profile, light, sphere, reflection ? "reflection" : "half_vector");
@@ -140,9 +197,13 @@ records::Profile profile_scene(const Scene& scene, int light, int sphere,
       const double alone = radiance_at(analytic, i);
       peak = std::max(peak, alone - diffuse[i]);
       of_diffuse = std::max(of_diffuse, diffuse[i]);
-      if (!single.empty()) of_others = std::max(of_others, radiance_at(with_all, i) - alone);
+      if (scene.lights.size() > 1)
+        of_others = std::max(of_others, radiance_at(with_all, i) - alone);
     }
     record.subtracted = records::Subtracted{of_diffuse / peak, of_others / peak};
+    for (std::size_t k = 0; k < clean.size(); ++k)
+      add_left_out(*record.images[k + 1].second.highlight, clean[k], facts[k + 1], map,
+                   geometry.ends.back(), peak);
   }
   return record;
 }

@@ -16,8 +16,12 @@ Image analytic_image(const Scene& scene, int sphere);
 /// lights. The formula comes first, as "analytic"; differences are those of the first picture from each other one, and of
 /// each from the formula. Throws Error(kInput) if there is no such light or sphere, if the scene needs more than a single ray
 /// a pixel, or if a picture's size is not the film's.
-records::Profile profile_scene(const Scene& scene, int light, int sphere,
-                               const NamedImages& images);
+///
+/// If `thorough`, figures have standard errors, and every family of lobes is fitted. `noise` is that of each picture; null or
+/// missing if unknown.
+records::Profile profile_scene(const Scene& scene, int light, int sphere, const NamedImages& images,
+                               bool thorough = false,
+                               const std::vector<const PictureNoise*>& noise = {});
 
 /// (sphere, light) for every sphere with a highlight and every light, visible or not. Throws as profile_scene().
 std::vector<std::pair<int, int>> highlights_of(const Scene& scene);

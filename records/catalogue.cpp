@@ -32,10 +32,11 @@ constexpr std::array<Kind, sizeof...(T)> kinds_of() {
 }
 
 constexpr auto kKinds =
-    kinds_of<Agreement, Blob, Cell, Comparison, ComparisonSet, Content, Cost, Engines, Failure,
-             Farm, FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus, KnownHashes,
-             GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Project, Reference,
-             Render, Result, Sensitivity, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
+    kinds_of<Agreement, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Cost, Engines,
+             Failure, Farm, FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus,
+             KnownHashes, GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Project,
+             Reference, Render, Result, Sensitivity, SlurmDoctor, SlurmRun, VerifyPaper,
+             VerifyStability>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {

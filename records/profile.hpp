@@ -11,6 +11,11 @@ inline constexpr char kAnalytic[] = "analytic";
 
 /// How a peak was found.
 inline constexpr std::string_view kPeakFound[] = {"fitted", "pixel", "plateau", "edge", "none"};
+/// What a highlight may be.
+inline constexpr std::string_view kLobeFamilies[] = {"phong", "blinn_phong", "ggx", "beckmann"};
+inline constexpr std::string_view kFalloffs[] = {"gaussian", "ggx"};
+/// Where standard errors come from.
+inline constexpr std::string_view kNoiseSources[] = {"given", "scatter"};
 
 struct Point {
   double x = 0, y = 0;
@@ -31,6 +36,35 @@ struct CosineLobe {
   std::string because;
 };
 
+/// A family of lobes that was fitted.
+struct LobeExplanation {
+  std::string family;
+  bool times_n_dot_l = false;
+  std::optional<double> exponent, alpha, roughness, standard_error, coefficient, rms_of_peak;
+  std::optional<double> rms_of_noise, deviations_from_best;
+  std::string because;
+};
+
+/// Standard errors of the figures of a highlight.
+struct HighlightErrors {
+  std::string source;
+  double peak = 0, energy = 0;
+  Point place, centroid;
+  double half_width_along_pixels = 0, half_width_across_pixels = 0;
+};
+
+struct ClippedPixels {
+  std::size_t pixels = 0;
+  std::string channels;
+};
+
+/// One or a few pixels that stand alone.
+struct Speck {
+  Point place;
+  double radiance = 0;
+  std::size_t pixels = 0;
+};
+
 struct HighlightFigures {
   Peak peak;
   Point centroid;
@@ -38,6 +72,10 @@ struct HighlightFigures {
   double energy = 0;
   CosineLobe cosine_lobe;
   std::string because;
+  std::vector<LobeExplanation> explanations;
+  std::optional<HighlightErrors> standard_errors;
+  std::optional<ClippedPixels> clipped;
+  std::vector<Speck> specks;
 };
 
 struct HighlightShape {
@@ -93,6 +131,38 @@ struct AxisPair {
   double major = 0, minor = 0;
 };
 
+/// A figure with its standard error.
+struct Estimate {
+  double value = 0, standard_error = 0;
+};
+
+struct Falloff {
+  std::string family;
+  Estimate peak;
+  Estimate half_width_major, half_width_minor;
+  Point place;
+  double rms_of_peak = 0;
+  std::size_t pixels = 0;
+  std::string because;
+};
+
+struct Clipping {
+  std::size_t pixels = 0;
+  std::string channels;
+  double peak_at_least = 0;
+  Falloff flank;
+};
+
+struct BlobErrors {
+  double background = 0, peak = 0, energy = 0;
+  Point place, centroid;
+  AxisPair half_width_pixels;
+};
+
+struct Colour {
+  double red = 0, green = 0, blue = 0;
+};
+
 struct BlobFigures {
   Peak peak;
   double background = 0;
@@ -102,6 +172,11 @@ struct BlobFigures {
   double energy = 0;
   std::size_t nonfinite = 0;
   std::string because, remark;
+  std::optional<BlobErrors> standard_errors;
+  std::optional<double> noise_of_peak;
+  std::optional<Colour> colour;
+  std::optional<Clipping> clipped;
+  std::vector<Falloff> falloff;
 };
 
 struct BlobCurve {
@@ -115,6 +190,20 @@ struct Blob {
   Named<BlobFigures> images;
   Named<BlobCurve> curves;
   Named<ZoneErrors> differences;
+  std::optional<std::size_t> id;
+};
+
+struct BlobPicture {
+  std::string standard_errors_from;
+  std::vector<Speck> specks;
+  std::size_t more_specks = 0, more_highlights = 0;
+  bool may_have_more = false;
+};
+
+struct Blobs {
+  double least_share = 0;
+  Named<BlobPicture> pictures;
+  std::vector<Blob> highlights;
 };
 
 void define_profile_tables(Tables& tables);

@@ -85,7 +85,8 @@ HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
   const int width = scene.film.width, height = scene.film.height;
   const std::size_t pixels = std::size_t(width) * height;
   const std::vector nowhere(pixels, kNaN);
-  HighlightMap map{width, height, nowhere, nowhere, nowhere, std::vector(pixels, 0.0)};
+  HighlightMap map{width,   height,  nowhere, nowhere, nowhere,
+                   nowhere, nowhere, nowhere, nowhere, std::vector(pixels, 0.0)};
   const Material& material = scene.materials.at(scene.spheres.at(sphere).material);
   const LobeAngle lobe_angle = info(material.highlight.model).angle;
   const double pixel_area = 4 * frame.half_width * frame.half_height / double(pixels);
@@ -100,14 +101,15 @@ HighlightMap highlight_map(const Scene& scene, int light, int sphere) {
     if (!here) return;
     const Vec3 to_light = here->to_light;
     map.n_dot_l[i] = dot(hit.normal, to_light);
+    map.n_dot_v[i] = dot(hit.normal, to_eye);
     const Rgb reflected =
         here->irradiance *
         fresnel_factor(material.fresnel, material.specular_reflectance, to_eye, to_light);
-    map.scale[i] = foreshortening(material.highlight.model, map.n_dot_l[i]) *
-                   (reflected.r + reflected.g + reflected.b) / 3;
-    map.angle[i] = lobe_angle == LobeAngle::kReflection
-                       ? angle_between(2 * dot(hit.normal, to_eye) * hit.normal - to_eye, to_light)
-                       : angle_between(hit.normal, normalize(to_light + to_eye));
+    map.irradiance[i] = (reflected.r + reflected.g + reflected.b) / 3;
+    map.scale[i] = foreshortening(material.highlight.model, map.n_dot_l[i]) * map.irradiance[i];
+    map.reflection[i] = angle_between(2 * map.n_dot_v[i] * hit.normal - to_eye, to_light);
+    map.half_vector[i] = angle_between(hit.normal, normalize(to_light + to_eye));
+    map.angle[i] = lobe_angle == LobeAngle::kReflection ? map.reflection[i] : map.half_vector[i];
   });
   return map;
 }

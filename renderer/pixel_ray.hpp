@@ -40,8 +40,12 @@ std::optional<Illumination> light_at(const Scene& scene, int light, const Hit& h
 /// sphere hides it.
 struct HighlightMap {
   int width = 0, height = 0;
-  std::vector<double> angle;    ///< the lobe's angle, radians
-  std::vector<double> n_dot_l;  ///< cosine at the light's side
+  std::vector<double> angle;        ///< the lobe's angle, radians: one of the next two
+  std::vector<double> reflection;   ///< between the light and the mirror direction
+  std::vector<double> half_vector;  ///< between the normal and the half vector
+  std::vector<double> n_dot_l;      ///< cosine at the light's side
+  std::vector<double> n_dot_v;      ///< cosine at the eye's side
+  std::vector<double> irradiance;   ///< `scale` without the foreshortening
   /// Radiance over coefficient * lobe, as the mean of R, G and B: irradiance, reflectance with its Fresnel factor,
   /// and foreshortening.
   std::vector<double> scale;

@@ -5,132 +5,111 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/constants.hpp"
+#include "compare/profile/clipping.hpp"
+#include "compare/profile/measure_blob.hpp"
+#include "compare/profile/measure_noise.hpp"
 #include "core/error.hpp"
 
 namespace lobelia {
 namespace {
 
-// In half-widths. A Gaussian falls to 1/512 at 3 of them, and to 1/1000 at kZoneReach.
-constexpr double kBackgroundFrom = 3, kBackgroundTo = 4.5, kEnergyReach = 3;
+// In half-widths. A Gaussian falls to 1/1000 there.
 const double kZoneReach = std::sqrt(-std::log2(kZoneShares.back()));
-constexpr std::size_t kFewestBackgroundPixels = 16;
 constexpr double kCurveStep = 0.5;
 constexpr double kMostOffsets = 500;  // on each side
 
-Field radiance_of(const Image& image) {
-  Field field{image.width(), image.height(), std::vector<double>(image.pixel_count())};
-  for (std::size_t i = 0; i < field.values.size(); ++i) {
-    const double radiance = radiance_at(image, i);
-    field.values[i] = std::isfinite(radiance) ? radiance : kNaN;
+/// A picture while it is measured.
+struct Measured {
+  std::size_t not_finite = 0;
+  FoundBlobs found;
+  std::vector<BlobFigures> blobs;
+};
+
+void leave_only(Field& field, const Rectangle& region) {
+  for (int y = 0; y < field.height; ++y)
+    for (int x = 0; x < field.width; ++x)
+      if (x < region.x || y < region.y || x >= region.x + region.width ||
+          y >= region.y + region.height)
+        field.values[std::size_t(y) * std::size_t(field.width) + std::size_t(x)] = kNaN;
+}
+
+Measured measure_picture(const Image& image, const BlobOptions& options,
+                         const PictureNoise* noise) {
+  Measured measured;
+  Field field = radiance_field(image);
+  measured.not_finite = std::size_t(
+      std::ranges::count_if(field.values, [](double value) { return std::isnan(value); }));
+  if (options.region) leave_only(field, *options.region);
+  measured.found = find_blobs(std::move(field), options.search);
+  std::optional<Field> errors;
+  if (noise) errors = radiance_errors(*noise);
+  const BlobSource source{&image,
+                          &measured.found,
+                          options.region.value_or(Rectangle{0, 0, image.width(), image.height()}),
+                          errors ? &*errors : nullptr,
+                          noise && noise->shared,
+                          largest_values(image, measured.found.specks)};
+  for (std::size_t k = 0; k < measured.found.blobs.size(); ++k) {
+    measured.blobs.push_back(measure_blob(source, measured.found.blobs[k], k));
+    measured.blobs.back().not_finite = measured.not_finite;
   }
-  return field;
+  return measured;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+std::string why_nothing(const Measured& measured, std::size_t pixels) {
+  if (measured.not_finite == pixels) return "no pixel is finite";
+  if (measured.found.specks.empty())
+    return "nothing stands out: no pixel is brighter than its surroundings";
+  const Speck& speck = measured.found.specks.front();
+  return fmt::format(
+      "nothing stands out but {} at ({:g}, {:g}): a fault of the picture, or a highlight smaller "
+      "than a pixel",
+      speck.pixels.size() == 1 ? "a single pixel" : fmt::format("{} pixels", speck.pixels.size()),
+      speck.place.x, speck.place.y);
 }
 
-double distance(FilmPoint a, FilmPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
+/// The long semi-axis.
+double size_of(const BlobFigures& blob) {
+  return std::isnan(blob.major_half_width) ? 2 * blob.axes.major_sigma : blob.major_half_width;
+}
 
-/// Finite values of the pixels between two distances from `middle`.
-std::vector<double> ring(const Field& field, FilmPoint middle, double from, double to) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < field.values.size(); ++i) {
-    const double away = distance(pixel_centre(field, i), middle);
-    if (away >= from && away < to && !std::isnan(field.values[i]))
-      values.push_back(field.values[i]);
+/// How little a blob of b looks like one of a; nothing if they are too far apart. A distance of their size counts as much as
+/// a brightness that is e times another.
+std::optional<double> mismatch(const BlobFigures& a, const BlobFigures& b) {
+  constexpr double kFarthest = 2, kPixels = 2;
+  const double away = distance(a.peak.place, b.peak.place);
+  const double size = kPixels + std::max(size_of(a), size_of(b));
+  if (!(away <= kFarthest * size)) return std::nullopt;
+  return away / size + std::abs(std::log(a.peak.value / b.peak.value));
+}
+
+/// The place in `b` of each blob of `a`. The closest pairs come first.
+std::vector<std::optional<std::size_t>> matches(const std::vector<BlobFigures>& a,
+                                                const std::vector<BlobFigures>& b) {
+  struct Pair {
+    double mismatch;
+    std::size_t a, b;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j)
+      if (const auto apart = mismatch(a[i], b[j])) pairs.push_back({*apart, i, j});
+  std::ranges::stable_sort(pairs, {}, &Pair::mismatch);
+  std::vector<std::optional<std::size_t>> result(a.size());
+  std::vector<bool> taken(b.size(), false);
+  for (const Pair& pair : pairs) {
+    if (result[pair.a] || taken[pair.b]) continue;
+    result[pair.a] = pair.b;
+    taken[pair.b] = true;
   }
-  return values;
-}
-
-BlobFigures no_blob(BlobFigures figures, std::string why) {
-  figures.peak = {{kNaN, kNaN}, kNaN};
-  figures.axes = {{kNaN, kNaN}, {kNaN, kNaN}, kNaN, kNaN};
-  figures.background = figures.energy = kNaN;
-  figures.major_half_width = figures.minor_half_width = kNaN;
-  figures.why_not = std::move(why);
-  return figures;
-}
-
-double half_width(const Field& above, const Peak& peak, FilmPoint direction) {
-  return (distance_to_level(above, peak.place, direction, peak.value / 2) +
-          distance_to_level(above, peak.place, {-direction.x, -direction.y}, peak.value / 2)) /
-         2;
-}
-
-std::string remark_on(const Field& field, const BlobFigures& blob,
-                      const std::vector<std::size_t>& region) {
-  if (blob.pixels < kFewestPixelsOfALobe)
-    return blob.pixels == 1
-               ? "one pixel alone is above half of the peak: a highlight smaller than a "
-                 "pixel, or a fault of the picture"
-               : fmt::format(
-                     "not resolved: {} pixels are above half of the peak, {} "
-                     "are needed",
-                     blob.pixels, kFewestPixelsOfALobe);
-  if (blob.peak.found == PeakFound::kPlateau)
-    return "many pixels have exactly the largest value: it is clipped, or flat";
-  for (const std::size_t i : region) {
-    const FilmPoint place = pixel_centre(field, i);
-    if (place.x < 1 || place.y < 1 || place.x > field.width - 1 || place.y > field.height - 1)
-      return "it is cut by the border of the picture";
-  }
-  return "";
-}
-
-BlobFigures measure(const Field& field) {
-  BlobFigures blob;
-  std::vector<double> finite = ring(field, {}, 0, kInfinity);
-  blob.not_finite = field.values.size() - finite.size();
-  if (finite.empty()) return no_blob(blob, "no pixel is finite");
-  blob.background = median(finite);
-  const auto brightest = std::size_t(
-      std::max_element(field.values.begin(), field.values.end(),
-                       [](double a, double b) { return std::isnan(a) ? !std::isnan(b) : a < b; }) -
-      field.values.begin());
-  const double largest = field.values[brightest];
-
-  std::vector<std::size_t> region;
-  // The blob defines its background, and the background the half of its peak. This settles at once.
-  for (int round = 0; round < 4; ++round) {
-    if (!(largest > blob.background))
-      return no_blob(blob, "nothing stands out: no pixel is brighter than its surroundings");
-    region = region_above(field, brightest, (largest + blob.background) / 2);
-    blob.axes = principal_axes(field, region, blob.background);
-    const double semi_axis = std::max(1.0, 2 * blob.axes.major_sigma);
-    const std::vector<double> around =
-        ring(field, blob.axes.centre, kBackgroundFrom * semi_axis, kBackgroundTo * semi_axis);
-    if (around.size() < kFewestBackgroundPixels || round == 3) break;
-    blob.background = median(around);
-  }
-  blob.pixels = region.size();
-
-  Field above = field;
-  for (double& value : above.values) value -= blob.background;
-  blob.peak = locate_peak(above);
-  blob.major_half_width = blob.minor_half_width = kNaN;
-  if (blob.pixels >= kFewestPixelsOfALobe) {
-    const FilmPoint major = blob.axes.major;
-    blob.major_half_width = half_width(above, blob.peak, major);
-    blob.minor_half_width = half_width(above, blob.peak, {-major.y, major.x});
-  }
-  for (const double value :
-       ring(above, blob.axes.centre, 0, kEnergyReach * std::max(1.0, 2 * blob.axes.major_sigma)))
-    blob.energy += value;
-  blob.remark = remark_on(field, blob, region);
-  return blob;
+  return result;
 }
 
 /// The reach of the zones from the peak, pixels.
-double reach_of(const BlobFigures& blob) {
-  return kZoneReach *
-         (std::isnan(blob.major_half_width) ? 2 * blob.axes.major_sigma : blob.major_half_width);
-}
+double reach_of(const BlobFigures& blob) { return kZoneReach * size_of(blob); }
 
-std::vector<BlobCurve> curves_along(const BlobFigures& blob, const std::vector<Field>& fields) {
+std::vector<BlobCurve> curves_along(const BlobFigures& blob,
+                                    const std::vector<const Field*>& fields) {
   const double reach = reach_of(blob), step = std::max(kCurveStep, reach / kMostOffsets);
   const FilmPoint major = blob.axes.major, minor{-major.y, major.x};
   std::vector<BlobCurve> curves;
@@ -141,8 +120,8 @@ std::vector<BlobCurve> curves_along(const BlobFigures& blob, const std::vector<F
       curve.offset.push_back(k * step);
       for (std::size_t image = 0; image < fields.size(); ++image)
         curve.radiance[image].push_back(
-            sample(fields[image], {blob.peak.place.x + k * step * direction.x,
-                                   blob.peak.place.y + k * step * direction.y}));
+            sample(*fields[image], {blob.peak.place.x + k * step * direction.x,
+                                    blob.peak.place.y + k * step * direction.y}));
     }
     curves.push_back(std::move(curve));
   }
@@ -164,26 +143,80 @@ ZoneErrors difference_of(const Field& a, const Field& b, const BlobFigures& refe
   return sums.errors(reference.peak.value);
 }
 
+void require_in_picture(const BlobOptions& options, const Image& image) {
+  const auto size = [&] { return fmt::format("{} x {}", image.width(), image.height()); };
+  if (const auto& at = options.search.at;
+      at && !(at->x >= 0 && at->y >= 0 && at->x <= image.width() && at->y <= image.height()))
+    throw Error(ExitCode::kInput, fmt::format("the place ({:g}, {:g}) is outside of the picture, "
+                                              "which has {} pixels",
+                                              at->x, at->y, size()));
+  if (const auto& r = options.region;
+      r && !(r->x >= 0 && r->y >= 0 && r->width >= 1 && r->height >= 1 && r->x < image.width() &&
+             r->y < image.height() && r->width <= image.width() - r->x &&
+             r->height <= image.height() - r->y))
+    throw Error(ExitCode::kInput,
+                fmt::format("the region {},{},{},{} is not inside the picture, which has {} pixels",
+                            r->x, r->y, r->width, r->height, size()));
+}
+
 }  // namespace
 
-BlobProfile measure_blob(const NamedImages& images) {
+BlobProfiles measure_blobs(const NamedImages& images, const BlobOptions& options) {
   const Image& first = *images.front().second;
-  BlobProfile profile;
-  std::vector<Field> fields;
+  require_in_picture(options, first);
+  BlobProfiles all;
+  std::vector<Measured> pictures;
+  std::vector<const Field*> fields;
+  pictures.reserve(images.size());
   for (const auto& [name, image] : images) {
     if (image->width() != first.width() || image->height() != first.height())
       throw Error(ExitCode::kInput, fmt::format("{} has {} x {} pixels, {} has {} x {}",
                                                 images.front().first, first.width(), first.height(),
                                                 name, image->width(), image->height()));
-    profile.names.push_back(name);
-    fields.push_back(radiance_of(*image));
-    profile.blobs.push_back(measure(fields.back()));
+    const std::size_t k = pictures.size();
+    const PictureNoise* noise = k < options.noise.size() ? options.noise[k] : nullptr;
+    pictures.push_back(measure_picture(*image, options, noise));
+    const FoundBlobs& found = pictures.back().found;
+    fields.push_back(&found.field);
+    all.pictures.push_back({name, found.specks, found.left_out, found.cut, noise != nullptr});
   }
-  const BlobFigures& reference = profile.blobs.back();
-  if (!reference.why_not.empty()) return profile;
-  profile.curves = curves_along(reference, fields);
-  if (fields.size() > 1) profile.difference = difference_of(fields[0], fields[1], reference);
-  return profile;
+
+  // By picture, the place of the highlight among its own.
+  std::vector<std::vector<std::optional<std::size_t>>> places;
+  for (std::size_t i = 0; i < pictures[0].blobs.size(); ++i) places.push_back({i});
+  if (pictures.size() > 1) {
+    const auto found = matches(pictures[0].blobs, pictures[1].blobs);
+    for (std::size_t i = 0; i < found.size(); ++i) places[i].push_back(found[i]);
+    for (std::size_t j = 0; j < pictures[1].blobs.size(); ++j)
+      if (std::ranges::find(found, std::optional(j)) == found.end())
+        places.push_back({std::nullopt, j});
+  }
+  if (places.empty()) places.emplace_back(pictures.size());
+
+  for (const auto& place : places) {
+    BlobProfile profile;
+    profile.id = all.highlights.size() + 1;
+    const BlobFigures* reference = nullptr;
+    bool everywhere = pictures.size() > 1;
+    for (std::size_t k = 0; k < pictures.size(); ++k) {
+      profile.names.push_back(images[k].first);
+      const Measured& picture = pictures[k];
+      if (!place[k]) {
+        profile.blobs.push_back(no_blob(picture.blobs.empty()
+                                            ? why_nothing(picture, first.pixel_count())
+                                            : "no highlight of it is near and as bright"));
+        profile.blobs.back().not_finite = picture.not_finite;
+        everywhere = false;
+        continue;
+      }
+      profile.blobs.push_back(picture.blobs[*place[k]]);
+      reference = &picture.blobs[*place[k]];
+    }
+    if (reference) profile.curves = curves_along(*reference, fields);
+    if (everywhere) profile.difference = difference_of(*fields[0], *fields[1], *reference);
+    all.highlights.push_back(std::move(profile));
+  }
+  return all;
 }
 
 }  // namespace lobelia

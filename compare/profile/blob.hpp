@@ -1,21 +1,44 @@
-// The brightest blob of a picture without a scene: its place, its widths along its own axes, and the differences of
-// two pictures of it. docs/profiles.md defines every figure. The angles of its pixels are unknown, so instead of an
-// exponent it has the width of a Gaussian of the same half-width.
+// The highlights of a picture without a scene: of each its place, its widths along its own axes, its colour, how it falls
+// off, and the differences of two pictures of it, all with standard errors. docs/profiles.md defines every figure. The
+// angles of its pixels are unknown, so instead of an exponent it has the width of a Gaussian of the same half-width.
 #pragma once
 
+#include "compare/profile/falloff_fit.hpp"
+#include "compare/profile/find_blobs.hpp"
 #include "compare/profile/profile.hpp"
+#include "core/constants.hpp"
 
 namespace lobelia {
 
+/// Standard errors; NaN if unknown.
+struct BlobErrors {
+  double background = kNaN, peak = kNaN, energy = kNaN;
+  FilmPoint place{kNaN, kNaN}, centroid{kNaN, kNaN};  ///< of the peak
+  double major_half_width = kNaN, minor_half_width = kNaN;
+};
+
+struct Clipping {
+  std::size_t pixels = 0;  ///< with a value at the file's maximum
+  std::string channels;    ///< "R", "RGB"
+  FalloffFit flank;        ///< through the pixels that are not clipped
+};
+
 struct BlobFigures {
   std::size_t not_finite = 0;  ///< pixels of the picture; they are holes
-  double background = 0;       ///< radiance around the blob
+  double background = 0;       ///< radiance under the peak: of a level or of a plane
   Peak peak;                   ///< over the background
   std::size_t pixels = 0;      ///< connected, above half of the peak
   Axes axes;  ///< of these, weighted by radiance over the background; their centre is the centroid
   double major_half_width = 0;  ///< pixels; NaN if the blob does not fall to half
   double minor_half_width = 0;  ///< likewise
-  double energy = 0;    ///< radiance over the background times pixels, in a disc of 3 half-widths
+  double energy = 0;  ///< radiance over the background times pixels, in a disc of 3 half-widths
+  BlobErrors errors;
+  double noise = kNaN;  ///< of a pixel near the peak, of the peak
+  std::array<double, 3> colour{kNaN, kNaN,
+                               kNaN};  ///< R, G and B over their backgrounds; the largest is 1
+  std::optional<Clipping> clipped;     ///< then the half-widths are those of the flank
+  std::vector<FalloffFit>
+      falloff;          ///< the better family first; none for a clipped or unresolved blob
   std::string why_not;  ///< a sentence if there is no blob; then the figures are NaN
   std::string remark;   ///< a sentence if the blob is doubtful
 };
@@ -27,16 +50,47 @@ struct BlobCurve {
   std::vector<std::vector<double>> radiance;  ///< [picture][offset]
 };
 
+/// One highlight in one or two pictures.
 struct BlobProfile {
+  std::size_t id = 0;  ///< 1 for the brightest
   std::vector<std::string> names;
   std::vector<BlobFigures> blobs;        ///< [picture]
-  std::vector<BlobCurve> curves;         ///< none if the reference has no blob
-  std::optional<ZoneErrors> difference;  ///< of the first from the second
+  std::vector<BlobCurve> curves;         ///< none if no picture has the blob
+  std::optional<ZoneErrors> difference;  ///< of the first from the second, if both have the blob
 };
 
-/// One picture, or two of which the second is the reference. Throws Error(kInput) if the sizes differ.
-BlobProfile measure_blob(const NamedImages& images);
+struct Rectangle {
+  int x = 0, y = 0, width = 0, height = 0;  ///< of the upper left pixel; pixels
+};
+
+struct BlobOptions {
+  BlobSearch search;
+  std::optional<Rectangle> region;         ///< nothing outside is looked at
+  std::vector<const PictureNoise*> noise;  ///< [picture]; null or missing: unknown
+};
+
+/// What a picture has besides its highlights.
+struct BlobPicture {
+  std::string name;
+  std::vector<Speck> specks;  ///< the brightest first
+  std::size_t left_out = 0;   ///< highlights beyond kMostBlobs
+  bool cut = false;           ///< too many peaks to look at each
+  bool noise_is_given = false;
+};
+
+struct BlobProfiles {
+  std::vector<BlobPicture> pictures;
+  /// Of the first picture from its brightest on, then those that only the second has. At least one; if there is no
+  /// highlight at all, its `why_not` says so.
+  std::vector<BlobProfile> highlights;
+};
+
+/// One picture, or two of which the second is the reference. Throws Error(kInput) if the sizes differ, or if the place or
+/// the region lies outside.
+BlobProfiles measure_blobs(const NamedImages& images, const BlobOptions& options);
 
 records::Blob blob_record(const BlobProfile& profile);
+/// Lists 16 specks of each picture.
+records::Blobs blobs_record(const BlobProfiles& profiles, double least_share);
 
 }  // namespace lobelia

@@ -20,6 +20,15 @@ double Field::at(int i, int j) const {
   return values[std::size_t(j) * width + i];
 }
 
+Field radiance_field(const Image& image) {
+  Field field{image.width(), image.height(), std::vector<double>(image.pixel_count())};
+  for (std::size_t i = 0; i < field.values.size(); ++i) {
+    const double radiance = radiance_at(image, i);
+    field.values[i] = std::isfinite(radiance) ? radiance : kNaN;
+  }
+  return field;
+}
+
 FilmPoint pixel_centre(const Field& field, std::size_t index) {
   const std::size_t width = std::size_t(field.width);
   return {double(index % width) + 0.5, double(index / width) + 0.5};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "compare/profile/least_squares.hpp"
 #include "core/constants.hpp"
 
 namespace lobelia {
@@ -54,32 +55,11 @@ struct Polynomial {
   }
 };
 
-/// Cholesky's method for a symmetric matrix, given its lower half; false if it is singular.
-bool solve(std::array<Terms, kMostTerms>& matrix, Terms& right, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double rest = matrix[i][j];
-      for (std::size_t k = 0; k < j; ++k) rest -= matrix[i][k] * matrix[j][k];
-      if (i == j && !(rest > 1e-14 * matrix[i][i])) return false;
-      matrix[i][j] = i == j ? std::sqrt(rest) : rest / matrix[j][j];
-    }
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t k = 0; k < i; ++k) right[i] -= matrix[i][k] * right[k];
-    right[i] /= matrix[i][i];
-  }
-  for (std::size_t i = size; i-- > 0;) {
-    for (std::size_t k = i + 1; k < size; ++k) right[i] -= matrix[k][i] * right[k];
-    right[i] /= matrix[i][i];
-  }
-  return true;
-}
-
 /// Fits the logarithm of value / largest; nothing if a value has no logarithm.
 std::optional<Polynomial> fit(const Field& field, const std::vector<std::size_t>& pixels,
                               int degree, FilmPoint origin, double unit, double largest) {
-  const std::size_t terms = Polynomial::terms(degree);
-  std::array<Terms, kMostTerms> normal{};
-  Terms right{}, row{};
+  NormalEquations<kMostTerms> normal(Polynomial::terms(degree));
+  Terms row{};
   for (const std::size_t pixel : pixels) {
     const double share = field.values[pixel] / largest;
     if (!(share > 0)) return std::nullopt;
@@ -88,14 +68,10 @@ std::optional<Polynomial> fit(const Field& field, const std::vector<std::size_t>
     std::size_t k = 0;
     for (int a = 0; a <= degree; ++a)
       for (int b = 0; a + b <= degree; ++b) row[k++] = std::pow(x, a) * std::pow(y, b);
-    const double weight = share * share;
-    for (std::size_t i = 0; i < terms; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) normal[i][j] += weight * row[i] * row[j];
-      right[i] += weight * std::log(share) * row[i];
-    }
+    normal.add(row, share * share, std::log(share));
   }
-  if (!solve(normal, right, terms)) return std::nullopt;
-  return Polynomial{degree, origin, unit, right};
+  if (!normal.factorise()) return std::nullopt;
+  return Polynomial{degree, origin, unit, normal.solution()};
 }
 
 /// Newton's iteration from `start`; nothing unless it ends on a maximum at most `reach` pixels away.
@@ -157,7 +133,10 @@ Peak locate_peak(const Field& field) {
         (brightest == none || field.values[i] > field.values[brightest]))
       brightest = i;
   if (brightest == none) return {{kNaN, kNaN}, kNaN, PeakFound::kNone, 0};
+  return locate_peak(field, brightest);
+}
 
+Peak locate_peak(const Field& field, std::size_t brightest) {
   const double largest = field.values[brightest];
   Peak peak{pixel_centre(field, brightest), largest, PeakFound::kPixel, brightest};
   const std::vector<std::size_t> cap = region_above(field, brightest, kCap * largest);

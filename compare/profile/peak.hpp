@@ -9,8 +9,11 @@
 //   of degree 2 over 3 x 3 pixels, if the cap is smaller: third-order terms are small there too.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include "core/image.hpp"
 
 namespace lobelia {
 
@@ -24,9 +27,18 @@ struct Field {
   double at(int i, int j) const;
 };
 
+/// The mean of R, G and B of a pixel, by its index in reading order.
+inline double radiance_at(const Image& image, std::size_t index) {
+  const float* value = image.values().data() + 3 * index;
+  return (double(value[0]) + double(value[1]) + double(value[2])) / 3;
+}
+/// Pixels that are not finite are holes.
+Field radiance_field(const Image& image);
+
 struct FilmPoint {
   double x = 0, y = 0;
 };
+inline double distance(FilmPoint a, FilmPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// The centre of a pixel, by its index in reading order.
 FilmPoint pixel_centre(const Field& field, std::size_t index);
@@ -71,5 +83,7 @@ struct Peak {
 
 /// Infinite values are holes too. O(pixels).
 Peak locate_peak(const Field& field);
+/// The same from a pixel of finite value above 0 that none of its neighbours exceeds.
+Peak locate_peak(const Field& field, std::size_t brightest);
 
 }  // namespace lobelia

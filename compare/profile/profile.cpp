@@ -150,7 +150,8 @@ ZoneErrors ZoneErrorSums::errors(double peak) const {
 }
 
 Profile measure_profile(const ProfileGeometry& geometry, const NamedImages& images,
-                        const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+                        const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                        const std::vector<PictureFacts>& facts) {
   require_pixel_count(geometry, images);
   const std::vector<LitPixel> lit = lit_pixels(geometry);
   Profile profile;
@@ -163,7 +164,8 @@ Profile measure_profile(const ProfileGeometry& geometry, const NamedImages& imag
     shape.half_width = half_width(profile.angle, profile.radiance[k], shape);
     profile.shapes.push_back(shape);
     if (geometry.width > 0)
-      profile.figures.push_back(measure_highlight(geometry, *images[k].second));
+      profile.figures.push_back(measure_highlight(geometry, *images[k].second,
+                                                  facts.empty() ? PictureFacts{} : facts.at(k)));
   }
   for (const auto& [a, b] : pairs)
     profile.differences.push_back({images.at(a).first, images.at(b).first,

@@ -4,9 +4,9 @@
 // Radiance here is the mean of R, G and B.
 #pragma once
 
-#include "compare/profile/cosine_fit.hpp"
-#include "compare/profile/peak.hpp"
-#include "core/image.hpp"
+#include "compare/profile/lobe_fit.hpp"
+#include "compare/profile/outline.hpp"
+#include "compare/uncertainty/noise.hpp"
 #include "records/profile.hpp"
 
 namespace lobelia {
@@ -39,11 +39,13 @@ class ZoneErrorSums {
 /// Pictures by name, in the order of the report. One may be the formula: "analytic".
 using NamedImages = std::vector<std::pair<std::string, const Image*>>;
 
-/// The mean of R, G and B of a pixel, by its index in reading order.
-inline double radiance_at(const Image& image, std::size_t index) {
-  const float* value = image.values().data() + 3 * index;
-  return (double(value[0]) + double(value[1]) + double(value[2])) / 3;
-}
+/// What else the pixels see, for fits of any lobe. In reading order; NaN where ProfileGeometry::angle is.
+struct LobeGeometry {
+  std::span<const double> reflection, half_vector;  ///< angles, radians
+  std::span<const double> n_dot_l, n_dot_v;
+  std::span<const double>
+      irradiance;  ///< times reflectance and Fresnel factor, the mean of R, G and B
+};
 
 /// The geometry of the pixels, in reading order.
 struct ProfileGeometry {
@@ -56,6 +58,7 @@ struct ProfileGeometry {
   std::span<const double> base = {};   ///< radiance beneath the highlight: the diffuse base
   /// Unit vector in the picture, y down, along the plane of incidence; none if eye, sphere and light lie on a line.
   std::optional<FilmPoint> incidence = {};
+  std::optional<LobeGeometry> lobes = {};
 };
 
 /// Half of the width between the places on both sides where the highlight has half of its peak.
@@ -64,18 +67,36 @@ struct HalfWidth {
   double angle = 0;  ///< of the lobe there, the mean of both sides, radians
 };
 
+/// Standard errors; NaN if unknown.
+struct HighlightErrors {
+  bool noise_is_given = false;  ///< or else from the scatter of the pixels
+  double peak = 0, energy = 0;
+  FilmPoint place, centroid;
+  double along = 0, across = 0;  ///< half-widths, pixels
+};
+
 /// Figures of the highlight alone, without the radiance beneath it; NaN if unknown.
 struct HighlightFigures {
   Peak peak;           ///< to a fraction of a pixel
   FilmPoint centroid;  ///< weighted by radiance * solid angle, down to the end of the blooming zone
   double energy = 0;   ///< sum of radiance * solid angle over the lit pixels, W/m^2
   HalfWidth along, across;  ///< the plane of incidence; without one, x and y of the picture
-  CosineFit cosine;         ///< down to the end of the blooming zone
+  LobeFit cosine;           ///< down to the end of the blooming zone
   std::string why_not;      ///< a sentence if there is no peak or it is not resolved
+  std::vector<FamilyFit> explanations;  ///< within 3 half-widths, the best first
+  std::optional<HighlightErrors> errors;
 };
 
-/// `geometry.width` is not 0. The picture has as many pixels as the geometry.
-HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image& image);
+/// What is known of a picture besides its values.
+struct PictureFacts {
+  const PictureNoise* noise = nullptr;  ///< null: unknown
+  std::vector<bool> clipped = {};       ///< of each pixel; empty: none. Fits leave these out.
+  bool thorough = false;  ///< standard errors and explanations are wanted; they need the lobes
+};
+
+/// `geometry.width` is not 0. The picture and its facts have as many pixels as the geometry.
+HighlightFigures measure_highlight(const ProfileGeometry& geometry, const Image& image,
+                                   const PictureFacts& facts = {});
 
 struct HighlightShape {
   double peak = 0;        ///< the largest radiance of a lit pixel; NaN if one is not finite
@@ -101,9 +122,11 @@ struct Profile {
   std::vector<ProfileDifference> differences;
 };
 
-/// `pairs` are indices into `images`. Throws Error(kInput) if a picture's pixels are not as many as the geometry's.
+/// `pairs` are indices into `images`. `facts` are those of each image, or empty. Throws Error(kInput) if a picture's pixels
+/// are not as many as the geometry's.
 Profile measure_profile(const ProfileGeometry& geometry, const NamedImages& images,
-                        const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
+                        const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+                        const std::vector<PictureFacts>& facts = {});
 
 /// `angle_name` is "reflection" or "half_vector".
 records::Profile profile_record(const Profile& profile, int light, int sphere,

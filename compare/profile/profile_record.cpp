@@ -29,6 +29,36 @@ records::HalfWidth half_width_record(const HalfWidth& width) {
   return {width.pixels, width.angle * kDegrees};
 }
 
+std::string source_name(bool noise_is_given) {
+  return std::string(records::kNoiseSources[noise_is_given ? 0 : 1]);
+}
+
+records::LobeExplanation explanation_record(const FamilyFit& family) {
+  records::LobeExplanation record;
+  record.family = records::kLobeFamilies[std::size_t(family.family)];
+  record.times_n_dot_l = family.times_n_dot_l;
+  record.because = family.fit.why_not;
+  if (!family.fit.why_not.empty()) return record;
+  if (family.family == LobeFamily::kGgx || family.family == LobeFamily::kBeckmann) {
+    record.alpha = family.fit.width;
+    record.roughness = std::sqrt(family.fit.width);
+  } else {
+    record.exponent = family.fit.width;
+  }
+  record.standard_error = family.fit.standard_error;
+  record.coefficient = family.fit.coefficient;
+  record.rms_of_peak = family.fit.residual;
+  if (!std::isnan(family.noise_share)) record.rms_of_noise = family.noise_share;
+  record.deviations_from_best = family.apart;
+  return record;
+}
+
+records::HighlightErrors errors_record(const HighlightErrors& errors) {
+  return {
+      source_name(errors.noise_is_given), errors.peak,  errors.energy, point_record(errors.place),
+      point_record(errors.centroid),      errors.along, errors.across};
+}
+
 records::HighlightFigures figures_record(const HighlightFigures& figures) {
   records::HighlightFigures record;
   record.peak = peak_record(figures.peak);
@@ -36,18 +66,34 @@ records::HighlightFigures figures_record(const HighlightFigures& figures) {
   record.half_width_along = half_width_record(figures.along);
   record.half_width_across = half_width_record(figures.across);
   record.energy = figures.energy;
-  const CosineFit& cosine = figures.cosine;
+  const LobeFit& cosine = figures.cosine;
   records::CosineLobe& lobe = record.cosine_lobe;
   lobe.because = cosine.why_not;
   if (cosine.why_not.empty()) {
-    lobe.exponent = cosine.exponent;
+    lobe.exponent = cosine.width;
     lobe.standard_error = cosine.standard_error;
     lobe.coefficient = cosine.coefficient;
     lobe.rms_of_peak = cosine.residual;
     lobe.pixels = cosine.pixels;
   }
   record.because = figures.why_not;
+  for (const FamilyFit& family : figures.explanations)
+    record.explanations.push_back(explanation_record(family));
+  if (figures.errors) record.standard_errors = errors_record(*figures.errors);
   return record;
+}
+
+records::Estimate estimate_record(const Estimate& one) { return {one.value, one.error}; }
+
+records::Falloff falloff_record(const FalloffFit& fit) {
+  return {std::string(records::kFalloffs[std::size_t(fit.family)]),
+          estimate_record(fit.peak),
+          estimate_record(fit.major_half_width),
+          estimate_record(fit.minor_half_width),
+          point_record(fit.place),
+          fit.residual,
+          fit.pixels,
+          fit.why_not};
 }
 
 // Standard deviation of a Gaussian over its half-width.
@@ -66,6 +112,20 @@ records::BlobFigures figures_record(const BlobFigures& blob) {
   record.nonfinite = blob.not_finite;
   record.because = blob.why_not;
   record.remark = blob.remark;
+  if (!blob.why_not.empty()) return record;
+  const BlobErrors& errors = blob.errors;
+  record.standard_errors = records::BlobErrors{errors.background,
+                                               errors.peak,
+                                               errors.energy,
+                                               point_record(errors.place),
+                                               point_record(errors.centroid),
+                                               {errors.major_half_width, errors.minor_half_width}};
+  if (std::isfinite(blob.noise)) record.noise_of_peak = blob.noise;
+  record.colour = records::Colour{blob.colour[0], blob.colour[1], blob.colour[2]};
+  if (blob.clipped)
+    record.clipped = records::Clipping{blob.clipped->pixels, blob.clipped->channels,
+                                       blob.peak.value, falloff_record(blob.clipped->flank)};
+  for (const FalloffFit& fit : blob.falloff) record.falloff.push_back(falloff_record(fit));
   return record;
 }
 
@@ -104,6 +164,7 @@ records::Profile profile_record(const Profile& profile, int light, int sphere,
 
 records::Blob blob_record(const BlobProfile& profile) {
   records::Blob record;
+  record.id = profile.id;
   record.reference = profile.names.back();
   record.zones = {kZoneShares[0], kZoneShares[1], kZoneShares[2]};
   for (std::size_t k = 0; k < profile.names.size(); ++k)
@@ -118,6 +179,27 @@ records::Blob blob_record(const BlobProfile& profile) {
   if (profile.difference)
     record.differences.emplace_back(profile.names[0] + "-" + profile.names[1],
                                     zones_record(*profile.difference));
+  return record;
+}
+
+records::Blobs blobs_record(const BlobProfiles& profiles, double least_share) {
+  constexpr std::size_t kMostSpecks = 16;
+  records::Blobs record;
+  record.least_share = least_share;
+  for (const BlobPicture& picture : profiles.pictures) {
+    records::BlobPicture& one =
+        record.pictures.emplace_back(picture.name, records::BlobPicture{}).second;
+    one.standard_errors_from = source_name(picture.noise_is_given);
+    for (const Speck& speck : picture.specks) {
+      if (one.specks.size() == kMostSpecks) break;
+      one.specks.push_back({point_record(speck.place), speck.value, speck.pixels.size()});
+    }
+    one.more_specks = picture.specks.size() - one.specks.size();
+    one.more_highlights = picture.left_out;
+    one.may_have_more = picture.cut;
+  }
+  for (const BlobProfile& profile : profiles.highlights)
+    record.highlights.push_back(blob_record(profile));
   return record;
 }
 

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,6 +44,23 @@ TEST_F(ProfileCommand, SaysWhichCosineLobeTheHighlightIs) {
       HasSubstr("two_lights: this highlight is a cosine lobe of n = 64.00000 +- 0.00006 (but for"));
 }
 
+TEST_F(ProfileCommand, SaysFirstWhatExplainsTheHighlight) {
+  const auto result = run({"profile", "oblique_45.exr", "--scene", oblique_});
+  EXPECT_THAT(result.output_tail,
+              StartsWith("oblique_45: this highlight is best explained by exponent 64.00000 +- "
+                         "0.00006 of Phong\n"));
+  EXPECT_THAT(result.output_tail, HasSubstr(" of Blinn-Phong is "));
+  EXPECT_THAT(result.output_tail, HasSubstr("GGX of alpha "));
+  ASSERT_EQ(run({"render", oblique_, "--model", "modified_blinn_phong", "--exponent", "121", "-o",
+                 "other.exr"})
+                .exit_code,
+            0);
+  // The scene says Phong; what counts is the picture.
+  EXPECT_THAT(run({"profile", "other.exr", "--scene", oblique_}).output_tail,
+              StartsWith("other: this highlight is best explained by exponent 121.00000 +- 0.00012 "
+                         "of Blinn-Phong times N.L\n"));
+}
+
 TEST_F(ProfileCommand, OfASceneMeasuresEveryHighlightUnlessOneIsChosen) {
   const Json all = record_of({"profile", "two_lights.exr", "--scene", two_lights_});
   EXPECT_EQ(all["kind"], "profiles");
@@ -52,15 +70,50 @@ TEST_F(ProfileCommand, OfASceneMeasuresEveryHighlightUnlessOneIsChosen) {
   EXPECT_EQ(one, all["profiles"][1]);
 }
 
-TEST_F(ProfileCommand, WithoutASceneMeasuresTheBrightestBlob) {
+TEST_F(ProfileCommand, WithoutASceneMeasuresEveryHighlight) {
   const auto result = run({"profile", "oblique_45.exr", "two_lights.exr"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.output_tail, HasSubstr("as wide as a Gaussian of"));
+  for (const char* words :
+       {"as wide as a Gaussian of", "peak over background", "it falls off like a Gaussian",
+        "2, oblique_45: no highlight of it is near and as bright"})
+    EXPECT_THAT(result.output_tail, HasSubstr(words));
   EXPECT_THAT(result.output_tail, Not(HasSubstr("cosine lobe")));
-  const Json blob = record_of({"profile", "oblique_45.exr", "two_lights.exr"});
-  EXPECT_EQ(blob["kind"], "blob");
-  EXPECT_EQ(blob["reference"], "two_lights");
-  EXPECT_TRUE(blob["differences"].contains("oblique_45-two_lights"));
+  const Json blobs = record_of({"profile", "oblique_45.exr", "two_lights.exr"});
+  EXPECT_EQ(blobs["kind"], "blobs");
+  ASSERT_EQ(blobs["highlights"].size(), 2u);
+  EXPECT_EQ(blobs["highlights"][0]["id"], 1);
+  EXPECT_EQ(blobs["highlights"][0]["reference"], "two_lights");
+  EXPECT_EQ(blobs["pictures"]["two_lights"]["standardErrorsFrom"], "scatter");
+}
+
+TEST_F(ProfileCommand, MeasuresTheHighlightAtAPlaceOrInARegion) {
+  const Json all = record_of({"profile", "two_lights.exr"});
+  ASSERT_EQ(all["highlights"].size(), 2u);
+  const Json& second = all["highlights"][1]["images"]["two_lights"]["peak"];
+  const int x = int(second["x"].get<double>()), y = int(second["y"].get<double>());
+  const Json at = record_of({"profile", "two_lights.exr", "--at", fmt::format("{},{}", x, y)});
+  EXPECT_EQ(at["kind"], "blob");
+  EXPECT_EQ(at["images"]["two_lights"]["peak"], second);
+  const Json inside = record_of(
+      {"profile", "two_lights.exr", "--region", fmt::format("{},{},60,60", x - 30, y - 30)});
+  ASSERT_EQ(inside["highlights"].size(), 1u);
+  EXPECT_NEAR(inside["highlights"][0]["images"]["two_lights"]["peak"]["x"].get<double>(), x, 1);
+}
+
+TEST_F(ProfileCommand, TakesTheNoiseFromReplicatesOrStandardErrors) {
+  const auto source = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"profile", "two_lights.exr"});
+    const Json record = record_of(more);
+    EXPECT_GT(record["highlights"][0]["images"]["two_lights"]["standardErrors"]["peak"], 0);
+    return record["pictures"]["two_lights"]["standardErrorsFrom"];
+  };
+  EXPECT_EQ(source({"--replicate", "oblique_45.exr"}), "given");
+  EXPECT_EQ(source({"--error", "oblique_45.exr"}), "given");
+  const Json scene = record_of({"profile", "two_lights.exr", "--error", "oblique_45.exr", "--scene",
+                                two_lights_, "--light", "0"});
+  const Json& highlight = scene["images"]["two_lights"]["highlight"];
+  EXPECT_EQ(highlight["standardErrors"]["source"], "given");
+  EXPECT_EQ(highlight["explanations"].size(), 4u);
 }
 
 TEST_F(ProfileCommand, WritesTablesAndCharts) {
@@ -71,9 +124,11 @@ TEST_F(ProfileCommand, WritesTablesAndCharts) {
   EXPECT_THAT(all, HasSubstr("\n0,1,"));
   EXPECT_EQ(run({"profile", "two_lights.exr", "--csv", "blob.csv", "--svg", "blob.svg"}).exit_code,
             0);
-  EXPECT_THAT(text_of("blob.csv"), StartsWith("axis,offsetPixels,two_lights\nmajor,-"));
-  EXPECT_THAT(text_of("blob.csv"), HasSubstr("\nminor,-"));
-  EXPECT_THAT(text_of("blob.svg"), HasSubstr("two_lights, short axis"));
+  EXPECT_THAT(text_of("blob.csv"), StartsWith("highlight,axis,offsetPixels,two_lights\n1,major,-"));
+  EXPECT_THAT(text_of("blob.csv"), HasSubstr("\n2,minor,-"));
+  EXPECT_THAT(text_of("blob.svg"), HasSubstr("2: two_lights"));
+  EXPECT_EQ(run({"profile", "two_lights.exr", "--at", "91,103", "--svg", "one.svg"}).exit_code, 0);
+  EXPECT_THAT(text_of("one.svg"), HasSubstr("two_lights, short axis"));
   EXPECT_EQ(run({"profile", "oblique_45.exr", "--scene", oblique_, "--svg", "one.svg"}).exit_code,
             0);
   for (const char* words : {"flank", "blooming zone", "formula", "oblique_45"})
@@ -94,6 +149,14 @@ TEST_F(ProfileCommand, RefusesWhatItCannotDoInOneLine) {
       {{"two_lights.exr", "--scene", two_lights_, "--light", "2"}, 3, "no light 2"},
       {{"two_lights.exr", "--scene", two_lights_, "--width", "9"}, 3, "256 x 256"},
       {{"missing.exr"}, 3, "missing.exr"},
+      {{"two_lights.exr", "--at", "9"}, 2, "--at '9' has to be X,Y"},
+      {{"two_lights.exr", "--at", "9,nan"}, 2, "has to be X,Y"},
+      {{"two_lights.exr", "--at", "9,300"}, 3, "(9, 300) is outside of the picture"},
+      {{"two_lights.exr", "--region", "1,2,3"}, 2, "has to be X,Y,W,H"},
+      {{"two_lights.exr", "--region", "1,2,3.5,9"}, 2, "has to be whole pixels"},
+      {{"two_lights.exr", "--region", "1,2,0,9"}, 3, "is not inside the picture"},
+      {{"two_lights.exr", "--scene", two_lights_, "--at", "9,9"}, 2, "--scene excludes --at"},
+      {{"two_lights.exr", "--b-error", "two_lights.exr"}, 2, "--b-error requires B"},
       {{"two_lights.exr", "--svg", "no/such/a.svg"}, 4, "no/such/a.svg"},
       {{"two_lights.exr", "--scene", kScenes + "effects/crowd.xml", "--width", "256", "--height",
         "256"},

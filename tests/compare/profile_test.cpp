@@ -209,8 +209,7 @@ TEST(HighlightFigures, AreThoseOfWhatLiesOverTheBase) {
   EXPECT_NEAR(figures.energy, 3 * std::numbers::pi * w * w / std::numbers::ln2,
               1e-4 * figures.energy);
   // exp(-n x^2 / 2), nearly: a cosine's power of ln 4 / width^2, but for terms of width^2.
-  EXPECT_NEAR(figures.cosine.exponent, 2 * std::numbers::ln2 / (w * w),
-              0.02 * figures.cosine.exponent);
+  EXPECT_NEAR(figures.cosine.width, 2 * std::numbers::ln2 / (w * w), 0.02 * figures.cosine.width);
   EXPECT_GT(figures.cosine.residual, 1e-5);
 }
 

@@ -183,9 +183,13 @@ TEST(ProfileSchema, HoldsForProfilesOfEveryKindOfPicture) {
   dull.materials[0].specular_reflectance = {0, 0, 0};
   const Image good = render(scene, RenderOptions{}).image;
   const int width = scene.film.width, height = scene.film.height;
+  Image clipped = good;
+  for (float& value : clipped.values()) value = std::min(value, 1.0f);
+  clipped.pixel(5, 5)[0] = 1e4f;
   for (const Scene& each : {scene, away, dull})
-    for (const Image& picture : {good, Image(width, height), broken(width, height)})
-      EXPECT_EQ(schema_problems(profile_scene(each, 0, 0, {{"a", &picture}})), "");
+    for (const Image& picture : {good, clipped, Image(width, height), broken(width, height)})
+      for (const bool thorough : {false, true})
+        EXPECT_EQ(schema_problems(profile_scene(each, 0, 0, {{"a", &picture}}, thorough)), "");
   const records::Profile profile = profile_scene(scene, 0, 0, {{"a", &good}});
   EXPECT_TRUE(records::find(profile.images, "a")->highlight->cosine_lobe.exponent)
       << "a record in which little is missing";
@@ -199,8 +203,8 @@ TEST(ProfileSchema, HoldsForBlobsOfEveryKindOfPicture) {
   const Image black(width, height), holes = broken(width, height);
   for (const Image* a : {&good, &black, &holes})
     for (const Image* b : {&good, &black, &holes})
-      EXPECT_EQ(schema_problems(blob_record(measure_blob({{"a", a}, {"b", b}}))), "");
-  EXPECT_EQ(schema_problems(blob_record(measure_blob({{"a", &good}}))), "");
+      EXPECT_EQ(schema_problems(blobs_record(measure_blobs({{"a", a}, {"b", b}}, {}), 0.1)), "");
+  EXPECT_EQ(schema_problems(blob_record(measure_blobs({{"a", &good}}, {}).highlights[0])), "");
 }
 
 TEST(MetricsDocument, IsWhatTheProgramPrints) {
@@ -327,9 +331,11 @@ TEST(BrokenRecords, OfProfilesAreRefused) {
 
 TEST(BrokenRecords, OfBlobsAreRefused) {
   const Image picture = render(scene_with("phong_rdf", 64), RenderOptions{}).image;
-  const Plain good = as_written(blob_record(measure_blob({{"a", &picture}, {"b", &picture}})));
+  const Plain good =
+      as_written(blob_record(measure_blobs({{"a", &picture}, {"b", &picture}}, {}).highlights[0]));
   for (const auto& [key, value] : good.items())
-    if (key != "madeBy") expect_refused<records::Blob>(good, [&](Plain& r) { r.erase(key); });
+    if (key != "madeBy" && key != "id")
+      expect_refused<records::Blob>(good, [&](Plain& r) { r.erase(key); });
   expect_refused<records::Blob>(good, [](Plain& r) { r["images"]["a"]["pixels"] = -1; });
   expect_refused<records::Blob>(good, [](Plain& r) { r["images"]["a"]["remark"] = ""; });
 }

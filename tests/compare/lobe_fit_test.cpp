@@ -1,4 +1,4 @@
-#include "compare/profile/cosine_fit.hpp"
+#include "compare/profile/lobe_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,9 +45,9 @@ TEST(CosineFit, RecoversTheExponentWithinItsErrorFromFloats) {
     for (const double across : {2.0, 8.0, 30.0}) {
       std::vector<LobeSample> samples = cosine(n, across);
       for (LobeSample& sample : samples) sample.radiance = double(float(sample.radiance));
-      const CosineFit fit = fit_cosine_lobe(samples);
+      const LobeFit fit = fit_cosine_lobe(samples);
       ASSERT_EQ(fit.why_not, "") << n;
-      EXPECT_NEAR(fit.exponent, n, 4 * fit.standard_error) << n << ' ' << across;
+      EXPECT_NEAR(fit.width, n, 4 * fit.standard_error) << n << ' ' << across;
       EXPECT_LT(fit.standard_error, 1e-7 * n) << n << ' ' << across;
       EXPECT_GT(fit.standard_error, 0);
       EXPECT_NEAR(fit.coefficient, kCoefficient, 1e-6);
@@ -68,8 +68,8 @@ std::pair<double, double> coverage(double of_peak, double of_value) {
     std::vector<LobeSample> noisy = exact;
     for (LobeSample& sample : noisy)
       sample.radiance += normal(random) * (of_peak * kCoefficient + of_value * sample.radiance);
-    const CosineFit fit = fit_cosine_lobe(noisy);
-    const double away = std::abs(fit.exponent - kExponent) / fit.standard_error;
+    const LobeFit fit = fit_cosine_lobe(noisy);
+    const double away = std::abs(fit.width - kExponent) / fit.standard_error;
     one += away <= 1;
     two += away <= 2;
   }
@@ -90,21 +90,21 @@ TEST(CosineFit, OfAnotherLobeSaysWhichCosineItLooksLikeAndHowFarItIsFromThat) {
     const double s = 2 * std::pow(std::sin(angle / 2), 2);
     return std::pow(std::max(0.0, 1 - 256 * s / 16), 16);
   };
-  const CosineFit fit = fit_cosine_lobe(lobe(256, 8, cs16));
+  const LobeFit fit = fit_cosine_lobe(lobe(256, 8, cs16));
   ASSERT_EQ(fit.why_not, "");
   // Narrower than cos^n, as it is 0 from a finite angle on.
-  EXPECT_GT(fit.exponent, 258);
-  EXPECT_LT(fit.exponent, 290);
+  EXPECT_GT(fit.width, 258);
+  EXPECT_LT(fit.width, 290);
   EXPECT_GT(fit.residual, 1e-3);
   EXPECT_LT(fit.residual, 1.7e-2) << "the paper's bound of the whole difference";
-  EXPECT_GT(std::abs(fit.exponent - 256), 10 * fit.standard_error);
+  EXPECT_GT(std::abs(fit.width - 256), 10 * fit.standard_error);
 }
 
 TEST(CosineFit, SaysWhyThereIsNone) {
   const std::vector<LobeSample> good = cosine(64, 6);
   const auto why = [](std::vector<LobeSample> samples) {
-    const CosineFit fit = fit_cosine_lobe(samples);
-    EXPECT_TRUE(std::isnan(fit.exponent) && std::isnan(fit.standard_error)) << fit.why_not;
+    const LobeFit fit = fit_cosine_lobe(samples);
+    EXPECT_TRUE(std::isnan(fit.width) && std::isnan(fit.standard_error)) << fit.why_not;
     return fit.why_not;
   };
   const auto changed = [&](auto change) {
@@ -133,7 +133,7 @@ TEST(CosineFit, TakesAnglesUpToTheHorizonAndBeyond) {
   std::vector<LobeSample> samples = cosine(1, 12);
   samples.push_back({std::numbers::pi / 2, 1, 0});
   samples.push_back({std::numbers::pi, 1, 0});
-  EXPECT_NEAR(fit_cosine_lobe(samples).exponent, 1, 1e-9);
+  EXPECT_NEAR(fit_cosine_lobe(samples).width, 1, 1e-9);
 }
 
 }  // namespace

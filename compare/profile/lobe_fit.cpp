@@ -1,0 +1,338 @@
+#include "compare/profile/lobe_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "core/constants.hpp"
+
+namespace lobelia {
+namespace {
+
+// Steps small enough not to miss a single minimum of the sum of squares. A few thousand pixels suffice to locate it.
+constexpr double kRatio = 1.25;
+constexpr std::size_t kScanned = 4096;
+
+struct Term {
+  double log_cosine;  ///< of the lobe's angle
+  double scale, radiance;
+  double weight = 1, error = kNaN;  ///< 0 for a clipped pixel
+  double n_dot_l = 1, n_dot_v = 1;
+  int x = 0, y = 0;
+};
+
+double log_cosine(double angle) {
+  const double half_sine = std::sin(angle / 2);
+  return std::log1p(-std::min(1.0, 2 * half_sine * half_sine));
+}
+
+/// Logarithm of a lobe over its peak, and the derivative of that by the logarithm of its width.
+struct Lobe {
+  double log_value, slope;
+};
+
+struct CosinePower {
+  static constexpr double kSmallest = 1e-3, kLargest = 1e8;
+  Lobe operator()(const Term& term, double exponent) const {
+    const double power = exponent * term.log_cosine;
+    return {power, power};
+  }
+};
+
+/// Widths of microfacet distributions.
+struct Microfacets {
+  static constexpr double kSmallest = 1e-4, kLargest = 4;
+  static double tangent_squared(double cosine) { return 1 / (cosine * cosine) - 1; }
+};
+
+struct Ggx : Microfacets {
+  Lobe operator()(const Term& term, double alpha) const {
+    const double squared = alpha * alpha, cosine2 = std::exp(2 * term.log_cosine);
+    const double spread = (1 - cosine2) / squared, sum = cosine2 + spread;
+    Lobe lobe{-2 * std::log(sum), 4 * spread / sum};
+    for (const double cosine : {term.n_dot_l, term.n_dot_v}) {
+      const double steep = squared * tangent_squared(cosine), root = std::sqrt(1 + steep);
+      lobe.log_value += std::log(2 / (1 + root));
+      lobe.slope -= steep / (root * (1 + root));
+    }
+    return lobe;
+  }
+};
+
+struct Beckmann : Microfacets {
+  Lobe operator()(const Term& term, double alpha) const {
+    const double steepness = std::expm1(-2 * term.log_cosine) / (alpha * alpha);
+    Lobe lobe{-steepness - 4 * term.log_cosine, 2 * steepness};
+    for (const double cosine : {term.n_dot_l, term.n_dot_v}) {
+      const double a = 1 / (alpha * std::sqrt(tangent_squared(cosine)));
+      if (!(a < 1.6)) continue;
+      const double above = (3.535 + 2.181 * a) * a, below = 1 + (2.276 + 2.577 * a) * a;
+      lobe.log_value += std::log(above / below);
+      lobe.slope -= a * ((3.535 + 4.362 * a) / above - (2.276 + 5.154 * a) / below);
+    }
+    return lobe;
+  }
+};
+
+/// The best coefficient at a width.
+struct Best {
+  double coefficient, squares;
+  double score;  ///< half of minus the derivative of the squares by the width's logarithm
+};
+
+template <class Family>
+Best best_at(Family family, const std::vector<Term>& terms, double width, std::size_t stride = 1) {
+  double ff = 0, fy = 0;
+  for (std::size_t i = 0; i < terms.size(); i += stride) {
+    const double f = terms[i].scale * std::exp(family(terms[i], width).log_value);
+    ff += terms[i].weight * f * f;
+    fy += terms[i].weight * f * terms[i].radiance;
+  }
+  Best best{ff > 0 ? fy / ff : 0, 0, 0};
+  for (std::size_t i = 0; i < terms.size(); i += stride) {
+    const Lobe lobe = family(terms[i], width);
+    const double f = terms[i].scale * std::exp(lobe.log_value);
+    const double residual = terms[i].radiance - best.coefficient * f;
+    best.squares += terms[i].weight * residual * residual;
+    if (f > 0) best.score += terms[i].weight * residual * best.coefficient * f * lobe.slope;
+  }
+  return best;
+}
+
+/// The logarithm of the width with the least sum of squares over a few thousand pixels.
+template <class Family>
+double scan(Family family, const std::vector<Term>& terms) {
+  const std::size_t stride = terms.size() / kScanned + 1;
+  double least = kInfinity, at = kNaN;
+  for (double u = std::log(Family::kSmallest); u <= std::log(Family::kLargest);
+       u += std::log(kRatio)) {
+    const Best best = best_at(family, terms, std::exp(u), stride);
+    if (best.coefficient > 0 && best.squares < least) {
+      least = best.squares;
+      at = u;
+    }
+  }
+  return at;
+}
+
+/// The root of the score near `u`, or NaN.
+template <class Family>
+double refine(Family family, const std::vector<Term>& terms, double u) {
+  const auto score = [&](double v) { return best_at(family, terms, std::exp(v)).score; };
+  double reach = std::log(kRatio);
+  double low = u - reach, high = u + reach, at_low = score(low), at_high = score(high);
+  for (int wider = 0; wider < 4 && !(at_low > 0 && at_high < 0); ++wider) {
+    reach *= 2;
+    if (!(at_low > 0)) at_low = score(low = u - reach);
+    if (!(at_high < 0)) at_high = score(high = u + reach);
+  }
+  if (!(at_low > 0 && at_high < 0)) return kNaN;
+  std::uintmax_t steps = 100;
+  const auto [from, to] = boost::math::tools::toms748_solve(
+      score, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(52), steps);
+  return (from + to) / 2;
+}
+
+/// The variance of the sum of a value of each pixel. Neighbours may share what they deviate by, so it is the largest of
+/// those by blocks of 1, 2, 4 ... pixels to a side, as long as there are enough blocks.
+double variance_of_sum(const std::vector<Term>& terms, const std::vector<double>& values) {
+  constexpr std::size_t kFewestBlocks = 30;
+  double largest = 0;
+  for (const double value : values) largest += value * value;
+  for (int shift = 1; shift < 16; ++shift) {
+    std::unordered_map<std::uint64_t, double> blocks;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      if (terms[i].weight > 0)
+        blocks[(std::uint64_t(terms[i].y >> shift) << 32) + std::uint64_t(terms[i].x >> shift)] +=
+            values[i];
+    if (blocks.size() < kFewestBlocks) break;
+    double squares = 0;
+    for (const auto& [block, sum] : blocks) squares += sum * sum;
+    largest = std::max(largest, squares * double(blocks.size()) / double(blocks.size() - 1));
+  }
+  return largest;
+}
+
+/// The width's standard error, by HC3; with known errors at least by these.
+template <class Family>
+double standard_error(Family family, const std::vector<Term>& terms, double width,
+                      double coefficient, bool shared) {
+  // Derivatives by the relative change of the coefficient (a) and of the width (b).
+  struct Row {
+    double a, b, residual;
+  };
+  std::vector<Row> rows;
+  double aa = 0, ab = 0, bb = 0;
+  for (const Term& term : terms) {
+    const Lobe lobe = family(term, width);
+    const double f = coefficient * term.scale * std::exp(lobe.log_value);
+    const double by_width = f > 0 ? f * lobe.slope : 0;
+    rows.push_back({f, by_width, term.radiance - f});
+    aa += term.weight * f * f;
+    ab += term.weight * f * by_width;
+    bb += term.weight * by_width * by_width;
+  }
+  const double determinant = aa * bb - ab * ab;
+  double of_noise = 0, together = 0;
+  std::vector<double> scores;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    const double influence = terms[i].weight * (aa * row.b - ab * row.a) / determinant;
+    const double leverage = terms[i].weight *
+                            (bb * row.a * row.a - 2 * ab * row.a * row.b + aa * row.b * row.b) /
+                            determinant;
+    scores.push_back(influence * row.residual / std::max(1e-6, 1 - leverage));
+    if (std::isnan(terms[i].error)) continue;
+    const double error = influence * terms[i].error;
+    of_noise += error * error;
+    together += error;
+  }
+  const double variance = std::max(of_noise, variance_of_sum(terms, scores));
+  return width * std::max(std::sqrt(variance), shared ? std::abs(together) : 0);
+}
+
+LobeFit no_fit(std::size_t pixels, std::string why) {
+  return {kNaN, kNaN, kNaN, kNaN, pixels, std::move(why)};
+}
+
+template <class Family>
+LobeFit fit_lobe(Family family, const std::vector<Term>& terms, bool shared,
+                 const std::string& what) {
+  const auto known =
+      std::size_t(std::ranges::count_if(terms, [](const Term& term) { return term.weight > 0; }));
+  if (known < kFewestPixelsOfALobe)
+    return no_fit(known, fmt::format("it has {} pixels{}, too few: {} are needed", known,
+                                     known < terms.size() ? " that are not clipped" : "",
+                                     kFewestPixelsOfALobe));
+  const double coarse = scan(family, terms);
+  if (std::isnan(coarse)) return no_fit(known, "it holds no light");
+  const double width = std::exp(refine(family, terms, coarse));
+  if (!(width >= Family::kSmallest && width <= Family::kLargest))
+    return no_fit(known, fmt::format("no {} fits it better than its neighbours do", what));
+  const auto within = std::size_t(std::ranges::count_if(
+      terms, [&](const Term& term) { return family(term, width).log_value >= std::log(0.5); }));
+  if (within < kFewestPixelsOfALobe)
+    return no_fit(
+        known,
+        fmt::format("not resolved: {} of its pixels are above half of its peak, {} are needed",
+                    within, kFewestPixelsOfALobe));
+  const Best best = best_at(family, terms, width);
+  double brightest = 0, squares = 0;
+  for (const Term& term : terms) {
+    const double value = best.coefficient * term.scale * std::exp(family(term, width).log_value);
+    brightest = std::max(brightest, value);
+    if (term.weight > 0) squares += (term.radiance - value) * (term.radiance - value);
+  }
+  return {width,
+          standard_error(family, terms, width, best.coefficient, shared),
+          best.coefficient,
+          std::sqrt(squares / double(known)) / brightest,
+          known,
+          ""};
+}
+
+/// A family's fit, and the residual of each pixel.
+struct Candidate {
+  FamilyFit family;
+  double squares = 0;  ///< weighted
+  double rms = 0;      ///< unweighted
+  std::vector<double> residuals;
+};
+
+template <class Family>
+Candidate candidate(Family family, LobeFamily name, bool times_n_dot_l, std::vector<Term> terms,
+                    bool shared) {
+  const bool cosine = name == LobeFamily::kPhong || name == LobeFamily::kBlinnPhong;
+  for (Term& term : terms) {
+    if (times_n_dot_l) term.scale *= term.n_dot_l;
+    if (!cosine) term.scale /= term.n_dot_v;
+  }
+  Candidate one;
+  one.family = {
+      name, times_n_dot_l,
+      fit_lobe(family, terms, shared, cosine ? "power of a cosine" : "microfacet distribution")};
+  double residuals = 0, errors = 0;
+  for (const Term& term : terms) {
+    const LobeFit& fit = one.family.fit;
+    const double residual =
+        term.radiance - fit.coefficient * term.scale * std::exp(family(term, fit.width).log_value);
+    one.residuals.push_back(residual);
+    if (!(term.weight > 0)) continue;
+    one.squares += term.weight * residual * residual;
+    residuals += residual * residual;
+    errors += term.error * term.error;
+  }
+  one.rms = std::sqrt(residuals / double(one.family.fit.pixels));
+  one.family.noise_share = std::sqrt(residuals / errors);
+  return one;
+}
+
+/// See "told apart" in the header.
+double told_apart(const std::vector<Term>& terms, const Candidate& better, const Candidate& worse) {
+  std::vector<double> products;
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    products.push_back(terms[i].weight * better.residuals[i] *
+                       (worse.residuals[i] - better.residuals[i]));
+  const double more = worse.squares - better.squares;
+  return more > 0 ? more / (2 * std::sqrt(variance_of_sum(terms, products))) : 0;
+}
+
+}  // namespace
+
+LobeFit fit_cosine_lobe(std::span<const LobeSample> samples) {
+  std::vector<Term> terms;
+  for (const LobeSample& sample : samples) {
+    if (!std::isfinite(sample.radiance) || !std::isfinite(sample.angle + sample.scale))
+      return no_fit(samples.size(), "a pixel of it is not finite");
+    terms.push_back(
+        {log_cosine(sample.angle), sample.scale, sample.radiance, sample.is_known ? 1.0 : 0.0});
+  }
+  return fit_lobe(CosinePower{}, terms, false, "power of a cosine");
+}
+
+std::vector<FamilyFit> explain_highlight(std::span<const SeenLobe> pixels, bool shared) {
+  double peak = 0;
+  for (const SeenLobe& pixel : pixels) peak = std::max(peak, pixel.radiance);
+  const auto terms = [&](double SeenLobe::*angle) {
+    std::vector<Term> result;
+    for (const SeenLobe& pixel : pixels) {
+      const double floor = peak / 1000;
+      const double weight =
+          std::isnan(pixel.error) ? 1 : 1 / (pixel.error * pixel.error + floor * floor);
+      result.push_back({log_cosine(pixel.*angle), pixel.irradiance, pixel.radiance,
+                        pixel.is_known ? weight : 0, pixel.error, pixel.n_dot_l, pixel.n_dot_v,
+                        pixel.x, pixel.y});
+    }
+    return result;
+  };
+  std::vector<Candidate> families;
+  for (const auto& [name, angle] : {std::pair{LobeFamily::kPhong, &SeenLobe::reflection},
+                                    {LobeFamily::kBlinnPhong, &SeenLobe::half_vector}}) {
+    Candidate plain = candidate(CosinePower{}, name, false, terms(angle), shared);
+    Candidate lit = candidate(CosinePower{}, name, true, terms(angle), shared);
+    families.push_back(
+        std::move(plain.squares <= lit.squares || lit.family.fit.why_not.size() > 0 ? plain : lit));
+  }
+  const std::vector<Term> half = terms(&SeenLobe::half_vector);
+  families.push_back(candidate(Ggx{}, LobeFamily::kGgx, false, half, shared));
+  families.push_back(candidate(Beckmann{}, LobeFamily::kBeckmann, false, half, shared));
+  std::ranges::stable_sort(families, {}, [](const Candidate& one) {
+    return one.family.fit.why_not.empty() ? one.squares : kInfinity;
+  });
+  std::vector<FamilyFit> result;
+  const Candidate& best = families.front();
+  for (const Candidate& one : families) {
+    result.push_back(one.family);
+    // Of the same peak: beyond clipped pixels another family may go far higher.
+    if (best.rms > 0) result.back().fit.residual = one.rms / best.rms * best.family.fit.residual;
+    result.back().apart = one.family.fit.why_not.empty() ? told_apart(half, best, one) : kNaN;
+  }
+  return result;
+}
+
+}  // namespace lobelia

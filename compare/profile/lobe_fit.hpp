@@ -1,0 +1,79 @@
+// The lobe that fits a highlight best, whatever the picture was made with: coefficient * lobe(angle), fitted to the pixels
+// by weighted least squares.
+//
+// Families:     a power n of the cosine about the mirror direction (Phong) or of the half vector with the normal
+//               (Blinn-Phong), each with or without the cosine N.L of the light; and the microfacet distributions of
+//               Trowbridge and Reitz (GGX) and of Beckmann, D G / (N.V), with Smith's masking by Walter et al. 2007,
+//               "Microfacet Models for Refraction through Rough Surfaces", eq. 25 to 28, 33 and 34. Fresnel's factor
+//               is the scene's.
+// Width:        alpha of a microfacet distribution; its roughness is the root of alpha, as in Blender and in Disney's model.
+// Search:       the coefficient is linear, so the best one is known for every width, and only the width is searched: the
+//               root of the derivative of the sum of squares, by Boost.Math's TOMS 748.
+// Error:        the square root of the width's entry in the covariance matrix of the residuals by White's estimate HC3
+//               (MacKinnon, White 1985, "Some heteroskedasticity-consistent covariance matrix estimators"). It allows for
+//               noise that differs from pixel to pixel. Explanations sum it over blocks of pixels too, and the largest
+//               counts: neighbours share what a texture adds. With known noise it is at least that of the noise.
+//               Without noise it tells how far the lobe is from the family, not the uncertainty of its width.
+// Told apart:   two families, by the difference of their sums of squares over its standard deviation. With r the residual
+//               of the better fit and d the difference of both fits, that is twice the deviation of the sum of r d.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lobelia {
+
+/// A pixel of a highlight: its radiance is scale * coefficient * lobe(angle).
+struct LobeSample {
+  double angle;  ///< radians, 0 to pi/2
+  double scale;
+  double radiance;
+  bool is_known = true;  ///< false: clipped, so it is not fitted
+};
+
+struct LobeFit {
+  double width = 0;           ///< exponent or alpha; NaN if there is no fit
+  double standard_error = 0;  ///< of the width
+  double coefficient = 0;
+  double residual = 0;     ///< root mean square over the brightest value of the lobe
+  std::size_t pixels = 0;  ///< number of fitted pixels
+  std::string why_not;     ///< a sentence if there is no fit
+};
+
+/// A lobe needs this many pixels above half of its peak to tell its width.
+inline constexpr std::size_t kFewestPixelsOfALobe = 9;
+
+/// Searches exponents from 1e-3 to 1e8.
+LobeFit fit_cosine_lobe(std::span<const LobeSample> samples);
+
+/// Named by records::kLobeFamilies.
+enum class LobeFamily { kPhong, kBlinnPhong, kGgx, kBeckmann };
+
+/// A pixel of a highlight whose camera and light are known.
+struct SeenLobe {
+  double reflection, half_vector;  ///< angles, radians
+  double n_dot_l, n_dot_v;
+  double irradiance;  ///< times the reflectance: what `scale` is without foreshortening
+  double radiance;
+  double error;          ///< standard error of the radiance; NaN if unknown
+  int x = 0, y = 0;      ///< of the pixel
+  bool is_known = true;  ///< as LobeSample has it
+};
+
+struct FamilyFit {
+  LobeFamily family{};
+  bool times_n_dot_l = false;  ///< the variant that fits better; false for microfacets
+  LobeFit fit;
+  double noise_share = 0;  ///< rms of the residuals over that of the errors; NaN if unknown
+  double apart = 0;        ///< from the best family, in standard deviations; 0 for the best
+};
+
+/// Two families closer than this cannot be told apart.
+inline constexpr double kToldApart = 2;
+
+/// Every family once, the best first, those without a fit last. With errors, weights are 1 / (error^2 + (peak / 1000)^2),
+/// since no lobe is exact to less. If `shared`, errors of all pixels may have the same sign, and the worse case counts.
+std::vector<FamilyFit> explain_highlight(std::span<const SeenLobe> pixels, bool shared);
+
+}  // namespace lobelia

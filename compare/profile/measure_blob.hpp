@@ -1,0 +1,22 @@
+// The figures of one blob.
+#pragma once
+
+#include "compare/profile/blob.hpp"
+
+namespace lobelia {
+
+/// What one picture offers to each of its blobs.
+struct BlobSource {
+  const Image* image;
+  const FoundBlobs* found;
+  Rectangle film;                  ///< the pixels that are looked at
+  const Field* error;              ///< standard errors of the pixels; null: unknown
+  bool shared = false;             ///< whether these have the same sign
+  std::array<float, 3> largest{};  ///< of each channel, without the specks
+};
+
+BlobFigures measure_blob(const BlobSource& source, const FoundBlob& blob, std::uint64_t seed);
+/// Figures that are NaN, for a picture without the blob.
+BlobFigures no_blob(std::string why);
+
+}  // namespace lobelia

@@ -1,0 +1,35 @@
+// The noise of a highlight's pixels, and figures measured again with it.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "compare/profile/peak.hpp"
+#include "compare/uncertainty/noise.hpp"
+
+namespace lobelia {
+
+/// Standard errors of the mean of R, G and B. The channels of a pixel share their noise under white light, so the errors
+/// add up.
+Field radiance_errors(const PictureNoise& noise);
+
+struct PixelNoise {
+  std::vector<double> error;  ///< of each pixel, independent from pixel to pixel
+  bool shared = false;        ///< or else all with the same sign
+  /// Texture beneath: a deviation that neighbouring pixels share, over squares of so many pixels.
+  double texture = 0;
+  int grain = 1;
+  /// A deviation of these pixels together: what the background as a whole is not known to.
+  double level = 0;
+  std::vector<std::size_t> ring;
+};
+
+/// Standard deviations of figures over fields with so much more noise (parametric bootstrap, as
+/// compare/uncertainty/error_bars.hpp has it). Where noise is shared, the larger one of independent and of equal noise.
+/// `measure` fills the figures of a field; it is called from several threads. A figure that is NaN in more than a fifth of
+/// the fields has no error.
+std::vector<double> bootstrap_errors(
+    const Field& field, const PixelNoise& noise, std::size_t figures, std::uint64_t seed,
+    const std::function<void(const Field&, std::span<double>)>& measure);
+
+}  // namespace lobelia

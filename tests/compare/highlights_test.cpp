@@ -1,0 +1,228 @@
+// All highlights of a picture, robust and with standard errors.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "tests/compare/spots.hpp"
+
+namespace lobelia {
+namespace {
+
+const Spot kThree[] = {{40.3, 50.2, 2, 7, 5}, {150.6, 60.1, 3, 6, 6}, {95.2, 120.7, 1, 9, 6}};
+double three_spots(double x, double y) {
+  double sum = 0.1;
+  for (const Spot& spot : kThree) sum += spot(x, y);
+  return sum;
+}
+
+TEST(Highlights, AreAllFoundAndNumberedFromTheBrightest) {
+  const BlobProfiles all = measured(picture(200, 170, three_spots));
+  ASSERT_EQ(all.highlights.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Spot& spot = kThree[std::array{1, 0, 2}[k]];
+    const BlobFigures& blob = all.highlights[k].blobs.at(0);
+    EXPECT_EQ(all.highlights[k].id, k + 1);
+    EXPECT_NEAR(blob.peak.place.x, spot.x, 0.05) << k;
+    EXPECT_NEAR(blob.peak.place.y, spot.y, 0.05) << k;
+    EXPECT_NEAR(blob.peak.value, spot.peak, 0.01 * spot.peak) << k;
+    EXPECT_NEAR(blob.major_half_width, spot.major, 0.02 * spot.major) << k;
+    EXPECT_NEAR(blob.minor_half_width, spot.minor, 0.02 * spot.minor) << k;
+  }
+}
+
+TEST(Highlights, BelowTheLeastShareAreLeftOut) {
+  BlobOptions options;
+  options.search.least_share = 0.5;
+  EXPECT_EQ(measured(picture(200, 170, three_spots), options).highlights.size(), 2u);
+}
+
+TEST(Highlights, OnALitObjectAreFoundAndNotTheObject) {
+  // A disc lit from one side, with a weaker highlight than its own brightness.
+  const Spot spot{110.4, 80.3, 0.3, 6, 6};
+  const Image image = picture(200, 170, [&](double x, double y) {
+    const double r = std::hypot(x - 100, y - 85);
+    return r > 70 ? 0.0 : 0.5 + 0.002 * (x - 100) + spot(x, y);
+  });
+  const BlobFigures blob = first_of(image);
+  EXPECT_NEAR(blob.peak.place.x, spot.x, 0.1);
+  EXPECT_NEAR(blob.background, 0.5 + 0.002 * (spot.x - 100), 0.003);
+  EXPECT_NEAR(blob.peak.value, spot.peak, 0.01);
+  EXPECT_NEAR(blob.major_half_width, 6, 0.15);
+}
+
+TEST(Highlights, AtAPlaceOrInARegionAreThoseAlone) {
+  const Image image = picture(200, 170, three_spots);
+  BlobOptions options;
+  options.search.at = FilmPoint{97, 118};
+  const BlobProfiles at = measured(image, options);
+  ASSERT_EQ(at.highlights.size(), 1u);
+  EXPECT_NEAR(at.highlights[0].blobs[0].peak.place.x, kThree[2].x, 0.1);
+  options.search.at = FilmPoint{10, 165};
+  EXPECT_NEAR(measured(image, options).highlights.at(0).blobs[0].peak.place.x, kThree[2].x, 0.1)
+      << "the nearest one";
+  options.search.at = {};
+  options.region = Rectangle{0, 20, 80, 70};
+  const BlobProfiles inside = measured(image, options);
+  ASSERT_EQ(inside.highlights.size(), 1u);
+  EXPECT_NEAR(inside.highlights[0].blobs[0].peak.place.x, kThree[0].x, 0.1);
+  EXPECT_EQ(inside.highlights[0].blobs[0].not_finite, 0u);
+}
+
+TEST(Highlights, OutsideOfThePictureAreAnError) {
+  const Image image(20, 10);
+  const auto refused = [&](const BlobOptions& options) {
+    try {
+      measured(image, options);
+      return false;
+    } catch (const Error& error) {
+      return error.code() == ExitCode::kInput;
+    }
+  };
+  for (const FilmPoint at : {FilmPoint{-1, 5}, {5, 11}, {21, 5}}) {
+    BlobOptions options;
+    options.search.at = at;
+    EXPECT_TRUE(refused(options)) << at.x << ' ' << at.y;
+  }
+  for (const Rectangle region : {Rectangle{0, 0, 0, 5},
+                                 {0, 0, 21, 5},
+                                 {20, 0, 1, 1},
+                                 {-1, 0, 5, 5},
+                                 {2, 2, std::numeric_limits<int>::max(), 1}}) {
+    BlobOptions options;
+    options.region = region;
+    EXPECT_TRUE(refused(options)) << region.x << ' ' << region.width;
+  }
+}
+
+TEST(Highlights, OfTwoPicturesAreMatchedByPlaceAndTheRestIsNamed) {
+  const Image a = picture(200, 170, three_spots);
+  // The brightest is dimmed, so that the order changes; one is gone, and one is new.
+  Spot moved = kThree[1], other{30.2, 140.4, 2.5, 6, 6};
+  moved.x += 2;
+  moved.peak = 1.5;
+  const Image b = picture(200, 170, [&](double x, double y) {
+    return 0.1 + kThree[0](x, y) + moved(x, y) + other(x, y);
+  });
+  const BlobProfiles all = measure_blobs({{"a", &a}, {"b", &b}}, {});
+  ASSERT_EQ(all.highlights.size(), 4u);
+  EXPECT_NEAR(all.highlights[0].blobs[1].peak.value, 1.5, 0.02);
+  EXPECT_TRUE(all.highlights[0].difference.has_value());
+  EXPECT_NEAR(all.highlights[1].blobs[1].peak.place.x, kThree[0].x, 0.05);
+  EXPECT_EQ(all.highlights[2].blobs[1].why_not, "no highlight of it is near and as bright");
+  EXPECT_FALSE(all.highlights[2].difference.has_value());
+  EXPECT_EQ(all.highlights[3].blobs[0].why_not, "no highlight of it is near and as bright");
+  EXPECT_NEAR(all.highlights[3].blobs[1].peak.place.x, other.x, 0.05);
+}
+
+TEST(Highlights, AreNotTakenOverByFireflies) {
+  const Image clean = picture(200, 170, three_spots);
+  const BlobProfiles before = measured(clean);
+  // Far off, beside the second highlight, on its flank and on its very peak.
+  const std::pair<int, int> places[] = {{5, 5}, {162, 60}, {153, 63}, {150, 60}};
+  Image image = clean;
+  for (const auto& [x, y] : places)
+    for (float& value : image.pixel(x, y)) value = 3e6f;
+  const BlobProfiles after = measured(image);
+  ASSERT_EQ(after.pictures[0].specks.size(), 4u);
+  for (const Speck& speck : after.pictures[0].specks) {
+    EXPECT_EQ(speck.pixels.size(), 1u);
+    EXPECT_FLOAT_EQ(float(speck.value), 3e6f);
+    EXPECT_TRUE(std::ranges::any_of(places, [&](const auto& place) {
+      return speck.place.x == place.first + 0.5 && speck.place.y == place.second + 0.5;
+    }));
+  }
+  ASSERT_EQ(after.highlights.size(), before.highlights.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const BlobFigures &a = after.highlights[k].blobs[0], &b = before.highlights[k].blobs[0];
+    EXPECT_NEAR(a.peak.value, b.peak.value, 2e-3 * b.peak.value) << k;
+    EXPECT_NEAR(a.peak.place.x, b.peak.place.x, 0.02) << k;
+    EXPECT_NEAR(a.major_half_width, b.major_half_width, 0.01) << k;
+    EXPECT_NEAR(a.energy, b.energy, 1e-3 * b.energy) << k;
+  }
+}
+
+TEST(Highlights, HaveTheColourOfWhatLiesOverTheBackground) {
+  const Spot spot{60.3, 50.8, 2, 8, 6};
+  const std::array<double, 3> light = {0.5, 1, 0.25}, floor = {0.3, 0.1, 0.4};
+  Image image(120, 100);
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 120; ++x)
+      for (std::size_t c = 0; c < 3; ++c)
+        image.pixel(x, y)[c] = float(floor[c] + light[c] * spot(x + 0.5, y + 0.5));
+  const BlobFigures blob = first_of(image);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(blob.colour[c], light[c], 0.005);
+}
+
+TEST(Highlights, ThatAreClippedAreFittedFromTheirFlank) {
+  for (const bool ggx : {false, true})
+    for (const double clip : {0.7, 0.4}) {
+      const Spot spot{100.3, 80.8, 3, 14, 9, 0.4, ggx};
+      const Image image = picture(200, 170, [&](double x, double y) {
+        return std::min(clip * spot.peak, 0.1 + spot(x, y));
+      });
+      const BlobFigures blob = first_of(image);
+      ASSERT_TRUE(blob.clipped.has_value()) << blob.remark;
+      EXPECT_EQ(blob.clipped->channels, "RGB");
+      EXPECT_NEAR(blob.peak.value, clip * spot.peak - 0.1, 0.02 * spot.peak) << "at least";
+      const FalloffFit& flank = blob.clipped->flank;
+      EXPECT_EQ(flank.family, ggx ? Falloff::kGgx : Falloff::kGaussian);
+      EXPECT_NEAR(flank.peak.value, spot.peak, 0.02 * spot.peak) << ggx << ' ' << clip;
+      EXPECT_NEAR(blob.major_half_width, spot.major, 0.02 * spot.major) << ggx << ' ' << clip;
+      EXPECT_NEAR(blob.minor_half_width, spot.minor, 0.02 * spot.minor) << ggx << ' ' << clip;
+    }
+}
+
+TEST(Highlights, ThatAreClippedInOneChannelSaySo) {
+  const Spot spot{100.3, 80.8, 3, 14, 9};
+  Image image = picture(200, 170, spot, {1, 0.6, 0.4});
+  for (std::size_t i = 0; i < image.values().size(); i += 3)
+    image.values()[i] = std::min(image.values()[i], 1.5f);
+  const BlobFigures blob = first_of(image);
+  ASSERT_TRUE(blob.clipped.has_value());
+  EXPECT_EQ(blob.clipped->channels, "R");
+  EXPECT_NEAR(blob.clipped->flank.peak.value, 3 * 2.0 / 3, 0.02);
+}
+
+TEST(Highlights, SayHowTheyFallOff) {
+  for (const bool ggx : {false, true}) {
+    const Spot spot{100.3, 80.8, 3, 14, 9, 0.4, ggx};
+    const BlobFigures blob =
+        first_of(picture(200, 170, [&](double x, double y) { return 0.2 + spot(x, y); }));
+    ASSERT_EQ(blob.falloff.size(), 2u);
+    EXPECT_EQ(blob.falloff[0].family, ggx ? Falloff::kGgx : Falloff::kGaussian);
+    EXPECT_LT(blob.falloff[0].residual, 1e-6);
+    EXPECT_GT(blob.falloff[1].residual, 0.01);
+    EXPECT_NEAR(blob.falloff[0].major_half_width.value, 14, 1e-3);
+  }
+}
+
+TEST(Highlights, OfPicturesWithoutAnySayWhy) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto why = [](int side, float value) {
+    Image image(side, side);
+    std::ranges::fill(image.values(), value);
+    const BlobProfiles all = measured(image);
+    EXPECT_EQ(all.highlights.size(), 1u);
+    return all.highlights.at(0).blobs.at(0).why_not;
+  };
+  EXPECT_EQ(why(16, nan), "no pixel is finite");
+  EXPECT_EQ(why(16, std::numeric_limits<float>::infinity()), "no pixel is finite");
+  for (const int side : {1, 64})
+    EXPECT_EQ(why(side, 0.5f), "nothing stands out: no pixel is brighter than its surroundings");
+}
+
+TEST(Highlights, OfAPictureWithThousandsAreTheBrightestAndTheRestIsCounted) {
+  constexpr int kSide = 1136, kApart = 8;  // 142 x 142 of them
+  const BlobProfiles all = measured(picture(kSide, kSide, [](double x, double y) {
+    const double dx = std::fmod(x, kApart) - 3.6, dy = std::fmod(y, kApart) - 3.6;
+    return std::exp2(-(dx * dx + dy * dy) / 2) * (1 + x / kSide);
+  }));
+  EXPECT_EQ(all.highlights.size(), kMostBlobs);
+  EXPECT_GT(all.pictures[0].left_out, 0u);
+  EXPECT_TRUE(all.pictures[0].cut) << "a bound on the time, and it is said";
+}
+
+}  // namespace
+}  // namespace lobelia
