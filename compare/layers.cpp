@@ -1,12 +1,9 @@
 #include "compare/layers.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <exception>
 #include <set>
 
 #include "compare/mask.hpp"
@@ -142,20 +139,9 @@ LayerNames parse_layer_names(const std::string& text) {
   return names;
 }
 
+// One after the other: a second reader would load its libraries again, which takes longer than most pictures.
 PicturePair read_pair(const fs::path& a, const fs::path& b, const LayerNames& layer) {
-  PicturePair pair;
-  std::array<std::exception_ptr, 2> failed;
-  oneapi::tbb::parallel_for(std::size_t{0}, failed.size(), [&](std::size_t i) {
-    try {
-      (i == 0 ? pair.a : pair.b) = read_picture(i == 0 ? a : b, i == 0 ? layer.a : layer.b);
-    } catch (...) {
-      failed[i] = std::current_exception();
-    }
-  });
-  // If both cannot be read, the error is always the same.
-  for (const std::exception_ptr& one : failed)
-    if (one) std::rethrow_exception(one);
-  return pair;
+  return {read_picture(a, layer.a), read_picture(b, layer.b)};
 }
 
 void take_part(PicturePair& pair, const std::string& file_a, const std::string& file_b,

@@ -55,7 +55,7 @@ void require_room_for_module() {
 const ImageIoTable& image_io_table() {
   static const ImageIoTable& table = []() -> const ImageIoTable& {
     require_room_for_module();
-    void* handle = ::dlopen(companion_file(kImageIoModuleFile).c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* handle = ::dlopen(companion_file(kImageIoModuleFile).c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!handle)
       throw failure_of("image module", std::runtime_error(::dlerror()), ExitCode::kInternal);
     const void* symbol = ::dlsym(handle, kImageIoTableSymbol);
