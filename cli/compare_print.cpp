@@ -250,7 +250,8 @@ void print_set(const SetReport& report, const PrintChoice& choice) {
   fmt::print("\n{}\n", counts_text(report));
   if (const SetNotCompared left = not_compared(report); left.pairs > 0)
     fmt::print("not compared, in {} of the pairs: {}\n", left.pairs, to_text(left.all));
-  if (report.passed_over > 0) fmt::print("{} files are no pictures\n", report.passed_over);
+  if (report.passed_over > 0)
+    fmt::print("{} files are no pictures, or do not fit the pattern\n", report.passed_over);
   if (!report.not_followed.empty())
     fmt::print("{} links to folders elsewhere were not followed\n", report.not_followed.size());
 }

@@ -416,6 +416,7 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
     if (options.highlight && (need_highlight(list) || !options.limits.empty())) {
       highlight = highlight_region(a, b, options.surfaces);
       result.highlight_pixels = std::ranges::count(highlight, 1);
+      result.highlight_share = double(*result.highlight_pixels) / double(a.pixel_count());
     }
     const MetricInput input{a,
                             b,
@@ -445,8 +446,8 @@ Comparison compare(const Image& a, const Image& b, const ComparisonOptions& opti
   result.warnings = judge(options.warnings, result, false);
   result.disagreement = disagreements(result.limits);
   if (result.highlight_pixels.value_or(0) > 0)
-    result.blind_limits = blind_limits(judge(options.limits, result, false),
-                                       double(*result.highlight_pixels) / double(a.pixel_count()));
+    result.blind_limits =
+        blind_limits(judge(options.limits, result, false), result.highlight_share);
   result.verdict = finite ? verdict_of(result.limits, noisy) : Verdict::kNonFinite;
   return result;
 }

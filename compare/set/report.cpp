@@ -20,6 +20,11 @@ double badness(Better better, double value) {
   return better == Better::kHigher ? -value : std::abs(value);
 }
 
+/// Two digits, or of 10 and more a whole number.
+std::string plain_number(double value) {
+  return value < 10 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
 /// How many times over its limit the worst figure is.
 double excess(const Comparison& comparison) {
   double worst = 0;
@@ -197,30 +202,36 @@ std::string highlight_sentence(const Comparison& comparison, std::string_view a,
   if (std::isinf(energy)) return fmt::format("{} has no highlight where {} has one", b, a);
   // Smaller shares and shifts are said to be equal.
   constexpr double kLeastShare = 0.001, kLeastShift = 0.05;
-  const auto words = [](double share, std::string_view more, std::string_view less) {
+  const auto words = [](double share, std::string_view more, std::string_view less,
+                        std::string_view as) {
     if (std::abs(share) < kLeastShare) return std::string();
-    if (share >= 1) return fmt::format("{:.3g} times as {}", 1 + share, more);
-    return fmt::format("{:.2g} % {}", 100 * std::abs(share), share > 0 ? more : less);
+    if (share >= 1) return fmt::format("{} times as {}", plain_number(1 + share), as);
+    return fmt::format("{} % {}", plain_number(100 * std::abs(share)), share > 0 ? more : less);
   };
   std::vector<std::string> parts;
   for (std::string& part :
-       std::array{words(comparison.value("width.highlight"), "wider", "narrower"),
-                  words(comparison.value("brightness.highlight"), "brighter", "dimmer")})
+       std::array{words(comparison.value("width.highlight"), "wider", "narrower", "wide"),
+                  words(comparison.value("brightness.highlight"), "brighter", "dimmer", "bright")})
     if (!part.empty()) parts.push_back(std::move(part));
-  const std::string more_energy = words(energy, "more", "less");
+  const std::string more_energy = words(energy, "more", "less", "much");
   const double right = comparison.value("shift.highlight.x"),
                down = comparison.value("shift.highlight.y");
   std::vector<std::string> ways;
   if (std::abs(right) >= kLeastShift)
-    ways.push_back(
-        fmt::format("{:.2g} pixels to the {}", std::abs(right), right > 0 ? "right" : "left"));
+    ways.push_back(fmt::format("{} pixels to the {}", plain_number(std::abs(right)),
+                               right > 0 ? "right" : "left"));
   if (std::abs(down) >= kLeastShift)
-    ways.push_back(fmt::format("{:.2g} pixels {}", std::abs(down), down > 0 ? "down" : "up"));
+    ways.push_back(
+        fmt::format("{} pixels {}", plain_number(std::abs(down)), down > 0 ? "down" : "up"));
   std::string text = parts.empty()
                          ? fmt::format("{}'s highlight is as wide and as bright as {}'s", a, b)
                          : fmt::format("{}'s highlight is {}", a, fmt::join(parts, " and "));
   text += more_energy.empty() ? ", its energy equal" : ", its energy " + more_energy;
   if (!ways.empty()) text += fmt::format("; it lies {}", fmt::join(ways, " and "));
+  // In a bright picture nothing stands out, and the sentence is of nearly everything.
+  if (comparison.highlight_share > 0.5)
+    text += fmt::format("; {:.0f} % of the picture count as highlight",
+                        100 * comparison.highlight_share);
   return text;
 }
 

@@ -241,6 +241,8 @@ TEST(HighlightFigures, AreThoseOfTheChangeThatWasMade) {
   EXPECT_NEAR(dimmer.value("width.highlight"), 0, 1e-6);
   EXPECT_THAT(highlight_sentence(dimmer),
               HasSubstr("a's highlight is 7 % dimmer, its energy 7 % less"));
+  EXPECT_THAT(highlight_sentence(of(scaled(reference, 38))),
+              HasSubstr("a's highlight is 38 times as bright, its energy 38 times as much"));
   const Comparison shifted = of(moved(reference, 3));
   EXPECT_NEAR(shifted.value("shift.highlight.x"), 3, 1e-3);
   EXPECT_NEAR(shifted.value("shift.highlight"), 3, 1e-3);
@@ -252,6 +254,14 @@ TEST(HighlightFigures, AreThoseOfTheChangeThatWasMade) {
             "a has no highlight where b has one");
   EXPECT_EQ(highlight_sentence(of(reference)),
             "a's highlight is as wide and as bright as b's, its energy equal");
+}
+
+TEST(HighlightFigures, OfAPictureThatIsBrightThroughoutSayHowMuchOfItIsHighlight) {
+  Image grey(40, 40), brighter(40, 40);
+  std::ranges::fill(grey.values(), 0.5f);
+  std::ranges::fill(brighter.values(), 0.55f);
+  EXPECT_THAT(highlight_sentence(compare(brighter, grey, as_by_default())),
+              HasSubstr("; 100 % of the picture count as highlight"));
 }
 
 TEST(HighlightFigures, OfAFireflyDoNotHideTheHighlight) {

@@ -229,7 +229,7 @@ TEST_F(GalleryEvidence, of_a_cell_whose_comparison_was_taken_out_is_no_pass) {
   farm_.change<records::Cell>(FakeFarm::kPass, "cell.json",
                               [](records::Cell& cell) { cell.comparisons.clear(); });
   EXPECT_EQ(state(), "missing");
-  EXPECT_THAT(cell_text_, HasSubstr("cell.json says “pass”, but its figures say “not done”."));
+  EXPECT_THAT(cell_text_, HasSubstr("cell.json says “pass”, but its figures say “no picture”."));
   farm_.change<records::Cell>(FakeFarm::kPass, "cell.json",
                               [](records::Cell& cell) { cell.images.pop_back(); });
   EXPECT_EQ(state(), "unchecked");
