@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <optional>
 
 #include "bench/sections.hpp"
 #include "core/files.hpp"
@@ -34,11 +32,6 @@ struct Question {
   int their_exit_code = 0;
 };
 
-double median(std::vector<double> values) {
-  std::ranges::nth_element(values, values.begin() + values.size() / 2);
-  return values[values.size() / 2];
-}
-
 void ask_both(const std::string& program, const Question& question, const fs::path& a,
               const fs::path& b) {
   const fs::path found = find_program(question.theirs.front());
@@ -63,9 +56,10 @@ void ask_both(const std::string& program, const Question& question, const fs::pa
     wall.push_back(ours.seconds / other.seconds);
     processor.push_back(ours.cpu_seconds / other.cpu_seconds);
   }
-  const auto [least, most] = std::ranges::minmax(processor);
+  const Times ratio = summary(processor);
   fmt::print("{:<34}{:>8.3f}{:>10.3f}{:>9.2f}{:>17.2f}{:>9.2f} to {:.2f}\n", question.name,
-             median(ours_s), median(theirs_s), median(wall), median(processor), least, most);
+             summary(ours_s).median, summary(theirs_s).median, summary(wall).median, ratio.median,
+             ratio.least, ratio.most);
 }
 
 }  // namespace

@@ -35,19 +35,6 @@ std::string set_name(std::size_t set) {
   return set < kLetters ? std::string(1, char('a' + set)) : fmt::format("set{}", set + 1);
 }
 
-/// A plain name that stays the same from report to report. One that had to be changed is told apart by a hash.
-std::string cell_id(const std::string& name) {
-  constexpr std::size_t kLongest = 80;
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  std::string id = name.substr(0, kLongest);
-  for (char& c : id)
-    if (kPlain.find(c) == std::string_view::npos) c = '-';
-  if (id == name && is_plain_name(id)) return id;
-  constexpr std::size_t kDigits = 10;
-  return "p" + id + "-" + hex(sha256(name)).substr(0, kDigits);
-}
-
 CellStatus status_of(Verdict verdict) {
   return is_pass(verdict)                 ? CellStatus::kPass
          : verdict == Verdict::kUndecided ? CellStatus::kUndecided
@@ -143,7 +130,7 @@ class ReportWriter {
  public:
   ReportWriter(const CompareJob& job, const Pairing& pairing, const SetReport& report)
       : job_(job), pairing_(pairing), rows_(judge_rows(pairing, report)) {
-    for (const Judged& judged : rows_) by_id_[cell_id(pairing_.rows[judged.row].name)] = &judged;
+    for (const Judged& judged : rows_) by_id_[plain_id(pairing_.rows[judged.row].name)] = &judged;
   }
 
   const std::vector<Judged>& rows() const { return rows_; }
@@ -160,7 +147,7 @@ class ReportWriter {
       if (!pairing_.is_reference(set)) add_set(farm, set);
     for (const Judged& judged : rows_) {
       const PictureRow& row = pairing_.rows[judged.row];
-      records::FarmCell cell{cell_id(row.name), std::string(info(judged.status).name), {}};
+      records::FarmCell cell{plain_id(row.name), std::string(info(judged.status).name), {}};
       for (std::size_t i = 0; i < farm.axes.size(); ++i)
         cell.axes.emplace_back(farm.axes[i].name, pairing_.fields.size() < 2
                                                       ? printable_path(row.name)

@@ -1,11 +1,10 @@
 // The files that `lobelia compare` writes.
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <set>
 
 #include "cli/compare_arguments.hpp"
+#include "cli/output_files.hpp"
 #include "records/record.hpp"
 
 namespace lobelia::cli {
@@ -13,34 +12,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The same for all paths and links to a file.
-using FileId = std::pair<dev_t, ino_t>;
-
-std::optional<FileId> file_id(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return FileId{status.st_dev, status.st_ino};
-}
-
-/// All files that are read.
-std::set<FileId> inputs_of(const CompareArguments& options, const Pairing& pairing) {
+/// Names all files that are read.
+void add_inputs(const CompareArguments& options, const Pairing& pairing, OutputFiles& outputs) {
   const CompareJob& job = options.job;
-  std::set<FileId> inputs;
-  const auto add = [&](const fs::path& file) {
-    if (const auto id = file_id(file)) inputs.insert(*id);
-  };
-  add(job.scene);
-  add(options.project);
-  add(options.display.config);
-  for (const fs::path& file : job.regions.files()) add(file);
-  if (!job.pictures.csv.empty()) add(job.pictures.csv);
+  for (const std::string& file :
+       {job.scene, options.project, options.display.config, job.pictures.csv})
+    outputs.reads(file);
+  for (const fs::path& file : job.regions.files()) outputs.reads(file);
+  for (const PairRule& rule : job.rules)
+    for (const auto* shapes : {&rule.mask, &rule.ignored})
+      for (const fs::path& file : picture_files(*shapes)) outputs.reads(file);
   const bool by_name = has_folders_by_name(job, pairing);
   for (const PictureRow& row : pairing.rows) {
-    for (const std::string& file : row.files) add(file);
-    for (const fs::path& file : job.noise.files(by_name ? row.name : "")) add(file);
-    if (!job.c.empty()) add(file_of(job.c, by_name ? row.name : ""));
+    for (const std::string& file : row.files) outputs.reads(file);
+    for (const fs::path& file : job.noise.files(by_name ? row.name : "")) outputs.reads(file);
+    if (!job.c.empty()) outputs.reads(file_of(job.c, by_name ? row.name : ""));
   }
-  return inputs;
 }
 
 /// Throws Error(kUsage) if a folder that is written lies in one that is read: the next run would compare its pictures.
@@ -82,17 +69,10 @@ void require_outputs(const CompareArguments& options, const Pairing& pairing) {
     require_place(options.html);
   }
   if (reports.empty() && pictures.empty()) return;
-  const std::set<FileId> inputs = inputs_of(options, pairing);
-  std::set<fs::path> taken;
+  OutputFiles outputs;
+  add_inputs(options, pairing, outputs);
   for (const auto* files : {&reports, &pictures})
-    for (const fs::path& file : *files) {
-      std::error_code unknown;
-      const auto id = file_id(file);
-      if ((id && inputs.contains(*id)) ||
-          !taken.insert(fs::weakly_canonical(fs::absolute(file, unknown), unknown)).second)
-        throw Error(ExitCode::kUsage,
-                    fmt::format("{}: is read or written by this command already", file.string()));
-    }
+    for (const fs::path& file : *files) outputs.writes(file);
   for (const fs::path& file : reports) require_writable(file);
   if (!one && !job.difference.path.empty()) make_directories(job.difference.path);
 }
@@ -101,9 +81,10 @@ bool prints_report(const CompareArguments& options) {
   const std::string* reports[] = {&options.json, &options.csv, &options.junit, &options.markdown};
   const auto count =
       std::ranges::count_if(reports, [](const std::string* report) { return *report == kStdout; });
-  if (count > 1)
+  if (count + (options.format == "github") > 1)
     throw Error(ExitCode::kUsage,
-                "only one of --json, --csv, --junit and --markdown can go to stdout");
+                "only one of --json, --csv, --junit, --markdown and --format github can go to "
+                "stdout; give the others a file");
   return count == 1;
 }
 

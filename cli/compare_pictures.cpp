@@ -17,6 +17,7 @@
 #include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "core/image_values.hpp"
+#include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
 
@@ -89,22 +90,20 @@ PairReport compare_pair(PairReport pair, const CompareJob& job, const Pairing& p
   return pair;
 }
 
-/// Of several references, the one that the picture fits best: that it passes with, or else the least over its limits.
-void choose_reference(PairReport& pair, const CompareJob& job, const Pairing& pairing,
-                      bool choose_exposures) {
-  if (pair.references.size() < 2) return;
-  std::pair<bool, double> best;
-  std::string best_file;
+/// Compares with each reference. The best one passes, or else is the least over its limits.
+PairReport compare_with_each(const PairReport& pair, const CompareJob& job, const Pairing& pairing,
+                             bool choose_exposures) {
+  const auto fit = [](const PairReport& one) {
+    return std::pair(!is_pass(one.verdict()), excess(one));
+  };
+  std::optional<PairReport> best;
   for (const std::string& reference : pair.references) {
     PairReport one = pair;
     one.b = reference;
     one = compare_pair(one, job, pairing, choose_exposures, [](auto&&...) {});
-    const std::pair fit(!is_pass(one.verdict()), excess(one));
-    if (!best_file.empty() && best <= fit) continue;
-    best = fit;
-    best_file = reference;
+    if (!best || fit(one) < fit(*best)) best = std::move(one);
   }
-  pair.b = best_file;
+  return *best;
 }
 
 bool fits(const std::string& match, const std::string& name) {
@@ -116,13 +115,6 @@ std::optional<records::Known> known_of(const CompareJob& job, const std::string&
     if (fits(known.match, name))
       return records::Known{known.reason, known.expires, known.expires < job.today};
   return std::nullopt;
-}
-
-void add_limits(const std::vector<MetricLimit>& more, std::vector<MetricLimit>& limits) {
-  for (const MetricLimit& limit : more) {
-    std::erase_if(limits, [&](const MetricLimit& old) { return old.metric == limit.metric; });
-    limits.push_back(limit);
-  }
 }
 
 /// Calls work(i) for i < count, in parallel. A thread that waits for a part of its own pair does not start another one,
@@ -177,17 +169,25 @@ std::string name_of(const Pairing& pairing, std::size_t row, std::size_t set) {
 
 }  // namespace
 
+std::vector<MetricLimit> with_limits(std::vector<MetricLimit> limits,
+                                     const std::vector<MetricLimit>& more) {
+  std::erase_if(limits, [&](const MetricLimit& limit) {
+    return std::ranges::count(more, limit.metric, &MetricLimit::metric) > 0;
+  });
+  limits.insert(limits.end(), more.begin(), more.end());
+  return limits;
+}
+
 CompareJob job_of(const CompareJob& job, const std::string& name) {
   CompareJob own = job;
   ComparisonOptions& options = own.comparison;
   for (const PairRule& rule : job.rules) {
     if (!fits(rule.match, name)) continue;
-    add_limits(rule.limits, options.limits);
-    add_limits(rule.warnings, options.warnings);
+    options.limits = with_limits(options.limits, rule.limits);
+    options.warnings = with_limits(options.warnings, rule.warnings);
     if (rule.tolerance) options.tolerance = rule.tolerance;
     if (rule.default_limits) options.default_limits = *rule.default_limits;
-    if (!rule.mask.empty() || !rule.ignore.empty())
-      own.regions.change(rule.mask, rule.ignore, options);
+    own.regions.change(rule.mask, rule.ignored, options);
   }
   return own;
 }
@@ -231,6 +231,27 @@ PicturePair read_compared(const PairReport& pair, const CompareJob& job, const P
   job.regions.apply(b.width(), b.height(), options);
   take_part(pictures, pair.a, pair.b, options);
   return pictures;
+}
+
+std::string plain_id(const std::string& name) {
+  constexpr std::size_t kLongest = 80;
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  std::string id = name.substr(0, kLongest);
+  for (char& c : id)
+    if (kPlain.find(c) == std::string_view::npos) c = '-';
+  if (id == name && is_plain_name(id)) return id;
+  constexpr std::size_t kDigits = 10;
+  return "p" + id + "-" + hex(sha256(name)).substr(0, kDigits);
+}
+
+fs::path difference_file(const CompareJob& job, const std::string& name) {
+  constexpr std::size_t kLongest = 255;
+  const fs::path own = name + ".png";
+  // A table may name a pair anything.
+  const bool is_inside = own.is_relative() && own == own.lexically_normal() &&
+                         *own.begin() != ".." && own.filename().string().size() <= kLongest;
+  return job.difference.path / (is_inside ? own : fs::path(plain_id(name) + ".png"));
 }
 
 SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
@@ -277,17 +298,19 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
     PairReport& pair = report.pairs[i];
     try {
       const CompareJob own = job_of(job, pair.name);
-      choose_reference(pair, own, pairing, automatic && one);
-      pair = compare_pair(
-          pair, own, pairing, automatic && one,
-          [&](const Image& a, const Image& b, const Comparison& comparison, Verdict verdict) {
-            if (one) wanted.write_histogram(a, b, comparison);
-            if (!wanted.is_wanted(verdict)) return;
-            if (at_once)
-              write(pair, a, b, comparison, std::nullopt);
-            else
-              largest[i] = wanted.largest(a, b, comparison);
-          });
+      const bool several = pair.references.size() > 1;
+      if (several) pair = compare_with_each(pair, own, pairing, automatic && one);
+      if (!several || !wanted.path.empty() || !wanted.histogram.empty())
+        pair = compare_pair(
+            pair, own, pairing, automatic && one,
+            [&](const Image& a, const Image& b, const Comparison& comparison, Verdict verdict) {
+              if (one) wanted.write_histogram(a, b, comparison);
+              if (!wanted.is_wanted(verdict)) return;
+              if (at_once)
+                write(pair, a, b, comparison, std::nullopt);
+              else
+                largest[i] = wanted.largest(a, b, comparison);
+            });
       pair.known = known_of(job, pair.name);
     } catch (const Error& error) {
       if (one || error.code() != ExitCode::kInput) throw;

@@ -62,10 +62,10 @@ class RegionFlags {
 
   /// Reads the shapes and their pictures, and sets the words and the cut in `options`. Throws as parse_mask_shape().
   void read(ComparisonOptions& options);
-  /// Adds what a project says, before what the command line says. A `mask` counts only where none is given.
+  /// Adds the parts of a project. Its `mask` counts only if the command line has none.
   void add(const std::vector<std::string>& mask, const std::vector<std::string>& ignore);
-  /// After read(): what a project says of some pairs. A `mask` takes the place of the others.
-  void change(const std::vector<std::string>& mask, const std::vector<std::string>& ignore,
+  /// After read(): the parts of a rule. Its `mask`, if there is one, replaces the others.
+  void change(std::span<const MaskShape> mask, std::span<const MaskShape> ignored,
               ComparisonOptions& options);
   /// Pictures that read() reads.
   std::vector<std::filesystem::path> files() const;
@@ -129,8 +129,12 @@ struct PairRule {
   std::vector<MetricLimit> limits, warnings;
   std::optional<Tolerance> tolerance;
   std::optional<bool> default_limits;
-  std::vector<std::string> mask, ignore;
+  std::vector<MaskShape> mask, ignored;
 };
+
+/// The limits, of which `more` replaces those on the same metrics.
+std::vector<MetricLimit> with_limits(std::vector<MetricLimit> limits,
+                                     const std::vector<MetricLimit>& more);
 
 struct CompareJob {
   PairingChoice pictures;
@@ -146,7 +150,7 @@ struct CompareJob {
   std::string today;  ///< "2027-01-31", in UTC
 };
 
-/// The job with the rules that fit a pair of this name. Throws as RegionFlags::read().
+/// The job with the rules that fit a pair of this name.
 CompareJob job_of(const CompareJob& job, const std::string& name);
 
 /// Whether there is one pair, whose files were given by themselves.
@@ -178,12 +182,14 @@ PicturePair read_compared(const PairReport& pair, const CompareJob& job, const P
 SetReport compare_pairs(const CompareJob& job, const Pairing& pairing,
                         const std::function<void(std::size_t)>& done);
 
-/// The file for the difference of a pair of several. The ending is added, so that a.exr and a.png stay apart.
-inline std::filesystem::path difference_file(const CompareJob& job, const std::string& name) {
-  return job.difference.path / (name + ".png");
-}
+/// A plain name that stays the same from report to report. One that had to be changed is told apart by a hash.
+std::string plain_id(const std::string& name);
 
-/// What goes to stdout.
+/// The file for the difference of a pair of several, inside the folder that was given. The ending is added, so that a.exr
+/// and a.png stay apart.
+std::filesystem::path difference_file(const CompareJob& job, const std::string& name);
+
+/// How the table is printed.
 struct PrintChoice {
   bool quiet = false;    ///< only what does not pass
   bool verbose = false;  ///< of a set, a line for each pair

@@ -22,12 +22,6 @@ std::string painted(std::string_view text, std::optional<Problem::Weight> weight
   return fmt::format(fmt::fg(paint), "{}", text);
 }
 
-std::optional<Problem::Weight> weight_of(const PairReport& pair) {
-  if (is_pass(pair.verdict())) return std::nullopt;
-  return pair.is_excused() || pair.verdict() == Verdict::kUndecided ? Problem::Weight::kWarns
-                                                                    : Problem::Weight::kFails;
-}
-
 std::string layer_reasons(const LayerComparison& layer, const std::string& a,
                           const std::string& b) {
   if (layer.identical) return "identical";

@@ -1,7 +1,5 @@
-// What `lobelia compare` is told besides its command line: a project.
+// Adds a project to the command line of `lobelia compare`.
 #include <fmt/chrono.h>
-
-#include <algorithm>
 
 #include "cli/compare_arguments.hpp"
 #include "core/text.hpp"
@@ -24,10 +22,10 @@ class FromProject {
     for (std::string& path : paths) path = (*this)(path);
     return paths;
   }
-  /// Of a mask only a picture has a path.
+  /// Rectangles and polygons stay as they are.
   std::vector<std::string> masks(std::vector<std::string> masks) const {
     for (std::string& mask : masks)
-      if (!mask.starts_with("rect:") && !mask.starts_with("polygon:")) mask = (*this)(mask);
+      if (is_picture_of_mask(mask)) mask = (*this)(mask);
     return masks;
   }
 
@@ -41,23 +39,21 @@ std::vector<MetricLimit> limits_of(std::string_view where, const std::vector<std
   return limits;
 }
 
-/// The project's limits, but for metrics that the command line has a limit on.
-void add_from_project(const std::vector<MetricLimit>& project, std::vector<MetricLimit>& limits) {
-  std::vector<MetricLimit> all;
-  for (const MetricLimit& limit : project)
-    if (std::ranges::count(limits, limit.metric, &MetricLimit::metric) == 0) all.push_back(limit);
-  limits.insert(limits.begin(), all.begin(), all.end());
-}
-
 PairRule rule_of(const records::ProjectRule& rule, std::size_t number, const FromProject& from) {
   const auto where = [&](const char* key) { return fmt::format("rules[{}].{}", number, key); };
+  const auto shapes = [&](const char* key, const std::vector<std::string>& texts) {
+    std::vector<MaskShape> shapes;
+    for (const std::string& text : from.masks(texts))
+      shapes.push_back(parse_mask_shape(where(key), text));
+    return shapes;
+  };
   PairRule made{rule.match,
                 limits_of(where("fail"), rule.fail),
                 limits_of(where("warn"), rule.warn),
                 {},
                 rule.default_limits,
-                from.masks(rule.mask),
-                from.masks(rule.ignore)};
+                shapes("mask", rule.mask),
+                shapes("ignore", rule.ignore)};
   if (!rule.tolerance.empty()) made.tolerance = parse_tolerance(where("tolerance"), rule.tolerance);
   return made;
 }
@@ -89,8 +85,8 @@ void apply(const records::Project& project, const fs::path& file, CompareArgumen
   ComparisonOptions& comparison = job.comparison;
   apply_pictures(project, from, job.pictures);
   if (options.html.title.empty()) options.html.title = project.title;
-  add_from_project(limits_of("fail", project.fail), comparison.limits);
-  add_from_project(limits_of("warn", project.warn), comparison.warnings);
+  comparison.limits = with_limits(limits_of("fail", project.fail), comparison.limits);
+  comparison.warnings = with_limits(limits_of("warn", project.warn), comparison.warnings);
   if (!comparison.tolerance && !project.tolerance.empty())
     comparison.tolerance = parse_tolerance("tolerance", project.tolerance);
   comparison.default_limits = comparison.default_limits && project.default_limits.value_or(true);

@@ -48,27 +48,24 @@ void RegionFlags::add(const std::vector<std::string>& mask,
   ignore_texts_.insert(ignore_texts_.begin(), ignore.begin(), ignore.end());
 }
 
-void RegionFlags::change(const std::vector<std::string>& mask,
-                         const std::vector<std::string>& ignore, ComparisonOptions& options) {
+void RegionFlags::change(std::span<const MaskShape> mask, std::span<const MaskShape> ignored,
+                         ComparisonOptions& options) {
   if (!mask.empty()) {
-    options.mask_of.erase(options.mask_of.begin(),
-                          options.mask_of.begin() + std::ptrdiff_t(mask_texts_.size()));
-    mask_texts_ = mask;
-    mask_.clear();
-    for (const std::string& text : mask) mask_.push_back(parse_mask_shape("mask", text));
-    options.mask_of.insert(options.mask_of.begin(), mask.begin(), mask.end());
+    const auto first = options.mask_of.begin();
+    options.mask_of.erase(first, first + std::ptrdiff_t(mask_.size()));
+    mask_.assign(mask.begin(), mask.end());
+    for (auto shape = mask.rbegin(); shape != mask.rend(); ++shape)
+      options.mask_of.insert(options.mask_of.begin(), shape->text);
   }
-  for (const std::string& text : ignore) {
-    ignored_.push_back(parse_mask_shape("ignore", text));
-    options.ignored_of.push_back(text);
+  for (const MaskShape& shape : ignored) {
+    ignored_.push_back(shape);
+    options.ignored_of.push_back(shape.text);
   }
 }
 
 std::vector<std::filesystem::path> RegionFlags::files() const {
-  std::vector<std::filesystem::path> files;
-  for (const auto* shapes : {&mask_, &ignored_})
-    for (const MaskShape& shape : *shapes)
-      if (std::holds_alternative<Image>(shape.form)) files.emplace_back(shape.text);
+  std::vector<std::filesystem::path> files = picture_files(mask_);
+  for (std::filesystem::path& file : picture_files(ignored_)) files.push_back(std::move(file));
   return files;
 }
 

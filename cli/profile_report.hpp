@@ -1,4 +1,4 @@
-// What `lobelia profile` prints and writes: tables for people, curves as CSV, and charts.
+// The tables, CSV files and charts of `lobelia profile`.
 #pragma once
 
 #include <span>

@@ -100,6 +100,17 @@ void require_inside(const PixelWindow& window, int width, int height) {
 
 }  // namespace
 
+bool is_picture_of_mask(std::string_view text) {
+  return !text.starts_with(kRectangle) && !text.starts_with(kPolygon);
+}
+
+std::vector<std::filesystem::path> picture_files(std::span<const MaskShape> shapes) {
+  std::vector<std::filesystem::path> files;
+  for (const MaskShape& shape : shapes)
+    if (std::holds_alternative<Image>(shape.form)) files.emplace_back(shape.text);
+  return files;
+}
+
 MaskShape parse_mask_shape(std::string_view option, const std::string& text) {
   if (text.starts_with(kRectangle)) return {text, parse_rectangle(option, text)};
   if (text.starts_with(kPolygon)) return {text, parse_polygon(option, text)};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <span>
 #include <variant>
 
@@ -26,6 +27,10 @@ inline constexpr int kMaxPolygonCorners = 1000;
 /// Reads "rect:X,Y,W,H", "polygon:X,Y X,Y X,Y ..." or the file of a picture. Throws Error(kUsage) for a shape that is
 /// malformed, and Error(kInput) for a picture that cannot be read or has a NaN.
 MaskShape parse_mask_shape(std::string_view option, const std::string& text);
+/// Whether the text is the file of a picture and no shape.
+bool is_picture_of_mask(std::string_view text);
+/// The files of those that are pictures.
+std::vector<std::filesystem::path> picture_files(std::span<const MaskShape> shapes);
 
 /// By pixel, 1 where it is inside any of the shapes. Throws Error(kInput) if a picture has another size.
 std::vector<std::uint8_t> pixels_inside(std::span<const MaskShape> shapes, int width, int height);

@@ -77,9 +77,9 @@ void Struct::read(const Json& json, const Bounds&, const Place& place, void* val
 void Struct::refuse_others(const Json& json, const Place& place) const {
   std::vector<std::string_view> known;
   for (const Field& field : fields_) known.push_back(field.key);
-  const Json unknown = others(json);
-  for (const auto& [key, value] : unknown.items())
-    if (kind_.empty() || (key != "schemaVersion" && key != "kind" && key != "madeBy"))
+  if (!kind_.empty()) known.insert(known.end(), {"schemaVersion", "kind", "madeBy"});
+  for (const auto& [key, value] : json.items())
+    if (std::ranges::count(known, key) == 0)
       Place(place, key).fail("there is no such key" + did_you_mean(key, known));
 }
 

@@ -25,12 +25,12 @@ struct Measured {
   std::vector<BlobFigures> blobs;
 };
 
-void leave_only(Field& field, const Rectangle& region) {
+void leave_only(Field& field, const PixelWindow& region) {
   for (int y = 0; y < field.height; ++y)
     for (int x = 0; x < field.width; ++x)
       if (x < region.x || y < region.y || x >= region.x + region.width ||
           y >= region.y + region.height)
-        field.values[std::size_t(y) * std::size_t(field.width) + std::size_t(x)] = kNaN;
+        field.values[field.index(x, y)] = kNaN;
 }
 
 Measured measure_picture(const Image& image, const BlobOptions& options,
@@ -45,7 +45,7 @@ Measured measure_picture(const Image& image, const BlobOptions& options,
   if (noise) errors = radiance_errors(*noise);
   const BlobSource source{&image,
                           &measured.found,
-                          options.region.value_or(Rectangle{0, 0, image.width(), image.height()}),
+                          options.region.value_or(PixelWindow{0, 0, image.width(), image.height()}),
                           errors ? &*errors : nullptr,
                           noise && noise->shared,
                           largest_values(image, measured.found.specks)};

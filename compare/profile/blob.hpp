@@ -7,6 +7,7 @@
 #include "compare/profile/find_blobs.hpp"
 #include "compare/profile/profile.hpp"
 #include "core/constants.hpp"
+#include "core/picture.hpp"
 
 namespace lobelia {
 
@@ -59,17 +60,13 @@ struct BlobProfile {
   std::optional<ZoneErrors> difference;  ///< of the first from the second, if both have the blob
 };
 
-struct Rectangle {
-  int x = 0, y = 0, width = 0, height = 0;  ///< of the upper left pixel; pixels
-};
-
 struct BlobOptions {
   BlobSearch search;
-  std::optional<Rectangle> region;         ///< nothing outside is looked at
+  std::optional<PixelWindow> region;       ///< nothing outside is looked at
   std::vector<const PictureNoise*> noise;  ///< [picture]; null or missing: unknown
 };
 
-/// What a picture has besides its highlights.
+/// What was found in a picture, and is none of the measured highlights.
 struct BlobPicture {
   std::string name;
   std::vector<Speck> specks;  ///< the brightest first
@@ -80,8 +77,8 @@ struct BlobPicture {
 
 struct BlobProfiles {
   std::vector<BlobPicture> pictures;
-  /// Of the first picture from its brightest on, then those that only the second has. At least one; if there is no
-  /// highlight at all, its `why_not` says so.
+  /// Those of the first picture, the brightest first, then those that only the second picture has. Never empty: without
+  /// any highlight there is one whose `why_not` says so.
   std::vector<BlobProfile> highlights;
 };
 

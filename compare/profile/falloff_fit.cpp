@@ -203,7 +203,7 @@ std::vector<FalloffFit> fit_falloff(const Field& above, const Axes& rough, doubl
       const double v = (-rough.major.y * dx + rough.major.x * dy) / b;
       const double value = above.at(x, y);
       if (u * u + v * v > 1 || std::isnan(value)) continue;
-      const std::size_t i = std::size_t(y) * std::size_t(above.width) + std::size_t(x);
+      const std::size_t i = above.index(x, y);
       pixels.push_back({{x + 0.5, y + 0.5}, value, error[i], clipped[i]});
       brightest = std::max(brightest, value);
     }

@@ -27,7 +27,7 @@ void for_neighbours(const Field& field, std::size_t index, int reach, Visit visi
   const int x = int(index % std::size_t(field.width)), y = int(index / std::size_t(field.width));
   for (int j = std::max(0, y - reach); j <= std::min(field.height - 1, y + reach); ++j)
     for (int i = std::max(0, x - reach); i <= std::min(field.width - 1, x + reach); ++i)
-      if (i != x || j != y) visit(std::size_t(j) * std::size_t(field.width) + std::size_t(i));
+      if (i != x || j != y) visit(field.index(i, j));
 }
 
 bool is_local_maximum(const Field& field, std::size_t index) {
@@ -99,7 +99,7 @@ class Regions {
         if (!(field_.values[i] >= level) || seen_[i] == round_) return;
         seen_[i] = round_;
         region.pixels.push_back(i);
-        // Of equal pixels the first one is the peak.
+        // Of equal pixels, the first is the peak.
         if (field_.values[i] > field_.values[start] ||
             (field_.values[i] == field_.values[start] && i < start))
           region.brighter = i;
@@ -218,7 +218,7 @@ Brighter brighter_pixels(const Field& field, double typical) {
 std::size_t index_at(const Field& field, FilmPoint place) {
   const int x = std::clamp(int(std::floor(place.x)), 0, field.width - 1);
   const int y = std::clamp(int(std::floor(place.y)), 0, field.height - 1);
-  return std::size_t(y) * std::size_t(field.width) + std::size_t(x);
+  return field.index(x, y);
 }
 
 /// From a pixel up to a local maximum, and on to the highest peak of the same blob.
@@ -316,7 +316,7 @@ std::optional<BlobBackground> background_around(const Field& field, FilmPoint ce
          i += step) {
       const double away = distance({i + 0.5, j + 0.5}, centre);
       if (!(away >= kRingFrom * semi_axis && away < to) || std::isnan(field.at(i, j))) continue;
-      background.ring.push_back(std::size_t(j) * std::size_t(field.width) + std::size_t(i));
+      background.ring.push_back(field.index(i, j));
       values.push_back(field.at(i, j));
     }
   if (values.size() < kFewestRingPixels) return std::nullopt;

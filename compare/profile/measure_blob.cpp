@@ -232,7 +232,7 @@ std::array<double, 3> colour_of(const BlobSource& source, const Patch& patch, co
 }
 
 std::string remark_on(const BlobFigures& blob, const std::vector<std::size_t>& region, int width,
-                      const Rectangle& film) {
+                      const PixelWindow& film) {
   if (blob.pixels < kFewestPixelsOfALobe)
     return fmt::format("not resolved: {} pixels are above half of the peak, {} are needed",
                        blob.pixels, kFewestPixelsOfALobe);

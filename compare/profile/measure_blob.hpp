@@ -9,7 +9,7 @@ namespace lobelia {
 struct BlobSource {
   const Image* image;
   const FoundBlobs* found;
-  Rectangle film;                  ///< the pixels that are looked at
+  PixelWindow film;                ///< the pixels that are looked at
   const Field* error;              ///< standard errors of the pixels; null: unknown
   bool shared = false;             ///< whether these have the same sign
   std::array<float, 3> largest{};  ///< of each channel, without the specks

@@ -195,7 +195,7 @@ Outline trace_outline(const Field& above, const Axes& rough, FilmPoint along, do
       for (double& reach : outline->reach) reach *= side;
       const int x = std::clamp(int(peak.place.x), 0, above.width - 1);
       const int y = std::clamp(int(peak.place.y), 0, above.height - 1);
-      peak.pixel = std::size_t(y) * std::size_t(above.width) + std::size_t(x);
+      peak.pixel = above.index(x, y);
       return *outline;
     }
   }
@@ -220,7 +220,7 @@ Field softened(Field field, int passes) {
             sum += (2 - std::abs(k)) * value;
             weights += 2 - std::abs(k);
           }
-          double& here = field.values[std::size_t(y) * std::size_t(width) + std::size_t(x)];
+          double& here = field.values[field.index(x, y)];
           if (!std::isnan(here)) here = sum / weights;
         }
     }

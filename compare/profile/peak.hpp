@@ -23,6 +23,10 @@ struct Field {
   int width = 0, height = 0;
   std::vector<double> values;  ///< width * height
 
+  /// In `values`, of a pixel on the film.
+  std::size_t index(int i, int j) const {
+    return std::size_t(j) * std::size_t(width) + std::size_t(i);
+  }
   /// The value of pixel (i, j); NaN outside the film.
   double at(int i, int j) const;
 };

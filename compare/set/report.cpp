@@ -65,6 +65,13 @@ double excess(const PairReport& pair) {
   return worst;
 }
 
+std::optional<Problem::Weight> weight_of(const PairReport& pair) {
+  if (is_pass(pair.verdict())) return std::nullopt;
+  return pair.is_excused()                       ? Problem::Weight::kNotice
+         : pair.verdict() == Verdict::kUndecided ? Problem::Weight::kWarns
+                                                 : Problem::Weight::kFails;
+}
+
 std::vector<Problem> problems(const SetReport& report) {
   using Weight = Problem::Weight;
   std::vector<Problem> list;
@@ -85,15 +92,13 @@ std::vector<Problem> problems(const SetReport& report) {
     return excess(*p) > excess(*q);
   });
   for (const PairReport* pair : worst_first) {
-    if (is_pass(pair->verdict())) continue;
+    const auto weight = weight_of(*pair);
+    if (!weight) continue;
     std::string why = why_not_pass(*pair);
     if (const std::string known = known_text(*pair); !known.empty())
       why = fmt::format("{} ({})", why, known);
-    add(pair->is_excused()                       ? Weight::kNotice
-        : pair->verdict() == Verdict::kUndecided ? Weight::kWarns
-                                                 : Weight::kFails,
-        pair->is_excused() ? "known" : verdict_name(pair->verdict()), pair->name, std::move(why),
-        pair);
+    add(*weight, pair->is_excused() ? "known" : verdict_name(pair->verdict()), pair->name,
+        std::move(why), pair);
   }
   for (const PairReport* pair : worst_first) {
     for (const LimitResult& limit : pair->comparison->warnings)

@@ -114,6 +114,8 @@ struct Problem {
   std::string name, why;
   const PairReport* pair = nullptr;  ///< of a pair with a comparison
 };
+/// Of a pair with a comparison; nothing if it passes.
+std::optional<Problem::Weight> weight_of(const PairReport& pair);
 /// All of them: first what could not be compared, then the pairs, the worst first, then what is no failure.
 std::vector<Problem> problems(const SetReport& report);
 

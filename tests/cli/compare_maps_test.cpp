@@ -42,6 +42,20 @@ TEST_F(CompareMaps, OfFoldersHaveOneScaleForTheWholeSet) {
   EXPECT_EQ(brightest("near"), brightest("far"));
 }
 
+TEST_F(CompareMaps, StayInTheirFolderWhateverATableCallsThePair) {
+  const std::string kLong(252, 'n');
+  file("pairs.csv", "a,b,name\nA/far.exr,B/far.exr,../../evil\nA/near.exr,B/near.exr," +
+                        (directory_.path() / "evil").string() + "\nA/equal.exr,B/equal.exr," +
+                        kLong + "\n");
+  EXPECT_EQ(compare({"--pairs", "pairs.csv", "--diff-image", "deep/maps"}).exit_code, 1);
+  std::size_t inside = 0;
+  for (const auto& entry : fs::directory_iterator(directory_.path() / "deep/maps"))
+    inside += entry.is_regular_file();
+  EXPECT_EQ(inside, 3u);
+  EXPECT_FALSE(fs::exists(directory_.path() / "evil.png"));
+  EXPECT_FALSE(fs::exists(directory_.path().parent_path() / "evil.png"));
+}
+
 TEST_F(CompareMaps, OfPairsThatPassAreLeftOutOnRequest) {
   for (const std::string of : {"channels", "flip.ldr"}) {
     EXPECT_EQ(maps({"--diff-only-failed", "--diff-of", of}).exit_code, 1);

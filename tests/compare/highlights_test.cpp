@@ -63,7 +63,7 @@ TEST(Highlights, AtAPlaceOrInARegionAreThoseAlone) {
   EXPECT_NEAR(measured(image, options).highlights.at(0).blobs[0].peak.place.x, kThree[2].x, 0.1)
       << "the nearest one";
   options.search.at = {};
-  options.region = Rectangle{0, 20, 80, 70};
+  options.region = PixelWindow{0, 20, 80, 70};
   const BlobProfiles inside = measured(image, options);
   ASSERT_EQ(inside.highlights.size(), 1u);
   EXPECT_NEAR(inside.highlights[0].blobs[0].peak.place.x, kThree[0].x, 0.1);
@@ -85,11 +85,11 @@ TEST(Highlights, OutsideOfThePictureAreAnError) {
     options.search.at = at;
     EXPECT_TRUE(refused(options)) << at.x << ' ' << at.y;
   }
-  for (const Rectangle region : {Rectangle{0, 0, 0, 5},
-                                 {0, 0, 21, 5},
-                                 {20, 0, 1, 1},
-                                 {-1, 0, 5, 5},
-                                 {2, 2, std::numeric_limits<int>::max(), 1}}) {
+  for (const PixelWindow region : {PixelWindow{0, 0, 0, 5},
+                                   {0, 0, 21, 5},
+                                   {20, 0, 1, 1},
+                                   {-1, 0, 5, 5},
+                                   {2, 2, std::numeric_limits<int>::max(), 1}}) {
     BlobOptions options;
     options.region = region;
     EXPECT_TRUE(refused(options)) << region.x << ' ' << region.width;
