@@ -59,6 +59,8 @@ bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
                      const SetReport& report) {
   std::vector<NewReference> list = new_references(options, pairing, report);
   const std::size_t found = list.size();
+  const records::SetSummary counts = count(report);
+  const bool only_these = counts.errors + counts.missing + counts.links_not_followed == 0;
   std::erase_if(list, [](const NewReference& one) {
     const bool fits =
         lower_case(one.from.extension().string()) == lower_case(one.to.extension().string());
@@ -69,7 +71,7 @@ bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
   });
   if (list.empty()) {
     fmt::print("\nno reference would change\n");
-    return found == 0;
+    return found == 0 && only_these;
   }
   std::set<fs::path> replaced;
   for (const NewReference& one : list)
@@ -99,7 +101,7 @@ bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
   }
   files.commit();
   fmt::print("{} references were replaced\n", list.size());
-  return list.size() == found;
+  return list.size() == found && only_these;
 }
 
 }  // namespace lobelia::cli

@@ -54,7 +54,7 @@ void write_reports(const CompareArguments& options, const SetReport& report, boo
 void require_person();
 
 /// Shows what would change, asks, and copies the judged pictures that do not pass over their references, all or none.
-/// Whether all were. Throws Error(kInput) if one cannot be read any more, Error(kOutput) if one cannot be written.
+/// Whether nothing is left that fails. Throws Error(kInput) if one cannot be read any more, Error(kOutput) if one cannot be written.
 bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
                      const SetReport& report);
 

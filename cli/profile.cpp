@@ -4,6 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
+#include "cli/output_files.hpp"
 #include "cli/profile_report.hpp"
 #include "compare/profile/blob.hpp"
 #include "compare/require_same_size.hpp"
@@ -179,8 +180,17 @@ Result measured(const ProfileArguments& options, const NamedImages& images,
 
 void run_profile(const ProfileArguments& options) {
   const bool json_to_file = !options.json.empty() && options.json != "-";
-  for (const std::string& path : {json_to_file ? options.json : "", options.csv, options.svg})
-    if (!path.empty()) require_writable(path);
+  OutputFiles outputs;
+  for (const std::string& path : {options.a, options.b, options.scene}) outputs.reads(path);
+  for (const NoiseOfPicture* noise : {&options.noise_a, &options.noise_b}) {
+    outputs.reads(noise->error);
+    for (const std::string& path : noise->replicates) outputs.reads(path);
+  }
+  for (const std::string& path : {json_to_file ? options.json : "", options.csv, options.svg}) {
+    if (path.empty()) continue;
+    outputs.writes(path);
+    require_writable(path);
+  }
 
   const auto [name_a, name_b] = picture_names(options);
   Image a = read_image(options.a), b;

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -16,11 +17,9 @@ namespace {
 
 /// "2026-02-30" is no day.
 bool is_day(const std::string& text) {
-  std::istringstream in(text);
   int year = 0, month = 0, day = 0;
-  char dash = 0, dash2 = 0;
-  return text.size() == 10 && in >> year >> dash >> month >> dash2 >> day && dash == '-' &&
-         dash2 == '-' && in.peek() == std::istringstream::traits_type::eof() &&
+  std::sscanf(text.c_str(), "%4d-%2d-%2d", &year, &month, &day);
+  return text == fmt::format("{:04}-{:02}-{:02}", year, month, day) &&
          std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(unsigned(month)),
                                      std::chrono::day(unsigned(day)))
              .ok();

@@ -158,6 +158,8 @@ TEST_F(CompareProject, ThatIsWrongIsRefusedWithItsPlace) {
                  "line 6");
   expect_refused(two + "[[known]]\nmatch = \"*\"\nreason = \"?\"\nexpires = \"soon\"\n",
                  "expires: expected a day");
+  expect_refused(two + "[[known]]\nmatch = \"*\"\nreason = \"?\"\nexpires = \"+099-02-03\"\n",
+                 "expires: expected a day");
   expect_refused(two + "[[known]]\nmatch = \"*\"\nexpires = 2027-02-01\n",
                  "known[0].reason: missing");
   expect_refused(two + "judged = [\"twice\"]\n", "line 3");
@@ -208,6 +210,14 @@ TEST_F(CompareProject, IsAcceptedOnlyByAPersonWhoSaysYes) {
   EXPECT_EQ(compare({}).exit_code, 0);
 }
 
+TEST_F(CompareProject, IsNoSuccessIfWhatIsAcceptedLeavesAFailure) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.6f), grey("truth/gone.exr", 0.3f);
+  project(kTwoFolders);
+  const std::string accepted = accept_at_a_terminal("yes");
+  EXPECT_THAT(accepted, HasSubstr("1 references were replaced"));
+  EXPECT_THAT(accepted, HasSubstr("ended with 1"));
+}
+
 TEST_F(CompareProject, AcceptedThroughALinkReplacesTheLinkAndNotTheFileBehindIt) {
   grey("mine/x.exr", 0.5f), grey("archive/x.exr", 0.6f);
   fs::create_directories(path("truth"));
@@ -228,6 +238,8 @@ TEST_F(CompareProject, IsToldInMarkdownAndInGitHubsLinesWithItsTextsEscaped) {
   EXPECT_THAT(markdown.output_tail, HasSubstr("2 pairs: 1 pass, 1 differ"));
   EXPECT_THAT(markdown.output_tail, HasSubstr("| differs | a\\|b,c%\\<i\\>.exr |"));
   EXPECT_THAT(markdown.output_tail, Not(HasSubstr("fine.exr")));
+  EXPECT_EQ(compare({"--project", "lobelia.toml", "--format", "github", "--json", "-"}).exit_code,
+            2);
   const ProcessResult github = compare({"--project", "lobelia.toml", "--format", "github", "-q"});
   EXPECT_EQ(github.exit_code, 1);
   EXPECT_THAT(
