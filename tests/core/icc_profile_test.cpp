@@ -311,8 +311,8 @@ TEST_F(IccProfiles, ThatAreDamagedAreAnErrorOfThePicture) {
     std::string bad = good;
     for (int k = 0; k < 4; ++k) bad[random() % bad.size()] = char(random());
     try {
-      for (const float value : read_image(jpeg_with(bad)).values())
-        EXPECT_TRUE(std::isfinite(value)) << i;
+      const Image picture = read_image(jpeg_with(bad));
+      for (const float value : picture.values()) EXPECT_TRUE(std::isfinite(value)) << i;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::kInput);
       EXPECT_THAT(error.what(), ::testing::Not(HasSubstr("crashed")));

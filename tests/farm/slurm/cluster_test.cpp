@@ -78,7 +78,12 @@ TEST_F(SlurmCluster, LosesNothingWithANodeThatDies) {
   ASSERT_NE(cluster.slurm({"squeue", "-h", "-t", "running", "-w", "n2"}), "");
   cluster.kill_node("n2");
   EXPECT_EQ(client.wait(), 0);
-  EXPECT_EQ(toy.results(), toy.wanted());
+  // Who is killed between writing and publishing cannot remove the unfinished file: two jobs ran there.
+  auto results = toy.results();
+  EXPECT_LE(
+      std::erase_if(results, [](const auto& file) { return file.first.starts_with(".part."); }),
+      2u);
+  EXPECT_EQ(results, toy.wanted());
   // What it had begun was begun again elsewhere, what it had finished was not.
   EXPECT_GT(toy.started().size(), 24u);
   EXPECT_LE(toy.started().size(), 26u);
