@@ -62,6 +62,7 @@ ExitCode run_sensitivity(const CompareArguments& options) {
         {!job.difference.path.empty(), "--diff-image"},
         {!job.difference.histogram.empty(), "--histogram"},
         {options.accept, "--accept"},
+        {!job.pictures.also_accepted.empty(), "--also-accept"},
         {!(options.csv.empty() && options.junit.empty() && options.markdown.empty()),
          "--csv, --junit and --markdown"}})
     if (given)
@@ -199,14 +200,21 @@ ExitCode run_compare(CompareArguments options) {
     progress.clear();
     write_reports(options, report, one, files);
   }
-  if (!options.html.path.empty())
+  const bool unreadable = one && !report.pairs.front().comparison;
+  if (!options.html.path.empty() && !unreadable)
     ThreadLimit(options.threads).run([&] {
       write_html(options.html, options.job, pairing, report);
     });
   if (has_table && !one) print_set(report, options.print);
-  if (has_table && one) print_pair(report.pairs.front(), options.print);
+  if (has_table && one && !unreadable) print_pair(report.pairs.front(), options.print);
   if (options.format == "github") fmt::print("{}", set_github(report));
+  if (unreadable) throw Error(ExitCode::kInput, report.pairs.front().error);
   if (options.accept && accept_pictures(options, pairing, report)) return ExitCode::kSuccess;
+  if (report.pairs.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("no pair to compare: {} references have no picture, {} pictures no "
+                            "reference, and {} files are no pictures or do not fit the pattern",
+                            report.missing.size(), report.extra.size(), report.passed_over));
   return set_exit_code(report);
 }
 

@@ -21,6 +21,7 @@ constexpr const char* kOfCi[] = {"CI", "JENKINS_URL", "TEAMCITY_VERSION", "TF_BU
 struct NewReference {
   fs::path from, to;
   std::string why;
+  bool is_nonfinite = false;
 };
 
 /// The pictures that do not pass, and those without a reference where it is clear where that would lie.
@@ -30,8 +31,10 @@ std::vector<NewReference> new_references(const CompareArguments& options, const 
   for (const Problem& problem : problems(report))
     if (problem.pair && problem.weight != Problem::Weight::kNotice &&
         !is_pass(problem.pair->verdict()))
-      list.push_back(
-          {problem.pair->a, problem.pair->b, fmt::format("{}: {}", problem.what, problem.why)});
+      list.push_back({problem.pair->a, problem.pair->b,
+                      fmt::format("{}: {}", problem.what, problem.why),
+                      problem.pair->verdict() == Verdict::kNonFinite &&
+                          problem.pair->comparison->nonfinite.a > 0});
   if (has_folders_by_name(options.job, pairing))
     for (const PictureRow& row : pairing.rows)
       if (pairing.references_of(row).empty())
@@ -62,12 +65,15 @@ bool accept_pictures(const CompareArguments& options, const Pairing& pairing,
   const records::SetSummary counts = count(report);
   const bool only_these = counts.errors + counts.missing + counts.links_not_followed == 0;
   std::erase_if(list, [](const NewReference& one) {
+    if (one.is_nonfinite)
+      fmt::print("left alone: {} has values that are not finite\n",
+                 printable_path(one.from.string()));
     const bool fits =
         lower_case(one.from.extension().string()) == lower_case(one.to.extension().string());
     if (!fits)
       fmt::print("left alone: {} is in another format than {}\n", printable_path(one.from.string()),
                  printable_path(one.to.string()));
-    return !fits;
+    return !fits || one.is_nonfinite;
   });
   if (list.empty()) {
     fmt::print("\nno reference would change\n");

@@ -7,13 +7,11 @@
 
 #include "cli/compare_html.hpp"
 #include "cli/compare_pictures.hpp"
+#include "cli/output_files.hpp"
 #include "core/colour.hpp"
 #include "core/files.hpp"
 
 namespace lobelia::cli {
-
-/// A report's file: to stdout, in place of the table.
-inline constexpr std::string_view kStdout = "-";
 
 struct CompareArguments {
   CompareJob job;

@@ -19,6 +19,7 @@
 #include "core/sha256.hpp"
 #include "core/standard_streams.hpp"
 #include "core/text.hpp"
+#include "gallery/publisher.hpp"
 #include "gallery/report.hpp"
 #include "gallery/single_file.hpp"
 #include "records/record.hpp"
@@ -299,6 +300,12 @@ fs::path index_of(const HtmlReport& html) {
 void require_place(const HtmlReport& html) {
   const fs::path index = index_of(html);
   if (index.has_parent_path()) make_directories(index.parent_path());
+  std::error_code unknown;
+  if (!html.single_file && fs::exists(index, unknown) &&
+      !fs::exists(html.path / gallery::kSiteList, unknown))
+    throw Error(ExitCode::kOutput, fmt::format("{}: is there already, and not of a report; choose "
+                                               "another folder",
+                                               printable_path(index.string())));
   require_writable(index);
 }
 

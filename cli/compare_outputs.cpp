@@ -101,9 +101,10 @@ void write_reports(const CompareArguments& options, const SetReport& report, boo
   put(options.csv, [&] { return set_csv(report); });
   put(options.junit, [&] { return set_junit(report, options.junit_undecided == "skipped"); });
   put(options.markdown, [&] { return set_markdown(report); });
-  put(options.json, [&] {
-    return one ? record_text(pair_record(report.pairs.front())) : record_text(set_record(report));
-  });
+  if (!one || report.pairs.front().comparison)
+    put(options.json, [&] {
+      return one ? record_text(pair_record(report.pairs.front())) : record_text(set_record(report));
+    });
   files.commit();
   fmt::print("{}", printed);
 }

@@ -313,7 +313,7 @@ SetReport compare_pairs(const CompareJob& asked, const Pairing& pairing,
             });
       pair.known = known_of(job, pair.name);
     } catch (const Error& error) {
-      if (one || error.code() != ExitCode::kInput) throw;
+      if (error.code() != ExitCode::kInput) throw;
       pair.error = error.what();
     }
     done(++count);

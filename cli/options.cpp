@@ -24,6 +24,13 @@ void replace(const std::optional<Number>& value, std::string_view option, double
 
 }  // namespace
 
+CLI::Validator not_empty() {
+  return {[](const std::string& text) {
+            return std::string(text.empty() ? "a name is expected, and it is empty" : "");
+          },
+          ""};
+}
+
 CLI::Validator between(double min, double max) {
   return {[=](std::string& text) {
             double value = 0;

@@ -20,6 +20,8 @@ namespace lobelia::cli {
 
 /// Checks that an option's number lies in a range. CLI::Range accepts a NaN.
 CLI::Validator between(double min, double max);
+/// Refuses an empty text, which a script gives whose variable is not set.
+CLI::Validator not_empty();
 
 /// Adds options under one heading of a command's help.
 class OptionGroup {
@@ -32,6 +34,7 @@ class OptionGroup {
   CLI::Option* add(const std::string& name, T& value, const std::string& type,
                    const std::string& help) {
     CLI::Option* const option = command_.add_option(name, value, help)->group(heading_);
+    if (type.starts_with("FILE") || type.starts_with("DIR")) option->check(not_empty());
     return type.empty() ? option : option->type_name(type);
   }
   /// A number from `min` to `max`. The help shows its default.

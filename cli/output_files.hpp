@@ -5,9 +5,13 @@
 
 #include <filesystem>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace lobelia::cli {
+
+/// A report's file: to stdout, in place of the table.
+inline constexpr std::string_view kStdout = "-";
 
 class OutputFiles {
  public:

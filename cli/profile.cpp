@@ -179,17 +179,19 @@ Result measured(const ProfileArguments& options, const NamedImages& images,
 }
 
 void run_profile(const ProfileArguments& options) {
-  const bool json_to_file = !options.json.empty() && options.json != "-";
+  const std::string* const written[] = {&options.json, &options.csv, &options.svg};
+  if (std::ranges::count(written, kStdout, [](const std::string* path) { return *path; }) > 1)
+    throw Error(ExitCode::kUsage, "only one of --json, --csv and --svg can go to stdout");
   OutputFiles outputs;
   for (const std::string& path : {options.a, options.b, options.scene}) outputs.reads(path);
   for (const NoiseOfPicture* noise : {&options.noise_a, &options.noise_b}) {
     outputs.reads(noise->error);
     for (const std::string& path : noise->replicates) outputs.reads(path);
   }
-  for (const std::string& path : {json_to_file ? options.json : "", options.csv, options.svg}) {
-    if (path.empty()) continue;
-    outputs.writes(path);
-    require_writable(path);
+  for (const std::string* path : written) {
+    if (path->empty() || *path == kStdout) continue;
+    outputs.writes(*path);
+    require_writable(*path);
   }
 
   const auto [name_a, name_b] = picture_names(options);
@@ -204,12 +206,17 @@ void run_profile(const ProfileArguments& options) {
   }
   const Result result =
       measured(options, images, {noise_a ? &*noise_a : nullptr, noise_b ? &*noise_b : nullptr});
+  std::string printed = result.text;
   FilesTogether files;
-  if (!options.csv.empty()) write_file(options.csv, result.csv);
-  if (!options.svg.empty()) write_file(options.svg, result.svg);
-  if (json_to_file) write_file(options.json, result.record);
+  for (const auto& [path, text] : {std::pair(&options.csv, &result.csv),
+                                   {&options.svg, &result.svg},
+                                   {&options.json, &result.record}})
+    if (*path == kStdout)
+      printed = *text;
+    else if (!path->empty())
+      write_file(*path, *text);
   files.commit();
-  fmt::print("{}", options.json == "-" ? result.record : result.text);
+  fmt::print("{}", printed);
 }
 
 }  // namespace
@@ -256,10 +263,12 @@ void add_profile(CLI::App& app, ExitCode&) {
   output.add("--json", options->json, "FILE|-",
              "Write the record to FILE; with - to stdout, and no table (kind profile of one chosen "
              "highlight, profiles of all; without a scene blob and blobs)");
-  output.add("--csv", options->csv, "FILE",
-             "Write the curves as a table with a line per angle or offset");
-  output.add("--svg", options->svg, "FILE",
-             "Write the curves as a chart: of one highlight, or without a scene of up to five");
+  output.add("--csv", options->csv, "FILE|-",
+             "Write the curves as a table with a line per angle or offset; with - likewise");
+  output.add(
+      "--svg", options->svg, "FILE|-",
+      "Write the curves as a chart: of one highlight, or without a scene of up to five; with - "
+      "likewise");
   command->footer(
       "With a scene 'analytic' is its formula at each pixel's centre. The epicentre reaches to where\n"
       "the lobe has fallen to 1/2, the flank to 1/20, the blooming zone to 1/1000. Every family of\n"

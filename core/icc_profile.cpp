@@ -102,6 +102,17 @@ IccProfile::IccProfile(const std::filesystem::path& path, std::string_view bytes
       value = transform_->is_grey ? same : double(probe.pixel(int(3 + column), 0)[row]);
       is_rec709 = is_rec709 && std::abs(value - same) < 0.01;
     }
+  // As primaries on a line would, a profile without a curve or a colour shows many colours as one.
+  const auto& m = primaries_;
+  const double volume = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                        m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                        m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  constexpr double kLeastVolume = 1e-3, kLeastStep = 1e-4;
+  const float dark = probe.pixel(0, 0)[1], middle = probe.pixel(1, 0)[1],
+              bright = probe.pixel(2, 0)[1];
+  if (std::abs(volume) < kLeastVolume || std::abs(middle - dark) < kLeastStep ||
+      std::abs(bright - middle) < kLeastStep)
+    unreadable_picture(path, "its ICC profile shows different colours as one");
   is_srgb_ = is_rec709 && are_near(srgb_decoded, 0.002);
   is_linear_ = are_near([](float value) { return value; }, 1e-4);
 }

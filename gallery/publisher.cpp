@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kList[] = "gallery.json";
-
 bool is_path_of_plain_names(const std::string& name) {
   return !name.empty() && std::ranges::all_of(std::views::split(name, '/'), [](const auto& part) {
     return is_plain_name({part.begin(), part.end()});
@@ -72,9 +70,9 @@ bool is_same_text(const fs::path& path, std::string_view content) {
 Publisher::Publisher(fs::path site) : site_(std::move(site)) {
   make_directories(site_);
   std::error_code ignored;
-  if (!fs::exists(site_ / kList, ignored)) return;
+  if (!fs::exists(site_ / kSiteList, ignored)) return;
   try {
-    const auto list = records::read_record<records::GalleryList>(site_ / kList);
+    const auto list = records::read_record<records::GalleryList>(site_ / kSiteList);
     for (const std::string& name : list.files)
       if (is_path_of_plain_names(name)) earlier_.insert(name);
     earlier_keys_.insert(list.made_of.begin(), list.made_of.end());
@@ -143,7 +141,8 @@ void Publisher::remove_stale() {
       directories.insert(up);
   Removal removal(site_, {[](const HeldDirectory& site) {
                             struct stat status {};
-                            return ::fstatat(site.fd(), kList, &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+                            return ::fstatat(site.fd(), kSiteList, &status, AT_SYMLINK_NOFOLLOW) ==
+                                       0 &&
                                    S_ISREG(status.st_mode);
                           },
                           [&](const fs::path& relative) {
@@ -163,7 +162,7 @@ void Publisher::finish() {
   remove_stale();
   const std::string text = records::record_text(
       records::GalleryList{{files_.begin(), files_.end()}, {keys_.begin(), keys_.end()}});
-  if (!is_same_text(site_ / kList, text)) write_file(site_ / kList, text);
+  if (!is_same_text(site_ / kSiteList, text)) write_file(site_ / kSiteList, text);
 }
 
 }  // namespace lobelia::gallery

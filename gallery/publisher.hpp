@@ -9,6 +9,9 @@
 
 namespace lobelia::gallery {
 
+/// The list of a site's files, in it.
+inline constexpr char kSiteList[] = "gallery.json";
+
 /// Names are paths below the site's directory: plain names, joined with '/'. Several threads may write, each
 /// its own files; then one calls finish().
 class Publisher {

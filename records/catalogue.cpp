@@ -81,9 +81,10 @@ std::string table_of(const Struct& type) {
     text += fmt::format("| {} | {} | {} | {} |\n", key, value, presence, meaning);
   };
   if (!type.kind().empty()) {
-    row("`schemaVersion`", fmt::format("{}", kRecordSchemaVersion), "always", "");
-    row("`kind`", fmt::format("`{}`", type.kind()), "always", "");
-    row("`madeBy`", "string", "always", "program and version");
+    const std::string there = type.is_by_hand() ? "if any" : "always";
+    row("`schemaVersion`", fmt::format("{}", kRecordSchemaVersion), there, "");
+    row("`kind`", fmt::format("`{}`", type.kind()), there, "");
+    row("`madeBy`", "string", there, "program and version");
   }
   for (const Field& field : type.fields()) {
     const Json schema = field.type->schema(field.bounds);

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -59,7 +61,33 @@ Json json_of(const toml::node& node) {
   return out.str();
 }
 
+/// Throws if a key has more parts than any in a project: toml++ 3.3 nests a table for each, without a bound, and
+/// recurses into them.
+void require_short_keys(const std::string& text, const std::string& where) {
+  constexpr int kMostParts = 32;
+  int parts = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      const std::string three(3, c),
+          quote = text.compare(i, 3, three) == 0 ? three : three.substr(2);
+      for (i += quote.size(); i < text.size() && text.compare(i, quote.size(), quote) != 0; ++i)
+        if (c == '"' && text[i] == '\\') ++i;
+      i += quote.size() - 1;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      parts = 0;
+    } else if (c == '.' && ++parts == kMostParts) {
+      throw Error(ExitCode::kInput,
+                  fmt::format("{}: a key has over {} parts", printable_path(where), kMostParts));
+    } else if (std::string_view("\n=,{[").find(c) != std::string_view::npos) {
+      parts = 0;
+    }
+  }
+}
+
 Json parse_toml(const std::string& text, const std::string& where) {
+  require_short_keys(text, where);
   try {
     return json_of(toml::parse(text, where));
   } catch (const toml::parse_error& error) {
@@ -70,13 +98,36 @@ Json parse_toml(const std::string& text, const std::string& where) {
   }
 }
 
+/// Refuses what JSON allows and nobody means: a key that stands twice, of which the last would count, and a NUL, where
+/// a path would end.
+void require_clear_json(const std::string& text, const std::string& where) {
+  const auto refuse = [&](std::string_view why) {
+    throw Error(ExitCode::kInput, fmt::format("{}: {}", printable_path(where), why));
+  };
+  std::vector<std::set<std::string>> keys;  // of the objects around
+  using Event = Json::parse_event_t;
+  const auto look = [&](int, Event event, Json& json) {
+    if (event == Event::object_start) keys.emplace_back();
+    if (event == Event::object_end) keys.pop_back();
+    const auto* text_there = json.get_ptr<const std::string*>();
+    if (event == Event::key && !keys.back().insert(*text_there).second)
+      refuse(fmt::format("the key {} stands twice", printable(*text_there)));
+    if (event == Event::value && text_there && text_there->find('\0') != std::string::npos)
+      refuse("a text has a NUL");
+    return true;
+  };
+  std::ignore = Json::parse(text, look, false);
+}
+
 }  // namespace
 
 Project read_project(const std::filesystem::path& path) {
   constexpr std::uint64_t kMostBytes = 4 << 20;
   const std::string text = read_file(path, kMostBytes);
-  return parse_record<Project>(
-      path.extension() == ".json" ? text : parse_toml(text, path.string()).dump(), path.string());
+  const std::string json =
+      path.extension() == ".json" ? text : parse_toml(text, path.string()).dump();
+  require_clear_json(json, path.string());
+  return parse_record<Project>(json, path.string());
 }
 
 void define_project_tables(Tables& tables) {

@@ -100,6 +100,7 @@ class Struct final : public Type {
   std::string_view meaning() const { return meaning_; }
   std::string_view kind() const { return kind_; }  ///< empty for a part of records
   bool is_sealed() const { return is_sealed_; }
+  bool is_by_hand() const { return is_by_hand_; }
   const std::vector<Field>& fields() const { return fields_; }
 
   Json write(const void* value) const override;

@@ -137,18 +137,16 @@ SetField parse_sets(const std::string& text) {
   return field;
 }
 
-/// "{scene}_{engine}.exr" as an expression whose groups are its fields.
+/// "{scene}_{engine}.exr": text and fields.
 class NamePattern {
  public:
   NamePattern(const std::string& pattern, const SetField& sets) {
-    constexpr std::string_view kSpecial = R"(\^$.|?*+()[]{})";
     constexpr std::size_t kMostFields = 16;
-    std::string expression;
     for (std::size_t i = 0; i < pattern.size(); ++i) {
       if (pattern[i] != '{') {
         if (pattern[i] == '}') fail(pattern, "a '}' without its '{'");
-        if (kSpecial.find(pattern[i]) != std::string_view::npos) expression += '\\';
-        expression += pattern[i];
+        if (pieces_.empty() || pieces_.back().is_field) pieces_.emplace_back();
+        pieces_.back().texts.front() += pattern[i];
         continue;
       }
       const std::size_t end = pattern.find('}', i);
@@ -156,7 +154,8 @@ class NamePattern {
       const std::string field = pattern.substr(i + 1, end - i - 1);
       if (!field.empty() && std::ranges::count(fields, field) > 0)
         fail(pattern, "a field that stands there twice");
-      expression += field == sets.name && !field.empty() ? alternatives(sets.values) : "([^/]+)";
+      const bool tells_sets = field == sets.name && !field.empty();
+      pieces_.push_back({true, tells_sets ? sets.values : std::vector<std::string>{}});
       fields.push_back(field);
       i = end;
     }
@@ -165,35 +164,50 @@ class NamePattern {
     if (!sets.name.empty() && std::ranges::count(fields, sets.name) == 0)
       throw Error(ExitCode::kUsage, fmt::format("--sets: --pattern {} has no field {{{}}}",
                                                 printable(pattern), printable(sets.name)));
-    expression_ = std::regex(expression);
   }
 
   std::vector<std::string> fields;  ///< in their order; "" tells nothing apart
 
-  /// The values of the fields; empty if the name does not fit.
+  /// The values of the fields, the first as long as it can be; empty if the name does not fit.
   std::vector<std::string> values_in(const std::string& name) const {
-    std::smatch match;
-    // The library's matcher recurses for each character.
-    constexpr std::size_t kLongest = 4096;
-    if (name.size() > kLongest || !std::regex_match(name, match, expression_)) return {};
-    return {match.begin() + 1, match.end()};
+    std::vector<std::string> values;
+    // Where a piece was tried in vain: without it, some names take a time that grows exponentially.
+    std::vector<bool> in_vain(pieces_.size() * (name.size() + 1));
+    if (!fits(name, 0, 0, values, in_vain)) values.clear();
+    return values;
   }
 
  private:
+  struct Piece {
+    bool is_field = false;
+    std::vector<std::string> texts{""};  ///< what it may be; of a field, none: any text without '/'
+  };
+
   [[noreturn]] static void fail(const std::string& pattern, std::string_view what) {
     throw Error(ExitCode::kUsage, fmt::format("--pattern {}: {}; expected a name with fields, "
                                               "for example {{scene}}_{{engine}}.exr",
                                               printable(pattern), what));
   }
-  static std::string alternatives(const std::vector<std::string>& values) {
-    std::string text;
-    for (const std::string& value : values) {
-      text += text.empty() ? "(" : "|";
-      for (const char c : value) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    }
-    return text + ")";
+  bool fits(const std::string& name, std::size_t at, std::size_t piece,
+            std::vector<std::string>& values, std::vector<bool>& in_vain) const {
+    if (piece == pieces_.size()) return at == name.size();
+    const std::size_t state = piece * (name.size() + 1) + at;
+    if (in_vain[state]) return false;
+    const auto goes_on = [&](std::size_t length) {
+      if (pieces_[piece].is_field) values.push_back(name.substr(at, length));
+      if (fits(name, at + length, piece + 1, values, in_vain)) return true;
+      if (pieces_[piece].is_field) values.pop_back();
+      return false;
+    };
+    for (const std::string& text : pieces_[piece].texts)
+      if (name.compare(at, text.size(), text) == 0 && goes_on(text.size())) return true;
+    if (pieces_[piece].texts.empty())
+      for (std::size_t n = std::min(name.find('/', at), name.size()) - at; n > 0; --n)
+        if (goes_on(n)) return true;
+    in_vain[state] = true;
+    return false;
   }
-  std::regex expression_;
+  std::vector<Piece> pieces_;
 };
 
 Pairing pair_by_pattern(const PairingChoice& choice) {
@@ -345,6 +359,8 @@ Pairing pair_by_csv(const PairingChoice& choice) {
     std::vector<std::string> files;
     for (std::size_t i = 0; i < header.size(); ++i)
       if (i != name_at) files.push_back(records[line][i]);
+    for (const std::string& field : records[line])
+      if (field.find('\0') != std::string::npos) fail(fmt::format("record {} has a NUL", line + 1));
     const auto some = std::ranges::find_if_not(files, &std::string::empty);
     if (some == files.end()) fail(fmt::format("record {} names no file", line + 1));
     const std::string& reference = files[kReferenceSet];

@@ -100,7 +100,40 @@ TEST_F(CompareFolders, WritesTheSameReportWithAnyNumberOfThreads) {
 TEST_F(CompareFolders, WithNoPairAtAllIsNoSuccess) {
   EXPECT_EQ(compare({"a", "b"}).exit_code, 3);
   put("a/x.exr", 0.1f), put("b/y.exr", 0.1f);
-  EXPECT_EQ(compare({"a", "b"}).exit_code, 3);
+  for (const char* option : {"--quiet", "--verbose"}) {
+    const auto result = compare({"a", "b", option});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.output_tail,
+                HasSubstr("1 references have no picture, 1 pictures no reference"));
+  }
+}
+
+TEST_F(CompareFolders, AndAnEmptyNameIsAMistake) {
+  for (const char* option : {"--html", "--json", "--diff-image", "--project"}) {
+    const auto result = compare({"a", "b", option, ""});
+    EXPECT_EQ(result.exit_code, 2) << option;
+    EXPECT_THAT(result.output_tail, HasSubstr("it is empty")) << option;
+  }
+}
+
+TEST_F(CompareFolders, WriteNoReportOverAnotherSite) {
+  put("a/x.exr", 0.1f), put("b/x.exr", 0.1f);
+  fs::create_directory(path("site"));
+  write_file(path("site/index.html"), "mine");
+  const auto refused = compare({"a", "b", "--html", "site"});
+  EXPECT_EQ(refused.exit_code, 4) << refused.output_tail;
+  EXPECT_EQ(read_file(path("site/index.html"), 100), "mine");
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(compare({"a", "b", "--html", "report"}).exit_code, 0);
+}
+
+TEST_F(CompareFolders, OrOnePairThatIsUnreadableIsToldToContinuousIntegration) {
+  put("b/x.exr", 0.1f);
+  const auto result = compare(
+      {"a/gone.exr", "b/x.exr", "--junit", "j.xml", "--json", "r.json", "--format", "github"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.output_tail, HasSubstr("::error title=gone.exr%3A error::a/gone.exr: not a"));
+  EXPECT_THAT(read_file(path("j.xml"), 1 << 20), HasSubstr("<error type=\"not compared\""));
+  EXPECT_FALSE(fs::exists(path("r.json")));
 }
 
 TEST_F(CompareFolders, AndAFileIsAMistakeSaidInWords) {

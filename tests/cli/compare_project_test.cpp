@@ -1,5 +1,6 @@
 // `lobelia compare` with a project, several references, known differences and --accept; Markdown, GitHub's lines, colours.
 #include <filesystem>
+#include <limits>
 #include <random>
 
 #include "tests/cli/compare_pictures_fixture.hpp"
@@ -165,8 +166,39 @@ TEST_F(CompareProject, ThatIsWrongIsRefusedWithItsPlace) {
   expect_refused(two + "judged = [\"twice\"]\n", "line 3");
   expect_refused("title = 3\n" + two, "title: ");
   expect_refused(std::string(100'000, '['), "line 1");
+  std::string deep = "a";
+  for (int i = 0; i < 30'000; ++i) deep += ".a";
+  for (const std::string& text : {deep + " = 1", "[" + deep + "]", "x = {" + deep + " = 1}",
+                                  "x = \"a.b\"\ny = 'c\"'\n" + deep + " = 1"})
+    expect_refused(text, "a key has over 32 parts");
+  expect_refused(two + "title = \"a\\u0000b\"\n", "a text has a NUL");
   expect_refused("a" + std::string("\xff\xfe") + "=1", "line 1");
   EXPECT_EQ(compare({"--project", "gone.toml"}).exit_code, 3);
+}
+
+TEST_F(CompareProject, OfJsonIsRefusedIfItSaysAThingTwiceOrIsTooDeep) {
+  for (const auto& [text, why] :
+       {std::pair(std::string(R"({"judged": ["a"], "references": ["b"], "judged": ["c"]})"),
+                  "the key judged stands twice"),
+        {R"({"rules": [{"match": "*", "fail": [], "match": "?"}]})", "the key match stands twice"},
+        {R"({"judged": ["a\u0000b"], "references": ["b"]})", "a text has a NUL"},
+        {std::string(100'000, '[') + std::string(100'000, ']'), "not an object"},
+        {R"({"title": )" + std::string(100'000, '[') + std::string(100'000, ']') + "}", "title"}}) {
+    project(text, "p.json");
+    const ProcessResult result = compare({"--project", "p.json"});
+    EXPECT_EQ(result.exit_code, 3) << result.output_tail;
+    EXPECT_THAT(result.output_tail, HasSubstr(why));
+  }
+}
+
+TEST_F(CompareProject, MayHaveManyDotsInItsTexts) {
+  grey("mine/x.exr", 0.5f), grey("truth/x.exr", 0.5f);
+  const std::string dots(100, '.');
+  project(kTwoFolders + ("title = \"" + dots + "\\\"" + dots + "\" # " + dots + "\n") +
+          "[[known]]\nmatch = '" + dots + "'\nexpires = 2027-01-31\nreason = \"\"\"\n\"" + dots +
+          "\"\n\"\"\"\n");
+  const ProcessResult result = compare({});
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
 }
 
 TEST_F(CompareProject, MadeOfRandomBytesNeverCrashes) {
@@ -216,6 +248,14 @@ TEST_F(CompareProject, IsNoSuccessIfWhatIsAcceptedLeavesAFailure) {
   const std::string accepted = accept_at_a_terminal("yes");
   EXPECT_THAT(accepted, HasSubstr("1 references were replaced"));
   EXPECT_THAT(accepted, HasSubstr("ended with 1"));
+}
+
+TEST_F(CompareProject, TakesNoPictureThatIsNotFiniteForAReference) {
+  grey("mine/x.exr", std::numeric_limits<float>::quiet_NaN()), grey("truth/x.exr", 0.6f);
+  project(kTwoFolders);
+  const std::string said = accept_at_a_terminal("yes");
+  EXPECT_THAT(said, HasSubstr("left alone: mine/x.exr has values that are not finite"));
+  EXPECT_THAT(said, HasSubstr("ended with 1"));
 }
 
 TEST_F(CompareProject, AcceptedThroughALinkReplacesTheLinkAndNotTheFileBehindIt) {

@@ -163,6 +163,8 @@ TEST_F(ProfileCommand, RefusesWhatItCannotDoInOneLine) {
       {{"two_lights.exr", "--replicate", "oblique_45.exr", "--csv", "oblique_45.exr"},
        2,
        "is read or written"},
+      {{"two_lights.exr", "--json", "-", "--csv", "-"}, 2, "only one of"},
+      {{"two_lights.exr", "--svg", ""}, 2, "it is empty"},
       {{"two_lights.exr", "--json", "x", "--csv", "./x"}, 2, "is read or written"},
       {{"two_lights.exr", "--scene", kScenes + "effects/crowd.xml", "--width", "256", "--height",
         "256"},
@@ -178,6 +180,13 @@ TEST_F(ProfileCommand, RefusesWhatItCannotDoInOneLine) {
     EXPECT_EQ(std::count(result.output_tail.begin(), result.output_tail.end(), '\n'), 1)
         << result.output_tail;
   }
+}
+
+TEST_F(ProfileCommand, PrintsATableOrAChartOnRequest) {
+  EXPECT_THAT(run({"profile", "two_lights.exr", "--csv", "-"}).output_tail,
+              HasSubstr("\n2,minor,-25.0,"));
+  EXPECT_THAT(run({"profile", "two_lights.exr", "--svg", "-"}).output_tail, HasSubstr("</svg>"));
+  EXPECT_FALSE(std::filesystem::exists(directory_.path() / "-"));
 }
 
 TEST_F(ProfileCommand, OfBlackAndOfOnePixelGivesAnAnswer) {

@@ -205,6 +205,17 @@ TEST_F(PatternPairing, TakesSignsOfExpressionsAsTheyAre) {
   EXPECT_THAT(in_words(pair_pictures(literal)).both, ElementsAre("1"));
 }
 
+TEST_F(PatternPairing, GivesTheFirstFieldAsMuchAsItCanWithoutTryingForEver) {
+  PairingChoice many = choice();
+  many.pattern = "{}a{}a{}a{}a{}a{}a{}a{}a{}a{}a{n}x.exr";
+  const std::string name(200, 'a');
+  for (const std::string folder : {"a/", "b/"})
+    put(folder + name + ".exr"), put(folder + name + "x.exr");
+  const Pairing pairing = pair_pictures(many);
+  EXPECT_THAT(in_words(pairing).both, ElementsAre("a"));
+  EXPECT_EQ(pairing.passed_over, 2u);
+}
+
 TEST_F(PatternPairing, RefusesWhatCannotBeMeant) {
   put("a/x_1.exr");
   put("a/x_2.exr");
@@ -280,13 +291,14 @@ TEST_F(TablePairing, HasTheTitlesOfTheSetsInItsFirstLineAndPathsFromWhereItLies)
 }
 
 TEST_F(TablePairing, RefusesWhatIsNoTableOfPairs) {
-  for (const auto& [text, why] : {std::pair("", "is empty"),
+  for (const auto& [text, why] : {std::pair(std::string(), "is empty"),
                                   {"a\nx\n", "titles of two sets or more"},
                                   {"a,a\nx,y\n", "two sets have one title"},
                                   {"a,b\nx\n", "record 2 has 1 fields, the first 2"},
                                   {"a,b\n\"x,y\n", "a quotation mark is not closed"},
                                   {"a,b\n\"x\"z,y\n", "text after a quotation mark"},
                                   {"a,b\n,\n", "names no file"},
+                                  {std::string("a,b\nx\0z,y\n", 10), "record 2 has a NUL"},
                                   {"a,b\nx,y\nz,y\n", "both are the picture of y"}})
     EXPECT_THAT(refusal(table(text), ExitCode::kInput), HasSubstr(why)) << text;
   PairingChoice both = table("a,b\nx,y\n");

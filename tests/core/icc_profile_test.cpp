@@ -306,6 +306,11 @@ TEST_F(IccProfiles, ThatAreDamagedAreAnErrorOfThePicture) {
   std::string cmyk = good;
   cmyk.replace(16, 4, "CMYK");
   EXPECT_THAT(refusal(jpeg_with(cmyk)), HasSubstr("not of RGB or grey"));
+  const Colours none{xyz(0, 0, 0), xyz(0, 0, 0), xyz(0, 0, 0)},
+      equal{kSrgbColours.red, kSrgbColours.red, kSrgbColours.red};
+  for (const std::string& bytes : {profile(parametric(2.4), none), profile(parametric(2.4), equal),
+                                   profile(power(0)), profile(power(100))})
+    EXPECT_THAT(refusal(jpeg_with(bytes)), HasSubstr("shows different colours as one"));
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
     std::string bad = good;
