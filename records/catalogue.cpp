@@ -19,6 +19,7 @@
 #include "records/record.hpp"
 #include "records/render.hpp"
 #include "records/result.hpp"
+#include "records/scene.hpp"
 #include "records/stability.hpp"
 
 namespace lobelia::records {
@@ -35,7 +36,7 @@ constexpr auto kKinds =
     kinds_of<Agreement, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Cost, Engines,
              Failure, Farm, FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus,
              KnownHashes, GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Project,
-             Reference, Render, Result, Sensitivity, SlurmDoctor, SlurmRun, VerifyPaper,
+             Reference, Render, Result, Scene, Sensitivity, SlurmDoctor, SlurmRun, VerifyPaper,
              VerifyStability>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
@@ -108,11 +109,12 @@ std::string table_of(const Struct& type) {
 const Struct& detail::find_struct(const std::type_info& type) {
   static const Tables tables = [] {
     Tables all;
-    for (auto* const define : {define_agreement_tables, define_chart_tables, define_cluster_tables,
-                               define_comparison_tables, define_cost_tables, define_farm_tables,
-                               define_highlight_tables, define_model_tables, define_page_tables,
-                               define_paper_tables, define_profile_tables, define_project_tables,
-                               define_render_tables, define_result_tables, define_stability_tables})
+    for (auto* const define :
+         {define_agreement_tables, define_chart_tables, define_cluster_tables,
+          define_comparison_tables, define_cost_tables, define_farm_tables, define_highlight_tables,
+          define_model_tables, define_page_tables, define_paper_tables, define_profile_tables,
+          define_project_tables, define_render_tables, define_result_tables, define_scene_tables,
+          define_stability_tables})
       define(all);
     return all;
   }();

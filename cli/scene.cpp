@@ -1,0 +1,117 @@
+// lobelia scene SCENE --to FORMAT
+#include "cli/commands.hpp"
+#include "cli/messages.hpp"
+#include "cli/options.hpp"
+#include "cli/output_files.hpp"
+#include "core/files.hpp"
+#include "reference_scenes/formats/catalogue.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SceneArguments {
+  std::string scene, to, output;
+  SceneOverrides overrides;
+};
+
+fs::path directory_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// The pictures of the scene's lights, which are read and not copied.
+std::vector<std::string> pictures_of(const Scene& scene) {
+  std::vector<std::string> pictures;
+  for (const Light& light : scene.lights)
+    if (std::string file = picture_file(light); !file.empty()) pictures.push_back(std::move(file));
+  return pictures;
+}
+
+void warn_of_pictures(const std::vector<std::string>& pictures, const fs::path& from,
+                      const fs::path& to) {
+  std::error_code unknown;
+  if (pictures.empty() || fs::equivalent(from, to, unknown)) return;
+  for (const std::string& picture : pictures)
+    warn(fmt::format("the scene names the picture {}, which is not copied to {}",
+                     printable_path(picture), printable_path(to.string())));
+}
+
+void write_texts(const std::map<std::string, std::string>& texts, const SceneFormat& format,
+                 const SceneArguments& options, const std::vector<std::string>& pictures) {
+  if (options.output.empty()) {
+    if (texts.size() > 1)
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{} takes {} files; give a directory for them with -o DIR",
+                              format.title, texts.size()));
+    fmt::print("{}", texts.begin()->second);
+    return;
+  }
+  const fs::path output = options.output, from = directory_of(options.scene);
+  const bool is_directory = texts.size() > 1 || fs::is_directory(output) || !output.has_filename();
+  if (is_directory && fs::exists(output) && !fs::is_directory(output))
+    throw Error(ExitCode::kUsage,
+                fmt::format("{}: {} takes {} files, and this is no directory",
+                            printable_path(options.output), format.title, texts.size()));
+  OutputFiles outputs;
+  outputs.reads(options.scene);
+  for (const std::string& picture : pictures) outputs.reads(from / picture);
+  std::map<fs::path, const std::string*> files;
+  for (const auto& [name, text] : texts) files[is_directory ? output / name : output] = &text;
+  for (const auto& [file, text] : files) outputs.writes(file);
+  if (is_directory) make_directories(output);
+  FilesTogether together;
+  for (const auto& [file, text] : files) write_file(file, *text);
+  together.commit();
+  warn_of_pictures(pictures, from, is_directory ? output : directory_of(output));
+}
+
+std::string format_names() {
+  std::string names;
+  for (const SceneFormat& format : scene_formats())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
+  return names;
+}
+
+void run_scene(const SceneArguments& options) {
+  if (options.to.empty())
+    throw Error(ExitCode::kUsage,
+                fmt::format("give a format with --to FORMAT: {}", format_names()));
+  const SceneFormat& format = scene_format(options.to);
+  Scene scene = read_scene(options.scene);
+  options.overrides.apply(scene);
+  if (const std::string why = format.why_not(scene); !why.empty())
+    throw Error(ExitCode::kInput, fmt::format("{}: cannot be written for {}, because {}",
+                                              options.scene, format.title, why));
+  write_texts(format.write(scene), format, options, pictures_of(scene));
+}
+
+/// Each format and what is written for it.
+std::string format_words() {
+  std::string words;
+  for (const SceneFormat& format : scene_formats())
+    words += fmt::format("  {:<16}{}\n", format.name, format.meaning);
+  return words;
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app, ExitCode&) {
+  auto* command = app.add_subcommand("scene", "Write a scene for other programs");
+  auto options = std::make_shared<SceneArguments>();
+  OptionGroup group(*command);
+  group.add("SCENE", options->scene, "", "Scene file (see lobelia scene-format)")->required();
+  group.add("--to", options->to, "FORMAT", fmt::format("Format to write: {}", format_names()));
+  group.add("-o,--output", options->output, "FILE|DIR",
+            "File to write, or a directory; otherwise standard output, if the format is one file");
+  options->overrides.add_to(*command);
+  command->footer(
+      fmt::format("Formats:\n{}\ndocs/scenes_for_others.md says what each can say.\n\n"
+                  "Examples:\n"
+                  "  lobelia scene reference_scenes/scenes/oblique_45.xml --to json",
+                  format_words()));
+  command->callback([options] { run_scene(*options); });
+}
+
+}  // namespace lobelia::cli

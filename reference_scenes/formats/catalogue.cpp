@@ -1,0 +1,53 @@
+#include "reference_scenes/formats/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "reference_scenes/formats/formats.hpp"
+#include "renderer/scene/scene_io.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr SceneFormat kLobeliaFormat{
+    "lobelia",
+    "Lobelia",
+    "scene.xml",
+    "Lobelia's own scene file, with every default and lattice written out",
+    why_not_so_many_spheres,
+    [](const Scene& scene) {
+      return std::map<std::string, std::string>{{"scene.xml", scene_to_xml(scene)}};
+    },
+};
+
+const std::vector<SceneFormat>& all_scene_formats() {
+  static const std::vector<SceneFormat> formats{kLobeliaFormat, kJsonFormat};
+  return formats;
+}
+
+}  // namespace
+
+std::string why_not_so_many_spheres(const Scene& scene) {
+  if (scene.spheres.size() <= kMaxWrittenSpheres) return {};
+  return fmt::format("it has {} spheres, and at most {} are written one by one",
+                     scene.spheres.size(), kMaxWrittenSpheres);
+}
+
+std::span<const SceneFormat> scene_formats() { return all_scene_formats(); }
+
+const SceneFormat& scene_format(std::string_view name) {
+  const auto formats = scene_formats();
+  const auto found = std::ranges::find(formats, name, &SceneFormat::name);
+  if (found != formats.end()) return *found;
+  std::vector<std::string_view> names;
+  for (const SceneFormat& format : formats) names.push_back(format.name);
+  throw Error(ExitCode::kUsage,
+              fmt::format("format '{}' is unknown; allowed: {}{}", printable(name), join(names),
+                          did_you_mean(name, names)));
+}
+
+}  // namespace lobelia

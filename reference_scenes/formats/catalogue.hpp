@@ -1,0 +1,31 @@
+// Forms of a scene for other programs. To add one: write its file in this folder, declare it in formats.hpp, add it to the list in
+// catalogue.cpp.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "renderer/scene/scene.hpp"
+
+namespace lobelia {
+
+/// A form of a scene for other programs.
+struct SceneFormat {
+  std::string_view name;     ///< "mitsuba", as on the command line
+  std::string_view title;    ///< "Mitsuba 3"
+  std::string_view file;     ///< name of the main file, "scene.xml"
+  std::string_view meaning;  ///< for the help and the docs
+  /// Why the scene cannot be said in it, as a sentence; empty if it can.
+  std::string (*why_not)(const Scene& scene);
+  /// Texts by file name, the main file among them. The scene has passed why_not().
+  std::map<std::string, std::string> (*write)(const Scene& scene);
+};
+
+/// In the order of the help.
+std::span<const SceneFormat> scene_formats();
+/// Throws Error(kUsage), with the nearest name.
+const SceneFormat& scene_format(std::string_view name);
+
+}  // namespace lobelia

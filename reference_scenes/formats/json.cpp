@@ -1,0 +1,121 @@
+// A scene as a flat record: everything resolved to numbers, nothing to look up.
+#include "records/record.hpp"
+#include "records/scene.hpp"
+#include "reference_scenes/formats/formats.hpp"
+
+namespace lobelia {
+namespace {
+
+records::Triple triple(Vec3 v) { return {v.x, v.y, v.z}; }
+records::Triple triple(Rgb c) { return {c.r, c.g, c.b}; }
+
+records::SceneCamera camera_record(const Scene& scene) {
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  return {triple(frame.origin),
+          triple(frame.right),
+          triple(frame.up),
+          triple(frame.forward),
+          frame.half_width,
+          frame.half_height,
+          frame.shift_u,
+          frame.shift_v,
+          scene.camera.aperture_radius,
+          scene.camera.focus_distance};
+}
+
+/// One function for each type of light: a new light does not compile until it has one.
+void describe(const DirectionalLight& light, records::SceneLight& record) {
+  record.direction = triple(light.direction);
+  record.unit = "W/m^2";
+}
+void describe(const PointLight& light, records::SceneLight& record) {
+  record.position = triple(light.position);
+  if (light.lamp().has_normal()) record.normal = triple(light.normal);
+  record.unit = "W/sr";
+}
+void describe(const SphereLight& light, records::SceneLight& record) {
+  record.center = triple(light.center);
+  record.radius = light.radius;
+}
+void describe(const RectangleLight& light, records::SceneLight& record) {
+  record.center = triple(light.center);
+  record.half_u = triple(light.half_u);
+  record.half_v = triple(light.half_v);
+}
+void describe(const ConstantLight&, records::SceneLight&) {}
+void describe(const EnvmapLight& light, records::SceneLight& record) {
+  record.filename = light.file;
+}
+
+records::SceneLight light_record(const Light& light) {
+  constexpr std::string_view kKinds[] = {"delta", "area", "environment"};
+  records::SceneLight record;
+  record.type = info(light).type;
+  record.kind = kKinds[std::size_t(info(light).kind)];
+  record.strength = triple(strength(light));
+  record.unit = "W/(m^2 sr)";
+  std::visit([&](const auto& one) { describe(one, record); }, light);
+  return record;
+}
+
+records::SceneMaterial material_record(const Material& material) {
+  const Highlight& highlight = material.highlight;
+  const ModelInfo& model = info(highlight.model);
+  records::SceneMaterial record;
+  record.id = material.id;
+  record.model = model.name;
+  record.lobe = info(highlight.lobe).name;
+  record.normalisation = name(highlight.normalisation);
+  record.lobe_formula = info(highlight.lobe).formula;
+  record.angle = model.angle == LobeAngle::kReflection ? "reflection" : "halfVector";
+  record.applies_cosine = model.applies_cosine;
+  record.exponent = highlight.exponent;
+  record.coefficient = radiance_coefficient(highlight);
+  record.specular = triple(material.specular_reflectance);
+  record.diffuse = triple(material.diffuse_reflectance);
+  record.mirror = triple(material.mirror_reflectance);
+  record.fresnel = name(material.fresnel);
+  record.mirror_at_grazing = mirror_at_grazing(material.mirror_reflectance);
+  return record;
+}
+
+records::ScenePlane plane_record(const Plane& plane) {
+  records::ScenePlane record{triple(plane.point), triple(plane.normal), plane.material, {}, {}};
+  if (plane.checker_material != plane.material) {
+    record.checker_material = plane.checker_material;
+    record.checker_size = plane.checker_size;
+  }
+  return record;
+}
+
+std::map<std::string, std::string> write_json(const Scene& scene) {
+  records::Scene record;
+  record.camera = camera_record(scene);
+  record.film = {scene.film.width,
+                 scene.film.height,
+                 scene.sampler.sample_count,
+                 scene.sampler.seed,
+                 std::string(name(scene.film.filter)),
+                 scene.film.filter.radius};
+  record.depth = {scene.depth.mirror, scene.depth.glossy};
+  for (const Light& light : scene.lights) record.lights.push_back(light_record(light));
+  for (const Material& material : scene.materials)
+    record.materials.push_back(material_record(material));
+  for (const Sphere& sphere : scene.spheres)
+    record.spheres.push_back({triple(sphere.center), sphere.radius, sphere.material});
+  for (const Plane& plane : scene.planes) record.planes.push_back(plane_record(plane));
+  return {{"scene.json", record_text(record)}};
+}
+
+}  // namespace
+
+constinit const SceneFormat kJsonFormat{
+    "json",
+    "JSON",
+    "scene.json",
+    "a flat record of numbers (docs/reference/scene.md): axes of the camera, coefficients, lights with their units",
+    why_not_so_many_spheres,
+    write_json,
+};
+
+}  // namespace lobelia
