@@ -181,16 +181,17 @@ std::vector<SlurmJob> jobs_of(std::size_t cells) {
   scene.film = {256, 256};
   std::vector<SlurmJob> jobs;
   jobs.reserve(cells * 8);
-  const auto add = [&](JobKind kind, std::string_view engine, int phase) {
-    jobs.push_back({"", phase, estimated_seconds(kind, engine, scene), std::string(engine)});
+  const auto add = [&](JobKind kind, const EngineInfo* engine, int phase) {
+    jobs.push_back({"", phase, estimated_seconds(kind, engine, scene),
+                    std::string(engine ? engine->name : "")});
   };
   for (std::size_t i = 0; i < cells; ++i) {
-    add(JobKind::kRender, "", 0);
+    add(JobKind::kRender, nullptr, 0);
     for (const EngineInfo& engine : engine_infos()) {
-      add(JobKind::kReference, engine.name, 0);
-      add(JobKind::kCompare, engine.name, 1);
+      add(JobKind::kReference, &engine, 0);
+      add(JobKind::kCompare, &engine, 1);
     }
-    add(JobKind::kProfile, "", 1);
+    add(JobKind::kProfile, nullptr, 1);
   }
   return jobs;
 }

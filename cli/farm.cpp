@@ -6,6 +6,7 @@
 #include "core/interrupt.hpp"
 #include "farm/failed_jobs.hpp"
 #include "farm/upkeep.hpp"
+#include "reference_scenes/engines/outside/outside.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -16,7 +17,7 @@ struct FarmArguments {
   SlurmSettings slurm;
   FarmOptions farm;
   double time_limit = 600, no_progress_limit = 300;
-  bool memory_given = false, quiet = false, dry_run = false;
+  bool memory_given = false, quiet = false, dry_run = false, allow_commands = false;
 };
 
 FarmOptions farm_options(const FarmArguments& options) {
@@ -114,6 +115,7 @@ ExitCode run_on_cluster(const Grid& grid, const FarmArguments& options) {
 
 ExitCode run_farm_command(const FarmArguments& options) {
   const Grid grid = read_grid(options.grid);
+  require_commands_allowed(grid.outside, options.allow_commands);
   if (options.dry_run) {
     dry_run(grid, options);
     return ExitCode::kSuccess;
@@ -180,6 +182,10 @@ void add_farm(CLI::App& app, ExitCode& exit_code) {
   group.add_flag("--again", farm.again, "Make everything again, in the cache or not");
   group.add_flag("--require-engines", farm.require_engines,
                  "An engine that is not installed is an error");
+  group.add_flag(
+      "--allow-commands", options->allow_commands,
+      "Start the programs that the grid names (docs/own_engine.md); without it only if the "
+      "grid lies in a folder that $LOBELIA_ALLOW_COMMANDS_IN names");
   group.add_flag("-q,--quiet", options->quiet, "No progress");
   options->programs.add_to(*command);
   options->slurm.add_to(*command);

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "core/files.hpp"
+#include "core/text.hpp"
 #include "farm/make_result.hpp"
 #include "records/record.hpp"
 
@@ -19,22 +20,24 @@ namespace {
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 40;
 constexpr auto kCross = HeldDirectory::Border::kCross;  // a larger disk may be mounted there
 
-/// Every file that a farm of any version may have put into a cell for an engine.
+/// The files that a farm of any version may have put into a cell for an engine alone.
 std::set<std::string> names_of(const std::string& engine) {
-  const std::string comparison = comparison_name(engine);
-  return {engine + ".exr", engine + "-error.exr", engine + ".json",   engine + ".png",
-          engine + ".log", comparison + ".json",  comparison + ".png"};
+  return {engine + ".exr", engine + "-error.exr", engine + ".json", engine + ".png",
+          engine + ".log"};
 }
 
-/// Likewise for all engines and ours.
-const std::set<std::string>& names_of_ours() {
-  static const std::set<std::string> names = [] {
-    std::set<std::string> all{"profile.json", "scene.xml"};
-    all.merge(names_of(kOurs));
-    for (const auto& engine : engine_infos()) all.merge(names_of(std::string(engine.name)));
-    return all;
-  }();
-  return names;
+/// Likewise for all engines together, the catalogue's and `outside` ones, and for us.
+std::set<std::string> names_of_all(const std::set<std::string>& outside) {
+  std::set<std::string> engines = outside, all{"profile.json", "scene.xml"};
+  engines.insert(kOurs);
+  for (const auto& engine : engine_infos()) engines.emplace(engine.name);
+  for (const std::string& a : engines) {
+    all.merge(names_of(a));
+    for (const std::string& b : engines)
+      if (a != b)
+        for (const char* ending : {".json", ".png"}) all.insert(comparison_name(a, b) + ending);
+  }
+  return all;
 }
 
 /// Whether `there` is the file in the cache, or an untouched copy of it.
@@ -84,11 +87,11 @@ void place_file(const fs::path& cached, const HeldDirectory& directory, const st
 }
 
 /// May remove a cell's files, and empty directories of such names.
-Removal removal_from(const HeldDirectory& directory) {
+Removal removal_from(const HeldDirectory& directory, const std::set<std::string>& names) {
   return Removal(directory.path(),
                  {[&](const HeldDirectory& root) { return root.is_same_as(directory); },
-                  [&](const fs::path& name) {
-                    return !is_cell_file(name.string())     ? Owned::kNo
+                  [&directory, names](const fs::path& name) {
+                    return name != kCellRecordFile && !names.contains(name.string()) ? Owned::kNo
                            : directory.below(name.string()) ? Owned::kDirectory
                                                             : Owned::kFile;
                   }});
@@ -123,8 +126,8 @@ HeldDirectory existing(const fs::path& directory) {
 
 }  // namespace
 
-bool is_cell_file(const std::string& name) {
-  return name == kCellRecordFile || names_of_ours().contains(name);
+bool is_cell_file(const std::string& name, const std::set<std::string>& outside) {
+  return name == kCellRecordFile || names_of_all(outside).contains(name);
 }
 
 FarmDirectoryLock::FarmDirectoryLock(const fs::path& directory, Use use, ByteLocks::Opening opening)
@@ -151,6 +154,17 @@ HeldDirectory CellDirectory::held() const {
   return HeldDirectory(farm_directory_)
       .below("cells", kCross)
       .below(directory_.filename().string(), kCross);
+}
+
+/// Those of now, and those of which the cell has files from earlier.
+std::set<std::string> CellDirectory::outside_engines() const {
+  std::set<std::string> names;
+  for (const auto& engine : graph_->engines())
+    if (engine.engine->outside()) names.insert(engine.name);
+  if (const auto record = read_cell_record(directory_))
+    for (const auto& [name, version] : record->made_from.engines)
+      if (is_plain_name(name)) names.insert(name);
+  return names;
 }
 
 records::Named<std::string> CellDirectory::results(const CellRecords& records) const {
@@ -200,11 +214,11 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
                                       .make_below("cells", kCross)
                                       .make_below(directory_.filename().string(), kCross);
   remove_abandoned_parts(directory);
-  Removal removal = removal_from(directory);
+  std::set<std::string> foreign = names_of_all(outside_engines());
+  Removal removal = removal_from(directory, foreign);
   // The old record is about files that change now.
   removal.remove(kCellRecordFile);
 
-  std::set<std::string> foreign = names_of_ours();
   bool complete = true;
   for (const JobIndex job : graph_->jobs(cell_)) {
     const auto& result = records[graph_->place(job)];
@@ -225,7 +239,11 @@ std::string CellDirectory::write(const ResultCache& cache, const CellRecords& re
   // Pictures of an absent engine stay: they could not be made again.
   for (const auto& engine : graph_->engines())
     if (!engine.is_here())
-      for (const auto& name : names_of(engine.name)) foreign.erase(name);
+      std::erase_if(foreign, [&](const std::string& name) {
+        return names_of(engine.name).contains(name) ||
+               name.find("-" + engine.name + ".") != name.npos ||
+               name.starts_with(engine.name + "-");
+      });
   for (const auto& name : foreign) removal.remove(name);
 
   records::Cell record = cell_record(records);
@@ -251,7 +269,7 @@ records::Cell CellDirectory::cell_record(const CellRecords& records) const {
   if (const auto& ours = records[0]) {
     record.highlight = ours->highlight;
     record.exposure_stops = ours->exposure_stops;
-    add_image(kOurs, *ours);
+    if (graph_->cells().ours) add_image(kOurs, *ours);
   }
   bool judged = false;
   std::string worst = "pass";
@@ -263,6 +281,8 @@ records::Cell CellDirectory::cell_record(const CellRecords& records) const {
     const auto& compared = records[graph_->place(graph_->compare(cell_, e))];
     if (!reference || !compared) continue;
     add_image(engine, *reference);
+    // It was compared with ours only for its PNG.
+    if (!graph_->cells().ours && compared->entry && compared->entry->a == kOurs) continue;
     if (!compared->entry) {
       record.not_comparable.push_back({engine, compared->not_comparable});
       continue;
@@ -284,7 +304,7 @@ records::Cell CellDirectory::cell_record(const CellRecords& records) const {
 }
 
 void CellDirectory::forget() const {
-  if (const HeldDirectory directory = held()) removal_from(directory).remove(kCellRecordFile);
+  if (const HeldDirectory directory = held()) removal_from(directory, {}).remove(kCellRecordFile);
 }
 
 std::string CellDirectory::reason(JobIndex job) const {

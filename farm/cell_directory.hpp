@@ -13,8 +13,9 @@ struct CellProblem {
   std::filesystem::path log;  ///< of the engine; empty: none
 };
 
-/// Whether farms put files of that name into a cell: results and cell.json.
-bool is_cell_file(const std::string& name);
+/// Whether farms put files of that name into a cell: results of the catalogue's engines and of `outside` ones, and
+/// cell.json.
+bool is_cell_file(const std::string& name, const std::set<std::string>& outside);
 
 /// Admits several farms to a directory, or one command that removes cells.
 class FarmDirectoryLock {
@@ -55,6 +56,7 @@ class CellDirectory {
  private:
   records::Named<std::string> results(const CellRecords& records) const;
   records::MadeFrom made_from() const;
+  std::set<std::string> outside_engines() const;
   /// With the verdict of its comparisons; without problems.
   records::Cell cell_record(const CellRecords& records) const;
   HeldDirectory held() const;

@@ -25,8 +25,9 @@ namespace {
 std::vector<FarmEngine> planned_engines(const records::FarmChunk& chunk) {
   std::vector<FarmEngine> engines;
   for (const auto& planned : chunk.engines)
-    engines.push_back({make_engine(planned.name, planned.program), planned.name, planned.version,
-                       planned.content});
+    engines.push_back({planned.outside ? make_outside_engine(*planned.outside)
+                                       : make_engine(planned.name, planned.program),
+                       planned.name, planned.version, planned.content});
   return engines;
 }
 
@@ -42,6 +43,7 @@ ChunkCells read_cells(const records::FarmChunk& chunk, const std::string& file_n
     Cell cell;
     cell.id = one.id;
     cell.engines = one.engines;
+    cell.tokens = one.axes;
     cells.scenes.push_back(
         parse_scene(one.scene, fmt::format("{} ({})", file_name, printable(cell.id))));
     cells.jobs.emplace_back(one.jobs.begin(), one.jobs.end());
@@ -110,17 +112,25 @@ records::FarmChunk chunk_record(FarmWork& work, const ResultCache& cache,
                    options.memory,
                    options.disk,
                    options.give_up_after};
+  record.truth = work.cells.truth;
+  if (!work.cells.ours) record.ours = false;
   if (!options.failed_directory.empty()) record.failed = options.failed_directory.string();
   for (const auto& here : work.engines) {
     const fs::path program = program_for(options.programs, here.name);
-    record.engines.push_back({here.name, here.version, here.content,
-                              program.empty() ? "" : fs::absolute(program).string()});
+    record.engines.push_back({here.name,
+                              here.version,
+                              here.content,
+                              program.empty() ? "" : fs::absolute(program).string(),
+                              {}});
+    if (const OutsideEngine* outside = here.engine->outside())
+      record.engines.back().outside = *outside;
   }
   std::map<std::size_t, std::vector<std::string>> names;
   for (const JobIndex job : jobs) names[graph.cell_of(job)].push_back(graph.name(job));
   for (auto& [cell, of_cell] : names)
     record.cells.push_back({work.cells.cells[cell].id, work.cells.cells[cell].engines,
-                            scene_to_xml(work.cells.scene(cell)), std::move(of_cell)});
+                            work.cells.cells[cell].tokens, scene_to_xml(work.cells.scene(cell)),
+                            std::move(of_cell)});
   return record;
 }
 
@@ -145,6 +155,8 @@ ChunkSummary exec_chunk(const fs::path& file, int threads) {
   for (const auto& planned : chunk.engines)
     if (!planned.program.empty()) options.programs[planned.name] = planned.program;
   ChunkCells cells = read_cells(chunk, file.filename().string());
+  cells.farm.truth = chunk.truth;
+  cells.farm.ours = chunk.ours.value_or(true);
   cells.farm.scene = [&](std::size_t cell) { return cells.scenes[cell]; };
   JobGraph graph(cells.farm, engines);
   const auto is_of_chunk = [&](JobIndex job) {

@@ -34,12 +34,16 @@ fs::path directory_of_cell(const fs::path& farm_directory, const std::string& ce
 /// cell.json is not a record that a farm wrote.
 struct ForeignRecord {};
 
+bool is_of_catalogue(const std::string& engine) {
+  return std::ranges::find(engine_infos(), engine, &EngineInfo::name) != engine_infos().end();
+}
+
 /// Empty for a render or a profile.
-std::string engine_of_job(const std::string& job) {
+std::string engine_of_job(const std::string& job, const records::MadeFrom& made_from) {
   for (const std::string_view kind : {"reference-", "compare-"}) {
     if (!job.starts_with(kind)) continue;
     std::string engine = job.substr(kind.size());
-    if (std::ranges::find(engine_infos(), engine, &EngineInfo::name) == engine_infos().end())
+    if (!is_of_catalogue(engine) && !records::find(made_from.engines, engine))
       throw ForeignRecord();
     return engine;
   }
@@ -70,7 +74,7 @@ class Explainer {
     const records::MadeFrom& made_from = cell_.made_from;
     add_own(result ? OwnIdentity::of_record(result->inputs) : OwnIdentity::of_record(made_from));
     add_scene(result ? result->inputs.scene : made_from.scene);
-    if (const std::string engine = engine_of_job(name); !engine.empty()) {
+    if (const std::string engine = engine_of_job(name, made_from); !engine.empty()) {
       if (result)
         add_engine(engine, result->inputs.engine_version, result->inputs.engine_content);
       else if (records::find(made_from.engines, engine))
@@ -115,10 +119,12 @@ class Explainer {
   }
 
   void add_engine(const std::string& name, const std::string& version, const std::string& content) {
+    // Only the grid says how to ask it.
+    if (!is_of_catalogue(name)) return add(name + ": version", version, version);
     auto found = engines_.find(name);
     if (found == engines_.end())
       found = engines_
-                  .emplace(name, look_for_engine(name, program_for(programs_, name),
+                  .emplace(name, look_for_engine(make_engine(name, program_for(programs_, name)),
                                                  FileHashes::of_user()))
                   .first;
     const FarmEngine& here = found->second;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "farm/job.hpp"
@@ -43,11 +45,12 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
   FileHashes& hashes = FileHashes::of_user();
   for (const auto& name : names) {
     const fs::path program = program_for(choice.programs, name);
+    auto made = make_farm_engine(name, choice.programs, choice.outside);
     if (choice.as_recorded) {
-      take_from_last_run(engines.emplace_back(FarmEngine{make_engine(name, program), name}));
+      take_from_last_run(engines.emplace_back(FarmEngine{std::move(made), name}));
       continue;
     }
-    FarmEngine engine = look_for_engine(name, program, hashes);
+    FarmEngine engine = look_for_engine(std::move(made), hashes);
     const EngineInfo& info = engine.engine->info();
     const EngineStatus& status = engine.engine->status();
     if (status.state == EngineState::kBroken)
@@ -62,8 +65,16 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
   return engines;
 }
 
-FarmEngine look_for_engine(const std::string& name, const fs::path& program, FileHashes& hashes) {
-  FarmEngine engine{make_engine(name, program), name};
+std::unique_ptr<Engine> make_farm_engine(const std::string& name, const ProgramPaths& programs,
+                                         std::span<const OutsideEngine> outside) {
+  const auto found = std::ranges::find(outside, name, &OutsideEngine::name);
+  return found == outside.end() ? make_engine(name, program_for(programs, name))
+                                : make_outside_engine(*found);
+}
+
+FarmEngine look_for_engine(std::unique_ptr<Engine> made, FileHashes& hashes) {
+  FarmEngine engine{std::move(made), ""};
+  engine.name = engine.engine->info().name;
   const EngineStatus& status = engine.engine->status();
   engine.here = status.available();
   if (!engine.here) return engine;
@@ -75,8 +86,11 @@ FarmEngine look_for_engine(const std::string& name, const fs::path& program, Fil
 
 std::string engine_difference(const FarmEngine& planned, const ProgramPaths& programs) {
   FileHashes& hashes = FileHashes::of_user();
-  const FarmEngine here =
-      look_for_engine(planned.name, program_for(programs, planned.name), hashes);
+  const OutsideEngine* outside = planned.engine->outside();
+  const FarmEngine here = look_for_engine(
+      make_farm_engine(planned.name, programs,
+                       outside ? std::span(outside, 1) : std::span<const OutsideEngine>()),
+      hashes);
   hashes.save();
   const std::string_view title = planned.engine->info().title;
   if (!here.is_here()) return fmt::format("{}: {}", title, here.engine->status().why);
@@ -95,10 +109,10 @@ std::string absence(const FarmEngine& engine) {
                      engine.is_known() ? "; what it made before is kept" : "", info.install_hint);
 }
 
-std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines) {
+std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines, bool ours) {
   const std::string ready(state_name(EngineState::kReady));
-  std::vector<records::FarmEngine> found{
-      {kOurs, "Lobelia", true, ready, kVersion, "", "", "", std::nullopt}};
+  std::vector<records::FarmEngine> found;
+  if (ours) found.push_back({kOurs, "Lobelia", true, ready, kVersion, "", "", "", std::nullopt});
   for (const auto& here : engines) {
     const EngineInfo& info = here.engine->info();
     records::FarmEngine& engine = found.emplace_back();

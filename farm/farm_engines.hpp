@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "records/farm.hpp"
 #include "reference_scenes/engine_content.hpp"
+#include "reference_scenes/engines/outside/outside.hpp"
 
 namespace lobelia {
 
@@ -36,6 +38,7 @@ struct EngineChoice {
   std::filesystem::path
       farm_directory;        ///< its farm.json lists the engines of the last run; empty: none
   bool as_recorded = false;  ///< takes these without looking for any program
+  std::vector<OutsideEngine> outside = {};  ///< besides those of the catalogue
 };
 
 /// Throws Error(kEngine) if an engine is broken, a program is not that engine, or a required engine is absent.
@@ -46,13 +49,16 @@ std::vector<FarmEngine> find_engines(const std::vector<std::string>& names,
 std::string engine_difference(const FarmEngine& planned, const ProgramPaths& programs);
 
 /// The engine on this machine, usable or not.
-FarmEngine look_for_engine(const std::string& name, const std::filesystem::path& program,
-                           FileHashes& hashes);
+FarmEngine look_for_engine(std::unique_ptr<Engine> engine, FileHashes& hashes);
+
+/// The one of `outside` with this name, or the catalogue's.
+std::unique_ptr<Engine> make_farm_engine(const std::string& name, const ProgramPaths& programs,
+                                         std::span<const OutsideEngine> outside);
 
 /// "POV-Ray is absent: no program 'povray' in $PATH; to get it: ..."
 std::string absence(const FarmEngine& engine);
 
-/// The engines for farm.json, Lobelia first.
-std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines);
+/// The engines for farm.json, Lobelia first if it is to be shown.
+std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines, bool ours);
 
 }  // namespace lobelia

@@ -64,9 +64,10 @@ const fs::path& made(const fs::path& directory, const FarmOptions& options) {
 
 FarmWork::FarmWork(const Grid& g, const FarmOptions& options, const fs::path& directory)
     : grid(g),
-      cells{cells_of(g), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); }},
+      cells{cells_of(g), [this](std::size_t i) { return scene_of(grid, cells.cells[i]); }, g.truth,
+            g.ours},
       engines(find_engines(g.engines, {options.programs, options.require_engines, directory,
-                                       options.engines_as_recorded})),
+                                       options.engines_as_recorded, g.outside})),
       graph(cells, engines) {}
 
 std::vector<std::string> FarmWork::absences() const {
@@ -245,9 +246,10 @@ void FarmSession::write_farm_record() const {
     one.name = axis.name;
     for (const auto& value : axis.values) one.values.push_back({value.value, value.label});
   }
-  record.engines = engines_record(work_.engines);
+  record.reference = grid.truth;
+  record.engines = engines_record(work_.engines, grid.ours);
   for (std::size_t e = 0; e < work_.engines.size(); ++e)
-    record.engines[e + 1].refused_cells = work_.graph.refusals(e);
+    record.engines[e + grid.ours].refused_cells = work_.graph.refusals(e);
   const std::scoped_lock lock(mutex_);
   for (std::size_t i = 0; i < status_.size(); ++i) {
     const Cell& cell = work_.cells.cells[i];

@@ -8,6 +8,7 @@
 //     <exclude model="phong_rdf" exponent="128"/>
 //     <include model="phong_rdf" exponent="2048"/>
 //     <engine name="povray"/>
+//     <engine name="mine" command="myrender {scene} {out}"/>
 //   </grid>
 //
 // Paths are relative to the grid file. Every combination of the axes' values is a cell. See docs/grid_format.md.
@@ -23,6 +24,8 @@
 #include <utility>
 #include <vector>
 
+#include "records/outside_engine.hpp"
+#include "reference_scenes/engine.hpp"
 #include "renderer/scene/scene.hpp"
 
 namespace lobelia {
@@ -62,10 +65,14 @@ struct Axis {
 
 struct Grid {
   std::string title;
-  std::string file_name;             ///< without directory
-  Scene scene;                       ///< empty if there is an axis of scenes
-  std::vector<Axis> axes;            ///< at least one, in the file's order
-  std::vector<std::string> engines;  ///< all that any cell is compared with
+  std::string file_name;                        ///< without directory
+  Scene scene;                                  ///< empty if there is an axis of scenes
+  std::vector<Axis> axes;                       ///< at least one, in the file's order
+  std::vector<std::string> engines;             ///< all that any cell is compared with
+  std::vector<records::OutsideEngine> outside;  ///< those of them that are not in the catalogue
+  std::string
+      truth;  ///< the engine with which all pictures are compared; empty: each engine with ours
+  bool ours = true;  ///< whether our picture is compared and shown
   /// For each cell the index of its value on every axis. No combination appears twice.
   std::vector<ValueIndex> places;
 
@@ -76,7 +83,9 @@ struct Cell {
   std::string id;  ///< a file name, unique in its grid: the values' tokens, joined by '-'
   std::vector<std::pair<std::string, std::string>> axes;  ///< name, value
   std::vector<ValueIndex> at;                             ///< index of its value on each axis
-  std::vector<std::string> engines;                       ///< to compare with
+  AxisValues
+      tokens;  ///< by axis, the value if it can be a file name; only for a grid with outside engines
+  std::vector<std::string> engines;  ///< to compare with
 };
 
 /// Throws Error(kInput) with all errors found, each "file:line:column: ...".

@@ -11,6 +11,8 @@
 #include "core/text.hpp"
 #include "farm/grid_choices.hpp"
 #include "reference_scenes/engine.hpp"
+#include "reference_scenes/engines/outside/command_text.hpp"
+#include "reference_scenes/engines/outside/outside_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
@@ -19,8 +21,9 @@ namespace {
 constexpr std::size_t kMaxGridBytes = 1 << 20;
 constexpr std::size_t kMaxParts = 100000000;
 constexpr std::string_view kGridFormatVersion = "1";
-constexpr std::string_view kElements[] = {"scene",   "film",    "axis",  "list",
-                                          "exclude", "include", "engine"};
+constexpr std::string_view kElements[] = {"scene",   "film",    "axis",   "list",
+                                          "exclude", "include", "engine", "pictures"};
+constexpr std::size_t kMaxEngines = 100;  // a job has the engine's number in a byte
 
 class GridReader {
  public:
@@ -34,7 +37,7 @@ class GridReader {
                                       printable(root.name())));
       source_.throw_if_errors();
     }
-    source_.check_attributes(root, {"version", "title"});
+    source_.check_attributes(root, {"version", "title", "reference", "ours"});
     if (const auto version = source_.required(root, "version");
         !version.empty() && version != kGridFormatVersion)
       source_.error(root.attribute("version"), root,
@@ -51,10 +54,12 @@ class GridReader {
     if (!grid_.engines.empty() && axis_nodes_.contains("engine"))
       source_.error(axis_nodes_["engine"],
                     "an axis 'engine' beside <engine>; allowed: one of them");
+    read_truth(root);
     check_size(root);
     source_.throw_if_errors();  // what follows builds on whole axes
     read_choices(source_, root, tables_, std::move(factors_), grid_);
     check_lobes();
+    check_places();
     source_.throw_if_errors();
     finish_scenes();
     check_parts(root);
@@ -73,7 +78,7 @@ class GridReader {
       add(std::move(factor));
     }
     if (tag == "list") read_list(node);
-    if (tag == "engine") read_engine(node);
+    if (tag == "engine" || tag == "pictures") read_engine(node);
     if (std::find(std::begin(kElements), std::end(kElements), tag) == std::end(kElements))
       source_.error(node,
                     fmt::format("unknown element <{}> in <grid>; allowed: {}{}", printable(tag),
@@ -203,17 +208,93 @@ class GridReader {
   }
 
   void read_engine(pugi::xml_node node) {
-    source_.check_attributes(node, {"name"});
-    const std::string name = source_.required(node, "name");
-    std::vector<std::string_view> names;
-    for (const auto& engine : engine_infos()) names.push_back(engine.name);
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      source_.error(node, fmt::format("unknown engine '{}'; allowed: {}{}", printable(name),
-                                      join(names), did_you_mean(name, names)));
-    else if (std::find(grid_.engines.begin(), grid_.engines.end(), name) != grid_.engines.end())
+    std::string name;
+    if (node.attribute("file")) {
+      name = read_engine_of_file(node);
+    } else if (std::string_view(node.name()) == "pictures" || is_outside_engine(node)) {
+      if (auto outside = read_outside_engine(source_, node, directory_))
+        name = add_outside(node, std::move(*outside));
+    } else {
+      source_.check_attributes(node, {"name"});
+      name = source_.required(node, "name");
+      std::vector<std::string_view> names;
+      for (const auto& engine : engine_infos()) names.push_back(engine.name);
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        return source_.error(
+            node,
+            fmt::format("unknown engine '{}'; allowed: {}{}, or one of your own with a command",
+                        printable(name), join(names), did_you_mean(name, names)));
+    }
+    if (name.empty()) return;
+    if (std::find(grid_.engines.begin(), grid_.engines.end(), name) != grid_.engines.end())
       source_.error(node, fmt::format("a second engine '{}'; one is allowed", name));
+    else if (grid_.engines.size() == kMaxEngines)
+      source_.error(node, fmt::format("over {} engines", kMaxEngines));
     else
       grid_.engines.push_back(name);
+  }
+
+  std::string add_outside(pugi::xml_node node, records::OutsideEngine engine) {
+    engine_nodes_.push_back(node);
+    return grid_.outside.emplace_back(std::move(engine)).name;
+  }
+
+  std::string read_engine_of_file(pugi::xml_node node) {
+    source_.check_attributes(node, {"file"});
+    try {
+      return add_outside(node, read_engine_file(directory_ / node.attribute("file").value()));
+    } catch (const Error& error) {
+      source_.error(node.attribute("file"), node, error.what());
+      return "";
+    }
+  }
+
+  /// The engine that all are compared with.
+  void read_truth(pugi::xml_node root) {
+    grid_.truth = root.attribute("reference").value();
+    const std::string ours = root.attribute("ours").as_string("yes");
+    grid_.ours = ours == "yes";
+    if (ours != "yes" && ours != "no")
+      source_.error(root.attribute("ours"), root,
+                    fmt::format("ours '{}'; allowed: yes, no", printable(ours)));
+    if (!root.attribute("reference")) {
+      if (!grid_.ours)
+        source_.error(root, "ours=\"no\" needs a reference=\"ENGINE\" to compare the others with");
+      return;
+    }
+    if (axis_nodes_.contains("engine"))
+      source_.error(root.attribute("reference"), root, "a reference beside an axis 'engine'");
+    else if (std::find(grid_.engines.begin(), grid_.engines.end(), grid_.truth) ==
+             grid_.engines.end())
+      source_.error(
+          root.attribute("reference"), root,
+          fmt::format("reference '{}'; allowed: an engine of this grid{}{}", printable(grid_.truth),
+                      grid_.engines.empty() ? "" : ", ", fmt::join(grid_.engines, ", ")));
+  }
+
+  /// Whether each {name} of the outside engines is an axis or a place that every command has.
+  void check_places() {
+    for (std::size_t i = 0; i < grid_.outside.size(); ++i) {
+      const records::OutsideEngine& engine = grid_.outside[i];
+      const bool is_pictures = engine.command.empty();
+      std::vector<std::string_view> names;
+      if (!is_pictures) names = {"scene", "out", "width", "height", "threads"};
+      for (const Axis& axis : grid_.axes) names.push_back(axis.name);
+      std::vector<std::string> texts = engine.command;
+      if (is_pictures) texts = {engine.files};
+      try {
+        for (const std::string& text : texts)
+          filled_in(text, [&](std::string_view name) -> std::string {
+            if (std::find(names.begin(), names.end(), name) == names.end())
+              throw std::runtime_error(
+                  fmt::format("{{{}}} is neither a place nor an axis; allowed: {}{}",
+                              printable(name), join(names), did_you_mean(name, names)));
+            return "";
+          });
+      } catch (const std::runtime_error& problem) {
+        source_.error(engine_nodes_[i], problem.what());
+      }
+    }
   }
 
   void check_size(pugi::xml_node root) {
@@ -282,7 +363,8 @@ class GridReader {
   std::set<std::string> seen_;
   std::map<std::string, pugi::xml_node> axis_nodes_;
   std::vector<AxisTable> tables_;
-  std::vector<GridFactor> factors_;  ///< of the axes in tables_, in that order
+  std::vector<GridFactor> factors_;           ///< of the axes in tables_, in that order
+  std::vector<pugi::xml_node> engine_nodes_;  ///< of grid_.outside
 };
 
 }  // namespace
@@ -316,6 +398,8 @@ std::vector<Cell> cells_of(const Grid& grid) {
       const Axis& axis = grid.axes[i];
       cell.axes.emplace_back(axis.name, axis.values[at[i]].value);
       if (axis.name == "engine") cell.engines = {axis.values[at[i]].value};
+      if (const AxisValue& here = axis.values[at[i]]; !grid.outside.empty())
+        cell.tokens.emplace_back(axis.name, is_plain_name(here.value) ? here.value : here.token);
     }
     if (cell.engines.empty()) cell.engines = grid.engines;
   });

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,7 +21,7 @@ struct ResultKey {
 };
 
 /// Hashes the parts in order, each with its length: no two lists have the same text.
-inline ResultKey result_key(std::initializer_list<std::string_view> parts) {
+inline ResultKey result_key(std::span<const std::string_view> parts) {
   std::string text;
   for (const std::string_view part : parts) {
     text += std::to_string(part.size());
@@ -28,6 +29,10 @@ inline ResultKey result_key(std::initializer_list<std::string_view> parts) {
     text += part;
   }
   return {sha256(text)};
+}
+
+inline ResultKey result_key(std::initializer_list<std::string_view> parts) {
+  return result_key(std::span(parts.begin(), parts.size()));
 }
 
 /// A key as a part of another key.

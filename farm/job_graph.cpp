@@ -1,5 +1,6 @@
 #include "farm/job_graph.hpp"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -20,6 +21,8 @@ JobGraph::JobGraph(const FarmCells& cells, const std::vector<FarmEngine>& engine
       stride_(2 + 2 * engines.size()),
       jobs_(cells.cells.size() * stride_),
       scenes_(cells.cells.size()) {
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    if (engines[e].name == cells.truth) truth_ = e;
   std::mutex mutex;
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, cell_count()),
                             [&](const auto& range) {
@@ -47,26 +50,43 @@ void JobGraph::plan_cell(std::size_t cell, std::map<std::size_t, std::string>& r
     const FarmEngine& here = (*engines_)[e];
     if (!here.is_known() || std::ranges::find(compared_with, here.name) == compared_with.end())
       continue;
-    if (std::string why = here.engine->why_not(scene, {}); !why.empty()) {
+    if (std::string why = here.engine->why_not(scene, {}, axes(cell)); !why.empty()) {
       refusals.emplace(cell * engines_->size() + e, std::move(why));
       continue;
     }
-    const ResultKey theirs =
-        result_key({"reference", own_, here.name, here.version, here.content, scene_part});
-    set(reference(cell, e), JobKind::kReference, e, theirs);
-    set(compare(cell, e), JobKind::kCompare, e,
-        result_key({"compare", own_, as_part(ours), as_part(theirs)}));
+    std::vector<std::string_view> parts{"reference",  own_,         here.name,
+                                        here.version, here.content, scene_part};
+    const std::string more = here.engine->key_part(axes(cell));
+    if (!more.empty()) parts.push_back(more);
+    set(reference(cell, e), JobKind::kReference, e, result_key(parts));
     with_engine[e] = true;
   }
+  plan_comparisons(cell);
   if (!scene.lights.empty() && !scene.spheres.empty() && beyond_single_rays(scene).empty())
     set(profile(cell), JobKind::kProfile, kNoEngine, profile_key(cell, with_engine));
+}
+
+void JobGraph::plan_comparisons(std::size_t cell) {
+  for (std::size_t e = 0; e < engines_->size(); ++e) {
+    const Job& theirs = jobs_[reference(cell, e)];
+    if (!theirs.exists) continue;
+    std::vector<std::string_view> parts{"compare", own_, as_part(jobs_[render(cell)].key),
+                                        as_part(theirs.key)};
+    if (is_with_truth(cell, e)) parts.push_back(as_part(jobs_[reference(cell, *truth_)].key));
+    // A tolerance of the catalogue is a part of our program.
+    const EngineTolerance& tolerance = (*engines_)[e].engine->info().tolerance;
+    const std::string judged = fmt::format("{},{}", tolerance.of_value, tolerance.of_peak);
+    if ((*engines_)[e].engine->outside()) parts.push_back(judged);
+    jobs_[compare(cell, e)] = {result_key(parts), JobKind::kCompare, std::uint8_t(e), true};
+  }
 }
 
 ResultKey JobGraph::profile_key(std::size_t cell, const std::vector<bool>& with_engine) const {
   std::string references;
   for (std::size_t e = 0; e < engines_->size(); ++e)
     if (with_engine[e]) references += as_part(jobs_[reference(cell, e)].key);
-  return result_key({"profile", own_, as_part(jobs_[render(cell)].key), references});
+  return result_key({cells_->ours ? "profile" : "profile without ours", own_,
+                     as_part(jobs_[render(cell)].key), references});
 }
 
 void JobGraph::narrow_profile(std::size_t cell, const std::function<bool(JobIndex)>& has_picture) {
@@ -87,6 +107,9 @@ std::vector<JobIndex> JobGraph::inputs(JobIndex job) const {
   const std::size_t cell = cell_of(job);
   const Job& one = jobs_[job];
   if (is_picture(one.kind)) return {};
+  // Ours comes last where it only says at what exposure the others are shown.
+  if (one.kind == JobKind::kCompare && is_with_truth(cell, one.engine))
+    return {reference(cell, one.engine), reference(cell, *truth_), render(cell)};
   if (one.kind == JobKind::kCompare) return {render(cell), reference(cell, one.engine)};
   std::vector<JobIndex> pictures = jobs(cell);
   std::erase_if(pictures, [&](JobIndex picture) { return !is_picture(jobs_[picture].kind); });
@@ -99,7 +122,7 @@ std::vector<JobIndex> JobGraph::dependents(JobIndex job) const {
   const auto add = [&](JobIndex at) {
     if (jobs_[at].exists) found.push_back(at);
   };
-  if (jobs_[job].kind == JobKind::kRender)
+  if (jobs_[job].kind == JobKind::kRender || (truth_ && job == reference(cell, *truth_)))
     for (std::size_t e = 0; e < engines_->size(); ++e) add(compare(cell, e));
   else if (jobs_[job].kind == JobKind::kReference)
     add(compare(cell, jobs_[job].engine));
@@ -145,6 +168,8 @@ std::size_t JobGraph::refusals(std::size_t engine) const {
 
 void JobGraph::leave_out(std::size_t cell, std::size_t engine) {
   jobs_[reference(cell, engine)].exists = jobs_[compare(cell, engine)].exists = false;
+  if (truth_ == engine)
+    for (std::size_t e = 0; e < engines_->size(); ++e) jobs_[compare(cell, e)].exists = false;
   if (jobs_[profile(cell)].exists) narrow_profile(cell, [](JobIndex) { return true; });
 }
 

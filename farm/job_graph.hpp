@@ -14,6 +14,8 @@ namespace lobelia {
 struct FarmCells {
   std::vector<Cell> cells;
   std::function<Scene(std::size_t)> scene;  ///< of a cell; for any thread
+  std::string truth = {};                   ///< Grid::truth
+  bool ours = true;                         ///< Grid::ours
 };
 
 using JobIndex = std::uint32_t;
@@ -71,17 +73,25 @@ class JobGraph {
   /// Reduces the profile to our picture and those for which `has_picture` is true: another result, with another key.
   void narrow_profile(std::size_t cell, const std::function<bool(JobIndex)>& has_picture);
 
+  const AxisValues& axes(std::size_t cell) const { return cells_->cells[cell].tokens; }
+
   /// The hash of a cell's scene file, in hexadecimal.
   std::string scene_hash(std::size_t cell) const { return hex(scenes_[cell]); }
 
  private:
   ResultKey profile_key(std::size_t cell, const std::vector<bool>& with_engine) const;
+  /// Whether an engine is compared with the grid's reference. Otherwise ours is compared with it.
+  bool is_with_truth(std::size_t cell, std::size_t engine) const {
+    return truth_ && *truth_ != engine && jobs_[reference(cell, *truth_)].exists;
+  }
+  void plan_comparisons(std::size_t cell);
   void plan_cell(std::size_t cell, std::map<std::size_t, std::string>& refusals);
 
   const FarmCells* cells_;
   const std::vector<FarmEngine>* engines_;
   std::string own_;  ///< own_identity(), as a part of every key
   std::size_t stride_;
+  std::optional<std::size_t> truth_;  ///< index of the grid's reference
   std::vector<Job> jobs_;
   std::vector<Sha256Digest> scenes_;
   std::map<std::size_t, std::string> refusals_;  ///< by cell * engines + engine; few have one

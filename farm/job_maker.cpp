@@ -86,14 +86,16 @@ std::string JobMaker::keep_input(JobIndex job, const std::string& log) {
   const std::string& engine = graph_.engines()[graph_[job].engine].name;
   return failed_.keep(cell_id(job), graph_.name_in_cell(job), [&](const fs::path& directory) {
     const Scene scene = graph_.cells().scene(graph_.cell_of(job));
+    constexpr std::uint64_t kMostLog = FailedJobs::kMostBytes / 2;
+    if (!log.empty() && log.size() <= kMostLog) write_file(directory / (engine + ".log"), log);
+    if (const auto* outside = graph_.engines()[graph_[job].engine].engine->outside())
+      return keep_outside_input(*outside, scene, graph_.axes(graph_.cell_of(job)), directory);
     write_file(directory / "scene.xml", scene_to_xml(scene));
     std::vector<std::string> again{"lobelia", "reference", "scene.xml",    "--engine",
                                    engine,    "-o",        engine + ".exr"};
     if (const fs::path program = program_for(options_.programs, engine); !program.empty())
       again.insert(again.end(), {"--" + engine, program.string()});
     write_file(directory / "again.sh", shell_join(again) + "\n");
-    constexpr std::uint64_t kMostLog = FailedJobs::kMostBytes / 2;
-    if (!log.empty() && log.size() <= kMostLog) write_file(directory / (engine + ".log"), log);
     // The first picture of an average stands for all.
     keep_engine_input(engine,
                       needs_replicates(scene) ? replicates(scene, 1, 1, 0)[0][0].scene : scene, {},
@@ -168,7 +170,8 @@ void JobMaker::make(JobIndex job, ResultDraft& draft, records::Result& record) c
     const FarmEngine& here = graph_.engines()[graph_[job].engine];
     ReferenceOptions reference;
     reference.threads = 1;
-    ReferenceResult result = Session(*here.engine, reference).render(scene);
+    ReferenceResult result =
+        Session(*here.engine, reference).render(scene, graph_.axes(graph_.cell_of(job)));
     if (!result.error.empty()) throw ResultFailure(result.failure, result.error);
     return make_reference(scene, here, "", std::move(result), draft, record);
   }
@@ -176,8 +179,24 @@ void JobMaker::make(JobIndex job, ResultDraft& draft, records::Result& record) c
   std::vector<MadePicture> pictures;
   for (const JobIndex input : graph_.inputs(job))
     if (board_.state(input) == JobState::kDone) pictures.push_back(input_picture(input, from));
-  if (kind == JobKind::kProfile) return make_profile(scene, pictures, draft);
-  make_comparison(scene, pictures.at(0), pictures.at(1), draft, record);
+  if (kind == JobKind::kProfile) {
+    if (!graph_.cells().ours)
+      std::erase_if(pictures, [](const MadePicture& one) { return one.engine == kOurs; });
+    return make_profile(scene, pictures, draft);
+  }
+  const std::string shown = graph_.whose(job);
+  EngineTolerance tolerance;
+  for (const MadePicture* one : {&pictures.at(0), &pictures.at(1)})
+    for (const FarmEngine& engine : graph_.engines())
+      if (engine.name == one->engine) {
+        tolerance.of_value += engine.engine->info().tolerance.of_value;
+        tolerance.of_peak += engine.engine->info().tolerance.of_peak;
+      }
+  make_comparison(
+      scene,
+      {pictures[0], pictures[1], pictures[0].engine == shown ? pictures[0] : pictures[1],
+       pictures.size() > 2 ? pictures[2] : pictures[0], tolerance},
+      draft, record);
 }
 
 bool JobMaker::make_here(JobIndex job) {

@@ -106,7 +106,8 @@ class EngineRun {
   void render_one(JobIndex job, Session& session, const ReferenceOptions& reference,
                   bool more_memory) {
     const Scene scene = graph_.cells().scene(graph_.cell_of(job));
-    const std::uint64_t needed = memory_to_average(scene, reference);
+    const bool is_average = engine_.engine->averages(scene);
+    const std::uint64_t needed = is_average ? memory_to_average(scene, reference) : 0;
     if (reference.memory_limit > 0 && needed > memory_of_job(true))
       return maker_.fail(
           job,
@@ -115,10 +116,10 @@ class EngineRun {
                        size_text(needed), size_text(options_.memory)),
            0});
     std::unique_lock average(averages_, std::defer_lock);
-    if (needs_replicates(scene)) average.lock();
+    if (is_average) average.lock();
     const auto claimed = claim(job);
     if (!claimed) return;
-    ReferenceResult result = session.render(scene);
+    ReferenceResult result = session.render(scene, graph_.axes(graph_.cell_of(job)));
     const double wall = seconds_since(result.begun);
     const std::string log = result.log;
     JobFailure failure{result.failure, result.error, 0};

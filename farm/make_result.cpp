@@ -76,7 +76,7 @@ NoiseOptions noise_of(const MadePicture& ours, const MadePicture& theirs) {
 
 std::string picture_file(const std::string& engine) { return engine + ".exr"; }
 std::string error_file(const std::string& engine) { return engine + "-error.exr"; }
-std::string comparison_name(const std::string& engine) { return std::string(kOurs) + "-" + engine; }
+std::string comparison_name(const std::string& a, const std::string& b) { return a + "-" + b; }
 
 void make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<double> time_limit,
                  std::uint64_t memory_limit, records::Result& made) {
@@ -128,6 +128,7 @@ void make_reference(const Scene& scene, const FarmEngine& engine, const std::str
   const std::string file = picture_file(engine.name);
   record.command = {"lobelia", "reference", "scene.xml", "--engine", engine.name, "-o", file};
   if (!program.empty()) record.command.insert(record.command.end(), {"--" + engine.name, program});
+  if (engine.engine->outside()) record.command = engine.engine->outside()->command;
   record.image = {file, result.image.width(), result.image.height()};
   const ImageMetadata metadata = reference_metadata(scene, record);
   write_exr(draft.file(file), result.image, metadata);
@@ -143,23 +144,26 @@ void make_reference(const Scene& scene, const FarmEngine& engine, const std::str
   made.shading = record.shading;
 }
 
-Tolerance tolerance_of(std::string_view engine, std::vector<std::uint8_t> edges) {
+Tolerance tolerance_of(const EngineTolerance& tolerance, std::vector<std::uint8_t> edges) {
   constexpr std::int64_t kAllowedOutliers = 3;
-  const EngineTolerance tolerance = engine_info(engine).tolerance;
   return {tolerance.of_value, tolerance.of_peak, kAllowedOutliers, std::move(edges)};
 }
 
-void make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
-                     ResultDraft& draft, records::Result& record) {
-  const std::string& engine = theirs.engine;
-  const Image a = read_whole_picture(ours.directory / picture_file(kOurs), scene);
-  const Image b = read_whole_picture(theirs.directory / picture_file(engine), scene);
-  const double exposure = cell_exposure(a);
-  write_png(draft.file(engine + ".png"), to_display(b, exposure));
+void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft& draft,
+                     records::Result& record) {
+  const auto file = [](const MadePicture& picture) { return picture_file(picture.engine); };
+  const Image a = read_whole_picture(task.a.directory / file(task.a), scene);
+  const Image b = read_whole_picture(task.b.directory / file(task.b), scene);
+  const double exposure =
+      cell_exposure(task.ours.engine == task.a.engine
+                        ? a
+                        : read_whole_picture(task.ours.directory / file(task.ours), scene));
+  write_png(draft.file(task.shown.engine + ".png"),
+            to_display(task.shown.engine == task.a.engine ? a : b, exposure));
 
   // Without noise, each pixel has a tolerance. With noise it covers rounding alone, and the default limits decide.
   const bool exact = truth::why_not_evaluated(scene).empty();
-  if (!exact && !(has_error(ours) && has_error(theirs))) {
+  if (!exact && !(has_error(task.a) && has_error(task.b))) {
     record.not_comparable =
         "its picture may have noise that is not known, and no tolerance of single pixels judges that";
     return;
@@ -168,23 +172,23 @@ void make_comparison(const Scene& scene, const MadePicture& ours, const MadePict
   options.default_limits = false;
   options.viewing.exposure_stops = exposure;
   options.tolerance =
-      tolerance_of(engine, exact ? truth::edge_ring(scene) : std::vector<std::uint8_t>());
+      tolerance_of(task.tolerance, exact ? truth::edge_ring(scene) : std::vector<std::uint8_t>());
   if (!exact) {
     options.limits.assign(default_limits().begin(), default_limits().end());
-    options.noise = noise_of(ours, theirs);
+    options.noise = noise_of(task.a, task.b);
   }
   const Comparison comparison = compare(a, b, options);
 
-  const std::string name = comparison_name(engine);
+  const std::string name = comparison_name(task.a.engine, task.b.engine);
   // White in the difference picture: the tolerance at the peak, or with noise a tenth of the peak.
   const double relative = exact ? options.tolerance->relative + options.tolerance->of_peak : 0.1;
   const double white_at = relative * peak_value(b);
   write_png(draft.file(name + ".png"), difference_picture(a, b, white_at));
   records::write_record(draft.file(name + ".json"),
-                        comparison_record(comparison, picture_file(kOurs), picture_file(engine)));
+                        comparison_record(comparison, file(task.a), file(task.b)));
   record.verdict = verdict_name(comparison.verdict);
-  record.entry =
-      records::CellComparison{kOurs, engine, name + ".json", name + ".png", {white_at, relative}};
+  record.entry = records::CellComparison{
+      task.a.engine, task.b.engine, name + ".json", name + ".png", {white_at, relative}};
 }
 
 void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures,

@@ -33,7 +33,7 @@ struct MadePicture {
 /// ENGINE.exr, ENGINE-error.exr and so on; docs/records.md.
 std::string picture_file(const std::string& engine);
 std::string error_file(const std::string& engine);
-std::string comparison_name(const std::string& engine);
+std::string comparison_name(const std::string& a, const std::string& b);
 
 /// Writes lobelia.exr, .json and .png, scene.xml, and lobelia-error.exr if the picture is an average. Throws ResultFailure
 /// over `time_limit`, over `memory_limit` (bytes; 0: no limit), or if a value is not finite.
@@ -44,13 +44,21 @@ void make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<d
 void make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
                     ReferenceResult result, ResultDraft& draft, records::Result& record);
 
-/// Writes ENGINE.png at our picture's exposure and, unless the noise is unknown, lobelia-ENGINE.json and .png.
-void make_comparison(const Scene& scene, const MadePicture& ours, const MadePicture& theirs,
-                     ResultDraft& draft, records::Result& record);
+/// A comparison of two pictures. `tolerance` is the sum of both engines'.
+struct ComparisonTask {
+  MadePicture a, b;
+  MadePicture shown;  ///< the one of them that gets a PNG
+  MadePicture ours;   ///< it sets the exposure
+  EngineTolerance tolerance;
+};
 
-/// The engine's tolerance (reference_scenes/engine.hpp). Up to three pixels in `edges` (truth::edge_ring) may exceed it: a
-/// silhouette or a terminator may fall on the other side of a pixel's centre.
-Tolerance tolerance_of(std::string_view engine, std::vector<std::uint8_t> edges);
+/// Writes SHOWN.png at our picture's exposure and, unless the noise is unknown, A-B.json and .png. Up to three pixels on
+/// silhouettes, terminators and shadow edges may exceed the tolerance, because an edge may fall on the other side of a
+/// pixel's centre.
+void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft& draft,
+                     records::Result& record);
+
+Tolerance tolerance_of(const EngineTolerance& tolerance, std::vector<std::uint8_t> edges);
 
 /// Writes profile.json.
 void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures, ResultDraft& draft);

@@ -68,7 +68,8 @@ std::pair<std::int64_t, std::int64_t> changed(const fs::path& path) {
 }
 
 /// Whether a path below a farm's directory may be removed: the farm or its gallery may have written it.
-Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_gallery) {
+Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_gallery,
+                    const std::set<std::string>& engines) {
   const std::vector<std::string> parts(relative.begin(), relative.end());
   const std::string& name = parts.back();
   if (parts.size() == 1 && (name == "farm.json" || is_part_name(name))) return Owned::kFile;
@@ -76,7 +77,7 @@ Owned owned_in_farm(const fs::path& relative, const std::set<std::string>& of_ga
     return parts.size() < 3 ? Owned::kDirectory : Owned::kTree;
   if (parts[0] != "cells" || parts.size() > 3) return Owned::kNo;
   if (parts.size() < 3) return Owned::kDirectory;
-  return is_cell_file(name) || is_part_name(name) || of_gallery.contains(relative.string())
+  return is_cell_file(name, engines) || is_part_name(name) || of_gallery.contains(relative.string())
              ? Owned::kFile
              : Owned::kNo;
 }
@@ -93,16 +94,28 @@ std::set<std::string> files_of_gallery(const fs::path& directory) {
   }
 }
 
+/// The names of the engines in farm.json that can be a part of a file's name.
+std::set<std::string> engines_of_farm(const fs::path& directory) {
+  std::set<std::string> names;
+  try {
+    for (const auto& engine : read_farm_record(directory).engines)
+      if (is_plain_name(engine.name)) names.insert(engine.name);
+  } catch (const Error&) {
+    return {};
+  }
+  return names;
+}
+
 /// Removes only while farm.json is there.
 Removal removal_from_farm(const fs::path& directory, bool dry_run) {
-  return Removal(directory,
-                 {[](const HeldDirectory& root) {
-                    return root.read("farm.json", records::kMaxRecordBytes).has_value();
-                  },
-                  [files = files_of_gallery(directory)](const fs::path& relative) {
-                    return owned_in_farm(relative, files);
-                  }},
-                 dry_run ? Removal::Mode::kDryRun : Removal::Mode::kForReal);
+  return Removal(
+      directory,
+      {[](const HeldDirectory& root) {
+         return root.read("farm.json", records::kMaxRecordBytes).has_value();
+       },
+       [files = files_of_gallery(directory), engines = engines_of_farm(directory)](
+           const fs::path& relative) { return owned_in_farm(relative, files, engines); }},
+      dry_run ? Removal::Mode::kDryRun : Removal::Mode::kForReal);
 }
 
 /// Throws Error(kOutput) for anything but a directory, such as a link.

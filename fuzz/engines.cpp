@@ -1,7 +1,8 @@
-// Replaces the engines in the fuzzed programs: a grid needs only their names.
+// Replaces the engines in the fuzzed programs: a grid needs only their names, and those of the forms of scenes.
 #include <array>
 
 #include "reference_scenes/engine.hpp"
+#include "reference_scenes/formats/catalogue.hpp"
 
 namespace lobelia {
 
@@ -12,6 +13,11 @@ std::span<const EngineInfo> engine_infos() {
       {.name = "analytic", .title = "Formulas"},
   }};
   return kInfos;
+}
+
+std::span<const SceneFormat> scene_formats() {
+  static constexpr SceneFormat kFormats[] = {{.name = "lobelia"}};
+  return kFormats;
 }
 
 }  // namespace lobelia

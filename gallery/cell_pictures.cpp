@@ -57,6 +57,7 @@ std::string shading_words(const EnginePicture& image) {
   if (!image.reference) return "";
   const std::string& shading = image.reference->shading;
   if (shading == "native") return "its own shading of this model";
+  if (shading == "outside") return "a renderer from outside";
   return shading == "expressed" ? "the model written in its language"
                                 : "the formulas, pixel by pixel";
 }

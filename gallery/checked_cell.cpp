@@ -221,10 +221,12 @@ const CheckedComparison* CheckedCell::find_comparison(const std::string& other) 
   return at == comparisons.end() ? nullptr : &*at;
 }
 
-CheckedCell check_cell(const fs::path& directory, const CellEntry& entry, const Metrics& metrics) {
+CheckedCell check_cell(const fs::path& directory, const CellEntry& entry, const Metrics& metrics,
+                       const std::string& hub) {
   const fs::path here = directory / "cells" / entry.id;
   CheckedCell cell;
   cell.id = entry.id;
+  cell.hub = hub;
   cell.status = entry.status;
   cell.has_scene = is_file(here / "scene.xml");
   const bool is_there = is_file(here / "cell.json");

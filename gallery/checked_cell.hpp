@@ -73,9 +73,9 @@ struct CheckedCell {
 };
 
 /// Reads DIR/cells/ID/cell.json and every file it names, and judges the cell again. Files with a flaw are not used.
-/// `entry` is the cell's line in farm.json.
+/// `entry` is the cell's line in farm.json, `hub` is ShownFarm::hub.
 CheckedCell check_cell(const std::filesystem::path& directory, const CellEntry& entry,
-                       const Metrics& metrics);
+                       const Metrics& metrics, const std::string& hub = kOurEngine);
 
 /// Plain names of all files of the cell's directory that its page may show or link to.
 std::vector<std::string> files_of(const CheckedCell& cell);

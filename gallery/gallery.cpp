@@ -54,7 +54,7 @@ CellSummary publish_page(const GalleryOptions& options, const SiteFrame& site,
 
 CellSummary publish_cell(const fs::path& run, const GalleryOptions& options, const SiteFrame& site,
                          const ShownFarm& farm, const CellEntry& entry, Publisher& publisher) {
-  CheckedCell cell = check_cell(run, entry, farm.metrics);
+  CheckedCell cell = check_cell(run, entry, farm.metrics, farm.hub);
   if (options.metrics_only)
     for (EnginePicture& image : cell.images) image.exr.clear();
   publish_small_pictures(run, cell, options.metrics_only, publisher);

@@ -50,7 +50,7 @@ std::size_t rank(CellStatus status) {
 /// Whether some engine's picture has neither a comparison nor a reason why there is none.
 bool lacks_a_comparison(const CheckedCell& cell) {
   return std::ranges::any_of(cell.images, [&](const EnginePicture& image) {
-    return image.engine != kOurEngine && !cell.find_comparison(image.engine) &&
+    return image.engine != cell.hub && !cell.find_comparison(image.engine) &&
            std::ranges::find(cell.record.not_comparable, image.engine,
                              &records::NotComparable::engine) == cell.record.not_comparable.end();
   });

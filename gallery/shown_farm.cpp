@@ -67,6 +67,7 @@ ShownFarm show(records::Farm record, const Metrics& metrics) {
   ShownFarm farm;
   farm.record = std::move(record);
   farm.metrics = metrics;
+  if (!farm.record.reference.empty()) farm.hub = farm.record.reference;
   fill_titles(farm.record);
   for (const records::FarmCell& cell : farm.record.cells) {
     farm.cells.push_back(entry_of(cell, farm.record.axes));

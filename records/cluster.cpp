@@ -10,17 +10,31 @@ void define_cluster_tables(Tables& tables) {
     t.keys({"memory", "disk"}).unit("bytes").within(0, 1e18);
     t.key("giveUpAfter").within(0, 1e6);
   });
+  tables.define<OutsideEngine>("An engine of the user's own.", [](auto& t) {
+    t.key("directory", "absolute; of the file that describes it");
+    t.key("command", "arguments, with {scene}, {out} and others").if_any();
+    t.key("versionCommand", "arguments").if_any();
+    t.key("files", "of pictures that exist already, with {AXIS}").if_any();
+    t.key("scene", "the form in which it gets a scene").if_any();
+    t.key("environment", "names of the variables that it gets").if_any();
+    t.key("effects", "of light that it can show; without: all");
+    t.key("ofValue", "tolerance, as a share of a value").at_least(0);
+    t.key("ofPeak", "tolerance, as a share of the peak").at_least(0);
+  });
   tables.define<ChunkEngine>("An engine as the plan has it.", [](auto& t) {
     t.key("content", "SHA-256");
     t.key("program", "path, where one was given").if_any();
   });
   tables.define<ChunkCell>("A cell of a chunk.", [](auto& t) {
+    t.key("axes", "its values in file names, for outside engines").if_any();
     t.key("scene", "the text of its file").most_text(64u << 20);
     t.key("jobs", "names");
   });
   tables.define<FarmChunk>("What an element of a cluster's job does: chunks/N.json.", [](auto& t) {
     t.kind("farm-chunk");
     t.key("libraries", "SHA-256");
+    t.key("truth", "the engine that the others are compared with, if not with Lobelia").if_any();
+    t.key("ours", "false: Lobelia's pictures are not compared");
     t.key("failed", "absolute path of the directory for inputs of failed jobs");
   });
   tables.define<LeftUndone>("What an element left undone because of its node.", [](auto& t) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "records/farm.hpp"
+#include "records/outside_engine.hpp"
 #include "records/result.hpp"
 #include "records/struct_type.hpp"
 
@@ -16,11 +17,13 @@ struct ChunkLimits {
 
 struct ChunkEngine {
   std::string name, version, content, program;
+  std::optional<OutsideEngine> outside;
 };
 
 struct ChunkCell {
   std::string id;
   std::vector<std::string> engines;
+  Named<std::string> axes;
   std::string scene;
   std::vector<std::string> jobs;
 };
@@ -32,6 +35,8 @@ struct FarmChunk {
   ChunkLimits limits;
   std::optional<std::string> failed;
   std::vector<ChunkEngine> engines;
+  std::string truth;
+  std::optional<bool> ours;
   std::vector<ChunkCell> cells;
 };
 

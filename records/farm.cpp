@@ -36,6 +36,7 @@ void define_farm_tables(Tables& tables) {
     t.key("cache", "directory, relative to the farm's").if_any();
     t.key("axes", "in the grid's order").items(1);
     t.key("engines").items(1);
+    t.key("reference", "the engine that all are compared with; without it Lobelia").if_any();
   });
   tables.define<CellImage>("A picture of a cell.", [](auto& t) {
     t.keys({"engine", "record"}).plain_name();

@@ -40,6 +40,7 @@ struct Farm {
   std::optional<Locks> locks;
   std::vector<Axis> axes;
   std::vector<FarmEngine> engines;
+  std::string reference;
   std::vector<FarmCell> cells;
 };
 

@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::string_view kAccuracyUnits[] = {"ofPeak", "de2000"};
 constexpr std::string_view kBases[] = {"bound", "look"};
-constexpr std::string_view kShadings[] = {"native", "expressed", "analytic"};
+constexpr std::string_view kShadings[] = {"native", "expressed", "analytic", "outside"};
 
 }  // namespace
 
@@ -74,7 +74,7 @@ void define_render_tables(Tables& tables) {
     t.kind("reference");
     t.key("shading",
           "the engine's own shading of the model, the model written in the "
-          "engine's language, or its formulas pixel by pixel")
+          "engine's language, its formulas pixel by pixel, or a renderer from outside")
         .renamed("witness")
         .one_of(kShadings);
     t.key("points", "of each area light, of the lens and of the pixel");

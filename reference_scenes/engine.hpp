@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/image.hpp"
+#include "records/outside_engine.hpp"
 #include "records/render.hpp"
 #include "reference_scenes/failure.hpp"
 #include "renderer/scene/scene.hpp"
@@ -62,7 +63,8 @@ struct EngineInfo {
   std::string_view effects;             ///< effects of light that it supports
   std::string_view plain;               ///< name of its number format
   std::string_view fine = {};           ///< name of the finer one; empty if there is none
-  bool is_program = true;               ///< false: it is part of Lobelia
+  bool is_program = true;               ///< false: it is part of Lobelia, or pictures
+  bool whole_scenes = false;  ///< shows lights with a size and so on by itself, not as averages
   EngineTolerance tolerance = {};
   EngineSeconds seconds = {};
   std::span<const EngineVariant> variants = {};
@@ -136,12 +138,19 @@ struct ReferenceResult {
   records::Reference record;  ///< without the command and the picture's file name
 };
 
+/// The values of a cell's axes, by axis, as they can be a part of a file's name.
+using AxisValues = records::Named<std::string>;
+
 /// An engine at work on scenes under lights without size, by one ray through each pixel's centre.
 class SimpleSession {
  public:
   virtual ~SimpleSession() = default;
   /// As Session::render(); `scenes` is the number that the caller has to render, including this one.
   virtual ReferenceResult render(const Scene& scene, std::size_t scenes) = 0;
+  /// The same for an engine that also gets the cell's values.
+  virtual ReferenceResult render_cell(const Scene& scene, const AxisValues&, std::size_t scenes) {
+    return render(scene, scenes);
+  }
   virtual int at_once(std::size_t scenes) const = 0;
   virtual void stop() = 0;
 };
@@ -157,7 +166,7 @@ class Session {
   /// Blocks until the picture is there or has failed; values that are not finite are a failure. Callable from any thread.
   /// A scene that needs_replicates() keeps the machine busy by itself: its parts are rendered at_once(). Throws
   /// Error(kInterrupted) on Ctrl-C and after stop().
-  ReferenceResult render(const Scene& scene);
+  ReferenceResult render(const Scene& scene, const AxisValues& axes = {});
 
   /// How many simultaneous calls of render() keep the engine busy.
   int at_once() const { return simple_->at_once(options_.scenes); }
@@ -165,7 +174,7 @@ class Session {
   void stop() { simple_->stop(); }
 
  private:
-  ReferenceResult render_part(const Scene& scene, std::size_t scenes);
+  ReferenceResult render_part(const Scene& scene, const AxisValues& axes, std::size_t scenes);
 
   Engine& engine_;
   const ReferenceOptions options_;
@@ -179,11 +188,20 @@ class Engine {
   /// Finds the program and asks for its version; slow at the first call, cached afterwards.
   virtual const EngineStatus& status() = 0;
   /// Why this engine cannot show a scene, as a sentence; empty if it can.
-  std::string why_not(const Scene& scene, const ReferenceOptions& options) const;
+  std::string why_not(const Scene& scene, const ReferenceOptions& options,
+                      const AxisValues& axes = {}) const;
+  /// Its description, if it is not one of the catalogue; otherwise null.
+  virtual const records::OutsideEngine* outside() const { return nullptr; }
+  /// What decides its pictures besides its version, its files and the scene.
+  virtual std::string key_part(const AxisValues&) const { return ""; }
+  /// Whether a picture of this scene is an average of many.
+  bool averages(const Scene& scene) const;
 
  protected:
   friend class Session;
   virtual std::string why_not_simple(const Scene& scene, const ReferenceOptions& options) const = 0;
+  /// The same for an engine with EngineInfo::whole_scenes.
+  virtual std::string why_not_whole(const Scene&, const AxisValues&) const { return ""; }
   /// The same for the engine's own light transport.
   virtual std::string why_not_transport(const Scene&) const { return "it has none"; }
   virtual std::unique_ptr<SimpleSession> open_simple(const ReferenceOptions& options) = 0;

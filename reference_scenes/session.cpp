@@ -103,7 +103,13 @@ std::uint64_t memory_to_average(const Scene& scene, const ReferenceOptions& opti
          (std::uint64_t(options.points) * kOfPicture + kOfSums);
 }
 
-std::string Engine::why_not(const Scene& scene, const ReferenceOptions& options) const {
+bool Engine::averages(const Scene& scene) const {
+  return !info().whole_scenes && needs_replicates(scene);
+}
+
+std::string Engine::why_not(const Scene& scene, const ReferenceOptions& options,
+                            const AxisValues& axes) const {
+  if (info().whole_scenes) return why_not_whole(scene, axes);
   if (options.own_transport) return why_not_transport(scene);
   if (std::string why = why_not_comparable(scene); !why.empty()) return why;
   if (!needs_replicates(scene)) return why_not_simple(scene, options);
@@ -119,8 +125,9 @@ Session::Session(Engine& engine, const ReferenceOptions& options)
   simple_ = engine.open_simple(options_);
 }
 
-ReferenceResult Session::render_part(const Scene& scene, std::size_t scenes) {
-  ReferenceResult part = simple_->render(scene, scenes);
+ReferenceResult Session::render_part(const Scene& scene, const AxisValues& axes,
+                                     std::size_t scenes) {
+  ReferenceResult part = simple_->render_cell(scene, axes, scenes);
   if (part.error.empty() && !is_finite(part.image)) {
     part.error = fmt::format("{}'s picture has values that are not finite", engine_.info().title);
     part.failure = FailureClass::kNonFinite;
@@ -129,11 +136,11 @@ ReferenceResult Session::render_part(const Scene& scene, std::size_t scenes) {
   return part;
 }
 
-ReferenceResult Session::render(const Scene& scene) {
-  if (std::string why = engine_.why_not(scene, options_); !why.empty())
+ReferenceResult Session::render(const Scene& scene, const AxisValues& axes) {
+  if (std::string why = engine_.why_not(scene, options_, axes); !why.empty())
     return failed_result(engine_.info(), engine_.status(), scene, {FailureClass::kRefused, why});
-  if (options_.own_transport || !needs_replicates(scene))
-    return render_part(scene, options_.scenes);
+  if (options_.own_transport || !engine_.averages(scene))
+    return render_part(scene, axes, options_.scenes);
   const std::vector<Replicate> all =
       replicates(scene, kReplicates, options_.points / kReplicates, options_.seed);
   Parts parts;
@@ -146,7 +153,7 @@ ReferenceResult Session::render(const Scene& scene) {
       places.size(), simple_->at_once(places.size()),
       [&](std::size_t i) {
         const auto [r, p] = places[i];
-        parts[r][p] = render_part(all[r][p].scene, places.size());
+        parts[r][p] = render_part(all[r][p].scene, axes, places.size());
       },
       [this] { stop(); });
   return average(scene, all, parts, options_);

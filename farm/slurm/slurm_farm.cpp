@@ -42,7 +42,10 @@ class Missing {
         const std::string whose = graph_.whose(job);
         missing.push_back(
             {graph_.name(job), is_picture(one.kind) ? 0 : 1,
-             estimated_seconds(one.kind, whose, scene),
+             estimated_seconds(
+                 one.kind,
+                 one.engine == kNoEngine ? nullptr : &graph_.engines()[one.engine].engine->info(),
+                 scene),
              one.kind == JobKind::kReference ? whose : std::string(kJobKindNames[int(one.kind)])});
         jobs_.push_back(job);
       }
@@ -145,7 +148,7 @@ fs::path slurm_run_directory(const fs::path& directory) {
   return fs::absolute(directory) / "runs" / "slurm";
 }
 
-double estimated_seconds(JobKind kind, std::string_view engine, const Scene& scene) {
+double estimated_seconds(JobKind kind, const EngineInfo* engine, const Scene& scene) {
   // Measured on one core, for small and large pictures; chunks need only the order of magnitude.
   const double pixels = double(scene.film.width) * scene.film.height;
   const double rays = pixels * std::max(1, scene.sampler.sample_count);
@@ -153,7 +156,7 @@ double estimated_seconds(JobKind kind, std::string_view engine, const Scene& sce
     case JobKind::kRender:
       return 0.02 + 5e-7 * rays;
     case JobKind::kReference: {
-      const EngineSeconds& seconds = engine_info(engine).seconds;
+      const EngineSeconds& seconds = engine->seconds;
       return seconds.start + seconds.per_ray * rays;
     }
     case JobKind::kCompare:

@@ -33,7 +33,7 @@ SlurmFarmSummary finish_slurm_run(const std::filesystem::path& run_directory);
 /// The path of the running program, which is the same on the nodes.
 std::filesystem::path own_program();
 
-/// About how many seconds a job takes on one processor, for the size of chunks.
-double estimated_seconds(JobKind kind, std::string_view engine, const Scene& scene);
+/// About how many seconds a job takes on one processor, for the size of chunks. `engine` is null for our own picture.
+double estimated_seconds(JobKind kind, const EngineInfo* engine, const Scene& scene);
 
 }  // namespace lobelia
