@@ -10,7 +10,8 @@ namespace lobelia::cli {
 namespace {
 
 struct ExportArguments {
-  std::string language, lobe = "cosine", normalisation = "exact", output;
+  std::string language, lobe = "cosine", normalisation = "exact", coefficient = "computed",
+                        fresnel = "none", output;
   std::vector<std::string> models;
   std::optional<double> exponent;
 };
@@ -26,6 +27,10 @@ void run_export(const ExportArguments& options) {
   request.normalisation = chosen(options.normalisation, "--normalisation", normalisation_names(),
                                  join(normalisation_names()), find_normalisation);
   request.exponent = options.exponent;
+  request.coefficient = chosen(options.coefficient, "--coefficient", coefficient_from_names(),
+                               join(coefficient_from_names()), find_coefficient_from);
+  request.fresnel =
+      chosen(options.fresnel, "--fresnel", fresnel_names(), join(fresnel_names()), find_fresnel);
   const std::string text = shader_text(request);
   if (request.exponent)
     warn_of({request.models.front(), request.lobe, request.normalisation, *request.exponent});
@@ -51,21 +56,35 @@ void add_export(CLI::App& app, ExitCode&) {
       ->capture_default_str();
   group
       .add("--normalisation", options->normalisation, "",
-           fmt::format("Coefficient: {}", join(normalisation_names())))
+           fmt::format("Normalisation of the coefficient: {}", join(normalisation_names())))
+      ->capture_default_str();
+  group
+      .add("--coefficient", options->coefficient, "",
+           fmt::format("Where the function has the coefficient from: {}. As an argument, it is "
+                       "computed once, by the host or in a vertex stage",
+                       join(coefficient_from_names())))
+      ->capture_default_str();
+  group
+      .add("--fresnel", options->fresnel, "",
+           fmt::format(
+               "Fresnel factor in the function, which then takes F0 and returns a colour: {}",
+               join(fresnel_names())))
       ->capture_default_str();
   group
       .add("--exponent", options->exponent, "",
-           "A number for n, and the coefficient with it, in place of a parameter; needed "
-           "for the lobes whose coefficient has no closed form")
+           "A number for n, and the coefficient with it, in place of a parameter. A lobe whose "
+           "coefficient has no closed form needs this or --coefficient argument")
       ->check(between(kMinExponent, kMaxExponent));
   group.add("-o,--output", options->output, "FILE", "File to write; otherwise standard output");
   command->footer(
       "What is written needs nothing of Lobelia, and says what each function returns, where the\n"
-      "cosine is, and which integral its coefficient makes 1. Two exports may be used together.\n"
+      "cosine is, and which integral its coefficient makes 1. Two exports may be used together; in\n"
+      "WGSL, which has no preprocessor, without the functions that the second one repeats.\n"
       "\n"
       "Examples:\n"
       "  lobelia export --language glsl modified_phong blinn_phong_rdf --lobe cs16\n"
       "  lobelia export --language osl phong_rdf --lobe gauss --exponent 64 -o gauss.h\n"
+      "  lobelia export --language wgsl phong_rdf --coefficient argument --fresnel schlick\n"
       "  lobelia export --language povray modified_phong -o lobelia_modified_phong_cosine.inc");
   command->callback([options] { run_export(*options); });
 }

@@ -10,33 +10,21 @@
 #include "core/version.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
+#include "shaders/languages.hpp"
 #include "shaders/names.hpp"
 #include "shaders/povray.hpp"
 
 namespace lobelia {
 namespace embedded {
 extern const std::string_view gpu_head, gpu_geometry, gpu_lobe, gpu_energy, gpu_coefficient,
-    gpu_highlight;
+    gpu_fresnel, gpu_highlight;
 }
 namespace {
 
 using HWY_NAMESPACE::Lobes;
 using HWY_NAMESPACE::Models;
 
-struct Language {
-  std::string_view title, note;
-  std::string_view vec3;    ///< the type of a vector
-  std::string_view normal;  ///< name of a parameter; "normal" is a word of OSL's own
-};
-constexpr Language kLanguages[] = {
-    {"GLSL",
-     "For every version of GLSL and GLSL ES (WebGL); ask for highp floats where there is a choice.",
-     "vec3", "normal"},
-    {"HLSL", "For every shader model.", "float3", "normal"},
-    {"OSL", "To be included before a shader, where to_eye is -I and surface_normal is N.", "vector",
-     "surface_normal"}};
-constexpr std::string_view kNames[] = {"glsl", "hlsl", "osl", "povray"};
-constexpr std::size_t kPovray = 3;
+constexpr std::string_view kCoefficientFrom[] = {"computed", "argument"};
 
 struct LobeForm {
   LobeText text;
@@ -103,36 +91,53 @@ std::string normalisation_note(const Highlight& highlight) {
          std::string(info(highlight.model).integral) + "." + quarter;
 }
 
-/// Writes functions in GLSL, HLSL or OSL. With a fixed exponent it is part of the function, otherwise a parameter.
+/// Writes functions in one of gpu_languages().
 class Writer {
  public:
-  Writer(const Language& language, bool fixed) : language_(language), fixed_(fixed) {}
+  Writer(const GpuLanguage& language, const ShaderExport& request)
+      : language_(language),
+        fixed_(request.exponent.has_value()),
+        argument_(request.coefficient == CoefficientFrom::kArgument),
+        fresnel_(request.fresnel != Fresnel::kNone) {}
 
   void add(const Highlight& highlight) {
     const double constant = radiance_coefficient(highlight);  // throws if the paper has none
     const std::string formula = coefficient_formula(highlight);
-    if (!fixed_ && formula.empty())
-      throw Error(ExitCode::kUsage,
-                  fmt::format("the exact coefficient of the lobe '{}' has no closed form; give the "
-                              "exponent that it is for: --exponent N",
-                              info(highlight.lobe).name));
+    if (!fixed_ && !argument_ && formula.empty())
+      throw Error(
+          ExitCode::kUsage,
+          fmt::format("the exact coefficient of the lobe '{}' has no closed form; give the "
+                      "exponent that it is for: --exponent N, or take the coefficient as an "
+                      "argument: --coefficient argument",
+                      info(highlight.lobe).name));
     add_lobe(highlight.lobe);
-    const std::string function = function_name(highlight, fixed_);
-    if (!fixed_) add_coefficient(highlight, function, formula);
-    add_part(function, highlight_text(highlight, function, constant));
+    if (fresnel_) add_part("lobelia_fresnel", embedded::gpu_fresnel);
+    const std::string with_coefficient = function_name(highlight, fixed_),
+                      function = function_name(highlight, fixed_, fresnel_);
+    if (!fixed_ && !formula.empty()) add_coefficient(highlight, with_coefficient, formula);
+    const std::string coefficient =
+        fixed_ ? number(constant)
+               : (argument_ ? "coefficient" : with_coefficient + "_coefficient(exponent)");
+    // Languages with guards have overloads, so that the name may be the same.
+    add_part(argument_ ? function + "_argument" : function,
+             highlight_text(highlight, function, coefficient, argument_note(highlight, formula)));
   }
   const std::string& text() const { return parts_.text(); }
 
  private:
-  void add_part(std::string name, const std::string& text) {
+  void add_part(std::string name, std::string_view part) {
     // In capitals: a macro with the function's own name would replace the function.
     for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
-    parts_.add(name, fill(text, {{"vec3", language_.vec3}, {"normal", language_.normal}}));
+    const std::string text = fill(part, {{"vec3", language_.vector},
+                                         {"colour", language_.colour},
+                                         {"inline", language_.function},
+                                         {"normal", language_.normal}});
+    parts_.add(name, language_.translate ? language_.translate(text) : text);
   }
 
   void add_lobe(LobeId lobe) {
     const LobeInfo& about = info(lobe);
-    add_part("lobelia_geometry", std::string(embedded::gpu_geometry));
+    add_part("lobelia_geometry", embedded::gpu_geometry);
     add_part(fmt::format("lobelia_{}_lobe", about.name),
              fill(embedded::gpu_lobe, {{"title", about.title},
                                        {"formula", about.formula},
@@ -152,8 +157,33 @@ class Writer {
              fill(embedded::gpu_coefficient, {{"function", function}, {"coefficient", formula}}));
   }
 
+  std::string argument_note(const Highlight& highlight, const std::string& formula) const {
+    std::string note;
+    if (argument_ && formula.empty())
+      note =
+          "\n// `coefficient` has no closed form: the command above writes it as a number with --exponent N in "
+          "place\n// of --coefficient argument.";
+    else if (argument_)
+      note =
+          fmt::format("\n// `coefficient` is {}_coefficient(exponent).", function_name(highlight));
+    if (fresnel_)
+      note +=
+          "\n// `reflectance` is F0 of the Fresnel factor: the colour of the highlight, head on.";
+    return note;
+  }
+
+  /// Behind the three vectors.
+  std::string parameters() const {
+    std::string all;
+    if (!fixed_) all = ", float exponent";
+    if (argument_) all += ", float coefficient";
+    if (fresnel_) all += ", %colour% reflectance";
+    return argument_ || fresnel_ ? ",\n    " + all.substr(2) : all;
+  }
+
   std::string highlight_text(const Highlight& highlight, const std::string& function,
-                             double constant) const {
+                             const std::string& coefficient,
+                             const std::string& argument_note) const {
     const ModelInfo& model = info(highlight.model);
     const bool mirror = model.angle == LobeAngle::kReflection, cosine = model.applies_cosine;
     return fill(
@@ -166,34 +196,93 @@ class Writer {
          {"cosine_note", cosine ? "N.L is in it: do not multiply by it again."
                                 : "There is no N.L in it, by definition: do not multiply by it."},
          {"normalisation_note", normalisation_note(highlight)},
-         {"parameter", fixed_ ? "" : ", float exponent"},
+         {"argument_note", argument_note},
+         {"result", fresnel_ ? "%colour%" : "float"},
+         {"parameters", parameters()},
          {"which", mirror ? "mirror" : "half"},
-         {"coefficient",
-          fixed_ ? number(constant) : fmt::format("{}_coefficient(exponent)", function)},
+         {"coefficient", coefficient},
          {"lobe", info(highlight.lobe).name},
          {"exponent", fixed_ ? number(highlight.exponent) : "exponent"},
          {"factor", cosine ? " * n_dot_l" : ""},
+         {"fresnel", fresnel_ ? " * lobelia_fresnel(reflectance, to_eye, to_light)" : ""},
          {"function", function}});
   }
 
-  const Language& language_;
-  bool fixed_;
-  Parts parts_{"#ifndef %name%\n#define %name%\n", "#endif\n"};
+  const GpuLanguage& language_;
+  bool fixed_, argument_, fresnel_;
+  Parts parts_{language_.guard_begin, language_.guard_end};
 };
 
 std::string command_of(const ShaderExport& request) {
-  std::string command = fmt::format("lobelia export --language {}", kNames[request.language.index]);
+  std::string command =
+      fmt::format("lobelia export --language {}", shader_language_names()[request.language.index]);
   for (const ModelId model : request.models) command += fmt::format(" {}", info(model).name);
   command += fmt::format(" --lobe {} --normalisation {}", info(request.lobe).name,
                          name(request.normalisation));
-  return command + (request.exponent ? fmt::format(" --exponent {}", *request.exponent) : "");
+  if (request.exponent) command += fmt::format(" --exponent {}", *request.exponent);
+  if (request.coefficient != CoefficientFrom::kComputed)
+    command += fmt::format(" --coefficient {}", kCoefficientFrom[int(request.coefficient)]);
+  if (request.fresnel != Fresnel::kNone)
+    command += fmt::format(" --fresnel {}", name(request.fresnel));
+  return command;
+}
+
+std::string gpu_text(const ShaderExport& request, const std::vector<Highlight>& highlights) {
+  if (request.exponent && request.coefficient == CoefficientFrom::kArgument)
+    throw Error(ExitCode::kUsage,
+                "with --exponent the coefficient is a number in what is exported; leave "
+                "--coefficient argument out, or --exponent");
+  const GpuLanguage& language = gpu_languages()[request.language.index];
+  Writer writer(language, request);
+  for (const Highlight& highlight : highlights) writer.add(highlight);
+  const std::string begin = language.begin.empty() ? "" : "\n" + std::string(language.begin);
+  return fill(embedded::gpu_head,
+              {{"language", language.title},
+               {"version", kNameAndVersion},
+               {"command", command_of(request)},
+               {"paper", kPaper},
+               {"colour_note", request.fresnel == Fresnel::kNone
+                                   ? " and by the colour of the highlight"
+                                   : "; `reflectance` is the highlight's colour"},
+               {"exponent_note", request.exponent ? "" : "\n// `exponent` is 0 to 1e8."},
+               {"normal", language.normal},
+               {"note", language.note}}) +
+         begin + writer.text();
+}
+
+/// POV-Ray's part is a pattern, which is one number, and a macro for the coefficient.
+std::string checked_povray_text(const ShaderExport& request,
+                                const std::vector<Highlight>& highlights) {
+  const auto refuse = [](const char* what) {
+    throw Error(ExitCode::kUsage, fmt::format("for POV-Ray {}", what));
+  };
+  if (request.exponent)
+    refuse("the exponent is an argument of what is exported; leave --exponent out");
+  if (request.coefficient != CoefficientFrom::kComputed)
+    refuse("the coefficient always is a macro of its own; leave --coefficient out");
+  if (request.fresnel != Fresnel::kNone)
+    refuse("what is exported has no Fresnel factor; leave --fresnel out");
+  return povray_text(highlights);
 }
 
 }  // namespace
 
-std::span<const std::string_view> shader_language_names() { return kNames; }
+std::span<const std::string_view> shader_language_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const GpuLanguage& language : gpu_languages()) all.push_back(language.name);
+    all.push_back("povray");
+    return all;
+  }();
+  return names;
+}
 std::optional<ShaderLanguage> find_shader_language(std::string_view name) {
-  return find_id<ShaderLanguage>(kNames, name);
+  return find_id<ShaderLanguage>(shader_language_names(), name);
+}
+
+std::span<const std::string_view> coefficient_from_names() { return kCoefficientFrom; }
+std::optional<CoefficientFrom> find_coefficient_from(std::string_view name) {
+  return find_id<CoefficientFrom>(kCoefficientFrom, name);
 }
 
 std::string shader_text(const ShaderExport& request) {
@@ -201,23 +290,8 @@ std::string shader_text(const ShaderExport& request) {
   for (const ModelId model : request.models)
     highlights.push_back(
         {model, request.lobe, request.normalisation, request.exponent.value_or(1)});
-  if (request.language.index == kPovray) {
-    if (request.exponent)
-      throw Error(
-          ExitCode::kUsage,
-          "for POV-Ray the exponent is an argument of what is exported; leave --exponent out");
-    return povray_text(highlights);
-  }
-  const Language& language = kLanguages[request.language.index];
-  Writer writer(language, request.exponent.has_value());
-  for (const Highlight& highlight : highlights) writer.add(highlight);
-  return fill(embedded::gpu_head, {{"language", language.title},
-                                   {"version", kNameAndVersion},
-                                   {"command", command_of(request)},
-                                   {"paper", kPaper},
-                                   {"normal", language.normal},
-                                   {"note", language.note}}) +
-         writer.text();
+  return request.language.index < gpu_languages().size() ? gpu_text(request, highlights)
+                                                         : checked_povray_text(request, highlights);
 }
 
 }  // namespace lobelia

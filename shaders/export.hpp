@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/fresnel.hpp"
 #include "renderer/highlight.hpp"
 
 namespace lobelia {
@@ -15,8 +16,16 @@ namespace lobelia {
 struct ShaderLanguage {
   std::uint8_t index = 0;
 };
-std::span<const std::string_view> shader_language_names();  ///< "glsl", "hlsl", "osl", "povray"
+std::span<const std::string_view> shader_language_names();  ///< "glsl", ..., "povray"
 std::optional<ShaderLanguage> find_shader_language(std::string_view name);
+
+/// Where a function with an exponent as a parameter has its coefficient from.
+enum class CoefficientFrom : std::uint8_t {
+  kComputed,  ///< it computes it whenever it is called
+  kArgument,  ///< it is given it; another function computes it, where there is a closed form
+};
+std::span<const std::string_view> coefficient_from_names();  ///< "computed", "argument"
+std::optional<CoefficientFrom> find_coefficient_from(std::string_view name);
 
 struct ShaderExport {
   ShaderLanguage language;
@@ -24,10 +33,13 @@ struct ShaderExport {
   LobeId lobe;
   Normalisation normalisation = Normalisation::kExact;
   std::optional<double> exponent;  ///< without one it is a parameter of the function
+  CoefficientFrom coefficient = CoefficientFrom::kComputed;
+  /// With Schlick's, the functions take F0 in red, green and blue, and return such a colour.
+  Fresnel fresnel = Fresnel::kNone;
 };
 
-/// The text of the file. Throws Error(kUsage) if the language or the lobe needs an exponent or does not allow one,
-/// and Error(kInput) if the paper has no coefficient for the lobe.
+/// The text of the file. Throws Error(kUsage) if the language or the lobe does not go with the other members, and
+/// Error(kInput) if the paper has no coefficient for the lobe.
 std::string shader_text(const ShaderExport& request);
 
 }  // namespace lobelia

@@ -7,7 +7,7 @@
 
 namespace lobelia {
 
-std::string function_name(const Highlight& highlight, bool fixed_exponent) {
+std::string function_name(const Highlight& highlight, bool fixed_exponent, bool fresnel) {
   std::string name =
       fmt::format("lobelia_{}_{}{}", info(highlight.model).name, info(highlight.lobe).name,
                   highlight.normalisation == Normalisation::kPaper ? "_paper" : "");
@@ -15,7 +15,7 @@ std::string function_name(const Highlight& highlight, bool fixed_exponent) {
     name += fmt::format("_n{}", highlight.exponent);
     std::ranges::replace(name, '.', '_');
   }
-  return name;
+  return fresnel ? name + "_fresnel" : name;
 }
 
 std::string capitalised(std::string_view name) {

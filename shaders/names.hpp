@@ -9,9 +9,10 @@
 
 namespace lobelia {
 
-/// The name of the function and of its file: "lobelia_modified_phong_cs16", with "_paper" for that normalisation
-/// and "_n64" for a fixed exponent.
-std::string function_name(const Highlight& highlight, bool fixed_exponent = false);
+/// The name of the function and of its file: "lobelia_modified_phong_cs16", with "_paper" for that normalisation,
+/// "_n64" for a fixed exponent and "_fresnel" for that factor.
+std::string function_name(const Highlight& highlight, bool fixed_exponent = false,
+                          bool fresnel = false);
 
 /// "Modified_Phong" from "modified_phong".
 std::string capitalised(std::string_view name);

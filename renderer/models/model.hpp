@@ -30,7 +30,7 @@ double exact_coefficient(const EnergyIntegral& energy, const auto& lobe) {
   return 1 / (2 * std::numbers::pi * sum);
 }
 
-/// Coefficients as formulas of n in what GLSL, HLSL and OSL have in common, for `lobelia export` and for people:
+/// Coefficients as formulas of n in what shader languages have in common, for `lobelia export` and for people:
 /// the true one for cos^n and the paper's two columns. Every number has a decimal point, every product a sign.
 struct CoefficientTexts {
   std::string_view exact_cosine, paper_cosine, paper_cs16;

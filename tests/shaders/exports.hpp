@@ -1,6 +1,8 @@
 // All that can be exported: what the tests of this room go through.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
@@ -27,8 +29,9 @@ inline bool can_be_made(const ShaderExport& request) {
   }
 }
 
-/// Every model with every lobe and normalisation, with a run-time exponent where that is possible and
-/// with fixed ones. All of them can stand in one shader.
+/// Every model with every lobe and normalisation: with a run-time exponent, with the coefficient computed where that
+/// is possible and as an argument, and with fixed exponents; without and with the Fresnel factor. All of them can stand
+/// in one shader, but for WGSL.
 inline std::vector<ShaderExport> every_export(const std::string& language) {
   std::vector<ShaderExport> exports;
   for (const LobeId lobe : every_lobe())
@@ -39,10 +42,19 @@ inline std::vector<ShaderExport> every_export(const std::string& language) {
                            lobe,
                            normalisation,
                            {}};
-      if (can_be_made(request)) exports.push_back(request);
-      for (const double n : kFixedExponents) {
-        request.exponent = n;
-        exports.push_back(request);
+      for (const Fresnel fresnel : {Fresnel::kNone, Fresnel::kSchlick}) {
+        request.fresnel = fresnel;
+        request.exponent.reset();
+        for (const auto from : {CoefficientFrom::kComputed, CoefficientFrom::kArgument}) {
+          request.coefficient = from;
+          if (can_be_made(request)) exports.push_back(request);
+        }
+        request.coefficient = CoefficientFrom::kComputed;
+        for (const double n : kFixedExponents) {
+          if (fresnel != Fresnel::kNone && n != 64) continue;
+          request.exponent = n;
+          exports.push_back(request);
+        }
       }
     }
   return exports;
@@ -50,7 +62,28 @@ inline std::vector<ShaderExport> every_export(const std::string& language) {
 
 inline std::string function_name_of(const ShaderExport& request, ModelId model) {
   return function_name({model, request.lobe, request.normalisation, request.exponent.value_or(1)},
-                       request.exponent.has_value());
+                       request.exponent.has_value(), request.fresnel != Fresnel::kNone);
+}
+
+/// A call of the exported function, with expressions for what it may take. `vectors` is "N, V, L".
+inline std::string call_of(const ShaderExport& request, ModelId model, const std::string& vectors,
+                           const std::string& exponent, const std::string& coefficient,
+                           const std::string& reflectance) {
+  std::string call = function_name_of(request, model) + "(" + vectors;
+  if (!request.exponent) call += ", " + exponent;
+  if (request.coefficient == CoefficientFrom::kArgument) call += ", " + coefficient;
+  if (request.fresnel != Fresnel::kNone) call += ", " + reflectance;
+  return call + ")";
+}
+
+/// The name of the function that computes the coefficient; "" if the export has none.
+inline std::string coefficient_name_of(const ShaderExport& request, ModelId model) {
+  const std::string name =
+      function_name({model, request.lobe, request.normalisation}) + "_coefficient";
+  return shader_text(request).find(name + "(float n)") == std::string::npos &&
+                 shader_text(request).find(name + "(n: f32)") == std::string::npos
+             ? ""
+             : name;
 }
 
 }  // namespace lobelia

@@ -1,4 +1,4 @@
-// GLSL's and OSL's arithmetic as C++ has it: float32, each operation rounded once. The exported
+// The arithmetic of GLSL, HLSL, OSL and MSL as C++ has it: float32, each operation rounded once. The exported
 // functions are compiled against it as they are (write_functions.cpp).
 #pragma once
 
@@ -21,6 +21,7 @@ struct Real {
   friend Real operator-(Real a) { return -a.value; }
   friend bool operator<(Real a, Real b) { return a.value < b.value; }
   friend bool operator>(Real a, Real b) { return a.value > b.value; }
+  friend bool operator>=(Real a, Real b) { return a.value >= b.value; }
 };
 inline Real max(Real a, Real b) { return a < b ? b : a; }
 inline Real min(Real a, Real b) { return b < a ? b : a; }
@@ -36,24 +37,37 @@ struct vec3 {
   friend vec3 operator/(vec3 a, Real k) { return {a.x / k, a.y / k, a.z / k}; }
 };
 using vector = vec3;
+using color = vec3;
+using float3 = vec3;
 inline Real dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Real length(vec3 a) { return std::sqrt(dot(a, a).value); }
 
-/// One exported function: with the exponent as a parameter and its coefficient's own function, or with
-/// the exponent of `highlight` in it.
+inline vec3 as_colour(Real radiance) { return {radiance, radiance, radiance}; }
+inline vec3 as_colour(vec3 radiance) { return radiance; }
+
+/// One exported function.
 struct ShaderFunction {
   const char* name;
-  Highlight highlight;
-  Real (*of_exponent)(vec3, vec3, vec3, Real);
-  Real (*coefficient)(Real);
-  Real (*fixed)(vec3, vec3, vec3);
+  Highlight highlight;  ///< its exponent is the function's if that is fixed
+  bool is_fixed, has_fresnel;
+  Real (*coefficient)(Real);  ///< of the exponent; null if the export has none
+  /// The arguments that the function does not have are ignored.
+  vec3 (*radiance)(vec3 normal, vec3 to_eye, vec3 to_light, Real exponent, Real coefficient,
+                   vec3 reflectance);
 };
 
+using Table = std::vector<ShaderFunction>;
 namespace glsl {
-const std::vector<ShaderFunction>& table();
+const Table& table();
+}
+namespace hlsl {
+const Table& table();
+}
+namespace msl {
+const Table& table();
 }
 namespace osl {
-const std::vector<ShaderFunction>& table();
+const Table& table();
 }
 
 }  // namespace lobelia::shader_functions

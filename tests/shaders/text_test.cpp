@@ -32,11 +32,15 @@ class CompiledByGlslang : public testing::Test {
   std::string complaints(std::vector<std::string> options) {
     options.insert(options.begin(), compiler_.string());
     options.insert(options.end(), files_.begin(), files_.end());
-    ProcessOptions process;
-    process.working_directory = scratch_.path();
-    const ProcessResult result = run_process(options, process);
+    const ProcessResult result = run_process(options, working_here());
     EXPECT_NE(result.exit_code == 0, result.output_tail.find("ERROR") != std::string::npos);
     return result.exit_code == 0 ? "" : result.output_tail;
+  }
+
+  ProcessOptions working_here() const {
+    ProcessOptions process;
+    process.working_directory = scratch_.path();
+    return process;
   }
 
   void write(const std::string& file, const std::string& text) {
@@ -49,13 +53,15 @@ class CompiledByGlslang : public testing::Test {
   std::vector<std::string> files_;
 };
 
-/// An expression that adds up every function of the export.
+/// An expression that adds up every function of the export: its red, if it is a colour.
 std::string calls(const ShaderExport& request, const std::string& vec3) {
   std::string sum;
+  const std::string vectors =
+      fmt::format("{0}(0.0, 0.0, 1.0), {0}(0.6, 0.0, 0.8), {0}(0.0, 0.6, 0.8)", vec3);
   for (const ModelId model : request.models)
-    sum += fmt::format("{0}{1}({2}(0.0, 0.0, 1.0), {2}(0.6, 0.0, 0.8), {2}(0.0, 0.6, 0.8){3})",
-                       sum.empty() ? "" : " + ", function_name_of(request, model), vec3,
-                       request.exponent ? "" : ", 16.0");
+    sum += (sum.empty() ? "" : " + ") +
+           call_of(request, model, vectors, "16.0", "2.5", vec3 + "(0.04, 0.5, 1.0)") +
+           (request.fresnel == Fresnel::kNone ? "" : ".x");
   return sum;
 }
 
@@ -70,9 +76,22 @@ TEST_F(CompiledByGlslang, EveryGlslExportIsAcceptedByTheOldestAndTheNewestVersio
       write(fmt::format("{}_{}.frag", name, files_.size()),
             fmt::format("{}{}void main() {{ {} = vec4({}); }}\n", head, shader_text(request),
                         output, calls(request, "vec3")));
-    EXPECT_GT(files_.size(), 70u);
+    EXPECT_GT(files_.size(), 100u);
     EXPECT_EQ(complaints({}), "") << name;
   }
+}
+
+TEST_F(CompiledByGlslang, AGlslExportIsOfHighPrecisionWhateverTheShadersDefault) {
+  const auto precisions = [&](const std::string& text) {
+    files_.clear();
+    write("mediump.frag", "#version 320 es\nprecision mediump float;\n" + text +
+                              "out vec4 colour;\nvoid main() { colour = vec4(0.5); }\n");
+    return run_process({compiler_.string(), "-i", files_.front()}, working_here()).output_tail;
+  };
+  EXPECT_THAT(precisions("float f(float x) { return x; }\n"), HasSubstr("mediump"));
+  const std::string tree = precisions(shader_text(every_export("glsl").front()));
+  EXPECT_THAT(tree, HasSubstr("highp"));
+  EXPECT_THAT(tree, Not(HasSubstr("mediump")));
 }
 
 TEST_F(CompiledByGlslang, EveryHlslExportIsAcceptedAndAllOfThemInOneShader) {
@@ -95,6 +114,23 @@ TEST_F(CompiledByGlslang, AMistakeWouldBeSeen) {
   EXPECT_THAT(complaints({}), HasSubstr("undeclared identifier"));
 }
 
+TEST(MslExport, IsTheHlslExportButForItsBeginningAndTheWordInline) {
+  // No compiler of MSL is in Debian. That the text is C++ and what it computes, values_test shows.
+  const auto functions = [](const ShaderExport& request) {
+    const std::string text = shader_text(request);
+    return std::regex_replace(text.substr(text.find("#ifndef")), std::regex("\\binline "), "");
+  };
+  const std::vector<ShaderExport> msl = every_export("msl"), hlsl = every_export("hlsl");
+  ASSERT_EQ(msl.size(), hlsl.size());
+  for (std::size_t i = 0; i < msl.size(); ++i) {
+    EXPECT_EQ(functions(msl[i]), functions(hlsl[i]));
+    EXPECT_THAT(shader_text(msl[i]),
+                HasSubstr("\n#include <metal_stdlib>\nusing namespace metal;\n"));
+  }
+  // In a header that several shaders include, each function would be defined more than once.
+  EXPECT_FALSE(std::regex_search(shader_text(msl.front()), std::regex("\n(float|float3) ")));
+}
+
 TEST(OslExport, DeclaresNoNameThatIsAWordOfTheLanguage) {
   // No compiler of OSL is in Debian. That the text is C-like, values_test shows; this is the rest.
   const std::set<std::string> reserved{
@@ -108,7 +144,7 @@ TEST(OslExport, DeclaresNoNameThatIsAWordOfTheLanguage) {
       "sizeof",  "static",  "switch",   "template", "this",        "throw",      "true",
       "try",     "typedef", "uniform",  "union",    "unsigned",    "varying",    "virtual",
       "volatile"};
-  static const std::regex declaration("\\b(?:float|vector) ([A-Za-z_0-9]+)");
+  static const std::regex declaration("\\b(?:float|vector|color) ([A-Za-z_0-9]+)");
   int names = 0;
   for (const ShaderExport& request : every_export("osl")) {
     const std::string text = shader_text(request);
@@ -123,7 +159,8 @@ TEST(OslExport, DeclaresNoNameThatIsAWordOfTheLanguage) {
 TEST(EveryExport, IsFilledInAndSaysWhatItIs) {
   for (const std::string_view language : shader_language_names())
     for (ShaderExport request : every_export(std::string(language))) {
-      if (language == "povray") request.exponent.reset();
+      if (language == "povray")
+        request = {request.language, request.models, request.lobe, request.normalisation, {}};
       const std::string text = shader_text(request);
       EXPECT_THAT(text, Not(HasSubstr("%"))) << text;
       for (const ModelId model : request.models) {
@@ -163,26 +200,53 @@ TEST(AnExport, OfAFixedExponentHasTheCoefficientAsOneNumber) {
 
 TEST(AnExport, ThatCannotBeMadeSaysWhy) {
   const auto why_not = [](const char* language, const char* lobe, Normalisation normalisation,
-                          std::optional<double> exponent) -> std::string {
+                          std::optional<double> exponent,
+                          CoefficientFrom coefficient = CoefficientFrom::kComputed,
+                          Fresnel fresnel = Fresnel::kNone) -> std::string {
     try {
       shader_text({*find_shader_language(language),
                    {*find_model("phong_rdf")},
                    *find_lobe(lobe),
                    normalisation,
-                   exponent});
+                   exponent,
+                   coefficient,
+                   fresnel});
     } catch (const Error& error) {
       return error.what();
     }
     return "";
   };
+  const auto exact = Normalisation::kExact;
+  const auto argument = CoefficientFrom::kArgument;
   EXPECT_THAT(
-      why_not("glsl", "gauss", Normalisation::kExact, {}),
+      why_not("glsl", "gauss", exact, {}),
       HasSubstr("'gauss' has no closed form; give the exponent that it is for: --exponent"));
-  EXPECT_THAT(why_not("osl", "schlick", Normalisation::kExact, {}), HasSubstr("give the exponent"));
+  EXPECT_THAT(why_not("osl", "schlick", exact, {}), HasSubstr("give the exponent"));
+  EXPECT_EQ(why_not("wgsl", "schlick", exact, {}, argument), "");
+  EXPECT_THAT(why_not("msl", "cosine", exact, 64, argument), HasSubstr("--coefficient"));
   EXPECT_THAT(why_not("glsl", "cs8", Normalisation::kPaper, 64),
               HasSubstr("the paper gives no coefficient for the lobe 'cs8'"));
   EXPECT_THAT(why_not("povray", "cs8", Normalisation::kPaper, {}), HasSubstr("'cs8'"));
-  EXPECT_THAT(why_not("povray", "cs8", Normalisation::kExact, 64), HasSubstr("an argument"));
+  EXPECT_THAT(why_not("povray", "cs8", exact, 64), HasSubstr("an argument"));
+  EXPECT_THAT(why_not("povray", "cs8", exact, {}, argument), HasSubstr("--coefficient"));
+  EXPECT_THAT(why_not("povray", "cs8", exact, {}, CoefficientFrom::kComputed, Fresnel::kSchlick),
+              HasSubstr("--fresnel"));
+}
+
+TEST(AnExport, WithTheCoefficientAsAnArgumentHasItsFunctionButDoesNotCallIt) {
+  for (const ShaderExport& request : every_export("glsl")) {
+    if (request.coefficient != CoefficientFrom::kArgument) continue;
+    const bool closed_form =
+        info(request.lobe).name != "gauss" && info(request.lobe).name != "schlick";
+    for (const ModelId model : request.models) {
+      const std::string name = coefficient_name_of(request, model);
+      EXPECT_EQ(name.empty(), !closed_form);
+      EXPECT_THAT(shader_text(request), Not(HasSubstr(" = " + name + "(")));
+    }
+    if (!closed_form) {
+      EXPECT_THAT(shader_text(request), HasSubstr("has no closed form"));
+    }
+  }
 }
 
 }  // namespace

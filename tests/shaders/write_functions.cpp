@@ -16,12 +16,18 @@ int main(int, char** argv) {
   for (const ShaderExport& request : every_export(language)) {
     text += shader_text(request);
     for (const ModelId model : request.models) {
-      const std::string name = function_name_of(request, model);
-      table += fmt::format("    {{\"{}\", {{{{{}}}, {{{}, {}}}, Normalisation({}), {}}}, ", name,
-                           model.index, request.lobe.index, request.lobe.order,
-                           int(request.normalisation), request.exponent.value_or(0));
-      table += request.exponent ? fmt::format("nullptr, nullptr, &{}}},\n", name)
-                                : fmt::format("&{0}, &{0}_coefficient, nullptr}},\n", name);
+      const bool coloured = request.fresnel != Fresnel::kNone;
+      const std::string coefficient = coefficient_name_of(request, model);
+      table += fmt::format(
+          "    {{\"{}\", {{{{{}}}, {{{}, {}}}, Normalisation({}), {}}}, {}, {}, {},\n"
+          "     [](vec3 n, vec3 v, vec3 l, [[maybe_unused]] Real exponent,\n"
+          "        [[maybe_unused]] Real coefficient, [[maybe_unused]] vec3 f0) {{\n"
+          "       return as_colour({});\n"
+          "     }}}},\n",
+          function_name_of(request, model), model.index, request.lobe.index, request.lobe.order,
+          int(request.normalisation), request.exponent.value_or(1), request.exponent.has_value(),
+          coloured, coefficient.empty() ? "nullptr" : "&" + coefficient,
+          call_of(request, model, "n, v, l", "exponent", "coefficient", "f0"));
     }
   }
   fmt::print(

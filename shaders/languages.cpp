@@ -1,0 +1,103 @@
+#include "shaders/languages.hpp"
+
+#include <regex>
+
+namespace lobelia {
+namespace {
+
+/// `text` with what `form` says in place of each match.
+template <class Form>
+std::string replaced(const std::string& text, const std::regex& pattern, Form form) {
+  std::string result;
+  auto rest = text.begin();
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
+    result.append(rest, (*match)[0].first) += form(*match);
+    rest = (*match)[0].second;
+  }
+  return result.append(rest, text.end());
+}
+
+/// WGSL writes a type behind the name, and says whether a variable changes. The rest of our texts is the same in it.
+std::string wgsl_from_c(const std::string& text) {
+  static const std::regex heading("\n(float|vec3f) (\\w+)\\(([^)]*)\\)\n\\{"),
+      parameter("(float|vec3f) (\\w+)"), declaration("\n( +)(?:float|vec3f) (\\w+) = ");
+  const auto type = [](const std::string& name) { return name == "float" ? "f32" : name; };
+  const std::string headed = replaced(text, heading, [&](const std::smatch& function) {
+    return "\nfn " + function.str(2) + "(" +
+           replaced(function.str(3), parameter,
+                    [&](const std::smatch& p) { return p.str(2) + ": " + type(p.str(1)); }) +
+           ") -> " + type(function.str(1)) + "\n{";
+  });
+  return replaced(headed, declaration, [&](const std::smatch& variable) {
+    const bool changes = std::regex_search(headed, std::regex("\n +" + variable.str(2) + " = "));
+    return "\n" + variable.str(1) + (changes ? "var " : "let ") + variable.str(2) + " = ";
+  });
+}
+
+constexpr std::string_view kIfndef = "#ifndef %name%\n#define %name%\n", kEndif = "#endif\n";
+
+constexpr GpuLanguage kLanguages[] = {
+    {.name = "glsl",
+     .title = "GLSL",
+     .note =
+         "For every version of GLSL and GLSL ES (WebGL). What follows it in a shader has highp floats, too,\n"
+         "// until it says otherwise: half floats do not hold these numbers.",
+     .begin = "#ifdef GL_FRAGMENT_PRECISION_HIGH\nprecision highp float;\n#endif\n",
+     .vector = "vec3",
+     .colour = "vec3",
+     .normal = "normal",
+     .function = "",
+     .guard_begin = kIfndef,
+     .guard_end = kEndif,
+     .translate = nullptr},
+    {.name = "hlsl",
+     .title = "HLSL",
+     .note = "For every shader model.",
+     .begin = "",
+     .vector = "float3",
+     .colour = "float3",
+     .normal = "normal",
+     .function = "",
+     .guard_begin = kIfndef,
+     .guard_end = kEndif,
+     .translate = nullptr},
+    {.name = "wgsl",
+     .title = "WGSL",
+     .note = "WGSL has no preprocessor: of functions that two exports have in common, keep one.",
+     .begin = "",
+     .vector = "vec3f",
+     .colour = "vec3f",
+     .normal = "normal",
+     .function = "",
+     .guard_begin = "",
+     .guard_end = "",
+     .translate = wgsl_from_c},
+    {.name = "msl",
+     .title = "Metal's language (MSL)",
+     .note = "For every version of Metal.",
+     .begin = "#include <metal_stdlib>\nusing namespace metal;\n",
+     .vector = "float3",
+     .colour = "float3",
+     .normal = "normal",
+     .function = "inline ",
+     .guard_begin = kIfndef,
+     .guard_end = kEndif,
+     .translate = nullptr},
+    {.name = "osl",
+     .title = "OSL",
+     .note = "To be included before a shader, where to_eye is -I and surface_normal is N.",
+     .begin = "",
+     .vector = "vector",
+     .colour = "color",
+     .normal = "surface_normal",
+     .function = "",
+     .guard_begin = kIfndef,
+     .guard_end = kEndif,
+     .translate = nullptr},
+};
+
+}  // namespace
+
+std::span<const GpuLanguage> gpu_languages() { return kLanguages; }
+
+}  // namespace lobelia

@@ -1,0 +1,25 @@
+// The languages that share the texts in shaders/gpu/. All about one of them is its row in languages.cpp.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lobelia {
+
+struct GpuLanguage {
+  std::string_view name;            ///< "glsl", as on the command line
+  std::string_view title;           ///< "GLSL"
+  std::string_view note;            ///< how a text is used; the lines of a comment
+  std::string_view begin;           ///< what has to stand before the functions, after a blank line
+  std::string_view vector, colour;  ///< types
+  std::string_view normal;          ///< name of a parameter; "normal" is a word of OSL's own
+  std::string_view function;        ///< what stands before a function's type
+  /// A guard against reading a part twice; "%name%" is the part's name.
+  std::string_view guard_begin, guard_end;
+  /// From the C that the other languages have in common; null where the language is one of them.
+  std::string (*translate)(const std::string& text);
+};
+std::span<const GpuLanguage> gpu_languages();
+
+}  // namespace lobelia
