@@ -66,9 +66,10 @@ struct CsLobe {
       return {"    return exp(" + order + " * lobelia_log_one_minus(min(" + slope_text +
                   " * s, 0.999999)));\n",
               slope_text};
-    std::string body = "    float u1 = max(0.0, 1.0 - " + slope_text + " * s);\n", product;
+    // Not u: WGSL may have a type u16 one day.
+    std::string body = "    float p1 = max(0.0, 1.0 - " + slope_text + " * s);\n", product;
     for (int power = 2; power <= k; power *= 2) {
-      const std::string half = "u" + std::to_string(power / 2), now = "u" + std::to_string(power);
+      const std::string half = "p" + std::to_string(power / 2), now = "p" + std::to_string(power);
       body += "    float " + now + " = " + half + " * " + half + ";\n";
       if (k & power) product += (product.empty() ? "" : " * ") + now;
     }
