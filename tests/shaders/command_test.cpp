@@ -39,6 +39,18 @@ TEST_F(ExportCommand, PrintsTheTextOrWritesItToAFile) {
   EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command)) << "how to get it again";
 }
 
+TEST_F(ExportCommand, SaysInTheTextWithWhichOptionsToGetItAgain) {
+  const std::string options =
+      "phong_rdf --lobe cs8 --normalisation exact --coefficient argument --fresnel schlick";
+  for (const std::string language : {"glsl", "hlsl", "wgsl", "msl", "osl"}) {
+    const std::string command = "export --language " + language + " " + options;
+    ASSERT_EQ(run_shell("\"$LOBELIA\" " + command + " > printed", scratch_.path()).exit_code, 0);
+    EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command + "\n"));
+    EXPECT_THAT(file("printed"), HasSubstr("lobelia_phong_rdf_cs8_fresnel("));
+    EXPECT_THAT(file("printed"), HasSubstr("lobelia_phong_rdf_cs8_coefficient("));
+  }
+}
+
 TEST_F(ExportCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndWritesIt) {
   const auto exported = [&](const char* exponent) {
     return run({"--language", "glsl", "phong_rdf", "--lobe", "cs16", "--normalisation", "paper",
@@ -75,6 +87,13 @@ TEST_F(ExportCommand, UnknownNamesAreExitCode2AndOneLineWithASuggestion) {
   expect_refusal({"--language", "glsl", "phong_rdf", "--exponent", "-1"}, "--exponent");
   expect_refusal({"--language", "glsl", "phong_rdf", "--lobe", "gauss"}, "--exponent");
   expect_refusal({"--language", "povray", "phong_rdf", "--exponent", "64"}, "--exponent");
+  expect_refusal({"--language", "povray", "phong_rdf", "--fresnel", "schlick"}, "--fresnel");
+  expect_refusal({"--language", "wgsl", "phong_rdf", "--fresnel", "shlick"},
+                 "did you mean 'schlick'?");
+  expect_refusal({"--language", "wgsl", "phong_rdf", "--coefficient", "arguments"},
+                 "did you mean 'argument'?");
+  expect_refusal({"--language", "msl", "phong_rdf", "--coefficient", "argument", "--exponent", "2"},
+                 "--coefficient argument");
   expect_refusal({"--language", "glsl"}, "MODEL");
 }
 

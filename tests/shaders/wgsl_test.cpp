@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <set>
+#include <map>
+#include <tuple>
 
 #include "core/files.hpp"
 #include "core/process.hpp"
@@ -233,7 +234,7 @@ class RunByWebGpu : public testing::Test {
   std::string said_;  ///< by the last run
 };
 
-/// truth::shape without the lobe's cost: the same for every function of a model and a lobe.
+/// truth::shape, once for all functions of a model and a lobe.
 class Shapes {
  public:
   explicit Shapes(const std::vector<Point>& points) : points_(points) {}
