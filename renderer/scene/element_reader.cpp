@@ -138,9 +138,11 @@ Values ElementReader::read_parameters(pugi::xml_node element, std::span<const Pa
       continue;
     }
     const std::string text = value_text(node);
-    // After an error any value will do, to find the errors behind it.
-    values.set(parameter->name,
-               parse(node, *parameter, text).value_or(Values::Value{{1, 1, 1}, "", {}}));
+    // After an error the default will do, to find the errors behind it.
+    if (auto value = parse(node, *parameter, text))
+      values.set(parameter->name, *std::move(value));
+    else
+      values.set(parameter->name, default_of(*parameter));
   }
   for (const auto& parameter : table) {
     if (values.contains(parameter.name)) continue;

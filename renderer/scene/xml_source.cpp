@@ -58,8 +58,7 @@ void XmlSource::error(pugi::xml_attribute where, pugi::xml_node of, const std::s
 
 bool XmlSource::full() const { return errors_.size() >= kMaxErrors; }
 
-void XmlSource::throw_if_errors() const {
-  if (errors_.empty()) return;
+std::vector<std::string> XmlSource::error_lines() const {
   auto sorted = errors_;
   std::ranges::stable_sort(sorted, {}, &decltype(sorted)::value_type::first);
   std::vector<std::string> lines;
@@ -67,7 +66,11 @@ void XmlSource::throw_if_errors() const {
   if (error_count_ > errors_.size())
     lines.push_back(
         fmt::format("{}: {} further errors", file_name_, error_count_ - errors_.size()));
-  throw Error(ExitCode::kInput, std::move(lines));
+  return lines;
+}
+
+void XmlSource::throw_if_errors() const {
+  if (!errors_.empty()) throw Error(ExitCode::kInput, error_lines());
 }
 
 void XmlSource::check_attributes(pugi::xml_node node,

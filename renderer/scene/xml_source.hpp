@@ -26,7 +26,10 @@ class XmlSource {
   /// Counts an error without a message.
   void count_error() { ++error_count_; }
   bool has_errors() const { return !errors_.empty(); }
-  /// Throws Error(kInput) with the errors, one a line in the file's order, if there are any.
+  std::size_t error_count() const { return error_count_; }
+  /// The errors, one a line in the file's order.
+  std::vector<std::string> error_lines() const;
+  /// Throws Error(kInput) with error_lines(), if there are any.
   void throw_if_errors() const;
 
   /// Notes an error for each attribute of `node` that is not one of `allowed`.
