@@ -52,9 +52,6 @@ struct Job {
   fs::path directory;
 };
 
-/// The file name of a pass, also in keep_povray_input(), so that messages name a file that exists.
-std::string pass_stem(std::size_t pass) { return fmt::format("pass{}", pass); }
-
 /// The weaker of two processes' limits.
 ProcessLimits weaker(const ProcessLimits& a, const ProcessLimits& b) {
   return {a.writes_limited && b.writes_limited, std::min(a.contained, b.contained)};
@@ -216,7 +213,7 @@ void PovraySession::run_pov(PassResult& result, const Job& job, const PovrayPass
 /// every change there is progress of this pass.
 PassResult PovraySession::run_pass(const Job& job, std::size_t index) {
   const PovrayPass& pass = job.input.passes[index];
-  const std::string stem = pass_stem(index);
+  const std::string stem = povray_pass_stem(index);
   const fs::path home = fmt::format("{}-{}", job.directory.string(), stem);
   const bool large = std::size_t(job.film.width) * job.film.height > kLargePixels;
   PassResult result;
@@ -300,23 +297,7 @@ std::unique_ptr<Engine> make_povray(const fs::path& program) {
 
 void keep_povray_input(const Scene& scene, const ReferenceOptions& options,
                        const fs::path& directory) {
-  const PovrayInput input = povray_input(in_engine_units(scene), options);
-  for (const auto& [file, text] : input.includes) write_file(directory / file, text);
-  std::string commands;
-  for (std::size_t p = 0; p < input.passes.size(); ++p) {
-    const std::string stem = pass_stem(p);
-    const auto keep = [&](const std::string& name, const std::string& text) {
-      write_file(directory / (name + ".pov"), text);
-      write_povray_ini(directory, name, input.passes[p].gain, povray_options(scene.film, 1));
-      commands += fmt::format("povray {}.ini\n", name);
-    };
-    keep(stem, input.passes[p].scene());
-    if (options.fine) {
-      commands += fmt::format("# Twice this one's picture is to be added to {}.exr.\n", stem);
-      keep(stem + "-rest", input.passes[p].rest(stem + ".exr"));
-    }
-  }
-  write_file(directory / "povray.sh", commands);
+  for (const auto& [file, text] : povray_files(scene, options)) write_file(directory / file, text);
 }
 
 }  // namespace lobelia

@@ -161,7 +161,17 @@ bool all_native(const Scene& scene, bool expressed) {
                              [&](const Material* m) { return is_native(*m, expressed); });
 }
 
+std::string ini_text(const std::string& stem, double gain,
+                     const std::vector<std::string>& options) {
+  return fmt::format(
+      "; {0} times too bright, for half floats. The passes, divided by theirs, add up.\n"
+      "Input_File_Name={1}.pov\nOutput_File_Name={1}.exr\n{2}\n",
+      exact_text(gain), stem, fmt::join(options, "\n"));
+}
+
 }  // namespace
+
+std::string povray_pass_stem(std::size_t pass) { return fmt::format("pass{}", pass); }
 
 std::string PovrayPass::rest(const std::string& coarse) const {
   return fmt::format("{}Lobelia_Take_Away(\"{}\")\n{}", view, coarse, surfaces);
@@ -217,13 +227,30 @@ std::vector<std::string> povray_options(const Film& film, int threads, bool stat
           fmt::format("Work_Threads={}", threads)};
 }
 
+std::map<std::string, std::string> povray_files(const Scene& scene,
+                                                const ReferenceOptions& options) {
+  const PovrayInput input = povray_input(in_engine_units(scene), options);
+  std::map<std::string, std::string> files = input.includes;
+  std::string& commands = files["povray.sh"];
+  for (std::size_t p = 0; p < input.passes.size(); ++p) {
+    const std::string stem = povray_pass_stem(p);
+    const auto add = [&](const std::string& name, const std::string& text) {
+      files[name + ".pov"] = text;
+      files[name + ".ini"] = ini_text(name, input.passes[p].gain, povray_options(scene.film, 1));
+      commands += fmt::format("povray {}.ini\n", name);
+    };
+    add(stem, input.passes[p].scene());
+    if (options.fine) {
+      commands += fmt::format("# Twice this one's picture is to be added to {}.exr.\n", stem);
+      add(stem + "-rest", input.passes[p].rest(stem + ".exr"));
+    }
+  }
+  return files;
+}
+
 void write_povray_ini(const std::filesystem::path& directory, const std::string& stem, double gain,
                       const std::vector<std::string>& options) {
-  write_file(directory / (stem + ".ini"),
-             fmt::format(
-                 "; {0} times too bright, for half floats. The passes, divided by theirs, add up.\n"
-                 "Input_File_Name={1}.pov\nOutput_File_Name={1}.exr\n{2}\n",
-                 exact_text(gain), stem, fmt::join(options, "\n")));
+  write_file(directory / (stem + ".ini"), ini_text(stem, gain, options));
 }
 
 std::vector<std::string> povray_home(const std::filesystem::path& home,

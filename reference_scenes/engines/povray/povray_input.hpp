@@ -36,9 +36,16 @@ std::string why_not_in_povray(const Scene& scene, const ReferenceOptions& option
 /// `scene` is in engine units (preparation.hpp).
 PovrayInput povray_input(const Scene& scene, const ReferenceOptions& options = {});
 
+/// The name of a pass's files.
+std::string povray_pass_stem(std::size_t pass);
+
 /// Options for the .ini file, "Width=64": all that affect the picture, because the system's or the user's povray.ini is
 /// read first. File names are not among them. With `statistics` POV-Ray reports times.
 std::vector<std::string> povray_options(const Film& film, int threads, bool statistics = false);
+
+/// All files with which `sh povray.sh` renders a scene, by name: pass0.pov, pass0.ini, include files.
+std::map<std::string, std::string> povray_files(const Scene& scene,
+                                                const ReferenceOptions& options = {});
 
 /// Writes `stem`.ini, with which `povray STEM.ini`, run in `directory`, renders STEM.pov to STEM.exr.
 void write_povray_ini(const std::filesystem::path& directory, const std::string& stem, double gain,
