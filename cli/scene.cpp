@@ -1,10 +1,12 @@
-// lobelia scene SCENE --to FORMAT
+// lobelia scene SCENE [--from mitsuba] [--to FORMAT]
 #include "cli/commands.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
 #include "core/files.hpp"
 #include "reference_scenes/formats/catalogue.hpp"
+#include "reference_scenes/formats/mitsuba.hpp"
+#include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::cli {
@@ -13,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SceneArguments {
-  std::string scene, to, output;
+  std::string scene, from, to, output;
   SceneOverrides overrides;
 };
 
@@ -74,12 +76,21 @@ std::string format_names() {
   return names;
 }
 
+/// The scene, of whatever program's file.
+Scene scene_of(const SceneArguments& options) {
+  if (options.from.empty()) return read_scene(options.scene);
+  ImportedScene imported = parse_mitsuba(read_file(options.scene, kMaxSceneBytes), options.scene,
+                                         directory_of(options.scene));
+  for (const std::string& problem : imported.problems) warn(problem);
+  return std::move(imported.scene);
+}
+
 void run_scene(const SceneArguments& options) {
-  if (options.to.empty())
+  if (options.to.empty() && options.from.empty())
     throw Error(ExitCode::kUsage,
                 fmt::format("give a format with --to FORMAT: {}", format_names()));
-  const SceneFormat& format = scene_format(options.to);
-  Scene scene = read_scene(options.scene);
+  const SceneFormat& format = scene_format(options.to.empty() ? "lobelia" : options.to);
+  Scene scene = scene_of(options);
   options.overrides.apply(scene);
   if (const std::string why = format.why_not(scene); !why.empty())
     throw Error(ExitCode::kInput, fmt::format("{}: cannot be written for {}, because {}",
@@ -98,19 +109,26 @@ std::string format_words() {
 }  // namespace
 
 void add_scene(CLI::App& app, ExitCode&) {
-  auto* command = app.add_subcommand("scene", "Write a scene for other programs");
+  auto* command =
+      app.add_subcommand("scene", "Write a scene for other programs, or read one of theirs");
   auto options = std::make_shared<SceneArguments>();
   OptionGroup group(*command);
   group.add("SCENE", options->scene, "", "Scene file (see lobelia scene-format)")->required();
-  group.add("--to", options->to, "FORMAT", fmt::format("Format to write: {}", format_names()));
+  group.add("--to", options->to, "FORMAT",
+            fmt::format("Format to write: {}; lobelia with --from", format_names()));
+  group.add("--from", options->from, "PROGRAM", "The scene file is of another program: mitsuba")
+      ->check(CLI::IsMember({"mitsuba"}));
   group.add("-o,--output", options->output, "FILE|DIR",
             "File to write, or a directory; otherwise standard output, if the format is one file");
   options->overrides.add_to(*command);
-  command->footer(
-      fmt::format("Formats:\n{}\ndocs/scenes_for_others.md says what each can say.\n\n"
-                  "Examples:\n"
-                  "  lobelia scene reference_scenes/scenes/oblique_45.xml --to json",
-                  format_words()));
+  command->footer(fmt::format(
+      "Formats:\n{}\ndocs/scenes_for_others.md says what each can say.\n\n"
+      "With --from, every part of the file that Lobelia cannot show is a warning with its line.\n\n"
+      "Examples:\n"
+      "  lobelia scene reference_scenes/scenes/oblique_45.xml --to json\n"
+      "  lobelia scene reference_scenes/scenes/oblique_45.xml --to povray -o oblique\n"
+      "  lobelia scene theirs.xml --from mitsuba -o ours.xml",
+      format_words()));
   command->callback([options] { run_scene(*options); });
 }
 

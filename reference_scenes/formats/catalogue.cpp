@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/error.hpp"
@@ -25,7 +26,9 @@ constexpr SceneFormat kLobeliaFormat{
 };
 
 const std::vector<SceneFormat>& all_scene_formats() {
-  static const std::vector<SceneFormat> formats{kLobeliaFormat, kJsonFormat};
+  static const std::vector<SceneFormat> formats{kLobeliaFormat,       kJsonFormat,
+                                                kMitsubaFormat,       kPovrayFormat,
+                                                kBlenderPythonFormat, kGltfFormat};
   return formats;
 }
 
@@ -35,6 +38,15 @@ std::string why_not_so_many_spheres(const Scene& scene) {
   if (scene.spheres.size() <= kMaxWrittenSpheres) return {};
   return fmt::format("it has {} spheres, and at most {} are written one by one",
                      scene.spheres.size(), kMaxWrittenSpheres);
+}
+
+double half_vector_exponent(const Highlight& highlight) {
+  return info(highlight.model).angle == LobeAngle::kHalfVector ? highlight.exponent
+                                                               : 4 * highlight.exponent;
+}
+
+double roughness_of(const Highlight& highlight) {
+  return std::pow(2 / (half_vector_exponent(highlight) + 2), 0.25);
 }
 
 std::span<const SceneFormat> scene_formats() { return all_scene_formats(); }

@@ -1,13 +1,9 @@
 // A scene as a flat record: everything resolved to numbers, nothing to look up.
 #include "records/record.hpp"
-#include "records/scene.hpp"
 #include "reference_scenes/formats/formats.hpp"
 
 namespace lobelia {
 namespace {
-
-records::Triple triple(Vec3 v) { return {v.x, v.y, v.z}; }
-records::Triple triple(Rgb c) { return {c.r, c.g, c.b}; }
 
 records::SceneCamera camera_record(const Scene& scene) {
   const CameraFrame frame = camera_frame(scene.camera, scene.film);
@@ -58,6 +54,20 @@ records::SceneLight light_record(const Light& light) {
   return record;
 }
 
+records::ScenePlane plane_record(const Plane& plane) {
+  records::ScenePlane record{triple(plane.point), triple(plane.normal), plane.material, {}, {}};
+  if (plane.checker_material != plane.material) {
+    record.checker_material = plane.checker_material;
+    record.checker_size = plane.checker_size;
+  }
+  return record;
+}
+
+}  // namespace
+
+records::Triple triple(Vec3 v) { return {v.x, v.y, v.z}; }
+records::Triple triple(Rgb c) { return {c.r, c.g, c.b}; }
+
 records::SceneMaterial material_record(const Material& material) {
   const Highlight& highlight = material.highlight;
   const ModelInfo& model = info(highlight.model);
@@ -79,16 +89,7 @@ records::SceneMaterial material_record(const Material& material) {
   return record;
 }
 
-records::ScenePlane plane_record(const Plane& plane) {
-  records::ScenePlane record{triple(plane.point), triple(plane.normal), plane.material, {}, {}};
-  if (plane.checker_material != plane.material) {
-    record.checker_material = plane.checker_material;
-    record.checker_size = plane.checker_size;
-  }
-  return record;
-}
-
-std::map<std::string, std::string> write_json(const Scene& scene) {
+records::Scene scene_record(const Scene& scene) {
   records::Scene record;
   record.camera = camera_record(scene);
   record.film = {scene.film.width,
@@ -104,10 +105,8 @@ std::map<std::string, std::string> write_json(const Scene& scene) {
   for (const Sphere& sphere : scene.spheres)
     record.spheres.push_back({triple(sphere.center), sphere.radius, sphere.material});
   for (const Plane& plane : scene.planes) record.planes.push_back(plane_record(plane));
-  return {{"scene.json", record_text(record)}};
+  return record;
 }
-
-}  // namespace
 
 constinit const SceneFormat kJsonFormat{
     "json",
@@ -115,7 +114,9 @@ constinit const SceneFormat kJsonFormat{
     "scene.json",
     "a flat record of numbers (docs/reference/scene.md): axes of the camera, coefficients, lights with their units",
     why_not_so_many_spheres,
-    write_json,
+    [](const Scene& scene) {
+      return std::map<std::string, std::string>{{"scene.json", record_text(scene_record(scene))}};
+    },
 };
 
 }  // namespace lobelia

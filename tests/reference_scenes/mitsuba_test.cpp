@@ -1,0 +1,381 @@
+// Scene files of Mitsuba: written and read again, read as others write them, and broken.
+#include "reference_scenes/formats/mitsuba.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/exr_writer.hpp"
+#include "core/files.hpp"
+#include "reference_scenes/formats/catalogue.hpp"
+#include "renderer/scene/scene_io.hpp"
+#include "tests/canonical_scene.hpp"
+#include "tests/renderer/random_scene.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const SceneFormat& mitsuba() { return scene_format("mitsuba"); }
+std::string written(const Scene& scene) { return mitsuba().write(scene).at("scene.xml"); }
+
+/// The scene with what Mitsuba cannot say taken away, and with what changes no picture as a reader has it.
+Scene sayable(Scene scene) {
+  for (Material& m : scene.materials) {
+    m.highlight = {*find_model("modified_phong"), *find_lobe("cosine"), Normalisation::kExact,
+                   m.highlight.exponent};
+    m.fresnel = Fresnel::kNone;
+    m.mirror_reflectance = {};
+  }
+  scene.planes.clear();
+  bool environment = false;
+  std::erase_if(scene.lights, [&](const Light& light) {
+    return is_environment(light) && std::exchange(environment, true);
+  });
+  for (Light& any : scene.lights) {
+    if (auto* point = std::get_if<PointLight>(&any)) point->normal = {};
+    if (auto* sky = std::get_if<EnvmapLight>(&any)) sky->radiance = sky->radiance.r * Rgb{1, 1, 1};
+  }
+  if (name(scene.film.filter) == "blackman_harris") scene.film.filter = {};
+  if (name(scene.film.filter) == "box" || name(scene.film.filter) == "mitchell")
+    scene.film.filter = *find_filter(name(scene.film.filter));
+  // Mitsuba has the standard deviation, of which not every radius is the triple.
+  if (name(scene.film.filter) == "gaussian")
+    scene.film.filter.radius =
+        kGaussianDeviations * (scene.film.filter.radius / kGaussianDeviations);
+  scene.depth.mirror = 0;
+  if (scene.camera.aperture_radius == 0) scene.camera.focus_distance = Camera{}.focus_distance;
+  if (scene.camera.aperture_radius > 0)
+    scene.camera.principal_point_offset_x = scene.camera.principal_point_offset_y = 0;
+  return scene;
+}
+
+TEST(Mitsuba, IsWrittenAndReadAgainAsTheSameScene) {
+  const TemporaryDirectory directory;
+  ExrWriter sky_file(directory.path() / "sky.exr", sky()->width(), sky()->height(), {});
+  sky_file.write_rows(0, sky()->height(), sky()->values().data());
+  sky_file.finish();
+  int compared = 0;
+  expect_of_random_scenes(SceneKind::kAny, 400, [&](const Scene& random, Random&) -> std::string {
+    const Scene scene = sayable(random);
+    if (scene.spheres.empty()) return "";
+    if (const std::string why = mitsuba().why_not(scene); !why.empty()) return "refused: " + why;
+    const ImportedScene read = parse_mitsuba(written(scene), "scene.xml", directory.path());
+    if (!read.problems.empty()) return "a problem: " + read.problems.front();
+    ++compared;
+    return scene_to_xml(read.scene) == scene_to_xml(scene)
+               ? ""
+               : "another scene:\n" + scene_to_xml(read.scene);
+  });
+  EXPECT_GT(compared, 300);
+}
+
+TEST(Mitsuba, SaysOurExamplesWithItsOwnModel) {
+  for (const char* name :
+       {"head_on", "oblique_45", "grazing_80", "point_light", "two_lights", "two_spheres",
+        "effects/rectangle_light", "effects/area_light", "effects/depth_of_field"}) {
+    SCOPED_TRACE(name);
+    Scene scene = canonical_scene(name);
+    const bool plain = scene.planes.empty();
+    EXPECT_NE(mitsuba().why_not(scene), "");
+    scene = sayable(std::move(scene));
+    ASSERT_EQ(mitsuba().why_not(scene), "");
+    EXPECT_EQ(mitsuba().write(scene).count("phong.py"), 1u);
+    const ImportedScene read = parse_mitsuba(written(scene), "scene.xml");
+    EXPECT_THAT(read.problems, ElementsAre());
+    EXPECT_EQ(scene_to_xml(read.scene), scene_to_xml(scene)) << plain;
+  }
+}
+
+TEST(Mitsuba, SaysWhyItCannotShowAScene) {
+  Scene scene = sayable(canonical_scene("oblique_45"));
+  const auto why = [&](auto change) {
+    Scene other = scene;
+    change(other);
+    return mitsuba().why_not(other);
+  };
+  EXPECT_EQ(why([](Scene&) {}), "");
+  EXPECT_THAT(why([](Scene& s) { s.materials[0].highlight.model = *find_model("phong_rdf"); }),
+              HasSubstr("Mitsuba's phong is modified_phong with the lobe cosine"));
+  EXPECT_THAT(why([](Scene& s) { s.materials[0].fresnel = Fresnel::kSchlick; }),
+              HasSubstr("Fresnel"));
+  EXPECT_THAT(why([](Scene& s) {
+                s.materials[0].mirror_reflectance = {1, 1, 1};
+              }),
+              HasSubstr("mirror"));
+  EXPECT_THAT(why([](Scene& s) { s.planes.push_back({{}, {0, 1, 0}}); }), HasSubstr("plane"));
+  EXPECT_THAT(why([](Scene& s) { s.film.filter = *find_filter("blackman_harris"); }),
+              HasSubstr("blackman_harris"));
+  EXPECT_THAT(why([](Scene& s) { s.film.filter.radius = 2; }), HasSubstr("radius 2"));
+  EXPECT_THAT(why([](Scene& s) {
+                s.lights = {ConstantLight{}, ConstantLight{}};
+              }),
+              HasSubstr("environments"));
+  EXPECT_THAT(why([](Scene& s) {
+                s.lights = {PointLight{{}, {}, {0, 1, 0}}};
+              }),
+              HasSubstr("normal"));
+  // What has no highlight needs no model of one.
+  EXPECT_EQ(why([](Scene& s) {
+              s.materials[0].highlight.model = *find_model("phong_rdf");
+              s.materials[0].specular_reflectance = {};
+            }),
+            "");
+}
+
+/// A file of somebody else: every supported element in another spelling.
+constexpr char kTheirs[] = R"(<?xml version="1.0"?>
+<scene version="3.0.0">
+  <default name="spp" value="16"/>
+  <default name="size" value="64"/>
+  <default name="n" value="$spp"/>
+  <integrator type="path"><integer name="max_depth" value="3"/><boolean name="hide_emitters" value="false"/></integrator>
+  <sensor type="perspective" id="camera">
+    <float name="fov" value="60"/>
+    <string name="fov_axis" value="y"/>
+    <float name="near_clip" value="0.1"/>
+    <transform name="to_world">
+      <rotate y="1" angle="180"/>
+      <translate value="0, 0, 5"/>
+    </transform>
+    <sampler type="multijitter"><integer name="sample_count" value="$spp"/></sampler>
+    <film type="hdrfilm">
+      <integer name="width" value="$size"/>
+      <integer name="height" value="32"/>
+      <string name="pixel_format" value="rgba"/>
+      <rfilter type="tent"/>
+    </film>
+  </sensor>
+  <bsdf type="twosided" id="shiny">
+    <bsdf type="phong">
+      <float name="exponent" value="$n"/>
+      <spectrum name="specular_reflectance" value="0.25"/>
+    </bsdf>
+  </bsdf>
+  <shape type="sphere">
+    <transform name="to_world">
+      <scale value="0.5"/>
+      <rotate x="1" y="2" z="3" angle="40"/>
+      <translate x="1" y="-2"/>
+    </transform>
+    <ref name="bsdf" id="shiny"/>
+  </shape>
+  <shape type="sphere"/>
+  <shape type="rectangle">
+    <transform name="to_world"><scale x="2" y="3"/><lookat origin="0, 4, 0" target="0, 0, 0" up="0, 0, 1"/></transform>
+    <bsdf type="null"/>
+    <emitter type="area"><rgb name="radiance" value="1, 2, 3"/></emitter>
+  </shape>
+  <emitter type="point"><point name="position" x="1" y="2" z="3"/><spectrum name="intensity" value="4"/></emitter>
+</scene>)";
+
+TEST(Mitsuba, IsReadInOthersSpelling) {
+  const ImportedScene read = parse_mitsuba(kTheirs, "theirs.xml");
+  EXPECT_THAT(read.problems, ElementsAre());
+  const Scene& scene = read.scene;
+  EXPECT_EQ(scene.depth.glossy, 1);
+  EXPECT_EQ(scene.film.width, 64);
+  EXPECT_EQ(name(scene.film.filter), "tent");
+  EXPECT_EQ(scene.sampler.sample_count, 16);
+  EXPECT_EQ(scene.camera.origin, (Vec3{0, 0, 5}));
+  // 60 degrees up and down, and twice the tangent to the sides.
+  EXPECT_NEAR(std::tan(scene.camera.fov_degrees * kPi / 360), 2 * std::tan(kPi / 6), 1e-12);
+  const CameraFrame frame = camera_frame(scene.camera, scene.film);
+  EXPECT_NEAR(length(frame.forward - Vec3{0, 0, -1}), 0, 1e-12);
+  EXPECT_NEAR(length(frame.right - Vec3{1, 0, 0}), 0, 1e-12);
+  ASSERT_EQ(scene.spheres.size(), 2u);
+  EXPECT_NEAR(length(scene.spheres[0].center - Vec3{1, -2, 0}), 0, 1e-12);
+  EXPECT_NEAR(scene.spheres[0].radius, 0.5, 1e-12);
+  const Material& shiny = scene.materials[std::size_t(scene.spheres[0].material)];
+  EXPECT_EQ(shiny.highlight.exponent, 16);
+  EXPECT_EQ(shiny.specular_reflectance, (Rgb{0.25, 0.25, 0.25}));
+  EXPECT_EQ(shiny.diffuse_reflectance, (Rgb{0.5, 0.5, 0.5}));
+  EXPECT_FALSE(has_highlight(scene.materials[std::size_t(scene.spheres[1].material)]));
+  ASSERT_EQ(scene.lights.size(), 2u);
+  const auto& rectangle = std::get<RectangleLight>(scene.lights[0]);
+  EXPECT_EQ(rectangle.center, (Vec3{0, 4, 0}));
+  EXPECT_NEAR(length(rectangle.half_u), 2, 1e-12);
+  EXPECT_NEAR(length(rectangle.half_v), 3, 1e-12);
+  // It shines where it looks.
+  EXPECT_NEAR(length(normalize(cross(rectangle.half_u, rectangle.half_v)) - Vec3{0, -1, 0}), 0,
+              1e-12);
+}
+
+TEST(Mitsuba, IsReadOfVersionsThatWriteNamesAsOneWord) {
+  const ImportedScene read = parse_mitsuba(R"(<scene version="0.6.0">
+    <sensor type="perspective"><transform name="toWorld"><lookAt origin="0,0,5" target="0,0,0" up="0,1,0"/></transform>
+      <float name="fov" value="30"/></sensor>
+    <bsdf type="phong" id="m"><rgb name="specularReflectance" value="0.5"/><rgb name="diffuseReflectance" value="0.1"/></bsdf>
+    <shape type="sphere"><ref id="m"/></shape></scene>)",
+                                           "old.xml");
+  EXPECT_THAT(read.problems, ElementsAre());
+  EXPECT_EQ(read.scene.camera.origin, (Vec3{0, 0, 5}));
+  EXPECT_EQ(read.scene.materials[0].specular_reflectance, (Rgb{0.5, 0.5, 0.5}));
+  EXPECT_EQ(read.scene.materials[0].highlight.exponent, 30);
+  EXPECT_EQ(name(read.scene.film.filter), "gaussian");
+  EXPECT_EQ(read.scene.film.width, 768);
+}
+
+/// A scene with `inside` in it, from its seventh line on.
+std::string scene_with(const std::string& inside) {
+  return "<scene version=\"3.0.0\">\n<sensor type=\"perspective\">\n<float name=\"fov\" value=\"30\"/>\n"
+         "<transform name=\"to_world\"><lookat origin=\"0,0,5\" target=\"0,0,0\" up=\"0,1,0\"/></transform>\n"
+         "</sensor>\n<shape type=\"sphere\"/>\n" +
+         inside + "\n</scene>\n";
+}
+
+TEST(Mitsuba, NamesWhatItDoesNotReadWithItsLine) {
+  const auto problem = [](const std::string& inside) {
+    const auto lines = parse_mitsuba(scene_with(inside), "s.xml").problems;
+    EXPECT_EQ(lines.size(), 1u) << inside << testing::PrintToString(lines);
+    return lines.empty() ? "" : lines.front();
+  };
+  EXPECT_THAT(
+      problem("<shape type=\"obj\"><string name=\"filename\" value=\"/etc/passwd\"/></shape>"),
+      StartsWith("s.xml:7:2: <shape type=\"obj\"> is not supported; it is left out"));
+  EXPECT_THAT(
+      problem("\n<bsdf type=\"roughplastic\" id=\"x\"/>"),
+      StartsWith(
+          "s.xml:8:2: <bsdf type=\"roughplastic\"> is not supported; its surfaces are diffuse"));
+  EXPECT_THAT(problem("<emitter type=\"spot\"/>"),
+              StartsWith("s.xml:7:2: <emitter type=\"spot\"> is not supported"));
+  EXPECT_THAT(problem("<include filename=\"other.xml\"/>"),
+              StartsWith("s.xml:7:2: <include> is not supported; other files"));
+  EXPECT_THAT(problem("<medium type=\"homogeneous\"/>"),
+              StartsWith("s.xml:7:2: <medium type=\"homogeneous\">"));
+  EXPECT_THAT(problem("<shape type=\"sphere\"><ref id=\"none\"/></shape>"),
+              HasSubstr("no <bsdf> has the id 'none'"));
+  EXPECT_THAT(problem("<shape type=\"sphere\"><float name=\"radius\" value=\"nan\"/></shape>"),
+              StartsWith("s.xml:7:"));
+  EXPECT_THAT(problem("<shape type=\"sphere\"><float name=\"radius\" value=\"1e30\"/></shape>"),
+              HasSubstr("out of range"));
+  EXPECT_THAT(
+      problem(
+          "<shape type=\"sphere\"><transform name=\"to_world\"><scale x=\"2\"/></transform></shape>"),
+      HasSubstr("ellipsoid"));
+  EXPECT_THAT(
+      problem(
+          "<shape type=\"sphere\"><transform name=\"to_world\"><scale value=\"0\"/></transform></shape>"),
+      StartsWith("s.xml:7:2"));
+  EXPECT_THAT(
+      problem(
+          "<shape type=\"sphere\"><transform name=\"to_world\"><matrix value=\"1 2 3\"/></transform></shape>"),
+      HasSubstr("9 or 16 numbers"));
+  EXPECT_THAT(problem("<shape type=\"rectangle\"/>"), HasSubstr("infinite plane"));
+  EXPECT_THAT(
+      problem("<emitter type=\"envmap\"><string name=\"filename\" value=\"../x.exr\"/></emitter>"),
+      HasSubstr("180 degrees"));
+  EXPECT_THAT(problem("<shape type=\"sphere\" id=\"$where\"/>"),
+              StartsWith("s.xml:7:2: the parameter '$where' has no <default>"));
+  EXPECT_THAT(problem("<integrator type=\"path\"/>"), HasSubstr("give a max_depth"));
+  EXPECT_THAT(problem("<shape type=\"sphere\"><emitter type=\"area\"/></shape>"),
+              HasSubstr("a light only"));
+}
+
+TEST(Mitsuba, IsRefusedWhereNoSceneRemains) {
+  for (const auto& [text, what] : std::vector<std::pair<std::string, std::string>>{
+           {"", "broken XML"},
+           {"<scene", "broken XML"},
+           {"<scene version=\"3.0.0\"/>", "it has no <sensor>"},
+           {"<mesh version=\"3.0.0\"/>", "begins with <scene>"},
+           {"<!DOCTYPE x [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]><scene version=\"3.0.0\"/>",
+            "DOCTYPE"},
+           {scene_with("").replace(scene_with("").find("<shape"), 6, "<ghost"),
+            "it has no <shape>"}}) {
+    SCOPED_TRACE(text);
+    try {
+      parse_mitsuba(text, "s.xml");
+      ADD_FAILURE() << "was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kInput);
+      EXPECT_THAT(error.what(), HasSubstr(what));
+    }
+  }
+}
+
+/// Read without another error than that of a bad input; what is read is a scene of ours.
+void expect_read_or_refused(const std::string& text) {
+  try {
+    const Scene scene = parse_mitsuba(text, "s.xml").scene;
+    const std::string xml = scene_to_xml(scene);
+    ASSERT_EQ(scene_to_xml(parse_scene(xml, "ours")), xml) << text;
+  } catch (const Error& error) {
+    ASSERT_EQ(error.code(), ExitCode::kInput) << text;
+    ASSERT_STRNE(error.what(), "");
+  }
+}
+
+TEST(Mitsuba, SurvivesWhatNobodyWrites) {
+  std::string deep, doubled = "<default name=\"a0\" value=\"xxxxxxxx\"/>";
+  for (int i = 0; i < 100'000; ++i) deep += "<shape>";
+  for (int i = 1; i < 64; ++i)
+    doubled += fmt::format("<default name=\"a{}\" value=\"$a{}$a{}\"/>", i, i - 1, i - 1);
+  std::string many_spheres, many_bsdfs, many_lights;
+  for (int i = 0; i < 3000; ++i) {
+    many_spheres += "<shape type=\"sphere\"><bsdf type=\"diffuse\"/></shape>";
+    many_bsdfs += fmt::format("<bsdf type=\"diffuse\" id=\"{}\"/>", i % 2000);
+    many_lights += "<emitter type=\"constant\"/>";
+  }
+  for (
+      const std::string& inside :
+      {deep, doubled + "<bsdf type=\"$a63\" id=\"x\"/>", many_spheres, many_bsdfs, many_lights,
+       std::string(
+           "<emitter type=\"point\"><point name=\"position\" x=\"1e308\" y=\"-inf\" z=\"nan\"/></emitter>"),
+       std::string(
+           "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"1e9\"/><scale value=\"1e9\"/>"
+           "<scale value=\"1e9\"/></transform></shape>"),
+       std::string(
+           "<shape type=\"sphere\"><transform name=\"to_world\"><rotate angle=\"4\"/></transform></shape>"),
+       std::string(
+           "<shape type=\"sphere\"><transform name=\"to_world\"><lookat origin=\"0,0,0\" target=\"0,0,0\" "
+           "up=\"0,0,0\"/></transform></shape>"),
+       std::string("<transform><scale/></transform><shape><shape><sensor/></shape></shape>"),
+       std::string("<sensor type=\"perspective\"/>text<![CDATA[x]]><!-- c --><?p i?>")})
+    expect_read_or_refused(scene_with(inside));
+  const auto problems = parse_mitsuba(scene_with(deep +
+                                                 [&] {
+                                                   std::string end;
+                                                   for (int i = 0; i < 100'000; ++i)
+                                                     end += "</shape>";
+                                                   return end;
+                                                 }()),
+                                      "s.xml")
+                            .problems;
+  EXPECT_THAT(problems, testing::Contains(HasSubstr("nested deeper")));
+}
+
+TEST(Mitsuba, SurvivesRandomChangesOfItsBytes) {
+  const std::string seeds[] = {kTheirs, written(sayable(canonical_scene("two_lights"))),
+                               written(sayable(canonical_scene("effects/rectangle_light")))};
+  Random random(7);
+  for (int i = 0; i < 20'000; ++i) {
+    std::string text = seeds[std::size_t(random.below(int(std::size(seeds))))];
+    for (int changes = 1 + random.below(4); changes > 0 && !text.empty(); --changes) {
+      const std::size_t at = std::size_t(random.below(int(text.size())));
+      const std::string_view pieces[] = {"nan", "-1", "1e999", "0",   "\"",     "<",   ">",
+                                         "/>",  "$",  "\xff",  "inf", "sphere", "type"};
+      switch (random.below(4)) {
+        case 0:
+          text[at] = char(random.below(256));
+          break;
+        case 1:
+          text.erase(at, std::size_t(1 + random.below(20)));
+          break;
+        case 2:
+          text.insert(at, pieces[std::size_t(random.below(int(std::size(pieces))))]);
+          break;
+        default:
+          text.resize(at + 1);
+      }
+    }
+    expect_read_or_refused(text);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace lobelia
