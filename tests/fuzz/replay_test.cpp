@@ -13,6 +13,7 @@
 #include "fuzz/checks.hpp"
 #include "gallery/checked_cell.hpp"
 #include "lobelia_paths.hpp"
+#include "reference_scenes/formats/mitsuba.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia::fuzz {
@@ -55,6 +56,14 @@ TEST(SceneCorpus, BreaksNothing) {
                                       [](const std::string& text) { parse_scene(text, "s.xml"); });
   EXPECT_GE(read, 8);
   EXPECT_GE(refused, 3);
+}
+
+TEST(MitsubaCorpus, BreaksNothing) {
+  const auto [read, refused] = replay("mitsuba", check_mitsuba_reader, [](const std::string& text) {
+    parse_mitsuba(text, "s.xml");
+  });
+  EXPECT_GE(read, 2);
+  EXPECT_GE(refused, 1);
 }
 
 /// The files of a bundle, and the directory of all.
