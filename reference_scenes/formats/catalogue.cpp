@@ -40,6 +40,16 @@ std::string why_not_so_many_spheres(const Scene& scene) {
                      scene.spheres.size(), kMaxWrittenSpheres);
 }
 
+std::string why_not_spelled_out(const Scene& scene) {
+  constexpr std::string_view kKnown[] = {"directional", "point",    "sphere",
+                                         "rectangle",   "constant", "envmap"};
+  for (const Light& light : scene.lights)
+    if (std::ranges::find(kKnown, info(light).type) == std::end(kKnown))
+      return fmt::format("it has a light of the type {}, which this format does not know",
+                         info(light).type);
+  return why_not_so_many_spheres(scene);
+}
+
 double half_vector_exponent(const Highlight& highlight) {
   return info(highlight.model).angle == LobeAngle::kHalfVector ? highlight.exponent
                                                                : 4 * highlight.exponent;

@@ -13,6 +13,8 @@ extern const SceneFormat kJsonFormat, kMitsubaFormat, kPovrayFormat, kGltfFormat
 inline constexpr std::size_t kMaxWrittenSpheres = 200'000;
 /// Why a scene with so many spheres is not written; empty if it is.
 std::string why_not_so_many_spheres(const Scene& scene);
+/// The same, or why a format that spells out each type of light does not know one of the scene's.
+std::string why_not_spelled_out(const Scene& scene);
 
 /// The scene and its parts as numbers.
 records::Scene scene_record(const Scene& scene);

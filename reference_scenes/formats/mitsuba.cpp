@@ -51,7 +51,7 @@ std::string why_not_film(const Scene& scene) {
 }
 
 std::string why_not_mitsuba(const Scene& scene) {
-  if (std::string why = why_not_so_many_spheres(scene); !why.empty()) return why;
+  if (std::string why = why_not_spelled_out(scene); !why.empty()) return why;
   if (!scene.planes.empty()) return "it has a plane, and Mitsuba has no infinite planes";
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     if (std::string why = why_not_material(scene.materials[i], i); !why.empty()) return why;
@@ -157,7 +157,7 @@ void write_sensor(MitsubaWriter& out, const Scene& scene) {
         out.line(
             "<!-- Lobelia's one ray a pixel goes through its centre, Mitsuba's through any place. -->");
       out.parameter("integer", "sample_count", scene.sampler.sample_count);
-      out.parameter("integer", "seed", std::to_string(scene.sampler.seed));
+      out.parameter("integer", "seed", std::to_string(std::uint32_t(scene.sampler.seed)));
     });
   });
 }
@@ -180,7 +180,9 @@ void write_area(MitsubaWriter& out, Rgb radiance) {
   out.element("emitter", typed("area"), [&] { out.parameter("rgb", "radiance", radiance); });
 }
 
-/// One function for each type of light: a new light does not compile until it has one.
+/// One function for each type of light; why_not_spelled_out() refuses others.
+template <class L>
+void write_light(MitsubaWriter&, const L&) {}
 void write_light(MitsubaWriter& out, const DirectionalLight& light) {
   out.element("emitter", typed("directional"), [&] {
     out.parameter("vector", "direction", light.direction);

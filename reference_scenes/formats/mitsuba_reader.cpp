@@ -16,7 +16,6 @@ constexpr int kUnlimitedDepth = kMaxDepth;
 
 constexpr Parameter kMitsubaIntegratorParameters[] = {
     {"max_depth", ParameterType::kInteger, "-1", -1, 1e6, "", ""},
-    {"rr_depth", ParameterType::kInteger, "5", 0, 1e6, "", ""},
 };
 constexpr Parameter kMitsubaPhongParameters[] = {
     {"exponent", ParameterType::kFloat, "30", kMinExponent, kMaxExponent, "", ""},
@@ -81,6 +80,8 @@ class MitsubaReader {
   }
 
   void read_integrator(pugi::xml_node node) {
+    if (file_.flag(node, "hide_emitters"))
+      source_.error(node, "hide_emitters is not supported: the camera sees lights with a size");
     if (MitsubaSource::type(node) == "direct") return;
     if (MitsubaSource::type(node) != "path")
       return file_.unsupported(node, "light is followed straight from the lights only");

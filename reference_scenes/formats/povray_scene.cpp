@@ -11,8 +11,8 @@ std::string why_not_povray_scene(const Scene& scene) {
   if (std::string why = why_not_so_many_spheres(scene); !why.empty()) return why;
   if (std::string why = why_not_comparable(scene); !why.empty()) return why;
   if (needs_replicates(scene))
-    return "it is averaged from many scenes of POV-Ray, because it has a light with a size, a lens or several samples "
-           "per pixel; 'lobelia reference --engine povray --keep-input DIR' writes them";
+    return "its picture is the average of many of POV-Ray's: it has a light with a size, a lens or several samples "
+           "per pixel ('lobelia reference --engine povray --keep-input DIR' writes them)";
   return why_not_in_povray(scene, {});
 }
 

@@ -92,14 +92,15 @@ class WrittenForBlender : public WrittenFor {
   }
 };
 
-double sum_of_values(const Image& image) {
+/// The sum of a channel.
+double sum_of_channel(const Image& image, std::size_t channel) {
   double sum = 0;
-  for (const float value : image.values()) sum += value;
+  for (std::size_t i = channel; i < image.values().size(); i += 3) sum += image.values()[i];
   return sum;
 }
 
-/// Cycles' closure differs from Blinn-Phong (NDF) by 1 / ((V.H) max(N.L, N.V)), which is nearly 1 where light, eye and normal are
-/// nearly one. The spheres are meshes, and Blender filters pixels: measured are 1.6 % of the peak and 2 % of the sum.
+/// Cycles' closure differs from Blinn-Phong (NDF) by 1 / ((V.H) max(N.L, N.V)), which is nearly 1 where light, eye and
+/// normal are nearly one. The spheres are meshes, and Blender filters pixels. Measured: the peak is 1.4 % less, the sum 0.4 % more.
 TEST_F(WrittenForBlender, AHighlightLitFromTheCameraIsNearlyOurs) {
   Scene scene = canonical_scene("head_on");
   scene.film.width = scene.film.height = 64;
@@ -108,26 +109,32 @@ TEST_F(WrittenForBlender, AHighlightLitFromTheCameraIsNearlyOurs) {
   const Image theirs = picture(), ours = render(scene, {}).image;
   ASSERT_EQ(theirs.width(), ours.width());
   const double peak = *std::ranges::max_element(ours.values());
-  EXPECT_NEAR(*std::ranges::max_element(theirs.values()), peak, 0.05 * peak);
-  EXPECT_NEAR(sum_of_values(theirs), sum_of_values(ours), 0.05 * sum_of_values(ours));
+  EXPECT_NEAR(*std::ranges::max_element(theirs.values()), peak, 0.03 * peak);
+  EXPECT_NEAR(sum_of_channel(theirs, 0), sum_of_channel(ours, 0), 0.02 * sum_of_channel(ours, 0));
 }
 
-/// A diffuse ball under every kind of lamp: nothing but its silhouette differs.
+/// A diffuse ball, on which nothing but the silhouette differs. Every lamp shines in a channel of its own. Measured: 0.54 %.
 TEST_F(WrittenForBlender, EveryLampIsAsBrightAsOurs) {
-  const Light lights[] = {directional_at(40, {1, 2, 3}), point_light({10, 5, 5}),
-                          SphereLight{{2, 2, 4}, 0.3, {20, 20, 10}},
-                          RectangleLight{{2, 1, 3}, {0.5, 0, 0}, {0, 0, 0.5}, {10, 10, 20}},
-                          ConstantLight{{1, 0.5, 2}}};
-  for (const Light& light : lights) {
-    SCOPED_TRACE(info(light).type);
-    Scene scene = sphere_scene({"phong_rdf", "cosine", "exact", 64}, {light}, 32);
-    scene.sampler.sample_count = 256;
+  const Rgb red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
+  for (const std::vector<Light>& lights :
+       {std::vector<Light>{directional_at(40, red), point_light(10 * green),
+                           SphereLight{{2, 2, 4}, 0.3, 20 * blue}},
+        std::vector<Light>{RectangleLight{{2, 1, 3}, {0.5, 0, 0}, {0, 0, 0.5}, 10 * red},
+                           ConstantLight{green}}}) {
+    Scene scene = sphere_scene({"phong_rdf", "cosine", "exact", 64}, lights, 32);
+    scene.sampler.sample_count = 64;
     scene.materials[0].specular_reflectance = {};
-    scene.materials[0].diffuse_reflectance = {0.8, 0.4, 0.2};
+    scene.materials[0].diffuse_reflectance = {0.8, 0.8, 0.8};
     if (!start("blender", "blender-python", scene)) return;
     const Image theirs = picture(), ours = render(scene, {}).image;
-    ASSERT_GT(sum_of_values(ours), 0);
-    EXPECT_NEAR(sum_of_values(theirs), sum_of_values(ours), 0.03 * sum_of_values(ours));
+    for (std::size_t channel = 0; channel < lights.size(); ++channel) {
+      SCOPED_TRACE(info(lights[channel]).type);
+      const double sum = sum_of_channel(ours, channel);
+      ASSERT_GT(sum, 0);
+      RecordProperty(std::string(info(lights[channel]).type),
+                     fmt::format("{:.4f}", sum_of_channel(theirs, channel) / sum - 1));
+      EXPECT_NEAR(sum_of_channel(theirs, channel), sum, 0.02 * sum);
+    }
   }
 }
 

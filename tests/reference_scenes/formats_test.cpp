@@ -52,7 +52,7 @@ const Refusal kRefused[] = {
       "two_spheres"}},
     {"mitsuba", "material 0 is ", {"effects/environment_map"}},
     {"povray",
-     "it is averaged from many scenes",
+     "its picture is the average of many of POV-Ray",
      {"effects/area_light", "effects/depth_of_field", "effects/environment",
       "effects/environment_map", "effects/mirrors", "effects/rectangle_light"}},
     {"povray", "the scene has 10164 spheres", {"effects/crowd"}},
