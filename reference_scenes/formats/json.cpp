@@ -19,30 +19,15 @@ records::SceneCamera camera_record(const Scene& scene) {
           scene.camera.focus_distance};
 }
 
-/// One function for each type of light; why_not_spelled_out() refuses others.
-template <class L>
-void describe(const L&, records::SceneLight&) {}
-void describe(const DirectionalLight& light, records::SceneLight& record) {
-  record.direction = triple(light.direction);
-  record.unit = "W/m^2";
-}
-void describe(const PointLight& light, records::SceneLight& record) {
-  record.position = triple(light.position);
-  if (light.lamp().has_normal()) record.normal = triple(light.normal);
-  record.unit = "W/sr";
-}
-void describe(const SphereLight& light, records::SceneLight& record) {
-  record.center = triple(light.center);
-  record.radius = light.radius;
-}
-void describe(const RectangleLight& light, records::SceneLight& record) {
-  record.center = triple(light.center);
-  record.half_u = triple(light.half_u);
-  record.half_v = triple(light.half_v);
-}
-void describe(const ConstantLight&, records::SceneLight&) {}
-void describe(const EnvmapLight& light, records::SceneLight& record) {
-  record.filename = light.file;
+/// Where the record has a parameter of that name; why_not_spelled_out() refuses lights with others.
+std::optional<records::Triple>* place_of(records::SceneLight& record, std::string_view parameter) {
+  const std::pair<std::string_view, std::optional<records::Triple>*> places[] = {
+      {"position", &record.position}, {"direction", &record.direction}, {"normal", &record.normal},
+      {"center", &record.center},     {"half_u", &record.half_u},       {"half_v", &record.half_v},
+  };
+  for (const auto& [name, place] : places)
+    if (name == parameter) return place;
+  return nullptr;
 }
 
 records::SceneLight light_record(const Light& light) {
@@ -51,8 +36,14 @@ records::SceneLight light_record(const Light& light) {
   record.type = info(light).type;
   record.kind = kKinds[std::size_t(info(light).kind)];
   record.strength = triple(strength(light));
-  record.unit = "W/(m^2 sr)";
-  std::visit([&](const auto& one) { describe(one, record); }, light);
+  record.filename = picture_file(light);
+  for (const auto& [parameter, value] : written_parameters(light)) {
+    if (std::holds_alternative<Rgb>(value)) record.unit = parameter.unit;
+    if (const auto* radius = std::get_if<double>(&value)) record.radius = *radius;
+    const auto* vector = std::get_if<Vec3>(&value);
+    if (auto* const place = place_of(record, parameter.name); place && vector)
+      *place = triple(*vector);
+  }
   return record;
 }
 

@@ -180,48 +180,45 @@ void write_area(MitsubaWriter& out, Rgb radiance) {
   out.element("emitter", typed("area"), [&] { out.parameter("rgb", "radiance", radiance); });
 }
 
-/// One function for each type of light; why_not_spelled_out() refuses others.
-template <class L>
-void write_light(MitsubaWriter&, const L&) {}
-void write_light(MitsubaWriter& out, const DirectionalLight& light) {
-  out.element("emitter", typed("directional"), [&] {
-    out.parameter("vector", "direction", light.direction);
-    out.parameter("rgb", "irradiance", light.irradiance);
+void write_lamp(MitsubaWriter& out, const Lamp& lamp) {
+  out.element("emitter", typed(lamp.is_distant ? "directional" : "point"), [&] {
+    if (lamp.is_distant) {
+      out.parameter("vector", "direction", lamp.direction);
+    } else {
+      out.parameter("point", "position", lamp.position);
+    }
+    out.parameter("rgb", lamp.is_distant ? "irradiance" : "intensity", lamp.strength);
   });
 }
-void write_light(MitsubaWriter& out, const PointLight& light) {
-  out.element("emitter", typed("point"), [&] {
-    out.parameter("point", "position", light.position);
-    out.parameter("rgb", "intensity", light.intensity);
-  });
-}
-void write_light(MitsubaWriter& out, const SphereLight& light) {
-  out.element("shape", typed("sphere"), [&] {
-    out.parameter("point", "center", light.center);
-    out.parameter("float", "radius", light.radius);
-    write_area(out, light.radiance);
-  });
-}
-void write_light(MitsubaWriter& out, const RectangleLight& light) {
-  const Vec3 u = light.half_u, v = light.half_v, c = light.center, n = normalize(cross(u, v));
-  out.element("shape", typed("rectangle"), [&] {
-    out.element("transform", "name=\"to_world\"", [&] {
-      out.line(fmt::format("<matrix value=\"{} {} {} {}  {} {} {} {}  {} {} {} {}  0 0 0 1\"/>",
-                           u.x, v.x, n.x, c.x, u.y, v.y, n.y, c.y, u.z, v.z, n.z, c.z));
-    });
-    write_area(out, light.radiance);
-  });
-}
-void write_light(MitsubaWriter& out, const ConstantLight& light) {
-  out.element("emitter", typed("constant"),
-              [&] { out.parameter("rgb", "radiance", light.radiance); });
-}
-void write_light(MitsubaWriter& out, const EnvmapLight& light) {
-  out.element("emitter", typed("envmap"), [&] {
-    out.parameter("string", "filename", std::string_view(light.file));
-    out.parameter("float", "scale", light.radiance.r);
+
+void write_environment(MitsubaWriter& out, const std::string& picture, Rgb radiance) {
+  out.element("emitter", typed(picture.empty() ? "constant" : "envmap"), [&] {
+    if (picture.empty()) return out.parameter("rgb", "radiance", radiance);
+    out.parameter("string", "filename", std::string_view(picture));
+    out.parameter("float", "scale", radiance.r);
     // Mitsuba's -z is at the edge of the picture, Lobelia's in the middle.
     out.line("<transform name=\"to_world\"><rotate y=\"1\" angle=\"180\"/></transform>");
+  });
+}
+
+void write_light(MitsubaWriter& out, const Light& light) {
+  if (const auto lamp = find_lamp(light)) return write_lamp(out, *lamp);
+  if (is_environment(light)) return write_environment(out, picture_file(light), strength(light));
+  const auto vector = [&](std::string_view name) { return std::get<Vec3>(value_of(light, name)); };
+  const bool is_ball = bounds(light).is_ball;
+  out.element("shape", typed(is_ball ? "sphere" : "rectangle"), [&] {
+    const Vec3 c = vector("center");
+    if (is_ball) {
+      out.parameter("point", "center", c);
+      out.parameter("float", "radius", std::get<double>(value_of(light, "radius")));
+    } else {
+      const Vec3 u = vector("half_u"), v = vector("half_v"), n = normalize(cross(u, v));
+      out.element("transform", "name=\"to_world\"", [&] {
+        out.line(fmt::format("<matrix value=\"{} {} {} {}  {} {} {} {}  {} {} {} {}  0 0 0 1\"/>",
+                             u.x, v.x, n.x, c.x, u.y, v.y, n.y, c.y, u.z, v.z, n.z, c.z));
+      });
+    }
+    write_area(out, strength(light));
   });
 }
 
@@ -242,8 +239,7 @@ std::string mitsuba_xml(const Scene& scene) {
     write_sensor(out, scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
       write_material(out, scene.materials[i], i);
-    for (const Light& light : scene.lights)
-      std::visit([&](const auto& one) { write_light(out, one); }, light);
+    for (const Light& light : scene.lights) write_light(out, light);
     for (const Sphere& sphere : scene.spheres)
       out.element("shape", typed("sphere"), [&] {
         out.parameter("point", "center", sphere.center);
