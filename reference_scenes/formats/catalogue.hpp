@@ -1,5 +1,5 @@
-// Forms of a scene for other programs. To add one: write its file in this folder, declare it in formats.hpp, add it to the list in
-// catalogue.cpp.
+// Forms of a scene for other programs. To add one: write its file in this folder (or in its engine's), declare it in
+// formats.hpp, and add it to the list in catalogue.cpp.
 #pragma once
 
 #include <map>
