@@ -23,6 +23,7 @@ class HostileChunk : public testing::Test {
     chunk.cells = {
         {"a",
          {},
+         {},
          read_file(LOBELIA_SOURCE_DIR "/reference_scenes/scenes/oblique_45.xml", 1 << 20),
          {"a/render"}}};
     good_ = as_json(chunk);
