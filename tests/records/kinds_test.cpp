@@ -138,7 +138,8 @@ Json plain(const Json& json) {
   }
   Json object = Json::object();
   for (const auto& [key, value] : json.items()) {
-    const bool is_empty = value.is_null() || value == "" || (value.is_array() && value.empty());
+    const bool is_empty =
+        value.is_null() || value == "" || (value.is_structured() && value.empty());
     if (!is_empty && key != "seal" && key != "madeBy") object[key] = plain(value);
   }
   return object;
