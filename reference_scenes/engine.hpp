@@ -192,7 +192,7 @@ class Engine {
                       const AxisValues& axes = {}) const;
   /// Its description, if it is not one of the catalogue; otherwise null.
   virtual const records::OutsideEngine* outside() const { return nullptr; }
-  /// What decides its pictures besides its version, its files and the scene.
+  /// The part of a picture's cache key that its version, files and scene do not cover.
   virtual std::string key_part(const AxisValues&) const { return ""; }
   /// Whether a picture of this scene is an average of many.
   bool averages(const Scene& scene) const;

@@ -43,7 +43,7 @@ struct Geometry {
   std::vector<std::uint16_t> indices;
 };
 
-/// Of radius 1, its poles along y. Its normals are its positions.
+/// A unit sphere with its poles on the y axis, so that its positions are also its normals.
 Geometry unit_sphere() {
   Geometry g;
   for (int row = 0; row <= kDown; ++row)

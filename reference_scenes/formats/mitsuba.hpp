@@ -1,4 +1,4 @@
-// What the writer and the reader of Mitsuba's scene files agree on, and the reader.
+// The reader of Mitsuba's scene files, and the constants that it shares with the writer.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ inline constexpr int kMitsubaDirectDepth = 2;
 /// Our Gaussian's radius in standard deviations.
 inline constexpr double kGaussianDeviations = 3;
 
-/// What a scene file of another program was read as.
+/// A scene read from a file of another program.
 struct ImportedScene {
   Scene scene;
   /// A line for everything in the file that the scene does not have: "file:line:column: ...".

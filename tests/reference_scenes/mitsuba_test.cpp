@@ -119,7 +119,7 @@ TEST(Mitsuba, SaysWhyItCannotShowAScene) {
                 s.lights = {PointLight{{}, {}, {0, 1, 0}}};
               }),
               HasSubstr("normal"));
-  // What has no highlight needs no model of one.
+  // Without a highlight, the model does not matter.
   EXPECT_EQ(why([](Scene& s) {
               s.materials[0].highlight.model = *find_model("phong_rdf");
               s.materials[0].specular_reflectance = {};

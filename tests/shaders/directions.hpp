@@ -48,8 +48,8 @@ class RandomDirections {
   std::uniform_real_distribution<double> uniform_;
 };
 
-/// Of the peak: what the renderer's own float32 may be off by (docs/numerics.md), which depends on the
-/// length of L + V, and the coefficient's error.
+/// The allowed error as a share of the peak: the bound of the renderer's own float32 (docs/numerics.md), which
+/// depends on the length of L + V, plus the coefficient's error.
 class Tolerance {
  public:
   explicit Tolerance(const Highlight& highlight) : highlight_(highlight) {}

@@ -40,7 +40,7 @@ std::vector<std::string> with_full_paths(std::vector<std::string> arguments,
   return arguments;
 }
 
-/// What it prints for its version, in one line.
+/// The first line of the version command's output, escaped.
 std::string version_in(const std::string& output) {
   constexpr std::size_t kMost = 120;
   const std::vector<std::string> lines = split(output, "\n");

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using records::OutsideEngine;
 
 constexpr std::size_t kMostArguments = 1000, kMostName = 32;
-// What agrees to a thousandth of a value looks the same; near black a millionth of the peak decides.
+// Nobody sees an error of 1e-3 of a value. Near black, the share of the peak allows for rounding.
 constexpr EngineTolerance kUsualTolerance{1e-3, 1e-6};
 
 /// Names that would be a cell's own files.
