@@ -64,7 +64,8 @@ void check_gallery(const std::map<std::string, std::string>& files, bool seal) {
     if (const auto cell = files.find("cell.json"); cell != files.end())
       write_plainly(directory / "cell.json",
                     seal ? sealed(cell->second, directory, nullptr) : cell->second);
-    const gallery::CheckedCell data = gallery::check_cell(run, farm.cells[i], farm.metrics, farm.hub);
+    const gallery::CheckedCell data =
+        gallery::check_cell(run, farm.cells[i], farm.metrics, farm.hub);
     for (const std::string& name : files_of(data))
       if (!is_plain_name(name)) throw std::logic_error("a cell shows the file " + name);
   }

@@ -26,7 +26,8 @@ constexpr StatusInfo kInfos[] = {
      "A picture cannot be read, or the two cannot be compared."},
     {"unchecked", "not compared", "○", "Rendered by us; no other engine was there.",
      "There is no reference for it."},
-    {"missing", "no picture", "…", "Not done yet: the farm was stopped before it came to this cell.",
+    {"missing", "no picture", "…",
+     "Not done yet: the farm was stopped before it came to this cell.",
      "There is only a reference."}};
 static_assert(std::size(kInfos) == kCellStatuses.size());
 

@@ -41,8 +41,7 @@ void define_comparison_tables(Tables& tables) {
     t.key("iccProfileIsSrgb", "its primaries and curves are those of sRGB, which is assumed");
     t.key("iccProfileApplied",
           "values became light by it: those of integers do, unless it is sRGB's");
-    t.key("gainMap",
-          "of a JPEG: \"applied\", \"left out\" or \"for SDR\"; missing if it has none")
+    t.key("gainMap", "of a JPEG: \"applied\", \"left out\" or \"for SDR\"; missing if it has none")
         .if_any();
   });
   tables.define<PicturesRead>("How both files were read.");
