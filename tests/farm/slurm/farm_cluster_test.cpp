@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "core/text.hpp"
 #include "tests/farm/failures/failing_farm.hpp"
 #include "tests/farm/slurm/test_cluster.hpp"
 #include "tests/json.hpp"
@@ -22,13 +23,16 @@ class FarmOnCluster : public FailingFarm {
     if (const std::string why = TestCluster::why_not(); !why.empty()) GTEST_SKIP() << why;
     grid({"8", "10", "12", "14", "16", "18", "20", "22", "24", "26", "28", "30"});
     fake_povray();
-    local_ = run({"-q"});
+    run_locally();
+    fake_povray("sleep 2");
+    bring_up();
+  }
+  void run_locally(const std::vector<std::string>& more = {"-q"}) {
+    local_ = run(more);
     ASSERT_EQ(local_.exit_code, 0) << local_.output;
     local_results_ = results_of(out());
     fs::rename(out(), root() / "local-out");
     fs::rename(cache(), root() / "local-cache");
-    fake_povray("sleep 2");
-    bring_up();
   }
   virtual void bring_up() { cluster_.up(); }
   std::vector<std::string> on_slurm() const {
@@ -129,6 +133,34 @@ TEST_F(FarmOnCluster, AJobThatFailsCostsOnlyItself) {
   EXPECT_EQ(cached_pictures(), kFarmPictures - 1);
   EXPECT_EQ(read_json(out() / "cells" / "n20" / "cell.json").at("status"), "failed");
   EXPECT_EQ(read_json(out() / "cells" / "n18" / "cell.json").at("status"), "pass");
+}
+
+/// A program of the user's own is an engine there, too: its description is in the chunks, its script on the shared disk.
+class FarmOnClusterOfMyEngine : public FarmOnCluster {
+ protected:
+  void SetUp() override {
+    if (const std::string why = TestCluster::why_not(); !why.empty()) GTEST_SKIP() << why;
+    script("mine.sh", fmt::format("exec {} render \"$1\" --threads 1 -o \"$2\"\n",
+                                  shell_quote(LOBELIA_PROGRAM)));
+    grid({"8", "10", "12"},
+         "<engine name=\"mine\" command=\"sh mine.sh {scene} {out}\" version-command=\"echo 1\"/>");
+    run_locally({"-q", "--allow-commands"});
+    bring_up();
+  }
+};
+
+TEST_F(FarmOnClusterOfMyEngine, MakesWhatTheLocalFarmMakesAndMakesItOnce) {
+  const FarmRun refused = run_command(on_slurm());
+  EXPECT_EQ(refused.exit_code, 2) << refused.output;
+  std::vector<std::string> words = on_slurm();
+  words.push_back("--allow-commands");
+  const FarmRun farm = run_command(words);
+  EXPECT_EQ(farm.exit_code, 0) << farm.output;
+  EXPECT_THAT(differences(local_results_, results_of(out())), IsEmpty()) << farm.output;
+  EXPECT_EQ(cached_pictures(), pictures());
+  const FarmRun again = run_command(words);
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_EQ(again.kept, pictures());
 }
 
 /// Where Slurm kills what uses more memory than it asked for.
