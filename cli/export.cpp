@@ -10,9 +10,10 @@ namespace lobelia::cli {
 namespace {
 
 struct ExportArguments {
-  std::string language, lobe = "cosine", normalisation = "exact", coefficient = "computed",
+  std::string language, normalisation = "exact", coefficient = "computed",
                         fresnel = "none", output;
   std::vector<std::string> models;
+  LobeOption lobe;
   std::optional<double> exponent;
 };
 
@@ -23,7 +24,7 @@ void run_export(const ExportArguments& options) {
   for (const std::string& model : options.models)
     request.models.push_back(
         chosen(model, "model", model_names(), join(model_names()), find_model));
-  request.lobe = chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+  request.lobe = options.lobe.lobe().value();
   request.normalisation = chosen(options.normalisation, "--normalisation", normalisation_names(),
                                  join(normalisation_names()), find_normalisation);
   request.exponent = options.exponent;
@@ -31,6 +32,8 @@ void run_export(const ExportArguments& options) {
                                join(coefficient_from_names()), find_coefficient_from);
   request.fresnel =
       chosen(options.fresnel, "--fresnel", fresnel_names(), join(fresnel_names()), find_fresnel);
+  require_lobe({request.models.front(), request.lobe, request.normalisation,
+                request.exponent.value_or(Highlight{}.exponent)});
   const std::string text = shader_text(request);
   if (request.exponent)
     warn_of({request.models.front(), request.lobe, request.normalisation, *request.exponent});
@@ -52,8 +55,7 @@ void add_export(CLI::App& app, ExitCode&) {
       .add("--language", options->language, "",
            fmt::format("Language: {}", join(shader_language_names())))
       ->required();
-  group.add("--lobe", options->lobe, "", fmt::format("Lobe: {}", allowed_lobes()))
-      ->capture_default_str();
+  options->lobe.add_to(group, "cosine");
   group
       .add("--normalisation", options->normalisation, "",
            fmt::format("Normalisation of the coefficient: {}", join(normalisation_names())))

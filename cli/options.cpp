@@ -6,6 +6,7 @@
 #include "core/files.hpp"
 #include "core/picture_file.hpp"
 #include "reference_scenes/engine.hpp"
+#include "renderer/formula.hpp"
 #include "renderer/scene/scene_format.hpp"
 
 namespace lobelia::cli {
@@ -90,10 +91,42 @@ std::filesystem::path EnginePrograms::of(std::string_view engine) const {
   return found == typed_.end() ? std::filesystem::path() : found->second;
 }
 
+void LobeOption::add_to(OptionGroup& group, const std::string& usual) {
+  usual_ = usual;
+  group.add("--lobe", name_, "", fmt::format("Lobe: {}", allowed_lobes()))->default_str(usual);
+  group.add("--formula", formula_, "",
+            fmt::format("Formula of the lobe '{}', in s = 1 - cos, c = 1 - s, the angle x and n: "
+                        "'1 / (1 + n * s)'",
+                        kFormulaLobe));
+}
+
+std::optional<LobeId> LobeOption::lobe() const {
+  const std::string name = name_.value_or(formula_ ? std::string(kFormulaLobe) : usual_);
+  if (formula_) {
+    if (name != kFormulaLobe)
+      throw Error(ExitCode::kUsage, fmt::format("--formula is for --lobe {}, not for '{}'",
+                                                kFormulaLobe, printable(name)));
+    try {
+      return formula_lobe(*formula_);
+    } catch (const FormulaError& e) {
+      throw Error(ExitCode::kUsage, fmt::format("--{}", e.what()));
+    }
+  }
+  if (name == kFormulaLobe)
+    throw Error(ExitCode::kUsage, fmt::format("--lobe {} needs a --formula", kFormulaLobe));
+  if (name.empty() && !name_) return std::nullopt;
+  return chosen(name, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+}
+
+void require_lobe(const Highlight& highlight) {
+  if (const std::string why = why_not_a_lobe(highlight); !why.empty())
+    throw Error(ExitCode::kUsage, why);
+}
+
 void SceneOverrides::add_to(CLI::App& command) {
   OptionGroup group(command, "In place of what the scene says");
   group.add("--model", model_, "", fmt::format("Model: {}", join(model_names())));
-  group.add("--lobe", lobe_, "", fmt::format("Lobe: {}", allowed_lobes()));
+  lobe_.add_to(group);
   group.add("--normalisation", normalisation_, "",
             fmt::format("Coefficient: {}", join(normalisation_names())));
   group.add("--exponent", exponent_, "",
@@ -105,17 +138,19 @@ void SceneOverrides::add_to(CLI::App& command) {
 }
 
 void SceneOverrides::apply(Scene& scene) const {
+  const std::optional<LobeId> lobe = lobe_.lobe();
   Highlight unused;  // wrong values are refused for a scene without materials too
   std::vector<Highlight*> highlights{&unused};
   for (auto& material : scene.materials) highlights.push_back(&material.highlight);
   for (Highlight* const highlight : highlights) {
     if (model_)
       highlight->model = chosen(*model_, "--model", model_names(), join(model_names()), find_model);
-    if (lobe_) highlight->lobe = chosen(*lobe_, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+    if (lobe) highlight->lobe = *lobe;
     if (normalisation_)
       highlight->normalisation = chosen(*normalisation_, "--normalisation", normalisation_names(),
                                         join(normalisation_names()), find_normalisation);
     replace(exponent_, "--exponent", kMinExponent, kMaxExponent, highlight->exponent);
+    if (highlight != &unused) require_lobe(*highlight);
   }
   replace(width_, "--width", 1, kMaxImageSide, scene.film.width);
   replace(height_, "--height", 1, kMaxImageSide, scene.film.height);

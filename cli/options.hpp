@@ -95,6 +95,22 @@ class EnginePrograms {
   std::map<std::string, std::filesystem::path, std::less<>> typed_;
 };
 
+/// --lobe NAME, and --formula TEXT for a lobe by its formula.
+class LobeOption {
+ public:
+  /// This object has to live as long as the command.
+  void add_to(OptionGroup& group, const std::string& usual = "");
+  /// A formula without a name will do. None if the user left both out and there is no usual one. Throws Error(kUsage).
+  std::optional<LobeId> lobe() const;
+
+ private:
+  std::optional<std::string> name_, formula_;
+  std::string usual_;
+};
+
+/// Throws Error(kUsage) if the highlight's formula is no lobe at its exponent.
+void require_lobe(const Highlight& highlight);
+
 /// The options that change a scene, the same for every subcommand that takes one.
 class SceneOverrides {
  public:
@@ -104,7 +120,8 @@ class SceneOverrides {
   void apply(Scene& scene) const;
 
  private:
-  std::optional<std::string> model_, lobe_, normalisation_;
+  std::optional<std::string> model_, normalisation_;
+  LobeOption lobe_;
   std::optional<double> exponent_;
   std::optional<int> width_, height_, samples_;
   std::optional<std::uint64_t> seed_;

@@ -231,7 +231,8 @@ std::string profile_text(const records::Profile& profile) {
   if (!text.empty()) text += '\n';
   text += fmt::format("sphere {}, light {}", profile.sphere, profile.light);
   if (const auto& lobe = profile.lobe)
-    text += fmt::format(": {}, lobe {} of n = {:g}", lobe->model, lobe->lobe, lobe->exponent);
+    text += fmt::format(": {}, lobe {} of n = {:g}", lobe->model,
+                        lobe->formula.empty() ? lobe->lobe : lobe->formula, lobe->exponent);
   text += '\n';
   if (const auto& formula = profile.images.front().second.highlight;
       profile.lobe && formula && formula->peak.found == "none")

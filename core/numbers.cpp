@@ -62,6 +62,12 @@ std::string number_text(double value, int digits) {
          power_of_ten_text(std::stoi(scientific.substr(e + 1)));
 }
 
+std::string float32_text(double value) {
+  std::string text = fmt::format("{:.9g}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
 std::string power_of_ten_text(int exponent) { return "10" + superscript(exponent); }
 
 std::string percent_text(double share, TrailingZeros zeros) {

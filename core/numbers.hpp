@@ -10,6 +10,8 @@ namespace lobelia {
 std::string number_text(double value, int digits = 3);
 /// "10⁻³"
 std::string power_of_ten_text(int exponent);
+/// For a shader: the digits of float32, and a point, because "4" would be an integer there.
+std::string float32_text(double value);
 /// A share in per cent with two significant digits: 4.9e-4 is "0.049 %", 1e-8 is "1 × 10⁻⁶ %". Columns of measured values
 /// keep zeros at the end: "0.040 %".
 enum class TrailingZeros { kDrop, kKeep };

@@ -27,6 +27,7 @@ void define_highlight_tables(Tables& tables) {
     t.key("exponent").at_least(0);
     t.key("coefficient", "of the radiance").may_be_nonfinite();
     t.key("warning", "where the model is not what it promises").if_any();
+    t.key("formula", "of the lobe expression").if_any();
   });
 }
 

@@ -21,6 +21,7 @@ struct Highlight {
   std::string model, lobe, normalisation;
   double exponent = 0, coefficient = 0;
   std::string warning;
+  std::string formula;  ///< of the lobe "expression"; otherwise empty
 };
 
 void define_highlight_tables(Tables& tables);

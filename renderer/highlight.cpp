@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <deque>
+#include <tuple>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "renderer/formula_lobe.hpp"
 #include "renderer/lobes/catalogue.hpp"
 #include "renderer/models/catalogue.hpp"
 
@@ -15,6 +18,7 @@ namespace lobelia {
 namespace {
 
 using HWY_NAMESPACE::Lobes;
+using HWY_NAMESPACE::LobesById;
 using HWY_NAMESPACE::Models;
 
 constexpr auto kModelInfos = map_types<ModelInfo>(Models{}, []<class M>() { return M::kInfo; });
@@ -44,7 +48,7 @@ struct LobeUse {
   PaperColumn (*paper_column)(LobeParameters);
   Float32Error (*float32_error)(LobeParameters);
 };
-constexpr auto kLobeUses = map_types<LobeUse>(Lobes{}, []<class L>() {
+constexpr auto kLobeUses = map_types<LobeUse>(LobesById{}, []<class L>() {
   return LobeUse{[](LobeParameters p, double s) { return L(p).value(s); },
                  [](LobeParameters p) {
                    const L lobe(p);
@@ -82,7 +86,8 @@ class LobeTable {
   std::vector<LobeId> listed;
   std::vector<std::string_view> names;
 
-  const LobeInfo& info(LobeId id) const {
+  const LobeInfo& info(const LobeId& id) const {
+    if (id.formula) return id.formula->info();
     const auto& members = infos_.at(id.index);
     return id.order == 0 ? members.at(0) : members.at(std::size_t(id.order) / 2 - 1);
   }
@@ -153,8 +158,6 @@ std::string for_people(std::string_view text) {
   return result;
 }
 
-LobeParameters parameters(LobeId lobe, double exponent) { return {exponent, lobe.order}; }
-
 }  // namespace
 
 std::span<const ModelId> all_models() { return kModelIds; }
@@ -171,7 +174,7 @@ std::string allowed_lobes() {
       families += fmt::format("; {0}K for any even K from 2 to {1}", L::kInfo.name, kMaxOrder);
     return 0;
   });
-  return join(lobe_names()) + families;
+  return fmt::format("{}{}; {}, with a formula", join(lobe_names()), families, kFormulaLobe);
 }
 
 const ModelInfo& info(ModelId id) { return kModelInfos.at(id.index); }
@@ -193,7 +196,7 @@ std::string exact_formula(ModelId id) {
   return fmt::format("1/(2 pi ({})), s = 0 to {}", sum,
                      use.energy.s_max == 1 ? "1" : "1 - sqrt(1/2)");
 }
-const LobeInfo& info(LobeId id) { return lobe_table().info(id); }
+const LobeInfo& info(const LobeId& id) { return lobe_table().info(id); }
 std::string_view name(Normalisation normalisation) {
   return kNormalisationNames[std::size_t(normalisation)];
 }
@@ -206,6 +209,30 @@ std::optional<ModelId> find_model(std::string_view name) {
   return find_id<ModelId>(kModelNames, name);
 }
 std::optional<LobeId> find_lobe(std::string_view name) { return lobe_table().find(name); }
+
+LobeId formula_lobe(std::string_view formula) {
+  return {std::uint8_t(Lobes::kSize), 0, std::make_shared<const Formula>(formula)};
+}
+
+std::string why_not_a_lobe(const Highlight& highlight) {
+  const auto& formula = highlight.lobe.formula;
+  return formula ? FormulaLobe(formula, highlight.exponent).why_not() : "";
+}
+
+std::string identifier(const LobeId& lobe) {
+  const LobeInfo& about = info(lobe);
+  return lobe.formula ? fmt::format("{}_{}", about.name, hex(sha256(about.formula)).substr(0, 8))
+                      : std::string(about.name);
+}
+
+std::strong_ordering operator<=>(const LobeId& a, const LobeId& b) {
+  const auto key = [](const LobeId& id) {
+    return std::tuple(id.index, id.order,
+                      id.formula ? std::string_view(id.formula->text()) : std::string_view());
+  };
+  return key(a) <=> key(b);
+}
+
 std::optional<Normalisation> find_normalisation(std::string_view name) {
   return find_id<Normalisation>(kNormalisationNames, name);
 }
@@ -214,7 +241,7 @@ double radiance_coefficient(const Highlight& highlight) {
   const ModelUse& model = kModelUses.at(highlight.model.index);
   const LobeUse& lobe = kLobeUses.at(highlight.lobe.index);
   const double n = highlight.exponent;
-  const LobeParameters p = parameters(highlight.lobe, n);
+  const LobeParameters p(highlight);
   if (highlight.normalisation == Normalisation::kExact)
     return model.share * lobe.exact_coefficient(p, model.energy);
   switch (lobe.paper_column(p)) {
@@ -230,8 +257,8 @@ double radiance_coefficient(const Highlight& highlight) {
                                     "'; use the normalisation 'exact'");
 }
 
-bool has_paper_coefficient(LobeId lobe) {
-  return kLobeUses.at(lobe.index).paper_column(parameters(lobe, 1)) != PaperColumn::kNone;
+bool has_paper_coefficient(const LobeId& lobe) {
+  return kLobeUses.at(lobe.index).paper_column({1, lobe}) != PaperColumn::kNone;
 }
 
 std::string warning(const Highlight& highlight) {
@@ -245,16 +272,16 @@ std::string warning(const Highlight& highlight) {
       n, kPaperMinExponent, kPaperMaxExponent);
 }
 
-double lobe_value(LobeId lobe, double s, double exponent) {
-  return kLobeUses.at(lobe.index).value(parameters(lobe, exponent), s);
+double lobe_value(const LobeId& lobe, double s, double exponent) {
+  return kLobeUses.at(lobe.index).value({exponent, lobe}, s);
 }
 
-PreparedLobe prepare(LobeId lobe, double exponent) {
-  return kLobeUses.at(lobe.index).prepare(parameters(lobe, exponent));
+PreparedLobe prepare(const LobeId& lobe, double exponent) {
+  return kLobeUses.at(lobe.index).prepare({exponent, lobe});
 }
 
-Float32Error lobe_float32_error(LobeId lobe, double exponent) {
-  return kLobeUses.at(lobe.index).float32_error(parameters(lobe, exponent));
+Float32Error lobe_float32_error(const LobeId& lobe, double exponent) {
+  return kLobeUses.at(lobe.index).float32_error({exponent, lobe});
 }
 
 double foreshortening(ModelId model, double n_dot_l) {

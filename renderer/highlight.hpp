@@ -2,8 +2,10 @@
 // renderer/lobes and renderer/models through this file.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,13 +18,20 @@ struct ModelId {
   std::uint8_t index = 0;
   friend constexpr bool operator==(ModelId, ModelId) = default;
 };
+class Formula;  // renderer/formula.hpp
+
 /// Position in the catalogue of lobes (renderer/lobes/catalogue.hpp) and, in a family, the order k of cs_k.
 struct LobeId {
   std::uint8_t index = 0;
   std::uint16_t order = 0;  ///< even, 2 to kMaxOrder, for a family; 0 for a single lobe
-  friend constexpr bool operator==(LobeId, LobeId) = default;
+  std::shared_ptr<const Formula> formula = {};  ///< of the lobe "expression"; null for all others
+  /// Two formulas are the same if their texts are.
+  friend bool operator==(const LobeId& a, const LobeId& b) { return (a <=> b) == 0; }
+  friend std::strong_ordering operator<=>(const LobeId& a, const LobeId& b);
 };
 inline constexpr int kMaxOrder = 1024;
+/// The name of the lobe that a formula gives. find_lobe() does not know it, because a name does not say which formula.
+inline constexpr std::string_view kFormulaLobe = "expression";
 
 /// The source of the coefficient in front of the lobe.
 enum class Normalisation : std::uint8_t {
@@ -81,26 +90,34 @@ struct Highlight {
 inline constexpr double kMinExponent = 1e-3;
 inline constexpr double kMaxExponent = 1e8;
 
-/// The catalogues, in their order. Only the usual members of a family are listed; find_lobe() knows all.
+/// The catalogues, in their order. Only the usual members of a family are listed; find_lobe() knows all. A lobe by a
+/// formula is not listed.
 std::span<const ModelId> all_models();
 std::span<const ModelInfo> models();
 std::span<const LobeId> all_lobes();
 std::span<const std::string_view> model_names();
 std::span<const std::string_view> lobe_names();
 std::span<const std::string_view> normalisation_names();  ///< "exact", "paper"
-/// The names that find_lobe() takes, for messages: "cosine, cs2, ...; csK for any even K from 2 to 1024".
+/// The names that find_lobe() takes, for messages: "cosine, cs2, ...; csK for any even K from 2 to 1024", and how a
+/// formula is given.
 std::string allowed_lobes();
 
 const ModelInfo& info(ModelId id);
 CoefficientFormulas formulas(ModelId id);
 /// The exact coefficient from the moments M_j, the integrals of lobe s^j: "1/(2 pi (M0 - M1)), s = 0 to 1".
 std::string exact_formula(ModelId id);
-const LobeInfo& info(LobeId id);
+const LobeInfo& info(const LobeId& id);
+/// The lobe's name, with a part that differs for each formula: for names in code and of files.
+std::string identifier(const LobeId& lobe);
 std::string_view name(Normalisation normalisation);
 std::string_view name(NormalisedQuantity normalised);
 
 std::optional<ModelId> find_model(std::string_view name);
 std::optional<LobeId> find_lobe(std::string_view name);
+/// The lobe with this formula. Throws FormulaError, which is one line.
+LobeId formula_lobe(std::string_view formula);
+/// Why the highlight's formula is no lobe at its exponent, in one line; empty if it is one, or if there is no formula.
+std::string why_not_a_lobe(const Highlight& highlight);
 std::optional<Normalisation> find_normalisation(std::string_view name);
 
 /// The factor of the lobe (and N.L, where the model applies it) in radiance per unit irradiance. For the microfacet
@@ -108,23 +125,23 @@ std::optional<Normalisation> find_normalisation(std::string_view name);
 double radiance_coefficient(const Highlight& highlight);
 
 /// Whether the paper prints a coefficient for the lobe: only for cosine and cs16.
-bool has_paper_coefficient(LobeId lobe);
+bool has_paper_coefficient(const LobeId& lobe);
 
 /// A warning about a highlight that is allowed but odd, or "".
 std::string warning(const Highlight& highlight);
 
 /// The lobe at s = 1 - cos(angle), s in [0, 2], in double precision: in [0, 1], value 1 at s = 0.
-double lobe_value(LobeId lobe, double s, double exponent);
+double lobe_value(const LobeId& lobe, double s, double exponent);
 
 /// A lobe at one exponent with its constants computed once, for repeated use.
 struct PreparedLobe {
   std::function<double(double s)> value;  ///< lobe_value
   /// A random s from a uniform number in [0, 1), and its density over [0, 1]. Follows the lobe exactly for cosine,
-  /// cs_k and spherical Gaussian, nearly for the others.
+  /// cs_k and spherical Gaussian, nearly for the others; for a formula in steps.
   std::function<double(double xi)> sample;
   std::function<double(double s)> density;
 };
-PreparedLobe prepare(LobeId lobe, double exponent);
+PreparedLobe prepare(const LobeId& lobe, double exponent);
 
 /// Bound of the error of float32 arithmetic in a lobe at a given float32 s: relative to the peak, and in units in
 /// the last place of the result, which grow by `ulp_per_nat` for each factor e below the peak. `lobelia verify
@@ -132,7 +149,7 @@ PreparedLobe prepare(LobeId lobe, double exponent);
 struct Float32Error {
   double of_peak, ulp, ulp_per_nat = 0;
 };
-Float32Error lobe_float32_error(LobeId lobe, double exponent);
+Float32Error lobe_float32_error(const LobeId& lobe, double exponent);
 
 /// N.L where the model applies it, else 1; for N.L > 0.
 double foreshortening(ModelId model, double n_dot_l);

@@ -83,14 +83,56 @@ OperationCount counted(F f) {
   return g_count;
 }
 
+/// As it is evaluated: nothing of a formula is computed once for all points.
+OperationCount counted_formula(const Formula& formula) {
+  OperationCount count;
+  for (const Formula::Node& node : formula.nodes()) switch (node.operation) {
+      case Operation::kNumber:
+      case Operation::kVersine:
+      case Operation::kExponent:
+        break;
+      case Operation::kCosine:
+      case Operation::kAdd:
+      case Operation::kSubtract:
+        ++count.add;
+        break;
+      case Operation::kAngle:
+        ++count.root, ++count.transcendental, count.multiply += 2;
+        break;
+      case Operation::kMultiply:
+        ++count.multiply;
+        break;
+      case Operation::kDivide:
+        ++count.divide;
+        break;
+      case Operation::kMin:
+      case Operation::kMax:
+      case Operation::kNegate:
+      case Operation::kAbs:
+        ++count.compare;
+        break;
+      case Operation::kSqrt:
+        ++count.root;
+        break;
+      default:
+        ++count.transcendental;
+    }
+  return count;
+}
+
 /// Counts f(lobe), with n > k, so that a family's lobe ends before the horizon.
 template <class F>
 OperationCount counted_lobe(LobeId lobe, F) {
   using Count = OperationCount (*)(LobeParameters);
-  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::Lobes{}, []<class L>() -> Count {
-    return [](LobeParameters p) { return counted([&] { F()(L(p)); }); };
+  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::LobesById{}, []<class L>() -> Count {
+    return [](LobeParameters p) {
+      if constexpr (L::kInfo.name == kFormulaLobe)
+        return counted_formula(*p.formula);
+      else
+        return counted([&] { F()(L(p)); });
+    };
   });
-  return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe.order});
+  return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "renderer/render_record.hpp"
 
 #include "core/version.hpp"
+#include "renderer/formula.hpp"
 #include "renderer/scene/scene_io.hpp"
 
 namespace lobelia {
@@ -49,7 +50,8 @@ records::Highlight highlight_record(const Highlight& highlight) {
           std::string(name(highlight.normalisation)),
           highlight.exponent,
           radiance_coefficient(highlight),
-          warning(highlight)};
+          warning(highlight),
+          highlight.lobe.formula ? highlight.lobe.formula->text() : ""};
 }
 
 records::Rays rays_record(const Work& work) {

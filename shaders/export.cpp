@@ -6,6 +6,7 @@
 
 #include "core/constants.hpp"
 #include "core/error.hpp"
+#include "core/numbers.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
 #include "renderer/lobes/catalogue.hpp"
@@ -21,7 +22,7 @@ extern const std::string_view gpu_head, gpu_geometry, gpu_lobe, gpu_energy, gpu_
 }
 namespace {
 
-using HWY_NAMESPACE::Lobes;
+using HWY_NAMESPACE::LobesById;
 using HWY_NAMESPACE::Models;
 
 constexpr std::string_view kCoefficientFrom[] = {"computed", "argument"};
@@ -30,11 +31,11 @@ struct LobeForm {
   LobeText text;
   PaperColumn column;
 };
-LobeForm lobe_form(LobeId id) {
-  static constexpr auto kForms = map_types<LobeForm (*)(LobeParameters)>(Lobes{}, []<class L>() {
+LobeForm lobe_form(const LobeId& id) {
+  static constexpr auto kForms = map_types<LobeForm (*)(LobeParameters)>(LobesById{}, []<class L>() {
     return +[](LobeParameters p) { return LobeForm{L(p).text(), L(p).paper_column()}; };
   });
-  return kForms.at(id.index)({1, id.order});
+  return kForms.at(id.index)({1, id});
 }
 
 struct ModelForm {
@@ -49,19 +50,12 @@ const ModelForm& model_form(ModelId id) {
   return kForms.at(id.index);
 }
 
-/// With the digits of float32, and a point: 4 would be an integer.
-std::string number(double value) {
-  std::string text = fmt::format("{:.9g}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
 /// The coefficient as a formula of n; empty if there is none.
 std::string coefficient_formula(const Highlight& highlight) {
   const ModelForm& model = model_form(highlight.model);
   const LobeForm lobe = lobe_form(highlight.lobe);
-  const std::string share = model.share == 1 ? "" : number(model.share) + " * ";
-  const std::string pi = number(kPi);
+  const std::string share = model.share == 1 ? "" : float32_text(model.share) + " * ";
+  const std::string pi = float32_text(kPi);
   if (highlight.normalisation == Normalisation::kPaper)
     return share + fill(lobe.column == PaperColumn::kCosine ? model.texts.paper_cosine
                                                             : model.texts.paper_cs16,
@@ -71,9 +65,9 @@ std::string coefficient_formula(const Highlight& highlight) {
   if (lobe.text.slope.empty()) return "";
   const EnergyIntegral& energy = model.energy;
   return fmt::format("{} / lobelia_{}_energy(n, {}, {}, {}, {}, {})",
-                     number(model.share / (2 * kPi)), info(highlight.lobe).name,
-                     number(energy.s_max), number(energy.weights[0]), number(energy.weights[1]),
-                     number(energy.weights[2]), number(energy.weights[3]));
+                     float32_text(model.share / (2 * kPi)), identifier(highlight.lobe),
+                     float32_text(energy.s_max), float32_text(energy.weights[0]), float32_text(energy.weights[1]),
+                     float32_text(energy.weights[2]), float32_text(energy.weights[3]));
 }
 
 std::string normalisation_note(const Highlight& highlight) {
@@ -116,7 +110,7 @@ class Writer {
                       function = function_name(highlight, fixed_, fresnel_);
     if (!fixed_ && !formula.empty()) add_coefficient(highlight, with_coefficient, formula);
     const std::string coefficient =
-        fixed_ ? number(constant)
+        fixed_ ? float32_text(constant)
                : (argument_ ? "coefficient" : with_coefficient + "_coefficient(exponent)");
     // Languages with guards have overloads, so that the name may be the same.
     add_part(argument_ ? function + "_argument" : function,
@@ -135,14 +129,15 @@ class Writer {
     parts_.add(name, language_.translate ? language_.translate(text) : text);
   }
 
-  void add_lobe(LobeId lobe) {
+  void add_lobe(const LobeId& lobe) {
     const LobeInfo& about = info(lobe);
     add_part("lobelia_geometry", embedded::gpu_geometry);
-    add_part(fmt::format("lobelia_{}_lobe", about.name),
+    const std::string name = identifier(lobe);
+    add_part(fmt::format("lobelia_{}_lobe", name),
              fill(embedded::gpu_lobe, {{"title", about.title},
                                        {"formula", about.formula},
                                        {"source", about.source},
-                                       {"lobe", about.name},
+                                       {"lobe", name},
                                        {"body", lobe_form(lobe).text.body}}));
   }
 
@@ -150,9 +145,9 @@ class Writer {
                        const std::string& formula) {
     const LobeForm lobe = lobe_form(highlight.lobe);
     if (highlight.normalisation == Normalisation::kExact && lobe.column != PaperColumn::kCosine)
-      add_part(fmt::format("lobelia_{}_energy", info(highlight.lobe).name),
+      add_part(fmt::format("lobelia_{}_energy", identifier(highlight.lobe)),
                fill(embedded::gpu_energy,
-                    {{"lobe", info(highlight.lobe).name}, {"slope", lobe.text.slope}}));
+                    {{"lobe", identifier(highlight.lobe)}, {"slope", lobe.text.slope}}));
     add_part(function + "_coefficient",
              fill(embedded::gpu_coefficient, {{"function", function}, {"coefficient", formula}}));
   }
@@ -201,8 +196,8 @@ class Writer {
          {"parameters", parameters()},
          {"which", mirror ? "mirror" : "half"},
          {"coefficient", coefficient},
-         {"lobe", info(highlight.lobe).name},
-         {"exponent", fixed_ ? number(highlight.exponent) : "exponent"},
+         {"lobe", identifier(highlight.lobe)},
+         {"exponent", fixed_ ? float32_text(highlight.exponent) : "exponent"},
          {"factor", cosine ? " * n_dot_l" : ""},
          {"fresnel", fresnel_ ? " * lobelia_fresnel(reflectance, to_eye, to_light)" : ""},
          {"function", function}});
@@ -217,8 +212,10 @@ std::string command_of(const ShaderExport& request) {
   std::string command =
       fmt::format("lobelia export --language {}", shader_language_names()[request.language.index]);
   for (const ModelId model : request.models) command += fmt::format(" {}", info(model).name);
-  command += fmt::format(" --lobe {} --normalisation {}", info(request.lobe).name,
-                         name(request.normalisation));
+  command += fmt::format(" --lobe {}", info(request.lobe).name);
+  if (request.lobe.formula)
+    command += " --formula " + shell_quote(request.lobe.formula->text());
+  command += fmt::format(" --normalisation {}", name(request.normalisation));
   if (request.exponent) command += fmt::format(" --exponent {}", *request.exponent);
   if (request.coefficient != CoefficientFrom::kComputed)
     command += fmt::format(" --coefficient {}", kCoefficientFrom[int(request.coefficient)]);

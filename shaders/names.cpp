@@ -9,7 +9,7 @@ namespace lobelia {
 
 std::string function_name(const Highlight& highlight, bool fixed_exponent, bool fresnel) {
   std::string name =
-      fmt::format("lobelia_{}_{}{}", info(highlight.model).name, info(highlight.lobe).name,
+      fmt::format("lobelia_{}_{}{}", info(highlight.model).name, identifier(highlight.lobe),
                   highlight.normalisation == Normalisation::kPaper ? "_paper" : "");
   if (fixed_exponent) {
     name += fmt::format("_n{}", highlight.exponent);

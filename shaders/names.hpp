@@ -10,7 +10,7 @@
 namespace lobelia {
 
 /// The name of the function and of its file: "lobelia_modified_phong_cs16", with "_paper" for that normalisation,
-/// "_n64" for a fixed exponent and "_fresnel" for that factor.
+/// "_n64" for a fixed exponent and "_fresnel" for that factor. A formula is named by its hash.
 std::string function_name(const Highlight& highlight, bool fixed_exponent = false,
                           bool fresnel = false);
 

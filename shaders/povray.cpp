@@ -7,6 +7,7 @@
 #include "core/embedded.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
+#include "renderer/formula.hpp"
 #include "shaders/names.hpp"
 
 namespace lobelia {
@@ -25,8 +26,19 @@ std::string_view formula(std::span<const EmbeddedText> formulas, std::string_vie
 }
 
 /// The file of a family has the lobe's name without the order.
-std::string lobe_text(LobeId lobe) {
+std::string lobe_text(const LobeId& lobe) {
   std::string name(info(lobe).name);
+  if (lobe.formula)
+    return fill(formula(embedded::povray_lobes, name),
+                {{"Lobe", capitalised(identifier(lobe))},
+                 {"text", lobe.formula->text()},
+                 {"formula", formula_text(lobe.formula->nodes(),
+                                          {.number = [](double value) { return fmt::format("{}", value); },
+                                           .versine = "S",
+                                           .exponent = "N",
+                                           .cosine = "(1 - S)",
+                                           .angle = "(2*asin(sqrt(0.5*S)))",
+                                           .log = "ln"})}});
   const std::string order = std::to_string(lobe.order);
   if (lobe.order != 0) name.resize(name.size() - order.size());
   return fill(formula(embedded::povray_lobes, name), {{"K", order}});
@@ -35,7 +47,7 @@ std::string lobe_text(LobeId lobe) {
 /// The closed form for cos^n and for the paper's cs16; otherwise the quadrature.
 std::string coefficient_text(const Highlight& highlight) {
   const std::string model = capitalised(info(highlight.model).name),
-                    lobe = capitalised(info(highlight.lobe).name);
+                    lobe = capitalised(identifier(highlight.lobe));
   if (highlight.normalisation == Normalisation::kPaper || lobe == "Cosine")
     return fmt::format("Lobelia_{}_{}_{}(N)", model, capitalised(name(highlight.normalisation)),
                        lobe);
@@ -66,7 +78,7 @@ std::string highlight_text(const Highlight& highlight) {
                {"lobe_source", info(highlight.lobe).source},
                {"Name", names.pattern},
                {"Model", capitalised(info(highlight.model).name)},
-               {"Lobe", capitalised(info(highlight.lobe).name)},
+               {"Lobe", capitalised(identifier(highlight.lobe))},
                {"coefficient", coefficient_text(highlight)},
                {"cosine", info(highlight.model).applies_cosine
                               ? "times N.L, which `brilliance 1` brings"
@@ -88,7 +100,7 @@ std::string povray_text(std::span<const Highlight> highlights) {
     radiance_coefficient(highlight);  // throws if the paper has none
     parts.add("Geometry", embedded::povray_geometry);
     parts.add("Quadrature", embedded::povray_quadrature);
-    parts.add(capitalised(info(highlight.lobe).name), lobe_text(highlight.lobe));
+    parts.add(capitalised(identifier(highlight.lobe)), lobe_text(highlight.lobe));
     const std::string_view model = info(highlight.model).name;
     parts.add(capitalised(model), formula(embedded::povray_models, model));
     parts.add(capitalised(function_name(highlight)), highlight_text(highlight));

@@ -225,7 +225,7 @@ using EvaluateLobe = std::function<void(int count, Stretch&)>;
 /// arithmetic.
 template <class L, int kOrder, class Real>
 EvaluateLobe evaluate_lobe(const Highlight& highlight) {
-  L made({highlight.exponent, highlight.lobe.order});
+  const L made(LobeParameters{highlight});
   return [made](int count, Stretch& stretch) HWY_ATTR {
     // A copy, so that its numbers stay in registers while values are written.
     L lobe = made;
@@ -340,7 +340,7 @@ class Kernel final : public FusedKernel {
   explicit Kernel(const FusedSphere& sphere) : sphere_(sphere) {
     using Evaluate = EvaluateLobe (*)(const Highlight&, Precision);
     static constexpr auto kLobes =
-        map_types<Evaluate>(Lobes{}, []<class L>() -> Evaluate { return &evaluate_at<L>; });
+        map_types<Evaluate>(LobesById{}, []<class L>() -> Evaluate { return &evaluate_at<L>; });
     evaluate_lobe_ = kLobes.at(sphere.highlight.lobe.index)(sphere.highlight, sphere.precision);
     const ModelInfo& model = info(sphere.highlight.model);
     const auto& angles = model.angle == LobeAngle::kReflection

@@ -61,7 +61,7 @@ template <class M, class L>
 struct Shader {
   static void float64(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
                       const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular) {
-    const L lobe({highlight.exponent, highlight.lobe.order});
+    const L lobe(LobeParameters{highlight});
     for (std::size_t i = 0; i < count; i += Lanes::count()) {
       const Lanes3 n = load(normal, i), v = load(to_eye, i), l = load(to_light, i);
       const Lanes s = one_minus_cos<M::kInfo.angle, Lanes>(n, v, l);
@@ -74,7 +74,7 @@ struct Shader {
   template <bool mixed>
   static void narrow_lobe(const Highlight& highlight, std::size_t count, const Vec3Chunk& normal,
                           const Vec3Chunk& to_eye, const Vec3Chunk& to_light, double* specular) {
-    const L lobe({highlight.exponent, highlight.lobe.order});
+    const L lobe(LobeParameters{highlight});
     for (std::size_t i = 0; i < count; i += Lanes32::count()) {
       const Pair n(normal, i), v(to_eye, i), l(to_light, i);
       Lanes32 s;
@@ -100,7 +100,7 @@ struct Shader {
 
 template <class L>
 void lobe32(const Highlight& highlight, std::size_t count, const float* s, float* value) {
-  const L lobe({highlight.exponent, highlight.lobe.order});
+  const L lobe(LobeParameters{highlight});
   for (std::size_t i = 0; i < count; i += Lanes32::count())
     lobe.value(Lanes32::load(s + i)).store(value + i);
 }
@@ -251,14 +251,14 @@ using ShadeRow = std::array<KernelTable::Shade, 3>;  // by precision
 
 template <class M>
 constexpr auto shade_table() {
-  return map_types<ShadeRow>(Lobes{}, []<class L>() -> ShadeRow {
+  return map_types<ShadeRow>(LobesById{}, []<class L>() -> ShadeRow {
     using S = Shader<M, L>;
     return {&S::template narrow_lobe<false>, &S::template narrow_lobe<true>, &S::float64};
   });
 }
 
 KernelTable::Shade find_shade(const Highlight& highlight, Precision precision) {
-  using Row = std::array<ShadeRow, Lobes::kSize>;
+  using Row = std::array<ShadeRow, LobesById::kSize>;
   static constexpr auto kTable =
       map_types<Row>(Models{}, []<class M>() { return shade_table<M>(); });
   return kTable.at(highlight.model.index).at(highlight.lobe.index).at(std::size_t(precision));
@@ -266,7 +266,7 @@ KernelTable::Shade find_shade(const Highlight& highlight, Precision precision) {
 
 KernelTable::LobeValue find_lobe32(LobeId lobe) {
   static constexpr auto kTable =
-      map_types<KernelTable::LobeValue>(Lobes{}, []<class L>() { return &lobe32<L>; });
+      map_types<KernelTable::LobeValue>(LobesById{}, []<class L>() { return &lobe32<L>; });
   return kTable.at(lobe.index);
 }
 

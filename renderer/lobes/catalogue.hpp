@@ -9,6 +9,7 @@
 
 #include "renderer/lobes/cosine.hpp"
 #include "renderer/lobes/cs.hpp"
+#include "renderer/lobes/expression.hpp"
 #include "renderer/lobes/gauss.hpp"
 #include "renderer/lobes/schlick.hpp"
 #include "renderer/lobes/spherical_gaussian.hpp"
@@ -18,6 +19,11 @@ HWY_BEFORE_NAMESPACE();
 namespace lobelia::HWY_NAMESPACE {
 
 using Lobes = TypeList<CosineLobe, CsLobe, SphericalGaussianLobe, GaussLobe, SchlickLobe>;
+
+template <class... Ls>
+TypeList<Ls..., ExpressionLobe> with_formulas(TypeList<Ls...>);
+/// By LobeId::index: the catalogue, and behind it the lobe that a formula gives.
+using LobesById = decltype(with_formulas(Lobes{}));
 
 }  // namespace lobelia::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -22,6 +22,12 @@ namespace lobelia {
 struct LobeParameters {
   double exponent;  ///< n
   int order;        ///< k of a family of lobes; 0 otherwise
+  std::shared_ptr<const Formula> formula = nullptr;  ///< of a lobe by a formula; null otherwise
+
+  LobeParameters(double n, int k) : exponent(n), order(k) {}
+  LobeParameters(double n, const LobeId& lobe)
+      : exponent(n), order(lobe.order), formula(lobe.formula) {}
+  explicit LobeParameters(const Highlight& h) : LobeParameters(h.exponent, h.lobe) {}
 };
 
 /// A lobe as text, for `lobelia export`.

@@ -181,6 +181,9 @@ Plan make_plan(const Scene& scene, EffectPolicy policy, std::optional<Precision>
   decide_precision(scene, precision, plan);
   expect_rays(scene, plan);
   plan.kernel = kernel_text(scene, plan);
+  if (std::ranges::any_of(scene.materials,
+                          [](const Material& m) { return m.highlight.lobe.formula != nullptr; }))
+    plan.kernel += "; slow: a lobe is a formula, computed point by point in float64";
   return plan;
 }
 

@@ -89,8 +89,10 @@ inline constexpr Parameter kLatticeParameters[] = {
      "moves each centre along x, y, z by up to this part of step / 2 - radius"},
     {"seed", ParameterType::kInteger, "0", 0, 9007199254740992.0, "", "chooses the moves"},
 };
+inline constexpr std::string_view kNoFormula = "none";
 inline constexpr Parameter kHighlightParameters[] = {
     {"lobe", ParameterType::kString, "cosine", 0, 0, "", "shape of the highlight"},
+    {"formula", ParameterType::kString, kNoFormula, 0, 0, "", "of the lobe expression, and of no other"},
     {"normalisation", ParameterType::kString, "exact", 0, 0, "",
      "where its coefficient comes from"},
     {"exponent", ParameterType::kFloat, "", kMinExponent, kMaxExponent, "", "sharpness n"},

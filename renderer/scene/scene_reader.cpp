@@ -1,4 +1,5 @@
 #include "core/files.hpp"
+#include "renderer/formula.hpp"
 #include "renderer/scene/lights/light_reader.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
@@ -168,8 +169,7 @@ class SceneReader {
       const Values values = reader_.read_parameters(node, format->parameters, {});
       material.highlight.model = *find_model(format->type);
       material.highlight.exponent = values.number("exponent");
-      reader_.choose(values["lobe"], node, "lobe", lobe_names(), allowed_lobes(), find_lobe,
-                     material.highlight.lobe);
+      read_lobe(values, node, material.highlight);
       reader_.choose(values["normalisation"], node, "normalisation", normalisation_names(),
                      join(normalisation_names()), find_normalisation,
                      material.highlight.normalisation);
@@ -181,6 +181,29 @@ class SceneReader {
     }
     scene_.materials.push_back(std::move(material));
     return materials_seen_ - 1;
+  }
+
+  void read_lobe(const Values& values, pugi::xml_node material, Highlight& highlight) {
+    const Values::Value &lobe = values["lobe"], &formula = values["formula"];
+    const auto refuse = [&](const Values::Value& value, const std::string& what) {
+      const pugi::xml_node where = value.node ? value.node : material;
+      source_.error(where.attribute("value"), where, what);
+    };
+    const bool given = formula.text != kNoFormula, asked_for = lobe.text == kFormulaLobe;
+    if (!given && asked_for)
+      return refuse(lobe, fmt::format("the lobe '{}' needs a formula", kFormulaLobe));
+    if (given && !asked_for)
+      return refuse(formula, fmt::format("a formula is for the lobe '{}', not for '{}'",
+                                         kFormulaLobe, printable(lobe.text)));
+    if (!given)
+      return reader_.choose(lobe, material, "lobe", lobe_names(), allowed_lobes(), find_lobe,
+                            highlight.lobe);
+    try {
+      highlight.lobe = formula_lobe(formula.text);
+    } catch (const FormulaError& e) {
+      return refuse(formula, e.what());
+    }
+    if (const std::string why = why_not_a_lobe(highlight); !why.empty()) refuse(formula, why);
   }
 
   void read_shape(pugi::xml_node node) {

@@ -15,7 +15,7 @@ namespace {
 
 template <class L, class T>
 void over(LobeId id, double exponent, std::size_t count, const T* s, T* value) {
-  const L lobe({exponent, id.order});
+  const L lobe(LobeParameters{exponent, id});
   for (std::size_t i = 0; i < count; i += LanesOf<T>::count())
     lobe.value(LanesOf<T>::load(s + i)).store(value + i);
 }
@@ -24,7 +24,7 @@ template <class T>
 void dispatch(LobeId id, double exponent, std::size_t count, const T* s, T* value) {
   using Over = void (*)(LobeId, double, std::size_t, const T*, T*);
   static constexpr auto kTable =
-      map_types<Over>(Lobes{}, []<class L>() -> Over { return &over<L, T>; });
+      map_types<Over>(LobesById{}, []<class L>() -> Over { return &over<L, T>; });
   kTable.at(id.index)(id, exponent, count, s, value);
 }
 

@@ -72,7 +72,7 @@ double power_allowed(double exponent) {
 /// Our stable form, scalar and by registers, and the textbook's in float32.
 template <class L>
 void add_catalogued(LobeId id, double exponent, Variants& all) {
-  const L lobe({exponent, id.order});
+  const L lobe(LobeParameters{exponent, id});
   constexpr bool kCosine = std::is_same_v<L, CosineLobe>;
   const std::string stable = kCosine ? "exp(n log1p(-s))" : "stable";
   // Scaled by the formats' roundings. In float64 the slope of a cs_k is rounded too, and the angle of Gauss comes from

@@ -34,7 +34,7 @@ MODELS = {
 }
 
 # value: at s = 1 - cos(angle) < 1. node: the same as shader nodes. reach: the s where the lobe ends or has fallen to 4e-18.
-# k is the order of a family.
+# k is the order of a family, or a formula as a tree.
 Lobe = namedtuple("Lobe", "value node reach")
 LOBES = {
     "cosine": Lobe(None, lambda nodes, s, n, k: nodes.cosine_lobe(s, n), None),
@@ -54,7 +54,74 @@ LOBES = {
     "schlick": Lobe(lambda s, n, k: (1 - s) / (1 - s + n * s),
                     lambda nodes, s, n, k: schlick_node(nodes, s, n),
                     lambda n, k: 1.0),
+    "expression": Lobe(
+        lambda s, n, k: formula_lobe(k, s, n),
+        lambda nodes, s, n, k: nodes.math(
+            "MAXIMUM", 0.0, nodes.math("MINIMUM", 1.0, formula_node(nodes, k, s, n))),
+        lambda n, k: formula_reach(k, n)),
 }
+
+# The operations of a formula: a number, a name, or a list of an operation and its operands.
+OPERATIONS = {
+    "+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b: a * b, "/": lambda a, b: a / b,
+    "^": lambda a, b: a ** b, "min": min, "max": max, "negate": lambda a: -a, "exp": math.exp,
+    "log": math.log, "sqrt": math.sqrt, "abs": abs, "sin": math.sin, "cos": math.cos, "tan": math.tan,
+    "asin": math.asin, "acos": math.acos, "atan": math.atan,
+}
+NODES = {
+    "+": "ADD", "-": "SUBTRACT", "*": "MULTIPLY", "/": "DIVIDE", "^": "POWER", "min": "MINIMUM",
+    "max": "MAXIMUM", "exp": "EXPONENT", "sqrt": "SQRT", "abs": "ABSOLUTE", "sin": "SINE",
+    "cos": "COSINE", "tan": "TANGENT", "asin": "ARCSINE", "acos": "ARCCOSINE", "atan": "ARCTANGENT",
+}
+
+
+def formula_value(tree, names):
+    """As in C: infinite or not a number where Python raises an error."""
+    if not isinstance(tree, list):
+        return names[tree] if isinstance(tree, str) else tree
+    operands = [formula_value(operand, names) for operand in tree[1:]]
+    try:
+        value = OPERATIONS[tree[0]](*operands)
+    except OverflowError:
+        return math.inf
+    except (ValueError, ZeroDivisionError):
+        return math.nan
+    return math.nan if isinstance(value, complex) else value
+
+
+def formula_lobe(tree, s, n):
+    if s >= 1:
+        return 0.0
+    value = formula_value(tree, {"s": s, "c": 1 - s, "x": 2 * math.asin(math.sqrt(s / 2)), "n": n})
+    return min(1.0, value) if value > 0 else 0.0
+
+
+def formula_reach(tree, n):
+    """Where it has fallen to 4e-18, by halving what is left."""
+    above, beyond = 0.0, 1.0
+    for _ in range(90):
+        s = (above + beyond) / 2
+        if formula_lobe(tree, s, n) > 4e-18:
+            above = s
+        else:
+            beyond = s
+    return beyond
+
+
+def formula_node(nodes, tree, s, n):
+    if tree == "c":
+        return nodes.math("SUBTRACT", 1.0, s)
+    if tree == "x":
+        half = nodes.math("ARCSINE", nodes.math("SQRT", nodes.math("MULTIPLY", 0.5, s)))
+        return nodes.math("MULTIPLY", 2.0, half)
+    if not isinstance(tree, list):
+        return {"s": s, "n": n}.get(tree, tree)
+    operands = [formula_node(nodes, operand, s, n) for operand in tree[1:]]
+    if tree[0] == "negate":
+        return nodes.math("SUBTRACT", 0.0, *operands)
+    if tree[0] == "log":
+        return nodes.math("LOGARITHM", *operands, math.e)
+    return nodes.math(NODES[tree[0]], *operands)
 
 
 def schlick_node(nodes, s, n):
@@ -62,10 +129,11 @@ def schlick_node(nodes, s, n):
     return nodes.math("DIVIDE", c, nodes.math("ADD", c, nodes.math("MULTIPLY", n, s)))
 
 
-def find_lobe(name):
-    """The lobe and its order; cs16 is the family cs with k = 16."""
+def find_lobe(material):
+    """The lobe and its order; cs16 is the family cs with k = 16. Of a formula, the formula."""
+    name = material["lobe"]
     family = re.fullmatch("(cs)([0-9]+)", name)
-    return (LOBES[family[1]], int(family[2])) if family else (LOBES[name], None)
+    return (LOBES[family[1]], int(family[2])) if family else (LOBES[name], material.get("formula"))
 
 
 def integral(f, end):
@@ -79,11 +147,12 @@ def integral(f, end):
     return total * end * step
 
 
-def coefficient(model, lobe_name, n):
+def coefficient(model, material):
     """1 / (2 pi times the integral of the lobe over the angle x = 0..pi/2, with the model's weight)."""
-    if lobe_name == "cosine":
+    n = material["exponent"]
+    if material["lobe"] == "cosine":
         return model.cosine(n, 2.0 ** (-n / 2))
-    lobe, k = find_lobe(lobe_name)
+    lobe, k = find_lobe(material)
     end = min(math.pi / 2,
               2 * math.asin(math.sqrt(min(1.0, lobe.reach(n, k)) / 2)) / model.part)
 
@@ -96,11 +165,11 @@ def coefficient(model, lobe_name, n):
 
 
 def coefficient_of(material):
-    model, lobe, n = MODELS[material["model"]], material["lobe"], material["exponent"]
+    model, lobe = MODELS[material["model"]], material["lobe"]
     if material["normalisation"] != "paper":
-        return coefficient(model, lobe, n)
+        return coefficient(model, material)
     if lobe == "cs16":
-        return model.cs16(n)
+        return model.cs16(material["exponent"])
     if lobe == "cosine":
-        return model.misprint * coefficient(model, lobe, n)
+        return model.misprint * coefficient(model, material)
     raise KeyError(lobe)

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "reference_scenes/preparation.hpp"
+#include "renderer/formula.hpp"
 #include "renderer/frame.hpp"
 #include "renderer/scene/contact.hpp"
 
@@ -47,20 +48,36 @@ Json light_json(const Lamp& lamp) {
           {"normal", json(lamp.normal)}};
 }
 
+/// A formula as the script reads it: a number, a name, or a list of an operation and its operands.
+Json formula_json(const Formula& formula) {
+  std::vector<Json> trees;
+  for (const Formula::Node& node : formula.nodes()) {
+    const int operands = operand_count(node.operation);
+    Json tree(node.operation == Operation::kNegate ? "negate" : symbol(node.operation));
+    if (node.operation == Operation::kNumber) tree = node.number;
+    if (operands > 0) tree = Json::array({tree, std::move(trees[node.left])});
+    if (operands > 1) tree.push_back(std::move(trees[node.right]));
+    trees.push_back(std::move(tree));
+  }
+  return std::move(trees.back());
+}
+
 Json material_json(const Material& material) {
   const Highlight& highlight = material.highlight;
   const std::string model(info(highlight.model).name), lobe(info(highlight.lobe).name);
   require_formula(model);
   // The name of a family has no order.
   require_formula(lobe.substr(0, lobe.find_last_not_of("0123456789") + 1));
-  return {{"model", model},
-          {"lobe", lobe},
-          {"normalisation", name(highlight.normalisation)},
-          {"exponent", highlight.exponent},
-          {"fresnel", name(material.fresnel)},
-          {"specular", json(material.specular_reflectance)},
-          {"diffuse", json(material.diffuse_reflectance)},
-          {"mirror", json(material.mirror_reflectance)}};
+  Json result{{"model", model},
+              {"lobe", lobe},
+              {"normalisation", name(highlight.normalisation)},
+              {"exponent", highlight.exponent},
+              {"fresnel", name(material.fresnel)},
+              {"specular", json(material.specular_reflectance)},
+              {"diffuse", json(material.diffuse_reflectance)},
+              {"mirror", json(material.mirror_reflectance)}};
+  if (highlight.lobe.formula) result["formula"] = formula_json(*highlight.lobe.formula);
+  return result;
 }
 
 Json plane_json(const Plane& plane) {

@@ -69,8 +69,8 @@ class Nodes:
         half = self.math("ARCSINE", self.math("SQRT", self.math("MULTIPLY", 0.5, s)))
         return self.math("MULTIPLY", 2.0, self.math("MULTIPLY", half, half))
 
-    def lobe(self, name, s, n):
-        lobe, order = find_lobe(name)
+    def lobe(self, material, s, n):
+        lobe, order = find_lobe(material)
         value = lobe.node(self, s, n, order)
         # Every lobe ends at 90 degrees.
         return self.math("MULTIPLY", value, self.math("LESS_THAN", s, 1.0))
@@ -135,7 +135,7 @@ class Surface(Nodes):
             s = self.one_minus_cos(self.normal, half)
 
         # Radiance = (specular lobe + diffuse/pi) N.L E; for an RDF the lobe's term has no N.L.
-        weight = self.lobe(material["lobe"], s, n)
+        weight = self.lobe(material, s, n)
         if model.is_rdf:
             # Cancels Cycles' factor N.L. Where N.L <= 0 Cycles shows black anyway.
             n_dot_l = self.vector("DOT_PRODUCT", self.normal, self.to_light)

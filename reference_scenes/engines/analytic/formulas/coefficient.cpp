@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <map>
 #include <mutex>
@@ -23,10 +24,24 @@ namespace {
 /// The tail beyond a lobe this small adds nothing: the whole integral is more than 1/n.
 constexpr double kNothing = 1e-40;
 
+/// The angle below which the lobe is above `value`.
+Big angle_at(const LobeId& lobe, double value, double exponent) {
+  Big above = 0, beyond = boost::math::constants::half_pi<Big>();
+  // By halves; first in the exponent, for a narrow lobe.
+  while (beyond > 1e-9 && lobe_of_cosine(lobe, Big(cos(beyond / 2)), exponent) <= value) beyond /= 2;
+  for (int step = 0; step < 100; ++step) {
+    const Big middle = (above + beyond) / 2;
+    (lobe_of_cosine(lobe, Big(cos(middle)), exponent) > value ? above : beyond) = middle;
+  }
+  return beyond;
+}
+
 /// Ends of the pieces, from 0 to a right angle.
-std::vector<Big> pieces(const ModelRow& model, LobeId lobe, double exponent) {
+std::vector<Big> pieces(const ModelRow& model, const LobeId& lobe, double exponent) {
   const Big right_angle = boost::math::constants::half_pi<Big>();
-  const Big unit = (model.lobe_of_half_angle ? 2 : 1) / sqrt(Big(exponent));
+  const Big part = model.lobe_of_half_angle ? 2 : 1;
+  // A formula may fall on any scale, and end anywhere.
+  const Big unit = part * (lobe.formula ? angle_at(lobe, 0.5, exponent) : Big(1 / sqrt(Big(exponent))));
   std::vector<Big> ends{0, right_angle, right_angle / 2};
   for (const double factor : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0})
     ends.push_back(factor * unit);
@@ -35,12 +50,13 @@ std::vector<Big> pieces(const ModelRow& model, LobeId lobe, double exponent) {
     const Big corner = acos(1 - Big(lobe.order) / exponent);
     ends.push_back(model.lobe_of_half_angle ? 2 * corner : corner);
   }
+  if (lobe.formula) ends.push_back(part * angle_at(lobe, 0, exponent));
   std::erase_if(ends, [&](const Big& end) { return end > right_angle; });
   std::sort(ends.begin(), ends.end());
   return ends;
 }
 
-double integrate(const ModelRow& model, LobeId lobe, double exponent) {
+double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
   const auto integrand = [&](const Big& cos_x, const Big& sin_x, const Big& cosine) {
     const Big value = lobe_of_cosine(lobe, cosine, exponent) * sin_x;
     return model.integral_has_cosine ? Big(value * cos_x) : value;
@@ -59,7 +75,10 @@ double integrate(const ModelRow& model, LobeId lobe, double exponent) {
     const Big highest =
         lobe_of_cosine(lobe, cos(model.lobe_of_half_angle ? Big(begin / 2) : begin), exponent);
     if (highest * exponent < kNothing) return normalised(sum);
-    sum += boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
+    // A formula may have corners inside.
+    sum += lobe.formula ? boost::math::quadrature::gauss_kronrod<Big, 21>::integrate(
+                              of_angle, begin, ends[i], 12, 1e-16)
+                        : boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
   }
   // cos^n with a small n rises steeply from the right angle. The last piece starts there, with points crowded at that end.
   thread_local boost::math::quadrature::tanh_sinh<Big> corner;
@@ -79,8 +98,8 @@ double integrate(const ModelRow& model, LobeId lobe, double exponent) {
 double coefficient(ModelId model, LobeId lobe, double exponent) {
   // Pictures ask for the same few again and again, and each takes about 10 ms.
   static std::mutex mutex;
-  static std::map<std::tuple<int, int, int, double>, double> known;
-  const std::tuple key(model.index, lobe.index, lobe.order, exponent);
+  static std::map<std::tuple<int, LobeId, double>, double> known;
+  const std::tuple key(int(model.index), lobe, exponent);
   {
     const std::lock_guard lock(mutex);
     if (const auto found = known.find(key); found != known.end()) return found->second;

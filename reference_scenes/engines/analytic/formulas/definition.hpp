@@ -8,13 +8,13 @@ namespace lobelia {
 
 /// The lobe at the angle with this cosine, in (0, 1].
 template <class Number>
-Number lobe_definition(LobeId lobe, const Number& cosine, double exponent) {
+Number lobe_definition(const LobeId& lobe, const Number& cosine, double exponent) {
   using Definition = Number (*)(LobeParameters, const Number&);
   static constexpr auto kDefinitions =
-      map_types<Definition>(HWY_NAMESPACE::Lobes{}, []<class L>() -> Definition {
+      map_types<Definition>(HWY_NAMESPACE::LobesById{}, []<class L>() -> Definition {
         return [](LobeParameters p, const Number& c) { return L(p).definition(c); };
       });
-  return kDefinitions.at(lobe.index)({exponent, lobe.order}, cosine);
+  return kDefinitions.at(lobe.index)({exponent, lobe}, cosine);
 }
 
 /// A lobe is sampled over s with the density lobe times this, over its integral: 1 where the samples follow the lobe itself.

@@ -23,7 +23,7 @@ struct Picture::Pixels {
   std::vector<Lit> lit;
   double peak = 0;
   /// Values of lobes, which models with the same angle share.
-  std::map<std::tuple<LobeAngle, int, int, double>, std::vector<Big>> lobes;
+  std::map<std::tuple<LobeAngle, LobeId, double>, std::vector<Big>> lobes;
   std::mutex mutex;
 };
 
@@ -69,7 +69,7 @@ std::vector<Rgb> Picture::highlights(const Highlight& highlight) const {
   const ModelRow& model = model_row(highlight.model);
   const LobeId lobe = highlight.lobe;
   const std::lock_guard lock(pixels_->mutex);
-  auto& values = pixels_->lobes[{model.angle, lobe.index, lobe.order, highlight.exponent}];
+  auto& values = pixels_->lobes[{model.angle, lobe, highlight.exponent}];
   if (values.empty())
     for (const auto& lit : pixels_->lit)
       values.push_back(

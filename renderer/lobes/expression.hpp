@@ -1,0 +1,57 @@
+// A lobe that a scene gives by its formula, to try an idea before it gets a file here.
+//
+//   value(s) = the formula of s, c = 1 - s, x = arccos(c) and n where s < 1, else 0
+//
+// Every kernel evaluates it point by point in float64. Its energy is found by quadrature, and its samples by a table.
+// Slow: some tens of times a lobe with a file of its own.
+#include "renderer/formula_lobe.hpp"
+#include "renderer/lobes/lobe.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lobelia::HWY_NAMESPACE {
+
+struct ExpressionLobe {
+  static constexpr LobeInfo kInfo{kFormulaLobe, kFormulaLobe, "the formula given", "by quadrature",
+                                  "given as a formula"};
+  static constexpr std::array<int, 0> kOrders{};
+
+  explicit ExpressionLobe(const LobeParameters& p) : lobe(p.formula, p.exponent), n(p.exponent) {}
+
+  template <class Real>
+  Real value(Real s) const {
+    using Scalar = typename ScalarOf<Real>::Type;
+    if constexpr (std::is_same_v<Real, double>) {
+      return lobe.value(s);
+    } else {
+      HWY_ALIGN Scalar lanes[HWY_LANES(Scalar)];
+      double wide[HWY_LANES(Scalar)];
+      s.store(lanes);
+      const std::size_t count = Real::count();
+      std::copy_n(lanes, count, wide);
+      lobe.values(wide, wide, count);
+      for (std::size_t i = 0; i < count; ++i)
+        lanes[i] = wide[i] >= double(std::numeric_limits<Scalar>::min()) ? Scalar(wide[i]) : Scalar(0);
+      return Real::load(lanes);
+    }
+  }
+
+  template <class Number>
+  Number definition(Number c) const {
+    return lobe.formula().template evaluate<Number>(Number(1) - c, n);
+  }
+
+  double moment(int j, double s_max) const { return lobe.moment(j, s_max); }
+  double sample(double xi) const { return lobe.sample(xi); }
+  double density(double s) const { return lobe.density(s); }
+  PaperColumn paper_column() const { return PaperColumn::kNone; }
+  LobeText text() const { return {formula_body(lobe.formula()), ""}; }
+  /// Nobody has counted the roundings of the formula, so no precision but float64 is enough.
+  Float32Error float32_error() const { return {1, 0}; }
+
+  FormulaLobe lobe;
+  double n;
+};
+static_assert(Lobe<ExpressionLobe>);
+
+}  // namespace lobelia::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
