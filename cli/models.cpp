@@ -18,7 +18,7 @@ std::string range_of(const Parameter& p) {
   return choices.empty() ? fmt::format("{:g} to {:g}", p.min, p.max) : choices;
 }
 
-void print_catalogues() {
+void print_catalogues(std::span<const LobeId> lobes) {
   fmt::print("{:<26}{:<28}{:<10}{:<6}{:<20}{}\n", "model", "title", "angle", "N.L", "normalised",
              "exact coefficient of any lobe, by its moments");
   for (const ModelId id : all_models()) {
@@ -35,7 +35,7 @@ void print_catalogues() {
   }
   fmt::print("\n{:<20}{:<32}{:<46}{}\n", "lobe", "value, s = 1 - cos",
              "moments M_j = integral of value s^j, 0 to S", "source");
-  for (const LobeId id : all_lobes())
+  for (const LobeId& id : lobes)
     fmt::print("{:<20}{:<32}{:<46}{}\n", info(id).name, info(id).formula, info(id).moments,
                info(id).source);
   fmt::print("\n{:<20}meaning\n", "normalisation");
@@ -52,17 +52,17 @@ void print_operations(std::string_view name, const OperationCount& c) {
              c.transcendental, c.compare);
 }
 
-void print_costs() {
+void print_costs(std::span<const LobeId> lobes) {
   fmt::print("\n{:<26}{:>9}{:>6}{:>8}{:>6}{:>16}{:>9}\n", "operations a point", "multiply", "add",
              "divide", "root", "transcendental", "compare");
-  for (const LobeId id : all_lobes()) print_operations(info(id).name, operations(id));
+  for (const LobeId& id : lobes) print_operations(info(id).name, operations(id));
   for (const ModelId id : all_models()) print_operations(info(id).name, operations(id));
 }
 
-void print_measured(double exponent) {
+void print_measured(double exponent, std::span<const LobeId> lobes) {
   fmt::print("\nMeasured at n = {:g}\n\n{:<20}{:>12}{:>12}{:>15}{:>15}\n", exponent, "lobe",
              "half width", "0 beyond", "above cosine", "below cosine");
-  for (const LobeId id : all_lobes()) {
+  for (const LobeId& id : lobes) {
     const LobeProperties p = measure(id, exponent);
     fmt::print("{:<20}{:>8.3f} deg{:>8.3f} deg{:>15.3g}{:>15.3g}\n", info(id).name,
                p.half_width / kDegree, p.support / kDegree, p.above_cosine, p.below_cosine);
@@ -70,7 +70,7 @@ void print_measured(double exponent) {
   fmt::print("\n{:<26}{:<20}{:<8}{:>12}{:>9}{:>14}{:>17}{:>13}{:>13}\n", "model", "lobe", "norm.",
              "coefficient", "energy", "seen at most", "lit at most, at", "above 1 from",
              "reciprocity");
-  for (const Highlight& h : all_highlights(exponent)) {
+  for (const Highlight& h : all_highlights(exponent, lobes)) {
     const AlbedoPeak lit = largest_albedo_of_light(h);
     fmt::print("{:<26}{:<20}{:<8}{:>12.6g}{:>9.5f}{:>14.5f}{:>9.5g}{:>6.2f} d{:>13}{:>13}\n",
                info(h.model).name, info(h.lobe).name, name(h.normalisation),
@@ -89,6 +89,7 @@ void print_measured(double exponent) {
 struct ModelsArguments {
   bool json = false;
   double exponent = 64;
+  LobeOption lobe;
   std::string tables;
 };
 
@@ -99,13 +100,18 @@ void run_models(const ModelsArguments& options, bool has_exponent) {
                                                                : table_exponents()));
     return;
   }
+  std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
+  if (const auto one = options.lobe.lobe()) {
+    require_lobe({{}, *one, {}, options.exponent});
+    lobes = {*one};
+  }
   if (options.json) {
-    fmt::print("{}", record_text(catalogue_record(options.exponent)));
+    fmt::print("{}", record_text(catalogue_record(options.exponent, lobes)));
     return;
   }
-  print_catalogues();
-  print_costs();
-  print_measured(options.exponent);
+  print_catalogues(lobes);
+  print_costs(lobes);
+  print_measured(options.exponent, lobes);
 }
 
 }  // namespace
@@ -118,6 +124,7 @@ void add_models(CLI::App& app, ExitCode&) {
   auto* json = group.add_flag("--json", options->json, "Print the catalogue as JSON");
   auto* exponent = group.add_number("--exponent", options->exponent, kMinExponent, kMaxExponent,
                                     "Exponent n at which to measure");
+  options->lobe.add_to(group);
   group
       .add(
           "--tables", options->tables, "FILE",

@@ -93,7 +93,7 @@ std::filesystem::path EnginePrograms::of(std::string_view engine) const {
 
 void LobeOption::add_to(OptionGroup& group, const std::string& usual) {
   usual_ = usual;
-  group.add("--lobe", name_, "", fmt::format("Lobe: {}", allowed_lobes()))->default_str(usual);
+  group.add("--lobe", name_, "", fmt::format("Lobe: {}", allowed_lobes(true)))->default_str(usual);
   group.add("--formula", formula_, "",
             fmt::format("Formula of the lobe '{}', in s = 1 - cos, c = 1 - s, the angle x and n: "
                         "'1 / (1 + n * s)'",
@@ -115,7 +115,7 @@ std::optional<LobeId> LobeOption::lobe() const {
   if (name == kFormulaLobe)
     throw Error(ExitCode::kUsage, fmt::format("--lobe {} needs a --formula", kFormulaLobe));
   if (name.empty() && !name_) return std::nullopt;
-  return chosen(name, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+  return chosen(name, "--lobe", lobe_names(), allowed_lobes(true), find_lobe);
 }
 
 void require_lobe(const Highlight& highlight) {

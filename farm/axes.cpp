@@ -6,6 +6,7 @@
 #include "core/text.hpp"
 #include "farm/grid.hpp"
 #include "reference_scenes/engine.hpp"
+#include "renderer/formula.hpp"
 #include "renderer/scene/scene_format.hpp"
 #include "renderer/scene/scene_io.hpp"
 
@@ -51,7 +52,13 @@ LobeId lobe_of(const std::string& text) {
   return *lobe;
 }
 
+/// A lobe's name, or "expression:1/(1 + n*s)".
 AxisValue parse_lobe(const std::string& text, const fs::path&) {
+  if (const auto prefix = fmt::format("{}:", kFormulaLobe); text.starts_with(prefix)) {
+    const LobeId lobe = formula_lobe(std::string_view(text).substr(prefix.size()));
+    return {text, lobe.formula->text(), identifier(lobe),
+            for_each_highlight([lobe](Highlight& h) { h.lobe = lobe; })};
+  }
   return {text, text, text, for_each_highlight([l = lobe_of(text)](Highlight& h) { h.lobe = l; })};
 }
 
@@ -159,7 +166,7 @@ AxisValue parse_engine(const std::string& text, const fs::path&) {
 constexpr AxisKind kAxisKinds[] = {
     {"scene", "scene files", parse_scene_file},
     {"model", "names of models (lobelia models)", parse_model},
-    {"lobe", "names of lobes (lobelia models)", parse_lobe},
+    {"lobe", "names of lobes (lobelia models), or expression:FORMULA", parse_lobe},
     {"normalisation", "normalisations, or LOBE:NORMALISATION such as cs16:paper",
      parse_normalisation},
     {"exponent", "numbers", parse_exponent},
@@ -182,5 +189,21 @@ std::string picture_of(const Scene& scene) {
 }
 
 std::span<const AxisKind> axis_kinds() { return kAxisKinds; }
+
+std::vector<std::string> split_values(std::string_view axis, std::string_view text) {
+  constexpr std::string_view kSeparators = ", \t\n\r";
+  if (axis != "lobe") return split(text, kSeparators);
+  std::vector<std::string> values;
+  int depth = 0;
+  bool in_value = false;
+  for (const char c : text) {
+    depth += (c == '(') - (c == ')');
+    const bool separates = depth <= 0 && kSeparators.find(c) != std::string_view::npos;
+    if (!separates && !in_value) values.emplace_back();
+    if (!separates) values.back() += c;
+    in_value = !separates;
+  }
+  return values;
+}
 
 }  // namespace lobelia

@@ -53,6 +53,9 @@ struct AxisKind {
 
 std::span<const AxisKind> axis_kinds();
 
+/// The parts of `text` between commas and white space. On the axis of lobes not within the parentheses of a formula.
+std::vector<std::string> split_values(std::string_view axis, std::string_view text);
+
 /// A sentence if a light of the scene is a picture file, which a cell cannot keep; otherwise empty.
 std::string picture_of(const Scene& scene);
 

@@ -9,7 +9,6 @@
 namespace lobelia {
 namespace {
 
-constexpr std::string_view kSeparators = ", \t\n\r";
 /// Shapes, materials and lights of all scenes of an axis, which stay in memory.
 constexpr std::size_t kMaxHeldParts = 10000000;
 /// Combinations that all exclusions of a grid may name together, counted as often as they are named.
@@ -127,7 +126,7 @@ class ChoiceReader {
       const std::string text = source_.required(node, name);
       if (!node.attribute(name)) continue;
       try {
-        const auto values = split(text, kSeparators);
+        const auto values = split_values(name, text);
         if (values.size() != 1)
           throw std::runtime_error(
               fmt::format("'{}' is not one value; an <include> adds one cell", printable(text)));
@@ -157,7 +156,7 @@ class ChoiceReader {
                    std::vector<bool>& chosen) {
     const Axis& axis = table.axis();
     chosen.resize(axis.values.size());
-    const auto texts = split(attribute.value(), kSeparators);
+    const auto texts = split_values(axis.name, attribute.value());
     if (texts.empty())
       source_.error(attribute, node, fmt::format("no value of the axis '{}'", axis.name));
     for (const auto& text : texts) {

@@ -187,7 +187,7 @@ class GridReader {
     }
     AxisTable& table = tables_.emplace_back(*kind, directory_);
     auto& steps = factor.steps.emplace_back();
-    const auto texts = split(values, ", \t\n\r");
+    const auto texts = split_values(name, values);
     for (const auto& text : texts) {
       if (source_.full()) break;
       try {

@@ -195,10 +195,10 @@ std::string_view meaning(Normalisation normalisation) {
              : "the constant as the paper prints it, misprints included";
 }
 
-std::vector<Highlight> all_highlights(double exponent) {
+std::vector<Highlight> all_highlights(double exponent, std::span<const LobeId> lobes) {
   std::vector<Highlight> all;
   for (const ModelId model : all_models())
-    for (const LobeId lobe : all_lobes()) {
+    for (const LobeId& lobe : lobes) {
       all.push_back({model, lobe, Normalisation::kExact, exponent});
       if (has_paper_coefficient(lobe))
         all.push_back({model, lobe, Normalisation::kPaper, exponent});
@@ -206,17 +206,17 @@ std::vector<Highlight> all_highlights(double exponent) {
   return all;
 }
 
-records::Models catalogue_record(double exponent) {
+records::Models catalogue_record(double exponent, std::span<const LobeId> lobes) {
   records::Models record;
   record.measured_at_exponent = exponent;
   for (const ModelId id : all_models()) record.models.push_back(model_record(id));
-  for (const LobeId id : all_lobes()) record.lobes.push_back(lobe_record(id, exponent));
+  for (const LobeId& id : lobes) record.lobes.push_back(lobe_record(id, exponent));
   record.lobe_families = allowed_lobes();
   for (const std::string_view how : normalisation_names())
     record.normalisations.push_back(
         {std::string(how), std::string(meaning(*find_normalisation(how)))});
   for (const Parameter& p : kHighlightParameters) record.parameters.push_back(parameter_record(p));
-  for (const Highlight& h : all_highlights(exponent))
+  for (const Highlight& h : all_highlights(exponent, lobes))
     record.highlights.push_back(catalogue_highlight(h));
   return record;
 }

@@ -9,13 +9,14 @@ namespace lobelia {
 
 std::string_view angle_name(LobeAngle angle);           ///< "L and R", "N and H"
 std::string_view meaning(Normalisation normalisation);  ///< in a sentence
-/// Every model, listed lobe and normalisation.
-std::vector<Highlight> all_highlights(double exponent);
+/// Every model and normalisation of these lobes.
+std::vector<Highlight> all_highlights(double exponent,
+                                      std::span<const LobeId> lobes = all_lobes());
 
 records::Operations operations_record(const OperationCount& count);
 
-/// Everything about all models and lobes, measured at one exponent. Kind "models".
-records::Models catalogue_record(double exponent);
+/// Everything about all models and these lobes, measured at one exponent. Kind "models".
+records::Models catalogue_record(double exponent, std::span<const LobeId> lobes = all_lobes());
 
 // Tables of all highlights over the exponent. A page interpolates them, so its script need not know the formulas.
 

@@ -167,14 +167,15 @@ std::span<const std::string_view> model_names() { return kModelNames; }
 std::span<const std::string_view> lobe_names() { return lobe_table().names; }
 std::span<const std::string_view> normalisation_names() { return kNormalisationNames; }
 
-std::string allowed_lobes() {
+std::string allowed_lobes(bool or_a_formula) {
   std::string families;
   map_types<int>(Lobes{}, [&]<class L>() {
     if (!L::kOrders.empty())
       families += fmt::format("; {0}K for any even K from 2 to {1}", L::kInfo.name, kMaxOrder);
     return 0;
   });
-  return fmt::format("{}{}; {}, with a formula", join(lobe_names()), families, kFormulaLobe);
+  if (or_a_formula) families += fmt::format("; {}, with a formula", kFormulaLobe);
+  return join(lobe_names()) + families;
 }
 
 const ModelInfo& info(ModelId id) { return kModelInfos.at(id.index); }
@@ -242,6 +243,8 @@ double radiance_coefficient(const Highlight& highlight) {
   const LobeUse& lobe = kLobeUses.at(highlight.lobe.index);
   const double n = highlight.exponent;
   const LobeParameters p(highlight);
+  if (const std::string why = why_not_a_lobe(highlight); !why.empty())
+    throw Error(ExitCode::kInput, why);
   if (highlight.normalisation == Normalisation::kExact)
     return model.share * lobe.exact_coefficient(p, model.energy);
   switch (lobe.paper_column(p)) {

@@ -98,9 +98,8 @@ std::span<const LobeId> all_lobes();
 std::span<const std::string_view> model_names();
 std::span<const std::string_view> lobe_names();
 std::span<const std::string_view> normalisation_names();  ///< "exact", "paper"
-/// The names that find_lobe() takes, for messages: "cosine, cs2, ...; csK for any even K from 2 to 1024", and how a
-/// formula is given.
-std::string allowed_lobes();
+/// The names that find_lobe() takes, for messages: "cosine, cs2, ...; csK for any even K from 2 to 1024".
+std::string allowed_lobes(bool or_a_formula = false);
 
 const ModelInfo& info(ModelId id);
 CoefficientFormulas formulas(ModelId id);
@@ -121,7 +120,8 @@ std::string why_not_a_lobe(const Highlight& highlight);
 std::optional<Normalisation> find_normalisation(std::string_view name);
 
 /// The factor of the lobe (and N.L, where the model applies it) in radiance per unit irradiance. For the microfacet
-/// models it is a quarter of the coefficient of D: f_r = D F / 4.
+/// models it is a quarter of the coefficient of D: f_r = D F / 4. Throws Error(kInput) if the paper has none for the lobe,
+/// and if the formula is no lobe.
 double radiance_coefficient(const Highlight& highlight);
 
 /// Whether the paper prints a coefficient for the lobe: only for cosine and cs16.

@@ -37,7 +37,8 @@ struct ExpressionLobe {
 
   template <class Number>
   Number definition(Number c) const {
-    return lobe.formula().template evaluate<Number>(Number(1) - c, n);
+    const Number value = lobe.formula().template evaluate<Number>(Number(1) - c, n);
+    return value > Number(0) ? (value < Number(1) ? value : Number(1)) : Number(0);
   }
 
   double moment(int j, double s_max) const { return lobe.moment(j, s_max); }

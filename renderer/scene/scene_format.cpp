@@ -82,7 +82,7 @@ std::span<const ElementFormat> material_formats() {
 
 std::string string_choices(const Parameter& p) {
   if (p.name == "filename") return "a picture in the scene file's directory or below it";
-  if (p.name == "lobe") return allowed_lobes();
+  if (p.name == "lobe") return allowed_lobes(true);
   if (p.name == "formula") return "a formula of s, c, x and n";
   if (p.name == "fresnel") return join(fresnel_names());
   if (p.name == "normalisation") return join(normalisation_names());

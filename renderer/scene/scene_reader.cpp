@@ -196,7 +196,7 @@ class SceneReader {
       return refuse(formula, fmt::format("a formula is for the lobe '{}', not for '{}'",
                                          kFormulaLobe, printable(lobe.text)));
     if (!given)
-      return reader_.choose(lobe, material, "lobe", lobe_names(), allowed_lobes(), find_lobe,
+      return reader_.choose(lobe, material, "lobe", lobe_names(), allowed_lobes(true), find_lobe,
                             highlight.lobe);
     try {
       highlight.lobe = formula_lobe(formula.text);
