@@ -160,7 +160,7 @@ class Parser {
       if (!symbol.empty() && is_letter(symbol.front())) known.push_back(symbol);
     fail(fmt::format("unknown name '{}'; allowed: s, n, c, x, pi and the functions exp, log, sqrt, "
                      "abs, sin, cos, tan, asin, acos, atan, pow, min, max{}",
-                     printable(name), did_you_mean(name, known)));
+                     printable(name), name.size() > 1 ? did_you_mean(name, known) : ""));
   }
 
   std::uint8_t function(std::string_view name, Operation operation) {
