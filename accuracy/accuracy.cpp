@@ -59,7 +59,7 @@ double cost_of(const Scene& scene, std::optional<LobeId> lobe, Precision precisi
 std::vector<LobeVariant> variants_of(const Scene& scene, const CostModel& model) {
   const auto own = own_lobe(scene);
   std::vector<std::optional<LobeId>> lobes;
-  for (const LobeId lobe : lobe_candidates(scene)) lobes.push_back(lobe);
+  for (const LobeId& lobe : lobe_candidates(scene)) lobes.push_back(lobe);
   if (!own) lobes.push_back(std::nullopt);
   std::vector<LobeVariant> variants;
   for (const auto& lobe : lobes)

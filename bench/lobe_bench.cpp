@@ -80,7 +80,7 @@ void shade_with_pow(benchmark::State& state) {
 const int kRegistered = [] {
   benchmark::RegisterBenchmark("shade/phong_rdf/std_pow", shade_with_pow);
   for (const ModelId model : all_models())
-    for (const LobeId lobe : all_lobes())
+    for (const LobeId& lobe : all_lobes())
       for (std::size_t p = 0; p < precision_names().size(); ++p)
         benchmark::RegisterBenchmark(
             fmt::format("shade/{}/{}/{}", info(model).name, info(lobe).name, precision_names()[p])

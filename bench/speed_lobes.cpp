@@ -61,7 +61,7 @@ void lobes() {
   });
   const std::size_t first = cases.size();
   std::vector<PreparedLobe> prepared;
-  for (const LobeId lobe : all_lobes()) prepared.push_back(prepare(lobe, kExponent));
+  for (const LobeId& lobe : all_lobes()) prepared.push_back(prepare(lobe, kExponent));
   for (std::size_t k = 0; k < all_lobes().size(); ++k) {
     const LobeId lobe = all_lobes()[k];
     cases.push_back([&, k] {

@@ -72,7 +72,7 @@ void pictures() {
   };
   std::vector<Case> all;
   for (const ModelId model : all_models())
-    for (const LobeId lobe : all_lobes())
+    for (const LobeId& lobe : all_lobes())
       for (std::size_t set = 0; set < sets.size(); ++set) {
         const Scene scene = head_on(model, lobe);
         all.push_back({model, lobe, set, scene, renderer_for(sets[set], scene)});

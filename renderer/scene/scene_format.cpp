@@ -4,6 +4,7 @@
 
 #include "core/text.hpp"
 #include "renderer/filter.hpp"
+#include "renderer/formula.hpp"
 #include "renderer/fresnel.hpp"
 #include "renderer/scene/lights/lights.hpp"
 #include "renderer/scene/sphere_lattice.hpp"
@@ -162,6 +163,32 @@ then alternate as a checker.
                  kHighlightParameters});
   text += "\nMODEL is one of:\n\n";
   for (const auto& model : models()) text += fmt::format("- `{}`: {}\n", model.name, model.title);
+  text += fmt::format(
+      R"--(
+### A lobe by its formula
+
+```xml
+<string name="lobe" value="expression"/>
+<string name="formula" value="max(0, 1 - n*s/16)^16"/>
+```
+
+A formula has numbers, `+ - * / ^`, parentheses, `pi`, the functions of one value exp, log (natural), sqrt,
+abs, sin, cos, tan, asin, acos and atan, the functions of two pow, min and max, and these names:
+
+| name | value |
+|---|---|
+| `s` | 1 - cos of the lobe's angle, 0 to 1; small angles keep their digits in it |
+| `c` | 1 - s |
+| `x` | the angle itself in radians |
+| `n` | the exponent |
+
+A power binds more tightly than a sign, and from the right: `-2^2` is -4, `2^3^2` is 2^9. At most {} bytes, {}
+numbers, names and operations, {} levels; numbers are 0, or 1e-30 to 1e30. Every lobe is 0 from s = 1 on. A formula has
+to be finite up to there, 1 at s = 0, nowhere negative, and must not rise: the reader tests it at a thousand places, with
+the exponent of its material. Between them a value below 0, or none, counts as 0, and one above 1 as 1. The
+normalisation is `exact`, with the energy by quadrature.
+)--",
+      kMaxFormulaBytes, kMaxFormulaNodes, kMaxFormulaDepth);
   return text;
 }
 

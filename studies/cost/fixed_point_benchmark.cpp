@@ -54,7 +54,7 @@ std::vector<Circuit> circuits(unsigned n, const std::vector<int>& bits) {
     for (const int count : bits) {
       const FixedPoint f{count, rounding};
       // The lobes of the catalogue that need squarings alone.
-      for (const LobeId lobe : all_lobes())
+      for (const LobeId& lobe : all_lobes())
         if (lobe.order > 0 && (lobe.order & (lobe.order - 1)) == 0)
           all.push_back(cs_circuit(f, n, lobe.order));
       all.push_back(power_circuit(f, n));

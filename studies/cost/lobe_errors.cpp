@@ -223,7 +223,7 @@ LobeTruth::LobeTruth(double exponent) : cosine_energy_(1 / (exponent + 1)) {
   add_samples(exponent);
   cosine_ = place_of(*find_lobe("cosine"));
   const ModelId whole = *find_model("phong_rdf");  // 1/coefficient: 2 pi times the lobe's integral
-  for (const LobeId lobe : all_lobes()) {
+  for (const LobeId& lobe : all_lobes()) {
     std::vector<Value>& values = values_.emplace_back();
     for (const float s : s_) {
       const Quad value = s < 1 ? lobe_definition<Quad>(lobe, Quad(1) - Quad(s), exponent) : Quad(0);

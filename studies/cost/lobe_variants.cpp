@@ -169,7 +169,7 @@ std::vector<LobeVariant> lobe_variants(double exponent) {
     };
   });
   Variants all;
-  for (const LobeId id : all_lobes()) kAdd.at(id.index)(id, exponent, all);
+  for (const LobeId& id : all_lobes()) kAdd.at(id.index)(id, exponent, all);
   return all;
 }
 

@@ -69,7 +69,7 @@ std::string order_remark(const std::vector<Variant>& variants) {
 Table table_of(const NamedScene& named, const Options& options) {
   const Scene scene = sized(named.scene, options);
   std::vector<Combination> cases;
-  for (const LobeId lobe : accuracy::lobe_candidates(scene))
+  for (const LobeId& lobe : accuracy::lobe_candidates(scene))
     for (std::size_t p = 0; p < precision_names().size(); ++p)
       cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}});
 

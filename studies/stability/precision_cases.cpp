@@ -144,7 +144,7 @@ Rows precision_rows(const std::vector<LobeId>& lobes, double exponent) {
   const auto chunk = std::make_unique<Chunk>();
   for (const LobeAngle angle : {LobeAngle::kReflection, LobeAngle::kHalfVector}) {
     std::vector<Trials> by_lobe;
-    for (const LobeId lobe : lobes) by_lobe.emplace_back(angle, lobe, exponent);
+    for (const LobeId& lobe : lobes) by_lobe.emplace_back(angle, lobe, exponent);
     RandomVectors vectors(angle, exponent, 1);
     for (std::size_t i = 0; i < kChunks; ++i) {
       chunk->fill(angle, [&] { return vectors.next(); });

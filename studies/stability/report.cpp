@@ -262,7 +262,7 @@ std::string timings(const records::VerifyStability& report) {
 Rows all_rows(const std::vector<LobeId>& lobes, const std::function<void(double)>& on_progress) {
   std::vector<std::function<Rows()>> jobs;
   for (const auto rows_of : {lobe_rows, coefficient_rows, vector_rows, density_rows, sphere_rows})
-    for (const LobeId lobe : lobes) jobs.push_back([rows_of, lobe] { return rows_of(lobe); });
+    for (const LobeId& lobe : lobes) jobs.push_back([rows_of, lobe] { return rows_of(lobe); });
   for (const double n : kExponents)
     jobs.push_back([&lobes, n] { return precision_rows(lobes, n); });
 

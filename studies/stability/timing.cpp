@@ -84,7 +84,7 @@ std::vector<double> underflowing(LobeId lobe, Precision precision) {
 std::vector<records::StabilityStall> measure_stalls(const std::vector<LobeId>& lobes) {
   std::vector<records::StabilityStall> stalls;
   const ModelId phong = *find_model("phong_rdf");
-  for (const LobeId lobe : lobes) {
+  for (const LobeId& lobe : lobes) {
     const auto ordinary = places(lobe, 0.9, 0.1);
     const Highlight h{phong, lobe, Normalisation::kExact, kExponent};
     for (const Precision p : {Precision::kFloat32, Precision::kMixed, Precision::kFloat64}) {
@@ -102,7 +102,7 @@ std::vector<records::StabilityStall> measure_stalls(const std::vector<LobeId>& l
 std::vector<records::StabilityPrice> measure_prices(const std::vector<LobeId>& lobes) {
   std::vector<records::StabilityPrice> prices;
   for (const char* model : {"modified_phong", "modified_blinn_phong"})
-    for (const LobeId lobe : lobes) {
+    for (const LobeId& lobe : lobes) {
       const Highlight h{*find_model(model), lobe, Normalisation::kExact, kExponent};
       const auto points = std::make_shared<Points>(places(lobe, 0.9, 0.1));
       const auto t = nanoseconds({shading(points, h, Precision::kFloat32),

@@ -11,8 +11,8 @@ namespace {
 TEST(HighlightDifference, IsTheLargestOfAFineGridForEveryPairOfLobes) {
   for (const ModelId model : all_models())
     for (const double exponent : {0.1, 1.0, 7.0, 64.0, 1e4, 1e7})
-      for (const LobeId a : all_lobes())
-        for (const LobeId b : {*find_lobe("cosine"), *find_lobe("schlick"), *find_lobe("cs4")}) {
+      for (const LobeId& a : all_lobes())
+        for (const LobeId& b : {*find_lobe("cosine"), *find_lobe("schlick"), *find_lobe("cs4")}) {
           const Highlight stand_in{model, a, Normalisation::kExact, exponent};
           const Highlight target{model, b, Normalisation::kExact, exponent};
           const double ratio = radiance_coefficient(stand_in) / radiance_coefficient(target);

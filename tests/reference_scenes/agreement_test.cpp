@@ -109,7 +109,7 @@ TEST_P(Agreement, OfEveryModelWithEveryLobe) {
   for (const char* name : {"cs12", "cs1024"}) lobes.push_back(*find_lobe(name));
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models())
-    for (const LobeId lobe : lobes) {
+    for (const LobeId& lobe : lobes) {
       // Which exponent goes with which light does not matter to either; each pair would take long.
       const HighlightChoice sharp{model.name, info(lobe).name, "exact", 1024};
       const HighlightChoice wide{model.name, info(lobe).name, "exact", 3};

@@ -153,7 +153,7 @@ TEST(Formula, MultipliesForAWholePowerInAShader) {
             "    float c = 1.0 - s;\n    return min(1.0, max(0.0, pow(c, n)));\n");
 }
 
-std::string error_of(const std::string& text) {
+std::string complaint_of(const std::string& text) {
   try {
     const Formula formula(text);
     return "it was read";
@@ -192,18 +192,18 @@ TEST(Formula, SaysInOneLineWhatIsWrongAndWhere) {
       {std::string("1\0+s", 4), "column 2: expected an operator or the end"},
       {"1 \xc3\x97 s", "column 3: expected an operator or the end"},
   };
-  for (const auto& [text, message] : cases) EXPECT_EQ(error_of(text), "formula, " + message) << text;
+  for (const auto& [text, message] : cases) EXPECT_EQ(complaint_of(text), "formula, " + message) << text;
 }
 
 TEST(Formula, IsBounded) {
-  EXPECT_THAT(error_of(std::string(100000, '(')), testing::HasSubstr("the formula has 100000 bytes; allowed: 4000"));
-  EXPECT_EQ(error_of(std::string(1000, '(')), "formula, column 41: nested too deeply; allowed: 40 levels");
-  EXPECT_EQ(error_of(std::string(1000, '-') + "s"), "formula, column 41: nested too deeply; allowed: 40 levels");
+  EXPECT_THAT(complaint_of(std::string(100000, '(')), testing::HasSubstr("the formula has 100000 bytes; allowed: 4000"));
+  EXPECT_EQ(complaint_of(std::string(1000, '(')), "formula, column 41: nested too deeply; allowed: 40 levels");
+  EXPECT_EQ(complaint_of(std::string(1000, '-') + "s"), "formula, column 41: nested too deeply; allowed: 40 levels");
   std::string tower = "s", sum = "s", nested = "s";
   for (int i = 0; i < 100; ++i) tower += "^s", sum += "+s", nested = "abs(" + nested + ")";
-  EXPECT_THAT(error_of(tower), testing::HasSubstr("nested too deeply"));
-  EXPECT_THAT(error_of(nested), testing::HasSubstr("nested too deeply"));
-  EXPECT_THAT(error_of(sum), testing::HasSubstr("more than 200 numbers, names and operations"));
+  EXPECT_THAT(complaint_of(tower), testing::HasSubstr("nested too deeply"));
+  EXPECT_THAT(complaint_of(nested), testing::HasSubstr("nested too deeply"));
+  EXPECT_THAT(complaint_of(sum), testing::HasSubstr("more than 200 numbers, names and operations"));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(OperationCount, OfSchlickHasADivisionAndNoTranscendentalOfCosineTwoOfThese)
 }
 
 TEST(OperationCount, OfEveryLobeAndModelIsNotNothing) {
-  for (const LobeId lobe : all_lobes()) EXPECT_GT(operations(lobe).multiply, 0);
+  for (const LobeId& lobe : all_lobes()) EXPECT_GT(operations(lobe).multiply, 0);
   for (const ModelId model : all_models()) {
     const OperationCount count = operations(model);
     EXPECT_GT(count.multiply, 6) << info(model).name;

@@ -60,7 +60,7 @@ std::vector<Rgb> formula(const Scene& scene) {
 TEST(Render, EveryModelAndLobeIsTheFormulaInEveryPixel) {
   for (const char* name : {"head_on", "oblique_45", "grazing_80"})
     for (const ModelId model : all_models())
-      for (const LobeId lobe : all_lobes())
+      for (const LobeId& lobe : all_lobes())
         for (const double n : {1.0, 16.0, 128.0, 1024.0, 1e5}) {
           Scene scene = canonical(name, 64, 48);
           scene.materials[0].highlight = {model, lobe, Normalisation::kExact, n};

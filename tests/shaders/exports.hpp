@@ -34,7 +34,7 @@ inline bool can_be_made(const ShaderExport& request) {
 /// in one shader, but for WGSL.
 inline std::vector<ShaderExport> every_export(const std::string& language) {
   std::vector<ShaderExport> exports;
-  for (const LobeId lobe : every_lobe())
+  for (const LobeId& lobe : every_lobe())
     for (const Normalisation normalisation : {Normalisation::kExact, Normalisation::kPaper}) {
       if (normalisation == Normalisation::kPaper && !has_paper_coefficient(lobe)) continue;
       ShaderExport request{*find_shader_language(language),

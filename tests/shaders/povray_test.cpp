@@ -71,7 +71,7 @@ TEST_F(ExportedForPovray, TheCoefficientsAreOursToTenDigits) {
   std::vector<Highlight> expected;
   std::vector<LobeId> lobes(all_lobes().begin(), all_lobes().end());
   lobes.push_back(*find_lobe("cs1024"));
-  for (const LobeId lobe : lobes)
+  for (const LobeId& lobe : lobes)
     for (const Normalisation normalisation : {Normalisation::kExact, Normalisation::kPaper}) {
       if (normalisation == Normalisation::kPaper && !has_paper_coefficient(lobe)) continue;
       std::vector<Highlight> highlights;

@@ -147,7 +147,7 @@ class Module {
 /// both have the same names.
 std::vector<Module> all_modules() {
   std::vector<Module> modules;
-  for (const LobeId lobe : every_lobe())
+  for (const LobeId& lobe : every_lobe())
     for (const auto from : {CoefficientFrom::kComputed, CoefficientFrom::kArgument}) {
       Module& module = modules.emplace_back();
       for (const Normalisation normalisation : {Normalisation::kExact, Normalisation::kPaper})

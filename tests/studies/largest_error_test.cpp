@@ -153,7 +153,7 @@ TEST(LobeVariants, ThatSeeTheRoundedCosineAloneAreSteps) {
 }
 
 TEST(Lobes, OfTheCatalogueBendNoMoreThanTheSearchTakesThemTo) {
-  for (const LobeId lobe : all_lobes())
+  for (const LobeId& lobe : all_lobes())
     for (const double n : {2.0, 16.0, 64.5, 1e6}) {
       const auto difference = [&](double s) {
         return lobe_value(lobe, s, n) - lobe_value(*find_lobe("cosine"), s, n);

@@ -31,7 +31,7 @@ LobeVariantErrors errors_of(double exponent, const std::string& name) {
 
 TEST(LobeVariants, AreOfEveryLobeOfTheCatalogueInEveryPrecision) {
   const std::vector<LobeVariant> variants = lobe_variants(64);
-  for (const LobeId lobe : all_lobes()) {
+  for (const LobeId& lobe : all_lobes()) {
     std::set<std::string> kinds;
     for (const LobeVariant& variant : variants)
       if (variant.lobe == lobe)

@@ -37,14 +37,14 @@ std::size_t expect_within(const Rows& rows) {
 
 std::size_t expect_within(Rows (*rows_of)(LobeId)) {
   std::size_t rows = 0;
-  for (const LobeId lobe : lobes_under_test()) rows += expect_within(rows_of(lobe));
+  for (const LobeId& lobe : lobes_under_test()) rows += expect_within(rows_of(lobe));
   return rows;
 }
 
 TEST(HardCases, CoverEveryListedLobeAndTwoThatAreNotListed) {
   const auto lobes = lobes_under_test();
   ASSERT_EQ(lobes.size(), all_lobes().size() + 2);
-  for (const LobeId lobe : all_lobes())
+  for (const LobeId& lobe : all_lobes())
     EXPECT_NE(std::find(lobes.begin(), lobes.end(), lobe), lobes.end());
 }
 
@@ -61,7 +61,7 @@ TEST(HardCases, DensitiesAreRightDownToTheirUnderflow) {
 }
 
 TEST(HardCases, DensitiesOfEveryLobeAreAllComparedAndNotOnlyWhereThereIsNothing) {
-  for (const LobeId lobe : lobes_under_test()) {
+  for (const LobeId& lobe : lobes_under_test()) {
     int compared = 0, above_nothing = 0;
     for (const Row& row : density_rows(lobe)) {
       compared += row.outcome == kWithin && row.bound.of_peak == kDensityBound;
@@ -75,7 +75,7 @@ TEST(HardCases, DensitiesOfEveryLobeAreAllComparedAndNotOnlyWhereThereIsNothing)
 TEST(HardCases,
      VectorsAreComparedUnlessLightAndEyeFaceEachOtherAlongTheHorizonAndNoCosineDimsThem) {
   int cases = 0, not_compared = 0;
-  for (const LobeId lobe : lobes_under_test())
+  for (const LobeId& lobe : lobes_under_test())
     for (const Row& row : vector_rows(lobe)) {
       ++cases;
       if (row.outcome != kNotCompared) continue;

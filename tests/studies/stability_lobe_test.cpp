@@ -45,7 +45,7 @@ double stated_ulp(const Float32Error& stated, double truth) {
 
 TEST(EveryLobeInFloat32, IsWithinItsStatedBoundInTheHardCases) {
   std::size_t rows = 0;
-  for (const LobeId lobe : lobes_under_test())
+  for (const LobeId& lobe : lobes_under_test())
     for (const Row& row : lobe_rows(lobe)) {
       ++rows;
       EXPECT_EQ(row.outcome, "within") << row.lobe << " n = " << row.exponent << ", " << row.name
@@ -55,7 +55,7 @@ TEST(EveryLobeInFloat32, IsWithinItsStatedBoundInTheHardCases) {
 }
 
 TEST(EveryLobeInFloat32, IsWithinItsStatedBoundEverywhereAndTheBoundIsNoFourTimesAsLoose) {
-  for (const LobeId lobe : lobes_under_test()) {
+  for (const LobeId& lobe : lobes_under_test()) {
     double of_peak_used = 0, ulp_used = 0;
     for (const double n : kExponents) {
       const std::vector<float> s = many_abscissae(lobe, n, 1), value = in_float32(lobe, n, s);
@@ -96,7 +96,7 @@ TEST(EveryLobeInFloat32, MeetsNoNumberThatIsDenormalOnTheWayToAResultTooSmall) {
   volatile float tiny = 1e-30f, product = 0;
   ASSERT_TRUE(underflows([&] { product = tiny * tiny; }));
   int too_small = 0;
-  for (const LobeId lobe : lobes_under_test())
+  for (const LobeId& lobe : lobes_under_test())
     for (const double n : kExponents) {
       const std::vector<float> s = many_abscissae(lobe, n, 2);
       std::vector<float> value;

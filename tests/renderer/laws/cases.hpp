@@ -60,7 +60,7 @@ inline std::vector<Highlight> highlights(const std::vector<ModelId>& models, con
                                          Normalisation normalisation = Normalisation::kExact) {
   std::vector<Highlight> result;
   for (const ModelId model : models)
-    for (const LobeId lobe : lobes())
+    for (const LobeId& lobe : lobes())
       if (normalisation == Normalisation::kExact || has_paper_coefficient(lobe))
         for (const double n : exponents) result.push_back({model, lobe, normalisation, n});
   return not_empty(result);

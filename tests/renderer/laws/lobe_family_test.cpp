@@ -62,7 +62,7 @@ TEST(Cs, GrowsIntoTheSphericalGaussianAsKGrows) {
 TEST(ClosedForms, DrawEachAngleAsOftenAsTheLobeIsHigh) {
   std::vector<LobeId> closed{kCosine, kGaussian};
   for (const int k : {2, 4, 8, 12, 16, 32, 64, 1024}) closed.push_back(cs(k));
-  for (const LobeId lobe : closed)
+  for (const LobeId& lobe : closed)
     for (const double n : kExponents) {
       const PreparedLobe prepared = prepare(lobe, n);
       for (const double s : abscissae_below_1(n))

@@ -16,7 +16,7 @@ std::vector<double> abscissae(double n) {
 }
 
 TEST(EveryLobe, IsOneInTheMiddleAndFallsToBetweenZeroAndOne) {
-  for (const LobeId lobe : lobes())
+  for (const LobeId& lobe : lobes())
     for (const double n : kExponents) {
       EXPECT_EQ(lobe_value(lobe, 0, n), 1) << info(lobe).name << " n = " << n;
       double previous = 1;
@@ -32,7 +32,7 @@ TEST(EveryLobe, IsOneInTheMiddleAndFallsToBetweenZeroAndOne) {
 TEST(EveryLobe, FallsInTheMiddleAsTheSameBellWhateverTheLobe) {
   // 1 - n s + ...: that is what makes an exponent the same thing for all of them. The next term is
   // n^2 s^2 or less, and s^2 n at small n.
-  for (const LobeId lobe : lobes())
+  for (const LobeId& lobe : lobes())
     for (const double n : kExponents) {
       const double s = 1e-4 / std::max(1.0, n);
       EXPECT_NEAR((1 - lobe_value(lobe, s, n)) / (n * s), 1, 1.1e-4)
@@ -41,13 +41,13 @@ TEST(EveryLobe, FallsInTheMiddleAsTheSameBellWhateverTheLobe) {
 }
 
 TEST(EveryLobe, IsZeroBehindARightAngle) {
-  for (const LobeId lobe : lobes())
+  for (const LobeId& lobe : lobes())
     for (const double n : kExponents)
       for (const double s : {1.0, 1.5, 2.0}) EXPECT_EQ(lobe_value(lobe, s, n), 0);
 }
 
 TEST(EveryLobe, IsZeroOrANormalNumber) {
-  for (const LobeId lobe : lobes())
+  for (const LobeId& lobe : lobes())
     for (const double n : kExponents)
       for (const double s : abscissae(n)) {
         const double value = lobe_value(lobe, s, n);

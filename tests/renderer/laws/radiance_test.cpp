@@ -81,7 +81,7 @@ TEST(EveryModel, AsksDirectionsForNoLength) {
 
 TEST(Names, LeadBackToTheirEntries) {
   for (const ModelId id : every_model()) EXPECT_EQ(find_model(info(id).name), id);
-  for (const LobeId id : lobes()) EXPECT_EQ(find_lobe(info(id).name), id);
+  for (const LobeId& id : lobes()) EXPECT_EQ(find_lobe(info(id).name), id);
   EXPECT_FALSE(find_model("phong"));
   EXPECT_FALSE(find_lobe(""));
 }

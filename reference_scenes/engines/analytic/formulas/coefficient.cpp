@@ -77,7 +77,7 @@ double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
     if (highest * exponent < kNothing) return normalised(sum);
     // A formula may have corners inside.
     sum += lobe.formula ? boost::math::quadrature::gauss_kronrod<Big, 21>::integrate(
-                              of_angle, begin, ends[i], 12, 1e-16)
+                              of_angle, begin, ends[i], 15, 1e-14)
                         : boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
   }
   // cos^n with a small n rises steeply from the right angle. The last piece starts there, with points crowded at that end.
