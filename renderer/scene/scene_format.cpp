@@ -187,6 +187,24 @@ numbers, names and operations, {} levels; numbers are 0, or 1e-30 to 1e30. Every
 to be finite up to there, 1 at s = 0, nowhere negative, and must not rise: the reader tests it at a thousand places, with
 the exponent of its material. Between them a value below 0, or none, counts as 0, and one above 1 as 1. The
 normalisation is `exact`, with the energy by quadrature.
+
+## Try a lobe
+
+A formula needs neither a scene of its own nor a build: `--formula` gives it to every material. Our picture and that of
+an engine that knows only the formula should agree; `models` measures width, energy and reciprocity; `export` writes
+the shader, with the coefficient for one exponent.
+
+```sh
+lobelia render reference_scenes/scenes/oblique_45.xml --formula '1/(1 + n*s/4)^4' -o idea.exr
+lobelia reference reference_scenes/scenes/oblique_45.xml --engine analytic --formula '1/(1 + n*s/4)^4' -o truth.exr
+lobelia compare idea.exr truth.exr --max-error 1e-5
+lobelia models --formula '1/(1 + n*s/4)^4' --exponent 64
+lobelia export --language glsl modified_phong --formula '1/(1 + n*s/4)^4' --exponent 64 -o idea.glsl
+```
+
+On a grid's axis `lobe` a value is `expression:1/(1+n*s/4)^4`, with commas and blanks inside parentheses only.
+A picture takes some tens of times as long as with a lobe of the catalogue. A lobe that is worth it gets a file
+([CONTRIBUTING](../CONTRIBUTING.md#add-a-part)).
 )--",
       kMaxFormulaBytes, kMaxFormulaNodes, kMaxFormulaDepth);
   return text;

@@ -40,12 +40,17 @@ Rgb strength(Random& random) {
                             : scale * Rgb{random.even(), random.even(), random.even()};
 }
 
+/// Some of them by their formula.
+LobeId member_of_the_family(int order) {
+  return order % 8 == 6 ? formula_lobe(fmt::format("max(0, 1 - n*s/{0})^{0}", order))
+                        : *find_lobe(fmt::format("cs{}", order));
+}
+
 Material material(Random& random) {
   Material m;
   m.highlight.model = random.one_of(all_models());
-  m.highlight.lobe = random.chance(0.1)
-                         ? *find_lobe(fmt::format("cs{}", 2 * (1 + random.below(64))))
-                         : random.one_of(all_lobes());
+  m.highlight.lobe = random.chance(0.1) ? member_of_the_family(2 * (1 + random.below(64)))
+                                        : random.one_of(all_lobes());
   if (has_paper_coefficient(m.highlight.lobe) && random.chance(0.25))
     m.highlight.normalisation = Normalisation::kPaper;
   const int sharpness = random.below(10);

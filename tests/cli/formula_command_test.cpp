@@ -1,0 +1,109 @@
+// A lobe by its formula, as a user tries one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_lobelia.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+class TryALobe : public testing::Test {
+ protected:
+  ProcessResult run(const std::string& arguments) {
+    return run_shell("\"$LOBELIA\" " + arguments, directory_.path());
+  }
+  std::string text(const std::string& file) { return read_file(directory_.path() / file, 1 << 24); }
+  const TemporaryDirectory directory_;
+};
+
+/// The commands of the section "Try a lobe" of docs/scene_format.md.
+std::string commands_of_the_page() {
+  const std::string page =
+      read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/scene_format.md", 1 << 20);
+  const std::size_t section = page.find("## Try a lobe"), begin = page.find("```sh\n", section) + 6;
+  return page.substr(begin, page.find("```", begin) - begin);
+}
+
+TEST_F(TryALobe, ByTheCommandsOfThePage) {
+  const std::string commands = commands_of_the_page();
+  ASSERT_THAT(commands, HasSubstr("lobelia render"));
+  const auto result = run_shell("set -e\nln -s \"${SCENES%scenes/}\" reference_scenes\nlobelia() { \"$LOBELIA\" \"$@\"; }\n" + commands,
+                                directory_.path());
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(text("idea.glsl"), HasSubstr("--formula"));
+}
+
+TEST_F(TryALobe, HasThePictureOfTheCatalogues) {
+  for (const char* way : {"--lobe cs16", "--formula 'max(0, 1 - n*s/16)^16'"}) {
+    const std::string name = way[2] == 'l' ? "a" : "b";
+    const auto result = run("render \"$SCENES\"oblique_45.xml --width 64 --height 64 -o " + name + ".exr " + way);
+    ASSERT_EQ(result.exit_code, 0) << result.output_tail;
+  }
+  EXPECT_EQ(run("compare a.exr b.exr --max-error 1e-6 > /dev/null").exit_code, 0);
+  const auto record = nlohmann::json::parse(text("b.json"));
+  EXPECT_EQ(record["highlights"][0]["lobe"], "expression");
+  EXPECT_EQ(record["highlights"][0]["formula"], "max(0, 1 - n * s / 16)^16");
+  EXPECT_FALSE(nlohmann::json::parse(text("a.json"))["highlights"][0].contains("formula"));
+}
+
+TEST_F(TryALobe, IsPlannedAndListedAsSlowAndDouble) {
+  const auto plan = run("plan \"$SCENES\"oblique_45.xml --formula '1/(1 + n*s)^2'");
+  EXPECT_EQ(plan.exit_code, 0);
+  EXPECT_THAT(plan.output_tail, HasSubstr("float64"));
+  EXPECT_THAT(plan.output_tail, HasSubstr("slow: a lobe is a formula"));
+  const auto models = run("models --exponent 20 --formula '1/(1 + n*s)^2'");
+  EXPECT_EQ(models.exit_code, 0);
+  EXPECT_THAT(models.output_tail, HasSubstr("1 / (1 + n * s)^2"));
+  EXPECT_THAT(models.output_tail, HasSubstr("modified_phong            expression          exact"));
+}
+
+TEST_F(TryALobe, IsHeldByTheSceneFilesThatCanHoldIt) {
+  const std::string scene = "scene \"$SCENES\"oblique_45.xml --formula 'exp(-n*s)' --to ";
+  EXPECT_EQ(run(scene + "lobelia -o s.xml").exit_code, 0);
+  EXPECT_THAT(text("s.xml"), HasSubstr("<string name=\"formula\" value=\"exp(-n * s)\"/>"));
+  EXPECT_EQ(run("render s.xml -o s.exr").exit_code, 0);
+  EXPECT_EQ(run(scene + "json -o s.json").exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(text("s.json"))["materials"][0]["lobeFormula"], "exp(-n * s)");
+  const auto mitsuba = run(scene + "mitsuba -o m.xml");
+  EXPECT_NE(mitsuba.exit_code, 0);
+  EXPECT_THAT(mitsuba.output_tail, HasSubstr("with the lobe expression"));
+}
+
+TEST_F(TryALobe, VariesInAGrid) {
+  write_file(directory_.path() / "s.xml", read_file(kScenes + "oblique_45.xml", 1 << 20));
+  write_file(directory_.path() / "g.xml",
+             std::string("<grid version=\"1\" title=\"t\"><scene file=\"s.xml\"/><film width=\"32\" height=\"32\"/>"
+                         "<axis name=\"lobe\" values=\"cs16, expression:max(0, 1 - n*s/16)^16,"
+                         " expression:1/(1 + n*s)\"/><engine name=\"analytic\"/></grid>"));
+  const auto result = run("farm g.xml -o out --gallery out");
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("3"));
+}
+
+TEST_F(TryALobe, SaysInOneLineWhatIsWrong) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"--formula '1 - (s'", "--formula, column 7: the formula ends before a ')'"},
+      {"--formula '1 - m'", "--formula, column 5: unknown name 'm'"},
+      {"--formula '1 + s'", "the formula 1 + s is no lobe"},
+      {"--formula 'c^n' --lobe cs16", "--formula is for --lobe expression, not for 'cs16'"},
+      {"--lobe expression", "--lobe expression needs a --formula"},
+      {"--lobe expresion", "--lobe 'expresion' is unknown"},
+  };
+  for (const auto& [options, message] : cases) {
+    const auto result = run(std::string("render \"$SCENES\"oblique_45.xml -o no.exr ") + options);
+    EXPECT_EQ(result.exit_code, 2) << options;
+    EXPECT_THAT(result.output_tail, HasSubstr(message)) << options;
+    EXPECT_EQ(std::ranges::count(result.output_tail, '\n'), 1) << result.output_tail;
+  }
+  EXPECT_EQ(files_in(directory_.path()), 0);
+  const auto paper = run("render \"$SCENES\"oblique_45.xml -o no.exr --formula 'c^n' --normalisation paper");
+  EXPECT_EQ(paper.exit_code, 3);
+  EXPECT_THAT(paper.output_tail, HasSubstr("the paper gives no coefficient for the lobe 'expression'"));
+}
+
+}  // namespace
+}  // namespace lobelia
