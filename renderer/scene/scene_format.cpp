@@ -197,7 +197,7 @@ the shader, with the coefficient for one exponent.
 ```sh
 lobelia render reference_scenes/scenes/oblique_45.xml --formula '1/(1 + n*s/4)^4' -o idea.exr
 lobelia reference reference_scenes/scenes/oblique_45.xml --engine analytic --formula '1/(1 + n*s/4)^4' -o truth.exr
-lobelia compare idea.exr truth.exr --max-error 1e-5
+lobelia compare idea.exr truth.exr --fail max_abs=1e-5
 lobelia models --formula '1/(1 + n*s/4)^4' --exponent 64
 lobelia export --language glsl modified_phong --formula '1/(1 + n*s/4)^4' --exponent 64 -o idea.glsl
 ```

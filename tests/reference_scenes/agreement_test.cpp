@@ -120,6 +120,34 @@ TEST_P(Agreement, OfEveryModelWithEveryLobe) {
   expect_agreement(scenes);
 }
 
+TEST_P(Agreement, OfEveryModelWithALobeByItsFormula) {
+  // The last one has every function.
+  constexpr const char* kFormulas[] = {
+      "max(0, 1 - n*s/6)^6", "1/(1 + n*s/4)^4", "exp(-n*x^2/2)",
+      "exp(-n*s/4) * cos(atan(s)) * sqrt(c) * sin(acos(s)) * pow(c, 1.5) / "
+      "(1 + log(1 + n*s) + tan(x/3)^2 - min(0, -abs(asin(s))))"};
+  std::vector<NamedScene> scenes;
+  for (const ModelInfo& model : models())
+    for (const char* formula : kFormulas) {
+      const HighlightChoice sharp{model.name, "cosine", "exact", 1024};
+      const HighlightChoice wide{model.name, "cosine", "exact", 3};
+      const std::string name = fmt::format("{} {}", model.name, formula);
+      scenes.push_back({name + " n=1024", sphere_scene(sharp, {directional_at(45)}, 64)});
+      scenes.push_back({name + " n=3", sphere_scene(wide, {point_light()}, 64)});
+      for (auto last = scenes.end() - 2; last != scenes.end(); ++last)
+        last->scene.materials[0].highlight.lobe = formula_lobe(formula);
+    }
+  // Two formulas in one picture.
+  Scene both = shadow_scene({"modified_phong", "cosine", "exact", 20}, {directional_at(45)}, 64);
+  Material other = both.materials[0];
+  both.materials[0].highlight.lobe = formula_lobe(kFormulas[0]);
+  other.highlight.lobe = formula_lobe(kFormulas[1]);
+  both.spheres.back().material = int(both.materials.size());
+  both.materials.push_back(other);
+  scenes.push_back({"two formulas", both});
+  expect_agreement(scenes);
+}
+
 TEST_P(Agreement, OfSchlicksFresnelFactorWhereItMattersMost) {
   std::vector<NamedScene> scenes;
   for (const ModelInfo& model : models())
