@@ -10,8 +10,7 @@ namespace lobelia::cli {
 namespace {
 
 struct ExportArguments {
-  std::string language, normalisation = "exact", coefficient = "computed",
-                        fresnel = "none", output;
+  std::string language, normalisation = "exact", coefficient = "computed", fresnel = "none", output;
   std::vector<std::string> models;
   LobeOption lobe;
   std::optional<double> exponent;

@@ -62,7 +62,8 @@ std::set<std::string> words() {
   for (const auto& format : kShapes) add(format);
   for (const auto& format : filter_formats()) add(format);
   for (const auto& format : material_formats()) add(format);
-  for (const char* part : {"expression", "max(0, 1 - n*s/16)^16", "exp(-n*x^2/2)", "c", "pi", "acos(", "1e-3"})
+  for (const char* part :
+       {"expression", "max(0, 1 - n*s/16)^16", "exp(-n*x^2/2)", "c", "pi", "acos(", "1e-3"})
     found.insert(part);
   for (const auto names : {lobe_names(), normalisation_names(), fresnel_names()})
     for (const auto name : names) found.insert(std::string(name));

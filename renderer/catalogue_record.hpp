@@ -10,8 +10,7 @@ namespace lobelia {
 std::string_view angle_name(LobeAngle angle);           ///< "L and R", "N and H"
 std::string_view meaning(Normalisation normalisation);  ///< in a sentence
 /// Every model and normalisation of these lobes.
-std::vector<Highlight> all_highlights(double exponent,
-                                      std::span<const LobeId> lobes = all_lobes());
+std::vector<Highlight> all_highlights(double exponent, std::span<const LobeId> lobes = all_lobes());
 
 records::Operations operations_record(const OperationCount& count);
 

@@ -15,9 +15,9 @@ namespace {
 /// Kept within float32, which the languages of shaders have.
 constexpr double kSmallestNumber = 1e-30, kLargestNumber = 1e30;
 
-constexpr std::string_view kSymbols[] = {"",    "s",   "n",   "c",    "x",   "+",   "-",   "*",
-                                         "/",   "^",   "min", "max",  "-",   "exp", "log", "sqrt",
-                                         "abs", "sin", "cos", "tan",  "asin", "acos", "atan"};
+constexpr std::string_view kSymbols[] = {"",    "s",   "n",   "c",   "x",    "+",    "-",   "*",
+                                         "/",   "^",   "min", "max", "-",    "exp",  "log", "sqrt",
+                                         "abs", "sin", "cos", "tan", "asin", "acos", "atan"};
 static_assert(std::size(kSymbols) == std::size_t(Operation::kAtan) + 1);
 
 /// How tightly a text holds together: it needs parentheses where something tighter is called for.
@@ -45,7 +45,8 @@ std::string shortest(double number) { return fmt::format("{}", number); }
 /// The power if it is a whole one from 2 to kMaxWholePower; otherwise 0.
 int whole_power(const Formula::Node& power) {
   const double k = power.number;
-  return power.operation == Operation::kNumber && k >= 2 && k <= kMaxWholePower && k == std::floor(k)
+  return power.operation == Operation::kNumber && k >= 2 && k <= kMaxWholePower &&
+                 k == std::floor(k)
              ? int(k)
              : 0;
 }
@@ -54,8 +55,8 @@ class Parser {
  public:
   explicit Parser(std::string_view text) : text_(text) {
     if (text.size() > kMaxFormulaBytes)
-      throw FormulaError(fmt::format("the formula has {} bytes; allowed: {}", text.size(),
-                                     kMaxFormulaBytes));
+      throw FormulaError(
+          fmt::format("the formula has {} bytes; allowed: {}", text.size(), kMaxFormulaBytes));
   }
 
   std::vector<Formula::Node> parse() {
@@ -136,8 +137,8 @@ class Parser {
     double value = 0;
     if (!parse_number(here.substr(0, length), value) ||
         (value != 0 && (value < kSmallestNumber || value > kLargestNumber)))
-      fail(fmt::format("number '{}'; allowed: 0, or {:g} to {:g}", printable(here.substr(0, length)),
-                       kSmallestNumber, kLargestNumber));
+      fail(fmt::format("number '{}'; allowed: 0, or {:g} to {:g}",
+                       printable(here.substr(0, length)), kSmallestNumber, kLargestNumber));
     at_ += length;
     return constant(value);
   }
@@ -158,9 +159,10 @@ class Parser {
     std::vector<std::string_view> known{"pi", "pow"};
     for (const std::string_view symbol : kSymbols)
       if (!symbol.empty() && is_letter(symbol.front())) known.push_back(symbol);
-    fail(fmt::format("unknown name '{}'; allowed: s, n, c, x, pi and the functions exp, log, sqrt, "
-                     "abs, sin, cos, tan, asin, acos, atan, pow, min, max{}",
-                     printable(name), name.size() > 1 ? did_you_mean(name, known) : ""));
+    fail(
+        fmt::format("unknown name '{}'; allowed: s, n, c, x, pi and the functions exp, log, sqrt, "
+                    "abs, sin, cos, tan, asin, acos, atan, pow, min, max{}",
+                    printable(name), name.size() > 1 ? did_you_mean(name, known) : ""));
   }
 
   std::uint8_t function(std::string_view name, Operation operation) {
@@ -205,7 +207,8 @@ class Parser {
 
   /// From the next byte on that is no white space.
   std::string_view rest() {
-    while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
+    while (at_ < text_.size() &&
+           std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
       ++at_;
     return text_.substr(at_);
   }
@@ -221,7 +224,9 @@ class Parser {
   }
 
   static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-  static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+  static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  }
 
   std::string_view text_;
   std::size_t at_ = 0;
@@ -286,8 +291,8 @@ std::string formula_text(std::span<const Formula::Node> nodes, const FormulaLang
       }
       case Operation::kMin:
       case Operation::kMax:
-        part.text = fmt::format("{}({}, {})", part.text, parts[node.left].text,
-                                parts[node.right].text);
+        part.text =
+            fmt::format("{}({}, {})", part.text, parts[node.left].text, parts[node.right].text);
         break;
       case Operation::kNegate: {
         // Two signs in a row are C's decrement. In our language they must not become parentheses, which are deeper.

@@ -95,7 +95,7 @@ class Formula {
 struct FormulaLanguage {
   std::string (*number)(double);
   std::string_view versine, exponent, cosine, angle;  ///< of kVersine to kAngle
-  std::string_view log = "log";  ///< the natural logarithm
+  std::string_view log = "log";                       ///< the natural logarithm
   /// "^" is an operator; otherwise pow(a, b).
   bool has_power_operator = false;
   /// Writes `base`^`power` for a whole power of 2 to kMaxWholePower; null: as any power.
@@ -123,30 +123,76 @@ Number Formula::evaluate(const Number& s, double n) const {
     const Node& node = nodes_[i];
     const Number &a = value[node.left], &b = value[node.right];
     switch (node.operation) {
-      case Operation::kNumber: value[i] = Number(node.number); break;
-      case Operation::kVersine: value[i] = s; break;
-      case Operation::kExponent: value[i] = Number(n); break;
-      case Operation::kCosine: value[i] = Number(1) - s; break;
-      case Operation::kAngle: value[i] = Number(2) * asin(Number(sqrt(Number(s / Number(2))))); break;
-      case Operation::kAdd: value[i] = a + b; break;
-      case Operation::kSubtract: value[i] = a - b; break;
-      case Operation::kMultiply: value[i] = a * b; break;
-      case Operation::kDivide: value[i] = a / b; break;
-      case Operation::kPower: value[i] = pow(a, b); break;
+      case Operation::kNumber:
+        value[i] = Number(node.number);
+        break;
+      case Operation::kVersine:
+        value[i] = s;
+        break;
+      case Operation::kExponent:
+        value[i] = Number(n);
+        break;
+      case Operation::kCosine:
+        value[i] = Number(1) - s;
+        break;
+      case Operation::kAngle:
+        value[i] = Number(2) * asin(Number(sqrt(Number(s / Number(2)))));
+        break;
+      case Operation::kAdd:
+        value[i] = a + b;
+        break;
+      case Operation::kSubtract:
+        value[i] = a - b;
+        break;
+      case Operation::kMultiply:
+        value[i] = a * b;
+        break;
+      case Operation::kDivide:
+        value[i] = a / b;
+        break;
+      case Operation::kPower:
+        value[i] = pow(a, b);
+        break;
       // A NaN stays one: it must not hide behind a comparison.
-      case Operation::kMin: value[i] = a != a || a < b ? a : b; break;
-      case Operation::kMax: value[i] = a != a || a > b ? a : b; break;
-      case Operation::kNegate: value[i] = -a; break;
-      case Operation::kExp: value[i] = exp(a); break;
-      case Operation::kLog: value[i] = log(a); break;
-      case Operation::kSqrt: value[i] = sqrt(a); break;
-      case Operation::kAbs: value[i] = abs(a); break;
-      case Operation::kSin: value[i] = sin(a); break;
-      case Operation::kCos: value[i] = cos(a); break;
-      case Operation::kTan: value[i] = tan(a); break;
-      case Operation::kAsin: value[i] = asin(a); break;
-      case Operation::kAcos: value[i] = acos(a); break;
-      case Operation::kAtan: value[i] = atan(a); break;
+      case Operation::kMin:
+        value[i] = a != a || a < b ? a : b;
+        break;
+      case Operation::kMax:
+        value[i] = a != a || a > b ? a : b;
+        break;
+      case Operation::kNegate:
+        value[i] = -a;
+        break;
+      case Operation::kExp:
+        value[i] = exp(a);
+        break;
+      case Operation::kLog:
+        value[i] = log(a);
+        break;
+      case Operation::kSqrt:
+        value[i] = sqrt(a);
+        break;
+      case Operation::kAbs:
+        value[i] = abs(a);
+        break;
+      case Operation::kSin:
+        value[i] = sin(a);
+        break;
+      case Operation::kCos:
+        value[i] = cos(a);
+        break;
+      case Operation::kTan:
+        value[i] = tan(a);
+        break;
+      case Operation::kAsin:
+        value[i] = asin(a);
+        break;
+      case Operation::kAcos:
+        value[i] = acos(a);
+        break;
+      case Operation::kAtan:
+        value[i] = atan(a);
+        break;
     }
   }
   return value[nodes_.size() - 1];

@@ -86,8 +86,8 @@ double FormulaLobe::moment(int j, double s_max) const {
     for (const Piece& piece : pieces) sum += piece.*what;
     return sum;
   };
-  for (int step = 0; step < kMostHalvings && total(&Piece::error) > kAccuracy * total(&Piece::integral);
-       ++step) {
+  for (int step = 0;
+       step < kMostHalvings && total(&Piece::error) > kAccuracy * total(&Piece::integral); ++step) {
     std::pop_heap(pieces.begin(), pieces.end());
     const Piece worst = pieces.back();
     pieces.back() = piece_of(worst.begin, worst.width / 2);

@@ -124,14 +124,15 @@ OperationCount counted_formula(const Formula& formula) {
 template <class F>
 OperationCount counted_lobe(LobeId lobe, F) {
   using Count = OperationCount (*)(LobeParameters);
-  static constexpr auto kCounts = map_types<Count>(HWY_NAMESPACE::LobesById{}, []<class L>() -> Count {
-    return [](LobeParameters p) {
-      if constexpr (L::kInfo.name == kFormulaLobe)
-        return counted_formula(*p.formula);
-      else
-        return counted([&] { F()(L(p)); });
-    };
-  });
+  static constexpr auto kCounts =
+      map_types<Count>(HWY_NAMESPACE::LobesById{}, []<class L>() -> Count {
+        return [](LobeParameters p) {
+          if constexpr (L::kInfo.name == kFormulaLobe)
+            return counted_formula(*p.formula);
+          else
+            return counted([&] { F()(L(p)); });
+        };
+      });
   return kCounts.at(lobe.index)({2.0 * kMaxOrder, lobe});
 }
 

@@ -32,9 +32,10 @@ struct LobeForm {
   PaperColumn column;
 };
 LobeForm lobe_form(const LobeId& id) {
-  static constexpr auto kForms = map_types<LobeForm (*)(LobeParameters)>(LobesById{}, []<class L>() {
-    return +[](LobeParameters p) { return LobeForm{L(p).text(), L(p).paper_column()}; };
-  });
+  static constexpr auto kForms =
+      map_types<LobeForm (*)(LobeParameters)>(LobesById{}, []<class L>() {
+        return +[](LobeParameters p) { return LobeForm{L(p).text(), L(p).paper_column()}; };
+      });
   return kForms.at(id.index)({1, id});
 }
 
@@ -66,8 +67,9 @@ std::string coefficient_formula(const Highlight& highlight) {
   const EnergyIntegral& energy = model.energy;
   return fmt::format("{} / lobelia_{}_energy(n, {}, {}, {}, {}, {})",
                      float32_text(model.share / (2 * kPi)), identifier(highlight.lobe),
-                     float32_text(energy.s_max), float32_text(energy.weights[0]), float32_text(energy.weights[1]),
-                     float32_text(energy.weights[2]), float32_text(energy.weights[3]));
+                     float32_text(energy.s_max), float32_text(energy.weights[0]),
+                     float32_text(energy.weights[1]), float32_text(energy.weights[2]),
+                     float32_text(energy.weights[3]));
 }
 
 std::string normalisation_note(const Highlight& highlight) {
@@ -213,8 +215,7 @@ std::string command_of(const ShaderExport& request) {
       fmt::format("lobelia export --language {}", shader_language_names()[request.language.index]);
   for (const ModelId model : request.models) command += fmt::format(" {}", info(model).name);
   command += fmt::format(" --lobe {}", info(request.lobe).name);
-  if (request.lobe.formula)
-    command += " --formula " + shell_quote(request.lobe.formula->text());
+  if (request.lobe.formula) command += " --formula " + shell_quote(request.lobe.formula->text());
   command += fmt::format(" --normalisation {}", name(request.normalisation));
   if (request.exponent) command += fmt::format(" --exponent {}", *request.exponent);
   if (request.coefficient != CoefficientFrom::kComputed)

@@ -29,16 +29,17 @@ std::string_view formula(std::span<const EmbeddedText> formulas, std::string_vie
 std::string lobe_text(const LobeId& lobe) {
   std::string name(info(lobe).name);
   if (lobe.formula)
-    return fill(formula(embedded::povray_lobes, name),
-                {{"Lobe", capitalised(identifier(lobe))},
-                 {"text", lobe.formula->text()},
-                 {"formula", formula_text(lobe.formula->nodes(),
-                                          {.number = [](double value) { return fmt::format("{}", value); },
-                                           .versine = "S",
-                                           .exponent = "N",
-                                           .cosine = "(1 - S)",
-                                           .angle = "(2*asin(sqrt(0.5*S)))",
-                                           .log = "ln"})}});
+    return fill(
+        formula(embedded::povray_lobes, name),
+        {{"Lobe", capitalised(identifier(lobe))},
+         {"text", lobe.formula->text()},
+         {"formula", formula_text(lobe.formula->nodes(),
+                                  {.number = [](double value) { return fmt::format("{}", value); },
+                                   .versine = "S",
+                                   .exponent = "N",
+                                   .cosine = "(1 - S)",
+                                   .angle = "(2*asin(sqrt(0.5*S)))",
+                                   .log = "ln"})}});
   const std::string order = std::to_string(lobe.order);
   if (lobe.order != 0) name.resize(name.size() - order.size());
   return fill(formula(embedded::povray_lobes, name), {{"K", order}});

@@ -30,7 +30,8 @@ struct ExpressionLobe {
       std::copy_n(lanes, count, wide);
       lobe.values(wide, wide, count);
       for (std::size_t i = 0; i < count; ++i)
-        lanes[i] = wide[i] >= double(std::numeric_limits<Scalar>::min()) ? Scalar(wide[i]) : Scalar(0);
+        lanes[i] =
+            wide[i] >= double(std::numeric_limits<Scalar>::min()) ? Scalar(wide[i]) : Scalar(0);
       return Real::load(lanes);
     }
   }

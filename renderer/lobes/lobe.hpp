@@ -20,8 +20,8 @@
 namespace lobelia {
 
 struct LobeParameters {
-  double exponent;  ///< n
-  int order;        ///< k of a family of lobes; 0 otherwise
+  double exponent;                                   ///< n
+  int order;                                         ///< k of a family of lobes; 0 otherwise
   std::shared_ptr<const Formula> formula = nullptr;  ///< of a lobe by a formula; null otherwise
 
   LobeParameters(double n, int k) : exponent(n), order(k) {}

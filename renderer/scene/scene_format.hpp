@@ -92,7 +92,8 @@ inline constexpr Parameter kLatticeParameters[] = {
 inline constexpr std::string_view kNoFormula = "none";
 inline constexpr Parameter kHighlightParameters[] = {
     {"lobe", ParameterType::kString, "cosine", 0, 0, "", "shape of the highlight"},
-    {"formula", ParameterType::kString, kNoFormula, 0, 0, "", "of the lobe expression, and of no other"},
+    {"formula", ParameterType::kString, kNoFormula, 0, 0, "",
+     "of the lobe expression, and of no other"},
     {"normalisation", ParameterType::kString, "exact", 0, 0, "",
      "where its coefficient comes from"},
     {"exponent", ParameterType::kFloat, "", kMinExponent, kMaxExponent, "", "sharpness n"},

@@ -38,14 +38,14 @@ std::string emitter(const Light& light) {
 std::string bsdf(const Material& material, std::size_t index) {
   const Highlight& h = material.highlight;
   const std::span<const Parameter> all(kHighlightParameters), lobe = all.first(2),
-      others = all.subspan(2);
+                                                              others = all.subspan(2);
   return fmt::format("  <bsdf type=\"{}\" id=\"material_{}\">\n", info(h.model).name, index) +
          lines(4, lobe.first(h.lobe.formula ? 2 : 1),
                {text(info(h.lobe).name), text(info(h.lobe).formula)}) +
          lines(4, is_mirror(material) ? others : others.first(others.size() - 1),
-               {text(name(h.normalisation)), text(h.exponent),
-                text(name(material.fresnel)), text(material.specular_reflectance),
-                text(material.diffuse_reflectance), text(material.mirror_reflectance)}) +
+               {text(name(h.normalisation)), text(h.exponent), text(name(material.fresnel)),
+                text(material.specular_reflectance), text(material.diffuse_reflectance),
+                text(material.mirror_reflectance)}) +
          "  </bsdf>\n";
 }
 

@@ -31,8 +31,10 @@ std::string commands_of_the_page() {
 TEST_F(TryALobe, ByTheCommandsOfThePage) {
   const std::string commands = commands_of_the_page();
   ASSERT_THAT(commands, HasSubstr("lobelia render"));
-  const auto result = run_shell("set -e\nln -s \"${SCENES%scenes/}\" reference_scenes\nlobelia() { \"$LOBELIA\" \"$@\"; }\n" + commands,
-                                directory_.path());
+  const auto result = run_shell(
+      "set -e\nln -s \"${SCENES%scenes/}\" reference_scenes\nlobelia() { \"$LOBELIA\" \"$@\"; }\n" +
+          commands,
+      directory_.path());
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(text("idea.glsl"), HasSubstr("--formula"));
 }
@@ -40,7 +42,8 @@ TEST_F(TryALobe, ByTheCommandsOfThePage) {
 TEST_F(TryALobe, HasThePictureOfTheCatalogues) {
   for (const char* way : {"--lobe cs16", "--formula 'max(0, 1 - n*s/16)^16'"}) {
     const std::string name = way[2] == 'l' ? "a" : "b";
-    const auto result = run("render \"$SCENES\"oblique_45.xml --width 64 --height 64 -o " + name + ".exr " + way);
+    const auto result =
+        run("render \"$SCENES\"oblique_45.xml --width 64 --height 64 -o " + name + ".exr " + way);
     ASSERT_EQ(result.exit_code, 0) << result.output_tail;
   }
   EXPECT_EQ(run("compare a.exr b.exr --fail max_abs=1e-5 > /dev/null").exit_code, 0);
@@ -75,10 +78,12 @@ TEST_F(TryALobe, IsHeldByTheSceneFilesThatCanHoldIt) {
 
 TEST_F(TryALobe, VariesInAGrid) {
   write_file(directory_.path() / "s.xml", read_file(kScenes + "oblique_45.xml", 1 << 20));
-  write_file(directory_.path() / "g.xml",
-             std::string("<grid version=\"1\" title=\"t\"><scene file=\"s.xml\"/><film width=\"32\" height=\"32\"/>"
-                         "<axis name=\"lobe\" values=\"cs16, expression:max(0, 1 - n*s/16)^16,"
-                         " expression:1/(1 + n*s)\"/><engine name=\"analytic\"/></grid>"));
+  write_file(
+      directory_.path() / "g.xml",
+      std::string(
+          "<grid version=\"1\" title=\"t\"><scene file=\"s.xml\"/><film width=\"32\" height=\"32\"/>"
+          "<axis name=\"lobe\" values=\"cs16, expression:max(0, 1 - n*s/16)^16,"
+          " expression:1/(1 + n*s)\"/><engine name=\"analytic\"/></grid>"));
   const auto result = run("farm g.xml -o out --gallery out");
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   EXPECT_THAT(result.output_tail, HasSubstr("3"));
@@ -100,9 +105,11 @@ TEST_F(TryALobe, SaysInOneLineWhatIsWrong) {
     EXPECT_EQ(std::ranges::count(result.output_tail, '\n'), 1) << result.output_tail;
   }
   EXPECT_EQ(files_in(directory_.path()), 0);
-  const auto paper = run("render \"$SCENES\"oblique_45.xml -o no.exr --formula 'c^n' --normalisation paper");
+  const auto paper =
+      run("render \"$SCENES\"oblique_45.xml -o no.exr --formula 'c^n' --normalisation paper");
   EXPECT_EQ(paper.exit_code, 3);
-  EXPECT_THAT(paper.output_tail, HasSubstr("the paper gives no coefficient for the lobe 'expression'"));
+  EXPECT_THAT(paper.output_tail,
+              HasSubstr("the paper gives no coefficient for the lobe 'expression'"));
 }
 
 }  // namespace

@@ -71,9 +71,9 @@ TEST(TheReference, FindsTheEnergyOfOtherLobesByQuadrature) {
 }
 
 TEST(TheReference, FindsTheEnergyOfAFormulaOnAnyScaleAndWithCorners) {
-  for (const char* formula : {"max(0, 1 - n*s/16)^16", "max(0, 1 - n*s)", "max(0, 1 - n^1.5*s)",
-                              "exp(-sqrt(n*s))", "1/(1 + n*s)^2", "exp(-n*x^2/2)",
-                              "max(max(0, 1 - n*s), 0.125*max(0, 2 - n*s))"})
+  for (const char* formula :
+       {"max(0, 1 - n*s/16)^16", "max(0, 1 - n*s)", "max(0, 1 - n^1.5*s)", "exp(-sqrt(n*s))",
+        "1/(1 + n*s)^2", "exp(-n*x^2/2)", "max(max(0, 1 - n*s), 0.125*max(0, 2 - n*s))"})
     for (const ModelId id : all_models())
       for (const double n : {3.0, 64.0, 1e4}) {
         const Highlight highlight{id, formula_lobe(formula), Normalisation::kExact, n};

@@ -41,7 +41,8 @@ class RandomFormula {
   int below(int count) { return int(random_() % std::uint64_t(count)); }
   std::string blank() { return std::string(std::size_t(below(2)), ' '); }
   std::string leaf() {
-    constexpr const char* kLeaves[] = {"s", "n", "c", "x", "pi", "0", "2", "16", "0.5", ".25", "3.", "1e-3", "2.5E+2"};
+    constexpr const char* kLeaves[] = {"s",  "n",   "c",   "x",  "pi",   "0",     "2",
+                                       "16", "0.5", ".25", "3.", "1e-3", "2.5E+2"};
     return kLeaves[below(13)];
   }
   std::mt19937_64 random_;
@@ -65,7 +66,11 @@ std::vector<std::string> random_formulas(std::size_t count) {
 constexpr double kPlaces[] = {0, 1e-9, 0.01, 0.3, 0.7, 0.999};
 
 Infix::Names names_at(double s, double n) {
-  return {{"s", s}, {"n", n}, {"c", 1 - s}, {"x", 2 * std::asin(std::sqrt(s / 2))}, {"pi", std::acos(-1.0)}};
+  return {{"s", s},
+          {"n", n},
+          {"c", 1 - s},
+          {"x", 2 * std::asin(std::sqrt(s / 2))},
+          {"pi", std::acos(-1.0)}};
 }
 
 bool same(double a, double b, double tolerance = 0) {
@@ -88,7 +93,8 @@ TEST(Formula, HasTheValueOfASecondEvaluator) {
 TEST(Formula, IsReadBackAsItIsWritten) {
   for (const std::string& text : random_formulas(3000)) {
     const Formula formula(text), back(formula.text());
-    EXPECT_TRUE(std::ranges::equal(formula.nodes(), back.nodes())) << text << " -> " << formula.text();
+    EXPECT_TRUE(std::ranges::equal(formula.nodes(), back.nodes()))
+        << text << " -> " << formula.text();
     EXPECT_EQ(back.text(), formula.text());
   }
   EXPECT_EQ(Formula("((1-s))^(n)").text(), "(1 - s)^n");
@@ -130,12 +136,14 @@ TEST(Formula, IsTheSameInALanguageWithoutOurSigns) {
 
 TEST(Formula, IsTheSameInAShader) {
   for (int power = 2; power <= 70; ++power)
-    for (const char* form : {"(1 - n*s/80)^{0}", "0.5*(c^{0} + pow(cos(x/9), {0}))", "exp(-x^{0})"}) {
+    for (const char* form :
+         {"(1 - n*s/80)^{0}", "0.5*(c^{0} + pow(cos(x/9), {0}))", "exp(-x^{0})"}) {
       const Formula formula(fmt::format(fmt::runtime(form), power));
       const std::string body = formula_body(formula);
       EXPECT_EQ(body.find("pow") == body.npos, power <= kMaxWholePower) << body;
       for (const double s : kPlaces)
-        EXPECT_NEAR(Infix::value_of_body(body, {{"s", s}, {"n", 3}}), formula.evaluate(s, 3.0), 1e-8)
+        EXPECT_NEAR(Infix::value_of_body(body, {{"s", s}, {"n", 3}}), formula.evaluate(s, 3.0),
+                    1e-8)
             << body;
     }
   EXPECT_EQ(Infix::value_of_body(formula_body(Formula("1 + s")), {{"s", 0.5}, {"n", 3}}), 1);
@@ -164,7 +172,8 @@ std::string complaint_of(const std::string& text) {
 }
 
 TEST(Formula, SaysInOneLineWhatIsWrongAndWhere) {
-  const std::string names = "; allowed: s, n, c, x, pi and the functions exp, log, sqrt, abs, sin, cos, tan, asin, acos, atan, pow, min, max";
+  const std::string names =
+      "; allowed: s, n, c, x, pi and the functions exp, log, sqrt, abs, sin, cos, tan, asin, acos, atan, pow, min, max";
   const std::pair<std::string, std::string> cases[] = {
       {"", "column 1: the formula ends where a value is expected"},
       {"  ", "column 3: the formula ends where a value is expected"},
@@ -192,13 +201,17 @@ TEST(Formula, SaysInOneLineWhatIsWrongAndWhere) {
       {std::string("1\0+s", 4), "column 2: expected an operator or the end"},
       {"1 \xc3\x97 s", "column 3: expected an operator or the end"},
   };
-  for (const auto& [text, message] : cases) EXPECT_EQ(complaint_of(text), "formula, " + message) << text;
+  for (const auto& [text, message] : cases)
+    EXPECT_EQ(complaint_of(text), "formula, " + message) << text;
 }
 
 TEST(Formula, IsBounded) {
-  EXPECT_THAT(complaint_of(std::string(100000, '(')), testing::HasSubstr("the formula has 100000 bytes; allowed: 4000"));
-  EXPECT_EQ(complaint_of(std::string(1000, '(')), "formula, column 41: nested too deeply; allowed: 40 levels");
-  EXPECT_EQ(complaint_of(std::string(1000, '-') + "s"), "formula, column 41: nested too deeply; allowed: 40 levels");
+  EXPECT_THAT(complaint_of(std::string(100000, '(')),
+              testing::HasSubstr("the formula has 100000 bytes; allowed: 4000"));
+  EXPECT_EQ(complaint_of(std::string(1000, '(')),
+            "formula, column 41: nested too deeply; allowed: 40 levels");
+  EXPECT_EQ(complaint_of(std::string(1000, '-') + "s"),
+            "formula, column 41: nested too deeply; allowed: 40 levels");
   std::string tower = "s", sum = "s", nested = "s";
   for (int i = 0; i < 100; ++i) tower += "^s", sum += "+s", nested = "abs(" + nested + ")";
   EXPECT_THAT(complaint_of(tower), testing::HasSubstr("nested too deeply"));

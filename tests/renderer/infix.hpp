@@ -16,7 +16,9 @@ class Infix {
  public:
   using Names = std::map<std::string, double, std::less<>>;
 
-  static double value(std::string_view text, const Names& names) { return Infix(text, names).run(); }
+  static double value(std::string_view text, const Names& names) {
+    return Infix(text, names).run();
+  }
 
   /// Of statements "float NAME = ...;" and at last "return ...;".
   static double value_of_body(std::string_view body, Names names) {
@@ -83,8 +85,7 @@ class Infix {
         } else {
           const std::string what(1, c);
           const int here = precedence(what);
-          while (!waiting_.empty() &&
-                 precedence(waiting_.back()) > (what == "^" ? here : here - 1))
+          while (!waiting_.empty() && precedence(waiting_.back()) > (what == "^" ? here : here - 1))
             apply();
           waiting_.push_back(what);
           after_value = false;
@@ -105,33 +106,31 @@ class Infix {
     const std::string what = waiting_.back();
     waiting_.pop_back();
     using Function = double (*)(double);
-    static const std::map<std::string, Function> kFunctions{
-        {"negative", [](double a) { return -a; }},
-        {"exp", [](double a) { return std::exp(a); }},
-        {"log", [](double a) { return std::log(a); }},
-        {"ln", [](double a) { return std::log(a); }},
-        {"sqrt", [](double a) { return std::sqrt(a); }},
-        {"abs", [](double a) { return std::abs(a); }},
-        {"sin", [](double a) { return std::sin(a); }},
-        {"cos", [](double a) { return std::cos(a); }},
-        {"tan", [](double a) { return std::tan(a); }},
-        {"asin", [](double a) { return std::asin(a); }},
-        {"acos", [](double a) { return std::acos(a); }},
-        {"atan", [](double a) { return std::atan(a); }}};
+    static const std::map<std::string, Function> kFunctions{{"negative", [](double a) { return -a; }},
+                                                            {"exp", [](double a) { return std::exp(a); }},
+                                                            {"log", [](double a) { return std::log(a); }},
+                                                            {"ln", [](double a) { return std::log(a); }},
+                                                            {"sqrt", [](double a) { return std::sqrt(a); }},
+                                                            {"abs", [](double a) { return std::abs(a); }},
+                                                            {"sin", [](double a) { return std::sin(a); }},
+                                                            {"cos", [](double a) { return std::cos(a); }},
+                                                            {"tan", [](double a) { return std::tan(a); }},
+                                                            {"asin", [](double a) { return std::asin(a); }},
+                                                            {"acos", [](double a) { return std::acos(a); }},
+                                                            {"atan", [](double a) { return std::atan(a); }}};
     if (const auto found = kFunctions.find(what); found != kFunctions.end()) {
       values_.push_back(found->second(pop()));
       return;
     }
     const double b = pop(), a = pop();
-    values_.push_back(what == "+"                    ? a + b
-                      : what == "-"                  ? a - b
-                      : what == "*"                  ? a * b
-                      : what == "/"                  ? a / b
-                      : what == "^" || what == "pow" ? std::pow(a, b)
-                      : std::isnan(a) || std::isnan(b)
-                          ? std::nan("")
-                      : what == "min" ? std::min(a, b)
-                      : what == "max" ? std::max(a, b)
+    values_.push_back(what == "+"                      ? a + b
+                      : what == "-"                    ? a - b
+                      : what == "*"                    ? a * b
+                      : what == "/"                    ? a / b
+                      : what == "^" || what == "pow"   ? std::pow(a, b)
+                      : std::isnan(a) || std::isnan(b) ? std::nan("")
+                      : what == "min"                  ? std::min(a, b)
+                      : what == "max"                  ? std::max(a, b)
                                       : throw std::runtime_error("unknown '" + what + "'"));
   }
 

@@ -21,8 +21,11 @@ constexpr const char* kFormulas[] = {"max(0, 1 - n*s/6)^6", "exp(-n*x^2/2)", "c/
                                      "max(1/(1 + n*s)^2, exp(-sqrt(n*s)))"};
 
 ShaderExport request_of(std::string_view language, const char* formula) {
-  return {*find_shader_language(language), {*find_model("phong_rdf"), *find_model("modified_blinn_phong")},
-          formula_lobe(formula), Normalisation::kExact, {}};
+  return {*find_shader_language(language),
+          {*find_model("phong_rdf"), *find_model("modified_blinn_phong")},
+          formula_lobe(formula),
+          Normalisation::kExact,
+          {}};
 }
 
 /// Between the braces behind `heading`.
@@ -43,16 +46,20 @@ TEST(ExportedFormula, HasTheValuesOfItsLobeInEveryLanguageOfGpus) {
       std::string body = body_of(text, identifier(request.lobe) + "_lobe(");
       // WGSL declares otherwise.
       for (const auto& [from, to] : {std::pair("let ", "float "), std::pair(": f32", "")})
-        for (std::size_t at; (at = body.find(from)) != body.npos;) body.replace(at, std::strlen(from), to);
+        for (std::size_t at; (at = body.find(from)) != body.npos;)
+          body.replace(at, std::strlen(from), to);
       for (const double s : {0.0, 1e-4, 0.03, 0.3, 0.99})
-        EXPECT_NEAR(Infix::value_of_body(body, {{"s", s}, {"n", 20}}), lobe_value(request.lobe, s, 20), 1e-9)
-            << language << "\n" << body;
+        EXPECT_NEAR(Infix::value_of_body(body, {{"s", s}, {"n", 20}}),
+                    lobe_value(request.lobe, s, 20), 1e-9)
+            << language << "\n"
+            << body;
       for (const ModelId model : request.models) {
         const Highlight h{model, request.lobe, request.normalisation, 20};
         EXPECT_THAT(text, HasSubstr(fmt::format("radiance = {:.9g}\n", radiance_coefficient(h))));
       }
-      EXPECT_THAT(text, HasSubstr(fmt::format("--lobe expression --formula '{}' --normalisation exact --exponent 20",
-                                              request.lobe.formula->text())));
+      EXPECT_THAT(text, HasSubstr(fmt::format(
+                            "--lobe expression --formula '{}' --normalisation exact --exponent 20",
+                            request.lobe.formula->text())));
     }
 }
 
@@ -60,16 +67,20 @@ TEST(ExportedFormula, HasTheValuesOfItsLobeInPovraysLanguage) {
   for (const char* formula : kFormulas) {
     const Highlight highlight{*find_model("phong_rdf"), formula_lobe(formula)};
     const std::string text = povray_text(std::span(&highlight, 1)),
-                      heading = capitalised(identifier(highlight.lobe)) + "_Formula = function(S, N) { ";
+                      heading =
+                          capitalised(identifier(highlight.lobe)) + "_Formula = function(S, N) { ";
     const std::size_t begin = text.find(heading) + heading.size();
     const std::string body = text.substr(begin, text.find(" }\n", begin) - begin);
     for (const double s : {0.0, 1e-4, 0.03, 0.3, 0.99})
-      EXPECT_NEAR(Infix::value(body, {{"S", s}, {"N", 20}}), lobe_value(highlight.lobe, s, 20), 1e-12) << body;
+      EXPECT_NEAR(Infix::value(body, {{"S", s}, {"N", 20}}), lobe_value(highlight.lobe, s, 20),
+                  1e-12)
+          << body;
   }
 }
 
 TEST(ExportedFormula, StandsBesideAnotherOne) {
-  const std::string a = identifier(formula_lobe("c^n")), b = identifier(formula_lobe("1/(1 + n*s)"));
+  const std::string a = identifier(formula_lobe("c^n")),
+                    b = identifier(formula_lobe("1/(1 + n*s)"));
   EXPECT_NE(a, b);
   EXPECT_EQ(a, identifier(formula_lobe("(c) ^ n")));
   EXPECT_TRUE(a.starts_with("expression_") && a.size() == 19) << a;
@@ -83,7 +94,8 @@ TEST(ExportedFormula, HasNoClosedCoefficient) {
       ADD_FAILURE() << formula;
     } catch (const Error& e) {
       EXPECT_EQ(e.code(), ExitCode::kUsage);
-      EXPECT_THAT(e.what(), HasSubstr("no closed form; give the exponent that it is for: --exponent N"));
+      EXPECT_THAT(e.what(),
+                  HasSubstr("no closed form; give the exponent that it is for: --exponent N"));
     }
     request.coefficient = CoefficientFrom::kArgument;
     EXPECT_THAT(shader_text(request), HasSubstr("float exponent, float coefficient"));

@@ -27,7 +27,9 @@ LobeId as_formula(const LobeId& lobe) {
 constexpr double kSomeExponents[] = {0.1, 1, 15.9, 16, 64, 1024, 1e5};
 
 /// A formula has the rounding of its base, which the power multiplies. Measured: 2.3e-16 times the larger one.
-double rounding(const LobeId& lobe, double n) { return 1e-14 + 1e-15 * std::max<double>(n, lobe.order); }
+double rounding(const LobeId& lobe, double n) {
+  return 1e-14 + 1e-15 * std::max<double>(n, lobe.order);
+}
 
 TEST(LobeByItsFormula, HasTheValuesOfTheCatalogues) {
   for (const LobeId& lobe : lobes())
@@ -46,7 +48,8 @@ TEST(LobeByItsFormula, HasTheCoefficientsOfTheCatalogues) {
     Highlight formula = h;
     formula.lobe = as_formula(h.lobe);
     // Measured: 2e-13 + 5e-17 n.
-    EXPECT_NEAR(radiance_coefficient(formula) / radiance_coefficient(h), 1, 1e-11 + rounding(h.lobe, h.exponent))
+    EXPECT_NEAR(radiance_coefficient(formula) / radiance_coefficient(h), 1,
+                1e-11 + rounding(h.lobe, h.exponent))
         << text(h);
   }
 }
@@ -75,7 +78,8 @@ constexpr Closed kClosed[] = {
     {"max(max(0, 1 - n*s), 0.25*max(0, 2 - n*s)/2)",
      // The second one is higher from n s = 6/7 on, where both are 1/7.
      [](double n) { return (6.0 / 7 - 18.0 / 49 + 0.125 * 32.0 / 49) / n; }},
-    {"exp(-sqrt(s*n))", [](double n) {
+    {"exp(-sqrt(s*n))",
+     [](double n) {
        const double r = std::sqrt(n);
        return 2 * (1 - (r + 1) * std::exp(-r)) / n;
      }},
@@ -147,8 +151,7 @@ TEST(LobeByItsFormula, DrawsThePicturesOfTheCatalogues) {
             EXPECT_THAT(result.plan.precision_reason, testing::StartsWith("float64 for"));
           }
           EXPECT_THAT(result.plan.kernel, testing::HasSubstr("slow: a lobe is a formula"));
-          const float peak =
-              *std::max_element(expected.values().begin(), expected.values().end());
+          const float peak = *std::max_element(expected.values().begin(), expected.values().end());
           float worst = 0;
           for (std::size_t i = 0; i < expected.values().size(); ++i)
             worst = std::max(worst, std::abs(result.image.values()[i] - expected.values()[i]));
@@ -162,8 +165,9 @@ TEST(LobeByItsFormula, IsWrittenAndReadWithItsScene) {
   Scene scene = canonical_scene("two_spheres");
   scene.materials[0].highlight.lobe = formula_lobe("pow(max(0, 1 - n*s/16), 16)");
   const std::string xml = scene_to_xml(scene);
-  EXPECT_THAT(xml, testing::HasSubstr("    <string name=\"lobe\" value=\"expression\"/>\n"
-                                      "    <string name=\"formula\" value=\"max(0, 1 - n * s / 16)^16\"/>\n"));
+  EXPECT_THAT(xml, testing::HasSubstr(
+                       "    <string name=\"lobe\" value=\"expression\"/>\n"
+                       "    <string name=\"formula\" value=\"max(0, 1 - n * s / 16)^16\"/>\n"));
   const Scene back = parse_scene(xml, "s.xml", ".");
   EXPECT_EQ(back.materials[0].highlight.lobe, scene.materials[0].highlight.lobe);
   EXPECT_EQ(scene_to_xml(back), xml);

@@ -28,7 +28,8 @@ constexpr double kNothing = 1e-40;
 Big angle_at(const LobeId& lobe, double value, double exponent) {
   Big above = 0, beyond = boost::math::constants::half_pi<Big>();
   // By halves; first in the exponent, for a narrow lobe.
-  while (beyond > 1e-9 && lobe_of_cosine(lobe, Big(cos(beyond / 2)), exponent) <= value) beyond /= 2;
+  while (beyond > 1e-9 && lobe_of_cosine(lobe, Big(cos(beyond / 2)), exponent) <= value)
+    beyond /= 2;
   for (int step = 0; step < 100; ++step) {
     const Big middle = (above + beyond) / 2;
     (lobe_of_cosine(lobe, Big(cos(middle)), exponent) > value ? above : beyond) = middle;
@@ -41,7 +42,8 @@ std::vector<Big> pieces(const ModelRow& model, const LobeId& lobe, double expone
   const Big right_angle = boost::math::constants::half_pi<Big>();
   const Big part = model.lobe_of_half_angle ? 2 : 1;
   // A formula may fall on any scale, and end anywhere.
-  const Big unit = part * (lobe.formula ? angle_at(lobe, 0.5, exponent) : Big(1 / sqrt(Big(exponent))));
+  const Big unit =
+      part * (lobe.formula ? angle_at(lobe, 0.5, exponent) : Big(1 / sqrt(Big(exponent))));
   std::vector<Big> ends{0, right_angle, right_angle / 2};
   for (const double factor : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0})
     ends.push_back(factor * unit);
@@ -76,9 +78,10 @@ double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
         lobe_of_cosine(lobe, cos(model.lobe_of_half_angle ? Big(begin / 2) : begin), exponent);
     if (highest * exponent < kNothing) return normalised(sum);
     // A formula may have corners inside.
-    sum += lobe.formula ? boost::math::quadrature::gauss_kronrod<Big, 21>::integrate(
-                              of_angle, begin, ends[i], 15, 1e-14)
-                        : boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
+    sum += lobe.formula
+               ? boost::math::quadrature::gauss_kronrod<Big, 21>::integrate(of_angle, begin,
+                                                                            ends[i], 15, 1e-14)
+               : boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
   }
   // cos^n with a small n rises steeply from the right angle. The last piece starts there, with points crowded at that end.
   thread_local boost::math::quadrature::tanh_sinh<Big> corner;
