@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "renderer/formula.hpp"
 #include "renderer/lobe_properties.hpp"
 #include "renderer/operation_count.hpp"
 
@@ -20,6 +21,9 @@ struct Weights {
   double rounding;  ///< of float64 to float32: of nine components, one s, or nothing
 };
 constexpr Weights kWeights[] = {{1, 6, 28, 4}, {1, 6, 28, 3}, {1.5, 10, 70, 0}};
+/// Of a formula, which every precision evaluates node by node and one value at a time: 27 ns for c^n, 53 ns for
+/// max(0, 1 - n s / 16)^16, 70 ns for exp(-n x^2 / 2), with 0.015 ns a multiplication.
+constexpr double kOfANode = 250, kOfItsTranscendentals = 1000;
 
 }  // namespace
 
@@ -98,6 +102,9 @@ double highlight_difference(const Highlight& stand_in, const Highlight& target) 
 
 double shading_cost(LobeId lobe, Precision precision) {
   const OperationCount count = operations(lobe);
+  if (lobe.formula)
+    return kOfANode * double(lobe.formula->nodes().size()) +
+           kOfItsTranscendentals * count.transcendental;
   const Weights& w = kWeights[std::size_t(precision)];
   return w.simple * (count.multiply + count.add + count.compare) +
          w.divide_or_root * (count.divide + count.root) + w.transcendental * count.transcendental +

@@ -3,7 +3,7 @@
 //   value(s) = the formula of s, c = 1 - s, x = arccos(c) and n where s < 1, else 0
 //
 // Every kernel evaluates it point by point in float64. Its energy is found by quadrature, and its samples by a table.
-// Slow: some tens of times a lobe with a file of its own.
+// Slow: `lobelia cost SCENE --level picture` shows how much.
 #include "renderer/formula_lobe.hpp"
 #include "renderer/lobes/lobe.hpp"
 

@@ -203,8 +203,8 @@ lobelia export --language glsl modified_phong --formula '1/(1 + n*s/4)^4' --expo
 ```
 
 On a grid's axis `lobe` a value is `expression:1/(1+n*s/4)^4`, with commas and blanks inside parentheses only.
-A picture takes some tens of times as long as with a lobe of the catalogue. A lobe that is worth it gets a file
-([CONTRIBUTING](../CONTRIBUTING.md#add-a-part)).
+The kernels evaluate a formula one value at a time, far more slowly than a lobe of the catalogue: `lobelia cost SCENE
+--level picture` measures both. A lobe that is worth it gets a file ([CONTRIBUTING](../CONTRIBUTING.md#add-a-part)).
 )--",
       kMaxFormulaBytes, kMaxFormulaNodes, kMaxFormulaDepth);
   return text;
