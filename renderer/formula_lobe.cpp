@@ -149,16 +149,20 @@ std::string FormulaLobe::why_not() const {
     return says(0, fmt::format("is {:g}; it has to be 1", peak));
   // Of a power, which multiplies the rounding of its base.
   const double rounding = kRounding + 4 * std::numeric_limits<double>::epsilon() * n_;
-  double before = 1, there = 0;
+  double lowest = 1, lowest_at = 0, rise = rounding;
+  std::string rises;  // where it rises most
   for (const double s : places) {
     const double value = raw(s);
     if (!std::isfinite(value)) return says(s, "is not a finite number");
     if (value < -rounding) return says(s, fmt::format("is {:g}; it has to be 0 or more", value));
-    if (value > before + rounding)
-      return says(s, fmt::format("is {:g}, more than the {:g} at s = {:g}; it has to fall", value,
-                                 before, there));
-    before = value, there = s;
+    if (value - lowest > rise) {
+      rise = value - lowest;
+      rises = says(s, fmt::format("is {:g}, more than the {:g} at s = {:g}; it has to fall", value,
+                                  lowest, lowest_at));
+    }
+    if (value < lowest) lowest = value, lowest_at = s;
   }
+  if (!rises.empty()) return rises;
   if (reach(0.5, 1) <= kNarrowest)
     return says(kNarrowest, "is below one half; it has to fall more slowly");
   return "";

@@ -112,8 +112,26 @@ TEST(SceneReader, SaysOfEveryErrorWhereItIsWhatItIsAndWhatWasAllowed) {
            "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
            "<string name=\"lobe\" value=\"cs15\"/></bsdf></shape>"),
        "s.xml:3:106: unknown lobe 'cs15'; allowed: cosine, cs2, cs4, cs8, cs16, cs32, cs64, "
-       "spherical_gaussian, gauss, schlick; csK for any even K from 2 to 1024; did you mean "
-       "'cs16'?"},
+       "spherical_gaussian, gauss, schlick; csK for any even K from 2 to 1024; expression, with a "
+       "formula; did you mean 'cs16'?"},
+      {scene(
+           "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
+           "<string name=\"lobe\" value=\"expression\"/></bsdf></shape>"),
+       "s.xml:3:106: the lobe 'expression' needs a formula"},
+      {scene(
+           "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
+           "<string name=\"formula\" value=\"c^n\"/></bsdf></shape>"),
+       "s.xml:3:109: a formula is for the lobe 'expression', not for 'cosine'"},
+      {scene(
+           "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
+           "<string name=\"lobe\" value=\"expression\"/>"
+           "<string name=\"formula\" value=\"1 - (s\"/></bsdf></shape>"),
+       "s.xml:3:149: formula, column 7: the formula ends before a ')'"},
+      {scene(
+           "<shape type=\"sphere\"><bsdf type=\"phong_rdf\"><float name=\"exponent\" value=\"8\"/>"
+           "<string name=\"lobe\" value=\"expression\"/>"
+           "<string name=\"formula\" value=\"1 + n*s\"/></bsdf></shape>"),
+       "s.xml:3:149: the formula 1 + n * s is no lobe: at s = 0.999 and n = 8 it is 8.992, more than the 1 at s = 0; it has to fall"},
       {scene("<shape type=\"sphere\"><ref id=\"x\"/></shape>"),
        "s.xml:3:31: no <bsdf> has the id 'x'"},
       {scene("<shape type=\"sphere\"/>"),

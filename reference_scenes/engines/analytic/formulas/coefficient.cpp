@@ -58,6 +58,12 @@ std::vector<Big> pieces(const ModelRow& model, const LobeId& lobe, double expone
   return ends;
 }
 
+/// For a formula, which may have corners anywhere.
+Big with_corners(const auto& integrand, const Big& begin, const Big& end) {
+  return boost::math::quadrature::gauss_kronrod<Big, 21>::integrate(integrand, begin, end, 12,
+                                                                    1e-12);
+}
+
 double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
   const auto integrand = [&](const Big& cos_x, const Big& sin_x, const Big& cosine) {
     const Big value = lobe_of_cosine(lobe, cosine, exponent) * sin_x;
@@ -77,10 +83,8 @@ double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
     const Big highest =
         lobe_of_cosine(lobe, cos(model.lobe_of_half_angle ? Big(begin / 2) : begin), exponent);
     if (highest * exponent < kNothing) return normalised(sum);
-    // A formula may have corners inside.
     sum += lobe.formula
-               ? boost::math::quadrature::gauss_kronrod<Big, 21>::integrate(of_angle, begin,
-                                                                            ends[i], 15, 1e-14)
+               ? with_corners(of_angle, begin, ends[i])
                : boost::math::quadrature::gauss<Big, 20>::integrate(of_angle, begin, ends[i]);
   }
   // cos^n with a small n rises steeply from the right angle. The last piece starts there, with points crowded at that end.
@@ -92,7 +96,8 @@ double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
     const Big c = sin(y);
     return integrand(c, cos(y), model.lobe_of_half_angle ? Big(cos((right_angle - y) / 2)) : c);
   };
-  sum += piece * corner.integrate(from_right_angle, Big(0), Big(1), Big(1e-22));
+  sum += piece * (lobe.formula ? with_corners(from_right_angle, 0, 1)
+                               : corner.integrate(from_right_angle, Big(0), Big(1), Big(1e-22)));
   return normalised(sum);
 }
 
