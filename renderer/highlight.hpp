@@ -2,7 +2,6 @@
 // renderer/lobes and renderer/models through this file.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 #include <memory>
