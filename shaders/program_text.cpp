@@ -1,0 +1,165 @@
+#include "shaders/program_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "core/text.hpp"
+#include "shaders/names.hpp"
+#include "shaders/runner_protocol.hpp"
+
+namespace lobelia {
+namespace {
+
+constexpr std::string_view kAsFour = R"(
+%vec4% lobelia_as_four(float v) { return %vec4%(v, v, v, 1.0); }
+%vec4% lobelia_as_four(%vec3% v) { return %vec4%(v, 1.0); }
+%vec4% lobelia_as_four(%vec4% v) { return %vec4%(v.xyz, 1.0); }
+)";
+
+constexpr std::string_view kFragmentMain = R"(
+uniform highp sampler2D lobelia_points;
+out highp vec4 lobelia_result;
+void main()
+{
+    int i = int(gl_FragCoord.y) * %width% + int(gl_FragCoord.x);
+    int k = i / %points%;
+    int t = (i - k * %points%) * %texels%;
+    vec4 result = vec4(0.0);
+%fetches%%calls%    lobelia_result = result;
+}
+)";
+
+constexpr std::string_view kGlslComputeMain = R"(
+layout(local_size_x = %group%) in;
+layout(std430, set = 0, binding = 0) readonly buffer LobeliaPoints { vec4 lobelia_points[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer LobeliaResults { vec4 lobelia_results[]; };
+void main()
+{
+    int i = int(gl_GlobalInvocationID.y) * %row% + int(gl_GlobalInvocationID.x);
+    int k = i / %points%;
+    if (k < %outputs%) {
+        int t = (i - k * %points%) * %texels%;
+        vec4 result = vec4(0.0);
+%fetches%%calls%        lobelia_results[i] = result;
+    }
+}
+)";
+
+constexpr std::string_view kHlslMain = R"(
+[[vk::binding(0, 0)]] StructuredBuffer<float4> lobelia_points;
+[[vk::binding(1, 0)]] RWStructuredBuffer<float4> lobelia_results;
+[numthreads(%group%, 1, 1)] void lobelia_main(uint3 id : SV_DispatchThreadID)
+{
+    int i = int(id.y) * %row% + int(id.x);
+    int k = i / %points%;
+    if (k < %outputs%) {
+        int t = (i - k * %points%) * %texels%;
+        float4 result = float4(0.0, 0.0, 0.0, 0.0);
+%fetches%%calls%        lobelia_results[i] = result;
+    }
+}
+)";
+
+std::size_t count_lines(std::string_view text) {
+  return std::size_t(std::ranges::count(text, '\n'));
+}
+
+/// The text without its #version, and the one that a driver needs for it.
+struct Version {
+  std::string line, rest;
+};
+Version take_version(const std::string& text, ShaderApi api) {
+  static const std::regex pattern(
+      "(^|\n)([ \t]*#[ \t]*version[ \t]+([0-9]{1,4})([ \t]+es)?[^\n]*)");
+  std::smatch found;
+  std::string rest = text;
+  int number = 0;
+  bool is_es = false;
+  if (std::regex_search(text, found, pattern)) {
+    number = std::stoi(found[3]);
+    is_es = found[4].matched || number == 100;
+    rest.replace(std::size_t(found.position(2)), std::size_t(found.length(2)), "");
+  }
+  if (api == ShaderApi::kVulkan) return {"#version 450\n", rest};
+  if (is_es) return {fmt::format("#version {} es\n", std::max(number, 300)), rest};
+  return {fmt::format("#version {}\n", std::max(number, 330)), rest};
+}
+
+bool has_main(const std::string& text) {
+  static const std::regex pattern("\\bmain[ \t]*\\(");
+  return std::regex_search(text, pattern);
+}
+
+}  // namespace
+
+std::string shader_component(std::size_t i) {
+  return fmt::format("lobelia_p{}.{}", i / 4, "xyzw"[i % 4]);
+}
+
+ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_t points,
+                           std::size_t components) {
+  const bool is_hlsl = source.language == ShaderText::kHlsl;
+  const std::size_t texels = texels_of_point(components);
+  std::string fetches, calls;
+  for (std::size_t t = 0; t < texels; ++t)
+    fetches += api == ShaderApi::kEgl
+                   ? fmt::format(
+                         "    vec4 lobelia_p{0} = texelFetch(lobelia_points, ivec2((t + {0}) "
+                         "% {1}, (t + {0}) / {1}), 0);\n",
+                         t, kRunnerWidth)
+                   : fmt::format("        {1} lobelia_p{0} = lobelia_points[t + {0}];\n", t,
+                                 is_hlsl ? "float4" : "vec4");
+  for (std::size_t k = 0; k < source.calls.size(); ++k)
+    calls += fmt::format("    if (k == {}) result = lobelia_as_four({});\n", k, source.calls[k]);
+  // With #line, the compiler counts as the user does.
+  std::string begin, text = source.text;
+  if (!is_hlsl) {
+    auto [version, rest] = take_version(source.text, api);
+    begin = version;
+    if (version.find(" es") != std::string::npos) begin += "precision highp float;\n";
+    if (has_main(rest)) begin += "#define main lobelia_main_of_file\n";
+    text = std::move(rest);
+  }
+  ShaderProgram program{source.name, "", count_lines(begin), 0};
+  if (text.empty() || text.back() != '\n') text += '\n';
+  program.lines = count_lines(text);
+  const std::string_view main = is_hlsl                  ? kHlslMain
+                                : api == ShaderApi::kEgl ? kFragmentMain
+                                                         : kGlslComputeMain;
+  program.bytes = begin + text + (is_hlsl ? "" : "#undef main\nprecision highp float;\n") +
+                  fill(std::string(kAsFour) + std::string(main),
+                       {{"vec4", is_hlsl ? "float4" : "vec4"},
+                        {"vec3", is_hlsl ? "float3" : "vec3"},
+                        {"width", std::to_string(kRunnerWidth)},
+                        {"group", std::to_string(kGroupSize)},
+                        {"row", std::to_string(kGroupSize * kGroupsInRow)},
+                        {"points", std::to_string(points)},
+                        {"outputs", std::to_string(source.calls.size())},
+                        {"texels", std::to_string(texels)},
+                        {"fetches", fetches},
+                        {"calls", calls}});
+  return program;
+}
+
+std::string compiler_message(const std::string& log, const ShaderProgram& program) {
+  // Mesa: "0:12(5): error: WORDS"; NVIDIA: "0(12) : error C1: WORDS"; glslang: "ERROR: FILE:12: WORDS".
+  static const std::regex mesa("^[0-9]+:([0-9]+)\\([0-9]+\\): error: (.*)$"),
+      nvidia("^[0-9]+\\(([0-9]+)\\) : error (.*)$"), glslang("^ERROR: (?:.*:)?([0-9]+): (.*)$");
+  for (const std::string& line : split(log, "\n")) {
+    std::smatch found;
+    if (!std::regex_match(line, found, mesa) && !std::regex_match(line, found, nvidia) &&
+        !std::regex_match(line, found, glslang))
+      continue;
+    const std::size_t at = std::stoul(found[1].str().substr(0, 9));
+    const std::string words = printable(found[2].str(), 200);
+    if (at > program.first_line && at <= program.first_line + program.lines)
+      return fmt::format("{}:{}: {}", program.name, at - program.first_line, words);
+    return fmt::format("{}: the call of the function does not compile: {}", program.name, words);
+  }
+  return fmt::format("{}: the compiler refuses it: {}", program.name,
+                     printable(log.empty() ? "no reason given" : log, 200));
+}
+
+}  // namespace lobelia

@@ -1,0 +1,158 @@
+#include "shaders/run_shaders.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/image_io_module.hpp"
+#include "core/process.hpp"
+#include "core/text.hpp"
+#include "shaders/program_text.hpp"
+#include "shaders/runner_protocol.hpp"
+
+namespace lobelia {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kPackages[] = "libegl-dev, libgl-dev, libvulkan-dev";
+constexpr std::uint64_t kRunnerMemory = std::uint64_t{4} << 30;
+constexpr int kSignalBase = 128;
+
+/// Of a device that a driver has to open for writing.
+bool has_hardware() {
+  std::error_code ignored;
+  for (const char* node : {"/dev/dri", "/dev/nvidiactl", "/dev/kfd", "/dev/dxg"})
+    if (fs::exists(node, ignored)) return true;
+  return false;
+}
+
+std::string runner_path() {
+  try {
+    return companion_file(kShaderRunnerFile).string();
+  } catch (const Error&) {
+    throw Error(
+        ExitCode::kEngine,
+        fmt::format("shaders cannot be run: this build of Lobelia has no {}; install {} and "
+                    "build again",
+                    kShaderRunnerFile, kPackages));
+  }
+}
+
+/// What the runner prints, apart.
+struct Said {
+  std::string device, driver, rest;
+  std::vector<std::vector<double>> seconds;
+  void add(std::string_view line) {
+    if (line.starts_with(kDeviceLine)) {
+      device = printable(line.substr(std::strlen(kDeviceLine)));
+    } else if (line.starts_with(kDriverLine)) {
+      driver = printable(line.substr(std::strlen(kDriverLine)));
+    } else if (line.starts_with(kSecondsLine)) {
+      const auto parts = split(line, " ");
+      long long program = 0;
+      double value = 0;
+      if (parts.size() == 3 && parse_integer(parts[1], program) && parse_number(parts[2], value) &&
+          program >= 0 && std::size_t(program) < seconds.size())
+        seconds[std::size_t(program)].push_back(value);
+    } else if (rest.size() < (1 << 14)) {
+      rest.append(line) += '\n';
+    }
+  }
+};
+
+std::vector<ShaderValue> values_of(const fs::path& file, std::size_t count) {
+  const std::string bytes = read_file(file, kMostInvocations * 4 * sizeof(float));
+  if (bytes.size() < count * 4 * sizeof(float))
+    throw Error(ExitCode::kEngine, "the shader runner wrote too few values");
+  std::vector<ShaderValue> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    float v[4];
+    std::memcpy(v, bytes.data() + i * sizeof v, sizeof v);
+    values[i] = {v[0], v[1], v[2], v[3] == 1};
+  }
+  return values;
+}
+
+std::vector<float> texels_of(const ShaderPoints& points, std::size_t texels) {
+  std::vector<float> padded(points.count() * texels * 4);
+  for (std::size_t i = 0; i < points.count(); ++i)
+    std::copy_n(points.values.begin() + std::ptrdiff_t(i * points.components), points.components,
+                padded.begin() + std::ptrdiff_t(i * texels * 4));
+  return padded;
+}
+
+[[noreturn]] void fail(const ProcessResult& result, ShaderApi api, const Said& said,
+                       const std::vector<ShaderProgram>& programs,
+                       const ShaderRunOptions& options) {
+  const std::string& name = programs.front().name;
+  if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
+  if (result.timed_out)
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: the shader did not end within {:g} s on {}", name,
+                            options.time_limit.count(),
+                            said.device.empty() ? kShaderApiNames[int(api)] : said.device));
+  if (result.out_of_memory)
+    throw Error(ExitCode::kEngine, fmt::format("{}: the shader runner ran out of memory", name));
+  if (result.exit_code == kRunnerRefusedProgram)
+    throw Error(ExitCode::kInput, compiler_message(said.rest, programs.front()));
+  if (result.exit_code == kRunnerNoDevice)
+    throw Error(ExitCode::kEngine,
+                fmt::format("no driver runs shaders here ({}); install {}",
+                            printable(split(said.rest + "\n", "\n").empty()
+                                          ? std::string("no reason given")
+                                          : split(said.rest, "\n").front()),
+                            api == ShaderApi::kEgl ? "libgl1-mesa-dri" : "mesa-vulkan-drivers"));
+  throw Error(ExitCode::kEngine,
+              result.exit_code > kSignalBase
+                  ? fmt::format("{}: the driver was ended by signal {} while it ran the shader",
+                                name, result.exit_code - kSignalBase)
+                  : fmt::format("{}: the shader runner stopped with exit code {}: {}", name,
+                                result.exit_code, printable(said.rest, 200)));
+}
+
+}  // namespace
+
+ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
+                       const std::vector<ShaderProgram>& programs, std::size_t calls,
+                       const ShaderRunOptions& options) {
+  const std::string runner = runner_path();
+  const TemporaryDirectory scratch;
+  const std::size_t texels = texels_of_point(points.components);
+  const std::vector<float> padded = texels_of(points, texels);
+  write_file(scratch.path() / kPointsFile,
+             {reinterpret_cast<const std::uint8_t*>(padded.data()), padded.size() * sizeof(float)});
+  std::vector<std::string> command{runner,
+                                   std::string(kShaderApiNames[int(api)]),
+                                   std::to_string(points.count()),
+                                   std::to_string(texels),
+                                   std::to_string(calls),
+                                   std::to_string(options.rounds)};
+  for (std::size_t k = 0; k < programs.size(); ++k) {
+    command.push_back(fmt::format("program{}", k));
+    write_file(scratch.path() / command.back(), programs[k].bytes);
+  }
+  Said said;
+  said.seconds.resize(programs.size());
+  ProcessOptions process;
+  process.working_directory = scratch.path();
+  // Of the user's own environment, which chooses drivers; but no driver keeps a shader of somebody else.
+  process.environment = {"MESA_SHADER_CACHE_DISABLE=true", "__GL_SHADER_DISK_CACHE=0"};
+  if (!has_hardware()) process.writable = scratch.path();
+  process.timeout = options.time_limit;
+  process.memory_limit = kRunnerMemory;
+  process.on_line = [&](std::string_view line) { said.add(line); };
+  const ProcessResult result = run_process(command, process);
+  if (result.exit_code != kRunnerDone || result.timed_out)
+    fail(result, api, said, programs, options);
+  ShaderRun run{said.device, said.driver, {}, std::move(said.seconds)};
+  for (std::size_t k = 0; k < programs.size(); ++k)
+    run.values.push_back(
+        values_of(scratch.path() / fmt::format("program{}.out", k), points.count() * calls));
+  return run;
+}
+
+}  // namespace lobelia
