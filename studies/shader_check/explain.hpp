@@ -1,0 +1,37 @@
+// What explains the difference between a shader and its model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/shader_check/points.hpp"
+
+namespace lobelia::shader_check {
+
+/// What a shader gave. Values that are not finite are left out by explain().
+struct Observed {
+  std::vector<Point> points;
+  std::vector<double> values;
+};
+
+struct FactorAt {
+  double exponent = 1, factor = 1;  ///< the shader's coefficient over the model's
+};
+
+struct Explanation {
+  std::vector<std::string> mistakes;  ///< their ids, such as "pi-missing"
+  std::string sentence;
+  bool is_complete = false;  ///< nothing is left but rounding
+  double left_of_peak = 0;   ///< the largest difference left, but for the worst 2 % of the points
+  std::vector<FactorAt> factors;  ///< where a coefficient can be told
+};
+
+/// The error of float32 that an explanation leaves, and that a shader may have which is right but takes a power of a
+/// cosine as textbooks do: relative to the peak.
+double textbook_rounding(double exponent);
+
+/// Tries the mistakes of mistakes.hpp one by one, then in pairs, each with every coefficient. The simplest that leaves
+/// rounding alone is the explanation; without one it is the nearest.
+Explanation explain(const Highlight& highlight, const Observed& observed, bool of_roughness);
+
+}  // namespace lobelia::shader_check
