@@ -1,10 +1,10 @@
 #include "gallery/half_picture.hpp"
 
-#include <openssl/evp.h>
 #include <zlib.h>
 
 #include <bit>
 
+#include "core/base64.hpp"
 #include "core/error.hpp"
 #include "core/image_values.hpp"
 
@@ -88,13 +88,6 @@ std::string deflated(const std::string& bytes) {
 }
 
 }  // namespace
-
-std::string base64(std::string_view bytes) {
-  std::string text((bytes.size() + 2) / 3 * 4, '\0');
-  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                  reinterpret_cast<const unsigned char*>(bytes.data()), int(bytes.size()));
-  return text;
-}
 
 records::PackedPicture half_picture(const Image& image, int precision) {
   records::PackedPicture result;

@@ -15,7 +15,4 @@ inline constexpr int kFinest = 10, kCoarsest = -6;
 /// A value is its half float * 2^-scale_log2.
 records::PackedPicture half_picture(const Image& image, int precision);
 
-/// RFC 4648, section 4.
-std::string base64(std::string_view bytes);
-
 }  // namespace lobelia::gallery

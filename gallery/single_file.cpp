@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base64.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/html.hpp"
 #include "core/sha256.hpp"
-#include "gallery/half_picture.hpp"
 #include "gallery/page.hpp"
 #include "records/record.hpp"
 

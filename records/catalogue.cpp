@@ -21,6 +21,7 @@
 #include "records/render.hpp"
 #include "records/result.hpp"
 #include "records/scene.hpp"
+#include "records/shader_check.hpp"
 #include "records/stability.hpp"
 
 namespace lobelia::records {
@@ -37,8 +38,8 @@ constexpr auto kKinds =
     kinds_of<Agreement, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Cost, Engines,
              Failure, Farm, FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus,
              KnownHashes, GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Project,
-             Reference, Render, Result, Scene, Sensitivity, SlurmDoctor, SlurmRun, VerifyPaper,
-             VerifyStability>();
+             Reference, Render, Result, Scene, Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun,
+             VerifyPaper, VerifyStability>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {
@@ -115,7 +116,7 @@ const Struct& detail::find_struct(const std::type_info& type) {
           define_comparison_tables, define_cost_tables, define_farm_tables, define_gltf_tables,
           define_highlight_tables, define_model_tables, define_page_tables, define_paper_tables,
           define_profile_tables, define_project_tables, define_render_tables, define_result_tables,
-          define_scene_tables, define_stability_tables})
+          define_scene_tables, define_shader_check_tables, define_stability_tables})
       define(all);
     return all;
   }();

@@ -112,7 +112,9 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
                    : fmt::format("        {1} lobelia_p{0} = lobelia_points[t + {0}];\n", t,
                                  is_hlsl ? "float4" : "vec4");
   for (std::size_t k = 0; k < source.calls.size(); ++k)
-    calls += fmt::format("    if (k == {}) result = lobelia_as_four({});\n", k, source.calls[k]);
+    calls += fmt::format("    {}result = lobelia_as_four({});\n",
+                         source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "",
+                         source.calls[k]);
   // With #line, the compiler counts as the user does.
   std::string begin, text = source.text;
   if (!is_hlsl) {
@@ -136,7 +138,7 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
                         {"group", std::to_string(kGroupSize)},
                         {"row", std::to_string(kGroupSize * kGroupsInRow)},
                         {"points", std::to_string(points)},
-                        {"outputs", std::to_string(source.calls.size())},
+                        {"outputs", std::to_string(source.outputs())},
                         {"texels", std::to_string(texels)},
                         {"fetches", fetches},
                         {"calls", calls}});

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/base64.hpp"
 #include "core/version.hpp"
 #include "records/record.hpp"
 #include "reference_scenes/formats/formats.hpp"
@@ -23,20 +24,6 @@ constexpr int kAround = 64, kDown = 32;                     ///< faces of a sphe
 constexpr double kSpecularOfGlass = 0.04;
 /// Half the side of the square that stands for a plane, in extents of the scene.
 constexpr double kPlaneSize = 100;
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 struct Geometry {
   std::vector<float> positions, normals;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <ranges>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -11,48 +13,52 @@
 namespace lobelia::shader_check {
 namespace {
 
-struct ArgumentRow {
-  ArgumentInfo info;
-  /// Of a scalar in x alone.
-  Vec3 (*value)(const Point&, const Geometry&, const Highlight&);
+/// Of a point, what arguments are made of.
+struct Known {
+  const Point& point;
+  Geometry geometry;
+  double coefficient;
+  bool is_mirror;
+
+  double s() const { return is_mirror ? geometry.s_mirror : geometry.s_half; }
+  double cosine() const { return is_mirror ? geometry.mirror : geometry.n_dot_h; }
+  double alpha() const { return std::sqrt(2 / (point.exponent + 2)); }
+  Vec3 half() const {
+    const Vec3 sum = point.to_light + point.to_eye;
+    return length(sum) > 0 ? normalize(sum) : sum;
+  }
+  Vec3 mirrored() const {
+    return 2 * dot(point.normal, point.to_eye) * point.normal - point.to_eye;
+  }
 };
 
-double alpha_of(const Point& p) { return std::sqrt(2 / (p.exponent + 2)); }
-
-Vec3 half_of(const Point& p) {
-  const Vec3 sum = p.to_light + p.to_eye;
-  return length(sum) > 0 ? normalize(sum) : sum;
-}
+struct ArgumentRow {
+  ArgumentInfo info;
+  Vec3 (*value)(const Known&);  ///< of a number in x alone
+};
 
 constexpr ArgumentRow kRows[] = {
-    {{"N", "normal", 3}, [](auto& p, auto&, auto&) { return p.normal; }},
-    {{"V", "direction to the eye; -V to the surface", 3},
-     [](auto& p, auto&, auto&) { return p.to_eye; }},
-    {{"L", "direction to the light; -L to the surface", 3},
-     [](auto& p, auto&, auto&) { return p.to_light; }},
-    {{"H", "half vector, (L + V) / |L + V|", 3}, [](auto& p, auto&, auto&) { return half_of(p); }},
+    {{"N", "normal", 3}, [](const Known& k) { return k.point.normal; }},
+    {{"V", "direction to the eye", 3}, [](const Known& k) { return k.point.to_eye; }},
+    {{"L", "direction to the light", 3}, [](const Known& k) { return k.point.to_light; }},
+    {{"H", "half vector, (L + V) / |L + V|", 3}, [](const Known& k) { return k.half(); }},
     {{"R", "mirror direction of the eye, 2 (N.V) N - V", 3},
-     [](auto& p, auto&, auto&) { return 2 * dot(p.normal, p.to_eye) * p.normal - p.to_eye; }},
-    {{"n", "exponent", 1}, [](auto& p, auto&, auto&) { return Vec3{p.exponent}; }},
-    {{"coefficient", "of the model, for n", 1},
-     [](auto&, auto&, auto& h) { return Vec3{radiance_coefficient(h)}; }},
-    {{"s", "1 - cosine", 1},
-     [](auto&, auto& g, auto& h) {
-       return Vec3{info(h.model).angle == LobeAngle::kReflection ? g.s_mirror : g.s_half};
-     }},
-    {{"cosine", "of the angle that the model's lobe sees: N.H or R.L", 1},
-     [](auto&, auto& g, auto& h) {
-       return Vec3{info(h.model).angle == LobeAngle::kReflection ? g.mirror : g.n_dot_h};
-     }},
-    {{"N.L", "cosine", 1}, [](auto&, auto& g, auto&) { return Vec3{g.n_dot_l}; }},
-    {{"N.V", "cosine", 1}, [](auto&, auto& g, auto&) { return Vec3{g.n_dot_v}; }},
-    {{"N.H", "cosine", 1}, [](auto&, auto& g, auto&) { return Vec3{g.n_dot_h}; }},
-    {{"V.H", "cosine", 1}, [](auto&, auto& g, auto&) { return Vec3{g.v_dot_h}; }},
-    {{"R.L", "cosine, the same as R.V of the light's mirror direction", 1},
-     [](auto&, auto& g, auto&) { return Vec3{g.mirror}; }},
-    {{"alpha", "sqrt(2 / (n + 2))", 1}, [](auto& p, auto&, auto&) { return Vec3{alpha_of(p)}; }},
-    {{"roughness", "the root of alpha", 1},
-     [](auto& p, auto&, auto&) { return Vec3{std::sqrt(alpha_of(p))}; }},
+     [](const Known& k) { return k.mirrored(); }},
+    {{"n", "exponent"}, [](const Known& k) { return Vec3{k.point.exponent}; }},
+    {{"coefficient", "of the model, for n"}, [](const Known& k) { return Vec3{k.coefficient}; }},
+    {{"s", "1 - cosine of the angle that the lobe sees"},
+     [](const Known& k) { return Vec3{k.s()}; }},
+    {{"cosine", "of the angle that the lobe sees: N.H or R.L"},
+     [](const Known& k) { return Vec3{k.cosine()}; }},
+    {{"N.L", "cosine of the light"}, [](const Known& k) { return Vec3{k.geometry.n_dot_l}; }},
+    {{"N.V", "cosine of the eye"}, [](const Known& k) { return Vec3{k.geometry.n_dot_v}; }},
+    {{"N.H", "cosine of the half vector"}, [](const Known& k) { return Vec3{k.geometry.n_dot_h}; }},
+    {{"V.H", "cosine between eye and half vector"},
+     [](const Known& k) { return Vec3{k.geometry.v_dot_h}; }},
+    {{"R.L", "cosine between mirror direction and light"},
+     [](const Known& k) { return Vec3{k.geometry.mirror}; }},
+    {{"alpha", "sqrt(2 / (n + 2))"}, [](const Known& k) { return Vec3{k.alpha()}; }},
+    {{"roughness", "the root of alpha"}, [](const Known& k) { return Vec3{std::sqrt(k.alpha())}; }},
 };
 
 constexpr auto kInfos = [] {
@@ -97,27 +103,27 @@ Arguments::Arguments(const std::string& list, const Highlight& highlight) : high
   if (given_.size() > 16) throw Error(ExitCode::kUsage, "--arguments: at most 16 are allowed");
 }
 
-void Arguments::append(const Point& point, std::vector<float>& values) const {
-  Highlight highlight = highlight_;
-  highlight.exponent = point.exponent;
-  const auto append_vector = [&](Vec3 v) {
-    values.insert(values.end(), {float(v.x), float(v.y), float(v.z)});
+ShaderPoints Arguments::of(const std::vector<Point>& points) const {
+  ShaderPoints all{components(), {}};
+  all.values.reserve(points.size() * all.components);
+  const auto append = [&](Vec3 v, int components) {
+    for (const double x : std::array{v.x, v.y, v.z} | std::views::take(components))
+      all.values.push_back(float(x));
   };
-  append_vector(point.normal), append_vector(point.to_eye), append_vector(point.to_light);
-  values.insert(values.end(), {float(point.exponent), float(radiance_coefficient(highlight))});
-  const Geometry geometry(point);
-  for (const Given& given : given_) {
-    if (given.info == kInfos.size()) {
-      values.push_back(float(given.number));
-      continue;
-    }
-    const Vec3 value =
-        (given.negative ? -1.0 : 1.0) * kRows[given.info].value(point, geometry, highlight);
-    if (kInfos[given.info].components == 3)
-      append_vector(value);
-    else
-      values.push_back(float(value.x));
+  Coefficients coefficients(highlight_);
+  for (const Point& point : points) {
+    const Known known{point, Geometry(point), coefficients.at(point.exponent),
+                      info(highlight_.model).angle == LobeAngle::kReflection};
+    for (const Vec3 v : {point.normal, point.to_eye, point.to_light}) append(v, 3);
+    append({point.exponent, known.coefficient}, 2);
+    for (const Given& given : given_)
+      if (given.info == kInfos.size())
+        append({given.number}, 1);
+      else
+        append((given.negative ? -1.0 : 1.0) * kRows[given.info].value(known),
+               kInfos[given.info].components);
   }
+  return all;
 }
 
 std::size_t Arguments::components() const {

@@ -24,15 +24,15 @@ class Arguments {
   /// From "N,V,-L,n". Throws Error(kUsage) that names an unknown argument and what is allowed.
   Arguments(const std::string& list, const Highlight& highlight);
 
-  /// A point's components, float32: kCommon of them for every function, then those of this list.
-  void append(const Point& point, std::vector<float>& values) const;
-  std::size_t components() const;
+  /// The points' components: first those that common_vectors() and the like name, then those of this list.
+  ShaderPoints of(const std::vector<Point>& points) const;
   /// "myHighlight(vec3(lobelia_p0.x, ...), ...)"
   std::string call(std::string_view function, ShaderText language) const;
   /// Whether a function with them can know the exponent only through a roughness.
   bool is_of_roughness() const;
 
  private:
+  std::size_t components() const;
   struct Given {
     std::size_t info = 0;
     bool negative = false;

@@ -157,6 +157,15 @@ Hemisphere hemisphere_points(LobeAngle angle, double degrees, double exponent) {
   return all;
 }
 
+double Coefficients::at(double exponent) {
+  const auto [at, is_new] = known_.try_emplace(exponent, 0);
+  if (is_new) {
+    highlight_.exponent = exponent;
+    at->second = radiance_coefficient(highlight_);
+  }
+  return at->second;
+}
+
 double model_radiance(const Highlight& highlight, double coefficient, const Geometry& geometry) {
   if (geometry.n_dot_l <= 0) return 0;
   const double s =

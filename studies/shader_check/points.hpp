@@ -1,6 +1,7 @@
 // Directions and exponents at which a shader function is called, and what a model says of them.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "core/vec.hpp"
@@ -46,6 +47,17 @@ struct Hemisphere {
   std::vector<double> solid_angles;
 };
 Hemisphere hemisphere_points(LobeAngle angle, double degrees, double exponent);
+
+/// radiance_coefficient() of a highlight at any exponent, each computed once.
+class Coefficients {
+ public:
+  explicit Coefficients(const Highlight& highlight) : highlight_(highlight) {}
+  double at(double exponent);
+
+ private:
+  Highlight highlight_;
+  std::map<double, double> known_;
+};
 
 /// The model's radiance, in double.
 double model_radiance(const Highlight& highlight, double coefficient, const Geometry& geometry);

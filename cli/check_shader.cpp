@@ -1,0 +1,154 @@
+// lobelia check-shader FILE
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "cli/output_files.hpp"
+#include "core/files.hpp"
+#include "core/standard_streams.hpp"
+#include "records/record.hpp"
+#include "studies/shader_check/arguments.hpp"
+#include "studies/shader_check/report.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+constexpr std::uint64_t kMaxShaderBytes = 1 << 20;
+constexpr std::string_view kOnNames[] = {"egl", "vulkan"};
+constexpr std::string_view kLanguageNames[] = {"glsl", "hlsl"};
+
+struct CheckShaderArguments {
+  std::string file, function, arguments = "N,V,L,n", model, lobe = "cosine",
+                              normalisation = "exact", language, on, json, html;
+  std::vector<double> exponents{std::begin(shader_check::kUsualExponents),
+                                std::end(shader_check::kUsualExponents)};
+  double time_limit = kShaderTimeLimit.count();
+  bool no_costs = false;
+};
+
+/// By --language, or by the ending of the file.
+ShaderText language_of(const CheckShaderArguments& options) {
+  const std::string ending = std::filesystem::path(options.file).extension().string();
+  if (options.language.empty() && ending == ".wgsl")
+    throw Error(ExitCode::kUsage,
+                "WGSL cannot be checked yet; glsl and hlsl can, and 'lobelia export --language "
+                "wgsl' is tested in a browser");
+  const std::string name = !options.language.empty()              ? options.language
+                           : ending == ".hlsl" || ending == ".fx" ? "hlsl"
+                                                                  : "glsl";
+  return ShaderText(chosen_place(name, "--language", kLanguageNames));
+}
+
+shader_check::Request request_of(const CheckShaderArguments& options) {
+  shader_check::Request request;
+  request.file = options.file;
+  request.language = language_of(options);
+  request.api = !options.on.empty() ? ShaderApi(chosen_place(options.on, "--on", kOnNames))
+                : request.language == ShaderText::kHlsl ? ShaderApi::kVulkan
+                                                        : ShaderApi::kEgl;
+  if (request.language == ShaderText::kHlsl && request.api == ShaderApi::kEgl)
+    throw Error(ExitCode::kUsage, "--on egl takes GLSL alone; HLSL needs --on vulkan");
+  request.function = options.function;
+  request.arguments = options.arguments;
+  request.highlight.model =
+      chosen(options.model, "--model", model_names(), join(model_names()), find_model);
+  request.highlight.lobe = chosen(options.lobe, "--lobe", lobe_names(), allowed_lobes(), find_lobe);
+  request.highlight.normalisation =
+      chosen(options.normalisation, "--normalisation", normalisation_names(),
+             join(normalisation_names()), find_normalisation);
+  radiance_coefficient(request.highlight);  // throws if the paper has none
+  request.exponents = options.exponents;
+  // In the middle: neither a blur nor a dot.
+  std::ranges::sort(request.exponents);
+  request.shown_exponent = request.exponents[request.exponents.size() / 2];
+  request.time_limit = std::chrono::duration<double>(options.time_limit);
+  request.costs = !options.no_costs;
+  request.text = read_file(options.file, kMaxShaderBytes);
+  return request;
+}
+
+ExitCode run_check_shader(const CheckShaderArguments& options) {
+  OutputFiles outputs;
+  outputs.reads(options.file);
+  const bool json_to_stdout = options.json == kStdout;
+  if (!options.json.empty() && !json_to_stdout) {
+    outputs.writes(options.json);
+    require_writable(options.json);
+  }
+  if (!options.html.empty()) {
+    outputs.writes(options.html);
+    require_writable(options.html);
+  }
+  shader_check::Check check = shader_check::check_shader(request_of(options));
+  check.record.command = command_line();
+  FilesTogether files;
+  if (!options.json.empty() && !json_to_stdout) write_record(options.json, check.record);
+  if (!options.html.empty()) write_file(options.html, shader_check::report_page(check));
+  files.commit();
+  fmt::print("{}", json_to_stdout ? records::record_text(check.record)
+                                  : shader_check::report_text(check.record));
+  return check.record.verdict == "passes" ? ExitCode::kSuccess : ExitCode::kDiffers;
+}
+
+std::string arguments_help() {
+  std::string text = "What the function takes, in its order:";
+  for (const auto& argument : shader_check::argument_infos())
+    text += fmt::format(" {} ({}),", argument.name, argument.meaning);
+  return text + " or a number. With a minus sign a vector points to the surface";
+}
+
+}  // namespace
+
+void add_check_shader(CLI::App& app, ExitCode& exit_code) {
+  auto* command =
+      app.add_subcommand("check-shader", "Run a shader function and compare it with a model");
+  auto options = std::make_shared<CheckShaderArguments>();
+  OptionGroup shader(*command, "Shader");
+  shader.add("FILE", options->file, "FILE", "GLSL or HLSL with the function")->required();
+  shader
+      .add("--function", options->function, "NAME",
+           "The function: its result is radiance for "
+           "unit irradiance")
+      ->required();
+  shader.add("--arguments", options->arguments, "LIST", arguments_help())->capture_default_str();
+  shader.add("--language", options->language, "",
+             fmt::format("Language: {}; otherwise by the file's ending", join(kLanguageNames)));
+  shader.add("--on", options->on, "",
+             fmt::format("What runs it: {}. GLSL runs on egl, HLSL on vulkan unless chosen",
+                         join(kOnNames)));
+  shader.add_number("--time-limit", options->time_limit, 0.1, 3600,
+                    "Seconds after which a shader is taken for an endless loop");
+  OptionGroup model(*command, "Model");
+  model.add("--model", options->model, "", fmt::format("Model: {}", join(model_names())))
+      ->required();
+  model.add("--lobe", options->lobe, "", fmt::format("Lobe: {}", allowed_lobes()))
+      ->capture_default_str();
+  model
+      .add("--normalisation", options->normalisation, "",
+           fmt::format("Normalisation of the coefficient: {}", join(normalisation_names())))
+      ->capture_default_str();
+  model
+      .add("--exponent", options->exponents, "N",
+           "Exponents to check; otherwise 1, 4, 16, 64, 256 and 1000")
+      ->check(between(kMinExponent, kMaxExponent))
+      ->expected(1, 20)
+      ->delimiter(',');
+  OptionGroup output(*command, "Output");
+  output.add("--json", options->json, "FILE|-",
+             "Write the record (kind shader-check) to FILE; with - to stdout, and no table");
+  output.add("--html", options->html, "FILE", "Write a page with spheres and a plot");
+  output.add_flag("--no-costs", options->no_costs,
+                  "Measure neither half floats, nor instructions, nor time");
+  command->footer(
+      "The shader runs in a process of its own, on the first graphics processor that has a driver, or\n"
+      "else on Mesa's software renderers. docs/check_shader.md is a tutorial, and lists the mistakes\n"
+      "that are found by name.\n"
+      "\n"
+      "Examples:\n"
+      "  lobelia check-shader mine.glsl --function myHighlight --model blinn_phong_ndf\n"
+      "  lobelia check-shader mine.hlsl --function spec --arguments cosine,roughness --model phong_rdf\n"
+      "\n"
+      "Exit codes: 0 it is the model, 1 it differs, 2 usage, 3 it does not compile, end or write, 4 an\n"
+      "output cannot be written, 5 nothing runs shaders here, or the driver failed.");
+  command->callback([options, &exit_code] { exit_code = run_check_shader(*options); });
+}
+
+}  // namespace lobelia::cli

@@ -1,0 +1,50 @@
+// Checks a shader function against a model: `lobelia check-shader`.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "records/shader_check.hpp"
+#include "renderer/highlight.hpp"
+#include "shaders/run_shaders.hpp"
+
+namespace lobelia::shader_check {
+
+struct Request {
+  std::string file, text;
+  ShaderText language = ShaderText::kGlsl;
+  ShaderApi api = ShaderApi::kEgl;
+  std::string function, arguments;
+  Highlight highlight;            ///< without its exponent
+  std::vector<double> exponents;  ///< not empty
+  double shown_exponent = 64;     ///< of pictures and the curve
+  std::chrono::duration<double> time_limit = kShaderTimeLimit;
+  bool costs = true;  ///< whether to measure half floats, instructions and time
+};
+inline constexpr double kUsualExponents[] = {1, 4, 16, 64, 256, 1000};
+
+/// A lit sphere: light, theirs and the model's.
+struct SpherePair {
+  double light_degrees = 0;
+  Image theirs, model;
+};
+
+struct Curve {
+  std::vector<double> degrees;  ///< of the normal from the half vector
+  std::vector<double> theirs, model;
+};
+
+struct Check {
+  records::ShaderCheck record;  ///< without a command
+  std::vector<SpherePair> spheres;
+  Curve curve;
+  double shown_exponent = 64;
+};
+
+/// Throws Error(kUsage) for arguments that are unknown, Error(kInput) if the function does not compile, does not end or
+/// writes nothing, and Error(kEngine) if nothing runs shaders here.
+Check check_shader(const Request& request);
+
+}  // namespace lobelia::shader_check

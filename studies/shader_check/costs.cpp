@@ -1,0 +1,164 @@
+#include "studies/shader_check/costs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "shaders/export.hpp"
+#include "shaders/names.hpp"
+
+namespace lobelia::shader_check {
+namespace {
+
+constexpr std::size_t kRepeats = 64;
+constexpr int kRounds = 15;
+
+/// The exported function of the model, in the shader's own language.
+ShaderSource ours(const Request& request) {
+  const ShaderText language = request.language;
+  ShaderExport wanted{*find_shader_language(kShaderTextNames[std::size_t(language)]),
+                      {request.highlight.model},
+                      request.highlight.lobe,
+                      request.highlight.normalisation,
+                      {}};
+  std::string text;
+  try {
+    text = shader_text(wanted);
+  } catch (const Error&) {  // there is no closed form
+    wanted.coefficient = CoefficientFrom::kArgument;
+    text = shader_text(wanted);
+  }
+  std::string call =
+      function_name(request.highlight) + "(" + common_vectors(language) + ", " + common_exponent();
+  if (wanted.coefficient == CoefficientFrom::kArgument) call += ", " + common_coefficient();
+  return {language, "ours", text, {call + ")"}};
+}
+
+ShaderSource power(ShaderText language) {
+  const std::string vector = language == ShaderText::kHlsl ? "float3" : "vec3";
+  return {language,
+          "pow",
+          fill("float lobelia_pow(%v% N, %v% V, %v% L, float n)\n"
+               "{ return pow(max(dot(N, normalize(L + V)), 0.0), n); }\n",
+               {{"v", vector}}),
+          {fmt::format("lobelia_pow({}, {})", common_vectors(language), common_exponent())}};
+}
+
+/// Reads the arguments and does nothing with them but add them.
+ShaderSource nothing(ShaderText language, std::size_t components) {
+  std::string sum = shader_component(0);
+  for (std::size_t i = 1; i < components; ++i) sum += " + " + shader_component(i);
+  return {language, "nothing", "", {sum}};
+}
+
+class Costs {
+ public:
+  Costs(const Request& request, const Arguments& arguments, const ShaderPoints& points,
+        records::ShaderCheck& record)
+      : request_(request), points_(points), record_(record) {
+    sources_ = {{request.language,
+                 record.file,
+                 request.text,
+                 {arguments.call(request.function, request.language)}},
+                ours(request),
+                power(request.language),
+                nothing(request.language, points.components)};
+    for (const char* name : {"function", "ours", "pow"}) record.costs.push_back({name, {}, {}});
+  }
+
+  /// Runs `measure`, whose failure is only a remark.
+  template <class Measure>
+  void try_to(const char* what, Measure measure) {
+    try {
+      measure();
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::kInterrupted) throw;
+      record_.remarks.push_back(fmt::format("not measured: {}: {}", what, error.lines().front()));
+    }
+  }
+
+  void time() {
+    std::vector<ShaderProgram> programs;
+    for (ShaderSource source : sources_) {
+      source.repeats = kRepeats;
+      programs.push_back(make_program(source, request_.api, points_.count(), points_.components));
+    }
+    const ShaderRun run =
+        run_programs(request_.api, points_, programs, kRepeats, {request_.time_limit, kRounds});
+    const double calls = double(points_.count() * kRepeats);
+    for (std::size_t k = 0; k < record_.costs.size(); ++k) {
+      // Round by round, because a busy machine slows down neighbours alike.
+      std::vector<double> seconds;
+      for (std::size_t round = 0; round < run.seconds[k].size(); ++round)
+        seconds.push_back((run.seconds[k][round] - run.seconds.back()[round]) / calls);
+      std::ranges::sort(seconds);
+      const auto at = [&](double share) {
+        return seconds[std::size_t(share * double(seconds.size() - 1))];
+      };
+      record_.costs[k].seconds = records::CostSeconds{
+          at(0.5), (at(0.75) - at(0.25)) / 2 / std::max(std::abs(at(0.5)), 1e-30), at(0), at(1),
+          int(seconds.size())};
+    }
+  }
+
+  void count() {
+    const std::size_t base = instructions(sources_.back());
+    for (std::size_t k = 0; k < record_.costs.size(); ++k) {
+      const std::size_t all = instructions(sources_[k]);
+      record_.costs[k].instructions = all > base ? all - base : 0;
+    }
+  }
+
+  void half_floats(const std::vector<Point>& domain, const std::vector<ShaderValue>& values) {
+    const ShaderProgram half = in_half_floats(spirv(sources_.front()));
+    const ShaderRun run =
+        run_programs(ShaderApi::kVulkan, points_, {half}, 1, {request_.time_limit, 0});
+    std::map<double, records::ShaderHalf> worst;
+    std::map<double, double> peaks;
+    for (std::size_t i = 0; i < domain.size(); ++i)
+      if (std::isfinite(values[i].r)) {
+        double& peak = peaks[domain[i].exponent];
+        peak = std::max(peak, double(std::abs(values[i].r)));
+      }
+    for (std::size_t i = 0; i < domain.size(); ++i) {
+      const double n = domain[i].exponent, value = double(run.values.front()[i].r);
+      records::ShaderHalf& half_at = worst[n];
+      half_at.exponent = n;
+      half_at.nonfinite += !std::isfinite(value);
+      if (std::isfinite(value) && std::isfinite(values[i].r) && peaks[n] > 0)
+        half_at.max_of_peak =
+            std::max(half_at.max_of_peak, std::abs(value - double(values[i].r)) / peaks[n]);
+    }
+    for (const auto& [n, half_at] : worst) record_.half_floats.push_back(half_at);
+  }
+
+ private:
+  ShaderProgram spirv(const ShaderSource& source) const {
+    return make_program(source, ShaderApi::kVulkan, points_.count(), points_.components);
+  }
+  std::size_t instructions(const ShaderSource& source) const {
+    return count_instructions(spirv(source));
+  }
+
+  const Request& request_;
+  const ShaderPoints& points_;
+  records::ShaderCheck& record_;
+  std::vector<ShaderSource> sources_;
+};
+
+}  // namespace
+
+void add_costs(const Request& request, const Arguments& arguments, const std::vector<Point>& domain,
+               const ShaderPoints& points, const std::vector<ShaderValue>& values,
+               records::ShaderCheck& record) {
+  Costs costs(request, arguments, points, record);
+  costs.try_to("instructions", [&] { costs.count(); });
+  costs.try_to("half floats", [&] { costs.half_floats(domain, values); });
+  costs.try_to("time", [&] { costs.time(); });
+}
+
+}  // namespace lobelia::shader_check

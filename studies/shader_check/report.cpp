@@ -1,0 +1,123 @@
+#include "studies/shader_check/report.hpp"
+
+#include <fmt/format.h>
+
+#include "core/numbers.hpp"
+#include "studies/shader_check/explain.hpp"
+#include "studies/table.hpp"
+
+namespace lobelia::shader_check {
+namespace {
+
+studies::Table error_table(const records::ShaderCheck& record) {
+  studies::Table table{"",
+                       {{"n", 8},
+                        {"largest error", 15, "{:.1e}"},
+                        {"allowed", 10, "{:.1e}"},
+                        {"N.L", 9, "{:.4f}"},
+                        {"N.V", 8, "{:.4f}"},
+                        {"lobe's angle", 14, "{:.2f}"},
+                        {"it gives", 12, "{:.6g}"},
+                        {"model", 12, "{:.6g}"}},
+                       {}};
+  for (const records::ShaderError& error : record.errors)
+    table.rows.push_back({fmt::format("{:g}", error.exponent), error.max_of_peak,
+                          error.allowed_of_peak, error.place.n_dot_l, error.place.n_dot_v,
+                          error.place.lobe_degrees, error.place.value, error.place.expected});
+  return table;
+}
+
+std::string place_text(const std::optional<records::ShaderPlace>& place) {
+  return place ? fmt::format(
+                     " (first at n = {:g}, N.L = {:.4f}, N.V = {:.4f}: {:g}, where the "
+                     "model is {:g})",
+                     place->exponent, place->n_dot_l, place->n_dot_v, place->value, place->expected)
+               : "";
+}
+
+std::string oddities_text(const records::ShaderOddities& odd) {
+  std::string text;
+  const auto add = [&](std::size_t count, const std::string& what) {
+    if (count > 0) text += fmt::format("  {} of {} calls {}\n", count, odd.calls, what);
+  };
+  add(odd.nan, "are NaN" + place_text(odd.first_nonfinite));
+  add(odd.infinite, "are infinite" + (odd.nan > 0 ? "" : place_text(odd.first_nonfinite)));
+  add(odd.unwritten, "are discarded");
+  add(odd.outside_support, "are not 0 where the model is" + place_text(odd.first_outside));
+  add(odd.negative, "are negative");
+  add(odd.coloured, "are coloured; red was compared");
+  if (odd.hard_nonfinite > 0)
+    text += fmt::format("  {} of {} hard cases, such as L = -V, are no finite number\n",
+                        odd.hard_nonfinite, odd.hard_calls);
+  return text.empty() ? "" : "\nodd results\n" + text;
+}
+
+std::string energy_text(const std::vector<records::ShaderEnergy>& energy) {
+  std::string text =
+      "\nenergy over the hemisphere, for an eye at 0, 45 and 75 degrees (the model's)\n";
+  for (std::size_t i = 0; i < energy.size(); ++i) {
+    if (i == 0 || energy[i].exponent != energy[i - 1].exponent)
+      text += fmt::format("{}  n = {:<6g}", i == 0 ? "" : "\n", energy[i].exponent);
+    text += fmt::format("  {:.4f} ({:.4f})", energy[i].energy, energy[i].of_model);
+  }
+  return text + "\n";
+}
+
+std::string half_text(const std::vector<records::ShaderHalf>& half) {
+  if (half.empty()) return "";
+  std::string text = "\nwith all arithmetic in half floats it would change by, of its peak\n ";
+  for (const records::ShaderHalf& at : half)
+    text += fmt::format(" n = {:g}: {:.1e}{};", at.exponent, at.max_of_peak,
+                        at.nonfinite > 0 ? fmt::format(" and {} no number", at.nonfinite) : "");
+  text.back() = '\n';
+  return text;
+}
+
+std::string cost_text(const std::vector<records::ShaderCost>& costs) {
+  std::string instructions, seconds;
+  for (const records::ShaderCost& cost : costs) {
+    const std::string name = cost.name == "function" ? "it" : cost.name;
+    if (cost.instructions)
+      instructions +=
+          fmt::format("{}{} {}", instructions.empty() ? "" : ", ", name, *cost.instructions);
+    if (cost.seconds)
+      seconds += fmt::format("{}{} {:.2f} ns ({:.0f} %)", seconds.empty() ? "" : ", ", name,
+                             1e9 * cost.seconds->median, 100 * cost.seconds->spread);
+  }
+  std::string text;
+  if (!instructions.empty()) text += "\ninstructions of optimised SPIR-V: " + instructions + "\n";
+  if (!seconds.empty()) {
+    text += "time of a call (spread): " + seconds;
+    const auto &it = costs[0].seconds, &ours = costs[1].seconds, &pow = costs[2].seconds;
+    if (it && ours && pow && ours->median > 0 && pow->median > 0)
+      text += fmt::format("; {:.2f} of ours, {:.2f} of pow", it->median / ours->median,
+                          it->median / pow->median);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string report_text(const records::ShaderCheck& record) {
+  std::string text = fmt::format("{}: {}({}) against {}, lobe {}, normalisation {}\non {}, {}\n\n",
+                                 record.file, record.function, record.arguments, record.model,
+                                 record.lobe, record.normalisation, record.device, record.driver);
+  text += record.verdict == "passes" ? "passes: it is the model within the rounding of float32\n"
+                                     : "differs: ";
+  if (record.explanation) {
+    text += record.explanation->sentence + "\n";
+    if (!record.explanation->mistakes.empty()) {
+      text += "mistakes:";
+      for (const std::string& mistake : record.explanation->mistakes) text += " " + mistake;
+      text += "\n";
+    }
+  }
+  text += "\n" + studies::table_text(error_table(record));
+  text += oddities_text(record.oddities) + energy_text(record.energy) +
+          half_text(record.half_floats) + cost_text(record.costs);
+  for (const std::string& remark : record.remarks) text += remark + "\n";
+  return text;
+}
+
+}  // namespace lobelia::shader_check
