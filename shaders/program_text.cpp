@@ -33,14 +33,15 @@ void main()
 
 constexpr std::string_view kGlslComputeMain = R"(
 layout(local_size_x = %group%) in;
-layout(std430, set = 0, binding = 0) readonly buffer LobeliaPoints { vec4 lobelia_points[]; };
+struct LobeliaPoint { vec4 texels[%texels%]; };
+layout(std430, set = 0, binding = 0) readonly buffer LobeliaPoints { LobeliaPoint lobelia_points[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer LobeliaResults { vec4 lobelia_results[]; };
 void main()
 {
     int i = int(gl_GlobalInvocationID.y) * %row% + int(gl_GlobalInvocationID.x);
     int k = i / %points%;
     if (k < %outputs%) {
-        int t = (i - k * %points%) * %texels%;
+        int t = i - k * %points%;
         vec4 result = vec4(0.0);
 %fetches%%calls%        lobelia_results[i] = result;
     }
@@ -48,14 +49,15 @@ void main()
 )";
 
 constexpr std::string_view kHlslMain = R"(
-[[vk::binding(0, 0)]] StructuredBuffer<float4> lobelia_points;
+struct LobeliaPoint { float4 texels[%texels%]; };
+[[vk::binding(0, 0)]] StructuredBuffer<LobeliaPoint> lobelia_points;
 [[vk::binding(1, 0)]] RWStructuredBuffer<float4> lobelia_results;
 [numthreads(%group%, 1, 1)] void lobelia_main(uint3 id : SV_DispatchThreadID)
 {
     int i = int(id.y) * %row% + int(id.x);
     int k = i / %points%;
     if (k < %outputs%) {
-        int t = (i - k * %points%) * %texels%;
+        int t = i - k * %points%;
         float4 result = float4(0.0, 0.0, 0.0, 0.0);
 %fetches%%calls%        lobelia_results[i] = result;
     }
@@ -109,7 +111,7 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
                          "    vec4 lobelia_p{0} = texelFetch(lobelia_points, ivec2((t + {0}) "
                          "% {1}, (t + {0}) / {1}), 0);\n",
                          t, kRunnerWidth)
-                   : fmt::format("        {1} lobelia_p{0} = lobelia_points[t + {0}];\n", t,
+                   : fmt::format("        {1} lobelia_p{0} = lobelia_points[t].texels[{0}];\n", t,
                                  is_hlsl ? "float4" : "vec4");
   for (std::size_t k = 0; k < source.calls.size(); ++k)
     calls += fmt::format("    {}result = lobelia_as_four({});\n",

@@ -73,7 +73,7 @@ ShaderProgram make_program(const ShaderSource& source, ShaderApi api, std::size_
 /// is missing or refuses it.
 ShaderProgram in_half_floats(const ShaderProgram& program);
 
-/// The number of instructions of the optimised program, by spirv-opt; for Vulkan. Errors as in_half_floats().
+/// The number of instructions of the optimised program that compute, compare or branch, by spirv-opt; for Vulkan. Errors as in_half_floats().
 std::size_t count_instructions(const ShaderProgram& program);
 
 struct ShaderRunOptions {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kRepeats = 64;
 constexpr int kRounds = 15;
+constexpr double kOfALoop = 1000;
 
 /// The exported function of the model, in the shader's own language.
 ShaderSource ours(const Request& request) {
@@ -103,10 +104,15 @@ class Costs {
           at(0.5), (at(0.75) - at(0.25)) / 2 / std::max(std::abs(at(0.5)), 1e-30), at(0), at(1),
           int(seconds.size())};
     }
+    if (record_.costs[0].seconds->median > kOfALoop * record_.costs[2].seconds->median)
+      record_.remarks.push_back(
+          "a call takes more than a thousand times as long as pow: it may be an endless loop, which "
+          "Mesa leaves after 65535 rounds");
   }
 
   void count() {
-    const std::size_t base = instructions(sources_.back());
+    const std::size_t base =
+        instructions({request_.language, "nothing", "", {shader_component(0)}});
     for (std::size_t k = 0; k < record_.costs.size(); ++k) {
       const std::size_t all = instructions(sources_[k]);
       record_.costs[k].instructions = all > base ? all - base : 0;

@@ -18,6 +18,8 @@ constexpr double kAlmostAll = 0.997, kMost = 0.98;
 constexpr double kPenaltyOfMost = 1.5;  // of a candidate that fits most points but not almost all
 constexpr double kCoefficientTolerance = 1e-3;
 constexpr double kFreeCoefficient = 2;  // as much as two mistakes
+/// Above it, float32 leaves nothing of a power of a cosine that a coefficient could be told from.
+constexpr double kMostExponent = 2e4;
 
 /// The points of one exponent.
 struct Group {
@@ -95,6 +97,8 @@ class Search {
       if ((!mistake.applies || mistake.applies(highlight)) &&
           (of_roughness || !mistake.of_roughness) && !is_own_lobe(mistake))
         usable_.push_back(&mistake);
+    // The narrower explanation first: 2 / alpha^2 is n + 2.
+    std::ranges::stable_partition(usable_, &Mistake::of_roughness);
   }
 
   const Candidate& best() {
@@ -145,7 +149,8 @@ class Search {
         differences[i] = std::abs(group.values[i] - factor * values[i]);
       candidate.left.add(group, std::move(differences));
       // A lobe that nothing is seen of has no coefficient.
-      if (factor * largest > 0.01 * group.peak && group.peak > 1e-5 * group.own)
+      if (factor * largest > 0.01 * group.peak && group.peak > 1e-5 * group.own &&
+          formula_of(highlight_, group.exponent, candidate.shape).exponent < kMostExponent)
         candidate.factors.push_back({group.exponent, factor / group.own});
     }
     if (std::isfinite(candidate.left.penalty())) find_coefficient(candidate);

@@ -131,7 +131,7 @@ std::vector<Point> arc_points(double exponent, std::size_t count) {
 }
 
 Hemisphere hemisphere_points(LobeAngle angle, double degrees, double exponent) {
-  constexpr int kRings = 160, kSpokes = 48;
+  constexpr int kRings = 64, kSpokes = 32;
   const Vec3 normal{0, 0, 1}, eye = in_plane(degrees * kRadians), mirrored{-eye.x, 0, eye.z},
                               side{0, 1, 0}, across = cross(side, mirrored);
   // Most rings within the lobe, by powers of its width: the angle from the mirror direction is pi t^p.
@@ -140,19 +140,23 @@ Hemisphere hemisphere_points(LobeAngle angle, double degrees, double exponent) {
       std::max(1.0, std::log(std::min(1.0, width / std::numbers::pi)) / std::log(0.6));
   Hemisphere all;
   for (int ring = 0; ring < kRings; ++ring) {
-    const auto radius = [&](double t) { return std::numbers::pi * std::pow(t / kRings, power); };
-    const double from = radius(ring), to = radius(ring + 1);
-    const double solid_angle = 2 * std::numbers::pi * (std::cos(from) - std::cos(to)) / kSpokes;
-    // Half of the ring's solid angle is inside.
-    const double middle = std::acos(std::clamp(0.5 * (std::cos(from) + std::cos(to)), -1.0, 1.0));
-    for (int spoke = 0; spoke < kSpokes; ++spoke) {
-      const double turn = 2 * std::numbers::pi * (spoke + 0.5) / kSpokes;
-      const Vec3 light = std::cos(middle) * mirrored + std::sin(middle) * std::cos(turn) * across +
-                         std::sin(middle) * std::sin(turn) * side;
-      if (light.z <= 0) continue;
-      all.points.push_back(rounded(normal, eye, light, exponent));
-      all.solid_angles.push_back(solid_angle);
-    }
+    const auto cosine = [&](int end) {
+      return std::cos(std::numbers::pi * std::pow(double(end) / kRings, power));
+    };
+    // Two points of Gauss and Legendre over the cosine.
+    const double middle = (cosine(ring) + cosine(ring + 1)) / 2,
+                 half = (cosine(ring) - cosine(ring + 1)) / 2;
+    for (const double side_of_middle : {-1, 1})
+      for (int spoke = 0; spoke < kSpokes; ++spoke) {
+        const double c = middle + side_of_middle * half / std::numbers::sqrt3,
+                     sine = std::sqrt(1 - c * c),
+                     turn = 2 * std::numbers::pi * (spoke + 0.5) / kSpokes;
+        const Vec3 light =
+            c * mirrored + sine * std::cos(turn) * across + sine * std::sin(turn) * side;
+        if (light.z <= 0) continue;
+        all.points.push_back(rounded(normal, eye, light, exponent));
+        all.solid_angles.push_back(2 * std::numbers::pi * half / kSpokes);
+      }
   }
   return all;
 }

@@ -89,8 +89,6 @@ TEST_F(ShaderCheck, PassesATextbookPower) {
       "{ return (n + 1.0) / (8.0 * 3.14159265) * pow(max(dot(N, normalize(L + V)), 0.0), n) * "
       "max(dot(N, L), 0.0); }\n"));
   EXPECT_EQ(check.record.verdict, "passes") << shader_check::report_text(check.record);
-  // It has no half vector where light and eye are opposite.
-  EXPECT_GT(check.record.oddities.hard_nonfinite, 0u);
 }
 
 TEST_F(ShaderCheck, EnergyIsTheModelsAlbedo) {
@@ -102,7 +100,9 @@ TEST_F(ShaderCheck, EnergyIsTheModelsAlbedo) {
                               {}});
   request.function = function_name(request.highlight);
   for (const records::ShaderEnergy& energy : shader_check::check_shader(request).record.energy)
-    if (energy.incidence_degrees == 0) EXPECT_NEAR(energy.energy, 1, 2e-3) << energy.exponent;
+    if (energy.incidence_degrees == 0) {
+      EXPECT_NEAR(energy.energy, 1, 2e-3) << energy.exponent;
+    }
 }
 
 TEST_F(ShaderCheck, WhatDoesNotCompileEndOrWriteIsOneLine) {
@@ -116,8 +116,10 @@ TEST_F(ShaderCheck, WhatDoesNotCompileEndOrWriteIsOneLine) {
   EXPECT_THAT(with("{ return 1.0\n}\n"), testing::StartsWith("3: mine.glsl:3: "));
   EXPECT_EQ(with("{ discard; return 1.0; }\n"),
             "3: mine.glsl: highlight writes nothing: every call is discarded");
+  // Mesa leaves a loop after 65535 rounds, but not two.
   EXPECT_THAT(
-      with("{ float x = 1.0; while (x > 0.0) { x = x * 0.5 + N.z * N.z + 1.0; } return x; }\n"),
+      with("{ float x = 1.0; while (x > 0.0) { float y = 1.0; while (y > 0.0) y = y * 0.5 + "
+           "N.z * N.z + 1.0; x = x * 0.5 + y; } return x; }\n"),
       HasSubstr("the shader did not end within 5 s on "));
   shader_check::Request request = request_of("phong_rdf", head + "{ return 1.0; }\n");
   request.function = "highligt";
@@ -137,7 +139,7 @@ TEST_F(ShaderCheck, CountsWhatIsNoNumberAndWhatIsOutsideTheSupport) {
   const std::string head =
       "float highlight(vec3 N, vec3 V, vec3 L, float n)\n{ float c = dot(reflect(-V, N), L); ";
   const Check nan =
-      shader_check::check_shader(request_of("phong_rdf", head + "return sqrt(c) * 0.0 + 1.0; }\n"));
+      shader_check::check_shader(request_of("phong_rdf", head + "return sqrt(c) + n; }\n"));
   EXPECT_GT(nan.record.oddities.nan, 100u);
   EXPECT_TRUE(nan.record.oddities.first_nonfinite);
   const Check outside =
