@@ -1,13 +1,10 @@
-// Directions for exported functions, and how near to the truth they have to come.
+// Directions for exported functions.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 #include <random>
 
 #include "core/vec.hpp"
-#include "renderer/precision.hpp"
 
 namespace lobelia {
 
@@ -46,25 +43,6 @@ class RandomDirections {
   double exponent_;
   std::mt19937_64 random_{1};
   std::uniform_real_distribution<double> uniform_;
-};
-
-/// The allowed error as a share of the peak: the bound of the renderer's own float32 (docs/numerics.md), which
-/// depends on the length of L + V, plus the coefficient's error.
-class Tolerance {
- public:
-  explicit Tolerance(const Highlight& highlight) : highlight_(highlight) {}
-  double at(const Directions& d) {
-    const double half_length = length(d.to_eye + d.to_light);
-    const int power = std::clamp(int(std::floor(std::log2(half_length))), -30, 1);
-    const auto [entry, is_new] = of_power_.try_emplace(power, 0);
-    if (is_new)
-      entry->second = 3e-6 + shading_error_bound(Precision::kFloat32, highlight_, std::exp2(power));
-    return entry->second;
-  }
-
- private:
-  Highlight highlight_;
-  std::map<int, double> of_power_;
 };
 
 }  // namespace lobelia

@@ -115,7 +115,7 @@ TEST_F(CompiledByGlslang, AMistakeWouldBeSeen) {
 }
 
 TEST(MslExport, IsTheHlslExportButForItsBeginningAndTheWordInline) {
-  // No compiler of MSL is in Debian. That the text is C++ and what it computes, values_test shows.
+  // No compiler of MSL is in Debian. What the text computes, run_test shows of HLSL.
   const auto functions = [](const ShaderExport& request) {
     const std::string text = shader_text(request);
     return std::regex_replace(text.substr(text.find("#ifndef")), std::regex("\\binline "), "");
@@ -131,8 +131,22 @@ TEST(MslExport, IsTheHlslExportButForItsBeginningAndTheWordInline) {
   EXPECT_FALSE(std::regex_search(shader_text(msl.front()), std::regex("\n(float|float3) ")));
 }
 
+TEST(OslExport, IsTheHlslExportButForTypesAndTheNormalsName) {
+  // No compiler of OSL is in Debian. What the text computes, run_test shows of HLSL.
+  const auto functions = [](const ShaderExport& request) {
+    std::string text = shader_text(request);
+    text.erase(0, text.find("#ifndef"));
+    for (const auto& [osl, hlsl] : {std::pair{"\\b(vector|color)\\b(?!s)", "float3"},
+                                    std::pair{"\\bsurface_normal\\b", "normal"}})
+      text = std::regex_replace(text, std::regex(osl), hlsl);
+    return text;
+  };
+  const std::vector<ShaderExport> osl = every_export("osl"), hlsl = every_export("hlsl");
+  ASSERT_EQ(osl.size(), hlsl.size());
+  for (std::size_t i = 0; i < osl.size(); ++i) EXPECT_EQ(functions(osl[i]), functions(hlsl[i]));
+}
+
 TEST(OslExport, DeclaresNoNameThatIsAWordOfTheLanguage) {
-  // No compiler of OSL is in Debian. That the text is C-like, values_test shows; this is the rest.
   const std::set<std::string> reserved{
       "and",     "break",   "closure",  "color",    "continue",    "do",         "else",
       "emit",    "float",   "for",      "if",       "illuminance", "illuminate", "int",

@@ -1,0 +1,95 @@
+// The exported GLSL and HLSL, run by Mesa's drivers, against the formulas in 50 digits.
+#include "tests/shaders/export_values.hpp"
+#include "tests/shaders/shader_runner.hpp"
+
+namespace lobelia {
+namespace {
+
+class RunByADriver : public NeedsShaderRunner {};
+
+constexpr std::size_t kExponentAt = 9, kFirstCoefficient = 10;
+
+/// What every point has in a program with these outputs: three vectors, the exponent, and each output's coefficient.
+ShaderPoints points_for(const std::vector<ExportOutput>& outputs,
+                        const std::vector<CalledPoint>& points) {
+  ShaderPoints made{kFirstCoefficient + outputs.size(), {}};
+  std::map<double, std::vector<float>> coefficients;
+  for (const double n : kRunExponents)
+    for (const ExportOutput& output : outputs)
+      coefficients[n].push_back(float(truth::coefficient(output.highlight(n))));
+  for (const CalledPoint& point : points) {
+    for (const Vec3 v :
+         {point.directions.normal, point.directions.to_eye, point.directions.to_light})
+      made.values.insert(made.values.end(), {float(v.x), float(v.y), float(v.z)});
+    made.values.push_back(float(point.exponent));
+    const std::vector<float>& more = coefficients[point.exponent];
+    made.values.insert(made.values.end(), more.begin(), more.end());
+  }
+  return made;
+}
+
+ShaderSource source_of(ShaderText language, const std::vector<ShaderExport>& requests,
+                       const std::vector<ExportOutput>& outputs) {
+  const std::string vector = language == ShaderText::kHlsl ? "float3" : "vec3";
+  std::string vectors;
+  for (std::size_t v = 0; v < 3; ++v)
+    vectors += fmt::format("{}{}({}, {}, {})", v == 0 ? "" : ", ", vector, shader_component(3 * v),
+                           shader_component(3 * v + 1), shader_component(3 * v + 2));
+  ShaderSource source{language, "exports", "", {}};
+  for (const ShaderExport& request : requests) source.text += shader_text(request);
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    source.calls.push_back(
+        outputs[k].is_coefficient
+            ? fmt::format("{}({})", outputs[k].coefficient_name(), shader_component(kExponentAt))
+            : call_of(outputs[k].request, outputs[k].model, vectors, shader_component(kExponentAt),
+                      shader_component(kFirstCoefficient + k),
+                      fmt::format("{}({:#}, {:#}, {:#})", vector, kReflectance.r, kReflectance.g,
+                                  kReflectance.b)));
+  return source;
+}
+
+void expect_the_formulas(ShaderText language, ShaderApi api) {
+  const std::string name(kShaderTextNames[std::size_t(language)]);
+  const std::vector<CalledPoint> points = called_points();
+  ExportJudge judge(points);
+  for (const auto& requests : exports_to_run(name)) {
+    const std::vector<ExportOutput> outputs = outputs_of(requests);
+    if (outputs.empty()) continue;
+    const ShaderPoints called = points_for(outputs, points);
+    const ShaderRun run = run_programs(api, called,
+                                       {make_program(source_of(language, requests, outputs), api,
+                                                     called.count(), called.components)},
+                                       outputs.size(), {std::chrono::hours(1), 0});
+    for (std::size_t k = 0; k < outputs.size(); ++k)
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const ShaderValue& value = run.values.front()[k * points.size() + i];
+        ASSERT_TRUE(value.written);
+        ASSERT_NO_FATAL_FAILURE(judge.add(outputs[k], i, {value.r, value.g, value.b}));
+      }
+  }
+  judge.expect_as_documented(name);
+}
+
+TEST_F(RunByADriver, EveryGlslFunctionHasTheRadianceOfTheFormulasOnOpenGl) {
+  expect_the_formulas(ShaderText::kGlsl, ShaderApi::kEgl);
+}
+
+TEST_F(RunByADriver, EveryHlslFunctionHasTheRadianceOfTheFormulasOnVulkan) {
+  expect_the_formulas(ShaderText::kHlsl, ShaderApi::kVulkan);
+}
+
+TEST_F(RunByADriver, AMistakeWouldBeSeen) {
+  std::string text = shader_text(every_export("glsl").front());
+  text.replace(text.find("n_dot_l > 0.0"), 1, "m");
+  const ShaderPoints point{1, {0}};
+  const ShaderSource source{ShaderText::kGlsl, "mine.glsl", text, {"vec3(0.0)"}};
+  try {
+    run_programs(ShaderApi::kEgl, point, {make_program(source, ShaderApi::kEgl, 1, 1)}, 1);
+    FAIL() << "it was accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("m_dot_l"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace lobelia
