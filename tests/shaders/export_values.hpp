@@ -119,6 +119,9 @@ class ExportJudge {
     for (const double c : given)
       ASSERT_TRUE(std::isfinite(c) && c >= 0)
           << function_name_of(output.request, output.model) << " point " << i;
+    if (!output.is_coefficient && dot(d.normal, d.to_light) <= 0) {
+      ASSERT_TRUE(is_black(colour)) << function_name_of(output.request, output.model);
+    }
     const Highlight highlight = output.highlight(n);
     if (output.request.exponent.value_or(n) != n) return;
     const double peak = truth::coefficient(highlight);
