@@ -113,10 +113,17 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
                          t, kRunnerWidth)
                    : fmt::format("        {1} lobelia_p{0} = lobelia_points[t].texels[{0}];\n", t,
                                  is_hlsl ? "float4" : "vec4");
+  // Each round has other arguments, so that no compiler calls once for all rounds.
+  std::string other_arguments;
+  for (std::size_t t = 0; t < texels; ++t)
+    other_arguments += fmt::format("lobelia_p{} *= 1.0000001; ", t);
   for (std::size_t k = 0; k < source.calls.size(); ++k)
-    calls += fmt::format("    {}result = lobelia_as_four({});\n",
+    calls += fmt::format("    {}result {} lobelia_as_four({});\n",
                          source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "",
-                         source.calls[k]);
+                         source.repeats > 1 ? "+=" : "=", source.calls[k]);
+  if (source.repeats > 1)
+    calls = fmt::format("    for (int j = 0; j < {}; ++j) {{ {}\n{}    }}\n", source.repeats,
+                        other_arguments, calls);
   // With #line, the compiler counts as the user does.
   std::string begin, text = source.text;
   if (!is_hlsl) {
@@ -140,7 +147,7 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
                         {"group", std::to_string(kGroupSize)},
                         {"row", std::to_string(kGroupSize * kGroupsInRow)},
                         {"points", std::to_string(points)},
-                        {"outputs", std::to_string(source.outputs())},
+                        {"outputs", std::to_string(source.calls.size())},
                         {"texels", std::to_string(texels)},
                         {"fetches", fetches},
                         {"calls", calls}});

@@ -117,7 +117,7 @@ std::vector<float> texels_of(const ShaderPoints& points, std::size_t texels) {
 }  // namespace
 
 ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
-                       const std::vector<ShaderProgram>& programs, std::size_t outputs,
+                       const std::vector<ShaderProgram>& programs, std::size_t calls,
                        const ShaderRunOptions& options) {
   const std::string runner = runner_path();
   const TemporaryDirectory scratch;
@@ -129,7 +129,7 @@ ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
                                    std::string(kShaderApiNames[int(api)]),
                                    std::to_string(points.count()),
                                    std::to_string(texels),
-                                   std::to_string(outputs),
+                                   std::to_string(calls),
                                    std::to_string(options.rounds)};
   for (std::size_t k = 0; k < programs.size(); ++k) {
     command.push_back(fmt::format("program{}", k));
@@ -151,7 +151,7 @@ ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
   ShaderRun run{said.device, said.driver, {}, std::move(said.seconds)};
   for (std::size_t k = 0; k < programs.size(); ++k)
     run.values.push_back(
-        values_of(scratch.path() / fmt::format("program{}.out", k), points.count() * outputs));
+        values_of(scratch.path() / fmt::format("program{}.out", k), points.count() * calls));
   return run;
 }
 

@@ -26,8 +26,8 @@ struct ShaderSource {
   /// Each is an expression of a number or a vector of 3 or 4. It may use the components of a point: component 5 is
   /// shader_component(5).
   std::vector<std::string> calls;
-  std::size_t repeats = 1;  ///< of each call, to measure its time
-  std::size_t outputs() const { return calls.size() * repeats; }
+  /// To measure the time of a call: over 1, the result is a sum of that many calls with slightly other arguments.
+  std::size_t repeats = 1;
 };
 
 /// "lobelia_p1.y" for 5.
@@ -84,7 +84,7 @@ struct ShaderRunOptions {
 /// Runs programs that were made for these points, by turns. Throws Error(kInput) if the driver refuses a program or one does
 /// not end in time, and Error(kEngine) if the runner or a driver is missing or crashes.
 ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
-                       const std::vector<ShaderProgram>& programs, std::size_t outputs,
+                       const std::vector<ShaderProgram>& programs, std::size_t calls,
                        const ShaderRunOptions& options = {});
 
 }  // namespace lobelia

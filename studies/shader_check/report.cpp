@@ -12,7 +12,7 @@ namespace {
 studies::Table error_table(const records::ShaderCheck& record) {
   studies::Table table{"",
                        {{"n", 8},
-                        {"largest error", 15, "{:.1e}"},
+                        {"error of peak", 15, "{:.1e}"},
                         {"allowed", 10, "{:.1e}"},
                         {"N.L", 9, "{:.4f}"},
                         {"N.V", 8, "{:.4f}"},
