@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::uint64_t kMaxShaderBytes = 1 << 20;
 constexpr std::string_view kOnNames[] = {"egl", "vulkan"};
-constexpr std::string_view kLanguageNames[] = {"glsl", "hlsl"};
 
 struct CheckShaderArguments {
   std::string file, function, arguments = "N,V,L,n", model, lobe = "cosine",
@@ -27,25 +26,32 @@ struct CheckShaderArguments {
 /// By --language, or by the ending of the file.
 ShaderText language_of(const CheckShaderArguments& options) {
   const std::string ending = std::filesystem::path(options.file).extension().string();
-  if (options.language.empty() && ending == ".wgsl")
-    throw Error(ExitCode::kUsage,
-                "WGSL cannot be checked yet; glsl and hlsl can, and 'lobelia export --language "
-                "wgsl' is tested in a browser");
   const std::string name = !options.language.empty()              ? options.language
                            : ending == ".hlsl" || ending == ".fx" ? "hlsl"
+                           : ending == ".wgsl"                    ? "wgsl"
                                                                   : "glsl";
-  return ShaderText(chosen_place(name, "--language", kLanguageNames));
+  return ShaderText(chosen_place(name, "--language", kShaderTextNames));
+}
+
+/// By --on, which only GLSL has a choice of.
+ShaderApi api_of(const CheckShaderArguments& options, ShaderText language) {
+  const ShaderApi usual = language == ShaderText::kGlsl   ? ShaderApi::kEgl
+                          : language == ShaderText::kHlsl ? ShaderApi::kVulkan
+                                                          : ShaderApi::kWebGpu;
+  if (options.on.empty()) return usual;
+  const auto chosen_api = ShaderApi(chosen_place(options.on, "--on", kOnNames));
+  if (language != ShaderText::kGlsl && chosen_api != usual)
+    throw Error(ExitCode::kUsage, fmt::format("--on {}: {} runs on {} alone", options.on,
+                                              kShaderTextNames[std::size_t(language)],
+                                              kShaderApiNames[std::size_t(usual)]));
+  return chosen_api;
 }
 
 shader_check::Request request_of(const CheckShaderArguments& options) {
   shader_check::Request request;
   request.file = options.file;
   request.language = language_of(options);
-  request.api = !options.on.empty() ? ShaderApi(chosen_place(options.on, "--on", kOnNames))
-                : request.language == ShaderText::kHlsl ? ShaderApi::kVulkan
-                                                        : ShaderApi::kEgl;
-  if (request.language == ShaderText::kHlsl && request.api == ShaderApi::kEgl)
-    throw Error(ExitCode::kUsage, "--on egl takes GLSL alone; HLSL needs --on vulkan");
+  request.api = api_of(options, request.language);
   request.function = options.function;
   request.arguments = options.arguments;
   request.highlight.model =
@@ -102,7 +108,7 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       app.add_subcommand("check-shader", "Run a shader function and compare it with a model");
   auto options = std::make_shared<CheckShaderArguments>();
   OptionGroup shader(*command, "Shader");
-  shader.add("FILE", options->file, "FILE", "GLSL or HLSL with the function")->required();
+  shader.add("FILE", options->file, "FILE", "GLSL, HLSL or WGSL with the function")->required();
   shader
       .add("--function", options->function, "NAME",
            "The function: its result is radiance for "
@@ -110,9 +116,9 @@ void add_check_shader(CLI::App& app, ExitCode& exit_code) {
       ->required();
   shader.add("--arguments", options->arguments, "LIST", arguments_help())->capture_default_str();
   shader.add("--language", options->language, "",
-             fmt::format("Language: {}; otherwise by the file's ending", join(kLanguageNames)));
+             fmt::format("Language: {}; otherwise by the file's ending", join(kShaderTextNames)));
   shader.add("--on", options->on, "",
-             fmt::format("What runs it: {}. GLSL runs on egl, HLSL on vulkan unless chosen",
+             fmt::format("What runs GLSL: {}; otherwise egl. HLSL runs on vulkan, WGSL in Chromium",
                          join(kOnNames)));
   shader.add_number("--time-limit", options->time_limit, 0.1, 3600,
                     "Seconds after which a shader is taken for an endless loop");

@@ -64,6 +64,21 @@ struct LobeliaPoint { float4 texels[%texels%]; };
 }
 )";
 
+constexpr std::string_view kWgslMain = R"(
+@group(0) @binding(0) var<storage, read> lobelia_points: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> lobelia_results: array<vec4f>;
+@compute @workgroup_size(%group%)
+fn lobelia_main(@builtin(global_invocation_id) id: vec3u)
+{
+    let i = i32(id.y) * %row% + i32(id.x);
+    let k = i / %points%;
+    if (k >= %outputs%) { return; }
+    let t = (i - k * %points%) * %texels%;
+    var result = vec4f(0.0);
+%fetches%%calls%    lobelia_results[i] = result;
+}
+)";
+
 std::size_t count_lines(std::string_view text) {
   return std::size_t(std::ranges::count(text, '\n'));
 }
@@ -96,17 +111,24 @@ bool has_main(const std::string& text) {
 
 }  // namespace
 
+std::string_view vector_type(ShaderText language) {
+  constexpr std::string_view kNames[] = {"vec3", "float3", "vec3f"};
+  return kNames[std::size_t(language)];
+}
+
 std::string shader_component(std::size_t i) {
   return fmt::format("lobelia_p{}.{}", i / 4, "xyzw"[i % 4]);
 }
 
 ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_t points,
                            std::size_t components) {
-  const bool is_hlsl = source.language == ShaderText::kHlsl;
+  const bool is_hlsl = source.language == ShaderText::kHlsl,
+             is_wgsl = source.language == ShaderText::kWgsl;
   const std::size_t texels = texels_of_point(components);
   std::string fetches, calls;
   for (std::size_t t = 0; t < texels; ++t)
-    fetches += api == ShaderApi::kEgl
+    fetches += is_wgsl ? fmt::format("    var lobelia_p{0} = lobelia_points[t + {0}];\n", t)
+               : api == ShaderApi::kEgl
                    ? fmt::format(
                          "    vec4 lobelia_p{0} = texelFetch(lobelia_points, ivec2((t + {0}) "
                          "% {1}, (t + {0}) / {1}), 0);\n",
@@ -117,16 +139,20 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
   std::string other_arguments;
   for (std::size_t t = 0; t < texels; ++t)
     other_arguments += fmt::format("lobelia_p{} *= 1.0000001; ", t);
-  for (std::size_t k = 0; k < source.calls.size(); ++k)
-    calls += fmt::format("    {}result {} lobelia_as_four({});\n",
+  for (std::size_t k = 0; k < source.calls.size(); ++k) {
+    // WGSL has no overloads, but vec3f() of a number and of a vector.
+    const std::string value = is_wgsl ? fmt::format("vec4f(vec3f({}), 1.0)", source.calls[k])
+                                      : fmt::format("lobelia_as_four({})", source.calls[k]);
+    calls += fmt::format("    {}{{ result {} {}; }}\n",
                          source.calls.size() > 1 ? fmt::format("if (k == {}) ", k) : "",
-                         source.repeats > 1 ? "+=" : "=", source.calls[k]);
+                         source.repeats > 1 ? "+=" : "=", value);
+  }
   if (source.repeats > 1)
-    calls = fmt::format("    for (int j = 0; j < {}; ++j) {{ {}\n{}    }}\n", source.repeats,
-                        other_arguments, calls);
+    calls = fmt::format("    for ({} j = 0; j < {}; j++) {{ {}\n{}    }}\n",
+                        is_wgsl ? "var" : "int", source.repeats, other_arguments, calls);
   // With #line, the compiler counts as the user does.
   std::string begin, text = source.text;
-  if (!is_hlsl) {
+  if (!is_hlsl && !is_wgsl) {
     auto [version, rest] = take_version(source.text, api);
     begin = version;
     if (version.find(" es") != std::string::npos) begin += "precision highp float;\n";
@@ -136,11 +162,13 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
   ShaderProgram program{source.name, "", count_lines(begin), 0};
   if (text.empty() || text.back() != '\n') text += '\n';
   program.lines = count_lines(text);
-  const std::string_view main = is_hlsl                  ? kHlslMain
+  const std::string_view main = is_wgsl                  ? kWgslMain
+                                : is_hlsl                ? kHlslMain
                                 : api == ShaderApi::kEgl ? kFragmentMain
                                                          : kGlslComputeMain;
-  program.bytes = begin + text + (is_hlsl ? "" : "#undef main\nprecision highp float;\n") +
-                  fill(std::string(kAsFour) + std::string(main),
+  program.bytes = begin + text +
+                  (is_hlsl || is_wgsl ? "" : "#undef main\nprecision highp float;\n") +
+                  fill((is_wgsl ? "" : std::string(kAsFour)) + std::string(main),
                        {{"vec4", is_hlsl ? "float4" : "vec4"},
                         {"vec3", is_hlsl ? "float3" : "vec3"},
                         {"width", std::to_string(kRunnerWidth)},

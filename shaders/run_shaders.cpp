@@ -11,6 +11,7 @@
 #include "core/process.hpp"
 #include "core/text.hpp"
 #include "shaders/program_text.hpp"
+#include "shaders/run_parts.hpp"
 #include "shaders/runner_protocol.hpp"
 
 namespace lobelia {
@@ -21,14 +22,6 @@ namespace fs = std::filesystem;
 constexpr char kPackages[] = "libegl-dev, libgl-dev, libvulkan-dev";
 constexpr std::uint64_t kRunnerMemory = std::uint64_t{4} << 30;
 constexpr int kSignalBase = 128;
-
-/// Of a device that a driver has to open for writing.
-bool has_hardware() {
-  std::error_code ignored;
-  for (const char* node : {"/dev/dri", "/dev/nvidiactl", "/dev/kfd", "/dev/dxg"})
-    if (fs::exists(node, ignored)) return true;
-  return false;
-}
 
 std::string runner_path() {
   try {
@@ -68,21 +61,7 @@ std::vector<ShaderValue> values_of(const fs::path& file, std::size_t count) {
   const std::string bytes = read_file(file, kMostInvocations * 4 * sizeof(float));
   if (bytes.size() < count * 4 * sizeof(float))
     throw Error(ExitCode::kEngine, "the shader runner wrote too few values");
-  std::vector<ShaderValue> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    float v[4];
-    std::memcpy(v, bytes.data() + i * sizeof v, sizeof v);
-    values[i] = {v[0], v[1], v[2], v[3] == 1};
-  }
-  return values;
-}
-
-std::vector<float> texels_of(const ShaderPoints& points, std::size_t texels) {
-  std::vector<float> padded(points.count() * texels * 4);
-  for (std::size_t i = 0; i < points.count(); ++i)
-    std::copy_n(points.values.begin() + std::ptrdiff_t(i * points.components), points.components,
-                padded.begin() + std::ptrdiff_t(i * texels * 4));
-  return padded;
+  return shader_values(bytes, count);
 }
 
 [[noreturn]] void fail(const ProcessResult& result, ShaderApi api, const Said& said,
@@ -116,13 +95,40 @@ std::vector<float> texels_of(const ShaderPoints& points, std::size_t texels) {
 
 }  // namespace
 
+bool has_graphics_hardware() {
+  std::error_code ignored;
+  for (const char* node : {"/dev/dri", "/dev/nvidiactl", "/dev/kfd", "/dev/dxg"})
+    if (fs::exists(node, ignored)) return true;
+  return false;
+}
+
+std::vector<ShaderValue> shader_values(std::string_view bytes, std::size_t count) {
+  std::vector<ShaderValue> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    float v[4];
+    std::memcpy(v, bytes.data() + i * sizeof v, sizeof v);
+    values[i] = {v[0], v[1], v[2], v[3] == 1};
+  }
+  return values;
+}
+
+std::vector<float> texels_of(const ShaderPoints& points) {
+  const std::size_t floats = 4 * texels_of_point(points.components);
+  std::vector<float> padded(points.count() * floats);
+  for (std::size_t i = 0; i < points.count(); ++i)
+    std::copy_n(points.values.begin() + std::ptrdiff_t(i * points.components), points.components,
+                padded.begin() + std::ptrdiff_t(i * floats));
+  return padded;
+}
+
 ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
                        const std::vector<ShaderProgram>& programs, std::size_t calls,
                        const ShaderRunOptions& options) {
+  if (api == ShaderApi::kWebGpu) return run_in_browser(points, programs, calls, options);
   const std::string runner = runner_path();
   const TemporaryDirectory scratch;
   const std::size_t texels = texels_of_point(points.components);
-  const std::vector<float> padded = texels_of(points, texels);
+  const std::vector<float> padded = texels_of(points);
   write_file(scratch.path() / kPointsFile,
              {reinterpret_cast<const std::uint8_t*>(padded.data()), padded.size() * sizeof(float)});
   std::vector<std::string> command{runner,
@@ -141,7 +147,7 @@ ShaderRun run_programs(ShaderApi api, const ShaderPoints& points,
   process.working_directory = scratch.path();
   // Of the user's own environment, which chooses drivers; but no driver keeps a shader of somebody else.
   process.environment = {"MESA_SHADER_CACHE_DISABLE=true", "__GL_SHADER_DISK_CACHE=0"};
-  if (!has_hardware()) process.writable = scratch.path();
+  if (!has_graphics_hardware()) process.writable = scratch.path();
   process.timeout = options.time_limit;
   process.memory_limit = kRunnerMemory;
   process.on_line = [&](std::string_view line) { said.add(line); };

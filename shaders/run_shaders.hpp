@@ -12,11 +12,15 @@ namespace lobelia {
 enum class ShaderApi : std::uint8_t {
   kEgl,     ///< OpenGL without a window: GLSL as fragment shaders
   kVulkan,  ///< GLSL and HLSL as compute shaders, compiled to SPIR-V by glslang
+  kWebGpu,  ///< WGSL, in Chromium without a window
 };
-inline constexpr std::string_view kShaderApiNames[] = {"egl", "vulkan"};
+inline constexpr std::string_view kShaderApiNames[] = {"egl", "vulkan", "webgpu"};
 
-enum class ShaderText : std::uint8_t { kGlsl, kHlsl };
-inline constexpr std::string_view kShaderTextNames[] = {"glsl", "hlsl"};
+enum class ShaderText : std::uint8_t { kGlsl, kHlsl, kWgsl };
+inline constexpr std::string_view kShaderTextNames[] = {"glsl", "hlsl", "wgsl"};
+
+/// "vec3", "float3", "vec3f"
+std::string_view vector_type(ShaderText language);
 
 /// A file with functions, and calls of them.
 struct ShaderSource {
@@ -54,7 +58,7 @@ struct ShaderRun {
       seconds;  ///< of each source: for each round, a run of all points
 };
 
-/// A program in the form that the runner takes: GLSL for EGL, SPIR-V for Vulkan.
+/// A program in the form that is run: GLSL for EGL, SPIR-V for Vulkan, WGSL.
 struct ShaderProgram {
   std::string name;
   std::string bytes;
@@ -65,7 +69,7 @@ struct ShaderProgram {
 inline constexpr std::chrono::duration<double> kShaderTimeLimit = std::chrono::seconds(60);
 
 /// Makes a program for points of that number. Throws Error(kInput), naming file and line, if glslang refuses it, and
-/// Error(kEngine) if glslang is missing. Nothing checks GLSL for EGL before it runs.
+/// Error(kEngine) if glslang is missing. Nothing checks GLSL for EGL and WGSL before they run.
 ShaderProgram make_program(const ShaderSource& source, ShaderApi api, std::size_t points,
                            std::size_t components);
 

@@ -61,7 +61,7 @@ std::string optimised(const ShaderProgram& program, std::vector<std::string> pas
 ShaderProgram make_program(const ShaderSource& source, ShaderApi api, std::size_t points,
                            std::size_t components) {
   ShaderProgram program = program_text(source, api, points, components);
-  if (api == ShaderApi::kEgl) return program;
+  if (api != ShaderApi::kVulkan) return program;
   std::vector<std::string> command{tool("glslangValidator", "glslang-tools"), "-V", "-S", "comp"};
   if (source.language == ShaderText::kHlsl)
     command.insert(command.end(), {"-D", "-e", "main", "--source-entrypoint", "lobelia_main"});

@@ -71,8 +71,8 @@ constexpr auto kInfos = [] {
 constexpr std::size_t kCommon = 11, kExponentAt = 9, kCoefficientAt = 10;
 
 std::string vector_at(std::size_t at, ShaderText language) {
-  return fmt::format("{}({}, {}, {})", language == ShaderText::kHlsl ? "float3" : "vec3",
-                     shader_component(at), shader_component(at + 1), shader_component(at + 2));
+  return fmt::format("{}({}, {}, {})", vector_type(language), shader_component(at),
+                     shader_component(at + 1), shader_component(at + 2));
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ Plan make_plan(const Request& request) {
 }
 
 void require_function(const Request& request) {
-  static const std::regex definition("\\b\\w+\\s+(\\w+)\\s*\\([^;{}()]*\\)\\s*\\{");
+  static const std::regex definition(
+      "\\b\\w+\\s+(\\w+)\\s*\\([^;{}()]*\\)\\s*(?:->\\s*\\w+\\s*)?\\{");
   std::set<std::string> names;
   std::string_view all = request.text;
   for (std::cregex_iterator it(all.data(), all.data() + all.size(), definition), end; it != end;

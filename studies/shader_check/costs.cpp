@@ -40,12 +40,14 @@ ShaderSource ours(const Request& request) {
 }
 
 ShaderSource power(ShaderText language) {
-  const std::string vector = language == ShaderText::kHlsl ? "float3" : "vec3";
+  constexpr std::string_view kBody = "{ return pow(max(dot(N, normalize(L + V)), 0.0), n); }\n";
+  const std::string_view v = vector_type(language);
   return {language,
           "pow",
-          fill("float lobelia_pow(%v% N, %v% V, %v% L, float n)\n"
-               "{ return pow(max(dot(N, normalize(L + V)), 0.0), n); }\n",
-               {{"v", vector}}),
+          (language == ShaderText::kWgsl
+               ? fmt::format("fn lobelia_pow(N: {0}, V: {0}, L: {0}, n: f32) -> f32\n", v)
+               : fmt::format("float lobelia_pow({0} N, {0} V, {0} L, float n)\n", v)) +
+              std::string(kBody),
           {fmt::format("lobelia_pow({}, {})", common_vectors(language), common_exponent())}};
 }
 
@@ -162,8 +164,12 @@ void add_costs(const Request& request, const Arguments& arguments, const std::ve
                const ShaderPoints& points, const std::vector<ShaderValue>& values,
                records::ShaderCheck& record) {
   Costs costs(request, arguments, points, record);
-  costs.try_to("instructions", [&] { costs.count(); });
-  costs.try_to("half floats", [&] { costs.half_floats(domain, values); });
+  if (request.language == ShaderText::kWgsl) {
+    record.remarks.push_back("not measured: instructions and half floats: glslang has no WGSL");
+  } else {
+    costs.try_to("instructions", [&] { costs.count(); });
+    costs.try_to("half floats", [&] { costs.half_floats(domain, values); });
+  }
   costs.try_to("time", [&] { costs.time(); });
 }
 

@@ -30,7 +30,7 @@ ShaderPoints points_for(const std::vector<ExportOutput>& outputs,
 
 ShaderSource source_of(ShaderText language, const std::vector<ShaderExport>& requests,
                        const std::vector<ExportOutput>& outputs) {
-  const std::string vector = language == ShaderText::kHlsl ? "float3" : "vec3";
+  const std::string_view vector = vector_type(language);
   std::string vectors;
   for (std::size_t v = 0; v < 3; ++v)
     vectors += fmt::format("{}{}({}, {}, {})", v == 0 ? "" : ", ", vector, shader_component(3 * v),

@@ -182,11 +182,6 @@ TEST_F(ShaderCheck, ThePageHasPicturesAndEscapesTheFilesName) {
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
 }
 
-TEST(Mistakes, HaveNamesThatAreDocumented) {
-  // docs/check_shader.md lists them; the page is checked by its own test.
-  for (const auto& mistake : shader_check::mistakes()) EXPECT_FALSE(mistake.words.empty());
-}
-
 TEST(RoundedToHalf, IsTheNearestHalfFloat) {
   EXPECT_EQ(shader_check::rounded_to_half(1), 1);
   EXPECT_EQ(shader_check::rounded_to_half(1 + 0x1p-11), 1);  // ties to even

@@ -1,0 +1,166 @@
+// WGSL by WebGPU, in a page that says on its console what shaders give.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <optional>
+
+#include "core/base64.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/process.hpp"
+#include "core/text.hpp"
+#include "shaders/program_text.hpp"
+#include "shaders/run_parts.hpp"
+#include "shaders/runner_protocol.hpp"
+
+namespace lobelia {
+namespace embedded {
+extern const std::string_view webgpu_script;
+}
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string from_base64(std::string_view text) {
+  static const auto kValues = [] {
+    std::array<int, 256> values;
+    values.fill(-1);
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < kDigits.size(); ++i) values[std::uint8_t(kDigits[i])] = int(i);
+    return values;
+  }();
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const int value = kValues[std::uint8_t(c)];
+    if (value < 0) break;
+    bits = bits << 6 | std::uint32_t(value);
+    if ((count += 6) >= 8) bytes += char(bits >> (count -= 8) & 0xff);
+  }
+  return bytes;
+}
+
+/// What the page says on the console, where Chromium adds words around it.
+class Heard {
+ public:
+  Heard(std::size_t programs, std::size_t bytes)
+      : bytes_(bytes), values(programs), seconds(programs) {}
+
+  void add(std::string_view line) {
+    constexpr std::string_view kMark = "\"lobelia ";
+    const std::size_t begin = line.find(kMark), end = line.find("\", source:");
+    if (begin == line.npos || end == line.npos || end < begin) return;
+    const auto words = split(line.substr(begin + kMark.size(), end - begin - kMark.size()), " ");
+    long long k = 0;
+    if (words.empty()) return;
+    if (words[0] == "done" || words[0] == "none") {
+      is_none = is_none || words[0] == "none";
+      done = true;
+    } else if (words[0] == "device" && words.size() == 2) {
+      device = printable(from_base64(words[1]));
+    } else if (words[0] == "broken" && words.size() == 2) {
+      broken = printable(from_base64(words[1]), 200);
+    } else if (words.size() == 3 && parse_integer(words[1], k) && k >= 0 &&
+               std::size_t(k) < values.size()) {
+      double number = 0;
+      std::string& bytes = values[std::size_t(k)];
+      if (words[0] == "refused") {
+        refused = std::size_t(k);
+        log = from_base64(words[2]);
+      } else if (words[0] == "values" && bytes.size() < bytes_) {
+        bytes += from_base64(words[2]);
+      } else if (words[0] == "seconds" && parse_number(words[2], number)) {
+        seconds[std::size_t(k)].push_back(number);
+      }
+    }
+  }
+
+ private:
+  std::size_t bytes_;  ///< of the values of a program
+
+ public:
+  std::atomic<bool> done = false;
+  bool is_none = false;
+  std::string device, broken, log;
+  std::optional<std::size_t> refused;
+  std::vector<std::string> values;
+  std::vector<std::vector<double>> seconds;
+};
+
+std::string page_of(const ShaderPoints& points, const std::vector<ShaderProgram>& programs,
+                    std::size_t calls, const ShaderRunOptions& options) {
+  const std::vector<float> texels = texels_of(points);
+  const std::size_t invocations = points.count() * calls,
+                    groups = (invocations + kGroupSize - 1) / kGroupSize;
+  std::string list;
+  for (const ShaderProgram& program : programs) list += "'" + base64(program.bytes) + "',";
+  return fmt::format(
+      "<!doctype html><meta charset=\"utf-8\" /><script>\n"
+      "const job = {{ invocations: {}, groups: [{}, {}], rounds: {}, programs: [{}], points: '{}' }};\n"
+      "{}</script>\n",
+      invocations, std::min(groups, kGroupsInRow), (groups + kGroupsInRow - 1) / kGroupsInRow,
+      options.rounds, list,
+      base64({reinterpret_cast<const char*>(texels.data()), texels.size() * sizeof(float)}),
+      embedded::webgpu_script);
+}
+
+}  // namespace
+
+ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderProgram>& programs,
+                         std::size_t calls, const ShaderRunOptions& options) {
+  const std::string browser = find_program("chromium").string();
+  if (browser.empty())
+    throw Error(ExitCode::kEngine, "no program 'chromium': sudo apt-get install chromium");
+  const TemporaryDirectory scratch;
+  const fs::path page = scratch.path() / "page.html";
+  write_file(page, page_of(points, programs, calls, options));
+  const std::size_t count = points.count() * calls;
+  Heard heard(programs.size(), count * 4 * sizeof(float));
+  std::vector<std::string> command{browser,
+                                   "--headless",
+                                   "--enable-unsafe-webgpu",
+                                   "--enable-logging=stderr",
+                                   "--disable-background-networking",
+                                   "--user-data-dir=" + (scratch.path() / "profile").string()};
+  command.push_back(has_graphics_hardware() ? "--enable-features=Vulkan"
+                                            : "--use-webgpu-adapter=swiftshader");
+  // As root Chromium has no sandbox of its own; it still runs in ours.
+  if (::geteuid() == 0) command.push_back("--no-sandbox");
+  command.push_back("file://" + page.string());
+  ProcessOptions process;
+  process.working_directory = scratch.path();
+  process.timeout = options.time_limit;
+  process.stop = &heard.done;
+  process.on_line = [&](std::string_view line) { heard.add(line); };
+  const ProcessResult result = run_process(command, process);
+  const std::string& name = programs.front().name;
+  if (!heard.done && result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
+  if (heard.refused)
+    throw Error(ExitCode::kInput, compiler_message(heard.log, programs[*heard.refused]));
+  if (heard.is_none)
+    throw Error(ExitCode::kEngine, "no driver runs shaders here: Chromium has no WebGPU");
+  if (!heard.done)
+    throw Error(result.timed_out ? ExitCode::kInput : ExitCode::kEngine,
+                result.timed_out
+                    ? fmt::format("{}: the shader did not end within {:g} s on {}", name,
+                                  options.time_limit.count(),
+                                  heard.device.empty() ? "webgpu" : heard.device)
+                    : fmt::format("{}: Chromium ended with exit code {} while it ran the shader",
+                                  name, result.exit_code));
+  ShaderRun run{heard.device, "Chromium's WebGPU", {}, std::move(heard.seconds)};
+  for (const std::string& bytes : heard.values) {
+    if (bytes.size() < count * 4 * sizeof(float))
+      throw Error(ExitCode::kEngine,
+                  fmt::format("{}: WebGPU failed: {}", name,
+                              heard.broken.empty() ? "too few values" : heard.broken));
+    run.values.push_back(shader_values(bytes, count));
+  }
+  return run;
+}
+
+}  // namespace lobelia

@@ -1,0 +1,121 @@
+// lobelia check-shader as a user runs it, and its page in docs/.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/text.hpp"
+#include "studies/shader_check/mistakes.hpp"
+#include "tests/cli/run_lobelia.hpp"
+#include "tests/json.hpp"
+#include "tests/shaders/shader_runner.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string tutorial() {
+  return read_file(std::string(LOBELIA_SOURCE_DIR) + "/docs/check_shader.md", 1 << 20);
+}
+
+/// The first block between ``` lines that begins with `beginning`, without its first line.
+std::string block_of(const std::string& page, const std::string& beginning) {
+  const std::size_t begin = page.find("```" + beginning);
+  const std::size_t text = page.find('\n', begin + 3 + beginning.size()) + 1;
+  return page.substr(text, page.find("```", text) - text);
+}
+
+class CheckShaderCommand : public NeedsShaderRunner {
+ protected:
+  ProcessResult check(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "check-shader");
+    return run_lobelia(arguments, directory_.path());
+  }
+  void write(const std::string& file, const std::string& text) const {
+    write_file(directory_.path() / file, text);
+  }
+  const TemporaryDirectory directory_;
+};
+
+TEST_F(CheckShaderCommand, PrintsWhatTheTutorialSays) {
+  const std::string page = tutorial(), shader = block_of(page, "glsl");
+  write("mine.glsl", shader);
+  const ProcessResult result =
+      check({"mine.glsl", "--function", "myHighlight", "--model", "blinn_phong_ndf"});
+  EXPECT_EQ(result.exit_code, 1);
+  // Values of another device, and times, differ.
+  const bool same_device = result.output_tail.find("llvmpipe (LLVM 15") != std::string::npos;
+  int lines = 0;
+  for (const std::string& line : split(block_of(page, "\n$ lobelia check-shader"), "\n")) {
+    if (line.starts_with("time of") ||
+        (!same_device && !line.starts_with("differs:") && !line.starts_with("mistakes:")))
+      continue;
+    EXPECT_THAT(result.output_tail, HasSubstr(line));
+    ++lines;
+  }
+  EXPECT_GE(lines, 2);
+  std::string right = shader;
+  right.replace(right.find("(2.0 *"), 4, "(8.0");
+  write("mine.glsl", right);
+  const ProcessResult passes =
+      check({"mine.glsl", "--function", "myHighlight", "--model", "blinn_phong_ndf", "--no-costs"});
+  EXPECT_EQ(passes.exit_code, 0) << passes.output_tail;
+  EXPECT_THAT(passes.output_tail,
+              HasSubstr("\npasses: it is the model within the rounding of float32\n"));
+}
+
+TEST_F(CheckShaderCommand, WritesARecordAndAPage) {
+  write("mine.hlsl",
+        "float spec(float c, float n) { return (n + 1.0) / 6.2831853 * pow(max(c, 0.0), n); }\n");
+  const ProcessResult result =
+      check({"mine.hlsl", "--function", "spec", "--arguments", "cosine,n", "--model", "phong_rdf",
+             "--exponent", "8,128", "--json", "r.json", "--html", "r.html", "--no-costs"});
+  // The function does not know the light.
+  EXPECT_EQ(result.exit_code, 1) << result.output_tail;
+  const Json record = Json::parse(read_file(directory_.path() / "r.json", 1 << 20));
+  EXPECT_EQ(record["kind"], "shader-check");
+  EXPECT_EQ(record["api"], "vulkan");
+  EXPECT_EQ(record["explanation"]["mistakes"], Json::parse(R"(["light-behind"])"));
+  EXPECT_EQ(record["errors"].size(), 2u);
+  EXPECT_THAT(record["device"].get<std::string>(), testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(read_file(directory_.path() / "r.html", 1 << 22), HasSubstr("light leaks"));
+}
+
+TEST_F(CheckShaderCommand, RefusesInOneLine) {
+  write("mine.glsl", "float f(vec3 N)\n{\n    return M;\n}\n");
+  const auto expect = [&](std::vector<std::string> arguments, int exit_code, const char* said) {
+    const ProcessResult result = check(std::move(arguments));
+    EXPECT_EQ(result.exit_code, exit_code);
+    EXPECT_THAT(result.output_tail, StartsWith("lobelia: "));
+    EXPECT_THAT(result.output_tail, HasSubstr(said));
+    EXPECT_EQ(std::ranges::count(result.output_tail, '\n'), 1) << result.output_tail;
+  };
+  expect({"mine.glsl", "--function", "f", "--arguments", "N", "--model", "phong_rdf"}, 3,
+         "mine.glsl:3: ");
+  expect({"mine.glsl", "--function", "g", "--model", "phong_rdf"}, 3, "it has f");
+  expect({"mine.glsl", "--function", "f", "--model", "phong"}, 2, "--model 'phong' is unknown");
+  expect({"mine.glsl", "--function", "f", "--model", "phong_rdf", "--arguments", "N,x"}, 2,
+         "'x' is unknown");
+  expect(
+      {"mine.glsl", "--function", "f", "--model", "phong_rdf", "--language", "hlsl", "--on", "egl"},
+      2, "--on egl");
+  expect({"none.glsl", "--function", "f", "--model", "phong_rdf"}, 3, "none.glsl");
+  expect({"mine.glsl", "--function", "f", "--model", "phong_rdf", "--json", "no/r.json"}, 4,
+         "no/r.json");
+  expect({"mine.glsl", "--function", "f", "--model", "phong_rdf", "--json", "mine.glsl"}, 2,
+         "mine.glsl");
+}
+
+TEST(CheckShaderPage, ListsEveryMistakeByName) {
+  const std::string page = tutorial();
+  std::set<std::string> names{"zero", "no-number"};
+  for (const auto& mistake : shader_check::mistakes()) names.emplace(mistake.id);
+  for (const auto& mistake : shader_check::coefficient_mistakes()) names.emplace(mistake.id);
+  for (const auto& mistake : shader_check::output_mistakes()) names.emplace(mistake.id);
+  for (const std::string& name : names) EXPECT_THAT(page, HasSubstr("`" + name + "`"));
+}
+
+}  // namespace
+}  // namespace lobelia
