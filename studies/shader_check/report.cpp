@@ -84,8 +84,8 @@ std::string cost_text(const std::vector<records::ShaderCost>& costs) {
       seconds += fmt::format("{}{} {:.2f} ns ({:.0f} %)", seconds.empty() ? "" : ", ", name,
                              1e9 * cost.seconds->median, 100 * cost.seconds->spread);
   }
-  std::string text;
-  if (!instructions.empty()) text += "\ninstructions of optimised SPIR-V: " + instructions + "\n";
+  std::string text = instructions.empty() && seconds.empty() ? "" : "\n";
+  if (!instructions.empty()) text += "instructions of optimised SPIR-V: " + instructions + "\n";
   if (!seconds.empty()) {
     text += "time of a call (spread): " + seconds;
     const auto &it = costs[0].seconds, &ours = costs[1].seconds, &pow = costs[2].seconds;

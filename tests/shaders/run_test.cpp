@@ -1,4 +1,4 @@
-// The exported GLSL and HLSL, run by Mesa's drivers, against the formulas in 50 digits.
+// The exported GLSL, HLSL and WGSL, run by drivers and in Chromium, against the formulas in 50 digits.
 #include "tests/shaders/export_values.hpp"
 #include "tests/shaders/shader_runner.hpp"
 
@@ -6,6 +6,7 @@ namespace lobelia {
 namespace {
 
 class RunByADriver : public NeedsShaderRunner {};
+class RunInABrowser : public NeedsWebGpu {};
 
 constexpr std::size_t kExponentAt = 9, kFirstCoefficient = 10;
 
@@ -28,6 +29,31 @@ ShaderPoints points_for(const std::vector<ExportOutput>& outputs,
   return made;
 }
 
+/// Several exports in one text, as somebody puts them together. WGSL has no preprocessor: there each function once.
+std::string text_of(ShaderText language, const std::vector<ShaderExport>& requests) {
+  std::string all;
+  std::map<std::string, std::string> known;
+  for (const ShaderExport& request : requests) {
+    const std::string text = shader_text(request);
+    if (language != ShaderText::kWgsl) {
+      all += text;
+      continue;
+    }
+    for (std::size_t at = text.find("\n\n"); at != text.npos; at = text.find("\n\n", at + 1)) {
+      const std::size_t end = std::min(text.find("\n}\n", at), text.size() - 3) + 3;
+      const std::string function = text.substr(at, end - at);
+      at = end - 2;
+      const std::size_t name = function.find("\nfn ");
+      if (name == function.npos) continue;
+      const auto [one, is_new] =
+          known.try_emplace(function.substr(name, function.find('(', name) - name), function);
+      if (is_new) all += function;
+      EXPECT_EQ(one->second, function) << "functions of one name differ";
+    }
+  }
+  return all;
+}
+
 ShaderSource source_of(ShaderText language, const std::vector<ShaderExport>& requests,
                        const std::vector<ExportOutput>& outputs) {
   const std::string_view vector = vector_type(language);
@@ -35,8 +61,7 @@ ShaderSource source_of(ShaderText language, const std::vector<ShaderExport>& req
   for (std::size_t v = 0; v < 3; ++v)
     vectors += fmt::format("{}{}({}, {}, {})", v == 0 ? "" : ", ", vector, shader_component(3 * v),
                            shader_component(3 * v + 1), shader_component(3 * v + 2));
-  ShaderSource source{language, "exports", "", {}};
-  for (const ShaderExport& request : requests) source.text += shader_text(request);
+  ShaderSource source{language, "exports", text_of(language, requests), {}};
   for (std::size_t k = 0; k < outputs.size(); ++k)
     source.calls.push_back(
         outputs[k].is_coefficient
@@ -102,17 +127,30 @@ TEST_F(RunByADriver, EveryFunctionIsANumberForTheSmallestAndTheLargestExponents)
   EXPECT_GT(numbers, 10'000u);
 }
 
-TEST_F(RunByADriver, AMistakeWouldBeSeen) {
-  std::string text = shader_text(every_export("glsl").front());
+TEST_F(RunInABrowser, EveryWgslFunctionHasTheRadianceOfTheFormulasOnWebGpu) {
+  expect_the_formulas(ShaderText::kWgsl, ShaderApi::kWebGpu);
+}
+
+void expect_a_mistake_to_be_seen(ShaderText language, ShaderApi api) {
+  const std::string name(kShaderTextNames[std::size_t(language)]);
+  std::string text = shader_text(every_export(name).front());
   text.replace(text.find("n_dot_l > 0.0"), 1, "m");
-  const ShaderPoints point{1, {0}};
-  const ShaderSource source{ShaderText::kGlsl, "mine.glsl", text, {"vec3(0.0)"}};
+  const ShaderSource source{language, "mine", text, {std::string(vector_type(language)) + "(0.0)"}};
   try {
-    run_programs(ShaderApi::kEgl, point, {make_program(source, ShaderApi::kEgl, 1, 1)}, 1);
+    run_programs(api, {1, {0}}, {make_program(source, api, 1, 1)}, 1);
     FAIL() << "it was accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("m_dot_l"), std::string::npos) << error.what();
   }
+}
+
+TEST_F(RunByADriver, AMistakeWouldBeSeen) {
+  expect_a_mistake_to_be_seen(ShaderText::kGlsl, ShaderApi::kEgl);
+  expect_a_mistake_to_be_seen(ShaderText::kHlsl, ShaderApi::kVulkan);
+}
+
+TEST_F(RunInABrowser, AMistakeWouldBeSeen) {
+  expect_a_mistake_to_be_seen(ShaderText::kWgsl, ShaderApi::kWebGpu);
 }
 
 }  // namespace
