@@ -131,7 +131,7 @@ ShaderRun run_in_browser(const ShaderPoints& points, const std::vector<ShaderPro
                                             : "--use-webgpu-adapter=swiftshader");
   // As root Chromium has no sandbox of its own; it still runs in ours.
   if (::geteuid() == 0) command.push_back("--no-sandbox");
-  command.push_back("file://" + page.string());
+  command.push_back(page.string());
   ProcessOptions process;
   process.working_directory = scratch.path();
   process.timeout = options.time_limit;

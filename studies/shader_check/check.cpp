@@ -125,7 +125,7 @@ class Judge {
       }
       records::ShaderError& error = worst[n];
       error.exponent = n;
-      error.allowed_of_peak = textbook_rounding(n);
+      error.allowed_of_peak = allowed_error(n);
       odd.nan += std::isnan(value);
       odd.infinite += std::isinf(value);
       odd.negative += value < 0;

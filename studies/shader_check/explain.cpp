@@ -265,7 +265,8 @@ std::string coefficient_words(const Highlight& highlight, const CoefficientMista
 
 }  // namespace
 
-double textbook_rounding(double exponent) { return 2e-5 + 6e-7 * exponent; }
+double textbook_rounding(double exponent) { return std::min(2e-5 + 6e-7 * exponent, 0.02); }
+double allowed_error(double exponent) { return std::min(textbook_rounding(exponent), 1e-3); }
 
 Explanation explain(const Highlight& highlight, const Observed& observed, bool of_roughness) {
   Search search(highlight, observed, of_roughness);
@@ -288,6 +289,13 @@ Explanation explain(const Highlight& highlight, const Observed& observed, bool o
         fmt::format("no known mistake explains it; the nearest{} leaves {:.1e} of the peak",
                     words.empty() ? " is the model itself, which" : ", that " + words + ",",
                     best.left.most_of_peak);
+    return explanation;
+  }
+  if (words.empty() && !best.has_free_coefficient && best.left.penalty() == 0) {
+    explanation.mistakes = {"float32-cosine"};
+    explanation.sentence =
+        "the exponent multiplies float32's rounding of the cosine; 1 - cosine as half the square of a "
+        "difference of vectors would keep the angle";
     return explanation;
   }
   const std::string factor = factor_text(best.factors);

@@ -26,9 +26,10 @@ struct Explanation {
   std::vector<FactorAt> factors;  ///< where a coefficient can be told
 };
 
-/// The error of float32 that an explanation leaves, and that a shader may have which is right but takes a power of a
-/// cosine as textbooks do: relative to the peak.
+/// What float32 leaves of a power of a cosine as in textbooks, relative to the peak; an explanation may leave as much.
 double textbook_rounding(double exponent);
+/// The largest error of a shader that passes, relative to the peak: the same, but no more than anybody could see.
+double allowed_error(double exponent);
 
 /// Tries the mistakes of mistakes.hpp one by one, then in pairs, each with every coefficient. The simplest that leaves
 /// rounding alone is the explanation; without one it is the nearest.

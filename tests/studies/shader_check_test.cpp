@@ -79,16 +79,23 @@ TEST_F(ShaderCheck, PassesTheExportedFunctionOfEveryModelInBothLanguages) {
         EXPECT_LE(error.max_of_peak, 1e-5) << request.function << " n = " << error.exponent;
       for (const records::ShaderEnergy& energy : check.record.energy)
         EXPECT_NEAR(energy.energy, energy.of_model, 1e-5 * (1 + energy.of_model));
+      request.exponents = {1e6};
+      EXPECT_EQ(shader_check::check_shader(request).record.verdict, "passes") << request.function;
     }
 }
 
-TEST_F(ShaderCheck, PassesATextbookPower) {
-  const Check check = shader_check::check_shader(request_of(
+TEST_F(ShaderCheck, PassesATextbookPowerAsFarAsFloat32KnowsItsCosine) {
+  shader_check::Request request = request_of(
       "blinn_phong_ndf",
       "float highlight(vec3 N, vec3 V, vec3 L, float n)\n"
       "{ return (n + 1.0) / (8.0 * 3.14159265) * pow(max(dot(N, normalize(L + V)), 0.0), n) * "
-      "max(dot(N, L), 0.0); }\n"));
+      "max(dot(N, L), 0.0); }\n");
+  const Check check = shader_check::check_shader(request);
   EXPECT_EQ(check.record.verdict, "passes") << shader_check::report_text(check.record);
+  request.exponents = {20000};
+  const Check sharp = shader_check::check_shader(request);
+  EXPECT_EQ(sharp.record.verdict, "differs");
+  EXPECT_THAT(sharp.record.explanation->mistakes, testing::ElementsAre("float32-cosine"));
 }
 
 TEST_F(ShaderCheck, EnergyIsTheModelsAlbedo) {
