@@ -83,30 +83,54 @@ std::size_t count_lines(std::string_view text) {
   return std::size_t(std::ranges::count(text, '\n'));
 }
 
+bool is_word_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+bool is_word(std::string_view token) { return is_word_character(token[0]); }
+
+/// Words and single characters, without comments. By hand, because std::regex takes stack for each character.
+std::vector<std::string_view> tokens_of(std::string_view text) {
+  std::vector<std::string_view> tokens;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at + 1;
+    if (text.substr(at, 2) == "//") {
+      end = std::min(text.find('\n', at), text.size());
+    } else if (text.substr(at, 2) == "/*") {
+      const std::size_t close = text.find("*/", at + 2);
+      end = close == text.npos ? text.size() : close + 2;
+    } else if (is_word_character(text[at])) {
+      while (end < text.size() && is_word_character(text[end])) ++end;
+      tokens.push_back(text.substr(at, end - at));
+    } else if (text[at] > ' ') {
+      tokens.push_back(text.substr(at, 1));
+    }
+    at = end;
+  }
+  return tokens;
+}
+
 /// The text without its #version, and the one that a driver needs for it.
 struct Version {
   std::string line, rest;
 };
 Version take_version(const std::string& text, ShaderApi api) {
-  static const std::regex pattern(
-      "(^|\n)([ \t]*#[ \t]*version[ \t]+([0-9]{1,4})([ \t]+es)?[^\n]*)");
-  std::smatch found;
   std::string rest = text;
-  int number = 0;
+  long long number = 0;
   bool is_es = false;
-  if (std::regex_search(text, found, pattern)) {
-    number = std::stoi(found[3]);
-    is_es = found[4].matched || number == 100;
-    rest.replace(std::size_t(found.position(2)), std::size_t(found.length(2)), "");
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const auto tokens = tokens_of(std::string_view(text).substr(at, end - at));
+    if (tokens.size() >= 3 && tokens[0] == "#" && tokens[1] == "version" &&
+        parse_integer(tokens[2], number)) {
+      is_es = (tokens.size() > 3 && tokens[3] == "es") || number == 100;
+      rest.replace(at, end - at, "");
+      break;
+    }
+    at = end + 1;
   }
   if (api == ShaderApi::kVulkan) return {"#version 450\n", rest};
-  if (is_es) return {fmt::format("#version {} es\n", std::max(number, 300)), rest};
-  return {fmt::format("#version {}\n", std::max(number, 330)), rest};
-}
-
-bool has_main(const std::string& text) {
-  static const std::regex pattern("\\bmain[ \t]*\\(");
-  return std::regex_search(text, pattern);
+  number = std::clamp(number, is_es ? 300LL : 330LL, 999LL);
+  return {fmt::format("#version {}{}\n", number, is_es ? " es" : ""), rest};
 }
 
 }  // namespace
@@ -156,7 +180,7 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
     auto [version, rest] = take_version(source.text, api);
     begin = version;
     if (version.find(" es") != std::string::npos) begin += "precision highp float;\n";
-    if (has_main(rest)) begin += "#define main lobelia_main_of_file\n";
+    if (functions_in(rest).contains("main")) begin += "#define main lobelia_main_of_file\n";
     text = std::move(rest);
   }
   ShaderProgram program{source.name, "", count_lines(begin), 0};
@@ -182,11 +206,32 @@ ShaderProgram program_text(const ShaderSource& source, ShaderApi api, std::size_
   return program;
 }
 
+std::set<std::string> functions_in(std::string_view text) {
+  const std::vector<std::string_view> tokens = tokens_of(text);
+  std::set<std::string> names;
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
+    if (!is_word(tokens[i]) || !is_word(tokens[i - 1]) || tokens[i + 1] != "(" ||
+        tokens[i - 1] == "else" || tokens[i - 1] == "return")
+      continue;
+    std::size_t at = i + 2;
+    while (at < tokens.size() && tokens[at] != ")" && tokens[at] != ";" && tokens[at] != "{") ++at;
+    // Behind the parameters HLSL may have a semantic, and WGSL has a type.
+    constexpr std::size_t kMostBehind = 12;
+    for (std::size_t k = at + 1; k < std::min(tokens.size(), at + kMostBehind); ++k) {
+      if (tokens[k] == "{") names.emplace(tokens[i]);
+      if (tokens[k] == "{" || tokens[k] == ";" || tokens[k] == ")") break;
+    }
+  }
+  return names;
+}
+
 std::string compiler_message(const std::string& log, const ShaderProgram& program) {
   // Mesa: "0:12(5): error: WORDS"; NVIDIA: "0(12) : error C1: WORDS"; glslang: "ERROR: FILE:12: WORDS".
   static const std::regex mesa("^[0-9]+:([0-9]+)\\([0-9]+\\): error: (.*)$"),
       nvidia("^[0-9]+\\(([0-9]+)\\) : error (.*)$"), glslang("^ERROR: (?:.*:)?([0-9]+): (.*)$");
-  for (const std::string& line : split(log, "\n")) {
+  for (std::string line : split(log, "\n")) {
+    constexpr std::size_t kLongest = 500;  // std::regex takes stack for each character
+    line.resize(std::min(line.size(), kLongest));
     std::smatch found;
     if (!std::regex_match(line, found, mesa) && !std::regex_match(line, found, nvidia) &&
         !std::regex_match(line, found, glslang))

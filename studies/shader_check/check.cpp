@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <regex>
 #include <set>
 
 #include "core/error.hpp"
 #include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "shaders/program_text.hpp"
 #include "studies/shader_check/arguments.hpp"
 #include "studies/shader_check/costs.hpp"
 #include "studies/shader_check/explain.hpp"
@@ -66,14 +66,8 @@ Plan make_plan(const Request& request) {
 }
 
 void require_function(const Request& request) {
-  static const std::regex definition(
-      "\\b\\w+\\s+(\\w+)\\s*\\([^;{}()]*\\)\\s*(?:->\\s*\\w+\\s*)?\\{");
-  std::set<std::string> names;
-  std::string_view all = request.text;
-  for (std::cregex_iterator it(all.data(), all.data() + all.size(), definition), end; it != end;
-       ++it)
-    names.insert((*it)[1]);
-  for (const char* word : {"if", "for", "while", "switch", "main"}) names.erase(word);
+  std::set<std::string> names = functions_in(request.text);
+  names.erase("main");
   if (names.contains(request.function)) return;
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw Error(ExitCode::kInput,

@@ -114,7 +114,8 @@ class Costs {
   }
 
   void count() {
-    const std::size_t base = instructions(sources_.back());
+    const std::size_t base =
+        instructions({request_.language, "nothing", "", {shader_component(0)}});
     for (std::size_t k = 0; k < record_.costs.size(); ++k) {
       const std::size_t all = instructions(sources_[k]);
       record_.costs[k].instructions = all > base ? all - base : 0;

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "shaders/export.hpp"
 #include "shaders/names.hpp"
+#include "shaders/program_text.hpp"
 #include "studies/shader_check/check.hpp"
 #include "studies/shader_check/mistakes.hpp"
 #include "studies/shader_check/report.hpp"
@@ -187,6 +188,20 @@ TEST_F(ShaderCheck, ThePageHasPicturesAndEscapesTheFilesName) {
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_EQ(page.find("<b>"), std::string::npos);
   EXPECT_THAT(page, HasSubstr("&lt;b&gt;"));
+}
+
+TEST(FunctionsIn, AreThoseThatATextDefinesInAnyLanguage) {
+  EXPECT_THAT(
+      functions_in("// float no(float x) {\n"
+                   "highp float a(vec3 N /* (normal) */,\n  float n) // here\n{ if (n > 0.0) "
+                   "{ return b(n); } else if (n < 1.0) { for (;;) {} } }\n"
+                   "float later(float x);\nvoid main(){}\n"),
+      testing::ElementsAre("a", "main"));
+  EXPECT_THAT(functions_in("float4 c(float x : TEXCOORD0) : SV_Target { return x; }"),
+              testing::ElementsAre("c"));
+  EXPECT_THAT(functions_in("fn d(N: vec3f, n: f32) -> f32 { return n; }"),
+              testing::ElementsAre("d"));
+  EXPECT_THAT(functions_in(std::string(1 << 20, '(')), testing::IsEmpty());
 }
 
 TEST(RoundedToHalf, IsTheNearestHalfFloat) {
