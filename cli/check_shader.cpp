@@ -64,6 +64,8 @@ shader_check::Request request_of(const CheckShaderArguments& options) {
   request.exponents = options.exponents;
   // In the middle: neither a blur nor a dot.
   std::ranges::sort(request.exponents);
+  const auto again = std::ranges::unique(request.exponents);
+  request.exponents.erase(again.begin(), again.end());
   request.shown_exponent = request.exponents[request.exponents.size() / 2];
   request.time_limit = std::chrono::duration<double>(options.time_limit);
   request.costs = !options.no_costs;

@@ -52,15 +52,19 @@ std::string oddities_text(const records::ShaderOddities& odd) {
   return text.empty() ? "" : "\nodd results\n" + text;
 }
 
-std::string energy_text(const std::vector<records::ShaderEnergy>& energy) {
-  std::string text =
-      "\nenergy over the hemisphere, for an eye at 0, 45 and 75 degrees (the model's)\n";
-  for (std::size_t i = 0; i < energy.size(); ++i) {
-    if (i == 0 || energy[i].exponent != energy[i - 1].exponent)
-      text += fmt::format("{}  n = {:<6g}", i == 0 ? "" : "\n", energy[i].exponent);
-    text += fmt::format("  {:.4f} ({:.4f})", energy[i].energy, energy[i].of_model);
+/// A row for each exponent, a pair of columns for each angle of the eye.
+studies::Table energy_table(const std::vector<records::ShaderEnergy>& energy) {
+  studies::Table table{"energy over the hemisphere, for an eye at these angles", {{"n", 8}}, {}};
+  for (const records::ShaderEnergy& at : energy) {
+    if (table.rows.size() <= 1 && (table.rows.empty() || at.exponent == energy[0].exponent)) {
+      table.columns.push_back({fmt::format("{:g} degrees", at.incidence_degrees), 12, "{:.4f}"});
+      table.columns.push_back({"model", 9, "{:.4f}"});
+    }
+    const std::string n = fmt::format("{:g}", at.exponent);
+    if (table.rows.empty() || table.rows.back().front().text != n) table.rows.push_back({n});
+    table.rows.back().insert(table.rows.back().end(), {at.energy, at.of_model});
   }
-  return text + "\n";
+  return table;
 }
 
 std::string half_text(const std::vector<records::ShaderHalf>& half) {
@@ -114,7 +118,7 @@ std::string report_text(const records::ShaderCheck& record) {
     }
   }
   text += "\n" + studies::table_text(error_table(record));
-  text += oddities_text(record.oddities) + energy_text(record.energy) +
+  text += oddities_text(record.oddities) + studies::table_text(energy_table(record.energy)) +
           half_text(record.half_floats) + cost_text(record.costs);
   for (const std::string& remark : record.remarks) text += remark + "\n";
   return text;

@@ -32,7 +32,8 @@ const std::map<std::string, std::set<std::string>> kMaySee = {
     {"reference_scenes", {"core", "records", "renderer", "shaders"}},
     {"accuracy", {"core", "records", "renderer", "compare", "reference_scenes"}},
     {"farm", {"core", "records", "renderer", "compare", "reference_scenes"}},
-    {"studies", {"core", "records", "renderer", "compare", "reference_scenes", "accuracy"}},
+    {"studies",
+     {"core", "records", "renderer", "shaders", "compare", "reference_scenes", "accuracy"}},
     {"gallery", {"core", "records"}},
     {"cli",
      {"core", "records", "renderer", "shaders", "compare", "reference_scenes", "accuracy", "farm",
@@ -44,6 +45,8 @@ bool may_include_library(const std::string& header, const std::string& file) {
   if (header.starts_with("OpenImageIO/")) return file == "core/image_io_module.cpp";
   if (header.starts_with("OpenColorIO/"))
     return file.starts_with("core/colour") && file.ends_with(".cpp");
+  for (const char* graphics : {"EGL/", "GL/", "vulkan/"})
+    if (header.starts_with(graphics)) return file.starts_with("shaders/runner/");
   return true;
 }
 
