@@ -104,6 +104,7 @@ class Search {
   const Candidate& best() {
     try_shape({});
     for (const Mistake* one : usable_) try_shape({one});
+    if (best_->score() <= 1) return *best_;
     try_outputs();
     if (best_->score() <= 1) return *best_;
     for (std::size_t i = 0; i < usable_.size(); ++i)
