@@ -29,12 +29,14 @@ help: ## this list
 gallery: ## builds, renders the sphere grid with every engine, compares, writes a gallery to out/gallery
 	@echo 'make gallery: from a fresh clone about 6 minutes on 2 idle cores, plus 1 or 2 to install missing packages'
 	$(setup) build engines
+	$(npm)
 	$(configure)
 	$(build) --target lobelia lobelia_image_io
 	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)"
 
 references: ## measures how far ours and every engine are from the formulas, into out/references (20 minutes)
 	$(setup) build engines
+	$(npm)
 	$(configure)
 	$(build) --target lobelia lobelia_image_io
 	"build/$(PRESET)/bin/lobelia" verify references -o out/references

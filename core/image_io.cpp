@@ -18,13 +18,18 @@
 namespace lobelia {
 namespace fs = std::filesystem;
 
-fs::path companion_file(const char* name) {
+fs::path find_companion(std::string_view name) {
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& directory : {here, here.parent_path() / "lib" / "lobelia"})
     if (fs::exists(directory / name)) return directory / name;
+  return {};
+}
+
+fs::path companion_file(const char* name) {
+  if (fs::path found = find_companion(name); !found.empty()) return found;
   throw Error(ExitCode::kInternal,
               fmt::format("{} is neither beside the program in {} nor in ../lib/lobelia", name,
-                          here.string()));
+                          fs::read_symlink("/proc/self/exe").parent_path().string()));
 }
 
 namespace {

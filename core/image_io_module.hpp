@@ -43,5 +43,7 @@ const ImageIoTable& image_io_table();
 /// The path of a file that is installed with the program: beside it in a build tree, else in ../lib/lobelia. Throws
 /// Error(kInternal) if it is in neither.
 std::filesystem::path companion_file(const char* name);
+/// Empty if it is in neither.
+std::filesystem::path find_companion(std::string_view name);
 
 }  // namespace lobelia

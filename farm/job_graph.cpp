@@ -74,8 +74,8 @@ void JobGraph::plan_comparisons(std::size_t cell) {
                                         as_part(theirs.key)};
     if (is_with_truth(cell, e)) parts.push_back(as_part(jobs_[reference(cell, *truth_)].key));
     // A tolerance of the catalogue is a part of our program.
-    const EngineTolerance& tolerance = (*engines_)[e].engine->info().tolerance;
-    const std::string judged = fmt::format("{},{}", tolerance.of_value, tolerance.of_peak);
+    const EngineFloor& floor = (*engines_)[e].engine->info().floor;
+    const std::string judged = fmt::format("{},{}", floor.of_value, floor.of_peak);
     if ((*engines_)[e].engine->outside()) parts.push_back(judged);
     jobs_[compare(cell, e)] = {result_key(parts), JobKind::kCompare, std::uint8_t(e), true};
   }

@@ -185,17 +185,16 @@ void JobMaker::make(JobIndex job, ResultDraft& draft, records::Result& record) c
     return make_profile(scene, pictures, draft);
   }
   const std::string shown = graph_.whose(job);
-  EngineTolerance tolerance;
-  for (const MadePicture* one : {&pictures.at(0), &pictures.at(1)})
+  std::vector<EngineFloor> floors;
+  for (const MadePicture* one : {&pictures.at(0), &pictures.at(1)}) {
+    if (one->engine == kOurs) floors.push_back(kOursFloor);
     for (const FarmEngine& engine : graph_.engines())
-      if (engine.name == one->engine) {
-        tolerance.of_value += engine.engine->info().tolerance.of_value;
-        tolerance.of_peak += engine.engine->info().tolerance.of_peak;
-      }
+      if (engine.name == one->engine) floors.push_back(engine.engine->info().floor);
+  }
   make_comparison(
       scene,
       {pictures[0], pictures[1], pictures[0].engine == shown ? pictures[0] : pictures[1],
-       pictures.size() > 2 ? pictures[2] : pictures[0], tolerance},
+       pictures.size() > 2 ? pictures[2] : pictures[0], std::move(floors)},
       draft, record);
 }
 

@@ -144,9 +144,19 @@ void make_reference(const Scene& scene, const FarmEngine& engine, const std::str
   made.shading = record.shading;
 }
 
-Tolerance tolerance_of(const EngineTolerance& tolerance, std::vector<std::uint8_t> edges) {
+Tolerance tolerance_of(const Scene& scene, const std::vector<EngineFloor>& floors) {
   constexpr std::int64_t kAllowedOutliers = 3;
-  return {tolerance.of_value, tolerance.of_peak, kAllowedOutliers, std::move(edges)};
+  Tolerance tolerance{.allowed_outliers = kAllowedOutliers};
+  double least_cosine = 0;
+  for (const EngineFloor& floor : floors) {
+    tolerance.relative += floor.of_value;
+    tolerance.of_peak += floor.of_peak_in(scene);
+    least_cosine = std::max(least_cosine, floor.least_cosine);
+  }
+  if (!truth::why_not_evaluated(scene).empty()) return tolerance;
+  tolerance.edges = truth::edge_ring(scene);
+  tolerance.allowed_outliers += truth::mark_grazing(scene, least_cosine, tolerance.edges);
+  return tolerance;
 }
 
 void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft& draft,
@@ -171,8 +181,7 @@ void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft
   ComparisonOptions options;
   options.default_limits = false;
   options.viewing.exposure_stops = exposure;
-  options.tolerance =
-      tolerance_of(task.tolerance, exact ? truth::edge_ring(scene) : std::vector<std::uint8_t>());
+  options.tolerance = tolerance_of(scene, task.floors);
   if (!exact) {
     options.limits.assign(default_limits().begin(), default_limits().end());
     options.noise = noise_of(task.a, task.b);

@@ -44,12 +44,12 @@ void make_render(const Scene& scene, ResultDraft& draft, std::chrono::duration<d
 void make_reference(const Scene& scene, const FarmEngine& engine, const std::string& program,
                     ReferenceResult result, ResultDraft& draft, records::Result& record);
 
-/// A comparison of two pictures. `tolerance` is the sum of both engines'.
+/// A comparison of two pictures.
 struct ComparisonTask {
   MadePicture a, b;
-  MadePicture shown;  ///< the one of them that gets a PNG
-  MadePicture ours;   ///< it sets the exposure
-  EngineTolerance tolerance;
+  MadePicture shown;                ///< the one of them that gets a PNG
+  MadePicture ours;                 ///< it sets the exposure
+  std::vector<EngineFloor> floors;  ///< of both engines; they add up
 };
 
 /// Writes SHOWN.png at our picture's exposure and, unless the noise is unknown, A-B.json and .png. Up to three pixels on
@@ -58,7 +58,8 @@ struct ComparisonTask {
 void make_comparison(const Scene& scene, const ComparisonTask& task, ResultDraft& draft,
                      records::Result& record);
 
-Tolerance tolerance_of(const EngineTolerance& tolerance, std::vector<std::uint8_t> edges);
+/// `scene` is one that truth::evaluate() takes; edges are only of such scenes.
+Tolerance tolerance_of(const Scene& scene, const std::vector<EngineFloor>& floors);
 
 /// Writes profile.json.
 void make_profile(const Scene& scene, const std::vector<MadePicture>& pictures, ResultDraft& draft);

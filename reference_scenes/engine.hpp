@@ -22,15 +22,26 @@ namespace lobelia {
 enum class Shading { kAny, kNative, kReimplemented };
 inline constexpr std::string_view kShadingNames[] = {"any", "native", "expressed"};
 
-/// The largest error allowed in a picture.
-struct Target {
-  bool relative = false;  ///< the limit is a share of each value, not of the peak
-  double limit = 0;
+/// Half a unit in the last place of a float32 or a half float, as a share of the value.
+inline constexpr double kFloat32Rounding = 0x1p-24, kHalfRounding = 0x1p-11;
+
+/// How far an engine's number formats may lead a correct picture from the formulas. Farms and `lobelia verify references`
+/// hold its pictures to this.
+struct EngineFloor {
+  double of_value = 0;  ///< share of the value: the rounding of the picture
+  double of_peak = 0;   ///< share of the peak: the rounding of colours
+  /// Error of a point's place, as a share of its distance from the camera. On a sphere the normal turns by it over the radius,
+  /// and the lobe's angle by twice that; cos^n falls by up to sqrt(n / e) of its peak per radian.
+  double of_place = 0;
+  double of_cosine =
+      0;  ///< error of the lobe's cosine; cos^n falls by up to n of its peak per unit
+  double least_cosine = 0;  ///< N.L below which its lights stop
+
+  /// The share of the peak in a picture of the scene, besides of_value.
+  double of_peak_in(const Scene& scene) const;
 };
-struct ExponentTarget {
-  double up_to;  ///< the largest exponent that it holds for
-  Target target;
-};
+/// What the renderer's choice of precision allows itself (docs/numerics.md).
+inline constexpr EngineFloor kOursFloor{.of_peak = 1e-5};
 
 /// A shading in a number format; `lobelia verify references` measures each.
 struct EngineVariant {
@@ -38,14 +49,8 @@ struct EngineVariant {
   std::string_view title;  ///< "POV-Ray native, half"
   bool fine = false;       ///< in the finer number format
   Shading shading = Shading::kAny;
-  std::span<const ExponentTarget> targets = {};  ///< the first with a high enough exponent counts
-  std::string_view why_off = {};                 ///< why it misses a target, if known
+  EngineFloor floor = {};
   double rounding = 0;  ///< relative error of an average's values; 0: averages are not measured
-};
-
-/// How closely its pictures agree with ours: within a share of the value plus a share of the peak.
-struct EngineTolerance {
-  double of_value = 0, of_peak = 0;
 };
 
 /// A rough estimate for a picture on one core.
@@ -65,7 +70,7 @@ struct EngineInfo {
   std::string_view fine = {};           ///< name of the finer one; empty if there is none
   bool is_program = true;               ///< false: it is part of Lobelia, or pictures
   bool whole_scenes = false;  ///< shows lights with a size and so on by itself, not as averages
-  EngineTolerance tolerance = {};
+  EngineFloor floor = {};     ///< of its usual pictures
   EngineSeconds seconds = {};
   std::span<const EngineVariant> variants = {};
   std::string_view transport =
@@ -85,9 +90,10 @@ constexpr std::string_view state_name(EngineState state) {
 
 /// The files of an engine that were seen when it was asked for its version; engine_content.hpp hashes them.
 struct EngineFiles {
-  std::vector<std::filesystem::path> programs;     ///< started; a wrapper script starts several
-  std::vector<std::filesystem::path> libraries;    ///< loaded by these
-  std::vector<std::filesystem::path> directories;  ///< of the scripts and data that it reads
+  std::vector<std::filesystem::path> programs;   ///< started; a wrapper script starts several
+  std::vector<std::filesystem::path> libraries;  ///< loaded by these
+  std::vector<std::filesystem::path>
+      data;  ///< what it reads: files, and directories with all in them
 };
 
 struct EngineStatus {

@@ -79,7 +79,13 @@ Content engine_content(const EngineStatus& status, FileHashes& hashes) {
   for (const auto& program : status.files.programs) reader.add("program", "", program);
   for (const auto& library : status.files.libraries)
     reader.add("library", library.filename().native(), library);
-  for (const auto& directory : status.files.directories) reader.add_directory(directory);
+  for (const auto& data : status.files.data) {
+    std::error_code unknown;
+    if (fs::is_regular_file(data, unknown))
+      reader.add("data", data.filename().native(), data);
+    else
+      reader.add_directory(data);
+  }
   return reader.content();
 }
 

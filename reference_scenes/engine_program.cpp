@@ -11,6 +11,7 @@
 #include "core/contained_reader.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/image_io_module.hpp"
 #include "core/interrupt.hpp"
 #include "core/numbers.hpp"
 #include "core/removal.hpp"
@@ -21,6 +22,8 @@
 namespace lobelia {
 namespace {
 
+constexpr int kNotInstalled =
+    69;  // exit code EX_UNAVAILABLE of our own programs: what they drive is not there
 constexpr double kProbeSeconds = 60;  // a cold disk under Blender may take ten
 constexpr std::size_t kMaxWords = 300;
 constexpr std::uint64_t kSmallPicture = 1 << 20;     // pixels
@@ -74,6 +77,10 @@ std::string why_not_ready(const EngineInfo& engine, const EngineProbe& probe,
   if (result.interrupted) throw Error(ExitCode::kInterrupted, "interrupted");
   if (result.timed_out)
     return fmt::format("'{}' did not tell its version within {} s", name, kProbeSeconds);
+  if (result.exit_code == kNotInstalled && probe.is_ours) {
+    status.state = EngineState::kAbsent;
+    return last_words(result.output_tail);
+  }
   if (result.exit_code > kSignalBase)
     return fmt::format("'{}' --version ended with signal {}", name, result.exit_code - kSignalBase);
   if (result.exit_code != 0)
@@ -91,25 +98,28 @@ std::string why_not_ready(const EngineInfo& engine, const EngineProbe& probe,
 EngineStatus probe_engine(const EngineInfo& engine, const EngineProbe& probe,
                           const std::filesystem::path& program) {
   EngineStatus status;
-  const std::string wanted = program.empty() ? std::string(probe.program) : program.string();
+  const std::string wanted = !program.empty() ? program.string()
+                             : probe.is_ours  ? find_companion(probe.program).string()
+                                              : std::string(probe.program);
   status.program = find_program(wanted);
   if (status.program.empty()) {
     std::error_code ignored;
     // A file in $PATH that is not executable counts as absent, as in a shell.
     if (!program.empty() && std::filesystem::exists(program, ignored))
       status.state = EngineState::kBroken;
-    status.why = program.empty() ? fmt::format("no program '{}' in $PATH", probe.program)
-                                 : fmt::format("'{}' is not a program", printable(wanted, 400));
+    status.why = !program.empty() ? fmt::format("'{}' is not a program", printable(wanted, 400))
+                 : probe.is_ours  ? fmt::format("Lobelia was built without '{}'", probe.program)
+                                  : fmt::format("no program '{}' in $PATH", probe.program);
     return status;
   }
+  status.state = EngineState::kBroken;
   status.why = why_not_ready(engine, probe, status);
-  status.state = status.why.empty() ? EngineState::kReady : EngineState::kBroken;
-  if (!status.available() || !probe.directories) return status;
+  if (status.why.empty()) status.state = EngineState::kReady;
+  if (!status.available() || !probe.data) return status;
   std::vector<std::filesystem::path> programs = status.files.programs;
   programs.push_back(status.program);
   for (const auto& one : programs)
-    std::ranges::copy(probe.directories(one, status.version),
-                      std::back_inserter(status.files.directories));
+    std::ranges::copy(probe.data(one, status.version), std::back_inserter(status.files.data));
   return status;
 }
 

@@ -19,9 +19,10 @@ struct EngineProbe {
   std::string_view
       version_prefix;  ///< text before the version in the output of --version: "Blender "
   bool (*supports)(int major, int minor) = nullptr;  ///< EngineInfo::supported_versions
-  /// Where a program of this version has its scripts and data; not all need exist. Null: nowhere.
-  std::vector<std::filesystem::path> (*directories)(const std::filesystem::path& program,
-                                                    std::string_view version) = nullptr;
+  /// The files and directories that a program of this version reads; not all need exist. Null: none.
+  std::vector<std::filesystem::path> (*data)(const std::filesystem::path& program,
+                                             std::string_view version) = nullptr;
+  bool is_ours = false;  ///< a program that lies beside ours and was built with it
 };
 
 /// An engine that is a program. Both references must outlive it.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/at_once.hpp"
 #include "core/error.hpp"
@@ -95,6 +96,16 @@ ReferenceResult average(const Scene& scene, const std::vector<Replicate>& all, P
 }
 
 }  // namespace
+
+double EngineFloor::of_peak_in(const Scene& scene) const {
+  double exponent = 0, radii = 0;
+  for (const Material& material : scene.materials)
+    if (has_highlight(material)) exponent = std::max(exponent, material.highlight.exponent);
+  for (const Sphere& sphere : scene.spheres)
+    radii = std::max(radii, length(scene.camera.origin - sphere.center) / sphere.radius);
+  return of_peak + std::sqrt(exponent / std::numbers::e) * 2 * radii * of_place +
+         exponent * of_cosine;
+}
 
 std::uint64_t memory_to_average(const Scene& scene, const ReferenceOptions& options) {
   if (!needs_replicates(scene)) return 0;

@@ -8,8 +8,13 @@
 #include "core/files.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engines/analytic/analytic.hpp"
+#include "reference_scenes/engines/babylon/babylon.hpp"
 #include "reference_scenes/engines/blender/blender.hpp"
+#include "reference_scenes/engines/opengl/opengl.hpp"
 #include "reference_scenes/engines/povray/povray.hpp"
+#include "reference_scenes/engines/sunflow/sunflow.hpp"
+#include "reference_scenes/engines/tachyon/tachyon.hpp"
+#include "reference_scenes/engines/three/three.hpp"
 #include "reference_scenes/replicates.hpp"
 
 namespace lobelia {
@@ -26,6 +31,11 @@ struct CatalogueEntry {
 constexpr CatalogueEntry kCatalogue[] = {
     {kPovrayInfo, make_povray, keep_povray_input},
     {kBlenderInfo, make_blender, keep_blender_input},
+    {kTachyonInfo, make_tachyon, keep_tachyon_input},
+    {kSunflowInfo, make_sunflow, keep_sunflow_input},
+    {kThreeInfo, make_three, keep_three_input},
+    {kBabylonInfo, make_babylon, keep_babylon_input},
+    {kOpenglInfo, make_opengl, keep_opengl_input},
     {kAnalyticInfo, make_analytic, keep_analytic_input},
 };
 

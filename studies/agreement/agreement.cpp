@@ -19,8 +19,7 @@
 namespace lobelia::agreement {
 namespace {
 
-constexpr ExponentTarget kOursTargets[] = {{1e6, {false, 1e-5}}};
-constexpr EngineVariant kOursVariant{.name = "ours", .title = "Lobelia", .targets = kOursTargets};
+constexpr EngineVariant kOursVariant{.name = "ours", .title = "Lobelia", .floor = kOursFloor};
 
 /// From this exponent on the rounding of double would count.
 constexpr double kFiftyDigitsFrom = 1e5;
@@ -44,12 +43,16 @@ ReferenceOptions options_of(const Variant& variant) {
   return options;
 }
 
-Verdict verdict_of(const Variant& variant, const Case& one, const Figures& figures) {
-  const auto target = target_of(variant, one.highlight.exponent);
+Verdict verdict_of(const Variant& variant, const Case& one, const Figures& figures,
+                   std::int64_t ring_allowed) {
+  const auto target = target_of(variant, one);
   if (!target) return Verdict::kNoTarget;
   const double value = target->relative ? figures.max_relative : figures.max_of_peak;
-  return value <= target->limit && figures.ring_over <= one.ring_allowed ? Verdict::kMet
-                                                                         : Verdict::kMissed;
+  // What is off by more anywhere is off in the ring, too.
+  const bool ring_counts = target->relative || target->limit < kRingOfPeak;
+  return value <= target->limit && (!ring_counts || figures.ring_over <= ring_allowed)
+             ? Verdict::kMet
+             : Verdict::kMissed;
 }
 
 /// The parts of a case that do not depend on the variant.
@@ -188,9 +191,12 @@ class Measurement {
   }
 
   void add(std::size_t i, const Variant& variant, const Image& image) {
-    const Figures figures = difference_from(truths_[i].picture, image, truths_[i].ring);
+    std::vector<std::uint8_t> ring = truths_[i].ring;
+    const Case& one = result_.cases[i];
+    const std::int64_t grazing = truth::mark_grazing(one.scene, variant.floor.least_cosine, ring);
+    const Figures figures = difference_from(truths_[i].picture, image, ring);
     result_.rows.push_back(
-        {i, variant, figures, verdict_of(variant, result_.cases[i], figures), {}});
+        {i, variant, figures, verdict_of(variant, one, figures, one.ring_allowed + grazing), {}});
   }
 
   /// Replaces a coarser format of the same engine, which comes earlier.
@@ -302,10 +308,11 @@ Variant pair_of(std::string_view first, std::string_view second) {
   return {"", {.name = names.name, .title = names.title}};
 }
 
-std::optional<Target> target_of(const EngineVariant& variant, double exponent) {
-  const auto found = std::ranges::find_if(
-      variant.targets, [&](const ExponentTarget& t) { return exponent <= t.up_to; });
-  return found == variant.targets.end() ? std::nullopt : std::optional(found->target);
+std::optional<Target> target_of(const Variant& variant, const Case& one) {
+  const EngineFloor& floor = variant.floor;
+  if (floor.of_value > 0) return Target{true, floor.of_value};
+  if (const double limit = floor.of_peak_in(one.scene); limit > 0) return Target{false, limit};
+  return {};
 }
 
 std::string short_number(double value) {

@@ -29,8 +29,13 @@ std::span<const Variant> variants();
 /// Two engines with the same reimplemented formula, compared with each other.
 Variant pair_of(std::string_view first, std::string_view second);
 
-/// Nothing if the variant has no target at this exponent.
-std::optional<Target> target_of(const EngineVariant& variant, double exponent);
+/// What the largest difference of a picture is held to: the variant's floor.
+struct Target {
+  bool relative = false;  ///< a share of each value, not of the peak
+  double limit = 0;
+};
+/// None for a pair of engines.
+std::optional<Target> target_of(const Variant& variant, const Case& one);
 /// "4.9e-4", "0", "inf"
 std::string short_number(double value);
 /// "4.9e-4 of the value"

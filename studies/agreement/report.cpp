@@ -26,7 +26,7 @@ records::AgreementRow row_record(const Agreement& agreement, const Row& row) {
     record.max_relative = f.max_relative;
     record.ring = records::Ring{f.ring_pixels, f.ring_over, one.ring_allowed, f.ring_max_of_peak};
   }
-  if (const auto target = target_of(row.variant, one.highlight.exponent)) {
+  if (const auto target = target_of(row.variant, one)) {
     records::Target& asked = record.target.emplace();
     (target->relative ? asked.relative : asked.of_peak) = target->limit;
   }
@@ -93,7 +93,7 @@ std::string report_csv(const Agreement& agreement) {
     const Case& one = agreement.cases[row.index];
     const HighlightChoice& h = one.highlight;
     const Figures& f = row.figures;
-    const auto target = target_of(row.variant, h.exponent);
+    const auto target = target_of(row.variant, one);
     const bool none = row.verdict == Verdict::kNotComparable || row.verdict == Verdict::kFailed;
     const auto figure = [&](double value) { return none ? studies::Cell("") : value; };
     lines.rows.push_back({kGroupNames[std::size_t(one.group)], one.what, h.model, h.lobe,

@@ -58,10 +58,7 @@ std::string reasons(const Agreement& agreement) {
     const bool missed = std::ranges::any_of(agreement.rows, [&](const Row& row) {
       return row.variant.name == variant.name && row.verdict == Verdict::kMissed;
     });
-    const std::string_view why = variant.why_off;
-    if (missed)
-      text += fmt::format("\n*{}*: {}\n", variant.title,
-                          why.empty() ? "the reason is not known." : why);
+    if (missed) text += fmt::format("\n*{}*: the reason is not known.\n", variant.title);
   };
   add(ours());
   for (const Variant& variant : variants()) add(variant);

@@ -74,13 +74,8 @@ double range_of(double exponent) { return std::max(exponent, 1024.0); }
 std::string range_text(double range) { return range <= 1024 ? "up to 1024" : short_number(range); }
 
 std::string target_words(const Row& row, const Case& one) {
-  const auto target = target_of(row.variant, one.highlight.exponent);
+  const auto target = target_of(row.variant, one);
   return target ? target_text(*target) : "";
-}
-
-bool is_relative(const Variant& variant) {
-  const auto target = target_of(variant, 1);
-  return target && target->relative;
 }
 
 /// By variant, then by `name_of` a highlight; a column for each exponent.
@@ -95,7 +90,7 @@ Table worst_table(const Agreement& agreement, const std::string& title, const st
     const Case& one = agreement.cases[row.index];
     if (one.group != Group::kHighlight || !is_shown(row)) continue;
     OfVariant& of_variant = by_variant[row.variant.title];
-    of_variant.relative = is_relative(row.variant);
+    of_variant.relative = row.variant.floor.of_value > 0;
     of_variant.by_name[name_of(one.highlight)][one.highlight.exponent].add(row);
   }
   std::map<double, std::string> exponents;
@@ -134,7 +129,8 @@ Table worst_table(const Agreement& agreement, const std::string& title, const st
 Table headline_table(const Agreement& agreement) {
   struct Line {
     Worst worst;
-    std::string target;
+    double sharpest = 0;
+    std::string target;  ///< at the sharpest exponent
   };
   Ordered<std::map<double, Line>> lines;
   for (const Row& row : agreement.rows) {
@@ -142,7 +138,10 @@ Table headline_table(const Agreement& agreement) {
     if (one.group != Group::kHighlight || !is_shown(row)) continue;
     Line& line = lines[row.variant.title][range_of(one.highlight.exponent)];
     line.worst.add(row);
-    if (const std::string target = target_words(row, one); !target.empty()) line.target = target;
+    if (const double exponent = one.highlight.exponent; exponent >= line.sharpest) {
+      line.sharpest = exponent;
+      line.target = target_words(row, one);
+    }
   }
   Table table =
       table_of("Highlights",

@@ -52,7 +52,7 @@ TEST_F(FarmWithEngines, EveryCellAgreesWithPovRayAndBlenderAndIsNotMadeTwice) {
   }
   for (const char* engine : {"povray", "blender"}) {
     ComparisonOptions options;
-    options.tolerance = tolerance_of(engine_info(engine).tolerance, truth::edge_ring(scene));
+    options.tolerance = tolerance_of(scene, {engine_info(engine).floor});
     const Image reference = read_image(in_cell("n16", std::string(engine) + ".exr"));
     const Comparison comparison = compare(broken, reference, options);
     EXPECT_EQ(comparison.value("outliers"), 3) << engine;

@@ -22,8 +22,7 @@ inline constexpr EngineInfo kAnalyticInfo{
     .plain = "double",
     .fine = "fifty_digits",
     .is_program = false,
-    .tolerance =
-        {0, 1e-5},  // what the renderer's choice of precision allows itself (docs/numerics.md)
+    .floor = {.of_peak = kFloat32Rounding},
     .seconds = {0.02, 2e-6},
 };
 

@@ -4,6 +4,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/image_io.hpp"
+#include "core/removal.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
 #include "reference_scenes/engines/blender/blender_input.hpp"
@@ -33,6 +35,58 @@ constexpr EngineProbe kBlenderProbe{
     [](int major, int minor) { return major == 4 || (major == 3 && minor >= 4); },
     blender_directories};
 
+/// render_scenes.py at work.
+class BlenderProgram final : public PersistentProgram {
+ public:
+  explicit BlenderProgram(const ReferenceOptions& options)
+      : own_transport_(options.own_transport),
+        is_native_(options.shading == Shading::kNative || options.own_transport) {}
+
+  const EngineInfo& info() const override { return kBlenderInfo; }
+  SceneInput input(const Scene& scene, const std::string& name) const override {
+    return own_transport_ ? cycles_transport_input(scene, name)
+                          : blender_input(in_engine_units(scene), name, is_native_);
+  }
+  void write_files(const fs::path& directory) const override { write_blender_scripts(directory); }
+  void write_first(const fs::path& directory, int threads, const ReferenceOptions& options,
+                   const SceneInput& first) const override {
+    write_file(directory / kBlenderJobFile, blender_job(threads, options, first, true));
+  }
+  std::vector<std::string> arguments(const std::string& program,
+                                     const fs::path& directory) const override {
+    return blender_arguments(program, directory);
+  }
+  void write_pictures(const fs::path& directory, const Scene& scene,
+                      const SceneInput& input) const override {
+    for (const Light& light : scene.lights)
+      if (const auto picture = picture_of(light))
+        write_exr(directory / sky_file(input.name), *picture, {});
+  }
+  void remove_pictures(const fs::path& directory, const SceneInput& input) const override {
+    remove_in_temporary_directory(directory / sky_file(input.name));
+  }
+  Stage ended_stage(std::string_view line) const override {
+    const auto has = [&](std::string_view words) { return line.find(words) != line.npos; };
+    return has("lobelia: begin")                                 ? Stage::kStart
+           : has("| Sample 0/")                                  ? Stage::kParse
+           : has("| Finished")                                   ? Stage::kTrace
+           : line.starts_with(" Time: ") || has("lobelia: done") ? Stage::kWrite
+                                                                 : Stage::kNone;
+  }
+  bool is_native() const override { return is_native_; }
+  std::string method() const override {
+    if (own_transport_) return "Cycles' own light transport";
+    if (is_native_)
+      return "Cycles' Ashikhmin-Shirley closure, its geometry term taken out by its colour, under a "
+             "real lamp, one pass per light and reflection";
+    return "shader nodes as the colour of a surface under a real lamp, one pass per light and "
+           "reflection";
+  }
+
+ private:
+  const bool own_transport_, is_native_;
+};
+
 class Blender final : public ProgramEngine {
  public:
   explicit Blender(const fs::path& program) : ProgramEngine(kBlenderInfo, kBlenderProbe, program) {}
@@ -50,7 +104,7 @@ class Blender final : public ProgramEngine {
     return why_not_for_cycles_transport(scene);
   }
   std::unique_ptr<SimpleSession> open_simple(const ReferenceOptions& options) override {
-    return open_blender(status(), options);
+    return open_persistent(std::make_unique<BlenderProgram>(options), status(), options);
   }
 };
 
@@ -62,7 +116,7 @@ std::unique_ptr<Engine> make_blender(const fs::path& program) {
 
 void keep_blender_input(const Scene& scene, const ReferenceOptions& options,
                         const fs::path& directory) {
-  const BlenderScene input =
+  const SceneInput input =
       blender_input(in_engine_units(scene), "scene0", options.shading == Shading::kNative);
   write_blender_scripts(directory);
   write_file(directory / kBlenderJobFile, blender_job(threads_of({}), {}, input, false));

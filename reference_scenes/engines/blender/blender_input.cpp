@@ -171,7 +171,7 @@ std::string why_not_for_cycles_transport(const Scene& scene) {
   return {};
 }
 
-BlenderScene blender_input(const Scene& scene, const std::string& name, bool native) {
+SceneInput blender_input(const Scene& scene, const std::string& name, bool native) {
   Json input = scene_json(scene, name);
   const Contacts contacts = find_contacts(scene);
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
@@ -183,7 +183,7 @@ BlenderScene blender_input(const Scene& scene, const std::string& name, bool nat
   return {name, input["passes"].size(), input.dump()};
 }
 
-BlenderScene cycles_transport_input(const Scene& scene, const std::string& name) {
+SceneInput cycles_transport_input(const Scene& scene, const std::string& name) {
   Json input = scene_json(scene, name);
   for (const Light& light : scene.lights)
     input["lights"].push_back(is_environment(light) ? sky_json(light, name)
@@ -195,11 +195,11 @@ BlenderScene cycles_transport_input(const Scene& scene, const std::string& name)
   return {name, 1, input.dump()};
 }
 
-std::string blender_job(int threads, const ReferenceOptions& options, const BlenderScene& scene,
+std::string blender_job(int threads, const ReferenceOptions& options, const SceneInput& scene,
                         bool go_on) {
   Json job{{"threads", threads},
            {"secondsPerScene", options.time_limit.count()},
-           {"scenes", Json::array({Json::parse(scene.json)})}};
+           {"scenes", Json::array({Json::parse(scene.text)})}};
   if (go_on) job["goOn"] = true;
   return job.dump(go_on ? -1 : 2) + "\n";
 }

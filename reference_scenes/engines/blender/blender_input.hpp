@@ -3,11 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "reference_scenes/engine.hpp"
+#include "reference_scenes/persistent_session.hpp"
 
 namespace lobelia {
 
@@ -16,25 +15,18 @@ inline constexpr char kBlenderJobFile[] = "job.json";
 /// Whether Cycles' own closure can shade all highlights.
 bool is_native_in_blender(const Scene& scene);
 
-/// One entry of the job's "scenes".
-struct BlenderScene {
-  std::string name;
-  std::size_t passes = 0;  ///< number of pictures
-  std::string json;        ///< in one line
-};
-
-/// `scene` is in engine units (preparation.hpp); `native` requires is_native_in_blender. Throws Error(kEngine) for what
+/// Its text is one entry of the job's "scenes". `scene` is in engine units (preparation.hpp); `native` requires is_native_in_blender. Throws Error(kEngine) for what
 /// Blender cannot render.
-BlenderScene blender_input(const Scene& scene, const std::string& name, bool native = false);
+SceneInput blender_input(const Scene& scene, const std::string& name, bool native = false);
 
 /// Why Cycles' own light transport cannot show a scene, as a sentence; empty if it can.
 std::string why_not_for_cycles_transport(const Scene& scene);
-BlenderScene cycles_transport_input(const Scene& scene, const std::string& name);
+SceneInput cycles_transport_input(const Scene& scene, const std::string& name);
 /// The file with the sky's picture, beside the job.
 std::string sky_file(const std::string& scene);
 
 /// The job that a process starts with. With `go_on` it asks for more scenes afterwards.
-std::string blender_job(int threads, const ReferenceOptions& options, const BlenderScene& scene,
+std::string blender_job(int threads, const ReferenceOptions& options, const SceneInput& scene,
                         bool go_on);
 
 /// Runs render_scenes.py without the user's start-up file and add-ons; failures in Python end Blender. `directory` holds
@@ -43,9 +35,5 @@ std::vector<std::string> blender_arguments(const std::string& program,
                                            const std::filesystem::path& directory);
 /// Writes render_scenes.py and the modules that it imports.
 void write_blender_scripts(const std::filesystem::path& directory);
-
-/// Blender processes that are given one scene after another.
-std::unique_ptr<SimpleSession> open_blender(const EngineStatus& status,
-                                            const ReferenceOptions& options);
 
 }  // namespace lobelia

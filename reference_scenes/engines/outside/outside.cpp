@@ -132,7 +132,7 @@ Outside::Outside(const OutsideEngine& engine)
   info_.plain = "float";
   info_.is_program = has_program();
   info_.whole_scenes = true;
-  info_.tolerance = {engine_.of_value, engine_.of_peak};
+  info_.floor = {.of_value = engine_.of_value, .of_peak = engine_.of_peak};
   info_.seconds = {1, 1e-5};
 }
 

@@ -19,7 +19,7 @@ using records::OutsideEngine;
 
 constexpr std::size_t kMostArguments = 1000, kMostName = 32;
 // Nobody sees an error of 1e-3 of a value. Near black, the share of the peak allows for rounding.
-constexpr EngineTolerance kUsualTolerance{1e-3, 1e-6};
+constexpr double kUsualOfValue = 1e-3, kUsualOfPeak = 1e-6;
 
 /// Names that would be a cell's own files.
 constexpr std::string_view kTaken[] = {"lobelia", "profile", "cell", "scene", "farm"};
@@ -86,8 +86,8 @@ class Reader {
   }
 
   void read_tolerance() {
-    engine_.of_value = kUsualTolerance.of_value;
-    engine_.of_peak = kUsualTolerance.of_peak;
+    engine_.of_value = kUsualOfValue;
+    engine_.of_peak = kUsualOfPeak;
     const auto attribute = node_.attribute("tolerance");
     if (!attribute) return;
     const std::vector<std::string> parts = split(attribute.value(), ", ");

@@ -8,23 +8,22 @@
 
 namespace lobelia {
 
-inline constexpr ExponentTarget kPovrayHalf[] = {{kMaxExponent, {true, 4.9e-4}}},
-                                kPovrayFloat[] = {{kMaxExponent, {true, 2.3e-7}}};
-inline constexpr std::string_view kTwoHalves =
-    "Two half floats leave 2^-22 = 2.4e-7 of a value, and POV-Ray has colours in float32 on the way to "
-    "each, with 6e-8 for every operation.";
+/// A half float, from colours in float32. Near 0 half floats are subnormal.
+inline constexpr EngineFloor kPovrayHalf{.of_value = kHalfRounding + 4 * kFloat32Rounding,
+                                         .of_peak = 1e-8};
+/// Two half floats leave 2^-22 of a value, and each comes from colours in float32.
+inline constexpr EngineFloor kPovrayFloat{.of_value = 0x1p-22 + 4 * kFloat32Rounding};
 inline constexpr EngineVariant kPovrayVariants[] = {
     {.name = "povray_native_half",
      .title = "POV-Ray native, half",
      .shading = Shading::kNative,
-     .targets = kPovrayHalf,
+     .floor = kPovrayHalf,
      .rounding = 4.9e-4},
-    {"povray_native_float", "POV-Ray native, float", true, Shading::kNative, kPovrayFloat,
-     kTwoHalves},
+    {"povray_native_float", "POV-Ray native, float", true, Shading::kNative, kPovrayFloat},
     {"povray_expressed_half", "POV-Ray expressed, half", false, Shading::kReimplemented,
      kPovrayHalf},
     {"povray_expressed_float", "POV-Ray expressed, float", true, Shading::kReimplemented,
-     kPovrayFloat, kTwoHalves},
+     kPovrayFloat},
 };
 
 inline constexpr EngineInfo kPovrayInfo{
@@ -43,8 +42,7 @@ inline constexpr EngineInfo kPovrayInfo{
         "as averages: lights with a size, the sky, depth of field, antialiasing",
     .plain = "half",
     .fine = "float",
-    // Half floats round by 2^-11 = 4.9e-4 of the value; near 0 they are subnormal.
-    .tolerance = {6e-4, 1e-8},
+    .floor = kPovrayHalf,
     .seconds = {0.3, 5e-6},
     .variants = kPovrayVariants,
 };

@@ -28,6 +28,10 @@ std::vector<Rgb> evaluate(const Scene& scene, Digits digits,
 /// differ by the whole value of a pixel. Throws as evaluate() does.
 std::vector<std::uint8_t> edge_ring(const Scene& scene);
 
+/// Sets `ring` to 1 in the pixels whose centre sees a surface that a lamp lights with 0 < N.L < least_cosine. Returns how many
+/// these are. Throws as evaluate() does.
+std::int64_t mark_grazing(const Scene& scene, double least_cosine, std::vector<std::uint8_t>& ring);
+
 /// By pixel in reading order, 1 where the ray through its centre meets a sphere or a plane, whatever the lights, the lens and
 /// the samples. Throws Error(kInput) for more than kMaxSpheresByRay spheres.
 std::vector<std::uint8_t> surface_mask(const Scene& scene);

@@ -64,6 +64,28 @@ std::vector<std::uint8_t> edge_ring(const Scene& scene) {
   return ring;
 }
 
+std::int64_t mark_grazing(const Scene& scene, double least_cosine,
+                          std::vector<std::uint8_t>& ring) {
+  if (const std::string why = why_not_evaluated(scene); !why.empty())
+    throw Error(ExitCode::kInput, why);
+  if (least_cosine <= 0) return 0;
+  const Tracer<double> tracer(scene);
+  std::int64_t grazing = 0;
+  for (int y = 0, i = 0; y < scene.film.height; ++y)
+    for (int x = 0; x < scene.film.width; ++x, ++i) {
+      bool grazes = false;
+      tracer.follow(x + 0.5, y + 0.5, [&](const Met<double>& met) {
+        for (std::size_t light = 0; light < scene.lights.size(); ++light)
+          if (const auto arrival = tracer.arrival(light, met))
+            grazes = grazes || arrival->n_dot_l < least_cosine;
+      });
+      if (!grazes) continue;
+      ring[std::size_t(i)] = 1;
+      ++grazing;
+    }
+  return grazing;
+}
+
 std::vector<std::uint8_t> surface_mask(const Scene& scene) {
   if (scene.spheres.size() > kMaxSpheresByRay)
     throw Error(ExitCode::kInput, fmt::format("a mask is of up to {} spheres; this scene has {}",

@@ -1,3 +1,5 @@
+#include "reference_scenes/persistent_session.hpp"
+
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,13 +17,10 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/image_io.hpp"
 #include "core/interrupt.hpp"
 #include "core/removal.hpp"
 #include "core/text.hpp"
 #include "reference_scenes/engine_program.hpp"
-#include "reference_scenes/engines/blender/blender.hpp"
-#include "reference_scenes/engines/blender/blender_input.hpp"
 #include "reference_scenes/preparation.hpp"
 
 namespace lobelia {
@@ -29,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr char kNextFile[] = "next.json";
+constexpr char kNextFile[] = "next";
 constexpr int kSigAlrm = 14;
 /// After so many processes in a row that began no scene, all scenes fail.
 constexpr int kMostFailedStarts = 3;
@@ -39,12 +38,13 @@ constexpr std::chrono::duration<double> kIdle{1};
 constexpr auto kPollInterval = std::chrono::milliseconds(50);
 
 /// Adds up the pictures of a scene's passes, and removes their files.
-Failure read_passes(const fs::path& directory, const std::string& name, const Scene& scene,
-                    std::size_t passes, Image& sum) {
-  std::vector<Image> images(passes);
-  for (std::size_t pass = 0; pass < passes; ++pass) {
-    const fs::path file = directory / fmt::format("{}-{}.exr", name, pass);
-    if (Failure failure = read_engine_picture(kBlenderInfo, file, scene.film, images[pass]))
+Failure read_passes(const PersistentProgram& program, const fs::path& directory,
+                    const SceneInput& input, const Scene& scene, Image& sum) {
+  std::vector<Image> images(input.passes);
+  for (std::size_t pass = 0; pass < input.passes; ++pass) {
+    const fs::path file =
+        directory / fmt::format("{}-{}.{}", input.name, pass, program.picture_format());
+    if (Failure failure = read_engine_picture(program.info(), file, scene.film, images[pass]))
       return failure;
     remove_in_temporary_directory(file);
   }
@@ -73,25 +73,27 @@ class SocketPair {
   int ends_[2];
 };
 
-/// Measures the stages of a scene by Blender's output.
+/// Measures the stages of a scene by the program's output.
 class StageClock {
  public:
-  /// Ends a stage if the line says so.
-  void take(std::string_view line) {
-    const auto has = [&](std::string_view words) { return line.find(words) != line.npos; };
-    if (has("lobelia: begin"))
-      end(seconds.start);
-    else if (has("| Sample 0/"))
-      end(seconds.parse);
-    else if (has("| Finished"))
-      end(seconds.trace);
-    else if (line.starts_with(" Time: ") || has("lobelia: done"))
-      end(seconds.write);
+  void end(Stage stage) {
+    switch (stage) {
+      case Stage::kNone:
+        return;
+      case Stage::kStart:
+        return add(seconds.start);
+      case Stage::kParse:
+        return add(seconds.parse);
+      case Stage::kTrace:
+        return add(seconds.trace);
+      case Stage::kWrite:
+        return add(seconds.write);
+    }
   }
   records::EngineSeconds seconds{0, 0, 0, 0, 0};
 
  private:
-  void end(std::optional<double>& stage) {
+  void add(std::optional<double>& stage) {
     const auto now = Clock::now();
     *stage += std::chrono::duration<double>(now - since_).count();
     since_ = now;
@@ -102,8 +104,8 @@ class StageClock {
 /// A scene that a caller waits for.
 struct Order {
   Scene scene;
-  BlenderScene input;
-  int threads;  ///< of Blender
+  SceneInput input;
+  int threads;  ///< of the program
   Clock::time_point begun = {};
   std::promise<ReferenceResult> result = {};
 };
@@ -111,6 +113,7 @@ using OrderPointer = std::shared_ptr<Order>;
 
 /// The scenes that wait for a process.
 struct Queue {
+  const PersistentProgram& program;
   const ReferenceOptions options;
   const EngineStatus& status;
   std::mutex mutex = {};  ///< of all below
@@ -122,8 +125,6 @@ struct Queue {
   std::exception_ptr broken = {};        ///< what ended the session
   bool closing = false;
   std::atomic<bool> stop = false;  ///< ends every process
-
-  bool native() const { return options.shading == Shading::kNative; }
 
   /// Waits for the next scene; none at the end of the session, or at `until`.
   OrderPointer take(std::optional<Clock::time_point> until = {}) {
@@ -146,7 +147,7 @@ struct Queue {
     waiting.push_front(std::move(order));
   }
   void fail(const OrderPointer& order, const Failure& failure, const std::string& log) {
-    ReferenceResult result = failed_result(kBlenderInfo, status, order->scene, failure);
+    ReferenceResult result = failed_result(program.info(), status, order->scene, failure);
     result.log = log;
     result.begun = order->begun;
     order->result.set_value(std::move(result));
@@ -181,14 +182,14 @@ struct Queue {
   }
 };
 
-/// Runs one Blender process after another. Each gets scene after scene while it lives.
+/// Runs one process after another. Each gets scene after scene while it lives.
 class Worker {
  public:
   explicit Worker(Queue& queue) : queue_(queue), options_(queue.options) {}
 
   void run() {
     try {
-      write_blender_scripts(directory_.path());
+      queue_.program.write_files(directory_.path());
       while ((given_ = queue_.take())) run_process();
     } catch (...) {
       queue_.break_off(std::current_exception());
@@ -198,7 +199,7 @@ class Worker {
   }
 
  private:
-  /// A scene that Blender has rendered.
+  /// A scene that the program has rendered.
   struct Done {
     OrderPointer order;
     EngineLog log;
@@ -209,14 +210,14 @@ class Worker {
 
   /// Ends with fewer scenes waiting, or with the given one put back after others were done.
   void run_process() {
-    write_sky();
     threads_ = given_->threads;
-    write_file(directory_.path() / kBlenderJobFile,
-               blender_job(threads_, options_, given_->input, true));
-
-    const std::string program = queue_.status.program.string();
+    queue_.program.write_pictures(directory_.path(), given_->scene, given_->input);
+    queue_.program.write_first(directory_.path(), threads_, options_, given_->input);
+    const auto arguments = [&](const fs::path& directory) {
+      return queue_.program.arguments(queue_.status.program.string(), directory);
+    };
     // Without the temporary directory, which would make every record differ.
-    command_ = shell_join(blender_arguments(program, ""));
+    command_ = shell_join(arguments(""));
     begin_log();
     clock_ = {};
     begun_ = false;
@@ -227,26 +228,27 @@ class Worker {
     ProcessOptions process;
     process.on_start = [&](const ProcessLimits& limits) { limits_ = limits; };
     process.environment = engine_environment(directory_.path());
-    // For a Blender that hangs at its start: it gets no scene after one time limit, and each scene has its own alarm.
+    // For a program that hangs at its start: it gets no scene after one time limit, and each scene has its own alarm.
     process.timeout = 2 * options_.time_limit;
     process.stop = &queue_.stop;
     process.input = line.program_end();
     process.on_line = [&](std::string_view text) { take_line(text); };
     ProcessResult ended;
-    Failure failure = run_engine(kBlenderInfo, blender_arguments(program, directory_.path()),
-                                 directory_.path(), process, options_, ended);
+    const EngineInfo& engine = queue_.program.info();
+    Failure failure = run_engine(engine, arguments(directory_.path()), directory_.path(), process,
+                                 options_, ended);
     line_ = nullptr;
     report_done();
     if (begun_) queue_.note_start();
     if (!given_) return;
     if (ended.exit_code == 128 + kSigAlrm) {
       ended.timed_out = true;
-      failure = process_failure(kBlenderInfo, ended, options_);
+      failure = process_failure(engine, ended, options_);
     }
     if (!failure)
       failure = {
           FailureClass::kNoOutput,
-          fmt::format("Blender {}: {}",
+          fmt::format("{} {}: {}", engine.title,
                       current_ ? "stopped with exit code 0 in the middle" : "rendered nothing",
                       last_words(ended.output_tail))};
     if (begun_ && !current_) {  // it died between two scenes
@@ -258,22 +260,14 @@ class Worker {
     if (!begun_) queue_.note_failed_start(failure);
   }
 
-  /// Writes the sky's picture, if the given scene has one.
-  void write_sky() {
-    for (const Light& light : given_->scene.lights)
-      if (const auto picture = picture_of(light))
-        write_exr(directory_.path() / sky_file(given_->input.name), *picture, {});
-  }
-
-  /// An exception from here (such as a full disk) ends Blender and leaves run_process().
+  /// An exception from here (such as a full disk) ends the program and leaves run_process().
   void take_line(std::string_view line) {
     log_.add(line);
-    clock_.take(line);
+    clock_.end(queue_.program.ended_stage(line));
     if (line.starts_with("lobelia: ")) take_message(split(line, " "));
   }
 
-  /// "lobelia: begin NAME", "lobelia: done NAME SECONDS CPU_SECONDS PEAK_BYTES", "lobelia: failed NAME WHY" or
-  /// "lobelia: more". Pictures are not read between done and more, so that Blender need not wait.
+  /// See the header. Pictures are not read between done and more, so that the program need not wait.
   void take_message(const std::vector<std::string>& words) {
     if (words.size() == 2 && words[1] == "more") {
       go_on();
@@ -286,7 +280,8 @@ class Worker {
     } else if (words[1] == "failed") {
       const auto why = fmt::format(" {}", fmt::join(words.begin() + 3, words.end(), " "));
       current_ = false;
-      fail_given({FailureClass::kExitCode, "Blender Cycles:" + printable(why, 300)});
+      fail_given({FailureClass::kExitCode,
+                  fmt::format("{}:{}", queue_.program.info().title, printable(why, 300))});
     } else if (words[1] == "done") {
       begun_ = true;
       done_.emplace();
@@ -325,8 +320,8 @@ class Worker {
       }
     }
     if (given_) {
-      write_sky();
-      write_file(directory_.path() / kNextFile, given_->input.json);
+      queue_.program.write_pictures(directory_.path(), given_->scene, given_->input);
+      write_file(directory_.path() / kNextFile, given_->input.text);
       line_->send(std::string(kNextFile) + "\n");
     } else {
       line_->close();
@@ -340,10 +335,10 @@ class Worker {
     // It stays in done_ until it is read: run() passes on what is thrown here.
     const Done& done = *done_;
     const Order& order = *done.order;
-    remove_in_temporary_directory(directory_.path() / sky_file(order.input.name));
+    queue_.program.remove_pictures(directory_.path(), order.input);
     ReferenceResult result;
-    const Failure failure = read_passes(directory_.path(), order.input.name, order.scene,
-                                        order.input.passes, result.image);
+    const Failure failure =
+        read_passes(queue_.program, directory_.path(), order.input, order.scene, result.image);
     if (failure) {
       queue_.fail(done.order, failure, done.log.text());
       done_.reset();
@@ -352,9 +347,9 @@ class Worker {
     result.log = done.log.text();
     result.begun = order.begun;
     records::Reference& record = result.record =
-        reference_record(kBlenderInfo, queue_.status, order.scene);
-    record.shading = queue_.native() || options_.own_transport ? "native" : "expressed";
-    record.method = method();
+        reference_record(queue_.program.info(), queue_.status, order.scene);
+    record.shading = queue_.program.is_native() ? "native" : "expressed";
+    record.method = queue_.program.method();
     record.passes = order.input.passes;
     record.engine_commands = {command_};
     record_limits(record, limits_);
@@ -362,15 +357,6 @@ class Worker {
     record.seconds.total = done.cost.seconds;
     if (done.has_cost) record_cost(record, done.cost, threads_);
     std::exchange(done_, std::nullopt)->order->result.set_value(std::move(result));
-  }
-
-  std::string method() const {
-    if (options_.own_transport) return "Cycles' own light transport";
-    if (queue_.native())
-      return "Cycles' Ashikhmin-Shirley closure, its geometry term taken out by its colour, under a "
-             "real lamp, one pass per light and reflection";
-    return "shader nodes as the colour of a surface under a real lamp, one pass per light and "
-           "reflection";
   }
 
   void fail_given(const Failure& failure) {
@@ -402,14 +388,16 @@ class Worker {
   EngineLog log_;
 };
 
-class BlenderSession final : public SimpleSession {
+class PersistentSession final : public SimpleSession {
  public:
-  BlenderSession(const EngineStatus& status, const ReferenceOptions& options)
-      : queue_{options, status},
+  PersistentSession(std::unique_ptr<const PersistentProgram> program, const EngineStatus& status,
+                    const ReferenceOptions& options)
+      : program_(std::move(program)),
+        queue_{*program_, options, status},
         processors_(threads_of(options)),
-        // For most of a small picture's time Blender prepares the scene on one processor.
+        // Most of a small picture's time is preparation on one processor.
         processes_(std::size_t(options.processes > 0 ? options.processes : processors_)) {}
-  ~BlenderSession() override {
+  ~PersistentSession() override {
     {
       const std::scoped_lock lock(queue_.mutex);
       queue_.closing = true;
@@ -427,14 +415,11 @@ class BlenderSession final : public SimpleSession {
 
   ReferenceResult render(const Scene& scene, std::size_t scenes) override {
     const std::size_t processes = std::clamp(scenes, std::size_t{1}, processes_);
-    BlenderScene input;
+    SceneInput input;
     try {
-      const std::string name = fmt::format("scene{}", begun_++);
-      input = queue_.options.own_transport
-                  ? cycles_transport_input(scene, name)
-                  : blender_input(in_engine_units(scene), name, queue_.native());
+      input = program_->input(scene, fmt::format("scene{}", begun_++));
     } catch (const Error& refused) {
-      return failed_result(kBlenderInfo, queue_.status, scene,
+      return failed_result(program_->info(), queue_.status, scene,
                            {FailureClass::kRefused, refused.what()});
     }
     const auto order = std::make_shared<Order>(
@@ -445,7 +430,7 @@ class BlenderSession final : public SimpleSession {
       throw_if_interrupted();
       if (queue_.broken) std::rethrow_exception(queue_.broken);
       if (queue_.no_start)
-        return failed_result(kBlenderInfo, queue_.status, scene, *queue_.no_start);
+        return failed_result(program_->info(), queue_.status, scene, *queue_.no_start);
       queue_.waiting.push_back(order);
       if (queue_.waiting.size() > queue_.idle && workers_.size() < processes)
         workers_.emplace_back([this] { Worker(queue_).run(); });
@@ -455,6 +440,7 @@ class BlenderSession final : public SimpleSession {
   }
 
  private:
+  const std::unique_ptr<const PersistentProgram> program_;
   Queue queue_;
   const int processors_;
   const std::size_t processes_;
@@ -464,9 +450,15 @@ class BlenderSession final : public SimpleSession {
 
 }  // namespace
 
-std::unique_ptr<SimpleSession> open_blender(const EngineStatus& status,
-                                            const ReferenceOptions& options) {
-  return std::make_unique<BlenderSession>(status, options);
+void PersistentProgram::write_first(const fs::path& directory, int, const ReferenceOptions&,
+                                    const SceneInput& input) const {
+  write_file(directory / kFirstFile, input.text);
+}
+
+std::unique_ptr<SimpleSession> open_persistent(std::unique_ptr<const PersistentProgram> program,
+                                               const EngineStatus& status,
+                                               const ReferenceOptions& options) {
+  return std::make_unique<PersistentSession>(std::move(program), status, options);
 }
 
 }  // namespace lobelia

@@ -1,0 +1,217 @@
+// Engines with highlights of their own against the formulas: each within its floor, so that the convention of each is pinned,
+// and near enough to find a thousandth in a coefficient.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "core/files.hpp"
+#include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
+#include "tests/reference_scenes/render_all.hpp"
+#include "tests/reference_scenes/require_engine.hpp"
+#include "tests/reference_scenes/test_scenes.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kSize = 96;
+constexpr double kAngles[] = {0, 45, 80, 120};
+
+/// One for each highlight that an engine may have.
+std::vector<Scene> highlights(const std::vector<double>& exponents) {
+  std::vector<Scene> scenes;
+  for (const ModelInfo& model : models())
+    for (const char* lobe : {"cosine", "schlick", "cs16"})
+      for (const double exponent : exponents)
+        for (const double angle : kAngles)
+          scenes.push_back(
+              sphere_scene({model.name, lobe, "exact", exponent}, {directional_at(angle)}, kSize));
+  return scenes;
+}
+
+/// How far the picture is from the formulas, in floors: at most 1 in every pixel off the ring.
+double floors_apart(const Scene& scene, const Image& image, const EngineFloor& floor) {
+  const std::vector<Rgb> truth = truth::evaluate(scene, truth::Digits::kDouble);
+  std::vector<std::uint8_t> ring = truth::edge_ring(scene);
+  truth::mark_grazing(scene, floor.least_cosine, ring);
+  double peak = 0, apart = 0;
+  for (const Rgb& value : truth) peak = std::max({peak, value.r, value.g, value.b});
+  const double of_peak = floor.of_peak_in(scene) * peak;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (ring[i] != 0) continue;
+    const double values[] = {truth[i].r, truth[i].g, truth[i].b};
+    for (std::size_t c = 0; c < 3; ++c)
+      apart = std::max(apart, std::abs(image.values()[3 * i + c] - values[c]) /
+                                  (floor.of_value * values[c] + of_peak));
+  }
+  return peak > 0 ? apart : kInfinity;
+}
+
+class NativeEngine : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    engine_ = make_engine(GetParam(), {});
+    require_engine(*engine_);
+  }
+  /// Those that it shows natively.
+  std::vector<Scene> shown(std::vector<Scene> scenes) const {
+    std::erase_if(scenes,
+                  [&](const Scene& scene) { return !engine_->why_not(scene, options_).empty(); });
+    return scenes;
+  }
+  std::string name(const Scene& scene) const {
+    const Highlight& h = scene.materials[0].highlight;
+    return fmt::format("{}, {}, n = {}", info(h.model).name, info(h.lobe).name, h.exponent);
+  }
+  std::unique_ptr<Engine> engine_;
+  ReferenceOptions options_{.shading = Shading::kNative};
+};
+
+TEST_P(NativeEngine, IsWithinItsFloorOfTheFormulasAndFindsAThousandthInTheirCoefficient) {
+  const std::vector<Scene> scenes = shown(highlights({10, 100, 1000}));
+  ASSERT_GE(scenes.size(), 6u);
+  const EngineFloor floor = engine_->info().floor;
+  render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
+    SCOPED_TRACE(name(scenes[i]));
+    ASSERT_EQ(result.error, "");
+    EXPECT_EQ(result.record.shading, "native");
+    EXPECT_LE(floors_apart(scenes[i], result.image, floor), 1);
+    Scene wrong = scenes[i];
+    for (Light& light : wrong.lights) {
+      Lamp lamp = lamp_of(light);
+      lamp.strength = 1.001 * lamp.strength;
+      light = light_of(lamp);
+    }
+    EXPECT_GT(floors_apart(wrong, result.image, floor), 1) << "a thousandth is not found";
+  });
+}
+
+TEST_P(NativeEngine, ShowsColouredLightsADiffuseBaseAndAFilmThatIsAside) {
+  std::vector<Scene> scenes;
+  for (Scene scene : highlights({30})) {
+    scene.lights = {DirectionalLight{normalize({-1, -1, -2}), {3, 2, 1}},
+                    DirectionalLight{normalize({1, -2, -3}), {0.2, 0.5, 1}}};
+    scene.film.height = kSize / 2;
+    scene.camera.principal_point_offset_x = 0.1;
+    scene.camera.principal_point_offset_y = -0.05;
+    scene.materials[0].specular_reflectance = {0.5, 0.5, 0.5};
+    scene.materials[0].diffuse_reflectance = {0.2, 0.4, 0.8};
+    scenes.push_back(scene);
+  }
+  scenes = shown(scenes);
+  ASSERT_GE(scenes.size(), 1u);
+  render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
+    SCOPED_TRACE(name(scenes[i]));
+    ASSERT_EQ(result.error, "");
+    EXPECT_LE(floors_apart(scenes[i], result.image, engine_->info().floor), 1);
+  });
+}
+
+/// Babylon.js has neither.
+TEST_P(NativeEngine, ShowsPointLightsOrShadows) {
+  if (GetParam() == "babylon") return;
+  std::vector<Scene> scenes;
+  for (const ModelInfo& model : models()) {
+    const HighlightChoice choice{model.name, "cosine", "exact", 40};
+    scenes.push_back(sphere_scene(choice, {point_light()}, kSize));
+    scenes.push_back(shadow_scene(choice, {directional_at(45)}, kSize));
+    for (Material& material : scenes.back().materials) {
+      material.highlight = scenes.back().materials[0].highlight;
+      material.specular_reflectance = 0.6 * kWhite;
+    }
+  }
+  scenes = shown(scenes);
+  ASSERT_GE(scenes.size(), 1u) << "point lights or shadows";
+  render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
+    SCOPED_TRACE(name(scenes[i]));
+    ASSERT_EQ(result.error, "");
+    EXPECT_LE(floors_apart(scenes[i], result.image, engine_->info().floor), 1);
+  });
+}
+
+TEST_P(NativeEngine, SaysInASentenceWhatItCannotShow) {
+  Scene scene = shown(highlights({10}))[0];
+  const auto why = [&](const auto& change) {
+    Scene changed = scene;
+    change(changed);
+    return engine_->why_not(changed, options_);
+  };
+  const std::string title(engine_->info().title);
+  for (const std::string& reason :
+       {why([](Scene& s) { s.materials[0].fresnel = Fresnel::kSchlick; }), why([](Scene& s) {
+          s.materials[0].specular_reflectance = {1, 0.5, 0.5};
+        }),
+        why([](Scene& s) { s.materials[0].highlight.lobe = *find_lobe("gauss"); }),
+        why([](Scene& s) {
+          s.materials[0].highlight.model = *find_model("modified_blinn_phong");
+        })})
+    EXPECT_THAT(reason, HasSubstr(title));
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, NativeEngine,
+                         testing::Values("tachyon", "sunflow", "three", "babylon", "opengl"),
+                         [](const auto& test) { return test.param; });
+
+/// A program in place of an engine's own.
+class FakeNativeEngine : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Engine> engine(const std::string& script) {
+    const std::filesystem::path file = directory_.path() / "engine";
+    write_file(file, "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    return make_engine(GetParam(), file);
+  }
+  /// That says it is the real one, and then does `more` with the scene's name in $name.
+  std::unique_ptr<Engine> engine_that(const std::string& more) {
+    return engine(
+        fmt::format("case $1 in --version) echo '{}'; exit;; esac\n"
+                    "name=$(sed -n 's/^scene //p' \"$1\")\necho \"lobelia: begin $name\"\n{}",
+                    version(), more));
+  }
+  static std::string version() {
+    const std::pair<const char*, const char*> versions[] = {{"tachyon", "Tachyon 0.99"},
+                                                            {"sunflow", "Sunflow 0.07.2"},
+                                                            {"three", "three.js 0.187.0"},
+                                                            {"babylon", "Babylon.js 9.35.0"},
+                                                            {"opengl", "OpenGL 4.5"}};
+    for (const auto& [name, text] : versions)
+      if (name == GetParam()) return text;
+    return "";
+  }
+  ReferenceResult render(Engine& engine) {
+    ReferenceOptions options;
+    for (const Scene& scene : highlights({10}))
+      if (engine.why_not(scene, options).empty()) return Session(engine, options).render(scene);
+    ADD_FAILURE() << "it can show nothing";
+    return {};
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_P(FakeNativeEngine, ThatIsMissingOrOfAnotherVersionSaysSo) {
+  EXPECT_EQ(engine("echo Nothing; exit 69")->status().state, EngineState::kAbsent);
+  EXPECT_EQ(engine("exit 3")->status().state, EngineState::kBroken);
+  const auto other =
+      engine(fmt::format("echo '{} 77.1'", version().substr(0, version().find(' '))));
+  EXPECT_EQ(other->status().state, EngineState::kBroken);
+  EXPECT_THAT(other->status().why, HasSubstr("77.1"));
+}
+
+TEST_P(FakeNativeEngine, ThatCrashesOrWritesNothingOrNansLosesThatPicture) {
+  const auto ends = [&](const std::string& script) { return render(*engine_that(script)).failure; };
+  EXPECT_EQ(ends("kill -SEGV $$"), FailureClass::kCrash);
+  EXPECT_EQ(ends("kill -ALRM $$"), FailureClass::kTimedOut);
+  EXPECT_EQ(ends("echo \"lobelia: done $name 0.1\""), FailureClass::kNoOutput);
+  EXPECT_EQ(ends("echo \"lobelia: failed $name no driver\""), FailureClass::kExitCode);
+  EXPECT_EQ(ends(fmt::format("{{ printf 'PF\\n{0} {0}\\n-1.0\\n'; head -c {1} /dev/zero | tr '\\0' "
+                             "'\\377'; }} > $name-0.pfm; echo \"lobelia: done $name 0.1\"",
+                             kSize, 12 * kSize * kSize)),
+            FailureClass::kNonFinite);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, FakeNativeEngine,
+                         testing::Values("tachyon", "sunflow", "three", "babylon", "opengl"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace lobelia
