@@ -25,6 +25,8 @@ constexpr int kSphereSize = 160;
 constexpr double kLightDegrees[] = {20, 60, 120}, kIncidences[] = {0, 45, 75};
 /// Where L + V is shorter, a rounding of the vectors turns H (docs/export.md).
 constexpr double kNearlyOpposite = 0.2, kMoreWhereOpposite = 10;
+/// A loop of Mesa's 65535 rounds takes hundreds of times as long as pow.
+constexpr double kOfALoop = 100;
 
 /// All points of a check in one list, with the place of each part.
 struct Plan {
@@ -206,6 +208,19 @@ void add_pictures(const Plan& plan, Judge& judge, Check& check) {
   }
 }
 
+/// Mesa leaves a loop after 65535 rounds, so that an endless one only takes long.
+void require_end(const Request& request, const ShaderSource& source, const ShaderPoints& points) {
+  if (request.api == ShaderApi::kWebGpu) return;
+  const double times = times_as_long_as_pow(
+      request, make_program(source, request.api, points.count(), points.components), points);
+  if (times > kOfALoop)
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: {} does not seem to end: it takes {:.0f} times as long as pow, and "
+                    "Mesa leaves a loop after 65535 rounds",
+                    source.name, request.function, times));
+}
+
 }  // namespace
 
 Check check_shader(const Request& request) {
@@ -255,13 +270,15 @@ Check check_shader(const Request& request) {
     passes = passes && error.max_of_peak <= error.allowed_of_peak;
   }
   record.verdict = records::kShaderVerdicts[passes ? 0 : 1];
+  const auto begin = plan.points.begin() + std::ptrdiff_t(plan.domain.begin);
+  const std::vector<Point> domain(begin, begin + std::ptrdiff_t(plan.domain.count));
+  const ShaderPoints domain_points = arguments.of(domain);
+  if (!passes) require_end(request, source, domain_points);
   if (!passes) add_explanation(request, plan, judge, arguments.is_of_roughness(), record);
   add_energy(judge, plan, record);
   add_pictures(plan, judge, check);
   if (request.costs) {
-    const auto begin = plan.points.begin() + std::ptrdiff_t(plan.domain.begin);
-    const std::vector<Point> domain(begin, begin + std::ptrdiff_t(plan.domain.count));
-    add_costs(request, arguments, domain, arguments.of(domain), values, record);
+    add_costs(request, arguments, domain, domain_points, values, record);
   }
   return check;
 }

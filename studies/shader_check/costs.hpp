@@ -11,4 +11,8 @@ void add_costs(const Request& request, const Arguments& arguments, const std::ve
                const ShaderPoints& points, const std::vector<ShaderValue>& values,
                records::ShaderCheck& record);
 
+/// The time of a run over the points, over that of pow(N.H, n) in the same process.
+double times_as_long_as_pow(const Request& request, const ShaderProgram& program,
+                            const ShaderPoints& points);
+
 }  // namespace lobelia::shader_check

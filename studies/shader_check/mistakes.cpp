@@ -123,7 +123,7 @@ std::vector<Mistake> make_mistakes() {
            [](double a) { return std::exp2(10 * (1 - std::sqrt(a)) + 1); });
   add_rule("128 (1 - roughness)", [](double a) { return 128 * (1 - std::sqrt(a)); });
   add_rule("1000 (1 - roughness)", [](double a) { return 1000 * (1 - std::sqrt(a)); });
-  for (const LobeId lobe : all_lobes())
+  for (const LobeId& lobe : all_lobes())
     all.push_back({"lobe", kLobe, fmt::format("its lobe is {}", info(lobe).name), nullptr,
                    [lobe](Formula& f, double) { f.lobe = lobe; }});
   return all;

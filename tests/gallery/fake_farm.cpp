@@ -159,7 +159,7 @@ void FakeFarm::add_cell(const std::string& id, const std::string& status,
   record.id = id;
   record.axes = axes;
   record.status = status;
-  record.highlight = {"phong_rdf", "cosine", "exact", 16, 2.7056, ""};
+  record.highlight = {"phong_rdf", "cosine", "exact", 16, 2.7056, "", ""};
   record.exposure_stops = -1.5;
   record.images = {image_of("lobelia")};
   if (failed) {

@@ -47,7 +47,7 @@ TEST(EngineInput, IsNumbersAndOurOwnNamesWhateverTheMaterialIsCalled) {
     for (const PovrayPass& pass : povray_input(scene).passes)
       for (const std::string& line : split(pass.scene(), "\n"))
         EXPECT_TRUE(std::regex_match(line, allowed)) << line;
-    const std::string job = blender_input(scene, "scene0").json;
+    const std::string job = blender_input(scene, "scene0").text;
     EXPECT_THAT(job, Not(HasSubstr("passwd")));
     EXPECT_THAT(job, Not(HasSubstr("import")));
   }
@@ -97,7 +97,7 @@ TEST(EngineInput, HasEveryNumberInFull) {
   scene.camera.origin = {tenths, third, 5};
   scene.materials[0].highlight.exponent = 100 * third;
   const std::string pov = povray_input(scene).passes.at(0).scene();
-  const std::string job = blender_input(scene, "scene0").json;
+  const std::string job = blender_input(scene, "scene0").text;
   for (const double value : {third, tenths, 100 * third}) {
     EXPECT_THAT(pov, HasSubstr(exact_text(value)));
     EXPECT_THAT(job, HasSubstr(exact_text(value)));
@@ -301,7 +301,7 @@ TEST(BlenderInput, SaysWhichSurfacesALampLiesOn) {
   const Json job = Json::parse(
       blender_input(ground_scene(kNative, {point_light(), PointLight{{2, -1, 0}, kWhite}}, 16),
                     "scene0")
-          .json);
+          .text);
   EXPECT_FALSE(job.at("lights").at(0).contains("liesOn"));
   EXPECT_EQ(job.at("lights").at(1).at("liesOn"), Json({1}));
 }

@@ -81,7 +81,7 @@ inline std::vector<ExportOutput> outputs_of(const std::vector<ShaderExport>& req
 /// without overloads the functions of both have the same names.
 inline std::vector<std::vector<ShaderExport>> exports_to_run(const std::string& language) {
   std::vector<std::vector<ShaderExport>> lists;
-  for (const LobeId lobe : every_lobe())
+  for (const LobeId& lobe : every_lobe())
     for (const auto from : {CoefficientFrom::kComputed, CoefficientFrom::kArgument}) {
       std::vector<ShaderExport>& list = lists.emplace_back();
       for (const Normalisation normalisation : {Normalisation::kExact, Normalisation::kPaper})

@@ -15,40 +15,17 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Targets that are known to be missed (docs/agreement.md says why), and what witnesses are held to instead.
-/// Beside each is the worst of the full table.
-struct KnownMiss {
-  std::string_view witness;
-  double from_exponent;
-  const char* figure;
-  double limit;
-};
-constexpr KnownMiss kKnownMisses[] = {
-    {"povray_native_float", 0, "maxRelative", 5e-7},     // 4.2e-7
-    {"povray_expressed_float", 0, "maxRelative", 5e-7},  // 3.4e-7
-    {"blender_expressed", 1e5, "maxOfPeak", 1.2e-4},     // 9.4e-5
-    {"blender_native", 1e5, "maxOfPeak", 2.2e-2},        // 1.7e-2
-    {"blender_native", 1024, "maxOfPeak", 2e-4},         // 1.6e-4
-};
-
-bool is_known(const Json& row) {
-  for (const KnownMiss& known : kKnownMisses)
-    if (row["witness"] == known.witness && row["exponent"] >= known.from_exponent)
-      return row[known.figure] <= known.limit;
-  return false;
-}
-
 class AgreementCommand : public testing::Test {
  protected:
   void SetUp() override {
-    for (const char* name : {"povray", "blender"}) {
-      require_engine(*make_engine(name, {}));
+    for (const EngineInfo& engine : engine_infos()) {
+      require_engine(*make_engine(engine.name, {}));
       if (IsSkipped() || HasFatalFailure()) return;
     }
   }
 };
 
-TEST_F(AgreementCommand, FindsEveryWitnessWithinItsTargetButWhereTheDocumentationSaysWhyNot) {
+TEST_F(AgreementCommand, FindsEveryEngineWithinItsFloor) {
   const TemporaryDirectory directory;
   ProcessOptions options;
   options.working_directory = directory.path();
@@ -56,7 +33,7 @@ TEST_F(AgreementCommand, FindsEveryWitnessWithinItsTargetButWhereTheDocumentatio
       {LOBELIA_PROGRAM, "verify", "references", "--small", "-q", "-o", "table"}, options);
   const Json record = read_json(directory.path() / "table" / "agreement.json");
   EXPECT_EQ(record["verdicts"]["failed"], 0) << result.output_tail;
-  EXPECT_EQ(result.exit_code, record["verdicts"]["missed"] > 0 ? 1 : 0) << result.output_tail;
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
   std::map<std::string, int> pictures, refused;
   for (const Json& row : record["rows"]) {
     if (row["verdict"] == "not comparable") {
@@ -64,11 +41,7 @@ TEST_F(AgreementCommand, FindsEveryWitnessWithinItsTargetButWhereTheDocumentatio
       continue;
     }
     ++pictures[row["witness"]];
-    EXPECT_LE(row["ring"]["over"], row["witness"] == "blender_native" && row["exponent"] >= 1e5
-                                       ? row["ring"]["pixels"]
-                                       : row["ring"]["allowed"])
-        << row;
-    EXPECT_TRUE(row["verdict"] != "missed" || is_known(row)) << row;
+    EXPECT_NE(row["verdict"], "missed") << row;
   }
   for (const Json& row : record["soft"]) EXPECT_EQ(row["verdict"], "met") << row;
   EXPECT_EQ(record["soft"].size(), 4u);
