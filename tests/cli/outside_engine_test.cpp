@@ -217,8 +217,8 @@ TEST_F(OutsideEngines, MayBeTheReferenceWithoutOurPicture) {
   script("one.sh", "");
   script("two.sh", "");
   const std::string both =
-      "<engine name=\"one\" command=\"sh one.sh {scene} {out}\" tolerance=\"0,0\"/>"
-      "<engine name=\"two\" command=\"sh two.sh {scene} {out}\" tolerance=\"0,0\"/>"
+      "<engine name=\"one\" command=\"sh one.sh {scene} {out}\" tolerance=\"0,1e-5\"/>"
+      "<engine name=\"two\" command=\"sh two.sh {scene} {out}\" tolerance=\"0,1e-5\"/>"
       "<engine name=\"analytic\"/>";
   grid(both, "reference=\"two\" ours=\"no\"");
   const ProcessResult result = farm({"--allow-commands", "--gallery", "out"});

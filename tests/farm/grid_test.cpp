@@ -119,7 +119,7 @@ TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
       {"<axis name=\"size\" values=\"32768\"/>", "size '32768'; allowed"},
       {"<axis name=\"size\" values=\"256, 256x256\"/>", "would have the same file name"},
       {"<axis name=\"engine\" values=\"blendr\"/>",
-       "unknown engine 'blendr'; allowed: povray, blender, analytic; did you mean 'blender'?"},
+       "unknown engine 'blendr'; allowed: povray, blender, tachyon, sunflow, three, babylon, opengl, analytic; did you mean 'blender'?"},
       {"<axis name=\"scene\" values=\"missing.xml\"/>", "missing.xml: cannot read"},
       {"<axis name=\"normalisation\" values=\"cs16:papr\"/>", "did you mean 'paper'?"},
       {"<axis name=\"exponent\" values=\"16, -3\"/>", "exponent '-3'; allowed: 0.001 to 1e+08"},
@@ -131,7 +131,7 @@ TEST(GridReader, SaysOfEveryErrorWhereItIsAndWhatWasAllowed) {
       {"<axis name=\"exponent\" values=\"1\"/><axis name=\"exponent\" values=\"2\"/>",
        "a second axis 'exponent'"},
       {"<engine name=\"povry\"/>",
-       "unknown engine 'povry'; allowed: povray, blender, analytic; did you mean "
+       "unknown engine 'povry'; allowed: povray, blender, tachyon, sunflow, three, babylon, opengl, analytic; did you mean "
        "'povray'?"},
       {"<film width=\"0\" height=\"9\"/>", "width '0'; allowed: whole numbers from 1 to 32768"},
       {"<film width=\"32768\" height=\"32768\"/>", "pixels; allowed: "},

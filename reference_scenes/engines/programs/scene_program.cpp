@@ -82,7 +82,7 @@ void alarm_in(double seconds) {
 
 void render_file(const std::string& file, const RenderScene& render) {
   CameraScene scene;
-  scene.name = "?";
+  scene.name = '?';
   const auto begun = std::chrono::steady_clock::now();
   try {
     scene = read_scene(file);
