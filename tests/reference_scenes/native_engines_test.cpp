@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "core/files.hpp"
 #include "reference_scenes/engines/analytic/formulas/evaluation.hpp"
 #include "tests/reference_scenes/render_all.hpp"
@@ -99,6 +101,25 @@ TEST_P(NativeEngine, ShowsColouredLightsADiffuseBaseAndAFilmThatIsAside) {
     scenes.push_back(scene);
   }
   scenes = shown(scenes);
+  ASSERT_GE(scenes.size(), 1u);
+  render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
+    SCOPED_TRACE(name(scenes[i]));
+    ASSERT_EQ(result.error, "");
+    EXPECT_LE(floors_apart(scenes[i], result.image, engine_->info().floor), 1);
+  });
+}
+
+TEST_P(NativeEngine, ShowsWhatIsJustBeforeTheCamera) {
+  std::vector<Scene> scenes = shown(highlights({100}));
+  ASSERT_GE(scenes.size(), 2u);
+  for (Scene& scene : scenes) {
+    scene.camera.origin = {0, 0, 1.25};
+    scene.camera.fov_degrees = 50;
+  }
+  scenes = shown(scenes);
+  std::erase_if(scenes, [](const Scene& scene) {
+    return std::ranges::all_of(truth::evaluate(scene, truth::Digits::kDouble), is_black);
+  });
   ASSERT_GE(scenes.size(), 1u);
   render_all(*engine_, scenes, options_, [&](std::size_t i, ReferenceResult result) {
     SCOPED_TRACE(name(scenes[i]));

@@ -23,13 +23,12 @@ globalThis.renderScene = async job => {
   scene.ambientColor = new Color3(0, 0, 0);
   scene.imageProcessingConfiguration.isEnabled = false;
   const camera = new TargetCamera('camera', Vector3.Zero(), scene);  // it looks along +z, as the scene does
-  const near = 1, far = 1e6;
+  const { points, normals, near, far } = spherePoints(job);
   camera.freezeProjectionMatrix(Matrix.FromValues(
     2 / (right - left), 0, 0, 0,
     0, 2 / (top - bottom), 0, 0,
     -(right + left) / (right - left), -(top + bottom) / (top - bottom), (far + near) / (far - near), 1,
     0, 0, -2 * far * near / (far - near), 0));
-  const { points, normals } = spherePoints(job);
   const data = new VertexData();
   data.positions = points;
   data.normals = normals;

@@ -1,9 +1,10 @@
 // What the pages share: the points of a sphere that the pixels' centres see, and the picture on its way out.
 
 /// For each pixel that sees the sphere its point and the normal there, in the camera's frame with x to the right, y upwards
-/// and z away from it.
+/// and z away from it; and planes before and behind them all.
 export function spherePoints({ width, height, window: [left, right, bottom, top], centre: c, radius }) {
   const points = [], normals = [];
+  let near = Infinity, far = 0;
   const outside = c[0] * c[0] + c[1] * c[1] + c[2] * c[2] - radius * radius;
   for (let j = 0; j < height; ++j)
     for (let i = 0; i < width; ++i) {
@@ -13,9 +14,11 @@ export function spherePoints({ width, height, window: [left, right, bottom, top]
       const t = outside / (b + Math.sqrt(discriminant));
       const point = [t * x, t * y, t];
       points.push(...point);
+      near = Math.min(near, t / 2);
+      far = Math.max(far, 2 * t);
       normals.push(...point.map((value, k) => (value - c[k]) / radius));
     }
-  return { points, normals };
+  return points.length > 0 ? { points, normals, near, far } : { points, normals, near: 1, far: 2 };
 }
 
 let picture = new Float32Array(0), rowLength = 0;

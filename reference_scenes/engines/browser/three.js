@@ -14,7 +14,7 @@ const linear = (r, g, b) => new Color().setRGB(r, g, b, LinearSRGBColorSpace);
 globalThis.renderScene = job => {
   const { width, height, window: [left, right, bottom, top], strength } = job;
   const scene = new Scene();
-  const { points, normals } = spherePoints(job);
+  const { points, normals, near, far } = spherePoints(job);
   const towardsUs = values => Float32Array.from(values, (value, i) => i % 3 === 2 ? -value : value);  // it looks along -z
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(towardsUs(points), 3));
@@ -34,7 +34,7 @@ globalThis.renderScene = job => {
     scene.add(light);
   }
   const camera = new PerspectiveCamera();
-  camera.projectionMatrix = new Matrix4().makePerspective(left, right, top, bottom, 1, 1e6);
+  camera.projectionMatrix = new Matrix4().makePerspective(...[left, right, top, bottom].map(edge => edge * near), near, far);
   camera.projectionMatrixInverse = camera.projectionMatrix.clone().invert();
   const target = new WebGLRenderTarget(width, height, { type: FloatType, format: RGBAFormat, colorSpace: LinearSRGBColorSpace });
   renderer.setRenderTarget(target);

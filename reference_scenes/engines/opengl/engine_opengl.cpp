@@ -7,7 +7,9 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "reference_scenes/engines/programs/scene_program.hpp"
 #include "reference_scenes/engines/programs/sphere_pixels.hpp"
@@ -127,6 +129,17 @@ void set_material(const CameraScene::Material& material) {
               material.kind == "none" ? 0 : GLfloat(material.exponent));
 }
 
+/// Planes before and behind all that is seen.
+std::pair<double, double> depths_of(const CameraScene& scene) {
+  double near = 1e30, far = 0;
+  for (const auto& sphere : scene.spheres)
+    for_each_pixel_of(scene, sphere, [&](std::size_t, const Three& point, const Three&) {
+      near = std::min(near, point[2] / 2);
+      far = std::max(far, 2 * point[2]);
+    });
+  return far > 0 ? std::pair(near, far) : std::pair(1.0, 2.0);
+}
+
 std::vector<float> render(const CameraScene& scene) {
   make_context();
   while (glGetError() != GL_NO_ERROR) {
@@ -134,7 +147,9 @@ std::vector<float> render(const CameraScene& scene) {
   FloatPicture picture(scene.width, scene.height);
   glMatrixMode(GL_PROJECTION);
   glLoadIdentity();
-  glFrustum(scene.left, scene.right, scene.bottom, scene.top, 1, 1e6);
+  const auto [near, far] = depths_of(scene);
+  glFrustum(near * scene.left, near * scene.right, near * scene.bottom, near * scene.top, near,
+            far);
   glMatrixMode(GL_MODELVIEW);
   glLoadIdentity();
   glDisable(GL_DEPTH_TEST);
