@@ -33,6 +33,9 @@ struct EngineFloor {
   /// Error of a point's place, as a share of its distance from the camera. On a sphere the normal turns by it over the radius,
   /// and the lobe's angle by twice that; cos^n falls by up to sqrt(n / e) of its peak per radian.
   double of_place = 0;
+  /// Rounding of the quadratic that finds the point, as a share of the squared distance from the camera. The normal turns by up to
+  /// it times the square of distance over radius: the root halves it, and a slanting ray doubles it.
+  double of_quadratic = 0;
   double of_cosine =
       0;  ///< error of the lobe's cosine; cos^n falls by up to n of its peak per unit
   double least_cosine = 0;  ///< N.L below which its lights stop

@@ -103,8 +103,8 @@ double EngineFloor::of_peak_in(const Scene& scene) const {
     if (has_highlight(material)) exponent = std::max(exponent, material.highlight.exponent);
   for (const Sphere& sphere : scene.spheres)
     radii = std::max(radii, length(scene.camera.origin - sphere.center) / sphere.radius);
-  return of_peak + std::sqrt(exponent / std::numbers::e) * 2 * radii * of_place +
-         exponent * of_cosine;
+  const double turn = radii * of_place + radii * radii * of_quadratic;
+  return of_peak + std::sqrt(exponent / std::numbers::e) * 2 * turn + exponent * of_cosine;
 }
 
 std::uint64_t memory_to_average(const Scene& scene, const ReferenceOptions& options) {

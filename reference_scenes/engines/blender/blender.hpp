@@ -8,9 +8,9 @@
 
 namespace lobelia {
 
-/// Cycles has the place of a point in float32. Colours go through some nodes in float32; where the surface is seen at a
+/// Cycles has the ray, its length and the place of a point in float32. Colours go through some nodes in float32; where the surface is seen at a
 /// grazing angle, they are off by 1e-5 of the peak.
-inline constexpr EngineFloor kBlenderExpressed{.of_peak = 1e-5, .of_place = kFloat32Rounding};
+inline constexpr EngineFloor kBlenderExpressed{.of_peak = 1e-5, .of_place = 3 * kFloat32Rounding};
 /// The closure takes the n-th power of N.H, the product of two vectors in float32.
 inline constexpr EngineFloor kBlenderNative{
     .of_peak = 1e-5, .of_place = kFloat32Rounding, .of_cosine = 4 * kFloat32Rounding};
