@@ -138,6 +138,11 @@ std::vector<Case> effect_cases(const Scope& scope) {
                        int ring_allowed) {
     cases.push_back({Group::kEffect, what, choice, false, ring_allowed, std::move(scene)});
   };
+  // Whatever an engine has of its own, it has in one of these.
+  for (const ModelInfo& model : models()) {
+    const HighlightChoice choice{model.name, "cosine", "exact", kExponent};
+    add("one distant light", choice, sphere_scene(choice, {sun}, size), 3);
+  }
   add("planes and a checker", kNative, grey(ground_scene(kNative, {sun}, size)), kCheckerRing);
   add("lamp with a normal", kNative, grey(ground_scene(kNative, {lamp}, size)), kCheckerRing);
   Scene shadows = grey(shadow_scene(kNative, {directional_at(30), point_light({2, 4, 8})}, size));

@@ -1,6 +1,7 @@
 // The small table of agreement by the real POV-Ray and the real Blender, as a user makes it.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/files.hpp"
@@ -50,11 +51,14 @@ TEST_F(AgreementCommand, FindsEveryEngineWithinItsFloor) {
                               "blender_expressed", "povray_blender"})
     EXPECT_GT(pictures[witness], int(highlights)) << witness;
   for (const Variant& variant : variants())
-    EXPECT_GE(pictures[std::string(variant.name)], 3) << variant.name;
+    EXPECT_GE(pictures[std::string(variant.name)], 2) << variant.name;
   EXPECT_GE(refused["glossy inter-reflection"], 6);
   EXPECT_GE(refused["light with a size in a mirror"], 6);
-  EXPECT_EQ(refused["mirrors of a highlight that an engine is told"], 5)
-      << "all but Blender's nodes";
+  // By all but Blender's nodes and the formulas.
+  EXPECT_EQ(refused["mirrors of a highlight that an engine is told"],
+            std::ranges::count_if(variants(), [](const Variant& variant) {
+              return variant.name != "blender_expressed";
+            }));
   EXPECT_THAT(read_file(directory.path() / "table" / "agreement.md", 1 << 20),
               HasSubstr("`lobelia verify references --small`: pictures 64 pixels wide"));
   EXPECT_THAT(read_file(directory.path() / "table" / "agreement.csv", 1 << 22),
