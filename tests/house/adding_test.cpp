@@ -272,7 +272,8 @@ TEST_F(Adding, OneOfEachTakesTheFilesThatContributingNamesAndWorks) {
                 "Lobelia_Throwaway_Lobe");
   expect_output("export --language povray throwaway", "Lobelia_Throwaway_S");
   expect_output("compare --list-metrics", "throwaway.eps=0.01");
-  expect_output("engines", "(--engine throwaway)");
+  // Some of them need what was not built here.
+  EXPECT_THAT(lobelia("engines").output, HasSubstr("(--engine throwaway)"));
   expect_output("throwaway", "<emitter type=\"throwaway\">");
   write(
       tree / "lit.xml",
