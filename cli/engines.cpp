@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
 
 #include "cli/commands.hpp"
@@ -15,7 +16,7 @@ namespace {
 struct EnginesArguments {
   EnginePrograms programs;
   std::vector<std::string> files;
-  bool json = false, allow_commands = false;
+  bool json = false, models = false, allow_commands = false;
 };
 
 /// The engines that grids and engine files describe.
@@ -30,7 +31,8 @@ std::vector<OutsideEngine> outside_engines(const EnginesArguments& options) {
   return found;
 }
 
-records::EngineFound engine_record(const EngineInfo& engine, const EngineStatus& status) {
+records::EngineFound engine_record(const EngineInfo& engine, const EngineStatus& status,
+                                   const std::vector<records::EngineModel>& models) {
   records::EngineFound record;
   record.name = engine.name;
   record.title = engine.title;
@@ -44,6 +46,7 @@ records::EngineFound engine_record(const EngineInfo& engine, const EngineStatus&
   record.precision = engine.precision;
   record.effects = engine.effects;
   record.install = engine.install_hint;
+  record.models = models;
   return record;
 }
 
@@ -70,6 +73,31 @@ void print_engine(const EngineInfo& engine, const EngineStatus& status) {
   row("effects", engine.effects);
 }
 
+/// A row for each model, a column for each engine that is a program.
+void print_models(const std::vector<std::unique_ptr<Engine>>& engines) {
+  std::vector<std::vector<std::string>> columns(1);
+  columns[0] = {"model"};
+  for (const ModelId model : all_models()) columns[0].emplace_back(info(model).title);
+  for (const auto& engine : engines) {
+    const auto models = engine_models(*engine);
+    if (models.empty()) continue;
+    auto& column = columns.emplace_back();
+    column.emplace_back(engine->info().name);
+    for (const records::EngineModel& model : models) column.push_back(model.in_short());
+  }
+  for (std::size_t row = 0; row < columns[0].size(); ++row) {
+    std::string line;
+    for (const auto& column : columns) {
+      const std::size_t width = std::ranges::max(column, {}, &std::string::size).size() + 2;
+      line += fmt::format("{:<{}}", column[row], width);
+    }
+    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  }
+  fmt::print(
+      "native: its own highlight, with cos^n and the lobes named; expressed: our formula in its language,\n"
+      "with any lobe; both: native with cos^n, expressed with any lobe; -: cannot be compared\n");
+}
+
 ExitCode run_engines(const EnginesArguments& options) {
   records::Engines record;
   std::vector<std::string> problems;
@@ -78,18 +106,28 @@ ExitCode run_engines(const EnginesArguments& options) {
     engines.push_back(make_engine(info.name, options.programs.of(info.name)));
   for (const OutsideEngine& outside : outside_engines(options))
     engines.push_back(make_outside_engine(outside));
+  if (options.models) {
+    print_models(engines);
+    return ExitCode::kSuccess;
+  }
   for (const auto& engine : engines) {
     const EngineInfo& info = engine->info();
     const EngineStatus& status = engine->status();
     if (options.json)
-      record.engines.push_back(engine_record(info, status));
+      record.engines.push_back(engine_record(info, status, engine_models(*engine)));
     else
       print_engine(info, status);
     if (!status.available())
       problems.push_back(printable(
           fmt::format("{}: {}: {}", info.title, state_name(status.state), status.why), 2000));
   }
-  if (options.json) fmt::print("{}", record_text(record));
+  if (options.json) {
+    fmt::print("{}", record_text(record));
+  } else {
+    fmt::print("\n");
+    print_models(engines);
+  }
+  std::fflush(stdout);  // so that a message stands behind the list where both go to one file
   for (const auto& problem : problems) say("lobelia: {}\n", problem);
   return problems.empty() ? ExitCode::kSuccess : ExitCode::kEngine;
 }
@@ -105,7 +143,11 @@ void add_engines(CLI::App& app, ExitCode& exit_code) {
   options->programs.add_to(*command);
   command->add_flag("--allow-commands", options->allow_commands,
                     "Ask the programs that these files name for their versions");
-  command->add_flag("--json", options->json, "Print the list as JSON");
+  auto* json = command->add_flag("--json", options->json, "Print the list as JSON");
+  command
+      ->add_flag("--models", options->models,
+                 "Print only which models each shades, whether it is here or not")
+      ->excludes(json);
   command->footer(
       "Absent is an engine that is not installed; broken is one that is there and cannot be started, does\n"
       "not end, or tells no version that can be driven. Which scenes one refuses, 'lobelia farm' says.\n\n"

@@ -112,7 +112,8 @@ std::string absence(const FarmEngine& engine) {
 std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& engines, bool ours) {
   const std::string ready(state_name(EngineState::kReady));
   std::vector<records::FarmEngine> found;
-  if (ours) found.push_back({kOurs, "Lobelia", true, ready, kVersion, "", "", "", std::nullopt});
+  if (ours)
+    found.push_back({kOurs, "Lobelia", true, ready, kVersion, "", "", "", std::nullopt, {}});
   for (const auto& here : engines) {
     const EngineInfo& info = here.engine->info();
     records::FarmEngine& engine = found.emplace_back();
@@ -121,6 +122,7 @@ std::vector<records::FarmEngine> engines_record(const std::vector<FarmEngine>& e
     engine.version = here.version;
     engine.content = here.content;
     engine.available = here.is_here();
+    engine.models = engine_models(*here.engine);
     engine.state = ready;
     if (engine.available) continue;
     engine.state = state_name(here.engine->status().state);

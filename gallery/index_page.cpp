@@ -120,6 +120,39 @@ void write_making(Html& html, const ShownFarm& farm) {
   for (const auto& [name, value] : words_of(*farm.record.host)) write_fact(html, name, value);
 }
 
+/// Which models each engine shades by itself, a row a model.
+void write_models(Html& html, const ShownFarm& farm) {
+  std::vector<const records::FarmEngine*> engines;
+  for (const records::FarmEngine& engine : farm.record.engines)
+    if (!engine.models.empty()) engines.push_back(&engine);
+  if (engines.empty()) return;
+  const Tag details(html, "details");
+  html.element("summary", "Which models each engine shades");
+  html.element("p",
+               "A lobe that is named is native, too; what is expressed can have any lobe; a dash "
+               "cannot be compared.");
+  const Tag wrap(html, "div", {{"class", "table-wrap"}, {"tabindex", "0"}});
+  const Tag table(html, "table", {{"class", "figures"}});
+  {
+    const Tag head(html, "thead");
+    const Tag line(html, "tr");
+    html.element("th", {{"scope", "col"}}, "model");
+    for (const records::FarmEngine* engine : engines)
+      html.element("th", {{"scope", "col"}}, engine->title);
+  }
+  const Tag body(html, "tbody");
+  for (const records::EngineModel& model : engines[0]->models) {
+    const Tag line(html, "tr");
+    html.element("th", {{"scope", "row"}}, model.title);
+    for (const records::FarmEngine* engine : engines) {
+      const auto same =
+          std::ranges::find(engine->models, model.model, &records::EngineModel::model);
+      const std::string words = same == engine->models.end() ? "-" : same->in_short();
+      html.element("td", words == "-" ? "–" : words == "both" ? "native, expressed" : words);
+    }
+  }
+}
+
 /// Explains the marks that this grid has.
 void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSummary>& cells) {
   const Tag section(html, "section", {{"class", "legend"}, {"aria-labelledby", "legend"}});
@@ -166,6 +199,7 @@ void write_legend(Html& html, const ShownFarm& farm, const std::vector<CellSumma
                  "divided by the brightest value of theirs. “2 px” after it counts pixels beyond "
                  "the tolerance; a few are allowed on the silhouette and the terminator, where "
                  "rounding decides what a ray hits.");
+    write_models(html, farm);
   }
 }
 

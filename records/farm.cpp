@@ -24,6 +24,7 @@ void define_farm_tables(Tables& tables) {
         t.key("why", "why it is not available").if_any();
         t.key("install", "the command that installs it").if_any();
         t.key("refusedCells", "cells that the engine cannot show");
+        t.key("models").if_any();
       });
   tables.define<FarmCell>("A cell and its verdict.", [](auto& t) {
     t.key("id").plain_name();

@@ -21,6 +21,7 @@ struct FarmEngine {
   bool available = false;
   std::string state, version, content, why, install;
   std::optional<std::size_t> refused_cells;
+  std::vector<EngineModel> models;
 };
 
 struct FarmCell {

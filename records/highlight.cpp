@@ -21,6 +21,14 @@ Host this_node() {
   return host;
 }
 
+std::string EngineModel::in_short() const {
+  if (native.empty()) return expressed.empty() ? "-" : "expressed";
+  std::string text = expressed.empty() ? "native" : "both";
+  for (const std::string& lobe : native)
+    if (lobe != "cosine") text += ", " + lobe;
+  return text;
+}
+
 void define_highlight_tables(Tables& tables) {
   tables.define<Host>("The machine.", [](auto& t) { t.key("name").if_any(); });
   tables.define<Highlight>("A normalised highlight.", [](auto& t) {
@@ -28,6 +36,10 @@ void define_highlight_tables(Tables& tables) {
     t.key("coefficient", "of the radiance").may_be_nonfinite();
     t.key("warning", "where the model is not what it promises").if_any();
     t.key("formula", "of the lobe expression").if_any();
+  });
+  tables.define<EngineModel>("How an engine shades a model.", [](auto& t) {
+    t.key("native", "lobes that it has as highlights of its own");
+    t.key("expressed", "lobes that it can be told, as a formula");
   });
 }
 

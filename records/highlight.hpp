@@ -1,4 +1,4 @@
-// Parts of many records: the machine and the highlight.
+// Parts of many records: the machine, the highlight, and how an engine shades one.
 #pragma once
 
 #include "records/struct_type.hpp"
@@ -22,6 +22,15 @@ struct Highlight {
   double exponent = 0, coefficient = 0;
   std::string warning;
   std::string formula;  ///< of the lobe "expression"; otherwise empty
+};
+
+/// The lobes with which an engine shades a model. Other lobes cannot be compared.
+struct EngineModel {
+  std::string model, title;
+  std::vector<std::string> native, expressed;
+
+  /// For a table: "native" (cos^n, and the other lobes that it names), "expressed", "both", or "-".
+  std::string in_short() const;
 };
 
 void define_highlight_tables(Tables& tables);

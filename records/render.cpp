@@ -101,6 +101,7 @@ void define_render_tables(Tables& tables) {
     t.key("precision", "of its pictures");
     t.key("effects", "that scenes for it may have");
     t.key("install", "the command that installs it");
+    t.key("models").if_any();
   });
   tables.define<Engines>("The reference engines.", [](auto& t) { t.kind("engines"); });
 }

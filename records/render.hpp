@@ -131,6 +131,7 @@ struct EngineFound {
   bool available = false;
   std::string state, program, version, why, supported_versions, shading, precision, effects,
       install;
+  std::vector<EngineModel> models;
 };
 
 struct Engines {

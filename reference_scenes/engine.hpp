@@ -216,6 +216,10 @@ class Engine {
   virtual std::unique_ptr<SimpleSession> open_simple(const ReferenceOptions& options) = 0;
 };
 
+/// How an engine shades each model, by what it says of a sphere under one directional light. Empty for what is not a program of
+/// the catalogue.
+std::vector<records::EngineModel> engine_models(const Engine& engine);
+
 /// Throws Error(kEngine) with the reason and the install hint unless the engine is available.
 void require_available(const EngineInfo& engine, const EngineStatus& status);
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
+#include <set>
 
 #include "core/files.hpp"
 #include "core/process.hpp"
@@ -25,7 +27,33 @@ class EnginesCommand : public testing::Test {
     ProcessOptions process;
     process.working_directory = directory_.path();
     process.environment = {"PATH=" + (directory_.path() / "empty").string()};
-    return run_process(arguments, process);
+    process.log = directory_.path() / "output";
+    ProcessResult result = run_process(arguments, process);
+    result.output_tail = read_file(process.log, 1 << 20);
+    return result;
+  }
+  std::string path_of(std::string_view name) const { return directory_.path() / name; }
+  /// Options that name a program for every engine: the given one, or path_of() its name.
+  std::vector<std::string> programs(const std::map<std::string, std::string>& given) const {
+    std::vector<std::string> options;
+    for (const EngineInfo& engine : engine_infos()) {
+      if (!engine.is_program) continue;
+      const std::string name(engine.name);
+      const auto found = given.find(name);
+      options.push_back("--" + name);
+      options.push_back(found != given.end() ? found->second : path_of(name));
+    }
+    return options;
+  }
+  /// All engines, played by scripts that say the right things.
+  std::map<std::string, std::string> played() {
+    return {{"povray", program("povray", "POV-Ray 3.8.0-beta.2")},
+            {"blender", program("blender", "Blender 4.2.1 LTS")},
+            {"tachyon", program("tachyon", "Tachyon 0.98")},
+            {"sunflow", program("sunflow", "Sunflow 0.07.3")},
+            {"three", program("three", "three.js 0.187.0")},
+            {"babylon", program("babylon", "Babylon.js 9.1.0")},
+            {"opengl", program("opengl", "OpenGL 4.6 (Compatibility Profile) Mesa")}};
   }
   std::string program(const std::string& name, const std::string& version) {
     const fs::path path = directory_.path() / name;
@@ -37,7 +65,7 @@ class EnginesCommand : public testing::Test {
 };
 
 TEST_F(EnginesCommand, SaysOfEveryMissingEngineHowToGetItAndEndsWithExitCode5) {
-  const auto result = run({});
+  const auto result = run(programs({}));
   EXPECT_EQ(result.exit_code, 5);
   for (const EngineInfo& engine : engine_infos()) {
     for (const auto text : {engine.title, engine.shading, engine.precision, engine.effects})
@@ -45,24 +73,26 @@ TEST_F(EnginesCommand, SaysOfEveryMissingEngineHowToGetItAndEndsWithExitCode5) {
     if (!engine.is_program) continue;
     for (const auto text : {engine.install_hint, engine.supported_versions})
       EXPECT_THAT(result.output_tail, HasSubstr(std::string(text)));
-    EXPECT_THAT(result.output_tail, HasSubstr("lobelia: " + std::string(engine.title) +
-                                              ": absent: no program '" + std::string(engine.name)));
+    EXPECT_THAT(result.output_tail,
+                HasSubstr("lobelia: " + std::string(engine.title) + ": absent: '" +
+                          path_of(engine.name) + "' is not a program\n"));
   }
 }
 
 TEST_F(EnginesCommand, SaysOfEveryFoundEngineWhereItIsAndItsVersion) {
-  const auto povray = program("pov", "POV-Ray 3.8.0-beta.2");
-  const auto blender = program("bl", "Blender 4.2.1 LTS");
-  const auto result = run({"--povray", povray, "--blender", blender});
+  const auto found = played();
+  const auto result = run(programs(found));
   EXPECT_EQ(result.exit_code, 0) << result.output_tail;
-  for (const auto& text : {povray, blender, std::string("3.8.0"), std::string("4.2.1")})
-    EXPECT_THAT(result.output_tail, HasSubstr(text));
+  for (const auto& [name, path] : found) EXPECT_THAT(result.output_tail, HasSubstr(path));
+  for (const auto* version : {"3.8.0", "4.2.1", "0.98", "0.07.3", "0.187.0", "9.1.0", "4.6"})
+    EXPECT_THAT(result.output_tail, HasSubstr("  version     " + std::string(version)));
   EXPECT_THAT(result.output_tail, Not(HasSubstr("apt-get")));
 }
 
 TEST_F(EnginesCommand, RefusesAProgramThatIsNoSuchEngine) {
-  const auto result = run({"--povray", program("pov", "POV-Ray 3.7.0.10"), "--blender",
-                           program("grep", "GNU grep 3.8")});
+  auto found = played();
+  found["blender"] = program("grep", "GNU grep 3.8");
+  const auto result = run(programs(found));
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_THAT(result.output_tail,
               HasSubstr("/grep' does not answer --version as Blender Cycles does\n"));
@@ -74,7 +104,10 @@ TEST_F(EnginesCommand, TellsABrokenEngineFromAnAbsentOne) {
   write_file(dead, "#!/bin/sh\necho 'POV-Ray 3.7.0.10'; exit 1\n");
   write_file(unstartable, "#!/no/such/interpreter\n");
   for (const fs::path& path : {dead, unstartable}) fs::permissions(path, fs::perms::owner_all);
-  const auto result = run({"--povray", dead.string(), "--blender", unstartable.string()});
+  auto found = played();
+  found["povray"] = dead.string();
+  found["blender"] = unstartable.string();
+  const auto result = run(programs(found));
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_THAT(result.output_tail, HasSubstr("lobelia: POV-Ray: broken: '" + dead.string() +
                                             "' --version ended with exit code 1\n"));
@@ -86,22 +119,41 @@ TEST_F(EnginesCommand, TellsABrokenEngineFromAnAbsentOne) {
 }
 
 TEST_F(EnginesCommand, PrintsARecordToo) {
-  const auto result = run({"--json", "--povray", program("pov", "POV-Ray 3.7.0.10"), "--blender",
-                           program("bl", "Blender 5.0.0")});
+  auto found = played();
+  found["blender"] = program("bl", "Blender 5.0.0");
+  std::vector<std::string> arguments = programs(found);
+  arguments.insert(arguments.begin(), "--json");
+  const auto result = run(arguments);
   EXPECT_EQ(result.exit_code, 5);
-  const std::string& text = result.output_tail;  // with the error before or behind it
-  const auto begin = text.find('{');
-  const Json record = Json::parse(text.substr(begin, text.rfind('}') + 1 - begin));
+  const std::string& text = result.output_tail;  // with the error behind it
+  const Json record = Json::parse(text.substr(0, text.find("\n}\n") + 3));
   EXPECT_EQ(record.at("kind"), "engines");
   const Json& engines = record.at("engines");
   ASSERT_EQ(engines.size(), engine_infos().size());
   EXPECT_EQ(engines[0].at("available"), true);
-  EXPECT_EQ(engines[0].at("version"), "3.7.0.10");
+  EXPECT_EQ(engines[0].at("version"), "3.8.0");
   EXPECT_EQ(engines[0].at("state"), "ready");
   EXPECT_EQ(engines[1].at("available"), false);
   EXPECT_EQ(engines[1].at("state"), "broken");
   EXPECT_THAT(engines[1].at("why").get<std::string>(),
               HasSubstr("is Blender Cycles 5.0.0; what can be driven is 3.4 to 4.x"));
+}
+
+TEST_F(EnginesCommand, HasANativeWitnessOfEveryModelButTwoBesidesCycles) {
+  std::set<std::string> witnessed;
+  for (const EngineInfo& engine : engine_infos())
+    for (const records::EngineModel& model : engine_models(*make_engine(engine.name, {})))
+      if (!model.native.empty() && engine.name != "blender") witnessed.insert(model.model);
+  EXPECT_EQ(witnessed, (std::set<std::string>{"phong_rdf", "modified_phong", "blinn_phong_rdf",
+                                              "blinn_phong_heightfield"}));
+}
+
+TEST_F(EnginesCommand, PrintsTheTableOfModelsThatThePageHas) {
+  const auto result = run({"--models"});
+  EXPECT_EQ(result.exit_code, 0);
+  const std::string page =
+      read_file(fs::path(LOBELIA_SOURCE_DIR) / "docs/normalised_engines.md", 1 << 20);
+  EXPECT_THAT(page, HasSubstr("```text\n" + result.output_tail + "```\n"));
 }
 
 }  // namespace

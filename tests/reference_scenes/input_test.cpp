@@ -53,12 +53,20 @@ TEST(EngineInput, IsNumbersAndOurOwnNamesWhateverTheMaterialIsCalled) {
   }
 }
 
+/// The first that it can show.
+Highlight a_highlight_of(const EngineInfo& engine) {
+  for (const records::EngineModel& model : engine_models(*make_engine(engine.name, {})))
+    for (const auto& lobes : {model.native, model.expressed})
+      if (!lobes.empty()) return {*find_model(model.model), *find_lobe(lobes[0])};
+  throw Error(ExitCode::kInternal, "it shows nothing");
+}
+
 TEST(EngineInput, HasNoWordOfASceneFileNorOfItsName) {
   const std::string words[] = {"h0stile\"} #include \"/etc/passwd\"", "h0stile */ #write (F, 1)",
                                "h0stile\n#declare Gain = 0;",
                                "h0stile\"\"\"'''; __import__('os').system('id')",
                                "h0stile \\u0022 \xc3\xa9\xe2\x80\xae \xe2\x80\xa8 $(id) `id`"};
-  const fs::path original = fs::path(LOBELIA_SOURCE_DIR) / "reference_scenes/scenes/two_lights.xml";
+  const fs::path original = fs::path(LOBELIA_SOURCE_DIR) / "reference_scenes/scenes/oblique_45.xml";
   const TemporaryDirectory directory;
   for (const std::string& word : words) {
     SCOPED_TRACE(word);
@@ -73,10 +81,11 @@ TEST(EngineInput, HasNoWordOfASceneFileNorOfItsName) {
     std::ranges::replace(name, '/', '_');
     const fs::path file = directory.path() / (name + ".xml");
     write_file(file, text);
-    const Scene scene = read_scene(file);
+    Scene scene = read_scene(file);
     ASSERT_EQ(scene.materials[0].id, word);
     for (const EngineInfo& engine : engine_infos()) {
       if (!engine.is_program) continue;
+      scene.materials[0].highlight = a_highlight_of(engine);
       const TemporaryDirectory kept;
       keep_engine_input(engine.name, scene, {}, kept.path());
       std::size_t files = 0;
@@ -85,7 +94,7 @@ TEST(EngineInput, HasNoWordOfASceneFileNorOfItsName) {
         EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("h0stile")));
         EXPECT_THAT(read_file(entry.path(), 1 << 20), Not(HasSubstr("h0stile"))) << entry.path();
       }
-      EXPECT_GE(files, 3u);
+      EXPECT_GE(files, 2u);
     }
   }
 }
@@ -322,8 +331,8 @@ TEST(EngineCatalogue, FindsByNameAndSuggests) {
     EXPECT_EQ(error.code(), ExitCode::kUsage);
     EXPECT_STREQ(
         error.what(),
-        "no reference engine 'blander'; there are: povray, blender, analytic; did you mean "
-        "'blender'?");
+        "no reference engine 'blander'; there are: povray, blender, tachyon, sunflow, three, "
+        "babylon, opengl, analytic; did you mean 'blender'?");
   }
 }
 
