@@ -21,9 +21,13 @@ using testing::Not;
 
 class EnginesCommand : public testing::Test {
  protected:
-  /// With nothing in $PATH. Its output in full.
   ProcessResult run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {LOBELIA_PROGRAM, "engines"});
+    arguments.insert(arguments.begin(), "engines");
+    return lobelia(arguments);
+  }
+  /// With nothing in $PATH. Its output in full.
+  ProcessResult lobelia(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), LOBELIA_PROGRAM);
     ProcessOptions process;
     process.working_directory = directory_.path();
     process.environment = {"PATH=" + (directory_.path() / "empty").string()};
@@ -116,6 +120,27 @@ TEST_F(EnginesCommand, TellsABrokenEngineFromAnAbsentOne) {
   write_file(directory_.path() / "data", "no program");
   EXPECT_THAT(run({"--povray", (directory_.path() / "data").string()}).output_tail,
               HasSubstr("lobelia: POV-Ray: broken: '"));
+}
+
+TEST_F(EnginesCommand, ThatAreMissingCostAFarmOneLineAndTheirOwnColumn) {
+  std::string all;
+  for (const EngineInfo& engine : engine_infos())
+    all += "<engine name=\"" + std::string(engine.name) + "\"/>";
+  write_file(directory_.path() / "grid.xml",
+             "<grid version=\"1\" title=\"One\"><scene file=\"" LOBELIA_SOURCE_DIR
+             "/reference_scenes/scenes/head_on.xml\"/><film width=\"32\" height=\"32\"/>"
+             "<axis name=\"exponent\" values=\"16\"/>" +
+                 all + "</grid>");
+  const auto result = lobelia({"farm", "grid.xml", "-o", "out", "--cache", "cache"});
+  EXPECT_EQ(result.exit_code, 0) << result.output_tail;
+  EXPECT_THAT(result.output_tail, HasSubstr("1 cells: 0 failed, 0 differ, 1 pass"));
+  std::set<std::string> there;
+  const Json cell = read_json(directory_.path() / "out/cells/n16/cell.json");
+  for (const Json& image : cell.at("images")) there.insert(image.at("engine"));
+  EXPECT_THAT(there, testing::IsSupersetOf({"lobelia", "analytic"}));
+  for (const char* needed : {"povray", "blender", "java", "chromium"})
+    EXPECT_THAT(result.output_tail, HasSubstr(std::string(" is absent: no program '") + needed +
+                                              "' in $PATH; to get it: "));
 }
 
 TEST_F(EnginesCommand, PrintsARecordToo) {
