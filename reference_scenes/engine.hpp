@@ -31,10 +31,10 @@ struct EngineFloor {
   double of_value = 0;  ///< share of the value: the rounding of the picture
   double of_peak = 0;   ///< share of the peak: the rounding of colours
   /// Error of a point's place, as a share of its distance from the camera. On a sphere the normal turns by it over the radius,
-  /// and the lobe's angle by twice that; cos^n falls by up to sqrt(n / e) of its peak per radian.
+  /// and the lobe's angle by twice that; cos^n falls by up to sqrt(n / e) of its peak per radian, and N.L by up to 1.
   double of_place = 0;
-  /// Rounding of the quadratic that finds the point, as a share of the squared distance from the camera. The normal turns by up to
-  /// it times the square of distance over radius: the root halves it, and a slanting ray doubles it.
+  /// Rounding of the quadratic that finds the point, as a share of the squared distance from the camera. The normal turns by
+  /// it times the square of distance over radius: the root halves it, and a slanting ray takes the half away again.
   double of_quadratic = 0;
   double of_cosine =
       0;  ///< error of the lobe's cosine; cos^n falls by up to n of its peak per unit

@@ -104,7 +104,7 @@ double EngineFloor::of_peak_in(const Scene& scene) const {
   for (const Sphere& sphere : scene.spheres)
     radii = std::max(radii, length(scene.camera.origin - sphere.center) / sphere.radius);
   const double turn = radii * of_place + radii * radii * of_quadratic;
-  return of_peak + std::sqrt(exponent / std::numbers::e) * 2 * turn + exponent * of_cosine;
+  return of_peak + (2 * std::sqrt(exponent / std::numbers::e) + 1) * turn + exponent * of_cosine;
 }
 
 std::uint64_t memory_to_average(const Scene& scene, const ReferenceOptions& options) {

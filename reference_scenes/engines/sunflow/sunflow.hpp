@@ -11,7 +11,7 @@ namespace lobelia {
 /// All in float32: the place of a point, by a quadratic that loses most beside the silhouette, its normal, and the cosine from
 /// two more vectors and their product.
 inline constexpr EngineFloor kSunflowFloor{.of_peak = 16 * kFloat32Rounding,
-                                           .of_quadratic = 2 * kFloat32Rounding,
+                                           .of_quadratic = 3 * kFloat32Rounding,
                                            .of_cosine = 12 * kFloat32Rounding};
 inline constexpr EngineVariant kSunflowVariants[] = {
     {.name = "sunflow",
