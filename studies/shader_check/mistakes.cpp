@@ -154,9 +154,10 @@ std::vector<CoefficientMistake> make_coefficients() {
          {std::pair{" / (8 pi)", 8 * kPi}, std::pair{" / (2 pi)", 2 * kPi},
           std::pair{" / (4 pi)", 4 * kPi}, std::pair{" / pi", kPi}, std::pair{" / 8", 8.0},
           std::pair{" / 2", 2.0}, std::pair{" / 4", 4.0}, std::pair{"", 1.0}})
-      all.push_back(
-          {"coefficient", (added == 0 ? "n" : fmt::format("(n + {})", added)) + text,
-           [added, divisor](const Highlight&, double, double n) { return (n + added) / divisor; }});
+      all.push_back({"coefficient", (added == 0 ? "n" : fmt::format("(n + {})", added)) + text,
+                     [added, divisor = divisor](const Highlight&, double, double n) {
+                       return (n + added) / divisor;
+                     }});
   for (const ModelId model : all_models())
     all.push_back({"coefficient", fmt::format("the coefficient of {}", info(model).name),
                    [model](const Highlight& h, double, double n) {
