@@ -180,7 +180,7 @@ Problems loose_arithmetic(const fs::path& root) {
 Problems stderr_by_hand(const fs::path& root) {
   static const std::regex pattern(R"((^|[(,])\s*stderr\s*[,)]|std::c(err|log)\b|\bperror\()");
   return lines_with(root, pattern, [](const fs::path& file) {
-    // Of a room, but for small programs without core/; the last runs before the program does.
+    // The rooms alone. The programs beside engines do not link core/; tsan_tbb.cpp is before main().
     const std::string name = file.generic_string();
     return is_cpp(file) && kMaySee.contains(file.begin()->string()) &&
            name != "reference_scenes/engines/programs/scene_program.cpp" &&
@@ -205,7 +205,7 @@ Problems loose_keys(const fs::path& root) {
   return lines_with(root, pattern, [](const fs::path& file) {
     const std::string room = file.begin()->string(), name = file.generic_string();
     if (!is_cpp(file) || room == "records" || !kMaySee.contains(room)) return false;
-    // What Blender's own script and a browser's page are told is part of these engines.
+    // The JSON for Blender's script and for a browser's page belongs to these engines.
     return !name.starts_with("reference_scenes/engines/blender/blender_input") &&
            name != "reference_scenes/engines/browser/engine_browser.cpp";
   });
