@@ -5,6 +5,7 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
+#include "core/text.hpp"
 #include "lobelia_paths.hpp"
 #include "studies/agreement/agreement.hpp"
 #include "tests/json.hpp"
@@ -47,8 +48,8 @@ TEST_P(AgreementWithAMistake, IsMissed) {
   const TemporaryDirectory directory;
   const fs::path mistaken = directory.path() / "mistaken";
   write_file(mistaken,
-             "#!/bin/sh\nengine='" + engine->status().program.string() +
-                 "'\nif [ \"$1\" = --version ]; then exec \"$engine\" \"$1\"; fi\n" +
+             "#!/bin/sh\nengine=" + shell_quote(engine->status().program.string()) +
+                 "\nif [ \"$1\" = --version ]; then exec \"$engine\" \"$1\"; fi\n" +
                  (GetParam() == "povray" || GetParam() == "blender" ? kInFiles : kInScenes));
   fs::permissions(mistaken, fs::perms::owner_all);
   ProcessOptions options;
