@@ -34,7 +34,7 @@ gallery: ## builds, renders the sphere grid with every engine, compares, writes 
 	$(build) --target lobelia lobelia_image_io
 	@scripts/gallery "build/$(PRESET)/bin/lobelia" "$(GRID)" "$(OUT)"
 
-references: ## measures how far ours and every engine are from the formulas, into out/references (20 minutes)
+references: ## measures how far ours and every engine are from the formulas, into out/references (half an hour)
 	$(setup) build engines
 	$(npm)
 	$(configure)

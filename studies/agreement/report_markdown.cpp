@@ -65,18 +65,6 @@ std::string reasons(const Agreement& agreement) {
   return text;
 }
 
-/// The same for averages.
-std::string soft_reasons(const Agreement& agreement) {
-  const bool missed = std::ranges::any_of(agreement.soft, [](const SoftRow& row) {
-    return row.what == "environment" && row.verdict == Verdict::kMissed;
-  });
-  return missed
-             ? "\n*environment*: A set has 4 or 16 directions of the whole sky, few of them or none where a "
-               "highlight looks. Its scatter is skewed, and Student's t too narrow for it; with 1024 points "
-               "one value or none is beyond, measured over three seeds.\n"
-             : "";
-}
-
 }  // namespace
 
 std::vector<std::string> markdown_headings() {
@@ -102,7 +90,6 @@ std::string report_markdown(const Agreement& agreement, std::string_view command
                            soft_table, refusal_table}) {
     text += section(table(agreement));
     if (table == miss_table) text += reasons(agreement);
-    if (table == soft_table) text += soft_reasons(agreement);
   }
   return text;
 }
