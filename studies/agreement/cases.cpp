@@ -185,8 +185,8 @@ std::vector<SoftCase> soft_cases(const Scope& scope) {
 }
 
 std::vector<int> soft_points(const Scope& scope) {
-  // Of fewer, a set has so few directions of the sky that none may be where a highlight looks: the scatter is skewed, and
-  // Student's t too narrow for it.
+  // The environment, which the small scope leaves out, needs this many points. With 64, each of the 16 sets has 4
+  // directions of the sky, often none of them in a highlight. The scatter is then too skewed for Student's t.
   return scope.small ? std::vector<int>{16, 64} : std::vector<int>{256, 512};
 }
 

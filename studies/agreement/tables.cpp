@@ -192,8 +192,7 @@ Table soft_table(const Agreement& agreement) {
           "An engine's mean over points of lights, lens and pixel against what our own sampling "
           "converges to. 'beyond' is the fraction of values farther off than chance allows any value "
           "of one picture in a thousand (Student's t over {} sets, Sidak's correction); at most {} "
-          "values may be. All pixels share their points, so RMS is a single draw and its ratio scatters: "
-          "from 0.6 to 15 over five seeds, for four times the points.",
+          "values may be. All pixels share their points, so RMS is a single draw and its ratio scatters.",
           kReplicates, kBeyondAllowed),
       {"effect", "variant", "points", "beyond", "RMS of peak", "points", "beyond", "RMS of peak",
        "RMS ratio", "verdict"});
