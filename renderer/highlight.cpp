@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <tuple>
 #include <vector>
 
@@ -66,8 +67,8 @@ constexpr auto kLobeUses = map_types<LobeUse>(LobesById{}, []<class L>() {
 /// The texts of one member of a family, with the number k.
 struct MemberText {
   std::string name, title, formula, moments;
-  MemberText(const LobeInfo& family, int order)
-      : name(fmt::format("{}{}", family.name, order)), title(name) {
+  MemberText(const LobeInfo& family, std::string member_name, int order)
+      : name(std::move(member_name)), title(name) {
     const auto with_order = [&](std::string_view text, std::string& to) {
       for (const char c : text) to += c == 'k' ? std::to_string(order) : std::string(1, c);
     };
@@ -87,34 +88,30 @@ class LobeTable {
   std::vector<std::string_view> names;
 
   const LobeInfo& info(const LobeId& id) const {
-    if (id.formula) return id.formula->info();
-    const auto& members = infos_.at(id.index);
-    return id.order == 0 ? members.at(0) : members.at(std::size_t(id.order) / 2 - 1);
+    return id.formula ? id.formula->info() : infos_.at({id.index, id.order});
   }
   std::optional<LobeId> find(std::string_view name) const {
-    for (std::size_t i = 0; i < infos_.size(); ++i)
-      for (std::size_t m = 0; m < infos_[i].size(); ++m)
-        if (infos_[i][m].name == name)
-          return LobeId{std::uint8_t(i), std::uint16_t(families_[i] ? 2 * m + 2 : 0)};
+    for (const auto& [id, info] : infos_)
+      if (info.name == name) return LobeId{id.first, id.second};
     return std::nullopt;
   }
 
  private:
   template <class L>
   int add() {
-    const auto index = std::uint8_t(infos_.size());
-    auto& members = infos_.emplace_back();
-    families_.push_back(!L::kOrders.empty());
-    if (L::kOrders.empty()) {
-      members.push_back(L::kInfo);
-      list({index, 0});
-      return 0;
+    constexpr auto kIndex = std::uint8_t(index_of<L>(Lobes{}));
+    if constexpr (LobeFamily<L>) {
+      for (int order = 1; order <= kMaxOrder; ++order) {
+        if (!L::has(order)) continue;
+        const MemberText& text = texts_.emplace_back(L::kInfo, L::member_name(order), order);
+        infos_[{kIndex, std::uint16_t(order)}] = {text.name, text.title, text.formula, text.moments,
+                                                  L::kInfo.source};
+      }
+      for (const int order : L::kOrders) list({kIndex, std::uint16_t(order)});
+    } else {
+      infos_[{kIndex, 0}] = L::kInfo;
+      list({kIndex, 0});
     }
-    for (int order = 2; order <= kMaxOrder; order += 2) {
-      const MemberText& text = texts_.emplace_back(L::kInfo, order);
-      members.push_back({text.name, text.title, text.formula, text.moments, L::kInfo.source});
-    }
-    for (const int order : L::kOrders) list({index, std::uint16_t(order)});
     return 0;
   }
   void list(LobeId id) {
@@ -122,9 +119,8 @@ class LobeTable {
     names.push_back(info(id).name);
   }
 
-  std::vector<std::vector<LobeInfo>> infos_;
-  std::vector<bool> families_;
-  std::deque<MemberText> texts_;  // addresses stay valid
+  std::map<std::pair<std::uint8_t, std::uint16_t>, LobeInfo> infos_;  // by index and order
+  std::deque<MemberText> texts_;                                      // addresses stay valid
 };
 
 const LobeTable& lobe_table() {
@@ -170,8 +166,8 @@ std::span<const std::string_view> normalisation_names() { return kNormalisationN
 std::string allowed_lobes(bool or_a_formula) {
   std::string families;
   map_types<int>(Lobes{}, [&]<class L>() {
-    if (!L::kOrders.empty())
-      families += fmt::format("; {0}K for any even K from 2 to {1}", L::kInfo.name, kMaxOrder);
+    if constexpr (LobeFamily<L>)
+      if (!L::kUnlisted.empty()) families += fmt::format("; {}", L::kUnlisted);
     return 0;
   });
   if (or_a_formula) families += fmt::format("; {}, with a formula", kFormulaLobe);
@@ -222,8 +218,17 @@ std::string why_not_a_lobe(const Highlight& highlight) {
 
 std::string identifier(const LobeId& lobe) {
   const LobeInfo& about = info(lobe);
-  return lobe.formula ? fmt::format("{}_{}", about.name, hex(sha256(about.formula)).substr(0, 8))
-                      : std::string(about.name);
+  if (lobe.formula)
+    return fmt::format("{}_{}", about.name, hex(sha256(about.formula)).substr(0, 8));
+  std::string name(about.name);
+  std::ranges::replace(name, '.', '_');
+  return name;
+}
+
+std::string_view family(const LobeId& lobe) {
+  static constexpr auto kNames =
+      map_types<std::string_view>(LobesById{}, []<class L>() { return L::kInfo.name; });
+  return kNames.at(lobe.index);
 }
 
 std::strong_ordering operator<=>(const LobeId& a, const LobeId& b) {

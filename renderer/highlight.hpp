@@ -19,10 +19,11 @@ struct ModelId {
 };
 class Formula;  // renderer/formula.hpp
 
-/// Position in the catalogue of lobes (renderer/lobes/catalogue.hpp) and, in a family, the order k of cs_k.
+/// Position in the catalogue of lobes (renderer/lobes/catalogue.hpp) and, in a family, the order k: the member is
+/// something to the power k, as cs_k is.
 struct LobeId {
   std::uint8_t index = 0;
-  std::uint16_t order = 0;  ///< even, 2 to kMaxOrder, for a family; 0 for a single lobe
+  std::uint16_t order = 0;  ///< 2 to kMaxOrder, for a family; 0 for a single lobe
   std::shared_ptr<const Formula> formula = {};  ///< of the lobe "expression"; null for all others
   /// Two formulas are the same if their texts are.
   friend bool operator==(const LobeId& a, const LobeId& b) { return (a <=> b) == 0; }
@@ -105,8 +106,10 @@ CoefficientFormulas formulas(ModelId id);
 /// The exact coefficient from the moments M_j, the integrals of lobe s^j: "1/(2 pi (M0 - M1)), s = 0 to 1".
 std::string exact_formula(ModelId id);
 const LobeInfo& info(const LobeId& id);
-/// The lobe's name, with a part that differs for each formula: for names in code and of files.
+/// The lobe's name with '_' for '.', and a part that differs for each formula: for names in code and of files.
 std::string identifier(const LobeId& lobe);
+/// "cs" for cs16; the name of a lobe that is in no family.
+std::string_view family(const LobeId& lobe);
 std::string_view name(Normalisation normalisation);
 std::string_view name(NormalisedQuantity normalised);
 

@@ -25,12 +25,11 @@ std::string_view formula(std::span<const EmbeddedText> formulas, std::string_vie
   return found->text;
 }
 
-/// The file of a family has the lobe's name without the order.
 std::string lobe_text(const LobeId& lobe) {
-  std::string name(info(lobe).name);
+  const std::string_view text = formula(embedded::povray_lobes, family(lobe));
   if (lobe.formula)
     return fill(
-        formula(embedded::povray_lobes, name),
+        text,
         {{"Lobe", capitalised(identifier(lobe))},
          {"text", lobe.formula->text()},
          {"formula", formula_text(lobe.formula->nodes(),
@@ -40,9 +39,7 @@ std::string lobe_text(const LobeId& lobe) {
                                    .cosine = "(1 - S)",
                                    .angle = "(2*asin(sqrt(0.5*S)))",
                                    .log = "ln"})}});
-  const std::string order = std::to_string(lobe.order);
-  if (lobe.order != 0) name.resize(name.size() - order.size());
-  return fill(formula(embedded::povray_lobes, name), {{"K", order}});
+  return fill(text, {{"K", std::to_string(lobe.order)}, {"Lobe", capitalised(identifier(lobe))}});
 }
 
 /// The closed form for cos^n and for the paper's cs16; otherwise the quadrature.

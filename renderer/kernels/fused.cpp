@@ -247,8 +247,10 @@ EvaluateLobe evaluate_lobe(const Highlight& highlight) {
 
 template <class L>
 EvaluateLobe evaluate_at(const Highlight& highlight, Precision precision) {
-  // The order that is compiled in, for speed: the paper's.
-  constexpr int kUsualOrder = std::size(L::kOrders) > 0 ? 16 : 0;
+  constexpr int kUsualOrder = [] {
+    if constexpr (LobeFamily<L>) return L::kUsualOrder;
+    return 0;
+  }();
   if (precision == Precision::kFloat64) return evaluate_lobe<L, 0, double>(highlight);
   if (highlight.lobe.order == kUsualOrder) return evaluate_lobe<L, kUsualOrder, float>(highlight);
   return evaluate_lobe<L, 0, float>(highlight);

@@ -19,6 +19,12 @@ struct CsLobe {
                                   "(k/n)^(j+1) B(min(1, n S/k); j + 1, k + 1)",
                                   "Romanyuk et al., eq. (1), for k = 16"};
   static constexpr std::array kOrders{2, 4, 8, 16, 32, 64};
+  static constexpr int kUsualOrder = 16;
+  static constexpr std::string_view kUnlisted = "csK for any even K from 2 to 1024";
+  static constexpr bool has(int order) {
+    return order >= 2 && order <= kMaxOrder && order % 2 == 0;
+  }
+  static std::string member_name(int order) { return "cs" + std::to_string(order); }
 
   explicit CsLobe(LobeParameters p)
       : n(p.exponent),

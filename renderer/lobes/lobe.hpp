@@ -43,8 +43,21 @@ struct LobeText {
 /// The column of a lobe in the paper's table of coefficients.
 enum class PaperColumn { kNone, kCosine, kCs16 };
 
+/// A family of lobes: which orders it has, and how its members are named.
 template <class L>
-concept Lobe = requires(const L& lobe, LobeParameters parameters, double s, double c, int j) {
+concept LobeFamily = requires(int order) {
+  { L::has(order) } -> std::same_as<bool>;
+  { L::member_name(order) } -> std::same_as<std::string>;
+  /// The order that is compiled in, for speed.
+  { L::kUsualOrder } -> std::convertible_to<int>;
+  /// The members that are not in kOrders, in words; empty if there are none.
+  { L::kUnlisted } -> std::convertible_to<std::string_view>;
+};
+
+template <class L>
+concept Lobe = (std::size(L::kOrders) == 0 || LobeFamily<L>)&&requires(const L& lobe,
+                                                                       LobeParameters parameters,
+                                                                       double s, double c, int j) {
   { L::kInfo } -> std::convertible_to<const LobeInfo&>;
   /// The listed members of a family, ascending; empty for a single lobe.
   L::kOrders;

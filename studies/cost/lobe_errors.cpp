@@ -49,7 +49,8 @@ class Search {
         n_(exponent),
         own_(prepare(variant.lobe, exponent)),
         cosine_(prepare(*find_lobe("cosine"), exponent)),
-        is_cosine_(variant.lobe == *find_lobe("cosine") || variant.lobe.order == exponent) {}
+        is_cosine_(variant.lobe == *find_lobe("cosine") ||
+                   variant.lobe == find_lobe(fmt::format("cs{}", exponent))) {}
 
   /// The largest error at a few numbers of each octave: a lower bound of the result.
   double lower_bound() const {

@@ -19,10 +19,12 @@ void for_every_lobe(double n, auto&& f) {
   int count = 0;
   map_types<int>(HWY_NAMESPACE::Lobes{}, [&]<class L>() {
     std::vector<int> orders(L::kOrders.begin(), L::kOrders.end());
-    if (orders.empty())
+    if constexpr (LobeFamily<L>) {
+      for (const int unlisted : {12, 1000, kMaxOrder})
+        if (L::has(unlisted)) orders.push_back(unlisted);
+    } else {
       orders = {0};
-    else
-      orders.insert(orders.end(), {12, 1000, kMaxOrder});
+    }
     for (const int order : orders) {
       f(fmt::format("{} order {} n = {:g}", L::kInfo.name, order, n), L({n, order}));
       ++count;
