@@ -33,10 +33,10 @@ void print_catalogues(std::span<const LobeId> lobes) {
     fmt::print("{:<26}{:<44}{:<44}{}\n", info(id).name, f.exact_cosine, f.paper_cosine,
                f.paper_cs16);
   }
-  fmt::print("\n{:<20}{:<32}{:<46}{}\n", "lobe", "value, s = 1 - cos",
+  fmt::print("\n{:<20}{:<50}{:<50}{}\n", "lobe", "value, s = 1 - cos",
              "moments M_j = integral of value s^j, 0 to S", "source");
   for (const LobeId& id : lobes)
-    fmt::print("{:<20}{:<32}{:<46}{}\n", info(id).name, info(id).formula, info(id).moments,
+    fmt::print("{:<20}{:<50}{:<50}{}\n", info(id).name, info(id).formula, info(id).moments,
                info(id).source);
   fmt::print("\n{:<20}meaning\n", "normalisation");
   for (const std::string_view how : normalisation_names())

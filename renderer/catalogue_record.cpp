@@ -115,8 +115,13 @@ records::LobeTable lobe_table(LobeId lobe, std::span<const double> exponents) {
   for (const double n : exponents) {
     const PreparedLobe prepared = prepare(lobe, n);
     const LobeProperties properties = measure(lobe, n);
-    // Up to the horizon or to the lobe's end, and just inside of it, where lobes are not 0 yet.
-    const double reach = lobe.order > 0 && lobe.order < n ? properties.support : kRightAngle;
+    // Up to the horizon or to the lobe's end, and just inside of it, where lobes are not 0 yet. Of a pk3.m, whose end is
+    // not smooth in n, to n s = 4 k, which is beyond.
+    double reach = kRightAngle;
+    if (family(lobe) == "pk" && 4 * lobe.order < n)
+      reach = 2 * std::asin(std::sqrt(2 * lobe.order / n));
+    else if (family(lobe) == "cs" && lobe.order < n)
+      reach = properties.support;
     std::vector<double> curve;
     for (const double angle : angles(reach, n, kCurvePoints))
       curve.push_back(straightened(lobe, prepared.value(versine(angle * (1 - 1e-9)))));

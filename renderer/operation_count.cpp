@@ -34,6 +34,7 @@ struct Counted {
     ++g_count.root, ++g_count.transcendental, g_count.multiply += 3;
     return half_square_of_angle(s.x);
   }
+  friend Counted multiply_add(Counted a, Counted b, Counted c) { return a * b + c; }
   friend Counted one_minus_product(double q, Counted s) { return Counted(1) - Counted(q) * s; }
 };
 

@@ -29,6 +29,9 @@ inline double half_square_of_angle(double s) {
 /// 1 - q s. q keeps all its digits in a narrow type too, so that a small difference is exact.
 inline double one_minus_product(double q, double s) { return 1 - q * s; }
 
+/// a b + c, rounded once where the processor can.
+inline double multiply_add(double a, double b, double c) { return a * b + c; }
+
 /// The number type of a Real: its own, or that of a register's lanes.
 template <class Real>
 struct ScalarOf {

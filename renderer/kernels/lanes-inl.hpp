@@ -81,6 +81,9 @@ struct LanesOf {
       return LanesOf(2.0) * half_angle * half_angle;
     }
   }
+  friend HWY_INLINE LanesOf multiply_add(LanesOf a, LanesOf b, LanesOf c) {
+    return LanesOf(hn::MulAdd(a.v, b.v, c.v));
+  }
   friend HWY_INLINE LanesOf one_minus_product(double q, LanesOf s) {
     if constexpr (std::is_same_v<T, float>) {
       const D d;

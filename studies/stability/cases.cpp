@@ -29,8 +29,8 @@ struct Abscissa {
 };
 
 std::vector<Abscissa> abscissae(LobeId lobe, double n) {
-  // theta_cr = arccos((n - k)/n); k = 16, the paper's, for lobes without a k. It exists for n > k.
-  const double end = std::min(1.0, (lobe.order > 0 ? lobe.order : 16) / n);
+  // theta_cr: where a family's lobe ends, at arccos((n - k)/n) for cs_k; that of k = 16, the paper's, for the others.
+  const double end = lobe.order > 0 ? s_of_value(lobe, n, 0, 60) : std::min(1.0, 16 / n);
   const auto at = [](double angle) { return float(truth::one_minus_cos(angle)); };
   std::vector<Abscissa> result{
       {"angle 0", 0},

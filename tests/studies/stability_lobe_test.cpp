@@ -16,16 +16,17 @@ namespace {
 
 constexpr std::size_t kPoints = 200 * kChunk;
 
-/// s from next to 0 to past the lobe's end, by decades and evenly, and crowded where cs_k meets 0.
+/// s from next to 0 to past the lobe's end, by decades and evenly, and crowded where a family's lobe meets 0.
 std::vector<float> many_abscissae(LobeId lobe, double n, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform;
+  const double end = lobe.order > 0 ? n * s_of_value(lobe, n, 0, 60) : 0;
   std::vector<float> s(kPoints);
   for (std::size_t i = 0; i < kPoints; ++i) {
     double x = 90 * uniform(random);
     if (i % 4 == 1) x = 10 * uniform(random);
     if (i % 4 == 2) x = std::pow(10, -8 * uniform(random));
-    if (i % 4 == 3 && lobe.order > 0) x = lobe.order * -std::expm1(-15 * uniform(random));
+    if (i % 4 == 3 && lobe.order > 0) x = end * -std::expm1(-15 * uniform(random));
     s[i] = float(std::min(2.0, x / n));
   }
   return s;
@@ -82,7 +83,10 @@ TEST(EveryLobeInFloat32, IsWithinItsStatedBoundEverywhereAndTheBoundIsNoFourTime
       ulp_used = std::max(ulp_used, ulp);
     }
     EXPECT_GT(of_peak_used, 0.25) << info(lobe).name;
-    EXPECT_GT(ulp_used, 0.25) << info(lobe).name;
+    // A pk3.m states none: where its cubic meets 0 it keeps no digits.
+    if (std::isfinite(lobe_float32_error(lobe, 1).ulp)) {
+      EXPECT_GT(ulp_used, 0.25) << info(lobe).name;
+    }
   }
 }
 

@@ -42,6 +42,10 @@ LOBES = {
     "cs": Lobe(lambda s, n, k: max(0.0, 1 - n * s / k) ** k,
                lambda nodes, s, n, k: nodes.cosine_lobe(nodes.math("MULTIPLY", n / k, s), k),
                lambda n, k: k / n),
+    # cos^k for another s, as 1 - u is the cubic.
+    "pk": Lobe(lambda s, n, k: max(0.0, 1 - pk_fall(n, k, n * s)) ** k,
+               lambda nodes, s, n, k: nodes.cosine_lobe(pk_fall_node(nodes, n, k, s), k),
+               lambda n, k: fallen(lambda s: LOBES["pk"].value(s, n, k))),
     "spherical_gaussian": Lobe(
         lambda s, n, k: math.exp(-n * s),
         lambda nodes, s, n, k: nodes.math("EXPONENT", nodes.math("MULTIPLY", -n, s)),
@@ -58,7 +62,17 @@ LOBES = {
         lambda s, n, k: formula_lobe(k, s, n),
         lambda nodes, s, n, k: nodes.math(
             "MAXIMUM", 0.0, nodes.math("MINIMUM", 1.0, formula_node(nodes, k, s, n))),
-        lambda n, k: formula_reach(k, n)),
+        lambda n, k: fallen(lambda s: formula_lobe(k, s, n))),
+}
+
+# By the order k of pk3: the cubic of t = n s is 1 + q1 t + q2 t^2 + q3 t^3, and each q is a + b v + c v^2, v = 1/max(n, 16).
+PK3 = {
+    2: ((-0.487085, -0.246881, 0), (0.10071, 0.073946, 0), (-0.00806618, -0.0140943, 0)),
+    4: ((-0.248984, -0.0279484, 0), (0.0292261, -0.0785376, 0), (-0.00158811, 0.00733788, 0)),
+    8: ((-0.124937, -0.00037463, -0.0230193), (0.00767887, -0.0603693, 0.0203209),
+        (-0.000256456, 0.00580165, -0.0328953)),
+    16: ((-0.0624951, -0.000164648, 0.0023179), (0.00194393, -0.0307721, -0.00646238),
+         (-3.64745e-05, 0.00172144, -0.0178109)),
 }
 
 # The operations of a formula: a number, a name, or a list of an operation and its operands.
@@ -96,12 +110,12 @@ def formula_lobe(tree, s, n):
     return min(1.0, value) if value > 0 else 0.0
 
 
-def formula_reach(tree, n):
-    """Where it has fallen to 4e-18, by halving what is left."""
+def fallen(value):
+    """The s where a lobe has fallen to 4e-18, by halving what is left."""
     above, beyond = 0.0, 1.0
     for _ in range(90):
         s = (above + beyond) / 2
-        if formula_lobe(tree, s, n) > 4e-18:
+        if value(s) > 4e-18:
             above = s
         else:
             beyond = s
@@ -129,11 +143,32 @@ def schlick_node(nodes, s, n):
     return nodes.math("DIVIDE", c, nodes.math("ADD", c, nodes.math("MULTIPLY", n, s)))
 
 
+def pk_coefficients(n, k):
+    v = 1 / max(n, 16)
+    return [a + b * v + c * v ** 2 for a, b, c in PK3[k]]
+
+
+def pk_fall(n, k, t):
+    q1, q2, q3 = pk_coefficients(n, k)
+    return -(q1 * t + q2 * t ** 2 + q3 * t ** 3)
+
+
+def pk_fall_node(nodes, n, k, s):
+    q1, q2, q3 = pk_coefficients(n, k)
+    t = nodes.math("MULTIPLY", n, s)
+    sum2 = nodes.math("ADD", q2, nodes.math("MULTIPLY", q3, t))
+    sum1 = nodes.math("ADD", q1, nodes.math("MULTIPLY", sum2, t))
+    return nodes.math("MULTIPLY", nodes.math("SUBTRACT", 0.0, sum1), t)
+
+
 def find_lobe(material):
-    """The lobe and its order; cs16 is the family cs with k = 16. Of a formula, the formula."""
+    """The lobe and its order; cs16 is the family cs with k = 16, and pk3.2 the family pk with k = 4. Of a formula, the formula."""
     name = material["lobe"]
-    family = re.fullmatch("(cs)([0-9]+)", name)
-    return (LOBES[family[1]], int(family[2])) if family else (LOBES[name], material.get("formula"))
+    if family := re.fullmatch("cs([0-9]+)", name):
+        return LOBES["cs"], int(family[1])
+    if family := re.fullmatch("pk3[.]([1-4])", name):
+        return LOBES["pk"], 2 ** int(family[1])
+    return LOBES[name], material.get("formula")
 
 
 def integral(f, end):

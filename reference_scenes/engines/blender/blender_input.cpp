@@ -27,7 +27,7 @@ constexpr std::uint64_t kMostSeed = 0x7fffffff;  // in Blender
 constexpr int kSmallestSide = 4;  // in Blender, which would render a larger picture instead
 
 /// Throws unless the script's tables of models and lobes, which are keyed by name, have this one.
-void require_formula(const std::string& name) {
+void require_formula(std::string_view name) {
   if (embedded::blender_formulas_py.find(fmt::format("\n    \"{}\": ", name)) ==
       std::string_view::npos)
     throw Error(ExitCode::kEngine,
@@ -66,8 +66,7 @@ Json material_json(const Material& material) {
   const Highlight& highlight = material.highlight;
   const std::string model(info(highlight.model).name), lobe(info(highlight.lobe).name);
   require_formula(model);
-  // The name of a family has no order.
-  require_formula(lobe.substr(0, lobe.find_last_not_of("0123456789") + 1));
+  require_formula(family(highlight.lobe));
   Json result{{"model", model},
               {"lobe", lobe},
               {"normalisation", name(highlight.normalisation)},

@@ -1,5 +1,5 @@
 // 1 / (2 pi integral of lobe times cosines times sin x, x = 0..pi/2), in pieces: as long as the lobe is wide near its
-// peak, then longer and longer. The lobe of a cs_k ends in a corner, and so does a piece.
+// peak, then longer and longer. The lobe of a family ends in a corner, and so does a piece.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,19 +24,6 @@ namespace {
 /// The tail beyond a lobe this small adds nothing: the whole integral is more than 1/n.
 constexpr double kNothing = 1e-40;
 
-/// The angle below which the lobe is above `value`.
-Big angle_at(const LobeId& lobe, double value, double exponent) {
-  Big above = 0, beyond = boost::math::constants::half_pi<Big>();
-  // By halves; first in the exponent, for a narrow lobe.
-  while (beyond > 1e-9 && lobe_of_cosine(lobe, Big(cos(beyond / 2)), exponent) <= value)
-    beyond /= 2;
-  for (int step = 0; step < 100; ++step) {
-    const Big middle = (above + beyond) / 2;
-    (lobe_of_cosine(lobe, Big(cos(middle)), exponent) > value ? above : beyond) = middle;
-  }
-  return beyond;
-}
-
 /// Ends of the pieces, from 0 to a right angle.
 std::vector<Big> pieces(const ModelRow& model, const LobeId& lobe, double exponent) {
   const Big right_angle = boost::math::constants::half_pi<Big>();
@@ -48,11 +35,7 @@ std::vector<Big> pieces(const ModelRow& model, const LobeId& lobe, double expone
   for (const double factor : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0})
     ends.push_back(factor * unit);
   for (Big end = 16 * unit; end < right_angle; end *= 2) ends.push_back(end);
-  if (lobe.order > 0 && exponent > lobe.order / 2.0) {
-    const Big corner = acos(1 - Big(lobe.order) / exponent);
-    ends.push_back(model.lobe_of_half_angle ? 2 * corner : corner);
-  }
-  if (lobe.formula) ends.push_back(part * angle_at(lobe, 0, exponent));
+  if (lobe.order > 0 || lobe.formula) ends.push_back(part * angle_at(lobe, 0, exponent));
   std::erase_if(ends, [&](const Big& end) { return end > right_angle; });
   std::sort(ends.begin(), ends.end());
   return ends;
@@ -102,6 +85,18 @@ double integrate(const ModelRow& model, const LobeId& lobe, double exponent) {
 }
 
 }  // namespace
+
+Big angle_at(const LobeId& lobe, double value, double exponent) {
+  Big above = 0, beyond = boost::math::constants::half_pi<Big>();
+  // By halves; first in the exponent, for a narrow lobe.
+  while (beyond > 1e-9 && lobe_of_cosine(lobe, Big(cos(beyond / 2)), exponent) <= value)
+    beyond /= 2;
+  for (int step = 0; step < 100; ++step) {
+    const Big middle = (above + beyond) / 2;
+    (lobe_of_cosine(lobe, Big(cos(middle)), exponent) > value ? above : beyond) = middle;
+  }
+  return beyond;
+}
 
 double coefficient(ModelId model, LobeId lobe, double exponent) {
   // Pictures ask for the same few again and again, and each takes about 10 ms.

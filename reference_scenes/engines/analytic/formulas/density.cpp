@@ -19,7 +19,7 @@ Big unnormalised(LobeId lobe, const Big& cosine, double exponent) {
 
 /// The integral over the cosine from where the lobe ends to 1.
 Big whole(LobeId lobe, double exponent) {
-  const Big end = lobe.order > 0 ? std::min(Big(1), Big(lobe.order / Big(exponent))) : Big(1);
+  const Big end = lobe.order > 0 ? Big(1 - cos(angle_at(lobe, 0, exponent))) : Big(1);
   Big sum = 0, from = 0, to = 1 / (2 * Big(exponent));
   for (; to < end; from = to, to *= 2)
     sum += boost::math::quadrature::gauss<Big, 30>::integrate(

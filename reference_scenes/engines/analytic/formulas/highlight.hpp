@@ -1,6 +1,7 @@
 // Lobes and models for any number type, for the .cpp files of this folder.
 #pragma once
 
+#include "reference_scenes/engines/analytic/formulas/big.hpp"
 #include "reference_scenes/engines/analytic/formulas/vector.hpp"
 #include "renderer/highlight.hpp"
 
@@ -9,6 +10,9 @@ namespace lobelia::truth {
 /// The lobe's textbook definition by the cosine of its angle; 0 from a right angle on. For double and Big.
 template <class Real>
 Real lobe_of_cosine(LobeId lobe, const Real& cosine, double exponent);
+
+/// The angle below which the lobe is above `value`; a right angle if there is none.
+Big angle_at(const LobeId& lobe, double value, double exponent);
 
 /// A model by its row of the paper's table, written out again.
 struct ModelRow {
