@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/highlight.hpp"
+#include "renderer/lobes/catalogue.hpp"
 #include "studies/cost/binary_power.hpp"
 #include "studies/cost/lobe_errors.hpp"
 
@@ -11,6 +12,7 @@ namespace lobelia::cost {
 namespace {
 
 __extension__ using Wide = unsigned __int128;  // 1 squared has 65 bits
+__extension__ using SignedWide = __int128;
 
 std::uint64_t shifted(Wide x, int bits, FixedRounding rounding) {
   if (bits == 0) return std::uint64_t(x);
@@ -51,6 +53,36 @@ std::uint64_t fixed_cs(FixedPoint f, unsigned n, int k, std::uint64_t s) {
 std::uint64_t fixed_power(FixedPoint f, unsigned n, std::uint64_t s) {
   return HWY_NAMESPACE::binary_power(
       f.one() - s, n, [&](std::uint64_t a, std::uint64_t b) { return f.product(a, b); });
+}
+
+FixedPk::FixedPk(FixedPoint f, unsigned n, int k) : f_(f), n_(n), k_(k), range_(0) {
+  const HWY_NAMESPACE::PkLobe lobe({double(n), k});
+  while (lobe.value(std::ldexp(1 / lobe.n, range_)) > 0) ++range_;
+  for (int j = 0; j < 3; ++j)
+    q_[j] = std::llround(std::ldexp(lobe.of_t[j], (j + 1) * range_ + f.bits));
+}
+
+std::uint64_t FixedPk::value(std::uint64_t s) const {
+  const SignedWide t = SignedWide(n_) * s, half = SignedWide(1) << (f_.bits + range_ - 1);
+  if (t >= 2 * half) return 0;
+  const auto times_t = [&](std::int64_t a) {
+    return std::int64_t((t * a + (f_.rounding == FixedRounding::kNearest ? half : 0)) >>
+                        (f_.bits + range_));
+  };
+  const std::int64_t base =
+      std::int64_t(f_.one()) + times_t(q_[0] + times_t(q_[1] + times_t(q_[2])));
+  if (base <= 0) return 0;
+  auto power = std::uint64_t(base);
+  for (int i = 1; i < k_; i *= 2) power = f_.product(power, power);
+  return power;
+}
+
+double FixedPk::operations() const {
+  const double bits = f_.bits, scale = (bits + 1) * std::bit_width(n_), cut = bits;
+  double steps = 0;
+  for (const std::int64_t q : q_)
+    steps += (bits + range_) * int(std::bit_width(std::uint64_t(std::abs(q))));
+  return scale + steps + cut + log2_of(k_) * bits * bits;
 }
 
 bool FixedTable::fits(FixedPoint f, unsigned n, int address_bits) {

@@ -32,6 +32,22 @@ struct FixedPoint {
 /// of 2, n below 2^24.
 std::uint64_t fixed_cs(FixedPoint f, unsigned n, int k, std::uint64_t s);
 
+/// pk3.m: t = n s exactly, then three multiply-adds of t and a coefficient, each rounded once, the cut and m squarings.
+/// The coefficients are rounded to f bits and made for one n, below 2^24.
+class FixedPk {
+ public:
+  FixedPk(FixedPoint f, unsigned n, int k);
+  std::uint64_t value(std::uint64_t s) const;
+  double operations() const;
+
+ private:
+  FixedPoint f_;
+  unsigned n_;
+  int k_;
+  int range_;            ///< the lobe ends below t = 2^range
+  std::int64_t q_[3]{};  ///< of t / 2^range
+};
+
 /// cos^n itself by binary powering of 1 - s, n >= 1.
 std::uint64_t fixed_power(FixedPoint f, unsigned n, std::uint64_t s);
 
@@ -67,6 +83,7 @@ struct Circuit {
   std::function<double(double s)> ideal;
 };
 Circuit cs_circuit(FixedPoint f, unsigned n, int k);
+Circuit pk_circuit(FixedPoint f, unsigned n, int k);
 Circuit power_circuit(FixedPoint f, unsigned n);
 
 /// If a circuit has more steps than this in the highlight, two from each of kCells equal parts are measured.

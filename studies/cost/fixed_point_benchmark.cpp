@@ -53,10 +53,12 @@ std::vector<Circuit> circuits(unsigned n, const std::vector<int>& bits) {
   for (const FixedRounding rounding : kRoundings)
     for (const int count : bits) {
       const FixedPoint f{count, rounding};
-      // The lobes of the catalogue that need squarings alone.
-      for (const LobeId& lobe : all_lobes())
-        if (lobe.order > 0 && (lobe.order & (lobe.order - 1)) == 0)
+      // The lobes of the catalogue that need no power but squarings.
+      for (const LobeId& lobe : all_lobes()) {
+        if (family(lobe) == "cs" && (lobe.order & (lobe.order - 1)) == 0)
           all.push_back(cs_circuit(f, n, lobe.order));
+        if (family(lobe) == "pk") all.push_back(pk_circuit(f, n, lobe.order));
+      }
       all.push_back(power_circuit(f, n));
       for (const int address_bits : {4, 5, 6, 8})
         if (FixedTable::fits(f, n, address_bits)) all.push_back(table_circuit(f, n, address_bits));
@@ -226,6 +228,19 @@ Circuit cs_circuit(FixedPoint f, unsigned n, int k) {
           fixed_cs_operations(f, n, k),
           unit(f) * (n + 2.0 * k - 1),
           [=](std::uint64_t s) { return fixed_cs(f, n, k, s); },
+          prepare(lobe, n).value};
+}
+
+Circuit pk_circuit(FixedPoint f, unsigned n, int k) {
+  const auto pk = std::make_shared<const FixedPk>(f, n, k);
+  const LobeId lobe{find_lobe("pk3.1")->index, std::uint16_t(k)};
+  // The roundings of s, n times as large by the slope, which is 1 % more at most; of the three coefficients, which are to
+  // nearest, and of the three steps, k times as large by the power; and of each squaring.
+  return {std::string(info(lobe).name),
+          f,
+          pk->operations(),
+          unit(f) * (1.01 * n + 3.0 * k + k - 1) + 1.5 * k * std::exp2(-f.bits),
+          [pk](std::uint64_t s) { return pk->value(s); },
           prepare(lobe, n).value};
 }
 

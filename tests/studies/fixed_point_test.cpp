@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "renderer/lobes/catalogue.hpp"
 #include "studies/cost/lobe_errors.hpp"
 
 namespace lobelia::cost {
@@ -56,6 +57,46 @@ TEST(FixedPoint, IsExactlyWhatFractionsGive) {
                                   random() % (support / 8 + 1)})
             EXPECT_EQ(fraction(f, fixed_cs(f, n, k, s)), cs_by_fractions(f, n, k, s))
                 << bits << " bits, n = " << n << ", k = " << k << ", s = " << s;
+        }
+}
+
+/// x of either sign to a whole number of 2^-f.
+[[gnu::noinline]] cpp_rational rounded_of_any_sign(const cpp_rational& x, FixedPoint f) {
+  const cpp_int whole = 1 << 10;  // makes what is rounded positive
+  return rounded(x + whole, f) - whole;
+}
+
+TEST(FixedPoint, OfPkIsExactlyWhatFractionsGive) {
+  std::mt19937_64 random(1);
+  for (const FixedRounding rounding : kRoundings)
+    for (int bits = 6; bits <= 32; bits += 2)
+      for (const unsigned n : {16u, 63u, 1000u, 1000000u})
+        for (const int k : {2, 4, 8, 16}) {
+          const FixedPoint f{bits, rounding};
+          const PreparedLobe lobe =
+              prepare({find_lobe("pk3.1")->index, std::uint16_t(k)}, double(n));
+          int range = 0;
+          while (lobe.value(std::exp2(range) / n) > 0) ++range;
+          const HWY_NAMESPACE::PkLobe pk({double(n), k});
+          cpp_rational q[3];
+          for (int j = 0; j < 3; ++j)
+            q[j] = rounded_of_any_sign(
+                cpp_rational(pk.of_t[j]) * cpp_rational(cpp_int(1) << (range * (j + 1))),
+                {bits, FixedRounding::kNearest});
+          const FixedPk circuit(f, n, k);
+          for (int i = 0; i < 20; ++i) {
+            const std::uint64_t s =
+                i == 0 ? 0 : random() % std::min(f.one() + 1, (f.one() << range) / n + 2);
+            const cpp_rational w =
+                cpp_rational(n) * fraction(f, s) / cpp_rational(cpp_int(1) << range);
+            cpp_rational power = 0;
+            for (int j = 3; j-- > 0;) power = rounded_of_any_sign(w * (q[j] + power), f);
+            power += 1;
+            if (power <= 0 || w >= 1) power = 0;
+            for (int order = 1; order < k; order *= 2) power = rounded(power * power, f);
+            EXPECT_EQ(fraction(f, circuit.value(s)), power)
+                << bits << " bits, n = " << n << ", k = " << k << ", s = " << s;
+          }
         }
 }
 
@@ -123,6 +164,23 @@ TEST(CircuitErrors, StayBelowWhatTheRoundingsCanAddUpTo) {
             EXPECT_GT(e.rounding, bound / 32) << k << " " << bits << " " << n;
           }
           EXPECT_LE(e.max, e.shape + e.rounding + 1e-12);
+        }
+}
+
+TEST(CircuitErrors, OfPkStayBelowTheirBoundAndEndAtTheShape) {
+  for (const FixedRounding rounding : kRoundings)
+    for (const int k : {2, 4, 8, 16})
+      for (const unsigned n : {16u, 64u, 1024u})
+        for (int bits = 6; bits <= 32; bits += 2) {
+          const Circuit circuit = pk_circuit({bits, rounding}, n, k);
+          const CircuitErrors e = circuit_errors(circuit, n);
+          EXPECT_LE(e.rounding, circuit.most_rounding) << k << " " << bits << " " << n;
+          if (circuit.most_rounding < 0.1) {
+            EXPECT_GT(e.rounding, circuit.most_rounding / 32) << k << " " << bits << " " << n;
+          }
+          if (bits == 32) {
+            EXPECT_NEAR(e.max, e.shape, 1e-6) << k << " " << n;
+          }
         }
 }
 
@@ -276,6 +334,8 @@ TEST(FixedPointTable, CountsBitOperationsAndHasNamesOfItsOwn) {
   }
   for (const int k : kOrders)
     EXPECT_THAT(names, Contains("cs" + std::to_string(k) + ", 16 bits, truncated"));
+  for (int m = 1; m <= 4; ++m)
+    EXPECT_THAT(names, Contains("pk3." + std::to_string(m) + ", 16 bits, truncated"));
   EXPECT_THAT(names, Contains("cosine by squaring, 8 bits, rounded"));
   EXPECT_THAT(names, Contains("table of 16, 16 bits, rounded"));
 }
