@@ -137,13 +137,25 @@ TEST(Accuracy, TakesMoreSamplesTheMoreIsAskedAndSaysWhatIsPossible) {
 TEST(Accuracy, KeepsTheScenesOwnLobeWhereItIsTheCheapestThatWillDo) {
   const Scene s = with_highlight(scene("head_on"), 250.5, "cosine");
   const auto cosine = *find_lobe("cosine");
-  EXPECT_EQ(choose(s, parse_accuracy("1e-4")).lobe, cosine);
+  EXPECT_EQ(choose(s, parse_accuracy("1e-6")).lobe, cosine);
   // With another order of costs another lobe is chosen.
   const auto own_first = [&](LobeId lobe, Precision) { return lobe == cosine ? 1.0 : 2.0; };
   EXPECT_EQ(choose(s, parse_accuracy("0.5"), 1, own_first).lobe, cosine);
   const auto all_alike = [](LobeId, Precision) { return 1.0; };
   EXPECT_EQ(choose(s, parse_accuracy("0.5"), 1, all_alike).lobe, cosine);
   EXPECT_NE(choose(s, parse_accuracy("0.5")).lobe, cosine);
+}
+
+TEST(Accuracy, IsReachedForACosineByACubicAndSquarings) {
+  for (const double exponent : {100.0, 250.5, 1024.0}) {
+    const Scene s = with_highlight(scene("oblique_45"), exponent, "cosine");
+    for (const char* asked : {"1e-2", "1e-3", "1e-4"}) {
+      const Choice choice = choose(s, parse_accuracy(asked));
+      ASSERT_TRUE(choice.lobe) << exponent << " " << asked;
+      EXPECT_EQ(family(*choice.lobe), "pk") << exponent << " " << asked;
+      EXPECT_LT(choice.cost, choice.own_cost / 5) << exponent << " " << asked;
+    }
+  }
 }
 
 TEST(Accuracy, FindsThatAnEvenPowerOfTheCosineNeedsNoLogarithm) {
