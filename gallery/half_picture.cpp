@@ -2,10 +2,9 @@
 
 #include <zlib.h>
 
-#include <bit>
-
 #include "core/base64.hpp"
 #include "core/error.hpp"
+#include "core/half.hpp"
 #include "core/image_values.hpp"
 
 namespace lobelia::gallery {
@@ -14,20 +13,6 @@ namespace {
 constexpr int kHalfMantissa = 10;
 /// The largest value is scaled to just below 2^15, well within a half float.
 constexpr int kTopExponent = 15;
-
-/// Round to nearest, ties to even. `value` is at most 2^15 in magnitude, or not finite.
-std::uint16_t half_of(float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  const auto sign = static_cast<std::uint16_t>(bits >> 16 & 0x8000u);
-  if (std::isnan(value)) return sign | 0x7e00u;
-  if (std::isinf(value)) return sign | 0x7c00u;
-  const float size = std::abs(value);
-  if (size < 0x1p-14f)  // subnormal: multiples of 2^-24
-    return sign | static_cast<std::uint16_t>(std::nearbyint(size * 0x1p24f));
-  const std::uint32_t magnitude = bits & 0x7fffffffu;
-  const std::uint32_t rounded = magnitude + 0xfffu + (magnitude >> 13 & 1u);
-  return sign | static_cast<std::uint16_t>((rounded >> 13) - ((127 - 15) << 10));
-}
 
 /// Rounded without the last `dropped` bits, as an integer that is ordered as the values are.
 int ordered(std::uint16_t half, int dropped) {
@@ -103,7 +88,7 @@ records::PackedPicture half_picture(const Image& image, int precision) {
   halves.reserve(image.values().size());
   for (const float value : image.values()) {
     const bool is_small = std::abs(value) < result.least;
-    halves.push_back(half_of(is_small ? 0.0f : std::ldexp(value, result.scale_log2)));
+    halves.push_back(Half(is_small ? 0.0f : std::ldexp(value, result.scale_log2)).bits());
   }
   const auto packed = [&](bool is_predicted) {
     return deflated(residuals(halves, image.width(), image.height(),

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/half.hpp"
+
 namespace lobelia::shader_check {
 namespace {
 
@@ -246,16 +248,6 @@ std::string own_coefficient_text(const Highlight& highlight) {
   if (info(highlight.model).normalised == NormalisedQuantity::kRadiance) return text;
   if (!text.ends_with(kTwoPi)) return text + " / 4";
   return text.substr(0, text.size() - kTwoPi.size()) + "/ (8 pi)";
-}
-
-double rounded_to_half(double value) {
-  if (value == 0 || !std::isfinite(value)) return value;
-  constexpr int kDigits = 11, kLeastExponent = -13;
-  int exponent = 0;
-  std::frexp(value, &exponent);
-  const double unit = std::ldexp(1.0, std::max(exponent, kLeastExponent) - kDigits);
-  const double rounded = std::nearbyint(value / unit) * unit;
-  return std::abs(rounded) > 65504 ? std::copysign(HUGE_VAL, value) : rounded;
 }
 
 }  // namespace lobelia::shader_check

@@ -59,7 +59,4 @@ std::span<const OutputMistake> output_mistakes();
 /// The model's own coefficient of cos^n as a formula, with the quarter of a distribution: "(n + 1) / (8 pi)".
 std::string own_coefficient_text(const Highlight& highlight);
 
-/// The nearest half float; infinite from 65520 on.
-double rounded_to_half(double value);
-
 }  // namespace lobelia::shader_check

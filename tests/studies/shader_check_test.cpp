@@ -247,15 +247,5 @@ TEST(FunctionsIn, AreThoseThatATextDefinesInAnyLanguage) {
   EXPECT_THAT(functions_in(std::string(1 << 20, '(')), testing::IsEmpty());
 }
 
-TEST(RoundedToHalf, IsTheNearestHalfFloat) {
-  EXPECT_EQ(shader_check::rounded_to_half(1), 1);
-  EXPECT_EQ(shader_check::rounded_to_half(1 + 0x1p-11), 1);  // ties to even
-  EXPECT_EQ(shader_check::rounded_to_half(1 + 3 * 0x1p-11), 1 + 4 * 0x1p-11);
-  EXPECT_EQ(shader_check::rounded_to_half(0x1p-24), 0x1p-24);
-  EXPECT_EQ(shader_check::rounded_to_half(0x1p-26), 0);
-  EXPECT_EQ(shader_check::rounded_to_half(65504), 65504);
-  EXPECT_TRUE(std::isinf(shader_check::rounded_to_half(65520)));
-}
-
 }  // namespace
 }  // namespace lobelia
