@@ -20,7 +20,9 @@ struct Weights {
   double simple, divide_or_root, transcendental;
   double rounding;  ///< of float64 to float32: of nine components, one s, or nothing
 };
-constexpr Weights kWeights[] = {{1, 6, 28, 4}, {1, 6, 28, 3}, {1.5, 10, 70, 0}};
+constexpr Weights kWeights[] = {
+    {1, 6, 28, 4}, {1, 6, 28, 3}, {1.5, 10, 70, 0}, {200, 250, 800, 4000}};
+static_assert(std::size(kWeights) == kPrecisionCount);
 /// Of a formula, which every precision evaluates node by node and one value at a time: 27 ns for c^n, 53 ns for
 /// max(0, 1 - n s / 16)^16, 70 ns for exp(-n x^2 / 2), with 0.015 ns a multiplication.
 constexpr double kOfANode = 250, kOfItsTranscendentals = 1000;

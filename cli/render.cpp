@@ -150,10 +150,12 @@ void add_render(CLI::App& app, ExitCode& code) {
   group.add_number("--threads", options->render.threads, 0, 1024, "Threads; 0 is all processors");
   group.add_choice("--effects", options->effects, {"as-called-for", "all"},
                    "Simulate effects as the scene calls for them, or all");
+  std::vector<std::string> precisions{"sufficient"};
+  precisions.insert(precisions.end(), precision_names().begin(), precision_names().end());
   auto* precision = group.add_choice(
-      "--precision", options->precision, {"sufficient", "float32", "mixed", "float64"},
+      "--precision", options->precision, precisions,
       "Shade with the narrowest precision whose error bound allows it (sufficient), "
-      "or with this one");
+      "or with this one; float16 emulates a phone's half floats, slowly");
   auto* target_error =
       group.add("--target-error", options->render.target_error, "",
                 "Take samples until the picture's estimated relative error is this small");

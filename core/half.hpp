@@ -101,6 +101,7 @@ using FlushedHalf = HalfOf<Subnormals::kFlushed>;
 template <class T>
 struct Half3Of {
   T x, y, z;
+  Half3Of() = default;
   Half3Of(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
   explicit Half3Of(Vec3 a) : x(a.x), y(a.y), z(a.z) {}
   friend Half3Of operator+(Half3Of a, Half3Of b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }

@@ -22,6 +22,9 @@ struct ExpressionLobe {
     using Scalar = typename ScalarOf<Real>::Type;
     if constexpr (std::is_same_v<Real, double>) {
       return lobe.value(s);
+    } else if constexpr (std::is_same_v<Scalar, Real>) {  // a half float
+      const Real value = lobe.formula().template evaluate<Real>(s, n);
+      return where_less(s, Real(1), min(max(value, Real(0)), Real(1)));
     } else {
       HWY_ALIGN Scalar lanes[HWY_LANES(Scalar)];
       double wide[HWY_LANES(Scalar)];

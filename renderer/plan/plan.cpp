@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "core/error.hpp"
+#include "core/half.hpp"
 #include "renderer/fused.hpp"
 #include "renderer/kernels/kernels.hpp"
 
@@ -44,7 +46,14 @@ double min_half_length(const Scene& scene, const Lamp& lamp, const Sphere& spher
 }
 
 void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& plan) {
-  std::array<std::size_t, 3> pairs{};
+  if (asked == Precision::kFloat16)
+    for (const Material& m : scene.materials)
+      if (m.highlight.exponent > kGreatestHalf)
+        throw Error(ExitCode::kInput,
+                    fmt::format("exponent {:g}: float16 has no number above {:g}; choose a wider "
+                                "--precision",
+                                m.highlight.exponent, kGreatestHalf));
+  std::array<std::size_t, kPrecisionCount> pairs{};
   for (const Material& m : scene.materials)
     plan.any_direction_precision.push_back(asked ? *asked : sufficient_precision(m.highlight, 0));
   // By material and by |L + V|, rounded down to a power of 2^(1/4): a crowd of spheres needs few bounds then.
@@ -79,7 +88,9 @@ void decide_precision(const Scene& scene, std::optional<Precision> asked, Plan& 
       ++pairs[std::size_t(plan.any_direction_precision[std::size_t(plane.material)])];
   }
   if (asked) {
-    plan.precision_reason = fmt::format("{} was asked for", name(*asked));
+    plan.precision_reason = fmt::format(
+        "{} was asked for{}", name(*asked),
+        *asked == Precision::kFloat16 ? ", and is emulated: its time is no phone's" : "");
     return;
   }
   for (std::size_t p = 0; p < pairs.size(); ++p)

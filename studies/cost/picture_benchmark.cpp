@@ -12,6 +12,7 @@
 #include "accuracy/lobe_candidates.hpp"
 #include "accuracy/picture_truth.hpp"
 #include "core/error.hpp"
+#include "core/half.hpp"
 #include "renderer/render.hpp"
 #include "renderer/render_record.hpp"
 
@@ -68,10 +69,13 @@ std::string order_remark(const std::vector<Variant>& variants) {
 
 Table table_of(const NamedScene& named, const Options& options) {
   const Scene scene = sized(named.scene, options);
+  const bool in_half_floats = std::ranges::all_of(
+      scene.materials, [](const Material& m) { return m.highlight.exponent <= kGreatestHalf; });
   std::vector<Combination> cases;
   for (const LobeId& lobe : accuracy::lobe_candidates(scene))
-    for (std::size_t p = 0; p < precision_names().size(); ++p)
-      cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}});
+    for (std::size_t p = 0; p < kPrecisionCount; ++p)
+      if (Precision(p) != Precision::kFloat16 || in_half_floats)
+        cases.push_back({lobe, Precision(p), accuracy::with_lobe(scene, lobe), {}, {}});
 
   const int rounds = options.rounds(3, 9, 25);
   for (int round = -1; round < rounds; ++round) {
@@ -110,7 +114,8 @@ Table table_of(const NamedScene& named, const Options& options) {
     };
     const std::string lobe(info(c.lobe).name), precision(name(c.precision));
     Variant& variant = table.variants.emplace_back();
-    variant.name = fmt::format("{}, {}", lobe, precision);
+    variant.name = fmt::format("{}, {}{}", lobe, precision,
+                               c.precision == Precision::kFloat16 ? " (emulated)" : "");
     variant.settings = {
         {"lobe", lobe}, {"precision", precision}, {"samples", std::to_string(c.first.samples)}};
     variant.seconds = seconds_record(per(summary(std::move(c.seconds)), megapixels));

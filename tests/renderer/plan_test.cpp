@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "renderer/scene/scene_io.hpp"
 #include "tests/canonical_scene.hpp"
 
@@ -71,6 +72,27 @@ TEST(Plan, TakesThePrecisionThatIsAskedForAndSaysSo) {
     EXPECT_EQ(plan.precision_reason, std::string(name(precision)) + " was asked for");
   }
   EXPECT_NE(make_plan(canonical_scene("head_on"), EffectPolicy::kAll).precision_reason, "");
+}
+
+TEST(Plan, ShadesInHalfFloatsOnlyIfAskedAndSaysThatItsTimeIsNoPhones) {
+  const Plan plan =
+      make_plan(canonical_scene("oblique_45"), EffectPolicy::kAsCalledFor, Precision::kFloat16);
+  EXPECT_NE(plan.precision_reason.find("float16 was asked for, and is emulated"),
+            std::string::npos);
+  EXPECT_NE(plan.kernel.find("waves"), std::string::npos) << "no fused kernel has half floats";
+  for (const LobeId& lobe : all_lobes())
+    EXPECT_NE(sufficient_precision({{}, lobe, Normalisation::kExact, 1e-3}, 2),
+              Precision::kFloat16);
+}
+
+TEST(Plan, RefusesHalfFloatsForAnExponentThatTheyDoNotHave) {
+  Scene scene = canonical_scene("oblique_45");
+  const auto plan_for = [&](double n) {
+    scene.materials[0].highlight.exponent = n;
+    make_plan(scene, EffectPolicy::kAsCalledFor, Precision::kFloat16);
+  };
+  EXPECT_NO_THROW(plan_for(65504));
+  EXPECT_THROW(plan_for(65505), Error);
 }
 
 TEST(Plan, FresnelIsOnWhereAMaterialHasIt) {
