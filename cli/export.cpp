@@ -10,7 +10,8 @@ namespace lobelia::cli {
 namespace {
 
 struct ExportArguments {
-  std::string language, normalisation = "exact", coefficient = "computed", fresnel = "none", output;
+  std::string language, normalisation = "exact", coefficient = "computed", fresnel = "none",
+                        precision = "float32", output;
   std::vector<std::string> models;
   LobeOption lobe;
   std::optional<double> exponent;
@@ -31,6 +32,8 @@ void run_export(const ExportArguments& options) {
                                join(coefficient_from_names()), find_coefficient_from);
   request.fresnel =
       chosen(options.fresnel, "--fresnel", fresnel_names(), join(fresnel_names()), find_fresnel);
+  request.precision = chosen(options.precision, "--precision", shader_precision_names(),
+                             join(shader_precision_names()), find_shader_precision);
   require_lobe({request.models.front(), request.lobe, request.normalisation,
                 request.exponent.value_or(Highlight{}.exponent)});
   const std::string text = shader_text(request);
@@ -76,6 +79,12 @@ void add_export(CLI::App& app, ExitCode&) {
            "A number for n, and the coefficient with it, in place of a parameter. A lobe whose "
            "coefficient has no closed form needs this or --coefficient argument")
       ->check(between(kMinExponent, kMaxExponent));
+  group
+      .add("--precision", options->precision, "",
+           fmt::format("Numbers of the functions: {}. mediump is for GLSL and min16float for HLSL, "
+                       "with a formula that holds in half floats, for phones",
+                       join(shader_precision_names())))
+      ->capture_default_str();
   group.add("-o,--output", options->output, "FILE", "File to write; otherwise standard output");
   command->footer(
       "What is written needs nothing of Lobelia, and says what each function returns, where the\n"
@@ -86,6 +95,7 @@ void add_export(CLI::App& app, ExitCode&) {
       "  lobelia export --language glsl modified_phong blinn_phong_rdf --lobe cs16\n"
       "  lobelia export --language osl phong_rdf --lobe gauss --exponent 64 -o gauss.h\n"
       "  lobelia export --language wgsl phong_rdf --coefficient argument --fresnel schlick\n"
+      "  lobelia export --language glsl blinn_phong_ndf --lobe cs16 --precision mediump\n"
       "  lobelia export --language povray modified_phong -o lobelia_modified_phong_cosine.inc");
   command->callback([options] { run_export(*options); });
 }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <regex>
 
 #include "core/constants.hpp"
 #include "core/error.hpp"
+#include "core/half.hpp"
 #include "core/numbers.hpp"
 #include "core/text.hpp"
 #include "core/version.hpp"
@@ -17,8 +19,8 @@
 
 namespace lobelia {
 namespace embedded {
-extern const std::string_view gpu_head, gpu_geometry, gpu_lobe, gpu_energy, gpu_coefficient,
-    gpu_fresnel, gpu_highlight;
+extern const std::string_view gpu_head, gpu_geometry, gpu_geometry_half, gpu_lobe, gpu_energy,
+    gpu_coefficient, gpu_fresnel, gpu_highlight;
 }
 namespace {
 
@@ -26,6 +28,14 @@ using HWY_NAMESPACE::LobesById;
 using HWY_NAMESPACE::Models;
 
 constexpr std::string_view kCoefficientFrom[] = {"computed", "argument"};
+constexpr std::string_view kPrecisions[] = {"float32", "mediump", "min16float"};
+
+constexpr std::string_view kFloat32Note =
+    "Written for float32: with a sharp highlight there is no power of a cosine, which would not know the\n"
+    "// angle, and no difference of numbers that nearly agree.";
+constexpr std::string_view kHalfNote =
+    "Written for half floats, for n = 8 to 1024. Rounded vectors are the largest error: keep them in float32\n"
+    "// until their difference is taken, if you can. docs/export.md has the errors.";
 
 struct LobeForm {
   LobeText text;
@@ -94,6 +104,7 @@ class Writer {
       : language_(language),
         fixed_(request.exponent.has_value()),
         argument_(request.coefficient == CoefficientFrom::kArgument),
+        half_(request.precision != ShaderPrecision::kFloat32),
         fresnel_(request.fresnel != Fresnel::kNone) {}
 
   void add(const Highlight& highlight) {
@@ -106,8 +117,8 @@ class Writer {
                       "exponent that it is for: --exponent N, or take the coefficient as an "
                       "argument: --coefficient argument",
                       info(highlight.lobe).name));
-    add_lobe(highlight.lobe);
-    if (fresnel_) add_part("lobelia_fresnel", embedded::gpu_fresnel);
+    add_lobe(highlight.lobe, half_);
+    if (fresnel_) add_part("lobelia_fresnel", embedded::gpu_fresnel, half_);
     const std::string with_coefficient = function_name(highlight, fixed_),
                       function = function_name(highlight, fixed_, fresnel_);
     if (!fixed_ && !formula.empty()) add_coefficient(highlight, with_coefficient, formula);
@@ -116,40 +127,58 @@ class Writer {
                : (argument_ ? "coefficient" : with_coefficient + "_coefficient(exponent)");
     // Languages with guards have overloads, so that the name may be the same.
     add_part(argument_ ? function + "_argument" : function,
-             highlight_text(highlight, function, coefficient, argument_note(highlight, formula)));
+             highlight_text(highlight, function, coefficient, argument_note(highlight, formula)),
+             half_);
   }
   const std::string& text() const { return parts_.text(); }
 
  private:
-  void add_part(std::string name, std::string_view part) {
+  void add_part(std::string name, std::string_view part, bool half = false) {
+    std::string text = fill(part, {{"vec3", language_.vector},
+                                   {"colour", language_.colour},
+                                   {"inline", language_.function},
+                                   {"normal", language_.normal}});
+    if (language_.translate) text = language_.translate(text);
+    if (half) {
+      // Names of their own, so that both precisions may be used together.
+      static const std::regex function("\\b(lobelia_\\w+)\\(");
+      const std::string suffix = fmt::format("_{}", language_.half_word);
+      text = std::regex_replace(language_.narrow(text), function, "$1" + suffix + "(");
+      for (std::size_t at; (at = text.find("_coefficient" + suffix)) != std::string::npos;)
+        text.erase(at + std::string_view("_coefficient").size(), suffix.size());
+      name += suffix;
+    }
     // In capitals: a macro with the function's own name would replace the function.
     for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
-    const std::string text = fill(part, {{"vec3", language_.vector},
-                                         {"colour", language_.colour},
-                                         {"inline", language_.function},
-                                         {"normal", language_.normal}});
-    parts_.add(name, language_.translate ? language_.translate(text) : text);
+    parts_.add(name, text);
   }
 
-  void add_lobe(const LobeId& lobe) {
+  void add_lobe(const LobeId& lobe, bool half) {
     const LobeInfo& about = info(lobe);
-    add_part("lobelia_geometry", embedded::gpu_geometry);
+    add_part("lobelia_geometry", half ? embedded::gpu_geometry_half : embedded::gpu_geometry, half);
     const std::string name = identifier(lobe);
+    const LobeText text = lobe_form(lobe).text;
     add_part(fmt::format("lobelia_{}_lobe", name),
-             fill(embedded::gpu_lobe, {{"title", about.title},
-                                       {"formula", about.formula},
-                                       {"source", about.source},
-                                       {"lobe", name},
-                                       {"body", lobe_form(lobe).text.body}}));
+             fill(embedded::gpu_lobe,
+                  {{"title", about.title},
+                   {"formula", about.formula},
+                   {"source", about.source},
+                   {"scale_note",
+                    half ? "\n// Here `s` is 1024 times as large, and `n` that much smaller." : ""},
+                   {"lobe", name},
+                   {"body", half && !text.half_body.empty() ? text.half_body : text.body}}),
+             half);
   }
 
   void add_coefficient(const Highlight& highlight, const std::string& function,
                        const std::string& formula) {
     const LobeForm lobe = lobe_form(highlight.lobe);
-    if (highlight.normalisation == Normalisation::kExact && lobe.column != PaperColumn::kCosine)
+    if (highlight.normalisation == Normalisation::kExact && lobe.column != PaperColumn::kCosine) {
+      add_lobe(highlight.lobe, false);
       add_part(fmt::format("lobelia_{}_energy", identifier(highlight.lobe)),
                fill(embedded::gpu_energy,
                     {{"lobe", identifier(highlight.lobe)}, {"slope", lobe.text.slope}}));
+    }
     add_part(function + "_coefficient",
              fill(embedded::gpu_coefficient, {{"function", function}, {"coefficient", formula}}));
   }
@@ -199,14 +228,19 @@ class Writer {
          {"which", mirror ? "mirror" : "half"},
          {"coefficient", coefficient},
          {"lobe", identifier(highlight.lobe)},
-         {"exponent", fixed_ ? float32_text(highlight.exponent) : "exponent"},
+         {"exponent", fixed_  ? float32_text(highlight.exponent / (half_ ? kHalfScale : 1))
+                      : half_ ? "exponent / 1024.0"
+                              : "exponent"},
+         {"right_angle", half_ ? "1024" : "1"},
+         {"scale", half_ ? "1024 (" : ""},
+         {"scale_end", half_ ? ")" : ""},
          {"factor", cosine ? " * n_dot_l" : ""},
          {"fresnel", fresnel_ ? " * lobelia_fresnel(reflectance, to_eye, to_light)" : ""},
          {"function", function}});
   }
 
   const GpuLanguage& language_;
-  bool fixed_, argument_, fresnel_;
+  bool fixed_, argument_, half_, fresnel_;
   Parts parts_{language_.guard_begin, language_.guard_end};
 };
 
@@ -222,7 +256,29 @@ std::string command_of(const ShaderExport& request) {
     command += fmt::format(" --coefficient {}", kCoefficientFrom[int(request.coefficient)]);
   if (request.fresnel != Fresnel::kNone)
     command += fmt::format(" --fresnel {}", name(request.fresnel));
+  if (request.precision != ShaderPrecision::kFloat32)
+    command += fmt::format(" --precision {}", kPrecisions[int(request.precision)]);
   return command;
+}
+
+void require_half_floats(const ShaderExport& request, const GpuLanguage& language) {
+  const std::string_view word = kPrecisions[int(request.precision)];
+  if (word != language.half_word)
+    throw Error(
+        ExitCode::kUsage,
+        fmt::format("--precision {}: not in {}, which has {}; mediump is GLSL's, and "
+                    "min16float is HLSL's",
+                    word, language.title,
+                    language.half_word.empty() ? "float32 alone"
+                                               : "float32 and " + std::string(language.half_word)));
+  if (request.lobe.formula)
+    throw Error(ExitCode::kUsage,
+                fmt::format("--precision {}: a formula may not hold in half floats; take a lobe of "
+                            "the catalogue, or leave --precision out",
+                            word));
+  if (request.exponent.value_or(1) > kGreatestHalf)
+    throw Error(ExitCode::kUsage,
+                fmt::format("--precision {}: --exponent is at most {}", word, kGreatestHalf));
 }
 
 std::string gpu_text(const ShaderExport& request, const std::vector<Highlight>& highlights) {
@@ -231,6 +287,8 @@ std::string gpu_text(const ShaderExport& request, const std::vector<Highlight>& 
                 "with --exponent the coefficient is a number in what is exported; leave "
                 "--coefficient argument out, or --exponent");
   const GpuLanguage& language = gpu_languages()[request.language.index];
+  const bool half = request.precision != ShaderPrecision::kFloat32;
+  if (half) require_half_floats(request, language);
   Writer writer(language, request);
   for (const Highlight& highlight : highlights) writer.add(highlight);
   const std::string begin = language.begin.empty() ? "" : "\n" + std::string(language.begin);
@@ -242,10 +300,13 @@ std::string gpu_text(const ShaderExport& request, const std::vector<Highlight>& 
                {"colour_note", request.fresnel == Fresnel::kNone
                                    ? " and by the colour of the highlight"
                                    : "; `reflectance` is the highlight's colour"},
-               {"exponent_note", request.exponent ? "" : "\n// `exponent` is 0 to 1e8."},
+               {"exponent_note", request.exponent ? ""
+                                 : half           ? "\n// `exponent` is 1 to 65504."
+                                                  : "\n// `exponent` is 0 to 1e8."},
+               {"precision_note", half ? kHalfNote : kFloat32Note},
                {"normal", language.normal},
-               {"note", language.note}}) +
-         begin + writer.text();
+               {"note", half ? language.half_note : language.note}}) +
+         begin + writer.text() + (half ? std::string(language.half_end) : "");
 }
 
 /// POV-Ray's part is a pattern, which is one number, and a macro for the coefficient.
@@ -260,6 +321,8 @@ std::string checked_povray_text(const ShaderExport& request,
     refuse("the coefficient always is a macro of its own; leave --coefficient out");
   if (request.fresnel != Fresnel::kNone)
     refuse("what is exported has no Fresnel factor; leave --fresnel out");
+  if (request.precision != ShaderPrecision::kFloat32)
+    refuse("all numbers are float64; leave --precision out");
   return povray_text(highlights);
 }
 
@@ -281,6 +344,11 @@ std::optional<ShaderLanguage> find_shader_language(std::string_view name) {
 std::span<const std::string_view> coefficient_from_names() { return kCoefficientFrom; }
 std::optional<CoefficientFrom> find_coefficient_from(std::string_view name) {
   return find_id<CoefficientFrom>(kCoefficientFrom, name);
+}
+
+std::span<const std::string_view> shader_precision_names() { return kPrecisions; }
+std::optional<ShaderPrecision> find_shader_precision(std::string_view name) {
+  return find_id<ShaderPrecision>(kPrecisions, name);
 }
 
 std::string shader_text(const ShaderExport& request) {

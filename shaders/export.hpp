@@ -27,6 +27,15 @@ enum class CoefficientFrom : std::uint8_t {
 std::span<const std::string_view> coefficient_from_names();  ///< "computed", "argument"
 std::optional<CoefficientFrom> find_coefficient_from(std::string_view name);
 
+/// The numbers of the functions; a coefficient is always computed in float32.
+enum class ShaderPrecision : std::uint8_t {
+  kFloat32,
+  kMediump,     ///< GLSL's
+  kMin16Float,  ///< HLSL's
+};
+std::span<const std::string_view> shader_precision_names();  ///< "float32", "mediump", "min16float"
+std::optional<ShaderPrecision> find_shader_precision(std::string_view name);
+
 struct ShaderExport {
   ShaderLanguage language;
   std::vector<ModelId> models;  ///< not empty
@@ -36,6 +45,8 @@ struct ShaderExport {
   CoefficientFrom coefficient = CoefficientFrom::kComputed;
   /// With Schlick's, the functions take F0 in red, green and blue, and return such a colour.
   Fresnel fresnel = Fresnel::kNone;
+  /// With half floats, names of functions end in "_mediump" or "_min16float".
+  ShaderPrecision precision = ShaderPrecision::kFloat32;
 };
 
 /// The text of the file. Throws Error(kUsage) if the language or the lobe does not go with the other members, and

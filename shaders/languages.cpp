@@ -34,6 +34,17 @@ std::string wgsl_from_c(const std::string& text) {
   });
 }
 
+/// A qualifier before types, but not in a constructor: vec3(x, y, z).
+std::string mediump_from_c(const std::string& text) {
+  static const std::regex declared("\\b(float|vec3) (?=\\w)");
+  return std::regex_replace(text, declared, "mediump $1 ");
+}
+
+std::string min16float_from_c(const std::string& text) {
+  static const std::regex type("\\bfloat(3?)\\b");
+  return std::regex_replace(text, type, "min16float$1");
+}
+
 constexpr std::string_view kIfndef = "#ifndef %name%\n#define %name%\n", kEndif = "#endif\n";
 
 constexpr GpuLanguage kLanguages[] = {
@@ -49,6 +60,12 @@ constexpr GpuLanguage kLanguages[] = {
      .function = "",
      .guard_begin = kIfndef,
      .guard_end = kEndif,
+     .half_word = "mediump",
+     .half_note =
+         "For GLSL ES (WebGL), and for GLSL from version 1.30, which accepts `mediump` and ignores it. What follows it\n"
+         "// in a shader has mediump floats, until it says otherwise. Only a coefficient is computed in highp.",
+     .half_end = "\n#ifdef GL_FRAGMENT_PRECISION_HIGH\nprecision mediump float;\n#endif\n",
+     .narrow = mediump_from_c,
      .translate = nullptr},
     {.name = "hlsl",
      .title = "HLSL",
@@ -60,6 +77,11 @@ constexpr GpuLanguage kLanguages[] = {
      .function = "",
      .guard_begin = kIfndef,
      .guard_end = kEndif,
+     .half_word = "min16float",
+     .half_note =
+         "For shader model 4 and later, with Direct3D 11.1. Only a coefficient is computed in float.",
+     .half_end = "",
+     .narrow = min16float_from_c,
      .translate = nullptr},
     {.name = "wgsl",
      .title = "WGSL",
@@ -71,6 +93,10 @@ constexpr GpuLanguage kLanguages[] = {
      .function = "",
      .guard_begin = "",
      .guard_end = "",
+     .half_word = "",
+     .half_note = "",
+     .half_end = "",
+     .narrow = nullptr,
      .translate = wgsl_from_c},
     {.name = "msl",
      .title = "Metal's language (MSL)",
@@ -82,6 +108,10 @@ constexpr GpuLanguage kLanguages[] = {
      .function = "inline ",
      .guard_begin = kIfndef,
      .guard_end = kEndif,
+     .half_word = "",
+     .half_note = "",
+     .half_end = "",
+     .narrow = nullptr,
      .translate = nullptr},
     {.name = "osl",
      .title = "OSL",
@@ -93,6 +123,10 @@ constexpr GpuLanguage kLanguages[] = {
      .function = "",
      .guard_begin = kIfndef,
      .guard_end = kEndif,
+     .half_word = "",
+     .half_note = "",
+     .half_end = "",
+     .narrow = nullptr,
      .translate = nullptr},
 };
 

@@ -17,6 +17,11 @@ struct GpuLanguage {
   std::string_view function;        ///< what stands before a function's type
   /// A guard against reading a part twice; "%name%" is the part's name.
   std::string_view guard_begin, guard_end;
+  /// For ShaderPrecision: the word for half floats; empty where there is no export in them.
+  std::string_view half_word;
+  std::string_view half_note;                      ///< in place of `note`
+  std::string_view half_end;                       ///< what has to stand behind such functions
+  std::string (*narrow)(const std::string& text);  ///< from floats to that word's
   /// From the C that the other languages have in common; null where the language is one of them.
   std::string (*translate)(const std::string& text);
 };

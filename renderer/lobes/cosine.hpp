@@ -34,7 +34,10 @@ struct CosineLobe {
   double sample(double xi) const { return -std::expm1(std::log1p(-xi) / (n + 1)); }
   double density(double s) const { return (n + 1) * value(s); }
   PaperColumn paper_column() const { return PaperColumn::kCosine; }
-  LobeText text() const { return {"    return exp(n * lobelia_log_one_minus(s));\n", ""}; }
+  LobeText text() const {
+    return {"    return exp(n * lobelia_log_one_minus(s));\n", "",
+            "    return exp(-n * s * lobelia_log_ratio(s / 1024.0));\n"};
+  }
   /// The exponent n ln(1 - s) has three roundings, which the power multiplies by the exponent.
   Float32Error float32_error() const { return {2e-7, 3, 4}; }
 

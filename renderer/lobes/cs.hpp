@@ -71,7 +71,8 @@ struct CsLobe {
     if (k > 64)
       return {"    return exp(" + order + " * lobelia_log_one_minus(min(" + slope_text +
                   " * s, 0.999999)));\n",
-              slope_text};
+              slope_text,
+              "    return exp(-n * s * lobelia_log_ratio(min(" + slope_text + " * s, 0.9995)));\n"};
     // Not u: WGSL may have a type u16 one day.
     std::string body = "    float p1 = max(0.0, 1.0 - " + slope_text + " * s);\n", product;
     for (int power = 2; power <= k; power *= 2) {

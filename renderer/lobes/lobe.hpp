@@ -38,7 +38,11 @@ struct LobeText {
   /// The slope as a formula of n, if the lobe is (1 - slope s)^(n / slope): it gives the energy of every model.
   /// Empty for other lobes, and for cos^n, because the models have its coefficients.
   std::string slope;
+  /// The body for half floats, where `s` is kHalfScale times as large and `n` that much smaller, so that no product is
+  /// subnormal. Empty if `body` is right as it is: a function of n s alone.
+  std::string half_body = {};
 };
+inline constexpr double kHalfScale = 1024;
 
 /// The column of a lobe in the paper's table of coefficients.
 enum class PaperColumn { kNone, kCosine, kCs16 };

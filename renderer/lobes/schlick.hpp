@@ -46,7 +46,10 @@ struct SchlickLobe {
     return s < 1 ? (m == 0 ? 1 : m / std::log1p(m)) / (1 + m * s) : 0;
   }
   PaperColumn paper_column() const { return PaperColumn::kNone; }
-  LobeText text() const { return {"    return (1.0 - s) / (1.0 - s + n * s);\n", ""}; }
+  LobeText text() const {
+    return {"    return (1.0 - s) / (1.0 - s + n * s);\n", "",
+            "    float c = 1.0 - s / 1024.0;\n    return c / (c + n * s);\n"};
+  }
   Float32Error float32_error() const { return {2e-7, 4}; }
 
   double n;

@@ -51,6 +51,26 @@ TEST_F(ExportCommand, SaysInTheTextWithWhichOptionsToGetItAgain) {
   }
 }
 
+TEST_F(ExportCommand, WritesHalfFloatsForGlslAndHlslAndRefusesThemInOneLineElsewhere) {
+  const std::string command =
+      "export --language glsl modified_phong --lobe cs16 --normalisation exact "
+      "--precision mediump";
+  ASSERT_EQ(run_shell("\"$LOBELIA\" " + command + " > printed", scratch_.path()).exit_code, 0);
+  EXPECT_THAT(file("printed"), HasSubstr("//   lobelia " + command + "\n"));
+  EXPECT_THAT(file("printed"), HasSubstr("\nmediump float lobelia_modified_phong_cs16_mediump("));
+  ASSERT_EQ(run({"--language", "hlsl", "--precision", "min16float", "modified_phong", "-o", "a"})
+                .exit_code,
+            0);
+  EXPECT_THAT(file("a"), HasSubstr("\nmin16float lobelia_modified_phong_cosine_min16float("));
+  for (const char* language : {"hlsl", "wgsl", "msl", "osl", "povray"}) {
+    const ProcessResult result =
+        run({"--language", language, "--precision", "mediump", "modified_phong"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.output_tail, HasSubstr("precision"));
+    EXPECT_EQ(std::count(result.output_tail.begin(), result.output_tail.end(), '\n'), 1);
+  }
+}
+
 TEST_F(ExportCommand, WarnsOfAPaperCoefficientOutsideThePapersExponentsAndWritesIt) {
   const auto exported = [&](const char* exponent) {
     return run({"--language", "glsl", "phong_rdf", "--lobe", "cs16", "--normalisation", "paper",

@@ -60,9 +60,23 @@ inline std::vector<ShaderExport> every_export(const std::string& language) {
   return exports;
 }
 
+/// The same in half floats, with exponents for which that is meant.
+inline std::vector<ShaderExport> every_half_export(const std::string& language) {
+  std::vector<ShaderExport> exports = every_export(language);
+  std::erase_if(exports, [](const ShaderExport& e) { return e.exponent.value_or(8) > 1024; });
+  for (ShaderExport& request : exports)
+    request.precision =
+        language == "glsl" ? ShaderPrecision::kMediump : ShaderPrecision::kMin16Float;
+  return exports;
+}
+
 inline std::string function_name_of(const ShaderExport& request, ModelId model) {
-  return function_name({model, request.lobe, request.normalisation, request.exponent.value_or(1)},
-                       request.exponent.has_value(), request.fresnel != Fresnel::kNone);
+  const std::string name =
+      function_name({model, request.lobe, request.normalisation, request.exponent.value_or(1)},
+                    request.exponent.has_value(), request.fresnel != Fresnel::kNone);
+  return request.precision == ShaderPrecision::kFloat32
+             ? name
+             : fmt::format("{}_{}", name, shader_precision_names()[int(request.precision)]);
 }
 
 /// A call of the exported function, with expressions for what it may take. `vectors` is "N, V, L".

@@ -73,19 +73,21 @@ ShaderSource source_of(ShaderText language, const std::vector<ShaderExport>& req
   return source;
 }
 
-/// Calls `visit` with what every function gives for every point.
+using Lists = std::vector<std::vector<ShaderExport>>;
+
+/// Calls `visit` with what every function gives for every point; `in_half`: with all arithmetic in half floats.
 template <class Visit>
 void run_exports(ShaderText language, ShaderApi api, const std::vector<CalledPoint>& points,
-                 Visit visit) {
-  const std::string name(kShaderTextNames[std::size_t(language)]);
-  for (const auto& requests : exports_to_run(name)) {
+                 const Lists& lists, bool in_half, Visit visit) {
+  for (const auto& requests : lists) {
     const std::vector<ExportOutput> outputs = outputs_of(requests);
     if (outputs.empty()) continue;
     const ShaderPoints called = points_for(outputs, points);
-    const ShaderRun run = run_programs(api, called,
-                                       {make_program(source_of(language, requests, outputs), api,
-                                                     called.count(), called.components)},
-                                       outputs.size(), {std::chrono::hours(1), 0});
+    ShaderProgram program = make_program(source_of(language, requests, outputs), api,
+                                         called.count(), called.components);
+    if (in_half) program = in_half_floats(program);
+    const ShaderRun run =
+        run_programs(api, called, {program}, outputs.size(), {std::chrono::hours(1), 0});
     for (std::size_t k = 0; k < outputs.size(); ++k)
       for (std::size_t i = 0; i < points.size(); ++i) {
         const ShaderValue& value = run.values.front()[k * points.size() + i];
@@ -98,9 +100,10 @@ void run_exports(ShaderText language, ShaderApi api, const std::vector<CalledPoi
 void expect_the_formulas(ShaderText language, ShaderApi api) {
   const std::vector<CalledPoint> points = called_points();
   ExportJudge judge(points);
-  run_exports(language, api, points, [&](const ExportOutput& output, std::size_t i, Rgb colour) {
-    judge.add(output, i, colour);
-  });
+  const Lists lists = exports_to_run(std::string(kShaderTextNames[std::size_t(language)]));
+  run_exports(
+      language, api, points, lists, false,
+      [&](const ExportOutput& output, std::size_t i, Rgb colour) { judge.add(output, i, colour); });
   if (testing::Test::HasFatalFailure()) return;
   judge.expect_as_documented(std::string(kShaderTextNames[std::size_t(language)]));
 }
@@ -118,13 +121,71 @@ TEST_F(RunByADriver, EveryFunctionIsANumberForTheSmallestAndTheLargestExponents)
   for (const double n : {0.0, 3.0, kMaxExponent})
     for (const Directions& d : hard_directions()) points.push_back({d, n, true});
   std::size_t numbers = 0;
-  run_exports(ShaderText::kGlsl, ShaderApi::kEgl, points,
+  run_exports(ShaderText::kGlsl, ShaderApi::kEgl, points, exports_to_run("glsl"), false,
               [&](const ExportOutput& output, std::size_t i, Rgb colour) {
                 ASSERT_TRUE(std::isfinite(colour.r + colour.g + colour.b))
                     << function_name_of(output.request, output.model) << " point " << i;
                 ++numbers;
               });
   EXPECT_GT(numbers, 10'000u);
+}
+
+/// Every model and lobe in half floats, with the coefficient as an argument.
+Lists half_exports(const std::string& language) {
+  std::map<LobeId, std::vector<ShaderExport>> by_lobe;
+  for (const ShaderExport& request : every_half_export(language))
+    if (request.coefficient == CoefficientFrom::kArgument) by_lobe[request.lobe].push_back(request);
+  Lists lists;
+  for (const auto& [lobe, requests] : by_lobe) lists.push_back(requests);
+  return lists;
+}
+
+/// The largest error of the peak by exponent and angle, for light and eye within 70 degrees of the normal.
+std::map<std::pair<double, LobeAngle>, double> half_export_errors(ShaderText language,
+                                                                  ShaderApi api, bool in_half) {
+  std::vector<CalledPoint> points;
+  for (const double n : {8.0, 128.0, 1024.0}) {
+    RandomDirections random(n);
+    while (points.size() % 300 != 299 || points.back().exponent != n) {
+      const Directions d = random();
+      if (dot(d.normal, d.to_eye) > 0.35 && dot(d.normal, d.to_light) > 0.35)
+        points.push_back({d, n, false});
+    }
+  }
+  std::map<std::pair<double, LobeAngle>, double> errors;
+  run_exports(language, api, points, half_exports(std::string(kShaderTextNames[int(language)])),
+              in_half, [&](const ExportOutput& output, std::size_t i, Rgb colour) {
+                if (output.is_coefficient) return;
+                const auto& [d, n, is_hard] = points[i];
+                const Highlight h = output.highlight(n);
+                const Rgb fresnel =
+                    output.request.fresnel == Fresnel::kNone
+                        ? Rgb{1, 1, 1}
+                        : fresnel_factor(Fresnel::kSchlick, kReflectance, d.to_eye, d.to_light);
+                const double error =
+                    std::abs(colour.g / truth::coefficient(h) -
+                             fresnel.g * truth::shape(h, d.normal, d.to_eye, d.to_light));
+                double& largest = errors[{n, info(h.model).angle}];
+                largest = error <= largest ? largest : error;
+              });
+  for (const auto& [where, error] : errors)
+    fmt::print("{}{}: n = {:g}, {}: within {:.1e} of the peak\n", kShaderTextNames[int(language)],
+               in_half ? " in half floats" : "", where.first,
+               where.second == LobeAngle::kReflection ? "mirror" : "half vector", error);
+  EXPECT_EQ(errors.size(), 6u);
+  return errors;
+}
+
+TEST_F(RunByADriver, EveryExportInHalfFloatsIsRightWhereTheDriverIgnoresThat) {
+  // In float32 arithmetic only the short series are left.
+  for (const auto& errors : {half_export_errors(ShaderText::kGlsl, ShaderApi::kEgl, false),
+                             half_export_errors(ShaderText::kHlsl, ShaderApi::kVulkan, false)})
+    for (const auto& [where, error] : errors) EXPECT_LT(error, 1e-3);
+}
+
+TEST_F(RunByADriver, EveryExportInHalfFloatsHoldsInHalfFloats) {
+  for (const auto& [where, error] : half_export_errors(ShaderText::kHlsl, ShaderApi::kVulkan, true))
+    EXPECT_LT(error, 0.1) << where.first;
 }
 
 TEST_F(RunInABrowser, EveryWgslFunctionHasTheRadianceOfTheFormulasOnWebGpu) {

@@ -107,6 +107,71 @@ TEST_F(CompiledByGlslang, EveryHlslExportIsAcceptedAndAllOfThemInOneShader) {
   EXPECT_EQ(complaints({"-D", "-V", "-e", "main"}), "");
 }
 
+TEST_F(CompiledByGlslang, EveryGlslExportInHalfFloatsIsAccepted) {
+  for (const auto& [name, head, output] :
+       {std::array{"100", "#version 100\nprecision mediump float;\n", "gl_FragColor"},
+        std::array{"130", "#version 130\n", "gl_FragColor"},
+        std::array{"320", "#version 320 es\nprecision mediump float;\nout vec4 colour;\n",
+                   "colour"},
+        std::array{"460", "#version 460\nout vec4 colour;\n", "colour"}}) {
+    files_.clear();
+    for (const ShaderExport& request : every_half_export("glsl"))
+      write(fmt::format("half_{}_{}.frag", name, files_.size()),
+            fmt::format("{}{}void main() {{ {} = vec4({}); }}\n", head, shader_text(request),
+                        output, calls(request, "vec3")));
+    EXPECT_GT(files_.size(), 100u);
+    EXPECT_EQ(complaints({}), "") << name;
+  }
+}
+
+TEST_F(CompiledByGlslang, AnExportInHalfFloatsShadesInMediumpAlone) {
+  for (const ShaderExport& request : every_half_export("glsl")) {
+    // A coefficient that is computed is highp.
+    if (request.exponent != 64) continue;
+    files_.clear();
+    write("half.frag", "#version 320 es\nprecision highp float;\n" + shader_text(request) +
+                           "out vec4 colour;\nvoid main() { colour = vec4(0.5); }\n");
+    const std::string tree =
+        run_process({compiler_.string(), "-i", files_.front()}, working_here()).output_tail;
+    ASSERT_THAT(tree, HasSubstr("mediump"));
+    ASSERT_THAT(tree, Not(HasSubstr("highp"))) << shader_text(request);
+  }
+}
+
+TEST_F(CompiledByGlslang, EveryHlslExportInHalfFloatsIsAcceptedBesideThoseInFloats) {
+  std::string text, sum = "0.0";
+  for (const std::vector<ShaderExport>& requests :
+       {every_half_export("hlsl"), every_export("hlsl")})
+    for (const ShaderExport& request : requests) {
+      text += shader_text(request);
+      sum += " + " + calls(request, "float3");
+    }
+  EXPECT_THAT(text, HasSubstr("min16float3"));
+  write("both.frag",
+        text +
+            fmt::format(
+                "float4 main() : SV_Target {{ float v = {}; return float4(v, v, v, v); }}\n", sum));
+  EXPECT_EQ(complaints({"-D", "-V", "-e", "main"}), "");
+}
+
+TEST(HalfFloatExports, OfGlslAndHlslAreTheSameButForTheTypes) {
+  const auto functions = [](const ShaderExport& request) {
+    std::string text = shader_text(request);
+    text = text.substr(text.find("#ifndef"));
+    for (const auto& [from, to] :
+         {std::pair{"\n#ifdef GL_FRAGMENT_PRECISION_HIGH\nprecision mediump float;\n#endif\n", ""},
+          std::pair{"\\bmediump (float|vec3)\\b", "$1"}, std::pair{"\\bvec3\\b", "float3"},
+          std::pair{"\\bmin16float(3?)\\b", "float$1"},
+          std::pair{"(?:_mediump|_min16float)\\b", ""},
+          std::pair{"(?:_MEDIUMP|_MIN16FLOAT)\\b", ""}})
+      text = std::regex_replace(text, std::regex(from), to);
+    return text;
+  };
+  const auto glsl = every_half_export("glsl"), hlsl = every_half_export("hlsl");
+  ASSERT_EQ(glsl.size(), hlsl.size());
+  for (std::size_t i = 0; i < glsl.size(); ++i) EXPECT_EQ(functions(glsl[i]), functions(hlsl[i]));
+}
+
 TEST_F(CompiledByGlslang, AMistakeWouldBeSeen) {
   std::string text = shader_text(every_export("glsl").front());
   text.replace(text.find("n_dot_l > 0.0"), 1, "m");
@@ -245,6 +310,36 @@ TEST(AnExport, ThatCannotBeMadeSaysWhy) {
   EXPECT_THAT(why_not("povray", "cs8", exact, {}, argument), HasSubstr("--coefficient"));
   EXPECT_THAT(why_not("povray", "cs8", exact, {}, CoefficientFrom::kComputed, Fresnel::kSchlick),
               HasSubstr("--fresnel"));
+}
+
+TEST(AnExport, InHalfFloatsIsRefusedWhereTheLanguageOrTheLobeHasNone) {
+  const auto why_not = [](const char* language, ShaderPrecision precision,
+                          std::optional<double> exponent, const LobeId& lobe) -> std::string {
+    ShaderExport request;
+    request.language = *find_shader_language(language);
+    request.models = {*find_model("phong_rdf")};
+    request.lobe = lobe;
+    request.exponent = exponent;
+    request.precision = precision;
+    try {
+      shader_text(request);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kUsage);
+      return error.what();
+    }
+    return "";
+  };
+  const LobeId cosine = *find_lobe("cosine");
+  const auto mediump = ShaderPrecision::kMediump, min16float = ShaderPrecision::kMin16Float;
+  EXPECT_EQ(why_not("glsl", mediump, {}, cosine), "");
+  EXPECT_EQ(why_not("hlsl", min16float, {}, cosine), "");
+  EXPECT_THAT(why_not("hlsl", mediump, {}, cosine), HasSubstr("not in HLSL"));
+  EXPECT_THAT(why_not("glsl", min16float, {}, cosine), HasSubstr("mediump is GLSL's"));
+  for (const char* language : {"wgsl", "msl", "osl"})
+    EXPECT_THAT(why_not(language, mediump, {}, cosine), HasSubstr("float32 alone"));
+  EXPECT_THAT(why_not("povray", mediump, {}, cosine), HasSubstr("--precision"));
+  EXPECT_THAT(why_not("glsl", mediump, 1e5, cosine), HasSubstr("at most 65504"));
+  EXPECT_THAT(why_not("glsl", mediump, {}, formula_lobe("c^n")), HasSubstr("formula"));
 }
 
 TEST(AnExport, WithTheCoefficientAsAnArgumentHasItsFunctionButDoesNotCallIt) {
