@@ -49,7 +49,7 @@ struct Benchmark {
 
 std::span<const Benchmark> benchmarks();
 
-/// One table per exponent, "lobe-n64".
+/// One table per exponent, "lobe-n64", and those of half floats (half_floats.hpp).
 std::vector<Table> measure_lobes(const Options& options);
 /// The table of one exponent; times are medians of so many rounds. A quick one evaluates 2^20 numbers to find the
 /// largest error of a variant, and may then give only a bracket of it.

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/error_time_chart.hpp"
 #include "renderer/catalogue_record.hpp"
+#include "studies/cost/half_floats.hpp"
 #include "studies/cost/lobe_errors.hpp"
 
 namespace lobelia::cost {
@@ -208,6 +209,8 @@ std::vector<Table> measure_lobes(const Options& options) {
     tables.push_back(
         lobe_table(exponent, options.rounds(11, 41, 201), options.effort == Effort::kQuick));
   }
+  options.progress("half floats");
+  for (Table& table : half_float_tables()) tables.push_back(std::move(table));
   return tables;
 }
 

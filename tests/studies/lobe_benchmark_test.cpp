@@ -185,12 +185,14 @@ TEST(LobeTable, HasTheLargestErrorAndNotTheLargestOfItsPoints) {
     }
 }
 
-TEST(LobeLevel, HasATableForEachExponent) {
+TEST(LobeLevel, HasATableForEachExponentAndTheTwoAnglesInHalfFloats) {
   Options options;
   options.effort = Effort::kQuick;
   const std::vector<Table> tables = measure_lobes(options);
-  ASSERT_EQ(tables.size(), 2u);
+  ASSERT_EQ(tables.size(), 4u);
   EXPECT_EQ(tables[1].id, "lobe-n1024");
+  EXPECT_EQ(tables[2].id, "lobe-float16-half");
+  EXPECT_EQ(tables[3].id, "lobe-float16-mirror");
 }
 
 }  // namespace
