@@ -177,7 +177,7 @@ std::map<std::pair<double, LobeAngle>, double> half_export_errors(ShaderText lan
 }
 
 TEST_F(RunByADriver, EveryExportInHalfFloatsIsRightWhereTheDriverIgnoresThat) {
-  // In float32 arithmetic only the short series are left.
+  // In float32 arithmetic only the short series are left: 1.8e-4 measured.
   for (const auto& errors : {half_export_errors(ShaderText::kGlsl, ShaderApi::kEgl, false),
                              half_export_errors(ShaderText::kHlsl, ShaderApi::kVulkan, false)})
     for (const auto& [where, error] : errors) EXPECT_LT(error, 1e-3);
@@ -185,7 +185,7 @@ TEST_F(RunByADriver, EveryExportInHalfFloatsIsRightWhereTheDriverIgnoresThat) {
 
 TEST_F(RunByADriver, EveryExportInHalfFloatsHoldsInHalfFloats) {
   for (const auto& [where, error] : half_export_errors(ShaderText::kHlsl, ShaderApi::kVulkan, true))
-    EXPECT_LT(error, 0.1) << where.first;
+    EXPECT_LT(error, 0.05) << where.first;  // measured 0.015, of cs64, to 0.025
 }
 
 TEST_F(RunInABrowser, EveryWgslFunctionHasTheRadianceOfTheFormulasOnWebGpu) {
