@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -21,6 +22,9 @@
 
 namespace lobelia::cost {
 namespace {
+
+/// The lobe at unit vectors; the models are those without N.L.
+using HalfHighlight = std::function<double(Vec3 normal, Vec3 to_eye, Vec3 to_light)>;
 
 constexpr std::size_t kVectors = 1 << 15;
 /// Light and eye are up to so many degrees from the normal: beyond, a half vector is short and badly known.
@@ -141,6 +145,16 @@ HalfHighlight highlight_by(HalfForm form, LobeId lobe, double n) {
   return exported_highlight<kSubnormals, kAngle>(lobe, n, form != HalfForm::kExported);
 }
 
+HalfHighlight half_highlight(HalfForm form, LobeAngle angle, LobeId lobe, double exponent,
+                             Subnormals subnormals) {
+  constexpr auto kMirror = LobeAngle::kReflection, kBetween = LobeAngle::kHalfVector;
+  if (subnormals == Subnormals::kKept)
+    return angle == kMirror ? highlight_by<Subnormals::kKept, kMirror>(form, lobe, exponent)
+                            : highlight_by<Subnormals::kKept, kBetween>(form, lobe, exponent);
+  return angle == kMirror ? highlight_by<Subnormals::kFlushed, kMirror>(form, lobe, exponent)
+                          : highlight_by<Subnormals::kFlushed, kBetween>(form, lobe, exponent);
+}
+
 struct HalfCase {
   HalfForm form;
   LobeId lobe;
@@ -219,16 +233,6 @@ std::string name(HalfForm form) {
       break;
   }
   return "exported, difference in float32";
-}
-
-HalfHighlight half_highlight(HalfForm form, LobeAngle angle, LobeId lobe, double exponent,
-                             Subnormals subnormals) {
-  constexpr auto kMirror = LobeAngle::kReflection, kBetween = LobeAngle::kHalfVector;
-  if (subnormals == Subnormals::kKept)
-    return angle == kMirror ? highlight_by<Subnormals::kKept, kMirror>(form, lobe, exponent)
-                            : highlight_by<Subnormals::kKept, kBetween>(form, lobe, exponent);
-  return angle == kMirror ? highlight_by<Subnormals::kFlushed, kMirror>(form, lobe, exponent)
-                          : highlight_by<Subnormals::kFlushed, kBetween>(form, lobe, exponent);
 }
 
 HalfErrors half_errors(HalfForm form, LobeAngle angle, LobeId lobe, double exponent,

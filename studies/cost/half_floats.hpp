@@ -2,12 +2,10 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "core/half.hpp"
-#include "core/vec.hpp"
 #include "renderer/highlight.hpp"
 #include "studies/cost/table.hpp"
 
@@ -24,17 +22,12 @@ inline constexpr std::array kHalfForms{HalfForm::kTextbook, HalfForm::kStable, H
                                        HalfForm::kDifferenceInFloat32};
 std::string name(HalfForm form);
 
-/// The lobe at unit vectors; the models are those without N.L.
-using HalfHighlight = std::function<double(Vec3 normal, Vec3 to_eye, Vec3 to_light)>;
-HalfHighlight half_highlight(HalfForm form, LobeAngle angle, LobeId lobe, double exponent,
-                             Subnormals subnormals);
-
 /// The largest of the peak: against cos^n, and against the lobe itself without rounding.
 struct HalfErrors {
   double all = 0, rounding = 0;
 };
 inline constexpr std::array kHalfExponents{8.0, 32.0, 128.0, 512.0, 1024.0};
-/// `exponent` is one of kHalfExponents. Over random vectors in and about the highlight, the same for all forms and lobes of an angle and an exponent.
+/// `exponent` is one of kHalfExponents. Over random vectors in and about the highlight, the same for all forms and lobes.
 HalfErrors half_errors(HalfForm form, LobeAngle angle, LobeId lobe, double exponent,
                        Subnormals subnormals);
 

@@ -19,6 +19,8 @@ bool same(Half a, Half b) {
   return a.bits() == b.bits() || (std::isnan(double(a)) && std::isnan(double(b)));
 }
 
+/// Every processor with AVX2 has F16C, which Clang 14 does not ask for.
+bool has_conversions() { return __builtin_cpu_supports("avx2"); }
 __attribute__((target("f16c"))) float by_processor(std::uint16_t bits) { return _cvtsh_ss(bits); }
 __attribute__((target("f16c"))) std::uint16_t by_processor(float x) {
   return _cvtss_sh(x, _MM_FROUND_TO_NEAREST_INT);
@@ -37,7 +39,7 @@ TEST(Half, HasEveryValueThereAndBack) {
     ASSERT_EQ(value.bits(), bits);
     ASSERT_EQ(float(value), float(exr));
     ASSERT_EQ(Half(double(value)).bits(), bits);
-    if (__builtin_cpu_supports("f16c")) {
+    if (has_conversions()) {
       ASSERT_EQ(float(value), by_processor(bits));
     }
   }
@@ -62,7 +64,7 @@ TEST(Half, IsTheNearestToEveryFloatAsOpenExrAndTheProcessorRound) {
     if (std::isnan(x)) continue;
     const std::uint16_t ours = Half(x).bits();
     ASSERT_EQ(ours, Exr(x).bits()) << x;
-    if (__builtin_cpu_supports("f16c")) {
+    if (has_conversions()) {
       ASSERT_EQ(ours, by_processor(x)) << x;
     }
   }
