@@ -13,9 +13,9 @@ namespace lobelia::cli {
 /// In the order of --help. A command is add_NAME() in a file of this folder, and its name here.
 #define LOBELIA_COMMANDS(command)                                                                \
   command(render) command(plan) command(models) command(scene) command(scene_format)             \
-      command(export) command(check_shader) command(engines) command(reference) command(compare) \
-          command(profile) command(cost) command(farm) command(gallery) command(verify)          \
-              command(records)
+      command(export) command(convert) command(check_shader) command(engines) command(reference) \
+          command(compare) command(profile) command(cost) command(farm) command(gallery)         \
+              command(verify) command(records)
 #define LOBELIA_DECLARE(name) void add_##name(CLI::App& app, ExitCode& exit_code);
 LOBELIA_COMMANDS(LOBELIA_DECLARE)
 #undef LOBELIA_DECLARE

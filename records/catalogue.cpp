@@ -9,6 +9,7 @@
 #include "records/agreement.hpp"
 #include "records/cluster.hpp"
 #include "records/comparison.hpp"
+#include "records/conversion.hpp"
 #include "records/cost.hpp"
 #include "records/farm.hpp"
 #include "records/gltf.hpp"
@@ -35,11 +36,11 @@ constexpr std::array<Kind, sizeof...(T)> kinds_of() {
 }
 
 constexpr auto kKinds =
-    kinds_of<Agreement, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Cost, Engines,
-             Failure, Farm, FarmChunk, FarmChunkReport, FarmExplanation, FarmRun, FarmStatus,
-             KnownHashes, GalleryList, HighlightTables, Models, Plan, Profile, Profiles, Project,
-             Reference, Render, Result, Scene, Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun,
-             VerifyPaper, VerifyStability>();
+    kinds_of<Agreement, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Conversion,
+             ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport,
+             FarmExplanation, FarmRun, FarmStatus, KnownHashes, GalleryList, HighlightTables,
+             Models, Plan, Profile, Profiles, Project, Reference, Render, Result, Scene,
+             Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
 std::string type_text(const Json& schema) {
@@ -113,10 +114,11 @@ const Struct& detail::find_struct(const std::type_info& type) {
     Tables all;
     for (auto* const define :
          {define_agreement_tables, define_chart_tables, define_cluster_tables,
-          define_comparison_tables, define_cost_tables, define_farm_tables, define_gltf_tables,
-          define_highlight_tables, define_model_tables, define_page_tables, define_paper_tables,
-          define_profile_tables, define_project_tables, define_render_tables, define_result_tables,
-          define_scene_tables, define_shader_check_tables, define_stability_tables})
+          define_comparison_tables, define_conversion_tables, define_cost_tables,
+          define_farm_tables, define_gltf_tables, define_highlight_tables, define_model_tables,
+          define_page_tables, define_paper_tables, define_profile_tables, define_project_tables,
+          define_render_tables, define_result_tables, define_scene_tables,
+          define_shader_check_tables, define_stability_tables})
       define(all);
     return all;
   }();

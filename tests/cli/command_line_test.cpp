@@ -10,9 +10,9 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kSubcommands[] = {"render",    "plan",    "models",  "scene-format",
-                                        "reference", "compare", "profile", "farm",
-                                        "gallery",   "verify",  "export",  "engines"};
+constexpr const char* kSubcommands[] = {"render",  "plan",    "models", "scene-format", "reference",
+                                        "compare", "profile", "farm",   "gallery",      "verify",
+                                        "export",  "engines", "convert"};
 
 TEST(Help, OfTheProgramNamesEverySubcommandAndTheExitCodes) {
   const TemporaryDirectory directory;

@@ -11,6 +11,7 @@
 
 #include "core/constants.hpp"
 #include "core/vec.hpp"
+#include "renderer/highlight.hpp"
 
 namespace lobelia {
 namespace {
@@ -70,6 +71,18 @@ TEST(GgxDistribution, IsNormalisedOverTheProjectedArea) {
     double sum = 0;  // from far below alpha^2 in pieces
     for (int t = -60; t < 0; t += 4) sum += Quadrature::integrate(per_decade, t, t + 4, 5, 1e-13);
     EXPECT_NEAR(sum, 1, 1e-12) << alpha;
+  }
+}
+
+TEST(GgxDistribution, IsTheHeightfieldsWithALobeByAFormula) {
+  // The command at the end of docs/convert.md.
+  const LobeId lobe = formula_lobe("1/(1 + n*s*(2 - s)/2)^2");
+  const ModelId heightfield = *find_model("blinn_phong_heightfield");
+  for (const double alpha : {0.01, 0.1, 0.25, 0.6}) {
+    const Highlight highlight{heightfield, lobe, Normalisation::kExact, 2 / (alpha * alpha) - 2};
+    for (const double s : {0.0, 1e-6, 1e-3, 0.1, 0.9})
+      EXPECT_NEAR(4 * highlight_radiance(highlight, 1, s) / ggx_distribution(alpha, s), 1, 1e-9)
+          << alpha << ", " << s;
   }
 }
 

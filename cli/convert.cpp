@@ -1,0 +1,136 @@
+// lobelia convert --exponent N --to MODEL
+#include "studies/convert/convert.hpp"
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "cli/output_files.hpp"
+#include "core/files.hpp"
+#include "records/record.hpp"
+#include "renderer/ggx.hpp"
+#include "studies/convert/range.hpp"
+#include "studies/convert/report.hpp"
+
+namespace lobelia::cli {
+namespace {
+
+struct ConvertArguments {
+  std::string from, to, measure = "max", record, svg;
+  std::optional<double> exponent, alpha, roughness;
+  double f0 = 1;
+};
+
+conversion::ShadingModel shading_model(const std::string& name, std::string_view option) {
+  const auto& names = conversion::shading_model_names();
+  return chosen(name, option, names, join(names), conversion::find_shading_model);
+}
+
+conversion::Request request_of(const ConvertArguments& options) {
+  const int given =
+      options.exponent.has_value() + options.alpha.has_value() + options.roughness.has_value();
+  if (given > 1)
+    throw Error(ExitCode::kUsage, "only one of --exponent, --alpha and --roughness can be given");
+  conversion::Request request;
+  request.to = shading_model(options.to, "--to");
+  const bool from_exponent = given == 0 ? request.to.is_ggx() : options.exponent.has_value();
+  const std::string usual = from_exponent ? "blinn_phong_heightfield" : "ggx";
+  request.from = shading_model(options.from.empty() ? usual : options.from, "--from");
+  if (given == 1 && request.from.is_ggx() == options.exponent.has_value())
+    throw Error(ExitCode::kUsage,
+                fmt::format("--from {} takes {}", request.from.name(),
+                            request.from.is_ggx() ? "--alpha or --roughness" : "--exponent"));
+  request.parameter = options.exponent    ? *options.exponent
+                      : options.alpha     ? *options.alpha
+                      : options.roughness ? *options.roughness * *options.roughness
+                                          : 0;
+  request.f0 = options.f0;
+  request.measure =
+      conversion::Measure(chosen_place(options.measure, "--measure", records::kConversionMeasures));
+  return request;
+}
+
+/// The outputs, the same for one parameter and for a range.
+struct ConvertResult {
+  std::string record, text, svg;
+};
+
+ConvertResult converted(const conversion::Request& request) {
+  if (request.parameter > 0) {
+    records::Conversion conversion = conversion::convert(request);
+    conversion.command = command_line();
+    return {record_text(conversion), conversion::conversion_text(conversion),
+            draw_chart_file(conversion::conversion_chart(conversion))};
+  }
+  records::ConversionTable table = conversion::convert_range(request);
+  table.command = command_line();
+  return {record_text(table), conversion::range_text(table),
+          draw_chart_file(conversion::range_chart(table))};
+}
+
+void run_convert(const ConvertArguments& options) {
+  if (options.record == kStdout && options.svg == kStdout)
+    throw Error(ExitCode::kUsage, "only one of -o and --svg can go to stdout");
+  OutputFiles outputs;
+  for (const std::string& path : {options.record, options.svg})
+    if (!path.empty() && path != kStdout) {
+      outputs.writes(path);
+      require_writable(path);
+    }
+  const ConvertResult result = converted(request_of(options));
+  std::string printed = result.text;
+  FilesTogether files;
+  for (const auto& [path, text] :
+       {std::pair(&options.record, &result.record), {&options.svg, &result.svg}})
+    if (*path == kStdout)
+      printed = *text;
+    else if (!path->empty())
+      write_file(*path, *text);
+  files.commit();
+  fmt::print("{}", printed);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, ExitCode&) {
+  auto* command = app.add_subcommand(
+      "convert", "Convert an exponent to a GGX roughness and back, or between two models");
+  auto options = std::make_shared<ConvertArguments>();
+  OptionGroup from(*command, "From");
+  from.add("--from", options->from, "",
+           fmt::format("Model: {}; otherwise blinn_phong_heightfield for an exponent, else ggx",
+                       join(conversion::shading_model_names())));
+  from.add("--exponent", options->exponent, "", "Exponent n of a model of the catalogue")
+      ->check(between(kMinExponent, kMaxExponent));
+  from.add("--alpha", options->alpha, "", "Alpha of ggx")->check(between(kMinAlpha, kMaxAlpha));
+  from.add("--roughness", options->roughness, "", "Roughness of ggx, the root of alpha")
+      ->check(between(std::sqrt(kMinAlpha), std::sqrt(kMaxAlpha)));
+  OptionGroup to(*command, "To");
+  to.add("--to", options->to, "", "Model, as for --from")->required();
+  to.add("--measure", options->measure, "",
+         fmt::format("Which best parameter comes first: {}", join(records::kConversionMeasures)))
+      ->capture_default_str();
+  to.add_number("--f0", options->f0, 1e-3, 1,
+                "Reflectance head on; ggx has Schlick's Fresnel factor for it");
+  OptionGroup output(*command, "Output");
+  output.add(
+      "-o,--output", options->record, "FILE|-",
+      "Write the record (kind conversion, of a range conversion-table) to FILE; with - to stdout, "
+      "and no table");
+  output.add(
+      "--svg", options->svg, "FILE|-",
+      "Write a chart of both highlights, or of the range, with the rules of thumb; with - likewise");
+  command->footer(
+      "A highlight is the light that leaves per steradian by the angle of the eye, with light along the\n"
+      "normal of a flat surface. 'max' is the largest difference in % of the peak, 'misplaced' the energy\n"
+      "of the difference in % of the energy; peak, width and energy are ratios. docs/convert.md defines\n"
+      "each figure. Without a parameter, a table over the whole range is printed.\n"
+      "\n"
+      "Examples:\n"
+      "  lobelia convert --exponent 32 --to ggx\n"
+      "  lobelia convert --to ggx --svg roughness.svg\n"
+      "  lobelia convert --roughness 0.5 --to modified_blinn_phong --measure width\n"
+      "  lobelia convert --from phong_rdf --exponent 20 --to blinn_phong_rdf --svg both.svg\n"
+      "\n"
+      "Exit codes: 0 done, 2 usage, 4 an output cannot be written.");
+  command->callback([options] { run_convert(*options); });
+}
+
+}  // namespace lobelia::cli
