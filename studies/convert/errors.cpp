@@ -54,16 +54,15 @@ double misplaced_energy(const Curve& a, const Curve& b) {
   for (std::size_t i = 1; i < angles.size(); ++i) {
     const double from = angles[i - 1], to = angles[i];
     const bool begins_above = difference(from) > 0;
-    double above = from, below = to;
+    // Where the difference changes its sign; `from` if it does not.
+    double before = from, behind = to;
     if (begins_above != (difference(to) > 0))
       for (int step = 0; step < 50; ++step) {
-        const double middle = (above + below) / 2;
-        ((difference(middle) > 0) == begins_above ? above : below) = middle;
+        const double middle = (before + behind) / 2;
+        ((difference(middle) > 0) == begins_above ? before : behind) = middle;
       }
-    else
-      above = to;
-    sum += std::abs(energy_between(difference, from, above));
-    if (above < to) sum += std::abs(energy_between(difference, above, to));
+    sum += std::abs(energy_between(difference, from, before)) +
+           std::abs(energy_between(difference, before, to));
   }
   return sum;
 }
