@@ -63,6 +63,11 @@ template <Subnormals kKind>
 HalfOf<kKind> half_square_of_angle(HalfOf<kKind> s) {
   return half_square_of_angle(double(s));
 }
+/// With two roundings: `a * b + c` in a shader may be either.
+template <Subnormals kKind>
+HalfOf<kKind> multiply_add(HalfOf<kKind> a, HalfOf<kKind> b, HalfOf<kKind> c) {
+  return a * b + c;
+}
 /// q is a half float too: a product with more digits would be one of another precision.
 template <Subnormals kKind>
 HalfOf<kKind> one_minus_product(double q, HalfOf<kKind> s) {

@@ -93,14 +93,16 @@ struct PkLobe {
   PaperColumn paper_column() const { return PaperColumn::kNone; }
 
   LobeText text() const {
-    std::string body = "    float v = 1.0 / max(n, 16.0);\n    float t = n * s;\n";
+    std::string body = "    float t = n * s;\n";
     const Fit& fit = kFits[squarings(k) - 1];
     for (int j = 0; j < 3; ++j)
       body += fmt::format("    float q{} = {} + v * ({} + v * ({}));\n", j + 1,
                           float32_text(fit.a[j]), float32_text(fit.b[j]), float32_text(fit.c[j]));
     body += "    float p = max(0.0, 1.0 + t * (q1 + t * (q2 + t * q3)));\n";
     for (int i = 1; i < k; i *= 2) body += "    p = p * p;\n";
-    return {body + "    return p;\n", ""};
+    body += "    return p;\n";
+    return {"    float v = 1.0 / max(n, 16.0);\n" + body, "",
+            fmt::format("    float v = 1.0 / max({:.1f} * n, 16.0);\n", kHalfScale) + body};
   }
   /// Near the peak the base and each squaring round by 2^-25, together k 2^-24. On the flank the roundings of the
   /// coefficients and of the steps add half of that at most: the power makes them k base^(k - 1) times as large. There is
@@ -129,11 +131,15 @@ struct PkLobe {
     return Number(fit.a[j]) + (Number(fit.b[j]) + Number(fit.c[j]) * v) * v;
   }
 
-  /// The cubic by s. A type without room for n^3 would take t and `of_t`, with one multiplication more.
+  /// The cubic, by s; for half floats, which have no room for n^3, by t, with one multiplication more.
   template <class Real>
   Real base(Real s) const {
-    return multiply_add(
-        multiply_add(multiply_add(Real(of_s[2]), s, Real(of_s[1])), s, Real(of_s[0])), s, Real(1));
+    constexpr bool kHalf =
+        !std::is_same_v<Real, double> && std::is_same_v<typename ScalarOf<Real>::Type, Real>;
+    const Real t = kHalf ? Real(n) * s : s;
+    const double* q = kHalf ? of_t : of_s;
+    return multiply_add(multiply_add(multiply_add(Real(q[2]), t, Real(q[1])), t, Real(q[0])), t,
+                        Real(1));
   }
 
   /// The root of a falling function of s in [0, high], by Newton's method from `s`, kept between bounds.
