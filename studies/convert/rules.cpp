@@ -28,26 +28,26 @@ constexpr std::string_view kBabylon = "Babylon.js, SpecularPowerToRoughness";
 constexpr std::string_view kObj2Gltf = "obj2gltf, loadMtl.js";
 
 constexpr Rule kToGgx[] = {
-    {"walter", "alpha = sqrt(2 / (n + 2))", kWalter,
+    {"Walter", "alpha = sqrt(2 / (n + 2))", kWalter,
      [](double n) -> Answer { return std::sqrt(2 / (n + 2)); }},
-    {"fbx2gltf", "roughness = sqrt(2 / (n + 2))", kFbx2Gltf,
+    {"FBX2glTF", "roughness = sqrt(2 / (n + 2))", kFbx2Gltf,
      [](double n) -> Answer { return 2 / (n + 2); }},
-    {"blender", "roughness = 1 - sqrt(min(n, 1000) / 1000)", kBlender,
+    {"Blender", "roughness = 1 - sqrt(min(n, 1000) / 1000)", kBlender,
      [](double n) -> Answer { return squared(1 - std::sqrt(std::min(n, 1000.0) / 1000)); }},
-    {"babylon", "roughness = 0.1 + 0.9 (1 - (min(n, 1024) / 1300)^(1/3))^3", kBabylon,
+    {"Babylon", "roughness = 0.1 + 0.9 (1 - (min(n, 1024) / 1300)^(1/3))^3", kBabylon,
      [](double n) -> Answer { return squared(babylon_roughness(n)); }},
     {"obj2gltf", "roughness = 1 - min(n, 1000) / 1000", kObj2Gltf,
      [](double n) -> Answer { return squared(1 - std::min(n, 1000.0) / 1000); }},
 };
 
 constexpr Rule kFromGgx[] = {
-    {"walter", "n = 2 / alpha^2 - 2", kWalter,
+    {"Walter", "n = 2 / alpha^2 - 2", kWalter,
      [](double alpha) -> Answer { return 2 * (1 - alpha) * (1 + alpha) / squared(alpha); }},
-    {"fbx2gltf", "n = 2 / roughness^2 - 2", kFbx2Gltf,
+    {"FBX2glTF", "n = 2 / roughness^2 - 2", kFbx2Gltf,
      [](double alpha) -> Answer { return 2 * (1 - alpha) / alpha; }},
-    {"blender", "n = 1000 (1 - roughness)^2", kBlender,
+    {"Blender", "n = 1000 (1 - roughness)^2", kBlender,
      [](double alpha) -> Answer { return 1000 * squared(1 - std::sqrt(alpha)); }},
-    {"babylon", "n = 1300 (1 - ((roughness - 0.1) / 0.9)^(1/3))^3", kBabylon,
+    {"Babylon", "n = 1300 (1 - ((roughness - 0.1) / 0.9)^(1/3))^3", kBabylon,
      [](double alpha) -> Answer {
        const double roughness = std::sqrt(alpha);
        if (roughness < babylon_roughness(kBabylonMost)) return std::nullopt;

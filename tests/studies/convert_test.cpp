@@ -205,16 +205,16 @@ TEST(Rules, HaveTheFiguresOfTheDistributionsAlone) {
 
   const records::Conversion conversion =
       convert({model("blinn_phong_heightfield"), kGgxModel, n, 1, Measure::kMax});
-  for (const auto& [name, alpha] : {std::pair("walter", walter), {"blender", blender}}) {
+  for (const auto& [name, alpha] : {std::pair("Walter", walter), {"Blender", blender}}) {
     const auto& rule = row(conversion.rules, name);
     EXPECT_NEAR(*rule.highlight->alpha, alpha, 1e-15) << name;
     EXPECT_NEAR(rule.errors->peak_ratio, peak(alpha), 1e-12) << name;
   }
   // G and the cosine of the eye shape the rest: little of a highlight, more of none.
-  EXPECT_NEAR(row(conversion.rules, "walter").errors->half_width_ratio, 0.826, 0.001);
-  EXPECT_NEAR(row(conversion.rules, "blender").errors->half_width_ratio, 2.56, 0.01);
+  EXPECT_NEAR(row(conversion.rules, "Walter").errors->half_width_ratio, 0.826, 0.001);
+  EXPECT_NEAR(row(conversion.rules, "Blender").errors->half_width_ratio, 2.56, 0.01);
   const auto small = convert({model("blinn_phong_heightfield"), kGgxModel, 1e6, 1, Measure::kMax});
-  EXPECT_NEAR(row(small.rules, "walter").errors->half_width_ratio,
+  EXPECT_NEAR(row(small.rules, "Walter").errors->half_width_ratio,
               std::sqrt((std::sqrt(2) - 1) / std::log(2)), 1e-5);
   EXPECT_NEAR(small.best.front().errors.largest_of_peak, 0.146, 0.0005);
 }
@@ -233,12 +233,12 @@ TEST(Rules, BackFromGgxAreTheInverse) {
 TEST(Rules, WithoutAHighlightSayWhy) {
   const auto to_ggx =
       convert({model("blinn_phong_heightfield"), kGgxModel, 1000, 1, Measure::kMax});
-  EXPECT_EQ(row(to_ggx.rules, "blender").because, "alpha 0 is a mirror");
-  EXPECT_FALSE(row(to_ggx.rules, "blender").errors);
+  EXPECT_EQ(row(to_ggx.rules, "Blender").because, "alpha 0 is a mirror");
+  EXPECT_FALSE(row(to_ggx.rules, "Blender").errors);
   const auto back = convert({kGgxModel, model("phong_rdf"), 1, 1, Measure::kMax});
-  EXPECT_THAT(row(back.rules, "walter").because, testing::HasSubstr("exponent 0 is outside"));
+  EXPECT_THAT(row(back.rules, "Walter").because, testing::HasSubstr("exponent 0 is outside"));
   const auto narrow = convert({kGgxModel, model("phong_rdf"), 1e-3, 1, Measure::kMax});
-  EXPECT_EQ(row(narrow.rules, "babylon").because, "the rule has no such exponent");
+  EXPECT_EQ(row(narrow.rules, "Babylon").because, "the rule has no such exponent");
 }
 
 TEST(Conversion, HasFiniteFiguresOverTheWholeRange) {
