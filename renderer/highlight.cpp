@@ -67,12 +67,13 @@ constexpr auto kLobeUses = map_types<LobeUse>(LobesById{}, []<class L>() {
 /// The texts of one member of a family, with the number k.
 struct MemberText {
   std::string name, title, formula, moments;
-  MemberText(const LobeInfo& family, std::string member_name, int order)
+  MemberText(const LobeInfo& family, std::string member_name, std::string_view member_formula,
+             int order)
       : name(std::move(member_name)), title(name) {
     const auto with_order = [&](std::string_view text, std::string& to) {
       for (const char c : text) to += c == 'k' ? std::to_string(order) : std::string(1, c);
     };
-    with_order(family.formula, formula);
+    with_order(member_formula, formula);
     with_order(family.moments, moments);
   }
 };
@@ -103,7 +104,10 @@ class LobeTable {
     if constexpr (LobeFamily<L>) {
       for (int order = 1; order <= kMaxOrder; ++order) {
         if (!L::has(order)) continue;
-        const MemberText& text = texts_.emplace_back(L::kInfo, L::member_name(order), order);
+        std::string formula(L::kInfo.formula);
+        if constexpr (requires { L::member_formula(order); }) formula = L::member_formula(order);
+        const MemberText& text =
+            texts_.emplace_back(L::kInfo, L::member_name(order), formula, order);
         infos_[{kIndex, std::uint16_t(order)}] = {text.name, text.title, text.formula, text.moments,
                                                   L::kInfo.source};
       }

@@ -4,9 +4,9 @@
 //   value(s) = max(0, 1 + q1 t + q2 t^2 + q3 t^3)^k where s < 1, else 0; t = n s, k = 2^m
 //   qj = aj + bj v + cj v^2, v = 1 / max(n, 16)
 //
-// For every n >= 16 the error against cos^n is at most 3.5e-3, 4.8e-4, 5.5e-5 and 1.02e-5 of the peak for m = 1 to 4.
-// Below n = 16 the coefficients are those of n = 16. We cut the lobe where a cubic would rise again (pk3.3 and pk3.4,
-// n = 16 to 54): it would be at most 4e-17 there.
+// `lobelia search` found the coefficients (docs/cheapest_lobe.md). For every n >= 16 the error against cos^n is at most
+// 3.5e-3, 4.8e-4, 5.4e-5 and 1.23e-5 of the peak for m = 1 to 4, and the lobe never rises. Below n = 16 the coefficients
+// are those of n = 16.
 #include <fmt/format.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -33,15 +33,36 @@ struct PkLobe {
   struct Fit {
     double a[3], b[3], c[3];
   };
-  static constexpr Fit kFits[] = {
-      {{-0.487085, 0.10071, -0.00806618}, {-0.246881, 0.073946, -0.0140943}, {0, 0, 0}},
-      {{-0.248984, 0.0292261, -0.00158811}, {-0.0279484, -0.0785376, 0.00733788}, {0, 0, 0}},
-      {{-0.124937, 0.00767887, -0.000256456},
-       {-0.00037463, -0.0603693, 0.00580165},
-       {-0.0230193, 0.0203209, -0.0328953}},
-      {{-0.0624951, 0.00194393, -3.64745e-05},
-       {-0.000164648, -0.0307721, 0.00172144},
-       {0.0023179, -0.00646238, -0.0178109}}};
+  static constexpr Fit kFits[] = {{{-0.4870510102, 0.1006701317, -0.008057364014},
+                                   {-0.02714573094, -0.1437461631, 0.02973722682},
+                                   {0, 0, 0}},
+                                  {{-0.2489836846, 0.02922607759, -0.001588107903},
+                                   {-0.01710772416, -0.08697986523, 0.008609950066},
+                                   {0, 0, 0}},
+                                  {{-0.1249374068, 0.007678866686, -0.0002564566794},
+                                   {-0.005078414538, -0.05293123069, 0.003943782166},
+                                   {0.05946058577, -0.1160499687, 0.001248944705}},
+                                  {{-0.06249538915, 0.001944214873, -3.675033301e-05},
+                                   {-0.0006733233308, -0.03015564769, 0.001583516365},
+                                   {0.01116129152, -0.01780493112, -0.01515373696}}};
+
+  /// With the coefficients, so that it can be given as a lobe's formula.
+  static std::string member_formula(int order) {
+    const Fit& fit = kFits[squarings(order) - 1];
+    std::string text = "max(0, 1";
+    for (int j = 0; j < 3; ++j) {
+      text += fmt::format(" + ({}", fit.a[j]);
+      const auto add = [&](double factor, std::string_view power) {
+        if (factor != 0)
+          text +=
+              fmt::format(" {} {}/max(n, 16){}", factor < 0 ? '-' : '+', std::abs(factor), power);
+      };
+      add(fit.b[j], "");
+      add(fit.c[j], "^2");
+      text += j == 0 ? ") n s" : fmt::format(") (n s)^{}", j + 1);
+    }
+    return text + ")^k";
+  }
 
   explicit PkLobe(LobeParameters p)
       : n(p.exponent),
@@ -53,12 +74,10 @@ struct PkLobe {
       of_t[j] = coefficient<double>(j);
       of_s[j] = of_t[j] * (power *= n);
     }
-    // Where the cubic stops falling, if it does: the first root of its derivative.
+    // The cubic falls as far as the right angle. It may rise beyond: where its derivative has a root.
     const double inside = of_t[1] * of_t[1] - 3 * of_t[0] * of_t[2];
     const double below = inside >= 0 ? of_t[1] + std::sqrt(inside) : 0;
-    const double turn = below > 0 ? -of_t[0] / (below * n) : 2;
-    cut = std::min(1.0, turn);
-    clamp_ends_it = turn >= 2 && base(1.0) <= 0;
+    clamp_ends_it = base(1.0) <= 0 && (below <= 0 || -of_t[0] / (below * n) >= 2);
   }
 
   template <class Real>
@@ -68,7 +87,7 @@ struct PkLobe {
     // Cut before the power: a subnormal product stalls even if it is not used.
     power = where_less(Real(kNarrow ? smallest32 : smallest64), power, power);
     for (int i = 1; i < k; i *= 2) power = power * power;
-    return clamp_ends_it ? power : where_less(s, Real(cut), power);
+    return clamp_ends_it ? power : where_less(s, Real(1.0), power);
   }
 
   template <class Number>
@@ -158,11 +177,11 @@ struct PkLobe {
 
   /// The s where the lobe ends. Not in the constructor, because kernels, which make many lobes, do without.
   double support() const {
-    if (base(cut) > 0) return cut;
+    if (base(1.0) > 0) return 1;
     const auto slope = [&](double s) {
       return multiply_add(multiply_add(3 * of_s[2], s, 2 * of_s[1]), s, of_s[0]);
     };
-    return root([&](double s) { return base(s); }, slope, cut, 0, 1e-15);
+    return root([&](double s) { return base(s); }, slope, 1, 0, 1e-15);
   }
 
   /// Of value s^j from 0 to `end`, within the support: exact, because it is a polynomial of degree 3 k + j, at most 15 or
@@ -175,7 +194,6 @@ struct PkLobe {
   }
 
   double of_s[3];      ///< q1, q2 and q3 times n, n^2 and n^3
-  double cut;          ///< value is 0 from here on
   bool clamp_ends_it;  ///< it is 0 beyond by itself, because the cubic falls as far as s = 2
 };
 static_assert(Lobe<PkLobe>);

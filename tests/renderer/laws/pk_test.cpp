@@ -24,25 +24,25 @@ double largest_error(std::string_view name) {
 }
 
 TEST(Pk, IsAsNearToTheCosineLobeAsItsFileSaysForEveryExponentFrom16On) {
-  // Measured 3.504e-3, 4.780e-4, 5.484e-5, 1.015e-5.
+  // Measured 3.489e-3, 4.774e-4, 5.36e-5, 1.22e-5.
   constexpr std::pair<const char*, double> kStated[] = {
-      {"pk3.1", 3.5e-3}, {"pk3.2", 4.8e-4}, {"pk3.3", 5.5e-5}, {"pk3.4", 1.02e-5}};
+      {"pk3.1", 3.5e-3}, {"pk3.2", 4.8e-4}, {"pk3.3", 5.4e-5}, {"pk3.4", 1.23e-5}};
   for (const auto& [name, stated] : kStated) {
     const double largest = largest_error(name);
-    EXPECT_LE(largest, 1.01 * stated) << name;
-    EXPECT_GE(largest, 0.85 * stated) << name;
+    EXPECT_LE(largest, stated) << name;
+    EXPECT_GE(largest, 0.98 * stated) << name;
   }
 }
 
 TEST(Pk, IsManyTimesNearerThanCs16) {
-  // Measured 37 and 324 times, with cs16 at 1.78e-2.
+  // Measured 36 and 323 times, with cs16 at 1.734e-2.
   const double cs16 = largest_error("cs16");
   EXPECT_LE(25 * largest_error("pk3.2"), cs16);
   EXPECT_LE(250 * largest_error("pk3.3"), cs16);
 }
 
 TEST(Pk, FallsAndEndsAtEveryExponent) {
-  // Some of its cubics rise again beyond the lobe's end, before the right angle or behind it.
+  // Some of its cubics rise again behind the right angle.
   for (const char* name : {"pk3.1", "pk3.2", "pk3.3", "pk3.4"})
     for (double n = 1; n < 1000; n *= 1.01) {
       const PreparedLobe lobe = prepare(*find_lobe(name), n);
@@ -58,7 +58,10 @@ TEST(Pk, FallsAndEndsAtEveryExponent) {
 
 TEST(Pk, HasFourMembersByName) {
   EXPECT_EQ(find_lobe("pk3.2")->order, 4);
-  EXPECT_EQ(info(*find_lobe("pk3.4")).formula, "max(0, 1 + q1 n s + q2 (n s)^2 + q3 (n s)^3)^16");
+  const std::string formula(info(*find_lobe("pk3.4")).formula);
+  EXPECT_TRUE(formula.starts_with("max(0, 1 + (-0.06249538915 - 0.0006733233308/max(n, 16) + "))
+      << formula;
+  EXPECT_TRUE(formula.ends_with(") (n s)^3)^16")) << formula;
   EXPECT_EQ(identifier(*find_lobe("pk3.2")), "pk3_2");
   for (const char* name : {"pk", "pk3", "pk3.0", "pk3.5", "pk3.9", "pk4", "pk3_2", "pk3.20"})
     EXPECT_FALSE(find_lobe(name)) << name;
