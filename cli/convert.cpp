@@ -3,7 +3,6 @@
 #include "cli/commands.hpp"
 #include "cli/options.hpp"
 #include "cli/output_files.hpp"
-#include "core/files.hpp"
 #include "records/record.hpp"
 #include "renderer/ggx.hpp"
 #include "studies/convert/range.hpp"
@@ -69,22 +68,9 @@ void run_convert(const ConvertArguments& options) {
   if (options.record == kStdout && options.svg == kStdout)
     throw Error(ExitCode::kUsage, "only one of -o and --svg can go to stdout");
   OutputFiles outputs;
-  for (const std::string& path : {options.record, options.svg})
-    if (!path.empty() && path != kStdout) {
-      outputs.writes(path);
-      require_writable(path);
-    }
+  for (const std::string& path : {options.record, options.svg}) outputs.writes_report(path);
   const ConvertResult result = converted(request_of(options));
-  std::string printed = result.text;
-  FilesTogether files;
-  for (const auto& [path, text] :
-       {std::pair(&options.record, &result.record), {&options.svg, &result.svg}})
-    if (*path == kStdout)
-      printed = *text;
-    else if (!path->empty())
-      write_file(*path, *text);
-  files.commit();
-  fmt::print("{}", printed);
+  write_reports(result.text, {{options.record, result.record}, {options.svg, result.svg}});
 }
 
 }  // namespace

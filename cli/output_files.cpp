@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace lobelia::cli {
 namespace {
@@ -32,6 +33,24 @@ void OutputFiles::writes(const fs::path& file) {
       !written_.insert(fs::weakly_canonical(fs::absolute(file, unknown), unknown)).second)
     throw Error(ExitCode::kUsage,
                 fmt::format("{}: is read or written by this command already", file.string()));
+}
+
+void OutputFiles::writes_report(const std::string& path) {
+  if (path.empty() || path == kStdout) return;
+  writes(path);
+  require_writable(path);
+}
+
+void write_reports(std::string table,
+                   std::initializer_list<std::pair<std::string, std::string>> reports) {
+  FilesTogether files;
+  for (const auto& [path, text] : reports)
+    if (path == kStdout)
+      table = text;
+    else if (!path.empty())
+      write_file(path, text);
+  files.commit();
+  fmt::print("{}", table);
 }
 
 }  // namespace lobelia::cli

@@ -4,7 +4,9 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <initializer_list>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -19,10 +21,16 @@ class OutputFiles {
   void reads(const std::filesystem::path& file);
   /// Throws Error(kUsage) if the file is read, also through a link, or written already.
   void writes(const std::filesystem::path& file);
+  /// Of a report, which may be "" for none, or kStdout. Throws Error(kOutput) too.
+  void writes_report(const std::string& path);
 
  private:
   std::set<std::pair<dev_t, ino_t>> read_;
   std::set<std::filesystem::path> written_;
 };
+
+/// Reports' paths and texts: to their files, all or none. Prints `table`, or in its place the report that goes to stdout.
+void write_reports(std::string table,
+                   std::initializer_list<std::pair<std::string, std::string>> reports);
 
 }  // namespace lobelia::cli

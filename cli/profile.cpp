@@ -8,7 +8,6 @@
 #include "cli/profile_report.hpp"
 #include "compare/profile/blob.hpp"
 #include "compare/require_same_size.hpp"
-#include "core/files.hpp"
 #include "core/image_io.hpp"
 #include "farm/profile_scene.hpp"
 #include "records/record.hpp"
@@ -188,11 +187,7 @@ void run_profile(const ProfileArguments& options) {
     outputs.reads(noise->error);
     for (const std::string& path : noise->replicates) outputs.reads(path);
   }
-  for (const std::string* path : written) {
-    if (path->empty() || *path == kStdout) continue;
-    outputs.writes(*path);
-    require_writable(*path);
-  }
+  for (const std::string* path : written) outputs.writes_report(*path);
 
   const auto [name_a, name_b] = picture_names(options);
   Image a = read_image(options.a), b;
@@ -206,17 +201,9 @@ void run_profile(const ProfileArguments& options) {
   }
   const Result result =
       measured(options, images, {noise_a ? &*noise_a : nullptr, noise_b ? &*noise_b : nullptr});
-  std::string printed = result.text;
-  FilesTogether files;
-  for (const auto& [path, text] : {std::pair(&options.csv, &result.csv),
-                                   {&options.svg, &result.svg},
-                                   {&options.json, &result.record}})
-    if (*path == kStdout)
-      printed = *text;
-    else if (!path->empty())
-      write_file(*path, *text);
-  files.commit();
-  fmt::print("{}", printed);
+  write_reports(
+      result.text,
+      {{options.csv, result.csv}, {options.svg, result.svg}, {options.json, result.record}});
 }
 
 }  // namespace
