@@ -14,8 +14,8 @@ namespace lobelia::cli {
 #define LOBELIA_COMMANDS(command)                                                                \
   command(render) command(plan) command(models) command(scene) command(scene_format)             \
       command(export) command(convert) command(check_shader) command(engines) command(reference) \
-          command(compare) command(profile) command(cost) command(farm) command(gallery)         \
-              command(verify) command(records)
+          command(compare) command(profile) command(cost) command(search) command(farm)          \
+              command(gallery) command(verify) command(records)
 #define LOBELIA_DECLARE(name) void add_##name(CLI::App& app, ExitCode& exit_code);
 LOBELIA_COMMANDS(LOBELIA_DECLARE)
 #undef LOBELIA_DECLARE

@@ -13,6 +13,7 @@
 #include "records/cost.hpp"
 #include "records/farm.hpp"
 #include "records/gltf.hpp"
+#include "records/lobe_search.hpp"
 #include "records/models.hpp"
 #include "records/pages.hpp"
 #include "records/paper.hpp"
@@ -39,7 +40,7 @@ constexpr auto kKinds =
     kinds_of<Agreement, Blob, Blobs, Cell, Comparison, ComparisonSet, Content, Conversion,
              ConversionTable, Cost, Engines, Failure, Farm, FarmChunk, FarmChunkReport,
              FarmExplanation, FarmRun, FarmStatus, KnownHashes, GalleryList, HighlightTables,
-             Models, Plan, Profile, Profiles, Project, Reference, Render, Result, Scene,
+             LobeSearch, Models, Plan, Profile, Profiles, Project, Reference, Render, Result, Scene,
              Sensitivity, ShaderCheck, SlurmDoctor, SlurmRun, VerifyPaper, VerifyStability>();
 
 /// "list of Limit, at least 1": the type of a key, for people.
@@ -113,11 +114,12 @@ const Struct& detail::find_struct(const std::type_info& type) {
   static const Tables tables = [] {
     Tables all;
     for (auto* const define :
-         {define_agreement_tables, define_chart_tables, define_cluster_tables,
-          define_comparison_tables, define_conversion_tables, define_cost_tables,
-          define_farm_tables, define_gltf_tables, define_highlight_tables, define_model_tables,
-          define_page_tables, define_paper_tables, define_profile_tables, define_project_tables,
-          define_render_tables, define_result_tables, define_scene_tables,
+         {define_agreement_tables,    define_chart_tables,      define_cluster_tables,
+          define_comparison_tables,   define_conversion_tables, define_cost_tables,
+          define_farm_tables,         define_gltf_tables,       define_highlight_tables,
+          define_lobe_search_tables,  define_model_tables,      define_page_tables,
+          define_paper_tables,        define_profile_tables,    define_project_tables,
+          define_render_tables,       define_result_tables,     define_scene_tables,
           define_shader_check_tables, define_stability_tables})
       define(all);
     return all;

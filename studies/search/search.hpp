@@ -1,0 +1,55 @@
+// The cheapest lobe within an error, and the front between price and error.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "records/lobe_search.hpp"
+#include "studies/search/shape.hpp"
+
+namespace lobelia::search {
+
+/// Rounds a result to the precision in which a lobe is computed.
+struct Rounding {
+  std::string name;  ///< "float32", "float16", "fixed:12"
+  double step = 0;   ///< of numbers just below 1
+  std::function<double(double)> rounded;
+};
+/// Throws Error(kUsage).
+Rounding parse_rounding(const std::string& text);
+/// "16..1024", "128", "16..inf". Throws Error(kUsage).
+Range parse_range(const std::string& text);
+
+inline constexpr int kMostPrice = 12;
+inline constexpr int kUsualPrice = 8;  ///< up to which lobes are listed if nothing is asked for
+
+struct Request {
+  Range range;
+  std::string metric = "max";  ///< one of records::kSearchMetrics
+  Rounding rounding = parse_rounding("float32");
+  bool by_n = true;
+  std::string family = "all";   ///< one of records::kSearchFamilies
+  std::optional<double> error;  ///< the cheapest within it
+  std::optional<int> price;     ///< the nearest for it
+  std::function<void(double part, const std::string& what)> on_progress = {};
+};
+
+/// No lobe is dearer.
+int most_price(const Request& request);
+
+/// Finds and proves the best lobe of each shape, cheapest first, until the error that is asked for is met. `chosen` is empty if nothing is asked for, or nothing meets it. Throws
+/// Error(kUsage) if the error asked for is below the precision's.
+records::LobeSearch search(const Request& request);
+
+/// Of a lobe, by the metric, with the rounding of the precision: the bound itself for "max".
+double error_of(const records::SearchedLobe& lobe, const std::string& metric);
+
+/// The table; the chosen one first, with its formula; or what is the best that is possible.
+std::string search_text(const records::LobeSearch& found, const Request& request,
+                        bool certificates);
+/// Whether the record has what was asked for.
+bool is_met(const records::LobeSearch& found, const Request& request);
+
+}  // namespace lobelia::search

@@ -1,0 +1,118 @@
+#include "studies/search/shape.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lobelia::search {
+namespace {
+
+constexpr double kLeastBits = -126;  ///< the exponent of the least normal float32
+
+double to_power(double base, int squarings) {
+  for (int i = 0; i < squarings; ++i) base *= base;
+  return base;
+}
+
+}  // namespace
+
+double Shape::start() const {
+  return outer == Outer::kClamp ? 1 : outer == Outer::kReciprocal ? -1 : 0;
+}
+
+std::string name(const Shape& shape) {
+  const char* outer = shape.outer == Outer::kClamp        ? "pk"
+                      : shape.outer == Outer::kReciprocal ? "rk"
+                                                          : "bk";
+  return fmt::format("{}{}.{}", outer, shape.degree, shape.squarings);
+}
+
+Operations operations(const Shape& shape) {
+  Operations count;
+  count.multiply_adds = shape.degree;
+  count.multiplies = shape.squarings;
+  count.divisions = shape.outer == Outer::kReciprocal;
+  // The clamp; of bits a clamp and the conversion to an integer.
+  count.others = shape.outer == Outer::kClamp ? 1 : shape.outer == Outer::kBits ? 2 : 0;
+  return count;
+}
+
+double outer_value(const Shape& shape, double y) {
+  switch (shape.outer) {
+    case Outer::kClamp:
+      return to_power(std::max(0.0, y), shape.squarings);
+    case Outer::kReciprocal:
+      return to_power(-1 / y, shape.squarings);
+    case Outer::kBits:
+      break;
+  }
+  const double bits = std::max(kLeastBits, y), whole = std::floor(bits);
+  return to_power(std::ldexp(1 + (bits - whole), int(whole)), shape.squarings);
+}
+
+double outer_inverse(const Shape& shape, double value) {
+  double root = value;
+  for (int i = 0; i < shape.squarings; ++i) root = std::sqrt(root);
+  if (shape.outer == Outer::kClamp) return root;
+  if (shape.outer == Outer::kReciprocal) return -1 / root;
+  int exponent = 0;
+  const double mantissa = std::frexp(root, &exponent);  // in [0.5, 1)
+  return exponent - 1 + (2 * mantissa - 1);
+}
+
+double Lobe::value(double t, double v) const { return outer_value(shape, polynomial(t, v)); }
+
+std::string Lobe::formula() const {
+  std::string text;
+  for (int j = 1; j <= shape.degree; ++j) {
+    std::string coefficient;
+    for (int r = 0; r <= shape.by_n; ++r) {
+      const double factor = c[std::size_t(r * shape.degree + j - 1)];
+      const std::string power = r == 0 ? "" : r == 1 ? "/n" : fmt::format("/n^{}", r);
+      coefficient +=
+          r == 0 ? fmt::format("{:.10g}", factor)
+                 : fmt::format(" {} {:.10g}{}", factor < 0 ? '-' : '+', std::abs(factor), power);
+    }
+    if (shape.by_n > 0) coefficient = "(" + coefficient + ")";
+    const std::string power = j == 1 ? " t" : fmt::format(" t^{}", j);
+    if (shape.by_n == 0 && coefficient[0] == '-')
+      text += (text.empty() ? "-" : " - ") + coefficient.substr(1) + power;
+    else
+      text += (text.empty() ? "" : " + ") + coefficient + power;
+  }
+  const bool negative = text[0] == '-';
+  if (shape.start() != 0)
+    text = fmt::format("{}{}{}", shape.start(), negative ? " - " : " + ",
+                       negative ? text.substr(1) : text);
+  const std::string base = shape.outer == Outer::kClamp        ? "max(0, " + text + ")"
+                           : shape.outer == Outer::kReciprocal ? "1/(-(" + text + "))"
+                                                               : "bits(" + text + ")";
+  return shape.squarings == 0 ? base : fmt::format("{}^{}", base, shape.power());
+}
+
+double cosine_power(double t, double v) {
+  if (v == 0) return std::exp(-t);
+  return t * v < 1 ? std::exp(std::log1p(-t * v) / v) : 0;
+}
+
+std::vector<Shape> shapes(int most, int by_n) {
+  std::vector<Shape> all;
+  const auto add = [&](Outer outer, std::initializer_list<int> degrees) {
+    for (const int degree : degrees)
+      for (int squarings = 0;; ++squarings) {
+        const Shape shape{outer, degree, squarings, by_n};
+        if (operations(shape).price() > most) break;
+        all.push_back(shape);
+      }
+  };
+  // An even polynomial rises again behind its minimum, where a clamp does not help.
+  add(Outer::kClamp, {1, 3, 5});
+  add(Outer::kReciprocal, {1, 2, 3});
+  add(Outer::kBits, {1, 2, 3});
+  std::ranges::stable_sort(all, {}, [](const Shape& s) { return operations(s).price(); });
+  return all;
+}
+
+}  // namespace lobelia::search

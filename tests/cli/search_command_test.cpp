@@ -1,0 +1,67 @@
+// lobelia search, and the page that shows it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/run_lobelia.hpp"
+#include "tests/json.hpp"
+
+namespace lobelia {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class SearchCommand : public testing::Test {
+ protected:
+  ProcessResult run(const std::string& arguments) const {
+    return run_shell("\"$LOBELIA\" search -q " + arguments, directory_.path());
+  }
+  const TemporaryDirectory directory_;
+};
+
+TEST_F(SearchCommand, FindsTheCheapestWithinAnErrorAndTheNearestForAPrice) {
+  const auto cheapest = run("--error 1e-3 -o search.json");
+  ASSERT_EQ(cheapest.exit_code, 0) << cheapest.output_tail;
+  const Json record = Json::parse(read_file(directory_.path() / "search.json", 1 << 22));
+  EXPECT_EQ(record["kind"], "lobe-search");
+  EXPECT_EQ(record["chosen"], "pk3.2");
+  const auto nearest = run("--operations 5 --exponents 64 --family pk --certificates");
+  EXPECT_EQ(nearest.exit_code, 0);
+  EXPECT_THAT(nearest.output_tail, StartsWith("pk3.1, 5 operations: max = "));
+  EXPECT_THAT(nearest.output_tail, HasSubstr("pk3.1: no lobe of this shape has a smaller error"));
+}
+
+TEST_F(SearchCommand, SaysTheBestThatIsPossibleIfARequestCannotBeMet) {
+  const auto result = run("--error 1e-4 --operations 5");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output_tail,
+              StartsWith("No lobe of at most 5 operations is within 0.0001. The best possible is "
+                         "0.0035"));
+}
+
+TEST_F(SearchCommand, RefusesAWrongRequestInOneLine) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"--error 1e-9", "is below the rounding of float32"},
+      {"--error 1e-4 --precision float16", "is below the rounding of float16"},
+      {"--error nan", "--error"},
+      {"--error -1", "--error"},
+      {"--exponents 64..16", "is empty"},
+      {"--exponents 16..x", "is no range"},
+      {"--family xk", "--family"},
+      {"--metric ssim", "--metric"},
+      {"--operations 0", "--operations"},
+      {"--operations 99", "--operations"},
+      {"--coefficients best", "--coefficients"},
+      {"--precision fixed:99", "--precision"},
+  };
+  for (const auto& [arguments, words] : wrong) {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_THAT(result.output_tail, HasSubstr(words)) << arguments;
+    EXPECT_EQ(std::ranges::count(result.output_tail, '\n'), 1) << result.output_tail;
+  }
+  EXPECT_EQ(run("--operations 3 -o none/search.json").exit_code, 4);
+}
+
+}  // namespace
+}  // namespace lobelia

@@ -1,0 +1,273 @@
+// `lobelia search`: its optima by a second solver, its proofs by 50 digits on grids, its certificates by themselves.
+#include <gmock/gmock.h>
+#include <hwy/aligned_allocator.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <random>
+
+#include "core/error.hpp"
+#include "renderer/highlight.hpp"
+#include "studies/search/minimax.hpp"
+#include "studies/search/proof.hpp"
+#include "studies/search/search.hpp"
+#include "studies/search/timing.hpp"
+
+namespace lobelia::search {
+namespace {
+
+using Exact = boost::multiprecision::cpp_bin_float_50;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Exact exact_target(const Exact& t, const Exact& v) {
+  if (v == 0) return exp(-t);
+  return t * v < 1 ? Exact(exp(log1p(-t * v) / v)) : Exact(0);
+}
+
+/// By the definition of the shapes, written again.
+Exact exact_value(const Lobe& lobe, const Exact& t, const Exact& v) {
+  Exact y = lobe.shape.outer == Outer::kClamp ? 1 : lobe.shape.outer == Outer::kReciprocal ? -1 : 0;
+  for (int r = 0; r <= lobe.shape.by_n; ++r)
+    for (int j = 1; j <= lobe.shape.degree; ++j)
+      y += Exact(lobe.c[std::size_t(r * lobe.shape.degree + j - 1)]) * pow(t, j) * pow(v, r);
+  Exact value;
+  if (lobe.shape.outer == Outer::kClamp) {
+    value = y > 0 ? y : Exact(0);
+  } else if (lobe.shape.outer == Outer::kReciprocal) {
+    value = -1 / y;
+  } else {
+    const int whole = int(floor(y < -126 ? Exact(-126) : y));
+    value = ldexp(Exact(1), whole) * (1 + (y < -126 ? Exact(-126) : y) - whole);
+  }
+  return pow(value, lobe.shape.power());
+}
+
+/// The largest error over a grid, and over a finer one about where that was, in 50 digits.
+double grid_error(const Lobe& lobe, const Range& range, int exponents, int points) {
+  Exact most = 0, worst_t = 0, worst_v = 0;
+  const auto look = [&](const Exact& t, const Exact& v) {
+    if (v < range.v_min() || v > range.v_max() || t < 0 || t * v >= 1) return;
+    const Exact error = abs(exact_value(lobe, t, v) - exact_target(t, v));
+    if (error > most) most = error, worst_t = t, worst_v = v;
+  };
+  const Exact step = exponents > 1 ? Exact(range.v_max() - range.v_min()) / (exponents - 1) : 0;
+  for (int k = 0; k < exponents; ++k)
+    for (int i = 0; i < points; ++i) look(Exact(30) * i / points, range.v_min() + step * k);
+  for (const double around : {1.0, 0.1}) {
+    const Exact t = worst_t, v = worst_v;
+    for (int k = -4; k <= 4; ++k)
+      for (int i = -10; i <= 10; ++i)
+        look(t + around * 30 / points * i / 10, v + around * step * k / 4);
+  }
+  return double(most);
+}
+
+/// Solves A x = b by elimination.
+std::vector<Exact> solved(std::vector<std::vector<Exact>> rows) {
+  const std::size_t n = rows.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    std::size_t best = c;
+    for (std::size_t i = c; i < n; ++i)
+      if (abs(rows[i][c]) > abs(rows[best][c])) best = i;
+    std::swap(rows[c], rows[best]);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == c) continue;
+      const Exact factor = rows[i][c] / rows[c][c];
+      for (std::size_t k = c; k <= n; ++k) rows[i][k] -= factor * rows[c][k];
+    }
+  }
+  std::vector<Exact> x;
+  for (std::size_t i = 0; i < n; ++i) x.push_back(rows[i][n] / rows[i][i]);
+  return x;
+}
+
+/// A second solver: Remez's exchange with Newton's method, for a clamped cubic to the power k and e^-t.
+double remez(int k) {
+  // Through three points of e^(-t/k), so that the error has four signs.
+  const double end = 3.5 + 2 * std::log2(k);
+  std::vector<std::vector<Exact>> through;
+  for (const double part : {0.08, 0.4, 0.85}) {
+    const Exact t = end * part;
+    through.push_back({t, t * t, t * t * t, exp(-t / k) - 1});
+  }
+  std::vector<Exact> c = solved(through);
+  Exact error = 0;
+  for (int round = 0; round < 20; ++round) {
+    const auto difference = [&](const Exact& t) {
+      const Exact y = 1 + t * (c[0] + t * (c[1] + t * c[2]));
+      return Exact((y > 0 ? Exact(pow(y, k)) : Exact(0)) - exp(-t));
+    };
+    // The largest difference between any two changes of sign.
+    std::vector<Exact> points;
+    Exact largest = 0, at = 0;
+    for (int i = 1; i < 6000; ++i) {
+      const Exact t = Exact(20) * i / 6000, here = difference(t);
+      if (largest != 0 && (here > 0) != (largest > 0)) {
+        points.push_back(at);
+        largest = 0;
+      }
+      if (abs(here) >= abs(largest)) largest = here, at = t;
+    }
+    points.push_back(at);
+    if (points.size() < 4) return -1;
+    points.resize(4);
+    // Newton's method for equal errors of alternating signs there.
+    std::vector<std::vector<Exact>> rows;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Exact t = points[i], y = 1 + t * (c[0] + t * (c[1] + t * c[2]));
+      const Exact slope = y > 0 ? Exact(k * pow(y, k - 1)) : Exact(0);
+      const Exact sign = difference(points[0]) > 0 ? (i % 2 ? -1 : 1) : (i % 2 ? 1 : -1);
+      rows.push_back({slope * t, slope * t * t, slope * t * t * t, -sign, -difference(t)});
+    }
+    const std::vector<Exact> step = solved(rows);
+    for (std::size_t j = 0; j < 3; ++j) c[j] += step[j];
+    error = step[3];
+  }
+  return std::abs(double(error));
+}
+
+class BestLobe : public testing::TestWithParam<Shape> {};
+
+TEST_P(BestLobe, HasTheErrorThatIsProvedForIt) {
+  for (const Range& range : {Range{16, kInfinity}, Range{32, 300}}) {
+    const Minimax best = minimax(GetParam(), range);
+    ASSERT_FALSE(best.lobe.c.empty());
+    const Proof proof = prove(best.lobe, range);
+    ASSERT_TRUE(proof.decreases);
+    const double grid = grid_error(best.lobe, range, range.least_n == range.most_n ? 1 : 9, 300);
+    EXPECT_LE(grid, proof.bound);
+    EXPECT_GE(grid, 0.99 * proof.bound);
+    EXPECT_LE(best.lower_bound, proof.bound);
+  }
+}
+
+TEST_P(BestLobe, HasACertificateThatLeavesNoneBetter) {
+  const Range range{16, kInfinity};
+  const Minimax best = minimax(GetParam(), range);
+  ASSERT_FALSE(best.touches.empty());
+  Exact sum = 0;
+  for (const Touch& touch : best.touches) {
+    EXPECT_GT(touch.weight, 0);
+    sum += touch.weight;
+  }
+  EXPECT_NEAR(double(sum), 1, 1e-9);
+  for (int r = 0; r <= GetParam().by_n; ++r)
+    for (int j = 1; j <= GetParam().degree; ++j) {
+      Exact signed_sum = 0, size = 0;
+      for (const Touch& touch : best.touches) {
+        const Exact term =
+            touch.weight * pow(Exact(touch.t), j) * (r == 0 ? Exact(1) : pow(Exact(touch.v), r));
+        signed_sum += touch.error > 0 ? term : Exact(-term);
+        size += term;
+      }
+      EXPECT_LE(abs(signed_sum), size * 1e-14) << j << " " << r;
+    }
+  // Random lobes of the shape near the best: at one of the touches each is at least as far off.
+  std::mt19937 random(1);
+  std::normal_distribution<double> step;
+  for (int i = 0; i < 2000; ++i) {
+    Lobe other = best.lobe;
+    const double size = std::pow(10, -1 - i % 6);
+    for (double& c : other.c) c *= 1 + size * step(random);
+    double most = 0;
+    for (const Touch& touch : best.touches)
+      most =
+          std::max(most, std::abs(other.value(touch.t, touch.v) - cosine_power(touch.t, touch.v)));
+    EXPECT_GE(most, best.lower_bound * (1 - 1e-9));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, BestLobe,
+    testing::Values(Shape{Outer::kClamp, 1, 4, 1}, Shape{Outer::kClamp, 3, 1, 1},
+                    Shape{Outer::kClamp, 3, 2, 1}, Shape{Outer::kClamp, 3, 3, 2},
+                    Shape{Outer::kReciprocal, 2, 1, 1}, Shape{Outer::kBits, 1, 0, 1}),
+    [](const auto& test) {
+      std::string text = name(test.param);
+      std::ranges::replace(text, '.', '_');
+      return text;
+    });
+
+TEST(Search, FindsWhatASecondSolverFinds) {
+  for (const int squarings : {1, 2, 3}) {
+    const double second = remez(1 << squarings);
+    const Minimax best = minimax({Outer::kClamp, 3, squarings, 0}, {1e8, kInfinity});
+    EXPECT_NEAR(best.error / second, 1, 2e-3) << squarings;
+  }
+}
+
+TEST(Search, FindsNoLobesNearerThanTheCatalogues) {
+  for (const int squarings : {1, 2, 3, 4}) {
+    const Shape shape{Outer::kClamp, 3, squarings, squarings < 3 ? 1 : 2};
+    const Range range{16, kInfinity};
+    const double found = prove(minimax(shape, range).lobe, range).bound;
+    const LobeId id = *find_lobe(name(shape));
+    double most = 0;
+    for (const double n : {16.0, 17.3, 30.0, 64.0, 200.0, 1024.0, 1e6})
+      for (int i = 0; i < 5000; ++i) {
+        const double t = std::min(n, 30.0) * i / 5000;
+        most = std::max(most, std::abs(lobe_value(id, t / n, n) - cosine_power(t, 1 / n)));
+      }
+    EXPECT_LE(most, 1.005 * found) << name(shape);
+    EXPECT_GE(most, 0.95 * found) << name(shape);
+  }
+}
+
+TEST(Search, TimesWhatItFound) {
+  // What is timed is the lobe: the value in float32 is that in double.
+  constexpr std::size_t kCount = 4096;
+  const auto s = hwy::AllocateAligned<float>(kCount), value = hwy::AllocateAligned<float>(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) s[i] = float(i) / kCount;
+  for (const Shape& shape : {Shape{Outer::kClamp, 3, 2, 1}, Shape{Outer::kReciprocal, 2, 1, 1},
+                             Shape{Outer::kBits, 2, 0, 0}}) {
+    const Lobe lobe = minimax(shape, {16, kInfinity}).lobe;
+    evaluate(lobe, 20, kCount, s.get(), value.get());
+    for (std::size_t i = 0; i < kCount; ++i)
+      EXPECT_NEAR(value[i], lobe.value(20 * double(s[i]), 1.0 / 20), 2e-5)
+          << name(shape) << " " << i;
+    EXPECT_GT(times_of(std::vector{lobe}, *find_lobe("schlick"))[0].median, 0);
+  }
+}
+
+TEST(Search, BoundsThePapersLobeWhereThePaperMeasuredIt) {
+  const Lobe cs16{{Outer::kClamp, 1, 4, 0}, {-1.0 / 16}};
+  EXPECT_NEAR(prove(cs16, {16, 1024}).bound, 1.70e-2, 1e-4);
+}
+
+TEST(Search, IsFourTimesNearerThanCs16AtItsPriceAnd25TimesForOneOperationMore) {
+  const Range range{16, 1024};
+  const Lobe cs16{{Outer::kClamp, 1, 4, 0}, {-1.0 / 16}};
+  const double paper = prove(cs16, range).bound;
+  const Shape same{Outer::kClamp, 3, 2, 1}, one_more{Outer::kClamp, 3, 3, 2};
+  ASSERT_EQ(operations(same).price(), operations(cs16.shape).price());
+  ASSERT_EQ(operations(one_more).price(), operations(cs16.shape).price() + 1);
+  // Measured 36 and 317 times.
+  EXPECT_LE(30 * prove(minimax(same, range).lobe, range).bound, paper);
+  EXPECT_LE(250 * prove(minimax(one_more, range).lobe, range).bound, paper);
+}
+
+TEST(Search, DoesNotProveWhatIsNotSo) {
+  const Range range{16, kInfinity};
+  Lobe lobe = minimax({Outer::kClamp, 3, 2, 1}, range).lobe;
+  const double best = prove(lobe, range).bound;
+  lobe.c[1] *= 1.01;
+  EXPECT_GT(prove(lobe, range).bound, 1.5 * best);
+  lobe.c[2] = 1e-3;  // it rises
+  EXPECT_FALSE(prove(lobe, range).decreases);
+}
+
+TEST(Search, RefusesWhatItCannotRead) {
+  for (const char* text : {"", "x", "16..", "..16", "1024..16", "0..5", "nan", "16..nan", "-1",
+                           "16..32..64", "1e9", "inf", "16,32"})
+    EXPECT_THROW(parse_range(text), Error) << text;
+  for (const char* text :
+       {"", "float64", "fixed", "fixed:", "fixed:0", "fixed:33", "fixed:8.5", "fixed:nan"})
+    EXPECT_THROW(parse_rounding(text), Error) << text;
+  Request request;
+  request.range = parse_range("64");
+  request.error = 1e-9;
+  EXPECT_THROW(search(request), Error);
+}
+
+}  // namespace
+}  // namespace lobelia::search
