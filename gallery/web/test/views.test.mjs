@@ -9,7 +9,7 @@ import { address, close, fileUrl, launch, lobelia, open, requireAccessible, says
 import { writeFarm } from './farm.mjs';
 
 const directory = scratch(), run = path.join(directory, 'run'), site = path.join(directory, 'site');
-const kViews = ['explorer', 'stability', 'paper', 'cost'];
+const kViews = { explorer: 'Explorer', stability: 'Stability', paper: 'Paper', cost: 'Cost', search: 'Cheapest lobes' };
 const kHostile = '<img src=x onerror=alert(1)>';
 const made = (kind, rest) => ({ schemaVersion: 1, kind, madeBy: 'lobelia test', ...rest });
 let browser, server, tables;
@@ -46,6 +46,12 @@ before(async () => {
     id: 'lobe', unit: 's', level: 'lobe', title: 'A lobe', per: 'evaluation', errors: [{ id: 'max', meaning: 'largest error' }],
     ways: [variant('quick', 1e-9, 0.1), variant('middling', 2e-9, 0.05), variant('slow', 8e-9, 1e-7), variant(kHostile, 9e-9, 0.2), variant('unknown', 1e-9, 'nan')],
     fronts: { max: { ways: ['quick', 'middling', 'slow'], dominatedBy: {}, inWords: ['quick to slow'], chart: 'lobe-max.svg' } }, remarks: [] }] }));
+  mkdirSync(path.join(run, 'search'));
+  const searchFile = path.join(run, 'search/search.json');
+  lobelia('search', '-q', '--operations', '5', '--family', 'pk', '-o', searchFile);
+  const found = JSON.parse(readFileSync(searchFile, 'utf8'));
+  found.lobes[0].formula = kHostile;
+  put('search/search.json', found);
   lobelia('gallery', run, '-o', site);
   [browser, server] = await Promise.all([launch(), serve(site)]);
 });
@@ -54,12 +60,12 @@ after(async () => { await browser?.close(); await server?.stop(); });
 const view = (name, hash = '', options = {}) => open(browser, `${fileUrl(site)}${name}.html${hash}`, options);
 const hashOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
 
-for (const name of kViews) {
+for (const [name, title] of Object.entries(kViews)) {
   test(`${name}: opens from a file and from a server, is linked, and axe finds nothing in light or dark`, async () => {
     for (const colorScheme of ['light', 'dark']) {
       const page = await view(name, '', { colorScheme });
       await requireAccessible(page, `${name} ${colorScheme}`);
-      assert.equal(await page.locator('nav a[aria-current]').textContent(), name.charAt(0).toUpperCase() + name.slice(1));
+      assert.equal(await page.locator('nav a[aria-current]').textContent(), title);
       await close(page);
     }
     await close(await open(browser, `${server.url}${name}.html`));
@@ -222,5 +228,21 @@ test('cost: a variant is marked in chart and table, by pointer and by keys, and 
   await page.keyboard.press('Enter');
   assert.equal(new URL(await address(page)).hash, '#top');
   assert.equal(await page.locator('g.point[tabindex="0"]').count(), 1);
+  await close(page);
+});
+
+test('search: the slider shows one exponent at a time, the whole range first', async () => {
+  const page = await view('search');
+  const shown = page.locator('figure[data-exponent]:visible');
+  assert.equal(await shown.count(), 1);
+  const first = await shown.getAttribute('data-exponent');
+  const slider = page.getByRole('slider');
+  await slider.focus();
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await shown.count(), 1);
+  assert.notEqual(await shown.getAttribute('data-exponent'), first);
+  await slider.press('Home');
+  assert.equal(await shown.getAttribute('data-exponent'), first);
+  assert.equal(await slider.getAttribute('aria-valuetext'), first);
   await close(page);
 });
