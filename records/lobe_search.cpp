@@ -42,7 +42,7 @@ void define_lobe_search_tables(Tables& tables) {
     t.key("coefficients", "of t^j / n^r, j = 1, 2, ... first");
     t.key("bound", "of the error, proved for all s and n; null: not proved").at_least(0);
     t.key("lowerBound", "no lobe of this shape has a smaller error").at_least(0);
-    t.key("isOnFront", "no other is as cheap and as near");
+    t.key("isOnFront", "nearer by 0.5 % than all that are cheaper");
     t.key("touches", "the certificate of the lower bound").if_any();
   });
   tables.define<LobeSearch>("The cheapest lobes for cos^n: 'lobelia search -o FILE'.", [](auto& t) {
@@ -54,6 +54,9 @@ void define_lobe_search_tables(Tables& tables) {
     t.key("coefficients", "constant or by-n");
     t.key("chosen", "the lobe that was asked for").if_any();
     t.key("lobes", "cheapest first");
+    t.key("notProved",
+          "shapes whose best lobe could not be proved, or is none: not among the lobes")
+        .if_any();
   });
 }
 

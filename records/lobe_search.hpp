@@ -51,6 +51,7 @@ struct LobeSearch {
   std::string family, metric, precision, coefficients;
   std::string chosen;
   std::vector<SearchedLobe> lobes;
+  std::vector<std::string> not_proved;
 };
 
 void define_lobe_search_tables(Tables& tables);

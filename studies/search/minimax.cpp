@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "core/error.hpp"
 
@@ -207,6 +208,8 @@ std::pair<double, Program> least_error(const Shape& shape, const Range& range,
   }
   for (double step = 1e-3; low > none && excess(low) <= 0; step *= 4)
     low = std::max(low - step, none);
+  // cos^n itself, or nearer to it than a double can tell.
+  if (excess(low) <= 0) return {least, std::move(*best)};
   std::uintmax_t rounds = 60;
   boost::math::tools::toms748_solve(
       excess, low, high, [](double a, double b) { return b - a < 1e-8; }, rounds);
@@ -325,7 +328,13 @@ Minimax exchange(const Shape& shape, const Range& range, double slope) {
   best.error = kNone;
   double guess = 1e-2;
   for (int round = 0, idle = 0; round < kRounds && idle < kPatience; ++round) {
-    auto [error, program] = least_error(shape, range, points, guess, slope);
+    double error = 0;
+    Program program;
+    try {
+      std::tie(error, program) = least_error(shape, range, points, guess, slope);
+    } catch (const Error&) {
+      break;  // points too near to each other; what was found before is good
+    }
     if (program.c.empty()) return best;
     guess = error;
     const Lobe lobe = in_units(shape, range, program);

@@ -29,7 +29,7 @@ struct Minimax {
 
 inline constexpr double kLeastSlope = 1e-4;
 /// Coefficients have 10 digits, those that are printed. y falls at least by `slope` for each 10 of t, as far as that was
-/// looked at. Throws Error(kInternal) if the solver fails.
+/// looked at. No coefficients if no lobe is within half of the peak, or the solver fails.
 Minimax minimax(const Shape& shape, const Range& range, double slope = kLeastSlope);
 
 /// The least error that the certificate leaves possible, from the touches alone.

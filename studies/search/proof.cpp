@@ -219,6 +219,8 @@ class BranchAndBound {
  private:
   static constexpr double kEnd = 64;  ///< e^-64 is 0 to every error that is asked for
   static constexpr double kSmallestStep = 1e-9;
+  static constexpr double kSame =
+      1e-7;  ///< of the peak; less is not told apart, and float32 rounds as much
   static constexpr long kMostBoxes = 100'000;  ///< ten times those of a lobe that can be proved
 
   Jet error(const Box& box, const Jet& value) const {
@@ -265,7 +267,7 @@ class BranchAndBound {
         proof_.decreases = false;
     }
     const bool small = box.t_high - box.t_low < kSmallestStep;
-    if ((most <= proof_.seen * (1 + kSlack) && falls) || small) {
+    if ((most <= std::max(kSame, proof_.seen * (1 + kSlack)) && falls) || small) {
       proof_.bound = std::max(proof_.bound, most);
       if (small && !falls) proof_.decreases = false;
       return;

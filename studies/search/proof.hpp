@@ -8,7 +8,7 @@ namespace lobelia::search {
 struct Proof {
   /// |value - cos^n| is nowhere more, s from 0 to 1 and n over the range; if `decreases`.
   double bound = 0;
-  double seen = 0;  ///< the largest error found; within `kSlack` of the bound
+  double seen = 0;  ///< the largest error found; within `kSlack` of the bound, or both below 1e-7
   bool decreases =
       false;       ///< y falls wherever the value is not 0: the lobe never rises. False too if
                    ///< the proof would take too long

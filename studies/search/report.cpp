@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,8 @@ std::string range_text(const records::LobeSearch& found) {
 std::string error_text(double error) { return fmt::format("{:.4g}", error); }
 
 std::string price_text(const records::SearchedLobe& lobe) {
-  const int divisions = lobe.operations.divisions;
-  return fmt::format("{} operations{}", lobe.price - 5 * divisions,
-                     divisions > 0 ? ", one of them a division" : "");
+  return fmt::format("{} operations{}", lobe.price,
+                     lobe.operations.divisions > 0 ? ", a division counted as six" : "");
 }
 
 std::string certificate_text(const records::SearchedLobe& lobe) {
@@ -29,10 +29,10 @@ std::string certificate_text(const records::SearchedLobe& lobe) {
   studies::Table table;
   table.title = fmt::format("{}: no lobe of this shape has a smaller error than {}", lobe.name,
                             error_text(*lobe.lower_bound));
-  table.columns = {{"t = n s", 14, "{:.10g}"},
-                   {"1/n", 14, "{:.10g}"},
+  table.columns = {{"t = n s", 16, "{:.10g}"},
+                   {"1/n", 16, "{:.10g}"},
                    {"error", 14, "{:.5g}"},
-                   {"weight", 14, "{:.10g}"}};
+                   {"weight", 16, "{:.10g}"}};
   for (const records::LobeTouch& touch : lobe.touches)
     table.rows.push_back({touch.ns, touch.per_exponent, touch.error, touch.weight});
   return table_text(table) + "\n";
@@ -42,13 +42,32 @@ std::string certificate_text(const records::SearchedLobe& lobe) {
 std::string answer(const records::LobeSearch& found, const Request& request) {
   if (!request.error && !request.price) return "";
   const auto chosen = std::ranges::find(found.lobes, found.chosen, &records::SearchedLobe::name);
-  if (chosen != found.lobes.end())
-    return fmt::format("{}, {}: {} = {}\n  {}\n\n", chosen->name, price_text(*chosen), found.metric,
-                       error_text(error_of(*chosen, found.metric)), chosen->formula);
+  if (chosen != found.lobes.end()) {
+    std::string text =
+        fmt::format("{}, {}: {} = {}\n  {}\n", chosen->name, price_text(*chosen), found.metric,
+                    error_text(error_of(*chosen, found.metric)), chosen->formula);
+    for (const records::SearchedLobe& lobe : found.lobes)
+      if (request.error && found.metric == "max" && lobe.price < chosen->price &&
+          lobe.lower_bound.value_or(1) <= *request.error)
+        text += fmt::format(
+            "  {} is cheaper, and whether a lobe of its shape is within {} is not decided: "
+            "the best has {} to {}.\n",
+            lobe.name, error_text(*request.error), error_text(*lobe.lower_bound),
+            error_text(error_of(lobe, found.metric)));
+    return text + "\n";
+  }
   if (!request.error)
-    return fmt::format("No lobe of the family has {} operations or fewer.\n\n", *request.price);
-  const auto best = std::ranges::min_element(
-      found.lobes, {}, [&](const auto& lobe) { return error_of(lobe, found.metric); });
+    return fmt::format("No lobe of the family '{}' has so few operations: {}.\n\n", found.family,
+                       *request.price);
+  // Of those that were searched, not of the paper's and Schlick's.
+  const records::SearchedLobe* best = nullptr;
+  for (const records::SearchedLobe& lobe : found.lobes)
+    if (lobe.bound && lobe.name[1] == 'k' &&
+        (!best || error_of(lobe, found.metric) < error_of(*best, found.metric)))
+      best = &lobe;
+  if (!best)
+    return fmt::format("No lobe of the family '{}' was found with {} operations or fewer.\n\n",
+                       found.family, most_price(request));
   return fmt::format(
       "No lobe of at most {} operations is within {}. The best possible is {}: {}.\n\n",
       most_price(request), error_text(*request.error), error_text(error_of(*best, found.metric)),
@@ -84,7 +103,11 @@ std::string search_text(const records::LobeSearch& found, const Request& request
   table.remarks = {
       "t = n s, s = 1 - cos. Operations: multiply-adds, products, maxima and conversions; a division counts as 6.",
       "ns: one value, as SIMD code in float32 on this machine, median of interleaved rounds.",
-      "'error at most' is proved for every s and n, 'at least' for every lobe of the shape. That of schlick is not proved."};
+      "'error at most' is proved for every s and n, 'at least' for every lobe of the shape. That of schlick is not proved.",
+      "front: nearer than all that are cheaper by 0.5 %, what the proofs may add; nearer by less counts as equal."};
+  if (!found.not_proved.empty())
+    table.remarks.push_back(
+        fmt::format("Not proved, and so not listed: {}.", fmt::join(found.not_proved, ", ")));
   std::string text = answer(found, request) + table_text(table);
   if (certificates) {
     text += "\n";

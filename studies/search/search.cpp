@@ -142,7 +142,9 @@ Lobe lobe_of(const records::SearchedLobe& record) {
 std::optional<records::SearchedLobe> best_of(Shape shape, const Request& request) {
   constexpr int kMostTerms = 2;
   constexpr double kHelps = 0.999;
-  const bool one_exponent = request.range.least_n == request.range.most_n;
+  // Over less than this the coefficients do not depend on n as far as 10 digits show.
+  constexpr double kNarrow = 1.001;
+  const bool one_exponent = request.range.most_n <= kNarrow * request.range.least_n;
   std::optional<records::SearchedLobe> best;
   for (int by_n = 0; by_n <= (request.by_n && !one_exponent ? kMostTerms : 0); ++by_n) {
     shape.by_n = by_n;
@@ -233,7 +235,10 @@ records::LobeSearch search(const Request& request) {
     price = next;
     if (request.on_progress) request.on_progress(double(i) / double(all.size()), name(all[i]));
     auto best = best_of(all[i], request);
-    if (!best) continue;
+    if (!best) {
+      found.not_proved.push_back(name(all[i]));
+      continue;
+    }
     is_enough = is_enough || (request.error && error_of(*best, request.metric) <= *request.error);
     found.lobes.push_back(std::move(*best));
   }

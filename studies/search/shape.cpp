@@ -65,11 +65,13 @@ double outer_inverse(const Shape& shape, double value) {
 double Lobe::value(double t, double v) const { return outer_value(shape, polynomial(t, v)); }
 
 std::string Lobe::formula() const {
+  // That of -1/y with the sign in the polynomial.
+  const double sign = shape.outer == Outer::kReciprocal ? -1 : 1;
   std::string text;
   for (int j = 1; j <= shape.degree; ++j) {
     std::string coefficient;
     for (int r = 0; r <= shape.by_n; ++r) {
-      const double factor = c[std::size_t(r * shape.degree + j - 1)];
+      const double factor = sign * c[std::size_t(r * shape.degree + j - 1)];
       const std::string power = r == 0 ? "" : r == 1 ? "/n" : fmt::format("/n^{}", r);
       coefficient +=
           r == 0 ? fmt::format("{:.10g}", factor)
@@ -84,10 +86,10 @@ std::string Lobe::formula() const {
   }
   const bool negative = text[0] == '-';
   if (shape.start() != 0)
-    text = fmt::format("{}{}{}", shape.start(), negative ? " - " : " + ",
+    text = fmt::format("{}{}{}", sign * shape.start(), negative ? " - " : " + ",
                        negative ? text.substr(1) : text);
   const std::string base = shape.outer == Outer::kClamp        ? "max(0, " + text + ")"
-                           : shape.outer == Outer::kReciprocal ? "1/(-(" + text + "))"
+                           : shape.outer == Outer::kReciprocal ? "1/(" + text + ")"
                                                                : "bits(" + text + ")";
   return shape.squarings == 0 ? base : fmt::format("{}^{}", base, shape.power());
 }

@@ -37,6 +37,14 @@ TEST_F(SearchCommand, SaysTheBestThatIsPossibleIfARequestCannotBeMet) {
   EXPECT_THAT(result.output_tail,
               StartsWith("No lobe of at most 5 operations is within 0.0001. The best possible is "
                          "0.0035"));
+  // Between what is proved of pk3.2 and what is proved of all lobes like it.
+  const auto undecided = run("--error 4.785e-4 --family pk > all.txt; head -n 4 all.txt");
+  EXPECT_THAT(undecided.output_tail, StartsWith("pk3.3, 7 operations"));
+  EXPECT_THAT(undecided.output_tail,
+              HasSubstr("pk3.2 is cheaper, and whether a lobe of its shape"));
+  const auto other = run("--error 1e-3 --operations 7 --family rk");
+  EXPECT_EQ(other.exit_code, 1) << other.output_tail;
+  EXPECT_THAT(other.output_tail, HasSubstr(": rk1.0."));
 }
 
 TEST_F(SearchCommand, RefusesAWrongRequestInOneLine) {
