@@ -21,7 +21,7 @@ class OutputFiles {
   void reads(const std::filesystem::path& file);
   /// Throws Error(kUsage) if the file is read, also through a link, or written already.
   void writes(const std::filesystem::path& file);
-  /// Of a report, which may be "" for none, or kStdout. Throws Error(kOutput) too.
+  /// writes() for a report. Does nothing if `path` is empty or kStdout. Throws Error(kOutput) if it cannot be written.
   void writes_report(const std::string& path);
 
  private:

@@ -20,7 +20,7 @@ using records::LobeSearch, records::SearchedLobe;
 constexpr char kRecord[] = "search/search.json", kDirectory[] = "search";
 constexpr char kTitle[] = "The cheapest lobes";
 
-/// What is not of the families that compete: the paper's lobes and Schlick's.
+/// The paper's lobes and Schlick's: shown for comparison, never on the front.
 bool is_known(const SearchedLobe& lobe) {
   return lobe.name == "schlick" || lobe.name.starts_with("cs");
 }
@@ -31,7 +31,7 @@ std::string range_of(const LobeSearch& found) {
                              : fmt::format("n = {} and above", number_text(found.least_exponent));
 }
 
-/// Of the lobes with these errors.
+/// A chart of the lobes; errors[i] is the error of lobe i.
 std::string chart_of(const LobeSearch& found, const std::vector<double>& errors,
                      const std::string& id, const std::string& title) {
   ErrorTimes times{id, title, "value", "operations", "largest error, of the peak", {}};

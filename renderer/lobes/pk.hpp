@@ -184,8 +184,8 @@ struct PkLobe {
     return root([&](double s) { return base(s); }, slope, 1, 0, 1e-15);
   }
 
-  /// Of value s^j from 0 to `end`, within the support: exact, because it is a polynomial of degree 3 k + j, at most 15 or
-  /// 51, and N points are exact up to degree 2 N - 1.
+  /// The integral of value s^j over s from 0 to `end`, which is at most support(). Exact: the integrand is a polynomial
+  /// of degree 3 k + j, at most 15 or 51, and N points are exact up to degree 2 N - 1.
   double integral(int j, double end) const {
     using boost::math::quadrature::gauss;
     const auto of_part = [&](double part) { return value(end * part) * std::pow(end * part, j); };

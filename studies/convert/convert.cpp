@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInDegrees = 180 / kPi;
 
-/// What the measure makes smallest.
+/// The quantity that a measure minimises.
 double distance(Measure measure, const Curve& from, const Curve& to) {
   switch (measure) {
     case Measure::kMax:
@@ -141,7 +141,7 @@ double parameter_of(const records::ConvertedHighlight& highlight) {
   return highlight.alpha ? *highlight.alpha : *highlight.exponent;
 }
 
-/// What is drawn: the one that was converted, the best, and as many rules as a chart has styles for.
+/// The curves of the chart: the converted highlight, the best match, and as many rules of thumb as there are line styles.
 std::vector<records::ChartSeries> curves_of(const Request& request, const Curve& from,
                                             const records::Conversion& conversion) {
   constexpr int kPoints = 400;

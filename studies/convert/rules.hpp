@@ -10,7 +10,7 @@
 namespace lobelia::conversion {
 
 struct Rule {
-  std::string_view name;     ///< "fbx2gltf"
+  std::string_view name;     ///< "FBX2glTF"
   std::string_view formula;  ///< "roughness = sqrt(2 / (n + 2))"
   std::string_view source;
   /// The parameter of the target from that of the source; none if the rule has no answer.

@@ -21,7 +21,8 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 /// The target falls below 1e-26 there, and the lobes must be below their errors.
 constexpr double kLongest = 60, kBeyond = 1e4;
 
-/// What is worse is no lobe, and what is better is below the rounding of double.
+/// The least error is sought between these: a lobe with a larger one is useless, a smaller one is below the rounding of
+/// double.
 constexpr double kMostError = 0.5, kLeastError = 1e-12;
 
 /// The leading coefficient, in the units of term(), is at least this far below 0.
@@ -110,7 +111,8 @@ Program deepest(const Shape& shape, const Range& range, const std::vector<Point>
   std::vector<int> rows(std::size_t(excess) + 1);
   std::vector<double> values(std::size_t(excess) + 1);
   for (int k = 1; k <= excess; ++k) rows[std::size_t(k)] = k;
-  // Of the inequality sum of factor(k) c_k - by_excess * excess <= bound.
+  // Adds the dual's column for the inequality: sum of factor(k) c_k - by_excess * excess <= bound. Returns the column and
+  // the number by which it was divided.
   const auto add = [&](const auto& factor, double by_excess, double bound) {
     double most = by_excess;
     for (int k = 1; k <= terms; ++k)

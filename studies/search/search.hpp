@@ -39,8 +39,8 @@ struct Request {
 /// No lobe is dearer.
 int most_price(const Request& request);
 
-/// Finds and proves the best lobe of each shape, cheapest first, until the error that is asked for is met. `chosen` is empty if nothing is asked for, or nothing meets it. Throws
-/// Error(kUsage) if the error asked for is below the precision's.
+/// Finds and proves the best lobe of each shape, cheapest first, until one is within the error that is asked for. `chosen`
+/// is empty if nothing is asked for, or no lobe meets it. Throws Error(kUsage) if that error is below the precision's.
 records::LobeSearch search(const Request& request);
 
 /// Of a lobe, by the metric, with the rounding of the precision: the bound itself for "max".
