@@ -77,10 +77,7 @@ ExitCode run_check_shader(const CheckShaderArguments& options) {
   OutputFiles outputs;
   outputs.reads(options.file);
   const bool json_to_stdout = options.json == kStdout;
-  if (!options.json.empty() && !json_to_stdout) {
-    outputs.writes(options.json);
-    require_writable(options.json);
-  }
+  outputs.writes_report(options.json);
   if (!options.html.empty()) {
     outputs.writes(options.html);
     require_writable(options.html);
