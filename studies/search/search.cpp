@@ -224,7 +224,7 @@ records::LobeSearch search(const Request& request) {
   found.precision = request.rounding.name;
   found.coefficients = request.by_n ? "by-n" : "constant";
   found.family = request.family;
-  std::vector<Shape> all = shapes(most_price(request), 0);
+  std::vector<Shape> all = shapes(most_price(request));
   if (request.family != "all")
     std::erase_if(all, [&](const Shape& s) { return !name(s).starts_with(request.family); });
   int price = 0;

@@ -99,12 +99,12 @@ double cosine_power(double t, double v) {
   return t * v < 1 ? std::exp(std::log1p(-t * v) / v) : 0;
 }
 
-std::vector<Shape> shapes(int most, int by_n) {
+std::vector<Shape> shapes(int most) {
   std::vector<Shape> all;
   const auto add = [&](Outer outer, std::initializer_list<int> degrees) {
     for (const int degree : degrees)
       for (int squarings = 0;; ++squarings) {
-        const Shape shape{outer, degree, squarings, by_n};
+        const Shape shape{outer, degree, squarings, 0};
         if (operations(shape).price() > most) break;
         all.push_back(shape);
       }

@@ -90,6 +90,6 @@ double outer_inverse(const Shape& shape, double value);
 double cosine_power(double t, double v);
 
 /// All shapes with at most `most` operations, cheapest first.
-std::vector<Shape> shapes(int most, int by_n);
+std::vector<Shape> shapes(int most);
 
 }  // namespace lobelia::search
